@@ -1,0 +1,36 @@
+# Flags of every target of the project.
+add_library(whipple_flags INTERFACE)
+target_include_directories(whipple_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(whipple_flags INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
+                       $<$<BOOL:${WHIPPLE_WERROR}>:-Werror>)
+# Contraction into fused multiply-adds is part of the speed; errno and traps of the mathematical functions are not needed.
+target_compile_options(whipple_flags INTERFACE -fno-math-errno -fno-trapping-math -fopenmp)
+target_link_options(whipple_flags INTERFACE -fopenmp)
+if(WHIPPLE_NATIVE)
+  target_compile_options(whipple_flags INTERFACE -march=native)
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  target_compile_options(whipple_flags INTERFACE -march=x86-64-v3)
+endif()
+if(WHIPPLE_SANITIZE)
+  target_compile_options(whipple_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(whipple_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+# whipple_library(NAME SOURCES a.cpp ... DEPENDS lib ...): one folder, one static library whipple_NAME.
+function(whipple_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_library(whipple_${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(whipple_${name} PUBLIC whipple_flags ${ARG_DEPENDS})
+endfunction()
+
+# whipple_test(NAME SOURCES ... DEPENDS ... LABELS ...): one GoogleTest executable, each of its tests a CTest test.
+include(GoogleTest)
+function(whipple_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE whipple_flags ${ARG_DEPENDS} GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" WHIPPLE_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS "${ARG_LABELS}"
+    ENVIRONMENT "OMP_NUM_THREADS=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_mpi_yield_when_idle=1")
+endfunction()

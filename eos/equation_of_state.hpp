@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace whipple::eos {
+
+/// Everything a complete equation of state knows about one point (SI; pressure positive in compression;
+/// energies per mass). Quantities that a model does not carry are NaN.
+struct State {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double density = unknown;                   ///< kg/m^3
+  double specific_internal_energy = unknown;  ///< J/kg
+  double temperature = unknown;               ///< K
+  double pressure = unknown;                  ///< Pa
+  double sound_speed = unknown;               ///< m/s, isentropic (bulk)
+  double specific_entropy = unknown;          ///< J/(kg K)
+  double heat_capacity = unknown;             ///< J/(kg K), at constant volume
+  double gruneisen = unknown;                 ///< V (dp/de)_V
+  double isothermal_bulk_modulus = unknown;   ///< Pa
+  double melted_fraction = 0.0;               ///< mass fraction of liquid (and vapour)
+  double vaporised_fraction = 0.0;            ///< mass fraction of vapour
+  std::string_view phase = "";                ///< "solid", "melting", "liquid", "hot liquid", "vapour"
+};
+
+/// Arrays of equal length, one entry per point (SI). `melted_fraction` and `vaporised_fraction` may be empty.
+struct Batch {
+  std::span<const double> density;                   ///< kg/m^3
+  std::span<const double> specific_internal_energy;  ///< J/kg
+  std::span<double> pressure;                        ///< Pa
+  std::span<double> temperature;                     ///< K
+  std::span<double> sound_speed;                     ///< m/s, isentropic (bulk)
+  std::span<double> melted_fraction;                 ///< mass fraction of liquid and vapour
+  std::span<double> vaporised_fraction;              ///< mass fraction of vapour
+};
+
+/// What a batch met outside the model's range. Kernels count and keep the first; the caller throws.
+struct RangeReport {
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::size_t out_of_range = 0;      ///< points whose state is not defined (NaN, beyond the compression limit)
+  std::size_t first = none;          ///< index of the first of them
+  std::string_view bound = "";       ///< which bound it broke
+  std::size_t below_cold_curve = 0;  ///< points colder than the model's least temperature: clamped, counted
+
+  void merge(const RangeReport& other) {
+    if (other.first != none && (first == none || other.first < first)) {
+      first = other.first;
+      bound = other.bound;
+    }
+    out_of_range += other.out_of_range;
+    below_cold_curve += other.below_cold_curve;
+  }
+};
+
+/// The run-time face of every model: one virtual call per batch, never per point. A model itself is a plain
+/// struct of constants with a parameter table and inlined functions (eos/models/).
+class EquationOfState {
+ public:
+  virtual ~EquationOfState() = default;
+
+  [[nodiscard]] virtual std::string_view model() const = 0;
+  /// Density and temperature of the reference state, energy of it (kg/m^3, K, J/kg).
+  [[nodiscard]] virtual double reference_density() const = 0;
+  [[nodiscard]] virtual double reference_temperature() const = 0;
+  [[nodiscard]] virtual double reference_energy() const = 0;
+  /// Largest density that the model is valid for (kg/m^3).
+  [[nodiscard]] virtual double maximum_density() const = 0;
+
+  /// p, T, c (and phase fractions) from density and specific internal energy. Does not throw, does not allocate.
+  virtual RangeReport evaluate(const Batch& batch) const = 0;
+
+  /// One point with everything that the model knows.
+  /// @throws StateError out of range
+  [[nodiscard]] virtual State state(double density, double specific_internal_energy) const = 0;
+  /// @throws StateError out of range, InputError if the model carries no temperature
+  [[nodiscard]] virtual State state_at_temperature(double density, double temperature) const = 0;
+
+  /// All constants with units as TOML lines (provenance in output files).
+  [[nodiscard]] virtual std::string constants() const = 0;
+};
+
+}  // namespace whipple::eos

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace whipple {
+
+/// Exit codes of every executable of the project.
+enum class ExitCode : int {
+  success = 0,
+  input = 2,     ///< the user's input is wrong; nothing was started, nothing was overwritten
+  state = 3,     ///< the physics left its range; the last state was saved
+  internal = 4,  ///< a defect of this program
+};
+
+/// The user's input is wrong. The message names what, where, the offending value and what is accepted;
+/// it may hold several lines, one per error of the input.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A physical state left the range of its model (NaN, negative volume, equation of state out of range).
+/// The message names step, time, body, particle and the state.
+class StateError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A broken invariant of the program itself.
+class InternalError : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
+
+/// Runs `body` and turns the three kinds of errors into the exit codes above; prints the message to
+/// standard error in the form "program: error: message".
+/// @param program name printed before the message
+/// @param body    returns the exit code of the undisturbed case
+int run_guarded(const char* program, int (*body)(int, char**), int argc, char** argv);
+
+}  // namespace whipple

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/base/parameter_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "src/base/text.hpp"
+#include "src/base/units.hpp"
+
+namespace whipple {
+namespace {
+
+template <class... Visitors>
+struct Overloaded : Visitors... {
+  using Visitors::operator()...;
+};
+template <class... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;
+
+std::string quantity_as_toml(double value, const std::string& unit) {
+  if (unit.empty()) return fmt::format("{}", value);
+  return fmt::format("\"{}\"", units::format_quantity(value, unit));
+}
+
+std::string check_number(double value, const ParameterInfo& info) {
+  if (std::isnan(value)) return "is not a number (NaN)";
+  if (info.range.contains(value)) return {};
+  return fmt::format("is {}, but must be {}", units::format_quantity(value, info.unit),
+                     info.range.text() + (info.unit.empty() ? "" : " " + info.unit));
+}
+
+std::string check_word(const std::string& word, const ParameterInfo& info) {
+  if (info.choices.empty() || std::ranges::find(info.choices, word) != info.choices.end()) return {};
+  return fmt::format("is \"{}\"{}; accepted: {}", word, did_you_mean(word, info.choices),
+                     fmt::join(info.choices, ", "));
+}
+
+template <class Values, class Check>
+std::string first_fault(const Values& values, Check check_one) {
+  for (const auto& value : values) {
+    std::string fault = check_one(value);
+    if (!fault.empty()) return fault;
+  }
+  return {};
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  const bool above = lower_open ? value > lower : value >= lower;
+  const bool below = upper_open ? value < upper : value <= upper;
+  return above && below;
+}
+
+std::string Range::text() const {
+  std::string result;
+  if (std::isfinite(lower)) result = fmt::format("{} {}", lower_open ? ">" : ">=", lower);
+  if (std::isfinite(upper)) {
+    if (!result.empty()) result += " and ";
+    result += fmt::format("{} {}", upper_open ? "<" : "<=", upper);
+  }
+  return result.empty() ? "any" : result;
+}
+
+std::string value_as_toml(const BoundParameter& parameter) {
+  const std::string& unit = parameter.info.unit;
+  return std::visit(
+      Overloaded{
+          [&](double* value) { return quantity_as_toml(*value, unit); },
+          [&](std::int64_t* value) { return fmt::format("{}", *value); },
+          [&](bool* value) { return std::string(*value ? "true" : "false"); },
+          [&](std::string* value) { return quoted(*value); },
+          [&](Vector3* value) {
+            return fmt::format("[{}, {}, {}]", quantity_as_toml((*value)[0], unit),
+                               quantity_as_toml((*value)[1], unit), quantity_as_toml((*value)[2], unit));
+          },
+          [&](std::vector<double>* values) {
+            std::vector<std::string> items;
+            for (const double value : *values) items.push_back(quantity_as_toml(value, unit));
+            return fmt::format("[{}]", fmt::join(items, ", "));
+          },
+          [&](std::vector<std::string>* values) {
+            std::vector<std::string> items;
+            for (const std::string& value : *values) items.push_back(quoted(value));
+            return fmt::format("[{}]", fmt::join(items, ", "));
+          }},
+      parameter.target);
+}
+
+std::string to_toml(std::span<const BoundParameter> parameters) {
+  std::string result;
+  for (const BoundParameter& parameter : parameters) {
+    result += fmt::format("{} = {}  # {}\n", parameter.info.name, value_as_toml(parameter), parameter.info.meaning);
+  }
+  return result;
+}
+
+std::string describe(std::span<const BoundParameter> parameters) {
+  std::vector<std::array<std::string, 5>> rows = {{"key", "unit", "range", "default", "meaning"}};
+  for (const BoundParameter& parameter : parameters) {
+    const ParameterInfo& info = parameter.info;
+    const bool word = !info.choices.empty();
+    rows.push_back({info.name, info.unit.empty() ? "-" : info.unit,
+                    word ? fmt::format("{}", fmt::join(info.choices, " | ")) : info.range.text(),
+                    info.required ? "required" : value_as_toml(parameter), info.meaning});
+  }
+  std::array<std::size_t, 5> width{};
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
+  }
+  std::string result;
+  for (const auto& row : rows) {
+    result += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:<{}}  {}\n", row[0], width[0], row[1], width[1], row[2],
+                          width[2], row[3], width[3], row[4]);
+  }
+  return result;
+}
+
+std::string check(const BoundParameter& parameter) {
+  const ParameterInfo& info = parameter.info;
+  const auto number = [&](double value) { return check_number(value, info); };
+  const auto word = [&](const std::string& value) { return check_word(value, info); };
+  return std::visit(Overloaded{[&](double* value) { return number(*value); },
+                               [&](std::int64_t* value) { return number(static_cast<double>(*value)); },
+                               [](bool*) { return std::string(); },
+                               [&](std::string* value) { return word(*value); },
+                               [&](Vector3* value) {
+                                 return first_fault(std::array{(*value)[0], (*value)[1], (*value)[2]}, number);
+                               },
+                               [&](std::vector<double>* values) { return first_fault(*values, number); },
+                               [&](std::vector<std::string>* values) { return first_fault(*values, word); }},
+                    parameter.target);
+}
+
+}  // namespace whipple

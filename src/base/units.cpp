@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/base/units.hpp"
+
+#include <fmt/format.h>
+#include <udunits2.h>
+
+#include <charconv>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "src/base/error.hpp"
+
+namespace whipple::units {
+namespace {
+
+using UnitPtr = std::unique_ptr<ut_unit, decltype(&ut_free)>;
+using ConverterPtr = std::unique_ptr<cv_converter, decltype(&cv_free)>;
+
+constexpr double electron_volt = 1.602176634e-19;  // J, exact (SI 2019)
+
+/// The unit database is read once per process; UDUNITS2 is not thread safe, hence the mutex.
+class UnitSystem {
+ public:
+  UnitSystem() {
+    ut_set_error_message_handler(ut_ignore);
+    system_ = ut_read_xml(nullptr);
+    if (system_ == nullptr) {
+      throw InternalError("cannot read the unit database of UDUNITS2 (package libudunits2-0)");
+    }
+    const UnitPtr joule = parse("J");
+    ut_unmap_name_to_unit(system_, "electronvolt", UT_ASCII);
+    ut_unmap_symbol_to_unit(system_, "eV", UT_ASCII);
+    const UnitPtr ev(ut_scale(electron_volt, joule.get()), &ut_free);
+    ut_map_symbol_to_unit("eV", UT_ASCII, ev.get());
+  }
+  UnitSystem(const UnitSystem&) = delete;  // owns the database
+  UnitSystem& operator=(const UnitSystem&) = delete;
+  ~UnitSystem() { ut_free_system(system_); }
+
+  [[nodiscard]] UnitPtr parse(const std::string& text) const {
+    const std::string trimmed = text.empty() ? "1" : text;
+    return {ut_parse(system_, trimmed.c_str(), UT_UTF8), &ut_free};
+  }
+
+ private:
+  ut_system* system_ = nullptr;
+};
+
+UnitPtr parse_unit(const UnitSystem& system, std::string_view text) {
+  UnitPtr unit = system.parse(std::string(text));
+  if (!unit) throw InputError(fmt::format("unknown unit '{}'", text));
+  return unit;
+}
+
+std::mutex& database_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+}  // namespace
+
+Conversion conversion(std::string_view unit, std::string_view si_unit) {
+  const std::scoped_lock lock(database_mutex());
+  static const UnitSystem system;
+  const UnitPtr from = parse_unit(system, unit);
+  const UnitPtr to = parse_unit(system, si_unit);
+  if (ut_are_convertible(from.get(), to.get()) == 0) {
+    throw InputError(fmt::format("unit '{}' has the wrong dimension: expected a unit of the kind '{}'", unit,
+                                 si_unit.empty() ? "1 (no unit)" : si_unit));
+  }
+  const ConverterPtr converter(ut_get_converter(from.get(), to.get()), &cv_free);
+  const double offset = cv_convert_double(converter.get(), 0.0);
+  return {cv_convert_double(converter.get(), 1.0) - offset, offset};
+}
+
+double convert(double value, std::string_view from, std::string_view to) {
+  const Conversion c = conversion(from, to);
+  return c.factor * value + c.offset;
+}
+
+double parse_quantity(std::string_view text, std::string_view si_unit) {
+  const char* begin = text.data();
+  const char* end = begin + text.size();
+  while (begin != end && *begin == ' ') ++begin;
+  if (begin != end && *begin == '+') ++begin;
+  double value = 0.0;
+  const auto [rest, status] = std::from_chars(begin, end, value);
+  if (status != std::errc()) {
+    throw InputError(fmt::format("'{}' is not a number with a unit: expected for example \"1.5 {}\"", text,
+                                 si_unit.empty() ? "" : si_unit));
+  }
+  std::string_view unit(rest, static_cast<std::size_t>(end - rest));
+  while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
+  while (!unit.empty() && unit.back() == ' ') unit.remove_suffix(1);
+  if (unit.empty()) return value;
+  return convert(value, unit, si_unit);
+}
+
+std::string format_quantity(double value, std::string_view unit) {
+  return unit.empty() || unit == "1" ? fmt::format("{}", value) : fmt::format("{} {}", value, unit);
+}
+
+}  // namespace whipple::units

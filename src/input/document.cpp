@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/input/document.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "src/base/error.hpp"
+#include "src/base/text.hpp"
+#include "src/base/units.hpp"
+
+namespace whipple::input {
+
+struct Document::State {
+  std::filesystem::path path;
+  toml::table root;
+  std::vector<std::pair<std::pair<unsigned, unsigned>, std::string>> errors;  // sorted by position when thrown
+  std::map<const toml::table*, std::set<std::string, std::less<>>> known_keys;  // keys that a reader asked for
+
+  [[nodiscard]] std::string position(const toml::source_position& at) const {
+    return at.line == 0 ? fmt::format("{} (--set)", path.string())
+                        : fmt::format("{}:{}:{}", path.string(), at.line, at.column);
+  }
+  void error(const toml::node& node, const std::string& message) {
+    const toml::source_position at = node.source().begin;
+    errors.push_back({{at.line, at.column}, fmt::format("{}: error: {}", position(at), message)});
+  }
+};
+
+namespace {
+
+toml::table& as_table(void* node) { return *static_cast<toml::table*>(node); }
+
+std::string type_name(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::string: return "a text";
+    case toml::node_type::integer: return "an integer";
+    case toml::node_type::floating_point: return "a number";
+    case toml::node_type::boolean: return "true or false";
+    case toml::node_type::array: return "a list";
+    case toml::node_type::table: return "a table";
+    default: return "a date";
+  }
+}
+
+/// Reads one value of a node into a target; throws InputError with the reason (without position).
+double read_real(const toml::node& node, const ParameterInfo& info) {
+  if (const auto number = node.value_exact<double>()) return *number;
+  if (const auto number = node.value_exact<std::int64_t>()) return static_cast<double>(*number);
+  if (const auto words = node.value_exact<std::string>()) return units::parse_quantity(*words, info.unit);
+  throw InputError(fmt::format("is {}, expected a number{}", type_name(node),
+                               info.unit.empty() ? "" : fmt::format(" with a unit, like \"1.5 {}\"", info.unit)));
+}
+
+template <class Value>
+Value read_exact(const toml::node& node, const char* expected) {
+  if (const auto value = node.value_exact<Value>()) return *value;
+  throw InputError(fmt::format("is {}, expected {}", type_name(node), expected));
+}
+
+const toml::array& read_array(const toml::node& node, const char* expected) {
+  if (const toml::array* array = node.as_array()) return *array;
+  throw InputError(fmt::format("is {}, expected {}", type_name(node), expected));
+}
+
+void read_into(double* target, const toml::node& node, const ParameterInfo& info) { *target = read_real(node, info); }
+void read_into(std::int64_t* target, const toml::node& node, const ParameterInfo&) {
+  *target = read_exact<std::int64_t>(node, "an integer");
+}
+void read_into(bool* target, const toml::node& node, const ParameterInfo&) {
+  *target = read_exact<bool>(node, "true or false");
+}
+void read_into(std::string* target, const toml::node& node, const ParameterInfo&) {
+  *target = read_exact<std::string>(node, "a text in quotes");
+}
+void read_into(Vector3* target, const toml::node& node, const ParameterInfo& info) {
+  const toml::array& array = read_array(node, "a list of three numbers with units");
+  if (array.size() != 3) throw InputError(fmt::format("has {} entries, expected 3", array.size()));
+  for (int i = 0; i < 3; ++i) (*target)[i] = read_real(array[static_cast<std::size_t>(i)], info);
+}
+void read_into(std::vector<double>* target, const toml::node& node, const ParameterInfo& info) {
+  const toml::array& array = read_array(node, "a list of numbers with units");
+  std::vector<double> values;
+  for (const toml::node& entry : array) values.push_back(read_real(entry, info));
+  *target = values;
+}
+void read_into(std::vector<std::string>* target, const toml::node& node, const ParameterInfo&) {
+  const toml::array& array = read_array(node, "a list of texts");
+  std::vector<std::string> values;
+  for (const toml::node& entry : array) values.push_back(read_exact<std::string>(entry, "a text in quotes"));
+  *target = values;
+}
+
+/// Reads into a copy of the target and commits it only if the value is admissible.
+void read_checked(const BoundParameter& parameter, const toml::node& node) {
+  std::visit(
+      [&](auto* target) {
+        auto value = *target;
+        read_into(&value, node, parameter.info);
+        const std::string fault = check({parameter.info, ParameterTarget(&value)});
+        if (!fault.empty()) throw InputError(fault);
+        *target = value;
+      },
+      parameter.target);
+}
+
+/// Every key below `table` that no reader asked for.
+void report_unknown(Document::State& state, const toml::table& table, const std::string& name) {
+  const auto& known = state.known_keys[&table];
+  for (const auto& [key, node] : table) {
+    const std::string key_name(key.str());
+    const std::string path = name.empty() ? key_name : name + "." + key_name;
+    if (!known.contains(key_name)) {
+      const std::vector<std::string> candidates(known.begin(), known.end());
+      const toml::source_position at = key.source().begin;
+      state.errors.push_back(
+          {{at.line, at.column},
+           fmt::format("{}: error: unknown key '{}'{} (accepted here: {})", state.position(at), path,
+                       did_you_mean(key_name, candidates), fmt::join(candidates, ", "))});
+    } else if (const toml::table* child = node.as_table(); child && state.known_keys.contains(child)) {
+      report_unknown(state, *child, path);
+    } else if (const toml::array* array = node.as_array()) {
+      std::size_t index = 0;
+      for (const toml::node& entry : *array) {
+        if (const toml::table* item = entry.as_table(); item && state.known_keys.contains(item)) {
+          report_unknown(state, *item, fmt::format("{}[{}]", path, index));
+        }
+        ++index;
+      }
+    }
+  }
+}
+
+std::unique_ptr<Document::State> parse(const std::string& text, const std::filesystem::path& path) {
+  auto state = std::make_unique<Document::State>();
+  state->path = path;
+  try {
+    state->root = toml::parse(std::string_view(text), path.string());
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}: error: {}", state->position(error.source().begin), error.description()));
+  }
+  return state;
+}
+
+}  // namespace
+
+Document::Document(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Document::Document(Document&&) noexcept = default;
+Document& Document::operator=(Document&&) noexcept = default;
+Document::~Document() = default;
+
+Document Document::from_file(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) {
+    throw InputError(fmt::format("{}: error: is a folder, expected a TOML file", path.string()));
+  }
+  std::ifstream file(path);
+  if (!file) throw InputError(fmt::format("{}: error: cannot open the file", path.string()));
+  std::ostringstream text;
+  text << file.rdbuf();
+  return Document(parse(text.str(), path));
+}
+
+Document Document::from_text(const std::string& text, const std::string& name) { return Document(parse(text, name)); }
+
+void Document::set(std::string_view key, std::string_view value) {
+  const auto fault = [&](const std::string& why) {
+    return InputError(fmt::format("--set {}={}: {}", key, value, why));
+  };
+  std::vector<std::string> path;
+  std::istringstream stream{std::string(key)};
+  for (std::string part; std::getline(stream, part, '.');) path.push_back(part);
+  if (path.empty() || std::ranges::any_of(path, &std::string::empty)) throw fault("expected table.key=value");
+
+  toml::node* node = &state_->root;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    toml::node* next = nullptr;
+    if (toml::table* table = node->as_table()) {
+      if (!table->contains(path[i])) table->insert(path[i], toml::table{});
+      next = table->get(path[i]);
+    } else if (toml::array* array = node->as_array()) {
+      const bool number = std::ranges::all_of(path[i], [](unsigned char c) { return std::isdigit(c) != 0; });
+      const std::size_t index = number && path[i].size() < 9 ? std::stoul(path[i]) : array->size();
+      if (index >= array->size()) throw fault(fmt::format("the list has {} entries, numbered from 0", array->size()));
+      next = array->get(index);
+    }
+    if (next == nullptr) throw fault(fmt::format("'{}' is neither a table nor a list", path[i]));
+    node = next;
+  }
+  toml::table* table = node->as_table();
+  if (table == nullptr) throw fault("the last part but one is not a table");
+  try {
+    toml::table parsed = toml::parse(fmt::format("value = {}", value));
+    table->insert_or_assign(path.back(), std::move(*parsed.get("value")));
+  } catch (const toml::parse_error&) {
+    table->insert_or_assign(path.back(), std::string(value));
+  }
+}
+
+Table Document::root() {
+  state_->known_keys[&state_->root];
+  return {state_.get(), &state_->root, ""};
+}
+
+const std::filesystem::path& Document::path() const { return state_->path; }
+
+void Document::finish() {
+  report_unknown(*state_, state_->root, "");
+  if (state_->errors.empty()) return;
+  std::ranges::stable_sort(state_->errors, {}, [](const auto& entry) { return entry.first; });
+  std::string all;
+  for (const auto& [position, message] : state_->errors) all += (all.empty() ? "" : "\n") + message;
+  state_->errors.clear();
+  throw InputError(all);
+}
+
+void Table::read(std::span<const BoundParameter> parameters) {
+  toml::table& table = as_table(node_);
+  auto& known = state_->known_keys[&table];
+  for (const BoundParameter& parameter : parameters) {
+    const ParameterInfo& info = parameter.info;
+    known.insert(info.name);
+    const toml::node* node = table.get(info.name);
+    if (node == nullptr) {
+      if (info.required) {
+        error(fmt::format("missing key '{}'{}: {}{}", info.name, name_.empty() ? "" : " in [" + name_ + "]",
+                          info.meaning, info.unit.empty() ? "" : " (unit " + info.unit + ")"));
+      }
+      continue;
+    }
+    try {
+      read_checked(parameter, *node);
+    } catch (const InputError& fault) {
+      state_->error(*node, fmt::format("'{}' {}", info.name, fault.what()));
+    }
+  }
+}
+
+bool Table::has(std::string_view key) const { return as_table(node_).contains(key); }
+
+std::optional<Table> Table::optional_table(std::string_view key) {
+  state_->known_keys[&as_table(node_)].insert(std::string(key));
+  toml::node* node = as_table(node_).get(key);
+  if (node == nullptr) return std::nullopt;
+  toml::table* table = node->as_table();
+  if (table == nullptr) {
+    state_->error(*node, fmt::format("'{}' is {}, expected a table", key, type_name(*node)));
+    return std::nullopt;
+  }
+  state_->known_keys[table];
+  return Table(state_, table, name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key));
+}
+
+std::optional<Table> Table::required_table(std::string_view key) {
+  if (!has(key)) {
+    state_->known_keys[&as_table(node_)].insert(std::string(key));
+    error(fmt::format("missing table [{}]", name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key)));
+    return std::nullopt;
+  }
+  return optional_table(key);
+}
+
+std::vector<Table> Table::list(std::string_view key) {
+  state_->known_keys[&as_table(node_)].insert(std::string(key));
+  std::vector<Table> tables;
+  toml::node* node = as_table(node_).get(key);
+  if (node == nullptr) return tables;
+  toml::array* array = node->as_array();
+  if (array == nullptr) {
+    state_->error(*node, fmt::format("'{}' is {}, expected a list of tables [[{}]]", key, type_name(*node), key));
+    return tables;
+  }
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    toml::table* table = array->get(i)->as_table();
+    if (table == nullptr) {
+      state_->error(*array->get(i), fmt::format("entry {} of '{}' is {}, expected a table", i, key,
+                                                type_name(*array->get(i))));
+      continue;
+    }
+    state_->known_keys[table];
+    const std::string name = fmt::format("{}[{}]", key, i);
+    tables.push_back(Table(state_, table, name_.empty() ? name : name_ + "." + name));
+  }
+  return tables;
+}
+
+std::string Table::choice(std::string_view key, std::span<const std::string> choices, std::string_view fallback) {
+  std::string word(fallback);
+  BoundParameter parameter{{std::string(key), "", {}, fmt::format("one of {}", fmt::join(choices, ", ")),
+                            fallback.empty(), {choices.begin(), choices.end()}},
+                           &word};
+  read(std::span(&parameter, 1));
+  return word;
+}
+
+std::vector<std::string> Table::table_names() const {
+  std::vector<std::pair<std::pair<unsigned, unsigned>, std::string>> found;
+  for (const auto& [key, node] : as_table(node_)) {
+    if (node.is_table()) found.push_back({{key.source().begin.line, key.source().begin.column}, std::string(key.str())});
+  }
+  std::ranges::sort(found);
+  std::vector<std::string> names;
+  for (auto& [position, name] : found) names.push_back(std::move(name));
+  return names;
+}
+
+void Table::accept(std::string_view key) { state_->known_keys[&as_table(node_)].insert(std::string(key)); }
+
+void Table::error(const std::string& message) { state_->error(as_table(node_), message); }
+
+void Table::error_at(std::string_view key, const std::string& message) {
+  const toml::node* node = as_table(node_).get(key);
+  state_->error(node == nullptr ? as_table(node_) : *node, message);
+}
+
+std::string Table::where(std::string_view key) const {
+  const toml::table& table = as_table(node_);
+  const toml::node* node = key.empty() ? &table : table.get(key);
+  return state_->position((node == nullptr ? table : *node).source().begin);
+}
+
+std::filesystem::path Table::folder() const { return state_->path.parent_path(); }
+
+}  // namespace whipple::input

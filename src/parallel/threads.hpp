@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <omp.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+/// The one place with OpenMP pragmas. Every result is bitwise independent of the number of threads: loops write to
+/// their own elements only, and sums are taken over fixed chunks in a fixed order.
+namespace whipple::parallel {
+
+inline void set_threads(int n) { omp_set_num_threads(n); }
+inline int threads() { return omp_get_max_threads(); }
+inline int thread_index() { return omp_get_thread_num(); }
+
+constexpr std::size_t chunk_size = 1024;
+
+/// body(i) for i in [0, n).
+template <class Body>
+void for_each(std::size_t n, Body&& body) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < n; ++i) body(i);
+}
+
+/// body(i) for i in [0, n) where the cost differs from one to the next.
+template <class Body>
+void for_each_uneven(std::size_t n, Body&& body) {
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t i = 0; i < n; ++i) body(i);
+}
+
+/// body(begin, end) over chunks of at most `chunk_size` items.
+template <class Body>
+void for_each_chunk(std::size_t n, Body&& body) {
+  const std::size_t chunks = (n + chunk_size - 1) / chunk_size;
+  for_each_uneven(chunks, [&](std::size_t c) { body(c * chunk_size, std::min(n, (c + 1) * chunk_size)); });
+}
+
+/// Sum over i of term(i), whose value is default-constructible to zero and has +=. Chunks are summed in their order.
+template <class Sum, class Term>
+Sum sum(std::size_t n, Term&& term) {
+  const std::size_t chunks = (n + chunk_size - 1) / chunk_size;
+  std::vector<Sum> partial(chunks);
+  for_each(chunks, [&](std::size_t c) {
+    Sum local{};
+    const std::size_t end = std::min(n, (c + 1) * chunk_size);
+    for (std::size_t i = c * chunk_size; i < end; ++i) local += term(i);
+    partial[c] = local;
+  });
+  Sum total{};
+  for (const Sum& part : partial) total += part;
+  return total;
+}
+
+/// Maximum over i of value(i), `start` if there are none.
+template <class Value>
+double maximum(std::size_t n, double start, Value&& value) {
+  double result = start;
+#pragma omp parallel for schedule(static) reduction(max : result)
+  for (std::size_t i = 0; i < n; ++i) result = std::max(result, value(i));
+  return result;
+}
+
+}  // namespace whipple::parallel
