@@ -1,0 +1,1 @@
+# Tests of this part: whipple_test(name SOURCES ... DEPENDS ... LABELS ...)
