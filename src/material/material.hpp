@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eos/equation_of_state.hpp"
+#include "src/material/failure/criterion.hpp"
+#include "src/material/strength/strength.hpp"
+#include "src/particles/material_points.hpp"
+
+namespace whipple {
+
+/// Equation of state + strength + failure: everything that a point of matter needs to know about itself.
+/// Immutable after `make_material`; shared by threads.
+struct Material {
+  std::string name;
+  std::filesystem::path file;  ///< where it was read from; empty if it was built in memory
+  std::string source;          ///< where its constants come from
+  std::string note;
+  std::shared_ptr<const eos::EquationOfState> eos;                 ///< never null
+  std::shared_ptr<const strength::Strength> strength;              ///< never null
+  std::vector<std::shared_ptr<const failure::Criterion>> failure;  ///< in the order of the file; may be empty
+  eos::State reference;  ///< the state that bodies start from: p = 0 at the reference temperature
+
+  /// Constants of all parts as TOML tables (provenance in output files).
+  [[nodiscard]] std::string constants() const;
+};
+
+/// Puts the parts together and computes the reference state. A null strength means none.
+/// @throws InputError if the equation of state has no state of zero pressure near its reference density
+Material make_material(std::string name, std::shared_ptr<const eos::EquationOfState> eos,
+                       std::shared_ptr<const strength::Strength> strength = nullptr,
+                       std::vector<std::shared_ptr<const failure::Criterion>> failure = {});
+
+/// State of matter at the start of a run. Without a temperature: the reference temperature; without a
+/// density: the density of zero pressure at the temperature. A sampled body has mass = density * volume of
+/// the sample.
+/// @throws InputError if there is no such state, or if the model carries no temperature and one is given
+eos::State initial_state(const Material& material, std::optional<double> density = {},
+                         std::optional<double> temperature = {});
+
+/// Sets every field of the points [begin, end) but mass and failure_threshold_factor to the initial state,
+/// without deviatoric stress: volume = mass / density, specific internal energy of the equation of state,
+/// sound speed longitudinal.
+/// @throws as `initial_state`
+void initialise(const Material& material, MaterialPoints& points, std::size_t begin, std::size_t end,
+                std::optional<double> density = {}, std::optional<double> temperature = {});
+
+}  // namespace whipple

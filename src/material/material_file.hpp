@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "src/material/material.hpp"
+
+namespace whipple {
+
+/// Reads a material file (TOML: name, source, note, [eos], [strength], [[failure]]; the tables [provenance],
+/// [covariance] and [defaults] are kept free).
+/// @param path    a path, or a bare file name ("copper.toml", "copper") that is looked up in `beside`, then
+/// in the
+///                library folders
+/// @param beside  folder of the case; empty: the current folder
+/// @throws InputError with all errors of the file at once, or the list of folders searched and the nearest
+/// name
+Material read_material(const std::filesystem::path& path, const std::filesystem::path& beside = {});
+
+/// The file that `read_material` would read.
+std::filesystem::path find_material(const std::filesystem::path& path,
+                                    const std::filesystem::path& beside = {});
+
+/// Folders of the library, in the order of search: $WHIPPLE_MATERIALS, share/whipple/materials beside the
+/// installed executable, eos/materials of the source tree. Only those that exist.
+std::vector<std::filesystem::path> library_folders();
+
+struct LibraryMaterial {
+  std::string name;  ///< of the material
+  std::filesystem::path file;
+  std::string note;  ///< one line
+};
+/// All materials of the library, by file name; a file in an earlier folder hides one of the same name.
+std::vector<LibraryMaterial> library_materials();
+
+/// Text of `whipple describe strength [NAME]` and `whipple describe failure [NAME]`: summaries of all models,
+/// or all about one.
+/// @throws InputError for an unknown name, with the nearest one
+std::string describe_strength(const std::string& name = {});
+std::string describe_failure(const std::string& name = {});
+
+}  // namespace whipple

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace whipple::strength {
+
+/// What a strength model may depend on, one entry per point of a chunk (SI), all at the beginning of the
+/// step.
+struct State {
+  std::span<const double> density;         ///< kg/m^3
+  std::span<const double> pressure;        ///< Pa, positive in compression
+  std::span<const double> temperature;     ///< K
+  std::span<const double> plastic_strain;  ///< equivalent plastic strain
+
+  [[nodiscard]] std::size_t size() const { return density.size(); }
+};
+
+/// The run-time face of the strength models: one virtual call per chunk of points, never per point.
+/// Every model is isotropic with a von Mises surface, so a step is a radial return (docs/theory/material.md,
+/// eq. 7): the trial equivalent stress q and the flow stress Y fix the increment of the equivalent plastic
+/// strain.
+class Strength {
+ public:
+  virtual ~Strength() = default;
+
+  [[nodiscard]] virtual std::string_view model() const = 0;
+
+  /// False for matter without deviatoric stress: the update skips strain and return altogether.
+  [[nodiscard]] virtual bool carries_deviator() const { return true; }
+
+  /// Shear modulus of the solid (Pa); the loss by melting is applied by the caller.
+  virtual void shear_modulus(const State& state, std::span<double> modulus) const = 0;
+
+  /// Solves q - 3 G x - w Y(ep + x, x / dt, T) = 0 for the increment x >= 0 of the equivalent plastic strain
+  /// (0 where q <= w Y at x = 0). Bounded work, no allocation, no exceptions.
+  /// @param trial           q, equivalent trial stress (Pa)
+  /// @param modulus         G, shear modulus with melting (Pa), > 0
+  /// @param solid_fraction  w, 1 - melted fraction
+  /// @param dt              s
+  virtual void plastic_increment(const State& state, std::span<const double> trial,
+                                 std::span<const double> modulus, std::span<const double> solid_fraction,
+                                 double dt, std::span<double> increment) const = 0;
+
+  /// Flow stress of the solid (Pa) at equivalent plastic strain, its rate (1/s) and temperature (K).
+  [[nodiscard]] virtual double flow_stress(double plastic_strain, double rate, double temperature) const = 0;
+
+  /// All constants with units as TOML lines (provenance in output files).
+  [[nodiscard]] virtual std::string constants() const = 0;
+};
+
+}  // namespace whipple::strength

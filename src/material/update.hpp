@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "src/base/tensor.hpp"
+#include "src/material/material.hpp"
+
+/// The constitutive half of a time step, from the velocity gradient to the new stress
+/// (docs/theory/material.md). Both functions work on chunks of at most 1024 points: kinematics and strength,
+/// then one call of the equation of state, then failure. They do not allocate and do not throw, and may run
+/// in several threads on disjoint points.
+namespace whipple {
+
+struct UpdateSettings {
+  double time_step = 0.0;            ///< s
+  double cell_size = 0.0;            ///< m: length of the artificial viscosity
+  double linear_viscosity = 0.25;    ///< c1 of q = rho l |D| (c2 l |D| + c1 c)
+  double quadratic_viscosity = 1.0;  ///< c2
+};
+
+/// What an update met. Indices are those of the points (not of the range or list).
+struct MaterialReport {
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  eos::RangeReport equation_of_state;  ///< `first` is the index of the point
+  std::size_t undefined = 0;  ///< points with a volume that is not positive, or NaN in gradient or energy
+  std::size_t first_undefined = none;  ///< index of the first of them
+  std::size_t limited_volume_changes =
+      0;                           ///< steps with J outside [1/2, 2]: limited, counted (time step too large)
+  std::size_t failed_tensile = 0;  ///< points that failed in this step
+  std::size_t failed_plastic = 0;
+
+  /// Nothing that ends a run: `undefined` and `equation_of_state.out_of_range` are 0.
+  [[nodiscard]] bool valid() const { return undefined == 0 && equation_of_state.out_of_range == 0; }
+  void merge(const MaterialReport& other);
+};
+
+/// Constitutive update of the symplectic scheme. On entry `specific_internal_energy` has been advanced over
+/// the whole step by the exact work identity of the grid; it stays as it is. Volume, stresses, pressure,
+/// viscosity, plastic strain, temperature, phase fractions, failure, void and sound speed become those of the
+/// end of the step; the equation of state takes the energy half a step further (docs/theory/material.md, eq.
+/// 10), less the elastic energy of the deviator.
+/// @param velocity_gradient  L_ij = dv_i/dx_j (1/s) of the new grid velocity; entry k belongs to point begin
+/// + k
+MaterialReport update_material(const Material& material, MaterialPoints& points, std::size_t begin,
+                               std::size_t end, std::span<const Matrix3> velocity_gradient,
+                               const UpdateSettings& settings);
+/// The same for a list of points (sorted or not, without repetition); entry k belongs to point indices[k].
+MaterialReport update_material(const Material& material, MaterialPoints& points,
+                               std::span<const std::uint32_t> indices,
+                               std::span<const Matrix3> velocity_gradient, const UpdateSettings& settings);
+
+/// Constitutive update of the schemes without a work identity (USF, USL, MUSL): also integrates the specific
+/// internal energy, deviatoric work with the mean of old and new stress, pressure work with the mean of old
+/// and new pressure, implicitly (docs/theory/material.md, eq. 14).
+MaterialReport update_material_and_energy(const Material& material, MaterialPoints& points, std::size_t begin,
+                                          std::size_t end, std::span<const Matrix3> velocity_gradient,
+                                          const UpdateSettings& settings);
+MaterialReport update_material_and_energy(const Material& material, MaterialPoints& points,
+                                          std::span<const std::uint32_t> indices,
+                                          std::span<const Matrix3> velocity_gradient,
+                                          const UpdateSettings& settings);
+
+}  // namespace whipple
