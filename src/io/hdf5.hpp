@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "src/io/ranks.hpp"
+
+/// Thin ownership over the C interface of HDF5. Every failure is an InputError with the name of the file,
+/// what was attempted and HDF5's own innermost message; HDF5 prints nothing by itself.
+namespace whipple::io::hdf5 {
+
+/// An identifier that is closed with its owner.
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle() = default;
+  Handle(hid_t id, Close close) : id_(id), close_(close) {}
+  Handle(Handle&& other) noexcept;
+  Handle& operator=(Handle&& other) noexcept;
+  ~Handle() { reset(); }
+
+  [[nodiscard]] hid_t get() const { return id_; }
+  /// Closes now; returns false if HDF5 reports a failure (a full disk shows here).
+  bool reset() noexcept;
+
+ private:
+  hid_t id_ = -1;
+  Close close_ = nullptr;
+};
+
+/// HDF5 type of a number, in memory and (little endian) in the file.
+template <class T>
+struct NumberType;
+
+/// The rows of a distributed array that this rank holds: [first, first + count) of `total`.
+struct Slab {
+  std::uint64_t first = 0;
+  std::uint64_t count = 0;
+  std::uint64_t total = 0;
+  /// All of an array on one rank.
+  static Slab whole(std::uint64_t n) { return {0, n, n}; }
+};
+
+/// How an array is stored. `columns` 0 means a one-dimensional array. Arrays without rows are stored without
+/// filters.
+struct Storage {
+  std::uint64_t columns = 0;
+  int deflate = -1;         ///< level of shuffle + deflate, -1: none
+  bool fletcher32 = false;  ///< checksum of every chunk
+  std::uint64_t chunk_rows = 65536;
+};
+
+/// A group or a data set: something with a name and attributes. Valid while its file is open.
+class Object {
+ public:
+  void set_attribute(const std::string& name, std::int64_t value) const;
+  void set_attribute(const std::string& name, double value) const;
+  void set_attribute(const std::string& name, std::span<const std::int64_t> values) const;
+  /// UTF-8 of variable length.
+  void set_attribute(const std::string& name, std::string_view text) const;
+  /// ASCII of exactly the length of the text (the `Type` attribute of VTKHDF).
+  void set_fixed_attribute(const std::string& name, std::string_view text) const;
+
+  [[nodiscard]] bool has_attribute(const std::string& name) const;
+  [[nodiscard]] std::vector<std::string> attribute_names() const;
+  [[nodiscard]] std::int64_t integer_attribute(const std::string& name) const;
+  [[nodiscard]] double real_attribute(const std::string& name) const;
+  [[nodiscard]] std::string text_attribute(const std::string& name) const;
+
+  [[nodiscard]] hid_t id() const { return handle_.get(); }
+  /// "file.h5:/group/name" for messages.
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+ protected:
+  Object(Handle handle, std::string name) : handle_(std::move(handle)), name_(std::move(name)) {}
+  Handle handle_;
+  std::string name_;
+};
+
+class Dataset : public Object {
+ public:
+  /// Lengths of the dimensions.
+  [[nodiscard]] std::vector<std::uint64_t> shape() const;
+
+  /// Reads rows [slab.first, slab.first + slab.count), all columns, row by row. Collective if `ranks` is
+  /// parallel.
+  /// @throws InputError also if the type is of another class or width than T, or the array has other columns.
+  template <class T>
+  void read_rows(std::span<T> values, const Slab& slab, std::uint64_t columns, const Ranks& ranks) const {
+    read_bytes(values.data(), NumberType<T>::memory(), values.size(), slab, columns, ranks);
+  }
+  template <class T>
+  [[nodiscard]] std::vector<T> read_all() const {
+    std::uint64_t size = 1;
+    const std::vector<std::uint64_t> lengths = shape();
+    for (const std::uint64_t length : lengths) size *= length;
+    std::vector<T> values(size);
+    const std::uint64_t rows = lengths.empty() ? 1 : lengths[0];
+    read_bytes(values.data(), NumberType<T>::memory(), size, Slab::whole(rows), rows == 0 ? 0 : size / rows,
+               Ranks(MPI_COMM_SELF));
+    return values;
+  }
+
+ private:
+  friend class Group;
+  Dataset(Handle handle, std::string name) : Object(std::move(handle), std::move(name)) {}
+  void read_bytes(void* values, hid_t memory_type, std::uint64_t size, const Slab& slab,
+                  std::uint64_t columns, const Ranks& ranks) const;
+};
+
+class Group : public Object {
+ public:
+  [[nodiscard]] Group create_group(const std::string& name) const;
+  [[nodiscard]] Group open_group(const std::string& name) const;
+  [[nodiscard]] Dataset open_dataset(const std::string& name) const;
+  /// Is there a link of this name (one level)?
+  [[nodiscard]] bool has(const std::string& name) const;
+  /// Names of the links of this group, sorted.
+  [[nodiscard]] std::vector<std::string> names() const;
+
+  /// Creates a data set of slab.total rows and writes this rank's rows (`values` row by row). Collective.
+  template <class T>
+  Dataset write(const std::string& name, std::span<const T> values, const Slab& slab, const Storage& storage,
+                const Ranks& ranks) const {
+    return write_bytes(name, values.data(), NumberType<T>::memory(), NumberType<T>::file(), values.size(),
+                       slab, storage, ranks);
+  }
+
+ private:
+  friend struct File;
+  Group(Handle handle, std::string name) : Object(std::move(handle), std::move(name)) {}
+  Dataset write_bytes(const std::string& name, const void* values, hid_t memory_type, hid_t file_type,
+                      std::uint64_t size, const Slab& slab, const Storage& storage, const Ranks& ranks) const;
+};
+
+/// An open file and its root group.
+struct File {
+  enum class Compatibility {
+    vtk,         ///< H5F_LIBVER_EARLIEST ... V110: what every ParaView since 5.10 reads
+    checksummed  ///< H5F_LIBVER_V110 for all objects: metadata carry checksums
+  };
+
+  /// Creates or replaces a file. Collective over the ranks; one rank writes without MPI.
+  /// @param user_block bytes left free at the beginning of the file (0, or a power of two from 512)
+  static File create(const std::filesystem::path& path, const Ranks& ranks, Compatibility compatibility,
+                     std::uint64_t user_block = 0);
+  /// Opens for reading. Collective over the ranks.
+  static File open(const std::filesystem::path& path, const Ranks& ranks);
+
+  /// Closes; reports what could not be written. Collective.
+  void close();
+
+  Handle handle;
+  Group root;
+  std::string path;
+};
+
+template <>
+struct NumberType<double> {
+  static hid_t memory() { return H5T_NATIVE_DOUBLE; }
+  static hid_t file() { return H5T_IEEE_F64LE; }
+};
+template <>
+struct NumberType<float> {
+  static hid_t memory() { return H5T_NATIVE_FLOAT; }
+  static hid_t file() { return H5T_IEEE_F32LE; }
+};
+template <>
+struct NumberType<std::int64_t> {
+  static hid_t memory() { return H5T_NATIVE_INT64; }
+  static hid_t file() { return H5T_STD_I64LE; }
+};
+template <>
+struct NumberType<std::uint64_t> {
+  static hid_t memory() { return H5T_NATIVE_UINT64; }
+  static hid_t file() { return H5T_STD_U64LE; }
+};
+template <>
+struct NumberType<std::uint32_t> {
+  static hid_t memory() { return H5T_NATIVE_UINT32; }
+  static hid_t file() { return H5T_STD_U32LE; }
+};
+template <>
+struct NumberType<std::uint16_t> {
+  static hid_t memory() { return H5T_NATIVE_UINT16; }
+  static hid_t file() { return H5T_STD_U16LE; }
+};
+template <>
+struct NumberType<std::uint8_t> {
+  static hid_t memory() { return H5T_NATIVE_UINT8; }
+  static hid_t file() { return H5T_STD_U8LE; }
+};
+
+}  // namespace whipple::io::hdf5

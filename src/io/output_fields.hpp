@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "src/particles/particles.hpp"
+
+namespace whipple::io {
+
+/// Phase as it stands in the output files and in the phase masses of history.csv.
+enum class Phase : std::uint8_t { solid = 0, melting = 1, liquid = 2, vapour = 3 };
+
+/// Phase of a point from its mass fractions: vapour if at least half of the mass is vapour; otherwise solid
+/// below 1 % of melt, liquid above 99 %, melting between. The margins keep points that rest on the edge of
+/// the melting band (where round-off makes a fraction of 1e-12) from being counted as melting.
+constexpr Phase phase(double melted_fraction, double vaporised_fraction) {
+  if (vaporised_fraction >= 0.5) return Phase::vapour;
+  if (melted_fraction < 0.01) return Phase::solid;
+  return melted_fraction <= 0.99 ? Phase::melting : Phase::liquid;
+}
+
+/// What a field is computed from.
+struct FieldSource {
+  const Particles& particles;
+  std::span<const std::uint16_t> material_of_body;  ///< index of the material of every body of the case
+};
+
+/// One entry per component and width in the file: reals are written as float32.
+using FieldFunction = std::variant<double (*)(const FieldSource&, std::size_t),           //
+                                   Vector3 (*)(const FieldSource&, std::size_t),          //
+                                   SymmetricTensor (*)(const FieldSource&, std::size_t),  //
+                                   std::uint8_t (*)(const FieldSource&, std::size_t),
+                                   std::uint16_t (*)(const FieldSource&, std::size_t),
+                                   std::uint64_t (*)(const FieldSource&, std::size_t)>;
+
+/// A quantity that snapshots may carry.
+struct OutputField {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view meaning;
+  bool always = false;  ///< written whether asked for or not: what reports and restarts of pictures need
+  FieldFunction value;
+};
+
+/// The table of all quantities: one line each.
+std::span<const OutputField> output_fields();
+
+/// Names of the table, in its order: the accepted words of `output.fields` in a case file.
+std::vector<std::string> output_field_names();
+
+/// What `output.fields` is if the case does not say.
+std::vector<std::string> default_output_fields();
+
+/// The selected fields plus those written always, each once, in the order of the table.
+/// @throws InputError naming an unknown field, with the nearest known name.
+std::vector<OutputField> select_output_fields(std::span<const std::string> names);
+
+/// Rows "name  unit  meaning" for `whipple describe`.
+std::string describe_output_fields();
+
+}  // namespace whipple::io

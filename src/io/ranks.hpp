@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace whipple::io {
+
+/// The processes that write one file together. A program that never started MPI is one rank.
+class Ranks {
+ public:
+  explicit Ranks(MPI_Comm communicator);
+
+  [[nodiscard]] int rank() const { return rank_; }
+  [[nodiscard]] int count() const { return count_; }
+  [[nodiscard]] bool is_root() const { return rank_ == 0; }
+  [[nodiscard]] bool is_parallel() const { return count_ > 1; }
+  [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
+
+  /// One value of every rank, in their order. Collective.
+  [[nodiscard]] std::vector<std::uint64_t> gather(std::uint64_t value) const;
+  /// The root's text on every rank. Collective.
+  [[nodiscard]] std::string broadcast(std::string text) const;
+  /// Runs `work` on the root; if it throws there, every rank throws an InputError of the same text.
+  /// Collective.
+  void on_root(const std::function<void()>& work) const;
+
+ private:
+  MPI_Comm communicator_;
+  int rank_ = 0;
+  int count_ = 1;
+};
+
+}  // namespace whipple::io
