@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+/// What molecular dynamics does not bear, per element, each value with its name and source. This is the only
+/// place where the fit takes a number from that is not in the store.
+namespace whipple::fit {
+
+struct NamedDefault {
+  std::string_view parameter;  ///< key of the model's parameter table
+  std::string_view name;       ///< name of the choice
+  double value;                ///< SI
+  std::string_view source;
+};
+
+struct ElementDefaults {
+  std::string_view element;   ///< chemical symbol
+  std::string_view metal;     ///< English name, also the stem of its template material
+  double melting_point;       ///< K, at atmospheric pressure, measured
+  std::span<const NamedDefault> electronic;  ///< choices of electronic_heat_coefficient; the first is the default
+  NamedDefault melting_temperature;          ///< taken only if the store holds no coexistence point
+  std::span<const NamedDefault> constants;   ///< the remaining constants of GRAY
+};
+
+/// @throws InputError naming the known elements.
+const ElementDefaults& element_defaults(std::string_view element);
+
+/// The element with this English name ("copper").
+const ElementDefaults& defaults_of_metal(std::string_view metal);
+
+std::span<const ElementDefaults> all_element_defaults();
+
+/// A row of published constants that a fit is printed beside.
+struct PublishedRow {
+  std::string_view name;
+  std::string_view element;
+  double specific_volume;  ///< m^3/kg
+  double hugoniot_intercept;
+  double hugoniot_slope;
+  double gruneisen;
+  double gruneisen_slope;
+  double heat_coefficient;  ///< J/(mol K^2): g_e, whatever it stands for
+  double melting_temperature;
+};
+std::span<const PublishedRow> published_rows();
+inline constexpr std::string_view published_rows_source =
+    "Liu, Wang & Zhang, Int. J. Mech. Mater. Des. 9 (2013) 127";
+
+}  // namespace whipple::fit

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/fit/least_squares.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_fit.h>
+#include <gsl/gsl_multifit_nlinear.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <exception>
+#include <memory>
+
+#include "src/base/error.hpp"
+
+namespace whipple::fit {
+namespace {
+
+struct Callback {
+  const LeastSquaresProblem* problem;
+  const Eigen::LLT<Eigen::MatrixXd>* sigma;
+  std::exception_ptr failure;  // no exception may pass through GSL's C frames
+};
+
+int whitened_residuals(const gsl_vector* x, void* data, gsl_vector* f) {
+  auto* callback = static_cast<Callback*>(data);
+  try {
+    Eigen::VectorXd p(static_cast<Eigen::Index>(x->size));
+    for (std::size_t i = 0; i < x->size; ++i) p[static_cast<Eigen::Index>(i)] = gsl_vector_get(x, i);
+    const Eigen::VectorXd r = callback->sigma->matrixL().solve(callback->problem->residuals(p));
+    if (!r.allFinite()) return GSL_EDOM;  // the step is rejected and shortened
+    for (std::size_t i = 0; i < f->size; ++i) gsl_vector_set(f, i, r[static_cast<Eigen::Index>(i)]);
+    return GSL_SUCCESS;
+  } catch (...) {
+    callback->failure = std::current_exception();
+    return GSL_EFAILED;
+  }
+}
+
+using Workspace = std::unique_ptr<gsl_multifit_nlinear_workspace, decltype(&gsl_multifit_nlinear_free)>;
+
+Eigen::MatrixXd to_eigen(const gsl_matrix& m) {
+  Eigen::MatrixXd result(static_cast<Eigen::Index>(m.size1), static_cast<Eigen::Index>(m.size2));
+  for (std::size_t i = 0; i < m.size1; ++i) {
+    for (std::size_t k = 0; k < m.size2; ++k) {
+      result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = gsl_matrix_get(&m, i, k);
+    }
+  }
+  return result;
+}
+
+/// The Jacobian must determine every parameter: its columns, scaled to unit length, must not be dependent.
+void require_determined(const Eigen::MatrixXd& jacobian) {
+  Eigen::MatrixXd scaled = jacobian;
+  for (Eigen::Index k = 0; k < scaled.cols(); ++k) {
+    const double norm = scaled.col(k).norm();
+    if (!(norm > 0.0)) throw StateError(fmt::format("least squares: no data depend on parameter {}", k));
+    scaled.col(k) /= norm;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled.transpose() * scaled);
+  // The normal matrix of central differences is known to about 1e-10.
+  if (!(eigen.eigenvalues()[0] > 1e-11)) {
+    throw StateError("least squares: the data leave a combination of the parameters undetermined");
+  }
+}
+
+}  // namespace
+
+LeastSquaresSolution solve(const LeastSquaresProblem& problem) {
+  const Eigen::Index p = problem.start.size();
+  const Eigen::Index n = problem.statistical.rows();
+  if (n < p) {
+    throw StateError(fmt::format("least squares: {} data for {} parameters", n, p));
+  }
+  const Eigen::LLT<Eigen::MatrixXd> sigma(problem.statistical + problem.model);
+  if (sigma.info() != Eigen::Success) {
+    throw StateError("least squares: the covariance of the data is not positive definite (a datum without error?)");
+  }
+
+  Callback callback{&problem, &sigma, nullptr};
+  gsl_multifit_nlinear_fdf system{};
+  system.f = &whitened_residuals;
+  system.n = static_cast<std::size_t>(n);
+  system.p = static_cast<std::size_t>(p);
+  system.params = &callback;
+  gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
+  settings.trs = gsl_multifit_nlinear_trs_lm;
+  settings.fdtype = GSL_MULTIFIT_NLINEAR_CTRDIFF;
+  const Workspace workspace(
+      gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, system.n, system.p),
+      &gsl_multifit_nlinear_free);
+
+  Eigen::VectorXd start = problem.start;
+  const gsl_vector_view view = gsl_vector_view_array(start.data(), system.p);
+  gsl_error_handler_t* handler = gsl_set_error_handler_off();  // errors come back as codes
+  int status = gsl_multifit_nlinear_init(&view.vector, &system, workspace.get());
+  int reason = 0;
+  constexpr std::size_t most_iterations = 200;
+  if (status == GSL_SUCCESS) {
+    status = gsl_multifit_nlinear_driver(most_iterations, 1e-12, 1e-12, 0.0, nullptr, nullptr, &reason,
+                                         workspace.get());
+  }
+  gsl_set_error_handler(handler);
+  if (callback.failure) std::rethrow_exception(callback.failure);
+  // GSL_ENOPROG: no step lowers chi squared any more, the minimum to rounding.
+  if (status != GSL_SUCCESS && status != GSL_ENOPROG) {
+    throw StateError(fmt::format("least squares: no convergence after {} iterations ({})",
+                                 gsl_multifit_nlinear_niter(workspace.get()), gsl_strerror(status)));
+  }
+
+  LeastSquaresSolution solution;
+  const gsl_vector* x = gsl_multifit_nlinear_position(workspace.get());
+  solution.parameters.resize(p);
+  for (Eigen::Index i = 0; i < p; ++i) {
+    solution.parameters[i] = gsl_vector_get(x, static_cast<std::size_t>(i));
+  }
+  solution.residuals = problem.residuals(solution.parameters);
+  solution.whitened = sigma.matrixL().solve(solution.residuals);
+  solution.chi_squared = solution.whitened.squaredNorm();
+  solution.degrees_of_freedom = static_cast<int>(n - p);
+  solution.iterations = static_cast<int>(gsl_multifit_nlinear_niter(workspace.get()));
+
+  const Eigen::MatrixXd jacobian = to_eigen(*gsl_multifit_nlinear_jac(workspace.get()));
+  require_determined(jacobian);
+  const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+  const Eigen::MatrixXd inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
+  solution.covariance = 0.5 * (inverse + inverse.transpose());
+  const Eigen::MatrixXd half = sigma.matrixL().solve(problem.statistical);
+  const Eigen::MatrixXd noise = sigma.matrixL().solve(half.transpose());
+  const Eigen::MatrixXd estimator = inverse * jacobian.transpose();
+  solution.statistical_covariance = estimator * noise * estimator.transpose();
+  return solution;
+}
+
+Line fit_line(const std::vector<double>& x, const std::vector<double>& y) {
+  Line line;
+  double c00 = 0, c01 = 0, c11 = 0, sum = 0;
+  gsl_fit_linear(x.data(), 1, y.data(), 1, x.size(), &line.intercept, &line.slope, &c00, &c01, &c11, &sum);
+  return line;
+}
+
+}  // namespace whipple::fit
