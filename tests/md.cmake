@@ -1,1 +1,2 @@
-# Tests of this part: whipple_test(name SOURCES ... DEPENDS ... LABELS ...)
+# Tests of the molecular-dynamics side: md_fitting/data_set, lammps, protocols and whipple-md.
+whipple_test(md_data_set_test SOURCES unit/md_data_set_test.cpp DEPENDS whipple_md_data_set LABELS fast)

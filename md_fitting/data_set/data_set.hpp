@@ -50,7 +50,7 @@ struct PointRecord {
 };
 
 /// SI unit of a condition or result by its name; empty for numbers without dimension and unknown names.
-std::string unit_of(std::string_view quantity);
+std::string_view unit_of(std::string_view quantity);
 
 /// All points of a store in the order in which they were added.
 /// @throws InputError if the file is missing, is no store, or was written by a newer format.
@@ -62,9 +62,9 @@ std::vector<PointRecord> select(std::span<const PointRecord> points, std::string
 /// Adds one point, or replaces the failed point of the same key. The file is replaced as a whole (copy,
 /// change, sync, rename), so a reader or a crash sees the old or the new store, never half of one; a lock
 /// file beside it serialises writers. A missing store is made, with its folder.
-/// @throws InputError if the store cannot be written or is no store; InternalError if a finished point of the
-/// same key is there already.
-void append_point(const std::filesystem::path& path, const PointRecord& point);
+/// @returns false, and leaves the store as it is, if a finished point of the same key is there already.
+/// @throws InputError if the store cannot be written or is no store.
+bool append_point(const std::filesystem::path& path, const PointRecord& point);
 
 /// Throws InputError unless `append_point` can work on the path: called before any expensive work.
 void require_writable(const std::filesystem::path& path);

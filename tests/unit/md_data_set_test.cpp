@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The store of molecular-dynamics points: what goes in comes out bitwise, and no crash or second writer harms
+// it.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <fstream>
+
+#include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/data_set/hash.hpp"
+#include "src/base/error.hpp"
+#include "tests/unit/md_temporary_folder.hpp"
+
+namespace whipple::md {
+namespace {
+
+PointRecord example(const std::string& name) {
+  PointRecord point;
+  point.key = sha256(name);
+  point.protocol = "isotherm";
+  point.status = "done";
+  point.message = "läuft, \"quoted\"\nsecond line";
+  point.conditions = {{"specific_volume", 1.0 / 8930.0}, {"temperature", 293.0}};
+  point.results = {{"pressure", {1.0 / 3.0 * 1e10, 7.1e6}},
+                   {"specific_internal_energy", {-5.3e6, std::sqrt(2.0)}}};
+  point.provenance = {{"potential", "Cu_u3.eam"}, {"molar_mass", "0.06355"}, {"empty", ""}};
+  point.wall_seconds = 12.5;
+  return point;
+}
+
+void expect_equal(const PointRecord& a, const PointRecord& b) {
+  EXPECT_EQ(a.key, b.key);
+  EXPECT_EQ(a.protocol, b.protocol);
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.message, b.message);
+  EXPECT_EQ(a.conditions, b.conditions);
+  EXPECT_EQ(a.provenance, b.provenance);
+  EXPECT_EQ(a.wall_seconds, b.wall_seconds);
+  ASSERT_EQ(a.results.size(), b.results.size());
+  for (const auto& [name, estimate] : a.results) {
+    EXPECT_EQ(estimate.value, b.result(name).value) << name;
+    EXPECT_EQ(estimate.error, b.result(name).error) << name;
+  }
+}
+
+// FIPS PUB 180-4 test vectors (NIST "Examples with intermediate values", SHA-256): the key of a point is this
+// hash.
+TEST(Hash, AgreesWithThePublishedTestVectors) {
+  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  EXPECT_EQ(sha256(std::string(1000000, 'a')),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+TEST(Hash, SeedsLieInTheRangeOfTheGenerators) {
+  for (int i = 0; i < 1000; ++i) {
+    const std::int64_t seed = seed_from(sha256(std::to_string(i)));
+    EXPECT_GE(seed, 1);
+    EXPECT_LE(seed, 899999999);
+  }
+  EXPECT_NE(seed_from(sha256("a")), seed_from(sha256("b")));
+}
+
+TEST(Store, ReturnsWhatWasAddedInItsOrder) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "deep" / "copper.md.h5";
+  const std::vector<std::string> names = {"first", "second", "a third"};
+  for (const std::string& name : names) append_point(path, example(name));
+  const std::vector<PointRecord> points = read_store(path);
+  ASSERT_EQ(points.size(), names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) expect_equal(points[i], example(names[i]));
+}
+
+TEST(Store, ReplacesFailedPointsAndNeverFinishedOnes) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "copper.md.h5";
+  PointRecord failed = example("point");
+  failed.status = "failed";
+  failed.results.clear();
+  append_point(path, failed);
+  EXPECT_TRUE(select(read_store(path), "isotherm").empty());
+  EXPECT_TRUE(append_point(path, example("point")));
+  const std::vector<PointRecord> points = read_store(path);
+  ASSERT_EQ(points.size(), 1U);
+  EXPECT_TRUE(points[0].done());
+  PointRecord other = example("point");
+  other.results["pressure"].value = 0.0;
+  EXPECT_FALSE(append_point(path, other));
+  EXPECT_EQ(read_store(path)[0].result("pressure").value, example("point").result("pressure").value);
+  EXPECT_EQ(select(points, "isotherm").size(), 1U);
+  EXPECT_TRUE(select(points, "hugoniot").empty());
+}
+
+// Four processes append at once: the lock lets none of the points be lost.
+TEST(Store, KeepsThePointsOfAllWriters) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "copper.md.h5";
+  std::vector<pid_t> children;
+  for (int writer = 0; writer < 4; ++writer) {
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      for (int i = 0; i < 8; ++i)
+        append_point(path, example(std::to_string(writer) + "/" + std::to_string(i)));
+      _exit(0);
+    }
+    children.push_back(child);
+  }
+  for (const pid_t child : children) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(read_store(path).size(), 32U);
+}
+
+// A writer is killed without warning, many times, while it appends: the store always opens, and holds only
+// whole points.
+TEST(Store, SurvivesAKilledWriter) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "copper.md.h5";
+  append_point(path, example("before"));
+  for (int round = 0; round < 10; ++round) {
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      for (int i = 0;; ++i) append_point(path, example(std::to_string(round) + "/" + std::to_string(i)));
+    }
+    usleep(4000 + 1700 * static_cast<useconds_t>(round));
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    const std::vector<PointRecord> points = read_store(path);
+    ASSERT_GE(points.size(), 1U);
+    for (const PointRecord& point : points) EXPECT_EQ(point.result("pressure").error, 7.1e6);
+  }
+  append_point(path, example("after"));
+  EXPECT_EQ(read_store(path).back().key, example("after").key);
+}
+
+TEST(Store, RefusesOtherFilesAndLeavesThemAlone) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "notes.txt";
+  std::ofstream(path) << "not HDF5";
+  EXPECT_THROW(read_store(path), InputError);
+  EXPECT_THROW(append_point(path, example("point")), InputError);
+  EXPECT_THROW(require_writable(path), InputError);
+  std::ifstream file(path);
+  const std::string content(std::istreambuf_iterator<char>(file), {});
+  EXPECT_EQ(content, "not HDF5");
+  EXPECT_THROW(read_store(folder.path() / "missing.md.h5"), InputError);
+  EXPECT_THROW(require_writable("/proc/whipple/store.md.h5"), InputError);
+  EXPECT_THROW(require_writable(folder.path()), InputError);
+}
+
+TEST(PointRecord, NamesWhatIsMissing) {
+  const PointRecord point = example("point");
+  EXPECT_EQ(point.origin_number("molar_mass"), 0.06355);
+  EXPECT_THROW((void)point.origin_number("potential"), InputError);
+  try {
+    (void)point.result("shock_velocity");
+    FAIL() << "no exception";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("no result 'shock_velocity'"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("temperature = 293 K"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace whipple::md
