@@ -3,9 +3,12 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "eos/vapour_dome.hpp"
 
 namespace whipple::eos {
 
@@ -41,9 +44,9 @@ struct Batch {
 /// What a batch met outside the model's range. Kernels count and keep the first; the caller throws.
 struct RangeReport {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  std::size_t out_of_range = 0;      ///< points whose state is not defined (NaN, beyond the compression limit)
-  std::size_t first = none;          ///< index of the first of them
-  std::string_view bound = "";       ///< which bound it broke
+  std::size_t out_of_range = 0;  ///< points whose state is not defined (NaN, beyond the compression limit)
+  std::size_t first = none;      ///< index of the first of them
+  std::string_view bound = "";   ///< which bound it broke
   std::size_t below_cold_curve = 0;  ///< points colder than the model's least temperature: clamped, counted
 
   void merge(const RangeReport& other) {
@@ -70,7 +73,8 @@ class EquationOfState {
   /// Largest density that the model is valid for (kg/m^3).
   [[nodiscard]] virtual double maximum_density() const = 0;
 
-  /// p, T, c (and phase fractions) from density and specific internal energy. Does not throw, does not allocate.
+  /// p, T, c (and phase fractions) from density and specific internal energy. Does not throw, does not
+  /// allocate.
   virtual RangeReport evaluate(const Batch& batch) const = 0;
 
   /// One point with everything that the model knows.
@@ -78,6 +82,11 @@ class EquationOfState {
   [[nodiscard]] virtual State state(double density, double specific_internal_energy) const = 0;
   /// @throws StateError out of range, InputError if the model carries no temperature
   [[nodiscard]] virtual State state_at_temperature(double density, double temperature) const = 0;
+
+  /// Liquid and vapour in equilibrium at a pressure; none if the model has no dome there.
+  [[nodiscard]] virtual std::optional<Saturation> saturation_at_pressure(double /*pressure*/) const {
+    return std::nullopt;
+  }
 
   /// All constants with units as TOML lines (provenance in output files).
   [[nodiscard]] virtual std::string constants() const = 0;

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "eos/equation_of_state.hpp"
+
+/// Curves on any equation of state, through its public face (docs/theory/equations_of_state.md, section 4).
+/// SI. Everything here throws StateError, with the bound that was met, if the asked state is outside the
+/// model.
+namespace whipple::eos {
+
+/// State behind a steady shock.
+struct ShockState {
+  State state;
+  double shock_velocity = 0;     ///< m/s, against the material ahead
+  double particle_velocity = 0;  ///< m/s, against the material ahead
+};
+
+/// Shock Hugoniot from an initial state at rest: mass, momentum and energy jump conditions
+///   rho0 Us = rho (Us - up),  p - p0 = rho0 Us up,  e - e0 = (p + p0)(V0 - V)/2.
+class Hugoniot {
+ public:
+  /// Principal Hugoniot: from the reference density and temperature.
+  explicit Hugoniot(const EquationOfState& eos);
+  /// From any other state (reshock, preheated or porous material ahead of the shock).
+  Hugoniot(const EquationOfState& eos, double density, double specific_internal_energy);
+
+  [[nodiscard]] ShockState at_particle_velocity(double particle_velocity) const;
+  [[nodiscard]] ShockState at_pressure(double pressure) const;
+  [[nodiscard]] ShockState at_density(double density) const;
+  [[nodiscard]] const State& initial() const { return initial_; }
+
+ private:
+  [[nodiscard]] ShockState shock(double density, double energy) const;
+
+  const EquationOfState* eos_;
+  State initial_;
+};
+
+/// Density at pressure and temperature on the condensed branch: the one reached from the reference density by
+/// compression or expansion without crossing a spinodal.
+double density_at_pressure(const EquationOfState& eos, double pressure, double temperature);
+
+/// State at pressure and density: solves p(rho, e) = pressure for e.
+State state_at_pressure(const EquationOfState& eos, double density, double pressure);
+
+/// One point of an isentrope.
+struct IsentropeState {
+  State state;
+  double riemann_velocity = 0;  ///< integral of c d(rho)/rho from the start, m/s (negative on expansion)
+};
+
+/// Isentrope through a state, de = p/rho^2 d(rho), integrated with error control (relative 1e-10), at the
+/// asked densities (monotone, on one side of the start).
+std::vector<IsentropeState> isentrope(const EquationOfState& eos, const State& start,
+                                      const std::vector<double>& densities);
+
+/// Release (or isentropic compression) to a pressure.
+struct Release {
+  IsentropeState end;
+  /// Equilibrium mass fraction of vapour at the end pressure with the entropy of the start, by the lever rule
+  /// (end.state is the metastable liquid there); equal to end.state.vaporised_fraction if the model has no
+  /// dome.
+  double equilibrium_vaporised_fraction = 0;
+};
+/// @param pressure lies between the start's pressure and the least pressure that the isentrope reaches
+Release release(const EquationOfState& eos, const State& start, double pressure);
+
+/// Where the principal Hugoniot enters and leaves the melting region.
+struct ShockMelting {
+  ShockState onset;
+  ShockState completion;
+};
+/// Nothing if the model never melts below the pressure.
+std::optional<ShockMelting> shock_melting(const EquationOfState& eos, double highest_pressure = 2e12);
+
+}  // namespace whipple::eos

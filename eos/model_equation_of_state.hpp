@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <concepts>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "eos/equation_of_state.hpp"
+#include "src/base/parameter_table.hpp"
+
+namespace whipple::eos {
+
+/// What a model offers: a plain struct of constants with a parameter table, and functions on points and
+/// batches.
+template <class M>
+concept Model = requires(const M& model, const Batch& batch, double number) {
+  typename M::Constants;
+  { M::parameters() } -> std::same_as<ParameterTable<typename M::Constants>>;
+  { M::name } -> std::convertible_to<std::string_view>;
+  { M::summary } -> std::convertible_to<std::string_view>;
+  { model.constants() } -> std::same_as<const typename M::Constants&>;
+  { model.evaluate(batch) } -> std::same_as<RangeReport>;
+  { model.state(number, number) } -> std::same_as<State>;
+  { model.state_at_temperature(number, number) } -> std::same_as<State>;
+  { model.reference_density() } -> std::same_as<double>;
+  { model.reference_temperature() } -> std::same_as<double>;
+  { model.reference_energy() } -> std::same_as<double>;
+  { model.maximum_density() } -> std::same_as<double>;
+};
+
+/// Puts the run-time face on a model: one virtual call per batch.
+template <Model M>
+class ModelEquationOfState final : public EquationOfState {
+ public:
+  explicit ModelEquationOfState(const typename M::Constants& constants) : model_(constants) {}
+
+  [[nodiscard]] const M& underlying() const { return model_; }
+
+  [[nodiscard]] std::string_view model() const override { return M::name; }
+  [[nodiscard]] double reference_density() const override { return model_.reference_density(); }
+  [[nodiscard]] double reference_temperature() const override { return model_.reference_temperature(); }
+  [[nodiscard]] double reference_energy() const override { return model_.reference_energy(); }
+  [[nodiscard]] double maximum_density() const override { return model_.maximum_density(); }
+  RangeReport evaluate(const Batch& batch) const override { return model_.evaluate(batch); }
+  [[nodiscard]] State state(double density, double specific_internal_energy) const override {
+    return model_.state(density, specific_internal_energy);
+  }
+  [[nodiscard]] State state_at_temperature(double density, double temperature) const override {
+    return model_.state_at_temperature(density, temperature);
+  }
+  [[nodiscard]] std::optional<Saturation> saturation_at_pressure(double pressure) const override {
+    if constexpr (requires { model_.saturation_at_pressure(pressure); }) {
+      return model_.saturation_at_pressure(pressure);
+    } else {
+      return std::nullopt;
+    }
+  }
+  [[nodiscard]] std::string constants() const override {
+    typename M::Constants values = model_.constants();
+    return to_toml(bind(M::parameters(), values));
+  }
+
+ private:
+  M model_;
+};
+
+}  // namespace whipple::eos

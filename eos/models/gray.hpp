@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "eos/equation_of_state.hpp"
+#include "eos/models/gray_free_energy.hpp"
+#include "eos/vapour_dome.hpp"
+
+namespace whipple::eos {
+
+/// GRAY: three-phase equation of state of metals (solid, melting band, liquid, hot liquid, vapour) from one
+/// Helmholtz free energy; docs/theory/gray.md. Whoever needs the phases' surfaces only (a fit) uses
+/// GrayFreeEnergy.
+///
+/// Policies, all named and none silent:
+///  - energy below that of `least_temperature` on its isochore: T is held there, the point is counted, E is
+///  kept;
+///  - c^2 < `least_sound_speed_ratio`^2 C^2 (inside the van der Waals loop, where c^2 < 0): c is held there;
+///  - density above `maximum_density()` or an energy beyond the model: results are NaN, the point is counted.
+class Gray {
+ public:
+  using Constants = GrayConstants;
+  static constexpr std::string_view name = "gray";
+  static constexpr std::string_view summary =
+      "GRAY three-phase equation of state: solid, melting band, liquid, hot liquid, vapour";
+  static constexpr double least_temperature = 1.0;         ///< K
+  static constexpr double least_sound_speed_ratio = 0.01;  ///< of the Hugoniot intercept
+  static ParameterTable<Constants> parameters() { return gray_parameters(); }
+
+  /// @throws InputError naming the constants that contradict each other
+  explicit Gray(const Constants& constants);
+
+  [[nodiscard]] const Constants& constants() const { return surface_.constants(); }
+  [[nodiscard]] const GrayFreeEnergy& free_energy() const { return surface_; }
+  [[nodiscard]] const VapourDome& dome() const { return dome_; }
+
+  [[nodiscard]] double reference_density() const { return 1.0 / constants().reference_specific_volume; }
+  [[nodiscard]] double reference_temperature() const { return constants().reference_temperature; }
+  [[nodiscard]] double reference_energy() const { return constants().reference_energy; }
+  [[nodiscard]] double maximum_density() const { return 1.0 / surface_.least_volume(); }
+
+  RangeReport evaluate(const Batch& batch) const;
+  [[nodiscard]] State state(double density, double specific_internal_energy) const;
+  [[nodiscard]] State state_at_temperature(double density, double temperature) const;
+  [[nodiscard]] std::optional<Saturation> saturation_at_pressure(double pressure) const {
+    return dome_.at_pressure(pressure);
+  }
+
+  // The same at (V, T) in m^3/kg and K, in the phase that is stable there.
+  /// @throws StateError out of range
+  [[nodiscard]] double pressure(double V, double T) const {
+    return state_at_temperature(1.0 / V, T).pressure;
+  }
+  [[nodiscard]] double energy(double V, double T) const {
+    return state_at_temperature(1.0 / V, T).specific_internal_energy;
+  }
+  [[nodiscard]] double melting_temperature(double V) const { return surface_.melting_temperature(V); }
+  [[nodiscard]] double gamma(double V) const { return surface_.gamma(V); }
+
+ private:
+  enum class Phase { solid, melting, liquid, hot_liquid, vapour };
+  struct Point;
+  [[nodiscard]] Point point(double V, double E) const;
+  [[nodiscard]] Point point_at_temperature(double V, double T) const;
+  [[nodiscard]] State full_state(const Point& point) const;
+  [[nodiscard]] double sound_speed(double squared) const;
+  [[nodiscard]] double fluid_melted_fraction(double T) const;
+
+  GrayFreeEnergy surface_;
+  VapourDome dome_;
+  double least_squared_sound_speed_;
+};
+
+}  // namespace whipple::eos

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "eos/models/gray_constants.hpp"
+
+/// Helmholtz free energy of GRAY in closed form, phase by phase (docs/theory/gray.md, sections 2 to 4). All
+/// arguments and results SI; V is the specific volume in m^3/kg, T in K. Cheap to construct (about a tenth of
+/// a millisecond), so that a fit may build one per trial set of constants.
+namespace whipple::eos {
+
+/// One branch of the free energy on the isochore V: in every phase of GRAY energy and pressure are quadratic
+/// in T,
+///   E = e0 + e1 T + e2 T^2,  P = p0 + p1 T + p2 T^2,  (dP/dV)_T = q0 + q1 T + q2 T^2.
+struct GrayBranch {
+  double e0 = 0, e1 = 0, e2 = 0;
+  double p0 = 0, p1 = 0, p2 = 0;
+  double q0 = 0, q1 = 0, q2 = 0;
+
+  [[nodiscard]] double energy(double T) const { return e0 + T * (e1 + T * e2); }
+  [[nodiscard]] double heat_capacity(double T) const { return e1 + 2 * e2 * T; }
+  [[nodiscard]] double pressure(double T) const { return p0 + T * (p1 + T * p2); }
+  /// (dP/dT)_V
+  [[nodiscard]] double pressure_by_temperature(double T) const { return p1 + 2 * p2 * T; }
+  /// (dP/dV)_T
+  [[nodiscard]] double pressure_by_volume(double T) const { return q0 + T * (q1 + T * q2); }
+  /// (dE/dV)_T = T (dP/dT)_V - P
+  [[nodiscard]] double energy_by_volume(double T) const {
+    return T * pressure_by_temperature(T) - pressure(T);
+  }
+  /// Root of energy(T) = E with positive heat capacity, without cancellation for e2 -> 0. NaN if E is above
+  /// the energy at which the heat capacity vanishes (possible for negative e2 only).
+  [[nodiscard]] double temperature(double E) const {
+    return 2 * (E - e0) / (e1 + std::sqrt(e1 * e1 + 4 * e2 * (E - e0)));
+  }
+  /// c^2 = V^2 [T (dP/dT)_V^2/C_v - (dP/dV)_T]  (G28)
+  [[nodiscard]] double squared_sound_speed(double V, double T) const {
+    const double slope = pressure_by_temperature(T);
+    return V * V * (T * slope * slope / heat_capacity(T) - pressure_by_volume(T));
+  }
+};
+
+/// What the condensed phases share on the isochore V <= V_J.
+struct GrayIsochore {
+  double V = 0;
+  double log_ratio = 0;            ///< ln(V/V0)
+  double gruneisen = 0;            ///< gamma(V)  (G2)
+  double heat_coefficient = 0;     ///< g_e(V), J/(kg K^2)  (G8)
+  double melting_temperature = 0;  ///< T_m(V)  (G11)
+  double lindemann_exponent = 0;   ///< lambda = d ln T_m/d ln V  (G12)
+  double cold_curvature = 0;       ///< d^2 P_c/dV^2
+  GrayBranch solid;
+};
+
+/// Edges of the melting band on an isochore (G31), or both at T_m for isochoric melting (G26).
+struct GrayBand {
+  double T1 = 0, T2 = 0;  ///< solid below T1, liquid above T2, K
+  double E1 = 0, E2 = 0;  ///< energies of the edges
+  double P1 = 0, P2 = 0;  ///< pressures of the edges
+};
+
+/// Derivatives of the edges along V.
+struct GrayBandSlopes {
+  double T1 = 0, T2 = 0, E1 = 0, E2 = 0, P1 = 0, P2 = 0;
+};
+
+/// Quantities at (V, T) on one branch.
+struct GrayPoint {
+  double pressure = 0;                 ///< Pa
+  double energy = 0;                   ///< J/kg
+  double entropy = 0;                  ///< J/(kg K); zero for the solid at (V0, T0)
+  double heat_capacity = 0;            ///< J/(kg K), at constant volume
+  double pressure_by_temperature = 0;  ///< Pa/K
+  double pressure_by_volume = 0;       ///< Pa kg/m^3
+
+  [[nodiscard]] double helmholtz(double T) const { return energy - T * entropy; }
+  [[nodiscard]] double gibbs(double V, double T) const { return energy - T * entropy + pressure * V; }
+};
+
+class GrayFreeEnergy {
+ public:
+  /// @throws InputError if the constants contradict each other or the heat capacity would not stay positive
+  explicit GrayFreeEnergy(const GrayConstants& constants);
+
+  /// Constants with the defaults resolved.
+  [[nodiscard]] const GrayConstants& constants() const { return constants_; }
+  /// Least specific volume: the cold pressure turns over there, or the linear Hugoniot nears its pole (G29).
+  [[nodiscard]] double least_volume() const { return least_volume_; }
+  /// V_J: condensed phases at and below, vapour above.
+  [[nodiscard]] double join_volume() const { return join_volume_; }
+  [[nodiscard]] double covolume() const { return covolume_; }
+  /// R/M, J/(kg K)
+  [[nodiscard]] double specific_gas_constant() const { return gas_; }
+
+  // Functions of V, for least_volume() <= V <= join_volume().
+  [[nodiscard]] double cold_energy(double V) const;                  ///< E_c  (G9)
+  [[nodiscard]] double cold_pressure(double V) const;                ///< P_c = -dE_c/dV
+  [[nodiscard]] double gamma(double V) const;                        ///< (G2)
+  [[nodiscard]] double melting_temperature(double V) const;          ///< (G11)
+  [[nodiscard]] double electronic_heat_coefficient(double V) const;  ///< g_e(V), J/(kg K^2)  (G8)
+
+  // Whole states on one phase's surface, stable there or not.
+  [[nodiscard]] GrayPoint solid(double V, double T) const;   ///< V <= V_J
+  [[nodiscard]] GrayPoint liquid(double V, double T) const;  ///< V <= V_J; Grover's and the hot liquid
+  [[nodiscard]] GrayPoint vapour(double V, double T) const;  ///< V >= V_J
+  /// liquid() or vapour(), whichever V belongs to: the one surface whose loop holds the liquid-vapour dome.
+  [[nodiscard]] GrayPoint fluid(double V, double T) const {
+    return V > join_volume_ ? vapour(V, T) : liquid(V, T);
+  }
+
+  // Building blocks of the evaluation.
+  [[nodiscard]] GrayIsochore isochore(double V) const;
+  [[nodiscard]] GrayBranch liquid_branch(
+      const GrayIsochore& isochore) const;  ///< T_m <= T <= T_G  (G16, G18)
+  [[nodiscard]] GrayBranch hot_liquid_branch(const GrayIsochore& isochore) const;  ///< T > T_G  (G17, G18)
+  [[nodiscard]] GrayBand band(const GrayIsochore& isochore) const;
+  [[nodiscard]] GrayBandSlopes band_slopes(const GrayIsochore& isochore, const GrayBand& band) const;
+  /// Branch of the vapour at V >= V_J: below (hot = false) or above T_G(V_J)  (G25)
+  [[nodiscard]] GrayBranch vapour_branch(double V, bool hot) const;
+  /// T_G(V_J): the vapour changes branch there at every volume.
+  [[nodiscard]] double vapour_branch_temperature() const { return join_hot_temperature_; }
+  /// Isochore and melting band at V_J.
+  [[nodiscard]] const GrayIsochore& join_isochore() const { return join_; }
+  [[nodiscard]] const GrayBand& join_band() const { return join_band_; }
+
+  [[nodiscard]] double solid_entropy(const GrayIsochore& isochore, double T) const;
+  /// Entropy of the liquid over that of the solid at equal V and T.
+  [[nodiscard]] double liquid_entropy_excess(double reduced_temperature) const;
+  [[nodiscard]] double vapour_entropy(double V, double T) const;
+
+ private:
+  /// Cold curve and its derivatives along x = 1 - V/V0.
+  struct Cold {
+    double e, p, p1, p2;  ///< E_c - E_0H, P_c, dP_c/dx, d^2P_c/dx^2
+  };
+  [[nodiscard]] Cold cold(double x) const;
+  [[nodiscard]] Cold cold_from_energy(double x, double energy) const;
+  [[nodiscard]] double lattice_factor(double x) const;  ///< h(x)  (G10)
+  void tabulate_cold_curve();
+  void prepare_vapour();
+  void check_heat_capacity() const;
+  [[nodiscard]] double band_width(const GrayIsochore& isochore) const;
+  [[nodiscard]] double band_width_slope(const GrayIsochore& isochore) const;
+  [[nodiscard]] double join_difference_slope(double T) const;  ///< dD/dT of (G25)
+
+  GrayConstants constants_;
+  // Per mass.
+  double gas_ = 0, lattice_ = 0, heat_coefficient_ = 0, melting_entropy_ = 0, liquid_slope_ = 0;
+  double cold_offset_ = 0, cold_energy_at_reference_ = 0;  ///< P_CC (G6), E_00 (G4)
+  double entropy_offset_ = 0;
+  double least_volume_ = 0, join_volume_ = 0, covolume_ = 0;
+  /// Quintic Hermite table of E_c - E_0H over x: value, first and second derivative times the step.
+  struct Node {
+    double value, slope, curvature;
+  };
+  double table_begin_ = 0, table_step_ = 0;
+  std::vector<Node> table_;
+  // Vapour.
+  GrayIsochore join_;
+  GrayBand join_band_;
+  double join_hot_temperature_ = 0;
+  GrayBranch join_cool_, join_hot_;  ///< liquid branches at V_J
+  double join_compressibility_ = 0;  ///< Z(z_J) of the hard spheres
+};
+
+}  // namespace whipple::eos

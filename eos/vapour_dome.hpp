@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace whipple::eos {
+
+/// A fluid at (V, T), SI per mass.
+struct FluidPoint {
+  double pressure = 0;
+  double energy = 0;
+  double entropy = 0;
+  double pressure_by_volume = 0;  ///< (dP/dV)_T
+};
+
+/// Liquid and vapour in equilibrium (equal T, P and Gibbs energy), SI per mass.
+struct Saturation {
+  double temperature = 0;
+  double pressure = 0;
+  double liquid_volume = 0, vapour_volume = 0;
+  double liquid_energy = 0, vapour_energy = 0;
+  double liquid_entropy = 0, vapour_entropy = 0;
+
+  /// Enthalpy of vaporisation, J/kg
+  [[nodiscard]] double latent_heat() const { return temperature * (vapour_entropy - liquid_entropy); }
+};
+
+struct CriticalPoint {
+  double temperature = 0, pressure = 0, specific_volume = 0, energy = 0;
+};
+
+/// Liquid-vapour dome of a pressure surface with a van der Waals loop, by Maxwell's construction on a grid of
+/// temperatures (docs/theory/gray.md, section 5). Immutable after construction.
+class VapourDome {
+ public:
+  struct Search {
+    std::function<FluidPoint(double V, double T)> fluid;
+    double dense_volume;       ///< denser than every saturated liquid
+    double loop_volume;        ///< the loop at the critical temperature lies above this volume
+    double dilute_volume;      ///< thinner than the vapour's spinodal at the least temperature
+    double gas_constant;       ///< R/M: P V -> R T/M for V -> infinity
+    double temperature_guess;  ///< critical temperature, within a factor of 6
+    int rows = 320;
+    double least_reduced_temperature = 0.1;  ///< T/T_c of the coldest row
+  };
+  /// @throws InputError if the surface has no critical point within the search
+  explicit VapourDome(const Search& search);
+
+  [[nodiscard]] const CriticalPoint& critical_point() const { return critical_; }
+  /// Equilibrium mass fraction of vapour at given volume and energy (lever rule at the temperature at which
+  /// the mixture has both): 0 for V below the saturated liquid, 1 beyond the saturated vapour and for
+  /// supercritical fluid thinner than the critical point. Continuous; piecewise linear in E between rows of
+  /// the table.
+  [[nodiscard]] double vaporised_fraction(double V, double E) const;
+  /// Saturation at a pressure, recomputed on the surface; none above the critical pressure or below the
+  /// coldest row.
+  [[nodiscard]] std::optional<Saturation> at_pressure(double pressure) const;
+  /// Saturation at a temperature; none above the critical temperature or below the coldest row.
+  [[nodiscard]] std::optional<Saturation> at_temperature(double temperature) const;
+  /// Rows of the table, coldest first.
+  [[nodiscard]] const std::vector<Saturation>& rows() const { return rows_; }
+
+ private:
+  void find_critical_point();
+  [[nodiscard]] Saturation maxwell(double temperature) const;
+
+  Search search_;
+  CriticalPoint critical_;
+  std::vector<Saturation> rows_;
+};
+
+}  // namespace whipple::eos
