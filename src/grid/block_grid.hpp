@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "src/base/simd.hpp"
+#include "src/grid/block_table.hpp"
+#include "src/grid/forest.hpp"
+#include "src/grid/geometry.hpp"
+
+namespace whipple::grid {
+
+/// Payload of a node, two registers of four doubles (SI).
+/// After particles_to_grid: `first` = mass, momentum x y z;           `second` = mass * sound speed, force x y z.
+/// After the grid update:   `first` = velocity x y z, relaxation beta; `second` = velocity increment x y z, mass.
+struct alignas(64) Node {
+  Lanes first;
+  Lanes second;
+};
+
+/// Nodes that a kernel reaches from a particle: `count` nodes per direction, the first at floor(X - shift) where X is
+/// the position in cells.
+struct Stencil {
+  double shift = 0.5;
+  int count = 3;
+};
+
+/// Edge of the region of nodes that the particles of one block reach: one before, four inside, two behind.
+constexpr int reach_edge = block_edge + 3;
+
+/// Place of a node of that region, per direction: offset of the block that owns it (0 before, 1 same, 2 behind) and
+/// index inside that block. Position 0 is the node before the block's first.
+struct ReachMap {
+  std::array<int, reach_edge> block{};
+  std::array<int, reach_edge> node{};
+};
+constexpr ReachMap reach_map() {
+  ReachMap map;
+  for (int i = 0; i < reach_edge; ++i) {
+    const int shifted = i - 1 + block_edge;
+    map.block[static_cast<std::size_t>(i)] = shifted / block_edge;
+    map.node[static_cast<std::size_t>(i)] = shifted % block_edge;
+  }
+  return map;
+}
+
+constexpr int node_index(int x, int y, int z) { return (x * block_edge + y) * block_edge + z; }
+constexpr int neighbour_index(int x, int y, int z) { return (x * 3 + y) * 3 + z; }
+
+/// The sparse background grid: the blocks where particles are, their nodes, and the list of particles in each block.
+/// Slots number the active blocks in the order of the forest's space-filling curve.
+class BlockGrid {
+ public:
+  static constexpr std::int32_t no_slot = BlockTable::none;
+
+  /// Collective over `communicator`.
+  BlockGrid(const Geometry& geometry, MPI_Comm communicator);
+
+  /// Finds the block of every particle, activates blocks where the stencil of a particle reaches beyond the active
+  /// ones, and lists the particles by block, in the order of their index. Active blocks beyond the reach of all
+  /// particles are dropped when the set is adapted; the set foresees the motion over `lookahead` seconds so that it
+  /// need not be adapted every step.
+  /// @throws StateError if a particle is outside of the domain and its outer layer (names the index)
+  void bin(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead, Stencil stencil);
+
+  /// Particles changed their order or number: the next `bin` looks every block up anew.
+  void particles_reordered() { slot_of_particle_.clear(); }
+
+  [[nodiscard]] const Geometry& geometry() const { return geometry_; }
+  [[nodiscard]] std::size_t slots() const { return coordinate_.size(); }
+  [[nodiscard]] const BlockCoordinate& coordinate(std::size_t slot) const { return coordinate_[slot]; }
+  /// Slots of the 27 blocks around a slot (see neighbour_index), `no_slot` where inactive.
+  [[nodiscard]] const std::array<std::int32_t, 27>& neighbours(std::size_t slot) const { return neighbours_[slot]; }
+  /// Indices of the particles in a block, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> particles_in(std::size_t slot) const {
+    return std::span(particles_).subspan(begin_[slot], begin_[slot + 1] - begin_[slot]);
+  }
+  /// All particles, block by block: an order that keeps neighbours in memory near one another.
+  [[nodiscard]] std::span<const std::uint32_t> particles_by_block() const { return particles_; }
+  /// Slots with particles whose reaches do not overlap, for each of the eight colours.
+  [[nodiscard]] const std::array<std::vector<std::uint32_t>, 8>& colours() const { return colours_; }
+
+  [[nodiscard]] Node* nodes(std::size_t slot) { return &nodes_[slot * nodes_per_block]; }
+  [[nodiscard]] const Node* nodes(std::size_t slot) const { return &nodes_[slot * nodes_per_block]; }
+  [[nodiscard]] std::span<Node> all_nodes() { return nodes_; }
+
+  /// Sets every node to zero.
+  void clear();
+
+  /// A node beyond a mirror plane and its image inside, as indices into all_nodes().
+  struct MirrorPair {
+    std::uint32_t outside;
+    std::uint32_t image;
+  };
+  struct MirrorPlane {
+    int axis = 0;
+    bool no_slip = false;
+    std::vector<MirrorPair> pairs;
+    std::vector<std::uint32_t> on_plane;
+  };
+  /// Planes with the active nodes that they concern, in the order in which they are folded.
+  [[nodiscard]] std::span<const MirrorPlane> mirror_planes() const { return planes_; }
+  /// Is a node on the inner side of every mirror plane (nodes outside are images of others)?
+  [[nodiscard]] bool is_image(std::size_t node) const { return !outside_.empty() && outside_[node] != 0; }
+
+  [[nodiscard]] std::size_t forest_leaves() const { return forest_.leaves(); }
+  [[nodiscard]] std::size_t adaptations() const { return adaptations_; }
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  [[nodiscard]] BlockCoordinate block_of(const Vector3& position, std::size_t index) const;
+  bool locate(std::span<const Vector3> position, Stencil stencil);
+  void adapt(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead, Stencil stencil);
+  void list_particles(std::size_t n);
+  void find_mirror_nodes();
+
+  Geometry geometry_;
+  Forest forest_;
+  BlockTable table_;
+  std::vector<BlockCoordinate> coordinate_;
+  std::vector<std::array<std::int32_t, 27>> neighbours_;
+  std::vector<std::uint32_t> existing_;  // bit per neighbour
+  std::vector<Node> nodes_;
+  std::vector<std::int32_t> slot_of_particle_;
+  std::vector<std::uint32_t> begin_;
+  std::vector<std::uint32_t> particles_;
+  std::array<std::vector<std::uint32_t>, 8> colours_;
+  std::vector<MirrorPlane> planes_;
+  std::vector<std::uint8_t> outside_;
+  std::size_t adaptations_ = 0;
+};
+
+}  // namespace whipple::grid

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "src/base/tensor.hpp"
+
+namespace whipple::grid {
+
+/// Cells along the edge of a block, and nodes that a block owns along each direction.
+constexpr int block_edge = 4;
+constexpr int nodes_per_block = block_edge * block_edge * block_edge;
+
+/// Position of a block in units of blocks; block (0,0,0) begins at the lower corner of the domain, one layer of
+/// blocks lies outside of every face (kernels are wider than a cell, mirror planes need nodes beyond them).
+using BlockCoordinate = std::array<std::int32_t, 3>;
+
+/// What happens at a face of the domain.
+enum class Boundary : std::uint8_t {
+  outflow,   ///< matter leaves: counted with its mass, momentum and energy
+  symmetry,  ///< mirror plane: frictionless, matter does not pass and does not separate
+  no_slip,   ///< wall that matter sticks to
+};
+
+/// The uniform background grid of the domain: node i of a direction lies at lower + i * cell_size.
+struct Geometry {
+  Vector3 lower = Vector3::Zero();          ///< m
+  std::array<std::int32_t, 3> cells{};      ///< number of cells
+  double cell_size = 0.0;                   ///< m, dx
+  /// Faces in the order x_lower, x_upper, y_lower, y_upper, z_lower, z_upper.
+  std::array<Boundary, 6> boundary{};
+
+  [[nodiscard]] double upper(int axis) const { return lower[axis] + cells[axis] * cell_size; }
+  /// Blocks along an axis that hold cells of the domain (without the layer outside).
+  [[nodiscard]] std::int32_t blocks(int axis) const { return (cells[axis] + block_edge - 1) / block_edge; }
+};
+
+}  // namespace whipple::grid

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/transfer/grid_to_particles.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "src/base/error.hpp"
+#include "src/parallel/threads.hpp"
+#include "src/transfer/node_access.hpp"
+
+namespace whipple::transfer {
+namespace {
+
+using grid::BlockGrid;
+using grid::Node;
+
+Lanes lanes(const Vector3& v) { return Lanes{v[0], v[1], v[2], 0.0}; }
+Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
+
+/// Broadcast of the last lane (the node's beta).
+Lanes last(Lanes v) { return __builtin_shuffle(v, (__v4di){3, 3, 3, 3}); }
+
+/// Sums over the nodes of a particle (docs/theory/mpm.md, equations 4.2 to 4.7); lane 3 of each is meaningless.
+struct Moments {
+  Lanes velocity = broadcast(0.0);             // sum N v
+  Lanes increment = broadcast(0.0);            // sum N d
+  Lanes relaxed = broadcast(0.0);              // sum N beta D
+  Lanes loss = broadcast(0.0);                 // sum N [beta D (D - d) + d d / 2], per component
+  std::array<Lanes, 3> velocity_gradient{};    // sum dN/dx_a v
+  std::array<Lanes, 3> increment_gradient{};   // sum dN/dx_a d
+  std::array<Lanes, 3> increment_moment{};     // sum N d r_a
+  std::array<Lanes, 3> relaxed_moment{};       // sum N beta D r_a
+};
+
+/// D = a_p(x_i) - v_i is the difference of the particle's affine field and the grid's velocity at node i.
+template <class Shape, bool affine, class Access>
+Moments gather(const std::array<AxisWeights<Shape::count>, 3>& weights, Lanes v, const std::array<Lanes, 3>& c,
+               Access& access) {
+  const auto& [wx, wy, wz] = weights;
+  Moments m;
+  for (std::size_t i = 0; i < Shape::count; ++i) {
+    for (std::size_t j = 0; j < Shape::count; ++j) {
+      Lanes field = v;
+      if constexpr (affine) field += wx.distance[i] * c[0] + wy.distance[j] * c[1];
+      Lanes v0 = broadcast(0.0), vz = v0, d0 = v0, d1 = v0, dz = v0, b0 = v0, b1 = v0, loss = v0;
+      for (std::size_t k = 0; k < Shape::count; ++k) {
+        const Node* node = access.node(wx.first + static_cast<int>(i), wy.first + static_cast<int>(j),
+                                       wz.first + static_cast<int>(k));
+        const Lanes vi = node->first;
+        const Lanes d = node->second;
+        Lanes difference = field - vi;
+        if constexpr (affine) difference += wz.distance[k] * c[2];
+        const Lanes relaxed = last(vi) * difference;
+        v0 += wz.weight[k] * vi;
+        vz += wz.derivative[k] * vi;
+        d0 += wz.weight[k] * d;
+        dz += wz.derivative[k] * d;
+        b0 += wz.weight[k] * relaxed;
+        loss += wz.weight[k] * (relaxed * (difference - d) + 0.5 * d * d);
+        if constexpr (affine) {
+          const double moment = wz.weight[k] * wz.distance[k];
+          d1 += moment * d;
+          b1 += moment * relaxed;
+        }
+      }
+      const double w = wx.weight[i] * wy.weight[j];
+      const double gx = wx.derivative[i] * wy.weight[j];
+      const double gy = wx.weight[i] * wy.derivative[j];
+      m.velocity += w * v0;
+      m.increment += w * d0;
+      m.relaxed += w * b0;
+      m.loss += w * loss;
+      m.velocity_gradient[0] += gx * v0;
+      m.velocity_gradient[1] += gy * v0;
+      m.velocity_gradient[2] += w * vz;
+      m.increment_gradient[0] += gx * d0;
+      m.increment_gradient[1] += gy * d0;
+      m.increment_gradient[2] += w * dz;
+      if constexpr (affine) {
+        m.increment_moment[0] += (w * wx.distance[i]) * d0;
+        m.increment_moment[1] += (w * wy.distance[j]) * d0;
+        m.increment_moment[2] += w * d1;
+        m.relaxed_moment[0] += (w * wx.distance[i]) * b0;
+        m.relaxed_moment[1] += (w * wy.distance[j]) * b0;
+        m.relaxed_moment[2] += w * b1;
+      }
+    }
+  }
+  return m;
+}
+
+/// C_p <- C_p (I + dt L)^-1, never growing (equation 4.8): v_p belongs to the new position, so C_p must be carried
+/// there. @returns the loss of |C|^2
+double advect_affine_field(Matrix3& c, const Matrix3& gradient, double dt) {
+  const Matrix3 deformation = Matrix3::Identity() + dt * gradient;
+  if (deformation.determinant() <= 0.1) return 0.0;  // a deformation that large in a step has no meaningful inverse
+  const double before = c.squaredNorm();
+  Matrix3 carried = c * deformation.inverse();
+  const double after = carried.squaredNorm();
+  const double cap = after > before ? std::sqrt(before / after) : 1.0;
+  c = cap * carried;
+  return before - cap * cap * after;
+}
+
+template <class Shape, bool affine, class Access>
+TransferBalance update_particle(Particles& particles, std::size_t p, const grid::Geometry& geometry,
+                                const grid::BlockCoordinate& block, double dt, Matrix3& gradient, Access& access) {
+  const double dx = geometry.cell_size;
+  const double inertia = 0.25 * dx * dx;  // sum N r r^T of quadratic B-splines
+  Matrix3& c = particles.affine_velocity[p];
+  std::array<Lanes, 3> columns{};
+  if constexpr (affine) {
+    for (int a = 0; a < 3; ++a) columns[static_cast<std::size_t>(a)] = lanes(c.col(a));
+  }
+  const Moments m = gather<Shape, affine>(weights_at<Shape>(local_position(particles.position[p], geometry, block), dx),
+                                          lanes(particles.velocity[p]), columns, access);
+
+  // Velocity and affine field (4.3), heat of the transfer (4.5).
+  particles.velocity[p] += vector(m.increment - m.relaxed);
+  double heat = sum3(m.loss + m.increment * (m.relaxed - 0.5 * m.increment) - 0.5 * m.relaxed * m.relaxed);
+  Matrix3 mean_gradient;  // of the mean of old and new grid velocity: the exact work identity (4.6)
+  for (int a = 0; a < 3; ++a) {
+    const auto ua = static_cast<std::size_t>(a);
+    gradient.col(a) = vector(m.velocity_gradient[ua] + m.increment_gradient[ua]);
+    mean_gradient.col(a) = vector(m.velocity_gradient[ua] + 0.5 * m.increment_gradient[ua]);
+    if constexpr (affine) {
+      const Lanes dc = m.increment_moment[ua] / inertia;
+      const Lanes bc = m.relaxed_moment[ua] / inertia;
+      heat += inertia * sum3(dc * (bc - 0.5 * dc) - 0.5 * bc * bc);
+      c.col(a) += vector(dc - bc);
+    }
+  }
+  if constexpr (affine) heat += 0.5 * inertia * advect_affine_field(c, gradient, dt);
+
+  const SymmetricTensor& s = particles.deviatoric_stress[p];
+  const double mean_stress = -(particles.pressure[p] + particles.artificial_viscosity[p]);
+  const double power = (s.xx + mean_stress) * mean_gradient(0, 0) + (s.yy + mean_stress) * mean_gradient(1, 1) +
+                       (s.zz + mean_stress) * mean_gradient(2, 2) +
+                       s.xy * (mean_gradient(0, 1) + mean_gradient(1, 0)) +
+                       s.yz * (mean_gradient(1, 2) + mean_gradient(2, 1)) +
+                       s.zx * (mean_gradient(2, 0) + mean_gradient(0, 2));
+  const double mass = particles.mass[p];
+  const double work = power * particles.volume[p] * dt;
+  particles.specific_internal_energy[p] += work / mass + heat;
+  particles.position[p] += dt * vector(m.velocity + m.increment);
+  return {work, mass * heat};
+}
+
+/// Calls f(particle, block coordinate, access to the nodes) for every particle, block by block.
+template <class Function>
+void for_each_particle(BlockGrid& grid, Function&& f) {
+  parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
+    const std::span<const std::uint32_t> members = grid.particles_in(slot);
+    if (members.empty()) return;
+    const grid::BlockCoordinate& block = grid.coordinate(slot);
+    if (members.size() < direct_access_below) {
+      DirectAccess access(grid, slot);
+      for (const std::uint32_t p : members) f(p, slot, block, access);
+    } else {
+      ReachCopy copy;
+      copy.load(grid, slot);
+      for (const std::uint32_t p : members) f(p, slot, block, copy);
+    }
+  });
+}
+
+template <class Shape, bool affine>
+TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt, std::span<Matrix3> velocity_gradient) {
+  std::vector<TransferBalance> of_slot(grid.slots());
+  for_each_particle(grid, [&](std::size_t p, std::size_t slot, const grid::BlockCoordinate& block, auto& access) {
+    of_slot[slot] += update_particle<Shape, affine>(particles, p, grid.geometry(), block, dt, velocity_gradient[p], access);
+  });
+  TransferBalance total;
+  for (const TransferBalance& part : of_slot) total += part;
+  return total;
+}
+
+}  // namespace
+
+template <class Shape>
+TransferBalance grid_to_particles(Particles& particles, BlockGrid& grid, double dt, bool affine,
+                                  std::span<Matrix3> velocity_gradient) {
+  if (!affine) return gather_all<Shape, false>(particles, grid, dt, velocity_gradient);
+  if constexpr (Shape::count == 3) {
+    return gather_all<Shape, true>(particles, grid, dt, velocity_gradient);
+  } else {
+    throw InternalError("the affine transfer needs quadratic B-splines");
+  }
+}
+
+template <class Shape>
+void increment_velocity(Particles& particles, BlockGrid& grid, double dt, std::span<Vector3> displacement) {
+  for_each_particle(grid, [&](std::size_t p, std::size_t, const grid::BlockCoordinate& block, auto& access) {
+    const grid::Geometry& geometry = grid.geometry();
+    const Moments m = gather<Shape, false>(
+        weights_at<Shape>(local_position(particles.position[p], geometry, block), geometry.cell_size),
+        lanes(particles.velocity[p]), {}, access);
+    particles.velocity[p] += vector(m.increment);
+    displacement[p] = dt * vector(m.velocity + m.increment);
+  });
+}
+
+template <class Shape>
+void gather_velocity_gradient(const Particles& particles, BlockGrid& grid, std::span<Matrix3> velocity_gradient) {
+  for_each_particle(grid, [&](std::size_t p, std::size_t, const grid::BlockCoordinate& block, auto& access) {
+    const grid::Geometry& geometry = grid.geometry();
+    const Moments m = gather<Shape, false>(
+        weights_at<Shape>(local_position(particles.position[p], geometry, block), geometry.cell_size),
+        lanes(particles.velocity[p]), {}, access);
+    for (int a = 0; a < 3; ++a) velocity_gradient[p].col(a) = vector(m.velocity_gradient[static_cast<std::size_t>(a)]);
+  });
+}
+
+template TransferBalance grid_to_particles<Linear>(Particles&, BlockGrid&, double, bool, std::span<Matrix3>);
+template TransferBalance grid_to_particles<QuadraticBSpline>(Particles&, BlockGrid&, double, bool, std::span<Matrix3>);
+template void increment_velocity<Linear>(Particles&, BlockGrid&, double, std::span<Vector3>);
+template void increment_velocity<QuadraticBSpline>(Particles&, BlockGrid&, double, std::span<Vector3>);
+template void gather_velocity_gradient<Linear>(const Particles&, BlockGrid&, std::span<Matrix3>);
+template void gather_velocity_gradient<QuadraticBSpline>(const Particles&, BlockGrid&, std::span<Matrix3>);
+
+}  // namespace whipple::transfer

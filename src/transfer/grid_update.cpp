@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/transfer/grid_update.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/parallel/threads.hpp"
+
+namespace whipple::transfer {
+namespace {
+
+using grid::BlockGrid;
+using grid::Node;
+
+constexpr double no_mass = 1e-300;  // kg; below it momentum / mass may overflow
+
+/// Sign of the components under reflection, for a vector in lanes 1 to 3 (P2G form) or 0 to 2 (velocity form).
+Lanes reflection(const BlockGrid::MirrorPlane& plane, int first_lane) {
+  Lanes sign = broadcast(1.0);
+  for (int c = 0; c < 3; ++c) {
+    if (plane.no_slip || c == plane.axis) sign[first_lane + c] = -1.0;
+  }
+  return sign;
+}
+
+/// The image of a particle brings to node j what the particle brings to the mirror node of j, with the reflected
+/// vector. Real particles only were transferred, so what they brought beyond the plane is folded to the inside.
+void fold(BlockGrid& grid, bool with_forces) {
+  const std::span<Node> nodes = grid.all_nodes();
+  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+    const Lanes sign = reflection(plane, 1);
+    parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
+      const auto [outside, image] = plane.pairs[i];
+      nodes[image].first += sign * nodes[outside].first;
+      if (with_forces) nodes[image].second += sign * nodes[outside].second;
+    });
+    parallel::for_each(plane.on_plane.size(), [&](std::size_t i) {
+      // On the plane a vector is its own image: the reversed components vanish. Mass and force would double alike.
+      Node& node = nodes[plane.on_plane[i]];
+      const Lanes keep = 0.5 * (broadcast(1.0) + sign);
+      node.first *= keep;
+      if (with_forces) node.second *= keep;
+    });
+  }
+}
+
+/// Velocities beyond the planes are the reflected ones; reverse order, so that corners come out right.
+void copy_back(BlockGrid& grid) {
+  const std::span<Node> nodes = grid.all_nodes();
+  const auto planes = grid.mirror_planes();
+  for (std::size_t n = planes.size(); n-- > 0;) {
+    const Lanes sign = reflection(planes[n], 0);
+    parallel::for_each(planes[n].pairs.size(), [&](std::size_t i) {
+      const auto [outside, image] = planes[n].pairs[i];
+      nodes[outside].first = sign * nodes[image].first;
+      nodes[outside].second = sign * nodes[image].second;
+    });
+  }
+}
+
+struct Energies {
+  double before = 0.0, after = 0.0;
+  Energies& operator+=(const Energies& other) {
+    before += other.before;
+    after += other.after;
+    return *this;
+  }
+};
+
+}  // namespace
+
+void GridUpdate::remember_nodes_at_planes(const BlockGrid& grid) {
+  if (at_planes_of_ == grid.adaptations()) return;
+  at_planes_of_ = grid.adaptations();
+  at_planes_.clear();
+  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+    for (const auto& [outside, image] : plane.pairs) {
+      at_planes_.push_back(outside);
+      at_planes_.push_back(image);
+    }
+    at_planes_.insert(at_planes_.end(), plane.on_plane.begin(), plane.on_plane.end());
+  }
+  std::ranges::sort(at_planes_);
+  at_planes_.erase(std::unique(at_planes_.begin(), at_planes_.end()), at_planes_.end());
+}
+
+GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& relaxation) {
+  const std::span<Node> nodes = grid.all_nodes();
+  remember_nodes_at_planes(grid);
+  before_.resize(at_planes_.size());
+  parallel::for_each(at_planes_.size(), [&](std::size_t i) { before_[i] = nodes[at_planes_[i]]; });
+
+  fold(grid, true);
+  const double rate = relaxation.kappa * dt / grid.geometry().cell_size;
+  const Energies energy = parallel::sum<Energies>(nodes.size(), [&](std::size_t i) {
+    Node& node = nodes[i];
+    const double mass = node.first[0];
+    if (mass < no_mass || grid.is_image(i)) {
+      node = {broadcast(0.0), broadcast(0.0)};
+      return Energies{};
+    }
+    const double beta =
+        relaxation.fixed >= 0.0 ? relaxation.fixed : -std::expm1(-rate * node.second[0] / mass);
+    const Lanes velocity = node.first / mass;
+    const Lanes increment = node.second * (dt / mass);
+    node.first = Lanes{velocity[1], velocity[2], velocity[3], beta};
+    node.second = Lanes{increment[1], increment[2], increment[3], mass};
+    const Lanes advanced = node.first + node.second;
+    return Energies{0.5 * mass * sum3(node.first * node.first), 0.5 * mass * sum3(advanced * advanced)};
+  });
+  copy_back(grid);
+
+  // Momentum that the planes gave to the real particles: equation 3.6 of docs/theory/mpm.md.
+  struct Impulse {
+    Lanes value = broadcast(0.0);
+    Impulse& operator+=(const Impulse& other) {
+      value += other.value;
+      return *this;
+    }
+  };
+  const Impulse impulse = parallel::sum<Impulse>(at_planes_.size(), [&](std::size_t i) {
+    const Node& real = before_[i];
+    const Node& node = nodes[at_planes_[i]];
+    const double mass = real.first[0];
+    const Lanes momentum = {real.first[1], real.first[2], real.first[3], 0.0};
+    const Lanes force = {real.second[1], real.second[2], real.second[3], 0.0};
+    return Impulse{mass * node.second - dt * force - node.first[3] * (momentum - mass * node.first)};
+  });
+  return {energy.before, energy.after, Vector3(impulse.value[0], impulse.value[1], impulse.value[2])};
+}
+
+void GridUpdate::velocity_from_momentum(BlockGrid& grid) {
+  const std::span<Node> nodes = grid.all_nodes();
+  fold(grid, false);
+  parallel::for_each(nodes.size(), [&](std::size_t i) {
+    Lanes& first = nodes[i].first;
+    const double mass = first[0];
+    if (mass < no_mass || grid.is_image(i)) {
+      first = broadcast(0.0);
+    } else {
+      first = Lanes{first[1], first[2], first[3], 0.0} / mass;
+    }
+  });
+  copy_back(grid);
+}
+
+}  // namespace whipple::transfer

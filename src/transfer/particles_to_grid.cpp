@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/transfer/particles_to_grid.hpp"
+
+#include "src/parallel/threads.hpp"
+#include "src/transfer/node_access.hpp"
+
+namespace whipple::transfer {
+namespace {
+
+/// What one particle brings to a node: first += N (a0 + a_x r_x + a_y r_y + a_z r_z),
+/// second += N b0 + sum over directions of dN/dx_a b_a.
+struct Payload {
+  Lanes a0, ax, ay, az;
+  Lanes b0, bx, by, bz;
+};
+
+Lanes column(const Matrix3& m, int axis, double factor) {
+  return Lanes{0.0, factor * m(0, axis), factor * m(1, axis), factor * m(2, axis)};
+}
+
+/// The internal force on node i is -V sigma . grad N_i, sigma = s - (p + q) I.
+Payload payload(const Particles& particles, std::size_t p) {
+  const double m = particles.mass[p];
+  const Vector3& v = particles.velocity[p];
+  const Matrix3& c = particles.affine_velocity[p];
+  const SymmetricTensor& s = particles.deviatoric_stress[p];
+  const double mean = -(particles.pressure[p] + particles.artificial_viscosity[p]);
+  const double minus_volume = -particles.volume[p];
+  Payload out;
+  out.a0 = Lanes{m, m * v[0], m * v[1], m * v[2]};
+  out.ax = column(c, 0, m);
+  out.ay = column(c, 1, m);
+  out.az = column(c, 2, m);
+  out.b0 = Lanes{m * particles.sound_speed[p], 0.0, 0.0, 0.0};
+  out.bx = minus_volume * Lanes{0.0, s.xx + mean, s.xy, s.zx};
+  out.by = minus_volume * Lanes{0.0, s.xy, s.yy + mean, s.yz};
+  out.bz = minus_volume * Lanes{0.0, s.zx, s.yz, s.zz + mean};
+  return out;
+}
+
+enum class Content { all, momentum };
+
+template <class Shape, Content content, class Access>
+void scatter(const Particles& particles, std::span<const std::uint32_t> members, const grid::Geometry& geometry,
+             const grid::BlockCoordinate& block, Access& access) {
+  constexpr int count = Shape::count;
+  for (const std::uint32_t p : members) {
+    const auto [wx, wy, wz] =
+        weights_at<Shape>(local_position(particles.position[p], geometry, block), geometry.cell_size);
+    const Payload load = payload(particles, p);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Lanes a_x = load.a0 + wx.distance[i] * load.ax;
+      for (std::size_t j = 0; j < count; ++j) {
+        const double w = wx.weight[i] * wy.weight[j];
+        const Lanes a = w * (a_x + wy.distance[j] * load.ay);
+        const Lanes a_z = w * load.az;
+        [[maybe_unused]] const Lanes b = w * load.b0 + (wx.derivative[i] * wy.weight[j]) * load.bx +
+                                         (wx.weight[i] * wy.derivative[j]) * load.by;
+        [[maybe_unused]] const Lanes b_z = w * load.bz;
+        for (std::size_t k = 0; k < count; ++k) {
+          grid::Node* node = access.node(wx.first + static_cast<int>(i), wy.first + static_cast<int>(j),
+                                         wz.first + static_cast<int>(k));
+          node->first += wz.weight[k] * a + (wz.weight[k] * wz.distance[k]) * a_z;
+          if constexpr (content == Content::all) node->second += wz.weight[k] * b + wz.derivative[k] * b_z;
+        }
+      }
+    }
+  }
+}
+
+template <class Shape, Content content>
+void scatter_all(const Particles& particles, grid::BlockGrid& grid) {
+  for (const std::vector<std::uint32_t>& colour : grid.colours()) {
+    parallel::for_each_uneven(colour.size(), [&](std::size_t i) {
+      const std::size_t slot = colour[i];
+      const std::span<const std::uint32_t> members = grid.particles_in(slot);
+      if (members.size() < direct_access_below) {
+        DirectAccess access(grid, slot);
+        scatter<Shape, content>(particles, members, grid.geometry(), grid.coordinate(slot), access);
+      } else {
+        ReachCopy copy;
+        copy.clear();
+        scatter<Shape, content>(particles, members, grid.geometry(), grid.coordinate(slot), copy);
+        copy.add_to(grid, slot);
+      }
+    });
+  }
+}
+
+}  // namespace
+
+template <class Shape>
+void particles_to_grid(const Particles& particles, grid::BlockGrid& grid) {
+  grid.clear();
+  scatter_all<Shape, Content::all>(particles, grid);
+}
+
+template <class Shape>
+void momentum_to_grid(const Particles& particles, grid::BlockGrid& grid) {
+  const std::span<grid::Node> nodes = grid.all_nodes();
+  parallel::for_each(nodes.size(), [&](std::size_t i) { nodes[i].first = broadcast(0.0); });
+  scatter_all<Shape, Content::momentum>(particles, grid);
+}
+
+template void particles_to_grid<Linear>(const Particles&, grid::BlockGrid&);
+template void particles_to_grid<QuadraticBSpline>(const Particles&, grid::BlockGrid&);
+template void momentum_to_grid<Linear>(const Particles&, grid::BlockGrid&);
+template void momentum_to_grid<QuadraticBSpline>(const Particles&, grid::BlockGrid&);
+
+}  // namespace whipple::transfer
