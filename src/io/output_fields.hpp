@@ -44,7 +44,7 @@ struct OutputField {
   std::string_view name;
   std::string_view unit;
   std::string_view meaning;
-  bool always = false;  ///< written whether asked for or not: what reports and restarts of pictures need
+  bool always = false;  ///< written whether asked for or not: what a report needs
   FieldFunction value;
 };
 

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/io/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <system_error>
+
+#include "src/base/error.hpp"
+#include "src/base/log.hpp"
+#include "src/io/hdf5.hpp"
+#include "src/io/ranks.hpp"
+#include "src/io/sealed_file.hpp"
+
+namespace whipple::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Numbers of one value of a field; Eigen and SymmetricTensor hold nothing else than these, in this order.
+template <class Value>
+struct Numbers {
+  using Type = Value;
+  static constexpr std::uint64_t columns = 0;
+};
+template <>
+struct Numbers<Vector3> {
+  using Type = double;
+  static constexpr std::uint64_t columns = 3;
+};
+template <>
+struct Numbers<SymmetricTensor> {
+  using Type = double;
+  static constexpr std::uint64_t columns = 6;
+};
+template <>
+struct Numbers<Matrix3> {
+  using Type = double;
+  static constexpr std::uint64_t columns = 9;
+};
+template <class Value>
+constexpr std::uint64_t width() {
+  constexpr std::uint64_t columns = Numbers<Value>::columns == 0 ? 1 : Numbers<Value>::columns;
+  static_assert(sizeof(Value) == columns * sizeof(typename Numbers<Value>::Type));
+  return columns;
+}
+
+const hdf5::Storage checksummed{.fletcher32 = true};
+
+void write_particles(const hdf5::Group& group, const Particles& particles, const Ranks& ranks) {
+  const std::uint64_t n = particles.size();
+  const std::vector<std::uint64_t> counts = ranks.gather(n);
+  const hdf5::Slab slab{std::accumulate(counts.begin(), counts.begin() + ranks.rank(), std::uint64_t{0}), n,
+                        std::accumulate(counts.begin(), counts.end(), std::uint64_t{0})};
+  group.set_attribute("count", static_cast<std::int64_t>(slab.total));
+  for_each_field<Particles>([&](const auto& field) {
+    const auto& values = particles.*(field.values);
+    using Value = typename std::decay_t<decltype(values)>::value_type;
+    using Number = typename Numbers<Value>::Type;
+    if (values.size() != n) throw InternalError(fmt::format("field {} has another length", field.name));
+    hdf5::Storage storage = checksummed;
+    storage.columns = Numbers<Value>::columns;
+    const std::span<const Number> numbers(reinterpret_cast<const Number*>(values.data()), n * width<Value>());
+    const hdf5::Dataset array = group.write<Number>(field.name, numbers, slab, storage, ranks);
+    array.set_attribute("unit", std::string_view(field.unit));
+  });
+}
+
+/// The fields of the file must be those of the program: one that is missing has no value, one that is unknown
+/// would be lost.
+void require_fields(const hdf5::Group& group) {
+  const std::vector<std::string> found = group.names();
+  std::set<std::string> unknown(found.begin(), found.end());
+  std::vector<std::string> missing;
+  for_each_field<Particles>([&](const auto& field) {
+    if (unknown.erase(field.name) == 0) missing.emplace_back(field.name);
+  });
+  if (missing.empty() && unknown.empty()) return;
+  std::string message = group.name() + ": was written by another version of the program:";
+  if (!missing.empty()) message += fmt::format(" missing fields: {};", fmt::join(missing, ", "));
+  if (!unknown.empty()) message += fmt::format(" unknown fields: {};", fmt::join(unknown, ", "));
+  message.back() = '.';
+  throw InputError(message);
+}
+
+void read_particles(const hdf5::Group& group, Particles& particles, const Ranks& ranks) {
+  require_fields(group);
+  const auto total = static_cast<std::uint64_t>(group.integer_attribute("count"));
+  const auto rank = static_cast<std::uint64_t>(ranks.rank());
+  const auto count = static_cast<std::uint64_t>(ranks.count());
+  const std::uint64_t first = total * rank / count;
+  const hdf5::Slab slab{first, total * (rank + 1) / count - first, total};
+  resize(particles, slab.count);
+  for_each_field<Particles>([&](const auto& field) {
+    auto& values = particles.*(field.values);
+    using Value = typename std::decay_t<decltype(values)>::value_type;
+    using Number = typename Numbers<Value>::Type;
+    const hdf5::Dataset array = group.open_dataset(field.name);
+    const std::string unit = array.text_attribute("unit");
+    if (unit != field.unit) {
+      throw InputError(fmt::format("{}: is in {}, expected {}", array.name(), unit, field.unit));
+    }
+    array.read_rows<Number>({reinterpret_cast<Number*>(values.data()), slab.count * width<Value>()}, slab,
+                            width<Value>(), ranks);
+  });
+}
+
+/// Texts and arrays are data sets with their name as an attribute: names may hold any character ("mass.a/b").
+template <class Number>
+void write_named(const hdf5::Group& group, const std::string& name, std::span<const Number> numbers,
+                 const Ranks& ranks) {
+  const std::uint64_t mine = ranks.is_root() ? numbers.size() : 0;
+  const hdf5::Dataset array =
+      group.write<Number>(fmt::format("{:06}", group.names().size()), numbers.first(mine),
+                          {0, mine, numbers.size()}, checksummed, ranks);
+  array.set_attribute("name", std::string_view(name));
+}
+
+void write_values(const hdf5::Group& group, const CheckpointValues& values, const Ranks& ranks) {
+  const hdf5::Group reals = group.create_group("reals");
+  for (const auto& [name, value] : values.reals) reals.set_attribute(name, value);
+  const hdf5::Group integers = group.create_group("integers");
+  for (const auto& [name, value] : values.integers) integers.set_attribute(name, value);
+  const hdf5::Group texts = group.create_group("texts");
+  for (const auto& [name, value] : values.texts) {
+    write_named<std::uint8_t>(texts, name,
+                              {reinterpret_cast<const std::uint8_t*>(value.data()), value.size()}, ranks);
+  }
+  const hdf5::Group arrays = group.create_group("arrays");
+  for (const auto& [name, value] : values.arrays) write_named<double>(arrays, name, value, ranks);
+}
+
+CheckpointValues read_values(const hdf5::Group& group) {
+  CheckpointValues values;
+  const hdf5::Group reals = group.open_group("reals");
+  for (const std::string& name : reals.attribute_names()) values.reals[name] = reals.real_attribute(name);
+  const hdf5::Group integers = group.open_group("integers");
+  for (const std::string& name : integers.attribute_names())
+    values.integers[name] = integers.integer_attribute(name);
+  const hdf5::Group texts = group.open_group("texts");
+  for (const std::string& number : texts.names()) {
+    const hdf5::Dataset text = texts.open_dataset(number);
+    const std::vector<std::uint8_t> bytes = text.read_all<std::uint8_t>();
+    values.texts[text.text_attribute("name")] = std::string(bytes.begin(), bytes.end());
+  }
+  const hdf5::Group arrays = group.open_group("arrays");
+  for (const std::string& number : arrays.names()) {
+    const hdf5::Dataset array = arrays.open_dataset(number);
+    values.arrays[array.text_attribute("name")] = array.read_all<double>();
+  }
+  return values;
+}
+
+/// NNNNNNNN of checkpoint.NNNNNNNN.h5
+std::optional<std::int64_t> step_of(const fs::path& path) {
+  const std::string file = path.filename().string();
+  constexpr std::string_view prefix = "checkpoint.";
+  constexpr std::string_view suffix = ".h5";
+  if (!file.starts_with(prefix) || !file.ends_with(suffix) ||
+      file.size() < prefix.size() + 8 + suffix.size()) {
+    return std::nullopt;
+  }
+  const char* end = file.data() + file.size() - suffix.size();
+  std::int64_t step = 0;
+  const auto [stop, error] = std::from_chars(file.data() + prefix.size(), end, step);
+  return error == std::errc() && stop == end ? std::optional(step) : std::nullopt;
+}
+
+/// Keeps the checkpoint just written and the newest before it. Those of later steps belong to a future that
+/// was given up when the run went on from an earlier one.
+void remove_old_generations(const fs::path& folder, std::int64_t step) {
+  int earlier = 0;
+  for (const fs::path& path : list_checkpoints(folder)) {
+    const std::int64_t other = *step_of(path);
+    if (other == step || (other < step && ++earlier == 1)) continue;
+    std::error_code ignored;  // a file that cannot be removed does no harm
+    fs::remove(path, ignored);
+  }
+}
+
+template <class Map>
+const typename Map::mapped_type& find(const Map& map, const std::string& name, const std::string& source) {
+  const auto entry = map.find(name);
+  if (entry == map.end()) throw InputError(fmt::format("{}: the value \"{}\" is missing", source, name));
+  return entry->second;
+}
+
+}  // namespace
+
+double CheckpointValues::real(const std::string& name) const { return find(reals, name, source); }
+std::int64_t CheckpointValues::integer(const std::string& name) const { return find(integers, name, source); }
+const std::string& CheckpointValues::text(const std::string& name) const { return find(texts, name, source); }
+const std::vector<double>& CheckpointValues::array(const std::string& name) const {
+  return find(arrays, name, source);
+}
+
+std::vector<fs::path> list_checkpoints(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  if (!fs::is_directory(folder)) return paths;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file() && step_of(entry.path())) paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end(),
+            [](const fs::path& a, const fs::path& b) { return *step_of(a) > *step_of(b); });
+  return paths;
+}
+
+fs::path write_checkpoint(const fs::path& folder, std::int64_t step, const Particles& particles,
+                          const CheckpointValues& values, MPI_Comm communicator) {
+  const Ranks ranks(communicator);
+  ranks.on_root([&] {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+      throw InputError(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
+  });
+  const fs::path path = folder / fmt::format("checkpoint.{:08}.h5", step);
+  const fs::path partial = path.string() + ".partial";
+
+  hdf5::File file = hdf5::File::create(partial, ranks, hdf5::File::Compatibility::checksummed, seal_size);
+  write_particles(file.root.create_group("particles"), particles, ranks);
+  write_values(file.root.create_group("values"), values, ranks);
+  file.close();
+
+  ranks.on_root([&] {
+    seal(partial);
+    publish(partial, path);
+    remove_old_generations(folder, step);
+  });
+  return path;
+}
+
+Checkpoint read_checkpoint(const fs::path& path, MPI_Comm communicator) {
+  const Ranks ranks(communicator);
+  ranks.on_root([&] { require_seal(path); });
+  const hdf5::File file = hdf5::File::open(path, ranks);
+  Checkpoint checkpoint;
+  checkpoint.path = path;
+  read_particles(file.root.open_group("particles"), checkpoint.particles, ranks);
+  checkpoint.values = read_values(file.root.open_group("values"));
+  checkpoint.values.source = path.string();
+  return checkpoint;
+}
+
+Checkpoint read_latest_checkpoint(const fs::path& folder, MPI_Comm communicator) {
+  const Ranks ranks(communicator);
+  std::string reasons;
+  for (const fs::path& path : list_checkpoints(folder)) {
+    try {
+      Checkpoint checkpoint = read_checkpoint(path, communicator);
+      if (!reasons.empty() && ranks.is_root()) {
+        log::warning("the newest checkpoint is not usable; going on from {}:{}", path.string(), reasons);
+      }
+      return checkpoint;
+    } catch (const InputError& error) {
+      reasons += std::string("\n  ") + error.what();
+    }
+  }
+  if (reasons.empty()) throw InputError(fmt::format("{}: holds no checkpoint", folder.string()));
+  throw InputError(fmt::format("{}: no checkpoint is usable:{}", folder.string(), reasons));
+}
+
+}  // namespace whipple::io

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/io/hdf5.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "src/base/error.hpp"
+
+namespace whipple::io::hdf5 {
+namespace {
+
+/// HDF5's own printing goes to standard error in twenty lines; the innermost of them is what a user can use.
+void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+herr_t keep_innermost(unsigned, const H5E_error2_t* error, void* text) {
+  if (error->desc != nullptr && error->desc[0] != '\0') *static_cast<std::string*>(text) = error->desc;
+  return 0;
+}
+
+[[noreturn]] void fail(const std::string& where, const std::string& action) {
+  std::string innermost;
+  // Walking downward begins with the function that was called and ends with the one that failed.
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_innermost, &innermost);
+  H5Eclear2(H5E_DEFAULT);
+  throw InputError(fmt::format("{}: cannot {}{}", where, action, innermost.empty() ? "" : ": " + innermost));
+}
+
+Handle checked(hid_t id, Handle::Close close, const std::string& where, const std::string& action) {
+  if (id < 0) fail(where, action);
+  return {id, close};
+}
+
+void check(herr_t status, const std::string& where, const std::string& action) {
+  if (status < 0) fail(where, action);
+}
+
+Handle transfer_properties(const Ranks& ranks, const std::string& where) {
+  Handle properties = checked(H5Pcreate(H5P_DATASET_XFER), H5Pclose, where, "prepare a transfer");
+  if (ranks.is_parallel()) {
+    check(H5Pset_dxpl_mpio(properties.get(), H5FD_MPIO_COLLECTIVE), where, "prepare a collective transfer");
+  }
+  return properties;
+}
+
+/// Selects the rows of a slab in a file space; returns the space of the memory.
+Handle select(hid_t space, const Slab& slab, std::uint64_t columns, bool one_dimensional,
+              const std::string& where) {
+  const hsize_t start[2] = {slab.first, 0};
+  const hsize_t count[2] = {slab.count, one_dimensional ? 1 : columns};
+  const int dimensions = one_dimensional ? 1 : 2;
+  Handle memory = checked(H5Screate_simple(dimensions, count, nullptr), H5Sclose, where, "describe memory");
+  if (slab.count == 0) {
+    check(H5Sselect_none(space), where, "select nothing");
+    check(H5Sselect_none(memory.get()), where, "select nothing");
+  } else {
+    check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr), where,
+          fmt::format("select rows {} to {}", slab.first, slab.first + slab.count));
+  }
+  return memory;
+}
+
+void write_attribute(const Object& object, const std::string& name, hid_t type, hid_t memory_type,
+                     hid_t space, const void* value) {
+  const std::string action = "write attribute " + name;
+  const Handle attribute =
+      checked(H5Acreate2(object.id(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+              object.name(), action);
+  check(H5Awrite(attribute.get(), memory_type, value), object.name(), action);
+}
+
+Handle open_attribute(const Object& object, const std::string& name) {
+  return checked(H5Aopen(object.id(), name.c_str(), H5P_DEFAULT), H5Aclose, object.name(),
+                 "read attribute " + name);
+}
+
+void read_number(const Object& object, const std::string& name, H5T_class_t expected, hid_t memory_type,
+                 void* value) {
+  const Handle attribute = open_attribute(object, name);
+  const std::string action = "read attribute " + name;
+  const Handle type = checked(H5Aget_type(attribute.get()), H5Tclose, object.name(), action);
+  const Handle space = checked(H5Aget_space(attribute.get()), H5Sclose, object.name(), action);
+  if (H5Tget_class(type.get()) != expected || H5Sget_simple_extent_npoints(space.get()) != 1) {
+    throw InputError(
+        fmt::format("{}: attribute {} is not a single number of the expected kind", object.name(), name));
+  }
+  check(H5Aread(attribute.get(), memory_type, value), object.name(), action);
+}
+
+}  // namespace
+
+Handle::Handle(Handle&& other) noexcept
+    : id_(std::exchange(other.id_, -1)), close_(std::exchange(other.close_, nullptr)) {}
+
+Handle& Handle::operator=(Handle&& other) noexcept {
+  if (this != &other) {
+    reset();
+    id_ = std::exchange(other.id_, -1);
+    close_ = std::exchange(other.close_, nullptr);
+  }
+  return *this;
+}
+
+bool Handle::reset() noexcept {
+  const hid_t id = std::exchange(id_, -1);
+  return id < 0 || close_ == nullptr || close_(id) >= 0;
+}
+
+// ---- attributes ----
+
+void Object::set_attribute(const std::string& name, std::int64_t value) const {
+  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, name_, "describe a number");
+  write_attribute(*this, name, H5T_STD_I64LE, H5T_NATIVE_INT64, space.get(), &value);
+}
+
+void Object::set_attribute(const std::string& name, double value) const {
+  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, name_, "describe a number");
+  write_attribute(*this, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, space.get(), &value);
+}
+
+void Object::set_attribute(const std::string& name, std::span<const std::int64_t> values) const {
+  const hsize_t size = values.size();
+  const Handle space = checked(H5Screate_simple(1, &size, nullptr), H5Sclose, name_, "describe numbers");
+  write_attribute(*this, name, H5T_STD_I64LE, H5T_NATIVE_INT64, space.get(), values.data());
+}
+
+void Object::set_attribute(const std::string& name, std::string_view text) const {
+  const Handle type = checked(H5Tcopy(H5T_C_S1), H5Tclose, name_, "describe a text");
+  check(H5Tset_size(type.get(), H5T_VARIABLE), name_, "describe a text");
+  check(H5Tset_cset(type.get(), H5T_CSET_UTF8), name_, "describe a text");
+  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, name_, "describe a text");
+  const std::string terminated(text);
+  const char* pointer = terminated.c_str();
+  write_attribute(*this, name, type.get(), type.get(), space.get(), &pointer);
+}
+
+void Object::set_fixed_attribute(const std::string& name, std::string_view text) const {
+  const Handle type = checked(H5Tcopy(H5T_C_S1), H5Tclose, name_, "describe a text");
+  check(H5Tset_size(type.get(), text.size()), name_, "describe a text");
+  check(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), name_, "describe a text");
+  const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, name_, "describe a text");
+  write_attribute(*this, name, type.get(), type.get(), space.get(), text.data());
+}
+
+bool Object::has_attribute(const std::string& name) const { return H5Aexists(id(), name.c_str()) > 0; }
+
+std::vector<std::string> Object::attribute_names() const {
+  std::vector<std::string> names;
+  hsize_t index = 0;
+  const auto add = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  check(H5Aiterate2(id(), H5_INDEX_NAME, H5_ITER_INC, &index, add, &names), name_, "list the attributes");
+  return names;
+}
+
+std::int64_t Object::integer_attribute(const std::string& name) const {
+  std::int64_t value = 0;
+  read_number(*this, name, H5T_INTEGER, H5T_NATIVE_INT64, &value);
+  return value;
+}
+
+double Object::real_attribute(const std::string& name) const {
+  double value = 0.0;
+  read_number(*this, name, H5T_FLOAT, H5T_NATIVE_DOUBLE, &value);
+  return value;
+}
+
+std::string Object::text_attribute(const std::string& name) const {
+  const Handle attribute = open_attribute(*this, name);
+  const std::string action = "read attribute " + name;
+  const Handle type = checked(H5Aget_type(attribute.get()), H5Tclose, name_, action);
+  if (H5Tget_class(type.get()) != H5T_STRING) {
+    throw InputError(fmt::format("{}: attribute {} is not a text", name_, name));
+  }
+  if (H5Tis_variable_str(type.get()) > 0) {
+    char* pointer = nullptr;
+    check(H5Aread(attribute.get(), type.get(), static_cast<void*>(&pointer)), name_, action);
+    std::string text = pointer == nullptr ? "" : pointer;
+    H5free_memory(pointer);
+    return text;
+  }
+  std::string text(H5Tget_size(type.get()), '\0');
+  check(H5Aread(attribute.get(), type.get(), text.data()), name_, action);
+  return text.substr(0, text.find('\0'));
+}
+
+// ---- data sets ----
+
+std::vector<std::uint64_t> Dataset::shape() const {
+  const Handle space = checked(H5Dget_space(id()), H5Sclose, name_, "read the shape");
+  const int dimensions = H5Sget_simple_extent_ndims(space.get());
+  std::vector<hsize_t> lengths(static_cast<std::size_t>(std::max(dimensions, 0)));
+  check(H5Sget_simple_extent_dims(space.get(), lengths.data(), nullptr), name_, "read the shape");
+  return {lengths.begin(), lengths.end()};
+}
+
+void Dataset::read_bytes(void* values, hid_t memory_type, std::uint64_t size, const Slab& slab,
+                         std::uint64_t columns, const Ranks& ranks) const {
+  const std::vector<std::uint64_t> lengths = shape();
+  const std::uint64_t rows = lengths.empty() ? 1 : lengths[0];
+  std::uint64_t found_columns = 1;
+  for (std::size_t i = 1; i < lengths.size(); ++i) found_columns *= lengths[i];
+  if (lengths.size() > 2 || slab.total != rows || (rows > 0 && columns != found_columns)) {
+    throw InputError(fmt::format("{}: has {} rows of {} numbers, expected {} rows of {}", name_, rows,
+                                 found_columns, slab.total, columns));
+  }
+  if (size != slab.count * columns) throw InternalError(name_ + ": the room for the rows has another size");
+  const Handle type = checked(H5Dget_type(id()), H5Tclose, name_, "read the type");
+  if (H5Tget_class(type.get()) != H5Tget_class(memory_type) ||
+      H5Tget_size(type.get()) != H5Tget_size(memory_type)) {
+    throw InputError(fmt::format("{}: has numbers of another type than expected", name_));
+  }
+  const Handle space = checked(H5Dget_space(id()), H5Sclose, name_, "read the shape");
+  if (lengths.empty()) {
+    check(H5Dread(id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name_, "read");
+    return;
+  }
+  const Handle memory = select(space.get(), slab, columns, lengths.size() == 1, name_);
+  const Handle transfer = transfer_properties(ranks, name_);
+  check(H5Dread(id(), memory_type, memory.get(), space.get(), transfer.get(), values), name_, "read");
+}
+
+// ---- groups ----
+
+Group Group::create_group(const std::string& name) const {
+  return {checked(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name_,
+                  "create group " + name),
+          name_ + name + "/"};
+}
+
+Group Group::open_group(const std::string& name) const {
+  return {checked(H5Gopen2(id(), name.c_str(), H5P_DEFAULT), H5Gclose, name_, "open group " + name),
+          name_ + name + "/"};
+}
+
+Dataset Group::open_dataset(const std::string& name) const {
+  return {checked(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose, name_, "open data set " + name),
+          name_ + name};
+}
+
+bool Group::has(const std::string& name) const { return H5Lexists(id(), name.c_str(), H5P_DEFAULT) > 0; }
+
+std::vector<std::string> Group::names() const {
+  std::vector<std::string> names;
+  hsize_t index = 0;
+  const auto add = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  check(H5Literate(id(), H5_INDEX_NAME, H5_ITER_INC, &index, add, &names), name_, "list the group");
+  return names;
+}
+
+Dataset Group::write_bytes(const std::string& name, const void* values, hid_t memory_type, hid_t file_type,
+                           std::uint64_t size, const Slab& slab, const Storage& storage,
+                           const Ranks& ranks) const {
+  const std::string where = name_ + name;
+  const bool one_dimensional = storage.columns == 0;
+  const std::uint64_t columns = one_dimensional ? 1 : storage.columns;
+  if (size != slab.count * columns)
+    throw InternalError(where + ": the number of values is not rows times columns");
+
+  const hsize_t lengths[2] = {slab.total, columns};
+  const int dimensions = one_dimensional ? 1 : 2;
+  const Handle space =
+      checked(H5Screate_simple(dimensions, lengths, nullptr), H5Sclose, where, "describe the array");
+  const Handle creation = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, where, "prepare the array");
+  if (slab.total > 0 && (storage.deflate >= 0 || storage.fletcher32)) {
+    const hsize_t chunk[2] = {std::min<hsize_t>(slab.total, storage.chunk_rows), columns};
+    check(H5Pset_chunk(creation.get(), dimensions, chunk), where, "prepare chunks");
+    if (storage.deflate >= 0) {
+      check(H5Pset_shuffle(creation.get()), where, "prepare compression");
+      check(H5Pset_deflate(creation.get(), static_cast<unsigned>(storage.deflate)), where,
+            "prepare compression");
+    }
+    if (storage.fletcher32) check(H5Pset_fletcher32(creation.get()), where, "prepare checksums");
+  }
+  Dataset dataset(checked(H5Dcreate2(id(), name.c_str(), file_type, space.get(), H5P_DEFAULT, creation.get(),
+                                     H5P_DEFAULT),
+                          H5Dclose, where, "create the array"),
+                  where);
+  const Handle memory = select(space.get(), slab, columns, one_dimensional, where);
+  const Handle transfer = transfer_properties(ranks, where);
+  check(H5Dwrite(dataset.id(), memory_type, memory.get(), space.get(), transfer.get(), values), where,
+        "write");
+  return dataset;
+}
+
+// ---- files ----
+
+namespace {
+Handle access_properties(const Ranks& ranks, const std::string& path) {
+  Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path, "prepare the file");
+  if (ranks.is_parallel()) {
+    check(H5Pset_fapl_mpio(access.get(), ranks.communicator(), MPI_INFO_NULL), path,
+          "prepare parallel access");
+  }
+  // An object that somebody forgot to close would otherwise keep the file open, and unflushed, in silence.
+  check(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), path, "prepare the file");
+  return access;
+}
+}  // namespace
+
+File File::create(const std::filesystem::path& path, const Ranks& ranks, Compatibility compatibility,
+                  std::uint64_t user_block) {
+  silence();
+  const std::string text = path.string();
+  const Handle access = access_properties(ranks, text);
+  const H5F_libver_t low = compatibility == Compatibility::vtk ? H5F_LIBVER_EARLIEST : H5F_LIBVER_V110;
+  check(H5Pset_libver_bounds(access.get(), low, H5F_LIBVER_V110), text, "choose the format version");
+  const Handle creation = checked(H5Pcreate(H5P_FILE_CREATE), H5Pclose, text, "prepare the file");
+  check(H5Pset_userblock(creation.get(), user_block), text, "reserve the user block");
+  Handle file = checked(H5Fcreate(text.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose, text,
+                        "create the file");
+  Group root(checked(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, text, "open the root group"),
+             text + ":/");
+  return {std::move(file), std::move(root), text};
+}
+
+File File::open(const std::filesystem::path& path, const Ranks& ranks) {
+  silence();
+  const std::string text = path.string();
+  const Handle access = access_properties(ranks, text);
+  Handle file = checked(H5Fopen(text.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose, text, "open the file");
+  Group root(checked(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, text, "open the root group"),
+             text + ":/");
+  return {std::move(file), std::move(root), text};
+}
+
+void File::close() {
+  if (!root.handle_.reset() || !handle.reset()) fail(path, "close the file");
+}
+
+}  // namespace whipple::io::hdf5

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/io/history.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+#include <vector>
+
+#include "src/base/error.hpp"
+#include "src/io/run_directory.hpp"
+
+namespace whipple::io {
+namespace {
+
+/// A name with commas or quotes (a body may be called so) is quoted in the way of RFC 4180.
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"') result += '"';
+    result += c == '\n' ? ' ' : c;
+  }
+  return result + '"';
+}
+
+std::string header_of(std::span<const HistoryValue> row) {
+  std::string header;
+  for (const HistoryValue& value : row) {
+    if (!header.empty()) header += ',';
+    header += csv_cell(value.unit.empty() ? value.name : fmt::format("{} [{}]", value.name, value.unit));
+  }
+  return header;
+}
+
+/// Cells of a line; quotes may hold commas.
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> cells;
+  bool in_quotes = false;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') in_quotes = !in_quotes;
+    if (line[i] == ',' && !in_quotes) {
+      cells.push_back(line.substr(begin, i - begin));
+      begin = i + 1;
+    }
+  }
+  cells.push_back(line.substr(begin));
+  return cells;
+}
+
+bool read_number(std::string_view cell, double& value) {
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return error == std::errc() && end == cell.data() + cell.size();
+}
+
+}  // namespace
+
+History::History(std::filesystem::path path) : path_(std::move(path)) {}
+
+History History::restart(std::filesystem::path path, std::int64_t last_step) {
+  History history(std::move(path));
+  if (!std::filesystem::exists(history.path_)) return history;
+  const std::string text = read_text(history.path_);
+  const std::string_view all = text;
+
+  const std::size_t header_end = all.find('\n');
+  if (header_end == std::string_view::npos) return history;  // killed while it wrote the header: begin anew
+  history.header_ = all.substr(0, header_end);
+  history.continued_ = true;
+  const std::vector<std::string_view> names = split(history.header_);
+  const auto step = std::find(names.begin(), names.end(), "step");
+  if (step == names.end()) {
+    throw InputError(
+        fmt::format("{}:1: has no column \"step\"; is it the history of a run?", history.path_.string()));
+  }
+  const auto step_column = static_cast<std::size_t>(step - names.begin());
+
+  std::size_t kept = header_end + 1;  // bytes
+  std::size_t line_number = 1;
+  while (kept < all.size()) {
+    const std::size_t end = all.find('\n', kept);
+    if (end == std::string_view::npos) break;  // incomplete last line
+    ++line_number;
+    const std::vector<std::string_view> cells = split(all.substr(kept, end - kept));
+    double value = 0.0;
+    if (cells.size() != names.size() || !read_number(cells[step_column], value)) {
+      throw InputError(fmt::format("{}:{}: damaged row: {} cells for {} columns, step \"{}\"",
+                                   history.path_.string(), line_number, cells.size(), names.size(),
+                                   step_column < cells.size() ? cells[step_column] : ""));
+    }
+    if (value > static_cast<double>(last_step)) break;  // steps ascend: what follows is later
+    kept = end + 1;
+  }
+  if (kept != all.size()) write_text_atomically(history.path_, all.substr(0, kept));
+  return history;
+}
+
+void History::append(std::span<const HistoryValue> row) {
+  std::string text = header_of(row);
+  if (text != header_) {
+    if (continued_) {
+      throw InputError(
+          fmt::format("{}: the run to go on with has other columns:\n{}\nthis program writes\n{}",
+                      path_.string(), header_, text));
+    }
+    if (!header_.empty())
+      throw InternalError(fmt::format("{}: columns changed between rows", path_.string()));
+  }
+  if (!stream_.is_open()) {
+    stream_.open(path_, continued_ ? std::ios::binary | std::ios::app : std::ios::binary | std::ios::trunc);
+  }
+  if (header_.empty()) {
+    header_ = text;
+    text += '\n';
+  } else {
+    text.clear();
+  }
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (i > 0) text += ',';
+    text += fmt::format("{}", row[i].value);  // shortest text that reads back to the same double
+  }
+  text += '\n';
+  stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
+  stream_.flush();
+  if (!stream_) throw InputError(fmt::format("{}: cannot write the row; is the disk full?", path_.string()));
+}
+
+}  // namespace whipple::io

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/io/output_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "src/base/error.hpp"
+#include "src/base/text.hpp"
+
+namespace whipple::io {
+namespace {
+
+using Source = FieldSource;
+
+SymmetricTensor stress(const Source& s, std::size_t i) {
+  SymmetricTensor sigma = s.particles.deviatoric_stress[i];
+  sigma.xx -= s.particles.pressure[i];
+  sigma.yy -= s.particles.pressure[i];
+  sigma.zz -= s.particles.pressure[i];
+  return sigma;
+}
+
+double void_fraction(const Source& s, std::size_t i) {
+  const double opened = s.particles.void_volume[i];
+  return opened / (s.particles.volume[i] + opened);
+}
+
+// clang-format off
+const auto table = std::to_array<OutputField>({
+    {"velocity", "m/s", "velocity", true,
+     [](const Source& s, std::size_t i) { return s.particles.velocity[i]; }},
+    {"mass", "kg", "mass of the particle", true,
+     [](const Source& s, std::size_t i) { return s.particles.mass[i]; }},
+    {"pressure", "Pa", "pressure, positive in compression, without artificial viscosity", false,
+     [](const Source& s, std::size_t i) { return s.particles.pressure[i]; }},
+    {"temperature", "K", "temperature", false,
+     [](const Source& s, std::size_t i) { return s.particles.temperature[i]; }},
+    {"density", "kg/m^3", "density of the matter, voids left out", false,
+     [](const Source& s, std::size_t i) { return s.particles.mass[i] / s.particles.volume[i]; }},
+    {"internal_energy", "J/kg", "specific internal energy", false,
+     [](const Source& s, std::size_t i) { return s.particles.specific_internal_energy[i]; }},
+    {"phase", "", "0 solid, 1 melting, 2 liquid, 3 vapour (at least half of the mass)", false,
+     [](const Source& s, std::size_t i) {
+       return static_cast<std::uint8_t>(phase(s.particles.melted_fraction[i], s.particles.vaporised_fraction[i]));
+     }},
+    {"melted_fraction", "1", "mass fraction of liquid and vapour", false,
+     [](const Source& s, std::size_t i) { return s.particles.melted_fraction[i]; }},
+    {"vaporised_fraction", "1", "mass fraction of vapour", false,
+     [](const Source& s, std::size_t i) { return s.particles.vaporised_fraction[i]; }},
+    {"plastic_strain", "1", "equivalent plastic strain", false,
+     [](const Source& s, std::size_t i) { return s.particles.plastic_strain[i]; }},
+    {"failed", "", "0 intact, 1 failed in tension, 2 failed by plastic strain", false,
+     [](const Source& s, std::size_t i) { return s.particles.failed[i]; }},
+    {"void_fraction", "1", "opened void volume over total volume of a failed particle", false, void_fraction},
+    {"failure_threshold_factor", "1", "scatter of the failure threshold", false,
+     [](const Source& s, std::size_t i) { return s.particles.failure_threshold_factor[i]; }},
+    {"stress", "Pa", "Cauchy stress xx yy zz xy yz zx, positive in tension, without artificial viscosity", false,
+     stress},
+    {"von_mises_stress", "Pa", "sqrt(3/2 s:s) of the deviatoric stress s", false,
+     [](const Source& s, std::size_t i) { return std::sqrt(1.5 * s.particles.deviatoric_stress[i].squared_norm()); }},
+    {"artificial_viscosity", "Pa", "pressure of artificial viscosity", false,
+     [](const Source& s, std::size_t i) { return s.particles.artificial_viscosity[i]; }},
+    {"sound_speed", "m/s", "longitudinal sound speed", false,
+     [](const Source& s, std::size_t i) { return s.particles.sound_speed[i]; }},
+    {"volume", "m^3", "volume of matter", false,
+     [](const Source& s, std::size_t i) { return s.particles.volume[i]; }},
+    {"body", "", "number of the body in the case, from 0", true,
+     [](const Source& s, std::size_t i) { return static_cast<std::uint16_t>(s.particles.body[i]); }},
+    {"material", "", "number of the material in the case, from 0", false,
+     [](const Source& s, std::size_t i) { return s.material_of_body[s.particles.body[i]]; }},
+    {"id", "", "number of the particle, kept for its life", true,
+     [](const Source& s, std::size_t i) { return s.particles.id[i]; }},
+});
+// clang-format on
+
+}  // namespace
+
+std::span<const OutputField> output_fields() { return table; }
+
+std::vector<std::string> output_field_names() {
+  std::vector<std::string> names;
+  for (const OutputField& field : table) names.emplace_back(field.name);
+  return names;
+}
+
+std::vector<std::string> default_output_fields() {
+  return {"pressure", "temperature", "density", "internal_energy", "phase", "plastic_strain", "failed"};
+}
+
+std::vector<OutputField> select_output_fields(std::span<const std::string> names) {
+  const std::vector<std::string> known = output_field_names();
+  std::string unknown;
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    unknown += fmt::format("{}unknown output field {}{}", unknown.empty() ? "" : "\n", quoted(name),
+                           did_you_mean(name, known));
+  }
+  if (!unknown.empty()) throw InputError(fmt::format("{}\nknown: {}", unknown, fmt::join(known, ", ")));
+  std::vector<OutputField> selected;
+  for (const OutputField& field : table) {
+    if (field.always || std::find(names.begin(), names.end(), field.name) != names.end())
+      selected.push_back(field);
+  }
+  return selected;
+}
+
+std::string describe_output_fields() {
+  std::string text;
+  for (const OutputField& field : table) {
+    text += fmt::format("{:<26}{:<10}{}{}\n", field.name, field.unit, field.meaning,
+                        field.always ? " (always written)" : "");
+  }
+  return text;
+}
+
+}  // namespace whipple::io
