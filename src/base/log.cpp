@@ -10,6 +10,8 @@
 namespace whipple::log {
 namespace {
 
+Level present_level = Level::normal;
+
 spdlog::logger& logger() {
   static const std::shared_ptr<spdlog::logger> instance = [] {
     auto sink = std::make_shared<spdlog::sinks::stderr_sink_st>();
@@ -26,10 +28,13 @@ spdlog::logger& logger() {
 }  // namespace
 
 void set_level(Level level) {
+  present_level = level;
   logger().sinks().front()->set_level(level == Level::quiet     ? spdlog::level::warn
                                       : level == Level::verbose ? spdlog::level::debug
                                                                 : spdlog::level::info);
 }
+
+Level level() { return present_level; }
 
 void add_file(const std::filesystem::path& path) {
   auto sink = std::make_shared<spdlog::sinks::basic_file_sink_st>(path.string(), false);

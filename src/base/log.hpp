@@ -13,6 +13,8 @@ namespace whipple::log {
 enum class Level { quiet, normal, verbose };
 
 void set_level(Level level);
+/// The level set last; programs that start others pass it on.
+[[nodiscard]] Level level();
 /// Additionally writes every message to a file, with a time stamp.
 void add_file(const std::filesystem::path& path);
 

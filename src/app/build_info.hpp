@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace whipple::app {
+
+/// What this executable was built from and with.
+struct BuildInfo {
+  std::string version;
+  std::string revision;  ///< git commit, "+changes" if files differed from it, "unknown" outside of git
+  std::string source_folder;
+  std::string build_type;
+  std::string compiler;
+  std::string flags;
+};
+
+const BuildInfo& build_info();
+
+}  // namespace whipple::app

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/app/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "src/base/error.hpp"
+#include "src/base/log.hpp"
+#include "src/base/progress.hpp"
+#include "src/base/text.hpp"
+
+namespace whipple::app {
+namespace {
+
+/// The innermost subcommand that the arguments reached.
+const CLI::App& reached(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  return *command;
+}
+
+/// "whipple eos hugoniot"
+std::string full_name(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return parent == nullptr ? command.get_name() : full_name(*parent) + " " + command.get_name();
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> subcommand_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* subcommand : command.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(subcommand->get_name());
+  }
+  return names;
+}
+
+std::string list(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
+
+/// What is wrong with an argument that no option and no subcommand took.
+std::string unexpected(const CLI::App& command, const std::string& argument) {
+  if (argument.starts_with('-')) {
+    const std::vector<std::string> names = option_names(command);
+    const std::string name = argument.substr(0, argument.find('='));
+    return fmt::format("unknown option '{}'{} (accepted: {})", name, did_you_mean(name, names), list(names));
+  }
+  const std::vector<std::string> names = subcommand_names(command);
+  if (names.empty()) return fmt::format("unexpected argument '{}'", argument);
+  return fmt::format("unknown subcommand '{}'{} (accepted: {})", argument, did_you_mean(argument, names),
+                     list(names));
+}
+
+[[noreturn]] void report(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App& command = reached(app);
+  const std::vector<std::string> rest = app.remaining(true);
+  const std::string what = rest.empty() ? std::string(error.what()) : unexpected(command, rest.front());
+  throw InputError(fmt::format("{}\nsee {} --help", what, full_name(command)));
+}
+
+}  // namespace
+
+void add_verbosity(CLI::App& command) {
+  if (command.get_allow_extras()) return;
+  if (command.get_option_no_throw("--quiet") == nullptr) {
+    command.add_flag_callback(
+        "-q,--quiet",
+        [] {
+          log::set_level(log::Level::quiet);
+          set_progress_visible(false);
+        },
+        "Warnings and results only");
+  }
+  if (command.get_option_no_throw("--verbose") == nullptr) {
+    command.add_flag_callback("-v,--verbose", [] { log::set_level(log::Level::verbose); }, "Say more");
+  }
+  for (CLI::App* subcommand : command.get_subcommands([](const CLI::App*) { return true; })) {
+    add_verbosity(*subcommand);
+  }
+}
+
+int run_command_line(CLI::App& app, int argc, char** argv) {
+  if (argc < 2) {
+    fmt::print(stderr, "{}", app.help());
+    return static_cast<int>(ExitCode::input);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::RuntimeError& end) {
+    return end.get_exit_code();
+  } catch (const CLI::Success& request) {  // --help, --version
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    report(app, error);
+  }
+  return static_cast<int>(ExitCode::success);
+}
+
+}  // namespace whipple::app

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include "src/app/build_info.hpp"
+#include "src/app/command_line.hpp"
+#include "src/app/fit_command.hpp"
+#include "src/app/materials_command.hpp"
+#include "src/app/md_command.hpp"
+#include "src/app/report_command.hpp"
+#include "src/app/units_command.hpp"
+#include "src/app/version_command.hpp"
+#include "src/base/error.hpp"
+
+namespace {
+
+int whipple_main(int argc, char** argv) {
+  using namespace whipple::app;
+  CLI::App app{
+      "From atoms to debris clouds: equations of state from molecular dynamics, and the material point\n"
+      "method for hypervelocity impact",
+      "whipple"};
+  app.set_version_flag("--version", fmt::format("whipple {}", build_info().version));
+  app.require_subcommand(1);
+
+  add_md_command(app);
+  add_fit_command(app);
+  add_report_command(app);
+  add_materials_command(app);
+  add_units_command(app);
+  add_version_command(app);
+
+  add_verbosity(app);
+  app.footer(
+      "Example:\n  whipple run cases/copper_disk_on_aluminium/case.toml -o run/disk\n"
+      "Exit codes: 0 done, 2 wrong input, 3 the physics left its range, 4 a defect of this program");
+  return run_command_line(app, argc, argv);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return whipple::run_guarded("whipple", whipple_main, argc, argv); }

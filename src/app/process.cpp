@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/app/process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sched.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <set>
+#include <string_view>
+#include <thread>
+
+#include "src/base/error.hpp"
+
+namespace whipple::app {
+namespace {
+
+constexpr std::array forwarded_signals = {SIGINT, SIGTERM, SIGUSR1};
+
+// A signal handler can reach nothing but variables of static storage.
+volatile std::sig_atomic_t child = 0;
+volatile std::sig_atomic_t last_forwarded = 0;
+
+extern "C" void pass_on(int signal, siginfo_t* info, void* /*context*/) {
+  last_forwarded = signal;
+  // The terminal sends its signals to the whole foreground group: the child has this one already, and mpirun
+  // takes a second SIGINT as the order to kill its ranks.
+  const bool from_terminal = info->si_code == SI_KERNEL;
+  if (child > 0 && !from_terminal) kill(child, signal);
+}
+
+/// Routes the signals to `pass_on`, and holds them back until `release`: none is lost between the start of
+/// the child and the moment its process id is known.
+class SignalForwarding {
+ public:
+  SignalForwarding() {
+    sigset_t blocked;
+    sigemptyset(&blocked);
+    struct sigaction action = {};
+    action.sa_sigaction = pass_on;
+    action.sa_flags = SA_SIGINFO | SA_RESTART;
+    for (std::size_t i = 0; i < forwarded_signals.size(); ++i) {
+      sigaddset(&blocked, forwarded_signals[i]);
+      sigaction(forwarded_signals[i], &action, &former_[i]);
+    }
+    last_forwarded = 0;
+    sigprocmask(SIG_BLOCK, &blocked, &former_mask_);
+  }
+  SignalForwarding(const SignalForwarding&) = delete;  // owns the handlers of the process
+  SignalForwarding& operator=(const SignalForwarding&) = delete;
+  ~SignalForwarding() {
+    child = 0;
+    for (std::size_t i = 0; i < forwarded_signals.size(); ++i) {
+      sigaction(forwarded_signals[i], &former_[i], nullptr);
+    }
+    release();
+  }
+  void release() const { sigprocmask(SIG_SETMASK, &former_mask_, nullptr); }
+  [[nodiscard]] const sigset_t& former_mask() const { return former_mask_; }
+
+ private:
+  std::array<struct sigaction, forwarded_signals.size()> former_{};
+  sigset_t former_mask_{};
+};
+
+std::vector<std::string> merged_environment(const Environment& added) {
+  std::vector<std::string> entries;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view entry(*variable);
+    const std::string_view name = entry.substr(0, entry.find('='));
+    bool replaced = false;
+    for (const auto& [key, value] : added) replaced = replaced || key == name;
+    if (!replaced) entries.emplace_back(entry);
+  }
+  for (const auto& [key, value] : added) entries.push_back(fmt::format("{}={}", key, value));
+  return entries;
+}
+
+/// The C interface takes pointers to mutable characters, which it does not change.
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> result;
+  result.reserve(texts.size() + 1);
+  for (std::string& text : texts) result.push_back(text.data());
+  result.push_back(nullptr);
+  return result;
+}
+
+pid_t start(std::vector<std::string> arguments, const Environment& environment, const sigset_t& mask) {
+  std::vector<std::string> variables = merged_environment(environment);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+  posix_spawnattr_setsigmask(&attributes, &mask);
+  pid_t pid = 0;
+  const int fault = posix_spawnp(&pid, arguments.front().c_str(), &files, &attributes,
+                                 pointers(arguments).data(), pointers(variables).data());
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&files);
+  if (fault != 0) {
+    throw InputError(fmt::format("cannot start '{}': {} (scripts/install_deps.sh installs what is needed)",
+                                 arguments.front(), std::strerror(fault)));
+  }
+  return pid;
+}
+
+}  // namespace
+
+int run_process(const std::vector<std::string>& arguments, const Environment& environment) {
+  if (arguments.empty()) throw InternalError("run_process: no program");
+  const SignalForwarding forwarding;
+  const pid_t pid = start(arguments, environment, forwarding.former_mask());
+  child = pid;
+  forwarding.release();
+
+  int status = 0;
+  while (waitpid(pid, &status, 0) < 0) {
+    if (errno != EINTR) {
+      throw InternalError(fmt::format("waiting for '{}': {}", arguments.front(), std::strerror(errno)));
+    }
+  }
+  if (WIFEXITED(status)) return WEXITSTATUS(status);
+  const int signal = WTERMSIG(status);
+  if (signal == last_forwarded) return 128 + signal;
+  throw InternalError(
+      fmt::format("'{}' was ended by signal {} ({})", arguments.front(), signal, strsignal(signal)));
+}
+
+int physical_cores() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) {
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  }
+  std::set<std::string> cores;
+  int hardware_threads = 0;
+  for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+    if (!CPU_ISSET(cpu, &allowed)) continue;
+    ++hardware_threads;
+    std::ifstream file(fmt::format("/sys/devices/system/cpu/cpu{}/topology/thread_siblings_list", cpu));
+    std::string siblings;
+    if (std::getline(file, siblings)) cores.insert(siblings);
+  }
+  return std::max(1, cores.empty() ? hardware_threads : static_cast<int>(cores.size()));
+}
+
+}  // namespace whipple::app

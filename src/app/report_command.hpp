@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace whipple::app {
+
+/// `whipple report`: figures and tables of a run directory (scripts/report.py).
+void add_report_command(CLI::App& app);
+
+}  // namespace whipple::app
