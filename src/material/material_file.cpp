@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/material/material_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <system_error>
+
+#include "eos/catalogue.hpp"
+#include "src/base/error.hpp"
+#include "src/base/text.hpp"
+#include "src/input/document.hpp"
+#include "src/material/failure/catalogue.hpp"
+#include "src/material/strength/catalogue.hpp"
+
+namespace whipple {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The free texts that every table of a material file may carry.
+struct Remarks {
+  std::string source;
+  std::string note;
+};
+
+ParameterTable<Remarks> remarks_of_table() {
+  return {text("source", &Remarks::source, "where the constants come from").optional(),
+          text("note", &Remarks::note, "remark").optional()};
+}
+
+struct Head : Remarks {
+  std::string name;
+};
+
+ParameterTable<Head> head_of_file() {
+  return {text("name", &Head::name, "name of the material"),
+          text<Head>("source", &Head::source, "where the constants come from"),
+          text<Head>("note", &Head::note, "one line about the purpose or the limits").optional()};
+}
+
+template <class Entry>
+std::vector<std::string> names(std::span<const Entry> catalogue) {
+  std::vector<std::string> words;
+  for (const Entry& entry : catalogue) words.push_back(entry.name);
+  return words;
+}
+
+template <class Entry>
+const Entry* find(std::span<const Entry> catalogue, const std::string& name) {
+  const auto found = std::ranges::find(catalogue, name, &Entry::name);
+  return found == catalogue.end() ? nullptr : &*found;
+}
+
+/// Reads `model`, remarks and constants of one table; what builds the model, or nothing if `model` is at
+/// fault.
+template <class Entry>
+auto declare(std::span<const Entry> catalogue, input::Table table)
+    -> decltype(catalogue.front().declare({})) {
+  const std::string model = table.choice("model", names(catalogue));
+  Remarks remarks;
+  table.read(remarks_of_table(), remarks);
+  const Entry* entry = find(catalogue, model);
+  if (entry == nullptr) return {};
+  return entry->declare([&table](std::span<const BoundParameter> parameters) { table.read(parameters); });
+}
+
+/// Builds one part; a contradiction among its constants becomes an error with file and line.
+template <class Builder>
+auto build(const Builder& builder, const std::string& where, const std::string& table) {
+  try {
+    return builder();
+  } catch (const InputError& fault) {
+    throw InputError(fmt::format("{}: error: [{}] {}", where, table, fault.what()));
+  }
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+/// The path itself, or with the ending .toml; empty if neither is a file.
+fs::path with_ending(const fs::path& path) {
+  if (is_file(path)) return path;
+  fs::path longer = path;
+  longer += ".toml";
+  return is_file(longer) ? longer : fs::path();
+}
+
+std::map<std::string, fs::path> library_files() {
+  std::map<std::string, fs::path> files;
+  for (const fs::path& folder : library_folders()) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.path().extension() == ".toml") files.try_emplace(entry.path().stem().string(), entry.path());
+    }
+  }
+  return files;
+}
+
+template <class Entry>
+std::string describe_catalogue(std::span<const Entry> catalogue, const std::string& name, const char* kind) {
+  if (name.empty()) {
+    std::string all;
+    for (const Entry& entry : catalogue) all += fmt::format("  {:<18} {}\n", entry.name, entry.summary);
+    return all;
+  }
+  if (const Entry* entry = find(catalogue, name)) return entry->describe();
+  const std::vector<std::string> known = names(catalogue);
+  throw InputError(fmt::format("unknown {} '{}'{}; known: {}", kind, name, did_you_mean(name, known),
+                               fmt::join(known, ", ")));
+}
+
+}  // namespace
+
+std::vector<fs::path> library_folders() {
+  std::vector<fs::path> candidates;
+  if (const char* folder = std::getenv("WHIPPLE_MATERIALS")) candidates.emplace_back(folder);
+  std::error_code failed;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", failed);
+  if (!failed)
+    candidates.push_back(executable.parent_path().parent_path() / "share" / "whipple" / "materials");
+  candidates.emplace_back(WHIPPLE_MATERIAL_SOURCE_FOLDER);
+  std::erase_if(candidates, [](const fs::path& folder) {
+    std::error_code ignored;
+    return !fs::is_directory(folder, ignored);
+  });
+  return candidates;
+}
+
+fs::path find_material(const fs::path& path, const fs::path& beside) {
+  const fs::path local = with_ending(path.is_absolute() ? path : beside / path);
+  if (!local.empty()) return local;
+  if (path.has_parent_path()) {
+    throw InputError(fmt::format("material file '{}' does not exist", (beside / path).string()));
+  }
+  std::vector<std::string> searched = {beside.empty() ? std::string(".") : beside.string()};
+  for (const fs::path& folder : library_folders()) {
+    const fs::path file = with_ending(folder / path);
+    if (!file.empty()) return file;
+    searched.push_back(folder.string());
+  }
+  std::vector<std::string> known;
+  for (const auto& [stem, file] : library_files()) known.push_back(stem);
+  throw InputError(fmt::format("no material file '{}'{}; searched: {}; in the library: {}", path.string(),
+                               did_you_mean(path.stem().string(), known), fmt::join(searched, ", "),
+                               fmt::join(known, ", ")));
+}
+
+Material read_material(const fs::path& path, const fs::path& beside) {
+  const fs::path file = find_material(path, beside);
+  input::Document document = input::Document::from_file(file);
+  input::Table root = document.root();
+  Head head;
+  root.read(head_of_file(), head);
+  for (const char* free : {"provenance", "covariance", "defaults"}) root.accept(free);
+
+  decltype(declare(eos::catalogue(), root)) eos_builder;
+  decltype(declare(strength::catalogue(), root)) strength_builder;
+  std::vector<decltype(declare(failure::catalogue(), root))> failure_builders;
+  std::string eos_line, strength_line;
+  if (auto table = root.required_table("eos")) {
+    eos_builder = declare(eos::catalogue(), *table);
+    eos_line = table->where();
+  }
+  if (auto table = root.optional_table("strength")) {
+    strength_builder = declare(strength::catalogue(), *table);
+    strength_line = table->where();
+  }
+  for (input::Table& table : root.list("failure"))
+    failure_builders.push_back(declare(failure::catalogue(), table));
+  document.finish();
+
+  std::shared_ptr<const eos::EquationOfState> eos = build(eos_builder, eos_line, "eos");
+  std::shared_ptr<const strength::Strength> strength;
+  if (strength_builder) strength = build(strength_builder, strength_line, "strength");
+  std::vector<std::shared_ptr<const failure::Criterion>> failure;
+  for (const auto& builder : failure_builders) failure.push_back(builder());
+  try {
+    Material material = make_material(head.name, std::move(eos), std::move(strength), std::move(failure));
+    material.file = file;
+    material.source = head.source;
+    material.note = head.note;
+    return material;
+  } catch (const InputError& fault) {
+    throw InputError(fmt::format("{}: error: {}", file.string(), fault.what()));
+  }
+}
+
+std::vector<LibraryMaterial> library_materials() {
+  std::vector<LibraryMaterial> materials;
+  for (const auto& [stem, file] : library_files()) {
+    const Material material = read_material(file);
+    materials.push_back({material.name, file, material.note});
+  }
+  return materials;
+}
+
+std::string describe_strength(const std::string& name) {
+  return describe_catalogue(strength::catalogue(), name, "strength model");
+}
+
+std::string describe_failure(const std::string& name) {
+  return describe_catalogue(failure::catalogue(), name, "failure criterion");
+}
+
+}  // namespace whipple

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/material/strength/catalogue.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "src/material/strength/johnson_cook.hpp"
+#include "src/material/strength/none.hpp"
+#include "src/material/strength/von_mises.hpp"
+
+namespace whipple::strength {
+namespace {
+
+using Builder = std::function<std::unique_ptr<const Strength>()>;
+
+/// `Constants` has name, summary, theory and parameters(); `build` makes the model from them.
+template <class Constants, class Build>
+ModelEntry entry(Build build) {
+  const auto describe = [] {
+    return fmt::format("{}: {}\n{}\n{}", Constants::name, Constants::summary, Constants::theory,
+                       describe_table(Constants::parameters()));
+  };
+  const auto declare = [build](const ParameterReader& reader) -> Builder {
+    Constants constants;
+    const auto bound = whipple::bind(Constants::parameters(), constants);
+    reader(bound);
+    return [constants, build] { return build(constants); };
+  };
+  return {Constants::name, Constants::summary, describe, declare};
+}
+
+}  // namespace
+
+std::span<const ModelEntry> catalogue() {
+  static const std::array entries = {
+      entry<None>([](const None&) { return std::make_unique<const NoneModel>(); }),
+      entry<VonMises>([](const VonMises& c) { return std::make_unique<const VonMisesModel>(c); }),
+      entry<JohnsonCook>([](const JohnsonCook& c) { return std::make_unique<const JohnsonCookModel>(c); }),
+  };
+  return entries;
+}
+
+}  // namespace whipple::strength

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fmt/format.h>
+
+#include "src/base/error.hpp"
+#include "src/base/parameter_table.hpp"
+
+namespace whipple::strength {
+
+/// Shear stiffness as it is published: the shear modulus itself, or Young's modulus and Poisson's ratio with
+/// G = E / (2 (1 + nu)). The volumetric stiffness comes from the equation of state alone.
+struct ElasticConstants {
+  double shear_modulus = 0.0;   ///< Pa; 0: not given
+  double youngs_modulus = 0.0;  ///< Pa; 0: not given
+  double poisson_ratio = 0.0;
+
+  /// The rows of these constants in the table of a model that derives from this struct.
+  template <class Owner>
+  static ParameterTable<Owner> parameters() {
+    return {real<Owner>("shear_modulus", &Owner::shear_modulus, "Pa", range::non_negative(),
+                        "shear modulus G (0: from Young's modulus and Poisson's ratio)")
+                .optional(),
+            real<Owner>("youngs_modulus", &Owner::youngs_modulus, "Pa", range::non_negative(),
+                        "Young's modulus E (0: G is given)")
+                .optional(),
+            real<Owner>("poisson_ratio", &Owner::poisson_ratio, "", range::between(-0.99, 0.5),
+                        "Poisson's ratio nu")
+                .optional()};
+  }
+
+  /// @throws InputError unless exactly one of G and E is positive
+  [[nodiscard]] double stiffness() const {
+    if ((shear_modulus > 0.0) == (youngs_modulus > 0.0)) {
+      throw InputError(
+          "needs a positive 'shear_modulus', or a positive 'youngs_modulus' with 'poisson_ratio', not both");
+    }
+    return shear_modulus > 0.0 ? shear_modulus : youngs_modulus / (2.0 * (1.0 + poisson_ratio));
+  }
+};
+
+}  // namespace whipple::strength

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/parameter_table.hpp"
+#include "src/material/strength/elastic_constants.hpp"
+#include "src/material/strength/strength.hpp"
+
+namespace whipple::strength {
+
+/// Johnson-Cook flow stress
+///   Y = (A + B ep^n) (1 + C ln max(1, rate / rate_0)) (1 - T*^m),   T* = (T - T_r) / (T_m - T_r) in [0, 1].
+/// The rate factor is 1 below the reference rate: the logarithm would otherwise soften slow flow without
+/// bound. T_m is the melting temperature of the fit (0.1 MPa): under shock pressure the model loses its
+/// strength before the equation of state melts. Source: G. R. Johnson, W. H. Cook, Proc. 7th Int. Symp.
+/// Ballistics, The Hague (1983) 541-547.
+struct JohnsonCook : ElasticConstants {
+  double yield_stress = 0.0;           ///< A, Pa
+  double hardening_coefficient = 0.0;  ///< B, Pa
+  double hardening_exponent = 1.0;     ///< n
+  double rate_coefficient = 0.0;       ///< C
+  double reference_rate = 1.0;         ///< 1/s
+  double thermal_exponent = 1.0;       ///< m
+  double reference_temperature = 0.0;  ///< T_r, K
+  double melting_temperature = 0.0;    ///< T_m, K
+
+  static ParameterTable<JohnsonCook> parameters() {
+    using P = JohnsonCook;
+    ParameterTable<P> table = ElasticConstants::parameters<P>();
+    table.push_back(real("yield_stress", &P::yield_stress, "Pa", range::positive(), "A"));
+    table.push_back(
+        real("hardening_coefficient", &P::hardening_coefficient, "Pa", range::non_negative(), "B"));
+    table.push_back(real("hardening_exponent", &P::hardening_exponent, "", range::positive(), "n"));
+    table.push_back(real("rate_coefficient", &P::rate_coefficient, "", range::non_negative(), "C"));
+    table.push_back(real("reference_rate", &P::reference_rate, "1/s", range::positive(),
+                         "plastic strain rate at and below which the rate factor is 1")
+                        .optional());
+    table.push_back(real("thermal_exponent", &P::thermal_exponent, "", range::positive(), "m"));
+    table.push_back(real("reference_temperature", &P::reference_temperature, "K", range::positive(),
+                         "T_r: no softening at and below it"));
+    table.push_back(real("melting_temperature", &P::melting_temperature, "K", range::positive(),
+                         "T_m: no strength at and above it"));
+    return table;
+  }
+  static constexpr const char* name = "johnson_cook";
+  static constexpr const char* summary = "Johnson-Cook: hardening, strain rate and thermal softening";
+  static constexpr const char* theory =
+      "Y = (A + B ep^n) (1 + C ln max(1, rate/reference_rate)) (1 - T*^m), T* = (T - T_r)/(T_m - T_r) in [0, "
+      "1],\n"
+      "times the solid fraction; shear modulus G times the solid fraction. The yield condition holds at the "
+      "end of the\n"
+      "step with its hardening and rate.\n"
+      "Source: Johnson and Cook, Proc. 7th Int. Symp. Ballistics (1983) 541-547.";
+
+  /// 1 - T*^m; an equation of state without temperature (NaN) does not soften.
+  [[nodiscard]] double thermal_factor(double temperature) const {
+    const double homologous =
+        (temperature - reference_temperature) / (melting_temperature - reference_temperature);
+    if (!(homologous > 0.0)) return 1.0;
+    return homologous >= 1.0 ? 0.0 : 1.0 - std::pow(homologous, thermal_exponent);
+  }
+  [[nodiscard]] double flow_stress(double plastic_strain, double rate, double temperature) const {
+    const double hardening =
+        hardening_coefficient * std::pow(std::max(plastic_strain, 0.0), hardening_exponent);
+    const double rate_factor = 1.0 + rate_coefficient * std::log(std::max(1.0, rate / reference_rate));
+    return (yield_stress + hardening) * rate_factor * thermal_factor(temperature);
+  }
+
+  /// Root of f(x) = q - 3 G x - w Y(ep + x, x/dt, T). f falls monotonically from f(0) > 0 to
+  /// f((q - w Y(ep, 0, T)) / 3G) <= 0, which brackets it; Newton steps that leave the bracket (the slope of
+  /// ep^n is infinite at ep = 0, that of the rate factor jumps at the reference rate) are replaced by
+  /// bisection.
+  [[nodiscard]] double increment(double trial, double plastic_strain, double temperature, double modulus,
+                                 double solid, double dt) const {
+    const double softening = solid * thermal_factor(temperature);
+    if (trial <= softening * yield_stress) return 0.0;  // spares the power of most elastic points
+    const double strain_0 = std::max(plastic_strain, 0.0);
+    const double n = hardening_exponent;
+    const double yield = softening * (yield_stress + hardening_coefficient * std::pow(strain_0, n));
+    if (trial <= yield) return 0.0;
+    const double least_rate_strain = reference_rate * dt;
+    double lower = 0.0;
+    double upper = (trial - yield) / (3.0 * modulus);
+    double x = upper;
+    for (int iteration = 0; iteration < 40; ++iteration) {
+      const double strain = strain_0 + x;
+      const double power = std::pow(strain, n);
+      const bool fast = x > least_rate_strain;
+      const double rate_factor = fast ? 1.0 + rate_coefficient * std::log(x / least_rate_strain) : 1.0;
+      const double hardening = yield_stress + hardening_coefficient * power;
+      const double residual = trial - 3.0 * modulus * x - softening * hardening * rate_factor;
+      if (std::abs(residual) <= 1e-12 * trial) break;
+      (residual > 0.0 ? lower : upper) = x;
+      const double slope =
+          3.0 * modulus + softening * (hardening_coefficient * n * power / strain * rate_factor +
+                                       (fast ? hardening * rate_coefficient / x : 0.0));
+      const double newton = x + residual / slope;
+      x = newton > lower && newton < upper ? newton : 0.5 * (lower + upper);
+      if (upper - lower <= 1e-15 * upper) break;
+    }
+    return x;
+  }
+};
+
+class JohnsonCookModel final : public Strength {
+ public:
+  /// @throws InputError if the constants contradict one another
+  explicit JohnsonCookModel(const JohnsonCook& constants)
+      : constants_(constants), modulus_(constants.stiffness()) {
+    if (constants.melting_temperature <= constants.reference_temperature) {
+      throw InputError("'melting_temperature' must be above 'reference_temperature'");
+    }
+  }
+
+  [[nodiscard]] std::string_view model() const override { return JohnsonCook::name; }
+  void shear_modulus(const State&, std::span<double> modulus) const override {
+    std::ranges::fill(modulus, modulus_);
+  }
+  void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
+                         std::span<const double> solid_fraction, double dt,
+                         std::span<double> increment) const override {
+    for (std::size_t i = 0; i < trial.size(); ++i) {
+      increment[i] = constants_.increment(trial[i], state.plastic_strain[i], state.temperature[i], modulus[i],
+                                          solid_fraction[i], dt);
+    }
+  }
+  [[nodiscard]] double flow_stress(double plastic_strain, double rate, double temperature) const override {
+    return constants_.flow_stress(plastic_strain, rate, temperature);
+  }
+  [[nodiscard]] std::string constants() const override {
+    JohnsonCook copy = constants_;
+    const auto bound = whipple::bind(JohnsonCook::parameters(), copy);
+    return "model = \"johnson_cook\"\n" + to_toml(bound);
+  }
+
+ private:
+  JohnsonCook constants_;
+  double modulus_;
+};
+
+}  // namespace whipple::strength
