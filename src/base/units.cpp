@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
+#include <cctype>
 #include <charconv>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -33,6 +35,11 @@ class UnitSystem {
     ut_unmap_symbol_to_unit(system_, "eV", UT_ASCII);
     const UnitPtr ev(ut_scale(electron_volt, joule.get()), &ut_free);
     ut_map_symbol_to_unit("eV", UT_ASCII, ev.get());
+    // Otherwise "cc" is a hundredth of the speed of light.
+    const UnitPtr cubic_centimetre = parse("cm^3");
+    ut_map_symbol_to_unit("cc", UT_ASCII, cubic_centimetre.get());
+    const UnitPtr degree = parse("degree");
+    ut_map_symbol_to_unit("deg", UT_ASCII, degree.get());
   }
   UnitSystem(const UnitSystem&) = delete;  // owns the database
   UnitSystem& operator=(const UnitSystem&) = delete;
@@ -51,6 +58,22 @@ UnitPtr parse_unit(const UnitSystem& system, std::string_view text) {
   UnitPtr unit = system.parse(std::string(text));
   if (!unit) throw InputError(fmt::format("unknown unit '{}'", text));
   return unit;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// A number inside a unit that is no exponent: UDUNITS2 multiplies by it, so that "3 2 m" would be six
+/// metres. A leading one stays allowed, as in "1/Pa".
+bool has_factor(std::string_view unit) {
+  for (std::size_t i = unit.starts_with("1/") ? 1 : 0; i < unit.size(); ++i) {
+    if (!is_digit(unit[i])) continue;
+    const char before = i == 0 ? ' ' : unit[i - 1];
+    const bool exponent = std::isalpha(static_cast<unsigned char>(before)) != 0 || is_digit(before) ||
+                          std::string_view(")^-+").find(before) != std::string_view::npos;
+    const bool decimals = before == '.' && i >= 2 && is_digit(unit[i - 2]);
+    if (!exponent && !decimals) return true;
+  }
+  return false;
 }
 
 std::mutex& database_mutex() {
@@ -86,14 +109,17 @@ double parse_quantity(std::string_view text, std::string_view si_unit) {
   if (begin != end && *begin == '+') ++begin;
   double value = 0.0;
   const auto [rest, status] = std::from_chars(begin, end, value);
-  if (status != std::errc()) {
-    throw InputError(fmt::format("'{}' is not a number with a unit: expected for example \"1.5 {}\"", text,
-                                 si_unit.empty() ? "" : si_unit));
+  if (status != std::errc() || !std::isfinite(value)) {
+    throw InputError(si_unit.empty()
+                         ? fmt::format("'{}' is not a number: expected for example \"1.5\"", text)
+                         : fmt::format("'{}' is not a number with a unit: expected for example \"1.5 {}\"",
+                                       text, si_unit));
   }
   std::string_view unit(rest, static_cast<std::size_t>(end - rest));
   while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
   while (!unit.empty() && unit.back() == ' ') unit.remove_suffix(1);
   if (unit.empty()) return value;
+  if (has_factor(unit)) throw InputError(fmt::format("'{}' is not a unit: it holds a second number", unit));
   return convert(value, unit, si_unit);
 }
 
