@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace whipple::md {
+
+/// The three functions of an embedded-atom potential of one element (Daw and Baskes, Phys. Rev. B 29 (1984)
+/// 6443): E = sum_i F(rho_i) + 1/2 sum_ij phi(r_ij), rho_i = sum_j f(r_ij). Units of LAMMPS: eV, A, g/mol;
+/// the density has the file's own unit. Lattice sums of a static crystal are exact up to the interpolation of
+/// the tables.
+struct EamTables {
+  std::string element;
+  double mass = 0.0;                     ///< g/mol
+  double header_lattice_constant = 0.0;  ///< A, as the file says; some files leave it 0
+  std::string structure;                 ///< "fcc" or "bcc"
+  double density_step = 0.0;
+  std::vector<double> embedding;          ///< F at i * density_step, eV
+  double radius_step = 0.0;               ///< A
+  std::vector<double> density;            ///< f at i * radius_step
+  std::vector<double> radius_times_pair;  ///< r phi(r) at i * radius_step, eV A
+  double cutoff = 0.0;                    ///< A
+
+  /// Largest tabulated density. Beyond it LAMMPS continues F by a straight line without a word.
+  [[nodiscard]] double density_end() const;
+  /// rho at an atom of the static crystal with lattice constant a (A).
+  [[nodiscard]] double crystal_density(double a) const;
+  /// Energy per atom (eV) of the static crystal with lattice constant a (A).
+  [[nodiscard]] double crystal_energy(double a) const;
+  /// Lattice constant (A) of least energy, near that of the header (between 2 and 8 A if it gives none).
+  /// @throws InputError if there is no minimum inside.
+  [[nodiscard]] double static_lattice_constant() const;
+  /// V/V0 of the static crystal, V0 at its least energy, at which its density reaches `density`; 0 if it does
+  /// not down to V/V0 = 0.1.
+  [[nodiscard]] double volume_ratio_at(double density) const;
+  [[nodiscard]] int atoms_per_cell() const { return structure == "fcc" ? 4 : 2; }
+};
+
+}  // namespace whipple::md

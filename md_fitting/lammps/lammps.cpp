@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/lammps/lammps.hpp"
+
+#define LAMMPS_LIB_MPI  // declares lammps_open with a communicator
+#include <lammps/library.h>
+
+#include <array>
+#include <cstdlib>
+
+#include "src/base/error.hpp"
+
+namespace whipple::md {
+
+Lammps::Lammps(MPI_Comm communicator) {
+  // One thread per rank: LAMMPS links OpenMP, and idle threads of several ranks would fight for the cores.
+  setenv("OMP_NUM_THREADS", "1", 1);
+  int initialized = 0;
+  MPI_Initialized(&initialized);
+  if (initialized == 0) throw InternalError("a LAMMPS instance needs MPI to be initialised");
+  MPI_Comm_size(communicator, &ranks_);
+  std::array<std::string, 7> words = {"lammps", "-log", "none", "-screen", "none", "-nocite", ""};
+  std::array<char*, 6> arguments{};
+  for (std::size_t i = 0; i < arguments.size(); ++i) arguments[i] = words[i].data();
+  const ErrorGuard guard(ranks_);
+  handle_ = lammps_open(static_cast<int>(arguments.size()), arguments.data(), communicator, nullptr);
+  if (handle_ == nullptr) throw LammpsError("LAMMPS could not be started");
+}
+
+Lammps::Lammps(Lammps&& other) noexcept
+    : handle_(std::exchange(other.handle_, nullptr)),
+      ranks_(other.ranks_),
+      transcript_(std::move(other.transcript_)) {}
+
+Lammps::~Lammps() {
+  if (handle_ == nullptr) return;
+  const ErrorGuard guard(ranks_);
+  try {
+    lammps_close(handle_);
+  } catch (const LammpsError&) {
+    // The instance is being thrown away; what it says on the way out changes no result.
+  }
+}
+
+void Lammps::command(const std::string& line) {
+  transcript_ += line + '\n';
+  const ErrorGuard guard(ranks_);
+  try {
+    lammps_command(handle_, line.c_str());
+  } catch (const LammpsError& error) {
+    throw LammpsError(fmt::format("{}; command: {}", error.what(), line));
+  }
+}
+
+double Lammps::thermo(const std::string& keyword) {
+  const ErrorGuard guard(ranks_);
+  return lammps_get_thermo(handle_, keyword.c_str());
+}
+
+double Lammps::variable(const std::string& name) {
+  const ErrorGuard guard(ranks_);
+  void* const value = lammps_extract_variable(handle_, name.c_str(), nullptr);
+  if (value == nullptr) throw LammpsError(fmt::format("LAMMPS has no variable '{}'", name));
+  const double number = *static_cast<double*>(value);
+  lammps_free(value);  // LAMMPS allocates every number that it returns through a pointer
+  return number;
+}
+
+std::vector<std::vector<double>> Lammps::series(const std::string& fix, int columns) {
+  const ErrorGuard guard(ranks_);
+  const auto entry = [&](int type, int row, int column) {
+    void* const value = lammps_extract_fix(handle_, fix.c_str(), LMP_STYLE_GLOBAL, type, row, column);
+    if (value == nullptr) throw LammpsError(fmt::format("LAMMPS has no data of a fix '{}'", fix));
+    return value;
+  };
+  int* const rows = static_cast<int*>(entry(columns == 1 ? LMP_SIZE_VECTOR : LMP_SIZE_ROWS, 0, 0));
+  const int count = *rows;
+  lammps_free(rows);
+  std::vector<std::vector<double>> table(static_cast<std::size_t>(columns));
+  for (int column = 0; column < columns; ++column) {
+    for (int row = 0; row < count; ++row) {
+      double* const value =
+          static_cast<double*>(entry(columns == 1 ? LMP_TYPE_VECTOR : LMP_TYPE_ARRAY, row, column));
+      table[static_cast<std::size_t>(column)].push_back(*value);
+      lammps_free(value);
+    }
+  }
+  return table;
+}
+
+bool Lammps::has_style(const std::string& category, const std::string& name) const {
+  return lammps_has_style(handle_, category.c_str(), name.c_str()) == 1;
+}
+
+double Lammps::atoms() const { return lammps_get_natoms(handle_); }
+
+int Lammps::version() const { return lammps_version(handle_); }
+
+int lammps_release() {
+  static const int release = Lammps(MPI_COMM_SELF).version();
+  return release;
+}
+
+}  // namespace whipple::md

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "md_fitting/lammps/error_guard.hpp"
+
+namespace whipple::md {
+
+/// One LAMMPS instance through the C library interface; quiet, without files of its own. Every error arrives
+/// as LammpsError with the command that caused it; after an error inside a run the instance can only be
+/// destroyed. Numbers are in LAMMPS' units (here always "metal": A, ps, eV, bar, g/mol).
+class Lammps {
+ public:
+  /// Opens an instance on the ranks of a communicator. Collective over it.
+  explicit Lammps(MPI_Comm communicator = MPI_COMM_SELF);
+  Lammps(Lammps&& other) noexcept;
+  Lammps& operator=(Lammps&&) = delete;
+  ~Lammps();
+
+  /// Runs one input line. Collective.
+  void command(const std::string& line);
+  template <class... Args>
+  void command(fmt::format_string<Args...> format, Args&&... args) {
+    command(std::string(fmt::format(format, std::forward<Args>(args)...)));
+  }
+
+  /// A thermodynamic keyword ("pe", "vol", "temp") after a run. Collective.
+  double thermo(const std::string& keyword);
+  /// The present value of an equal-style variable. Collective.
+  double variable(const std::string& name);
+  /// The columns collected by a `fix vector`, column by column.
+  /// @throws LammpsError if there is no such fix.
+  std::vector<std::vector<double>> series(const std::string& fix, int columns);
+
+  /// Whether LAMMPS was built with a style, e.g. has_style("pair", "eam/alloy").
+  [[nodiscard]] bool has_style(const std::string& category, const std::string& name) const;
+  [[nodiscard]] double atoms() const;
+  /// Release as a date, e.g. 20210929.
+  [[nodiscard]] int version() const;
+  /// Every command so far, one per line: an input file for LAMMPS itself that repeats the work.
+  [[nodiscard]] const std::string& transcript() const { return transcript_; }
+
+ private:
+  void* handle_ = nullptr;
+  int ranks_ = 1;
+  std::string transcript_;
+};
+
+/// LAMMPS' release as a date, without an instance at hand.
+int lammps_release();
+
+}  // namespace whipple::md

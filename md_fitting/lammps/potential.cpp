@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/lammps/potential.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "md_fitting/data_set/hash.hpp"
+#include "md_fitting/lammps/eam_files.hpp"
+#include "md_fitting/lammps/units.hpp"
+#include "src/base/error.hpp"
+#include "src/base/text.hpp"
+
+namespace whipple::md {
+namespace {
+
+// Cu_mishin1.eam.alloy, the file that LAMMPS ships for Mishin's copper, ends at 1.64 times the equilibrium
+// density, which the static crystal reaches at V/V0 = 0.72 (102 GPa). The copper block of the
+// angular-dependent Al-Cu potential is the same function with a table that goes on to 22 times that density;
+// its angular part is zero for copper. Beyond 5.5076 A, the cutoff of the publication, its functions are
+// below 1e-12: the larger cutoff of the file only costs time.
+constexpr std::array known = {
+    KnownPotential{
+        "copper_mishin_2001", "Cu", "AlCu.adp", 5.5076,
+        "Mishin, Mehl, Papaconstantopoulos, Voter, Kress, Phys. Rev. B 63 (2001) 224106; tables from the "
+        "Cu block of Apostol, Mishin, Phys. Rev. B 83 (2011) 054116"},
+    KnownPotential{"copper_universal_3", "Cu", "Cu_u3.eam", 0.0,
+                   "Foiles, Baskes, Daw, Phys. Rev. B 33 (1986) 7983"},
+};
+
+/// Files of a folder that hold the element, for error messages.
+std::vector<std::string> files_for(const std::string& element, const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code fault;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, fault)) {
+    try {
+      const std::vector<std::string> elements = elements_in(entry.path());
+      if (std::find(elements.begin(), elements.end(), element) != elements.end()) {
+        names.push_back(entry.path().filename().string());
+      }
+    } catch (const InputError&) {
+      // not a potential file of a known format
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::filesystem::path find_file(const std::string& name, const std::string& element,
+                                const std::filesystem::path& folder) {
+  const std::filesystem::path path(name);
+  std::vector<std::filesystem::path> places;
+  if (path.is_absolute()) {
+    places = {path};
+  } else {
+    places = {folder / path, potential_folder() / path};
+  }
+  for (const std::filesystem::path& place : places) {
+    if (std::filesystem::is_regular_file(place)) return place;
+  }
+  std::vector<std::string> choices;
+  for (const KnownPotential& potential : known) {
+    if (element == potential.element) choices.emplace_back(potential.name);
+  }
+  for (std::string& file : files_for(element, potential_folder())) choices.push_back(std::move(file));
+  throw InputError(fmt::format("there is no potential '{}'{}; for {} there are: {} (files in {})", name,
+                               did_you_mean(name, choices), element, fmt::join(choices, ", "),
+                               potential_folder().string()));
+}
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Shortens the reach of all functions to the cutoff; what is cut off must be nothing.
+void shorten(EamTables& tables, double cutoff, const std::string& name) {
+  for (std::size_t i = 0; i < tables.density.size(); ++i) {
+    const double r = tables.radius_step * static_cast<double>(i);
+    if (r >= cutoff && (std::abs(tables.density[i]) > 1e-9 || std::abs(tables.radius_times_pair[i]) > 1e-9)) {
+      throw InputError(
+          fmt::format("potential {}: its functions do not vanish beyond {} A (at {} A: density {}, "
+                      "r phi {} eV A)",
+                      name, cutoff, r, tables.density[i], tables.radius_times_pair[i]));
+    }
+  }
+  tables.cutoff = cutoff;
+}
+
+}  // namespace
+
+/// A file in a folder of its own below the system's temporary folder, removed with the last user.
+class Potential::TemporaryFile {
+ public:
+  TemporaryFile(const std::string& name, const std::string& content) {
+    std::string folder = (std::filesystem::temp_directory_path() / "whipple-md-XXXXXX").string();
+    if (mkdtemp(folder.data()) == nullptr) throw InputError("cannot make a temporary folder " + folder);
+    folder_ = folder;
+    path_ = folder_ / name;
+    std::ofstream file(path_);
+    file << content;
+    if (!file.flush()) throw InputError("cannot write " + path_.string());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path path_;
+};
+
+std::span<const KnownPotential> known_potentials() { return known; }
+
+std::filesystem::path potential_folder() {
+  const char* chosen = std::getenv("LAMMPS_POTENTIALS");
+  return chosen != nullptr && *chosen != '\0' ? chosen : WHIPPLE_LAMMPS_POTENTIALS;
+}
+
+Potential Potential::load(const std::string& name, const std::string& element,
+                          const std::filesystem::path& folder) {
+  Potential potential;
+  potential.name_ = name;
+  const auto entry =
+      std::find_if(known.begin(), known.end(), [&](const auto& one) { return name == one.name; });
+  const bool by_name = entry != known.end();
+  if (by_name && element != entry->element) {
+    throw InputError(fmt::format("potential {} is for {}, not for {}", name, entry->element, element));
+  }
+  potential.file_ = find_file(by_name ? entry->file : name, element, folder);
+  potential.tables_ = read_eam(potential.file_, element);
+  potential.source_ = by_name ? entry->source : "the file " + potential.file_.filename().string();
+  const EamFormat format = eam_format(potential.file_);
+  if (format == EamFormat::angular_dependent) {
+    if (by_name && entry->cutoff > 0.0) shorten(potential.tables_, entry->cutoff, name);
+    const std::string text =
+        to_setfl(potential.tables_, fmt::format("{} out of {}", element, potential.file_.string()));
+    potential.style_ = "eam/alloy";
+    // The hash is that of the tables only: the path in the comment is not part of the physics.
+    potential.hash_ = sha256(to_setfl(potential.tables_, ""));
+    potential.written_ = std::make_shared<TemporaryFile>(element + ".eam.alloy", text);
+  } else {
+    potential.style_ = format == EamFormat::funcfl  ? "eam"
+                       : format == EamFormat::setfl ? "eam/alloy"
+                                                    : "eam/fs";
+    potential.hash_ = sha256(content_of(potential.file_));
+  }
+  potential.lattice_constant_ = potential.tables_.static_lattice_constant();
+  const double end = potential.tables_.density_end();
+  potential.table_end_ = potential.tables_.volume_ratio_at(end);
+  potential.least_volume_ratio_ = potential.tables_.volume_ratio_at(end / (1.0 + density_margin));
+  return potential;
+}
+
+void Potential::apply(Lammps& lammps) const {
+  if (!lammps.has_style("pair", style_)) {
+    throw InputError(
+        fmt::format("LAMMPS was built without the pair style {}, which {} needs", style_, name_));
+  }
+  const std::string path = (written_ ? written_->path() : file_).string();
+  lammps.command("pair_style {}", style_);
+  if (style_ == "eam") {
+    lammps.command("pair_coeff * * \"{}\"", path);
+  } else {
+    lammps.command("pair_coeff * * \"{}\" {}", path, element());
+  }
+  // pair_coeff sets the mass that the file gives; set again to the value that all conversions use.
+  lammps.command("mass 1 {:.17g}", mass());
+}
+
+void Potential::require_range(double volume_ratio) const {
+  if (volume_ratio >= least_volume_ratio_) return;
+  throw InputError(
+      fmt::format("potential {}: density table ends at V/V0 = {:.3f} (static {} crystal of {}); V/V0 = "
+                  "{:.3f} is refused, the least "
+                  "that leaves {:.0f} % of density for thermal motion is {:.3f}",
+                  name_, table_end_, tables_.structure, file_.filename().string(), volume_ratio,
+                  100 * density_margin, least_volume_ratio_));
+}
+
+double Potential::static_volume() const {
+  const double a = lattice_constant_;
+  return metal::specific_volume(a * a * a / tables_.atoms_per_cell(), mass());
+}
+
+}  // namespace whipple::md

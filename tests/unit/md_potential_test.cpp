@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Potential files are understood before LAMMPS reads them: lattice sums, the end of the density table, error
+// texts.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "md_fitting/lammps/eam_files.hpp"
+#include "md_fitting/lammps/potential.hpp"
+#include "src/base/error.hpp"
+#include "tests/unit/md_temporary_folder.hpp"
+
+namespace whipple::md {
+namespace {
+
+template <class Call>
+std::string input_error(const Call& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no InputError";
+}
+
+// Mishin et al. (2001), table III: a0 = 3.615 A, E0 = -3.54 eV. Foiles, Baskes, Daw (1986), table I: 3.615
+// A, 3.54 eV.
+TEST(Potential, LatticeSumsGiveThePublishedCopper) {
+  for (const char* name : {"copper_mishin_2001", "copper_universal_3"}) {
+    const Potential potential = Potential::load(name, "Cu");
+    EXPECT_NEAR(potential.lattice_constant(), 3.615, 5e-4) << name;
+    EXPECT_NEAR(potential.tables().crystal_energy(potential.lattice_constant()), -3.54, 5e-3) << name;
+    EXPECT_EQ(potential.mass(), 63.55) << name;
+    EXPECT_NEAR(potential.static_volume(), 1.119e-4, 1e-7) << name;
+  }
+}
+
+// The short table of the file that LAMMPS ships and the full table are the same function where both exist.
+TEST(Potential, FullTableOfMishinsCopperContinuesTheShortOne) {
+  const EamTables full = Potential::load("copper_mishin_2001", "Cu").tables();
+  const EamTables small = Potential::load("Cu_mishin1.eam.alloy", "Cu").tables();
+  for (const double ratio : {0.75, 0.85, 0.95, 1.0, 1.1, 1.3}) {
+    const double a = 3.615 * std::cbrt(ratio);
+    EXPECT_NEAR(full.crystal_energy(a), small.crystal_energy(a), 2e-4) << "V/V0 = " << ratio;
+  }
+  EXPECT_GT(full.density_end() / full.crystal_density(3.615), 20.0);
+}
+
+TEST(Potential, KnowsWhereTheDensityTableEnds) {
+  const Potential potential = Potential::load("Cu_mishin1.eam.alloy", "Cu");
+  EXPECT_NEAR(potential.tables().density_end() / potential.tables().crystal_density(3.615), 1.64, 0.01);
+  EXPECT_NEAR(potential.table_end(), 0.719, 0.002);
+  EXPECT_GT(potential.least_volume_ratio(), potential.table_end());
+  EXPECT_NO_THROW(potential.require_range(0.80));
+  const std::string message = input_error([&] { potential.require_range(0.65); });
+  EXPECT_NE(message.find("potential Cu_mishin1.eam.alloy: density table ends at V/V0 = 0.719"),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("V/V0 = 0.650 is refused"), std::string::npos) << message;
+  for (const char* name : {"copper_mishin_2001", "copper_universal_3"}) {
+    EXPECT_NO_THROW(Potential::load(name, "Cu").require_range(0.5)) << name;
+  }
+}
+
+TEST(Potential, ListsWhatIsThereWhenTheNameIsWrong) {
+  const std::string missing = input_error([] { Potential::load("Cu_mishin.eam.alloy", "Cu"); });
+  for (const char* part :
+       {"there is no potential 'Cu_mishin.eam.alloy'", "did you mean \"Cu_mishin1.eam.alloy\"",
+        "copper_mishin_2001", "Cu_u3.eam", "AlCu.adp"}) {
+    EXPECT_NE(missing.find(part), std::string::npos) << part << "\n" << missing;
+  }
+  const std::string element = input_error([] { Potential::load("AlCu.adp", "Pb"); });
+  EXPECT_NE(element.find("has no element Pb; it has Al, Cu"), std::string::npos) << element;
+  const std::string single = input_error([] { Potential::load("Cu_u3.eam", "Al"); });
+  EXPECT_NE(single.find("is for Cu, not for Al"), std::string::npos) << single;
+  // The aluminium block of the same file has angular parts: it is not an embedded-atom potential.
+  const std::string angular = input_error([] { Potential::load("Ni.adp", "Ni"); });
+  EXPECT_NE(angular.find("is not zero"), std::string::npos) << angular;
+}
+
+TEST(Potential, ReportsDamagedFiles) {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder.path() / name) << text;
+    return input_error([&] { Potential::load(name, "Cu", folder.path()); });
+  };
+  EXPECT_NE(write("short.eam.alloy", "a\nb\nc\n1 Cu\n10 0.1 10 0.1 1.0\n29 63.55 3.615 fcc\n1 2 3\n")
+                .find("too few numbers for an embedding function"),
+            std::string::npos);
+  EXPECT_NE(write("sizes.eam.alloy", "a\nb\nc\n1 Cu\n-5 0.1 10 0.1 1.0\n").find("table sizes"),
+            std::string::npos);
+  EXPECT_NE(write("empty.eam", "").find("ends too early"), std::string::npos);
+  EXPECT_NE(write("potential.meam", "x").find("unknown ending"), std::string::npos);
+}
+
+// What is written reads back to the same numbers: the one-element file for LAMMPS loses no digit.
+TEST(EamFiles, SetflRoundTripKeepsAllDigits) {
+  const TemporaryFolder folder;
+  const EamTables tables = Potential::load("copper_mishin_2001", "Cu").tables();
+  std::ofstream(folder.path() / "copy.eam.alloy") << to_setfl(tables, "comment");
+  const EamTables copy = read_eam(folder.path() / "copy.eam.alloy", "Cu");
+  EXPECT_EQ(copy.embedding, tables.embedding);
+  EXPECT_EQ(copy.density, tables.density);
+  EXPECT_EQ(copy.radius_times_pair, tables.radius_times_pair);
+  EXPECT_EQ(copy.cutoff, tables.cutoff);
+  EXPECT_EQ(copy.density_step, tables.density_step);
+  EXPECT_EQ(copy.radius_step, tables.radius_step);
+}
+
+}  // namespace
+}  // namespace whipple::md
