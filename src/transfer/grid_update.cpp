@@ -92,41 +92,41 @@ GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& re
 
   fold(grid, true);
   const double rate = relaxation.kappa * dt / grid.geometry().cell_size;
-  const Energies energy = parallel::sum<Energies>(nodes.size(), [&](std::size_t i) {
-    Node& node = nodes[i];
-    const double mass = node.first[0];
-    if (mass < no_mass || grid.is_image(i)) {
-      node = {broadcast(0.0), broadcast(0.0)};
-      return Energies{};
+  std::vector<Energies> of_slot(grid.slots());
+  parallel::for_each(grid.slots(), [&](std::size_t slot) {
+    const std::size_t first = slot * grid::nodes_per_block;
+    for (std::size_t i = first; i < first + grid::nodes_per_block; ++i) {
+      Node& node = nodes[i];
+      const double mass = node.first[0];
+      if (mass < no_mass || grid.is_image(i)) {
+        node = {broadcast(0.0), broadcast(0.0)};
+        continue;
+      }
+      const double beta = relaxation.fixed >= 0.0 ? relaxation.fixed : -std::expm1(-rate * node.second[0] / mass);
+      const Lanes velocity = node.first / mass;
+      const Lanes increment = node.second * (dt / mass);
+      node.first = Lanes{velocity[1], velocity[2], velocity[3], beta};
+      node.second = Lanes{increment[1], increment[2], increment[3], mass};
+      const Lanes advanced = node.first + node.second;
+      of_slot[slot] += Energies{0.5 * mass * sum3(node.first * node.first), 0.5 * mass * sum3(advanced * advanced)};
     }
-    const double beta =
-        relaxation.fixed >= 0.0 ? relaxation.fixed : -std::expm1(-rate * node.second[0] / mass);
-    const Lanes velocity = node.first / mass;
-    const Lanes increment = node.second * (dt / mass);
-    node.first = Lanes{velocity[1], velocity[2], velocity[3], beta};
-    node.second = Lanes{increment[1], increment[2], increment[3], mass};
-    const Lanes advanced = node.first + node.second;
-    return Energies{0.5 * mass * sum3(node.first * node.first), 0.5 * mass * sum3(advanced * advanced)};
   });
   copy_back(grid);
 
+  // Sums run in the order of the blocks, where empty blocks add zero: the same bits whatever blocks happen to be active.
+  Energies energy;
+  for (const Energies& part : of_slot) energy += part;
   // Momentum that the planes gave to the real particles: equation 3.6 of docs/theory/mpm.md.
-  struct Impulse {
-    Lanes value = broadcast(0.0);
-    Impulse& operator+=(const Impulse& other) {
-      value += other.value;
-      return *this;
-    }
-  };
-  const Impulse impulse = parallel::sum<Impulse>(at_planes_.size(), [&](std::size_t i) {
+  Lanes impulse = broadcast(0.0);
+  for (std::size_t i = 0; i < at_planes_.size(); ++i) {
     const Node& real = before_[i];
     const Node& node = nodes[at_planes_[i]];
     const double mass = real.first[0];
     const Lanes momentum = {real.first[1], real.first[2], real.first[3], 0.0};
     const Lanes force = {real.second[1], real.second[2], real.second[3], 0.0};
-    return Impulse{mass * node.second - dt * force - node.first[3] * (momentum - mass * node.first)};
-  });
-  return {energy.before, energy.after, Vector3(impulse.value[0], impulse.value[1], impulse.value[2])};
+    impulse += mass * node.second - dt * force - node.first[3] * (momentum - mass * node.first);
+  }
+  return {energy.before, energy.after, Vector3(impulse[0], impulse[1], impulse[2])};
 }
 
 void GridUpdate::velocity_from_momentum(BlockGrid& grid) {

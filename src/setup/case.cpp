@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/setup/case.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "src/base/error.hpp"
+#include "src/base/text.hpp"
+#include "src/io/output_fields.hpp"
+#include "src/material/material_file.hpp"
+#include "src/setup/seeding.hpp"
+
+namespace whipple::setup {
+
+ParameterTable<Domain> Domain::parameters() {
+  return {vector("lower", &Domain::lower, "m", range::any(), "lower corner of the domain"),
+          vector("upper", &Domain::upper, "m", range::any(),
+                 "upper corner; moved outwards to whole cells at outflow faces"),
+          real("cell_size", &Domain::cell_size, "m", range::positive(), "edge of the cells of the background grid")};
+}
+
+ParameterTable<Domain> Domain::boundary_parameters() {
+  const auto face = [](const char* name, std::string Domain::* member) {
+    return choice(name, member, {"outflow", "symmetry", "no_slip"},
+                  "matter leaves and is counted | frictionless mirror plane | wall that matter sticks to")
+        .optional();
+  };
+  return {face("x_lower", &Domain::x_lower), face("x_upper", &Domain::x_upper), face("y_lower", &Domain::y_lower),
+          face("y_upper", &Domain::y_upper), face("z_lower", &Domain::z_lower), face("z_upper", &Domain::z_upper)};
+}
+
+ParameterTable<TimeControl> TimeControl::parameters() {
+  return {real("end", &TimeControl::end, "s", range::positive(), "time at which the run ends"),
+          real("courant", &TimeControl::courant, "", {.lower = 0.0, .upper = 1.0, .lower_open = true},
+               "time step as a share of cell_size / (sound speed + particle speed)")
+              .optional(),
+          real("maximum_growth", &TimeControl::maximum_growth, "", {.lower = 1.0, .lower_open = true},
+               "largest ratio of a time step to the one before")
+              .optional(),
+          real("acceleration_limit", &TimeControl::acceleration_limit, "", range::positive(),
+               "largest acceleration * dt^2 as a share of the cell size")
+              .optional(),
+          choice("scheme", &TimeControl::scheme, {"symplectic", "musl"},
+                 "symplectic: exact energy (default); musl: modified update stress last, for comparison with other codes")
+              .optional()};
+}
+
+ParameterTable<TransferControl> TransferControl::parameters() {
+  return {choice("shape_function", &TransferControl::shape_function, {"quadratic_bspline", "linear"},
+                 "functions that carry fields between particles and nodes")
+              .optional(),
+          choice("particle_update", &TransferControl::particle_update, {"relaxed_affine", "apic", "flip"},
+                 "velocity transfer to the particles; musl takes flip whatever stands here by default")
+              .optional(),
+          real("kappa", &TransferControl::kappa, "", range::non_negative(),
+               "relaxation of the affine field: beta = 1 - exp(-kappa c dt / dx)")
+              .optional()};
+}
+
+ParameterTable<ArtificialViscosity> ArtificialViscosity::parameters() {
+  return {real("linear", &ArtificialViscosity::linear, "", range::non_negative(),
+               "c1 of q = rho l |D| (c2 l |D| + c1 c), in compression")
+              .optional(),
+          real("quadratic", &ArtificialViscosity::quadratic, "", range::non_negative(), "c2 of the same").optional()};
+}
+
+ParameterTable<OutputControl> OutputControl::parameters() {
+  return {real("snapshot_every", &OutputControl::snapshot_every, "s", range::non_negative(),
+               "simulated time between snapshots for ParaView; 0: first and last only")
+              .optional(),
+          real("checkpoint_every", &OutputControl::checkpoint_every, "s", range::non_negative(),
+               "wall-clock time between checkpoints; 0: at the end and on signals only")
+              .optional(),
+          integer("history_every", &OutputControl::history_every, range::between(1, 1e9),
+                  "steps between rows of history.csv")
+              .optional(),
+          real("maximum_energy_error", &OutputControl::maximum_energy_error, "", range::positive(),
+               "the run stops when the relative error of the total energy exceeds this")
+              .optional(),
+          text_list("fields", &OutputControl::fields, io::output_field_names(), "quantities in the snapshots").optional()};
+}
+
+ParameterTable<Discretization> Discretization::parameters() {
+  return {choice("method", &Discretization::method, {"particles"}, "how the body is represented").optional(),
+          integer("per_cell", &Discretization::per_cell, range::between(1, 1000),
+                  "particles per full cell: 1, 8, 27 or 64")
+              .optional()};
+}
+
+ParameterTable<Body> Body::parameters() {
+  return {text("name", &Body::name, "name of the body in output files"),
+          text("material", &Body::material, "material file: a path, or a name in the library"),
+          vector("velocity", &Body::velocity, "m/s", range::any(), "initial velocity").optional(),
+          vector("angular_velocity", &Body::angular_velocity, "rad/s", range::any(),
+                 "initial rotation about the centre of the body's bounding box")
+              .optional()};
+}
+
+ParameterTable<Case> Case::parameters() {
+  return {text("title", &Case::title, "one line that says what is simulated").optional()};
+}
+
+namespace {
+
+grid::Boundary boundary_kind(const std::string& word) {
+  return word == "symmetry" ? grid::Boundary::symmetry : word == "no_slip" ? grid::Boundary::no_slip
+                                                                           : grid::Boundary::outflow;
+}
+
+std::array<std::string, 6> faces(const Domain& domain) {
+  return {domain.x_lower, domain.x_upper, domain.y_lower, domain.y_upper, domain.z_lower, domain.z_upper};
+}
+
+/// Whole cells; a wall must lie on a face of a cell, an outflow face is moved outwards.
+void make_geometry(Case& setup, input::Table& domain) {
+  const Domain& d = setup.domain;
+  if (!(d.cell_size > 0.0)) return;  // reported by the reader
+  grid::Geometry& g = setup.geometry;
+  g.lower = d.lower;
+  g.cell_size = d.cell_size;
+  const std::array<std::string, 6> boundary = faces(d);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<Eigen::Index>(a);
+    g.boundary[2 * a] = boundary_kind(boundary[2 * a]);
+    g.boundary[2 * a + 1] = boundary_kind(boundary[2 * a + 1]);
+    const double exact = (d.upper[axis] - d.lower[axis]) / d.cell_size;
+    if (!(exact > 0.0) || exact > 1e6) {
+      domain.error_at("upper", fmt::format("the domain has {} cells along {}; expected 1 to 1e6", exact, "xyz"[a]));
+      continue;
+    }
+    const double nearest = std::round(exact);
+    const bool whole = std::abs(exact - nearest) < 1e-6 * std::max(nearest, 1.0);
+    if (!whole && g.boundary[2 * a + 1] != grid::Boundary::outflow) {
+      domain.error_at("upper", fmt::format("{}_upper is a {} face, so the domain must hold a whole number of cells "
+                                           "along {}: {} m holds {:.6g} cells of {} m",
+                                           "xyz"[a], boundary[2 * a + 1], "xyz"[a], d.upper[axis] - d.lower[axis],
+                                           exact, d.cell_size));
+    }
+    g.cells[a] = static_cast<std::int32_t>(whole ? nearest : std::ceil(exact));
+  }
+}
+
+void read_body(Case& setup, input::Table table, std::set<std::string>& names,
+               std::map<std::string, std::shared_ptr<const Material>>& materials) {
+  Body body;
+  table.read(Body::parameters(), body);
+  if (!body.name.empty() && !names.insert(body.name).second) {
+    table.error_at("name", fmt::format("two bodies are called \"{}\"", body.name));
+  }
+  if (auto discretization = table.optional_table("discretization")) {
+    discretization->read(Discretization::parameters(), body.discretization);
+    const double edge = std::cbrt(static_cast<double>(body.discretization.per_cell));
+    if (std::abs(edge - std::round(edge)) > 1e-9) {
+      discretization->error_at("per_cell", fmt::format("'per_cell' is {}, expected a cube: 1, 8, 27, 64",
+                                                       body.discretization.per_cell));
+    }
+  }
+  body.shape = read_shape(table);
+  std::shared_ptr<const Material> material;
+  if (!body.material.empty()) {
+    auto& known = materials[body.material];
+    if (!known) {
+      try {
+        known = std::make_shared<const Material>(read_material(body.material, table.folder()));
+      } catch (const InputError& error) {
+        table.error_at("material", fmt::format("'{}.material':\n  {}", table.name(), error.what()));
+      }
+    }
+    material = known;
+  }
+  setup.bodies.push_back(std::move(body));
+  setup.materials.push_back(std::move(material));
+}
+
+void check_combinations(Case& setup, input::Table& root) {
+  if (auto transfer = root.optional_table("transfer")) {
+    const bool musl = setup.time.scheme == "musl";
+    const bool affine = setup.transfer.particle_update != "flip";
+    if (musl && transfer->has("particle_update") && affine) {
+      transfer->error_at("particle_update", "scheme \"musl\" transfers with particle_update = \"flip\" only");
+    }
+    if (!musl && affine && setup.transfer.shape_function == "linear") {
+      transfer->error_at("shape_function", fmt::format("particle_update = \"{}\" needs shape_function = "
+                                                       "\"quadratic_bspline\"; linear functions take \"flip\"",
+                                                       setup.transfer.particle_update));
+    }
+  }
+  if (setup.time.scheme == "musl") setup.transfer.particle_update = "flip";
+}
+
+Case read(input::Document document,
+          const std::vector<std::pair<std::string, std::string>>& overrides) {
+  for (const auto& [key, value] : overrides) document.set(key, value);
+  Case setup;
+  setup.file = document.path();
+  setup.output.fields = io::default_output_fields();
+  input::Table root = document.root();
+  root.read(Case::parameters(), setup);
+  root.accept("provenance");
+  std::optional<input::Table> domain = root.required_table("domain");
+  if (domain) {
+    domain->read(Domain::parameters(), setup.domain);
+    if (auto boundary = domain->optional_table("boundary")) {
+      boundary->read(Domain::boundary_parameters(), setup.domain);
+    }
+    make_geometry(setup, *domain);
+  }
+  if (auto table = root.required_table("time")) table->read(TimeControl::parameters(), setup.time);
+  if (auto table = root.optional_table("transfer")) table->read(TransferControl::parameters(), setup.transfer);
+  if (auto table = root.optional_table("artificial_viscosity")) {
+    table->read(ArtificialViscosity::parameters(), setup.viscosity);
+  }
+  if (auto table = root.optional_table("output")) table->read(OutputControl::parameters(), setup.output);
+  check_combinations(setup, root);
+
+  std::set<std::string> names;
+  std::map<std::string, std::shared_ptr<const Material>> materials;
+  std::vector<input::Table> bodies = root.list("body");
+  if (bodies.empty()) root.error("no bodies: expected at least one [[body]]");
+  for (const input::Table& body : bodies) read_body(setup, body, names, materials);
+  const bool complete = domain && std::ranges::all_of(setup.bodies, [](const Body& b) { return b.shape != nullptr; });
+  if (complete && setup.geometry.cells[0] > 0 && setup.geometry.cells[1] > 0 && setup.geometry.cells[2] > 0) {
+    for (const PlacementFault& fault : placement_faults(setup)) bodies[fault.body].error_at("shape", fault.message);
+  }
+  document.finish();
+  return setup;
+}
+
+template <class Owner>
+std::string section(const char* name, const ParameterTable<Owner>& table, Owner owner) {
+  return fmt::format("\n[{}]\n{}", name, whipple::to_toml(bind(table, owner)));
+}
+
+}  // namespace
+
+Case read_case(const std::filesystem::path& path,
+               const std::vector<std::pair<std::string, std::string>>& overrides) {
+  return read(input::Document::from_file(path), overrides);
+}
+
+Case read_case_text(const std::string& text, const std::string& name) {
+  return read(input::Document::from_text(text, name), {});
+}
+
+std::string to_toml(const Case& setup, const std::vector<std::string>& material_of_body) {
+  std::string text = fmt::format("title = {}\n", quoted(setup.title));
+  text += section("domain", Domain::parameters(), setup.domain);
+  text += section("domain.boundary", Domain::boundary_parameters(), setup.domain);
+  text += section("time", TimeControl::parameters(), setup.time);
+  text += section("transfer", TransferControl::parameters(), setup.transfer);
+  text += section("artificial_viscosity", ArtificialViscosity::parameters(), setup.viscosity);
+  text += section("output", OutputControl::parameters(), setup.output);
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    Body body = setup.bodies[b];
+    body.material = material_of_body[b];
+    text += "\n[[body]]\n" + whipple::to_toml(bind(Body::parameters(), body));
+    text += fmt::format("discretization = {{ method = {}, per_cell = {} }}\n", quoted(body.discretization.method),
+                        body.discretization.per_cell);
+    text += fmt::format("shape = {}\n", body.shape->toml());
+  }
+  return text;
+}
+
+std::string describe_case() {
+  std::string text = "Case file (TOML). Quantities are numbers in SI or texts with a unit, \"6.58 km/s\".\n\n";
+  text += describe_table(Case::parameters());
+  text += "\n[domain]\n" + describe_table(Domain::parameters());
+  text += "\n[domain.boundary], or boundary = { x_lower = \"symmetry\", ... }\n" +
+          describe_table(Domain::boundary_parameters());
+  text += "\n[time]\n" + describe_table(TimeControl::parameters());
+  text += "\n[transfer]\n" + describe_table(TransferControl::parameters());
+  text += "\n[artificial_viscosity]\n" + describe_table(ArtificialViscosity::parameters());
+  text += "\n[output]\n" + describe_table(OutputControl::parameters());
+  text += "\n[[body]]\n" + describe_table(Body::parameters());
+  text += "\n[body.discretization]\n" + describe_table(Discretization::parameters());
+  for (const ShapeEntry& entry : shape_catalogue()) {
+    text += fmt::format("\nshape = {{ {} = {{ ... }} }}: {}\n{}", entry.name, entry.summary, entry.describe());
+  }
+  text += "\nQuantities for output.fields\n" + io::describe_output_fields();
+  return text;
+}
+
+}  // namespace whipple::setup

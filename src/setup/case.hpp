@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "src/base/parameter_table.hpp"
+#include "src/grid/geometry.hpp"
+#include "src/material/material.hpp"
+#include "src/setup/shape.hpp"
+
+namespace whipple::setup {
+
+struct Domain {
+  Vector3 lower = Vector3::Zero();
+  Vector3 upper = Vector3::Zero();
+  double cell_size = 0.0;
+  std::string x_lower = "outflow", x_upper = "outflow";
+  std::string y_lower = "outflow", y_upper = "outflow";
+  std::string z_lower = "outflow", z_upper = "outflow";
+  static ParameterTable<Domain> parameters();
+  static ParameterTable<Domain> boundary_parameters();
+};
+
+struct TimeControl {
+  double end = 0.0;
+  double courant = 0.5;
+  double maximum_growth = 1.05;
+  double acceleration_limit = 0.1;
+  std::string scheme = "symplectic";
+  static ParameterTable<TimeControl> parameters();
+};
+
+struct TransferControl {
+  std::string shape_function = "quadratic_bspline";
+  std::string particle_update = "relaxed_affine";
+  double kappa = 0.2;
+  static ParameterTable<TransferControl> parameters();
+};
+
+struct ArtificialViscosity {
+  double linear = 0.25;
+  double quadratic = 1.0;
+  static ParameterTable<ArtificialViscosity> parameters();
+};
+
+struct OutputControl {
+  double snapshot_every = 0.0;
+  double checkpoint_every = 600.0;
+  std::int64_t history_every = 1;
+  double maximum_energy_error = 0.01;
+  std::vector<std::string> fields;
+  static ParameterTable<OutputControl> parameters();
+};
+
+struct Discretization {
+  std::string method = "particles";
+  std::int64_t per_cell = 8;
+  static ParameterTable<Discretization> parameters();
+};
+
+struct Body {
+  std::string name;
+  std::string material;  ///< file as written in the case
+  Vector3 velocity = Vector3::Zero();
+  Vector3 angular_velocity = Vector3::Zero();
+  Discretization discretization;
+  std::shared_ptr<const Shape> shape;
+  static ParameterTable<Body> parameters();
+};
+
+/// One simulation: everything that stands in a case file, in SI, with its materials.
+struct Case {
+  std::string title;
+  std::filesystem::path file;
+  Domain domain;
+  TimeControl time;
+  TransferControl transfer;
+  ArtificialViscosity viscosity;
+  OutputControl output;
+  std::vector<Body> bodies;
+  std::vector<std::shared_ptr<const Material>> materials;  ///< of each body
+  grid::Geometry geometry;
+
+  static ParameterTable<Case> parameters();
+};
+
+/// Reads and checks a case: all errors at once, as InputError.
+/// @param overrides pairs of key and value as of --set
+Case read_case(const std::filesystem::path& path, const std::vector<std::pair<std::string, std::string>>& overrides);
+Case read_case_text(const std::string& text, const std::string& name);
+
+/// The complete case as TOML, with every default, readable by `read_case`.
+/// @param material_of_body file names to write instead of those of the case (copies in the run directory)
+std::string to_toml(const Case& setup, const std::vector<std::string>& material_of_body);
+
+/// All keys of a case file for `whipple describe case`.
+std::string describe_case();
+
+}  // namespace whipple::setup

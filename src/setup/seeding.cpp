@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/setup/seeding.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace whipple::setup {
+namespace {
+
+/// Points at the centres of equal cells that divide the bounding box of a body.
+struct Lattice {
+  Vector3 lower;
+  Vector3 spacing;
+  std::array<long, 3> count{};
+
+  [[nodiscard]] Vector3 point(long i, long j, long k) const {
+    return lower + Vector3(static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5, static_cast<double>(k) + 0.5)
+                       .cwiseProduct(spacing);
+  }
+};
+
+bool is_mirror(const Case& setup, int face) {
+  return setup.geometry.boundary[static_cast<std::size_t>(face)] != grid::Boundary::outflow;
+}
+
+/// The lattice divides the bounding box evenly, so that faces of boxes and ends of cylinders are met exactly; a body
+/// that a mirror plane halves gets an even number, so that its image continues the lattice.
+Lattice lattice_of(const Case& setup, const Body& body) {
+  const Shape::Bounds bounds = body.shape->bounds();
+  const double wanted = setup.geometry.cell_size / std::cbrt(static_cast<double>(body.discretization.per_cell));
+  Lattice lattice;
+  lattice.lower = bounds.lower;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<Eigen::Index>(a);
+    const double length = bounds.upper[axis] - bounds.lower[axis];
+    const double middle = 0.5 * (bounds.upper[axis] + bounds.lower[axis]);
+    const bool halved =
+        (is_mirror(setup, static_cast<int>(2 * a)) && std::abs(middle - setup.geometry.lower[axis]) < 1e-9 * length) ||
+        (is_mirror(setup, static_cast<int>(2 * a + 1)) &&
+         std::abs(middle - setup.geometry.upper(static_cast<int>(a))) < 1e-9 * length);
+    const double part = halved ? 0.5 * length : length;
+    const long n = std::max(1L, std::lround(part / wanted)) * (halved ? 2 : 1);
+    lattice.count[a] = n;
+    lattice.spacing[axis] = length / static_cast<double>(n);
+  }
+  return lattice;
+}
+
+bool inside_domain(const Case& setup, const Vector3& point) {
+  for (int a = 0; a < 3; ++a) {
+    if (point[a] < setup.geometry.lower[a] || point[a] > setup.geometry.upper(a)) return false;
+  }
+  return true;
+}
+
+/// Calls f(point) for every lattice point of the body inside the domain.
+template <class Function>
+void for_each_point(const Case& setup, const Body& body, const Lattice& lattice, Function&& f) {
+  for (long i = 0; i < lattice.count[0]; ++i) {
+    for (long j = 0; j < lattice.count[1]; ++j) {
+      for (long k = 0; k < lattice.count[2]; ++k) {
+        const Vector3 point = lattice.point(i, j, k);
+        if (inside_domain(setup, point) && body.shape->contains(point)) f(point);
+      }
+    }
+  }
+}
+
+bool boxes_meet(const Shape::Bounds& a, const Shape::Bounds& b) {
+  return (a.lower.array() < b.upper.array()).all() && (b.lower.array() < a.upper.array()).all();
+}
+
+}  // namespace
+
+std::vector<PlacementFault> placement_faults(const Case& setup) {
+  std::vector<PlacementFault> faults;
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const Body& body = setup.bodies[b];
+    const Shape::Bounds bounds = body.shape->bounds();
+    const double tolerance = 1e-9 * setup.geometry.cell_size;
+    for (int face = 0; face < 6; ++face) {
+      const int a = face / 2;
+      const bool beyond = face % 2 == 0 ? bounds.lower[a] < setup.geometry.lower[a] - tolerance
+                                        : bounds.upper[a] > setup.geometry.upper(a) + tolerance;
+      if (beyond && !is_mirror(setup, face)) {
+        faults.push_back({b, fmt::format("body \"{}\" reaches {} = {} m, outside of the domain, which goes from {} m "
+                                         "to {} m",
+                                         body.name, "xyz"[a], face % 2 == 0 ? bounds.lower[a] : bounds.upper[a],
+                                         setup.geometry.lower[a], setup.geometry.upper(a))});
+      }
+    }
+    const Lattice lattice = lattice_of(setup, body);
+    std::vector<bool> overlaps(b, false);
+    std::size_t count = 0;
+    for_each_point(setup, body, lattice, [&](const Vector3& point) {
+      ++count;
+      for (std::size_t other = 0; other < b; ++other) {
+        if (!overlaps[other] && setup.bodies[other].shape->contains(point)) {
+          overlaps[other] = true;
+          faults.push_back({b, fmt::format("body \"{}\" overlaps body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m", body.name,
+                                           setup.bodies[other].name, point[0], point[1], point[2])});
+        }
+      }
+    });
+    for (std::size_t other = 0; other < b; ++other) {  // a body inside the gaps of this one's lattice
+      const Body& former = setup.bodies[other];
+      if (overlaps[other] || !boxes_meet(bounds, former.shape->bounds())) continue;
+      bool found = false;
+      for_each_point(setup, former, lattice_of(setup, former), [&](const Vector3& point) {
+        found = found || body.shape->contains(point);
+      });
+      if (found) faults.push_back({b, fmt::format("body \"{}\" overlaps body \"{}\"", body.name, former.name)});
+    }
+    if (count == 0) {
+      faults.push_back({b, fmt::format("body \"{}\" holds no particle: it is outside of the domain or thinner than a "
+                                       "particle spacing",
+                                       body.name)});
+    }
+  }
+  return faults;
+}
+
+Seeding seed(const Case& setup) {
+  Seeding seeding;
+  Particles& particles = seeding.particles;
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const Body& body = setup.bodies[b];
+    const Material& material = *setup.materials[b];
+    const Lattice lattice = lattice_of(setup, body);
+    std::vector<Vector3> points;
+    for_each_point(setup, body, lattice, [&](const Vector3& point) { points.push_back(point); });
+
+    BodySummary summary{.first = particles.size(), .count = points.size()};
+    const std::size_t end = summary.first + summary.count;
+    resize(particles, end);
+    const double density = initial_state(material).density;
+    const double mass = density * lattice.spacing.prod();
+    const Shape::Bounds bounds = body.shape->bounds();
+    const Vector3 center = 0.5 * (bounds.lower + bounds.upper);
+    const Vector3& w = body.angular_velocity;
+    Matrix3 spin;
+    spin << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::size_t p = summary.first + i;
+      particles.id[p] = p;
+      particles.body[p] = static_cast<std::uint32_t>(b);
+      particles.mass[p] = mass;
+      particles.failure_threshold_factor[p] = 1.0;
+      particles.position[p] = points[i];
+      particles.velocity[p] = body.velocity + spin * (points[i] - center);
+      particles.affine_velocity[p] = spin;
+    }
+    initialise(material, particles, summary.first, end);
+    summary.mass = mass * static_cast<double>(summary.count);
+    summary.shape_mass = density * body.shape->volume();
+    seeding.bodies.push_back(summary);
+  }
+  return seeding;
+}
+
+}  // namespace whipple::setup

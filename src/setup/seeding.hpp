@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/particles/particles.hpp"
+#include "src/setup/case.hpp"
+
+namespace whipple::setup {
+
+/// Why the bodies of a case cannot be placed: one entry per fault, with the body it belongs to.
+struct PlacementFault {
+  std::size_t body;
+  std::string message;
+};
+
+/// Bodies that leave the domain through an outflow face, hold no particle, or share points with another body.
+std::vector<PlacementFault> placement_faults(const Case& setup);
+
+/// What a body became.
+struct BodySummary {
+  std::size_t first = 0;  ///< its particles are [first, first + count)
+  std::size_t count = 0;
+  double mass = 0.0;        ///< kg, of the part inside the domain
+  double shape_mass = 0.0;  ///< kg, of the whole shape at the initial density
+};
+
+struct Seeding {
+  Particles particles;  ///< sorted by body, ids from 0
+  std::vector<BodySummary> bodies;
+};
+
+/// Fills the bodies with particles on lattices that fit each body's bounding box, as near as possible to the wanted
+/// number per cell. Parts of a body beyond a symmetry plane or wall are left out (quarter models).
+Seeding seed(const Case& setup);
+
+}  // namespace whipple::setup

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/ledger.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/io/output_fields.hpp"
+#include "src/parallel/threads.hpp"
+
+namespace whipple::solver {
+
+Totals& Totals::operator+=(const Totals& other) {
+  mass += other.mass;
+  momentum += other.momentum;
+  momentum_scale += other.momentum_scale;
+  kinetic_energy += other.kinetic_energy;
+  affine_kinetic_energy += other.affine_kinetic_energy;
+  internal_energy += other.internal_energy;
+  return *this;
+}
+
+Totals totals_of(const Particles& particles, std::size_t p, double cell_size) {
+  const double m = particles.mass[p];
+  const Vector3& v = particles.velocity[p];
+  const double speed2 = v.squaredNorm();
+  return {.mass = m,
+          .momentum = m * v,
+          .momentum_scale = m * std::sqrt(speed2),
+          .kinetic_energy = 0.5 * m * speed2,
+          .affine_kinetic_energy = 0.125 * m * cell_size * cell_size * particles.affine_velocity[p].squaredNorm(),
+          .internal_energy = m * particles.specific_internal_energy[p]};
+}
+
+Totals totals_of(const Particles& particles, double cell_size) {
+  return parallel::sum<Totals>(particles.size(),
+                               [&](std::size_t p) { return totals_of(particles, p, cell_size); });
+}
+
+double Ledger::energy_error(const Totals& now) const {
+  const double scale = std::abs(initial.kinetic_energy) + std::abs(initial.affine_kinetic_energy) +
+                       std::abs(initial.internal_energy);
+  return (now.energy() + outflow.energy() - initial.energy()) / std::max(scale, 1e-300);
+}
+
+double Ledger::momentum_error(const Totals& now) const {
+  const Vector3 error = now.momentum + outflow.momentum - wall_impulse - initial.momentum;
+  return error.norm() / std::max(initial.momentum_scale, 1e-300);
+}
+
+PhaseMasses& PhaseMasses::operator+=(const PhaseMasses& other) {
+  for (std::size_t i = 0; i < mass.size(); ++i) mass[i] += other.mass[i];
+  failed += other.failed;
+  return *this;
+}
+
+std::vector<PhaseMasses> phase_masses(const Particles& particles, std::size_t bodies) {
+  std::vector<PhaseMasses> result(bodies);
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    PhaseMasses& of_body = result[particles.body[p]];
+    const io::Phase phase = io::phase(particles.melted_fraction[p], particles.vaporised_fraction[p]);
+    of_body.mass[static_cast<std::size_t>(phase)] += particles.mass[p];
+    if (particles.failed[p] != 0) of_body.failed += particles.mass[p];
+  }
+  return result;
+}
+
+}  // namespace whipple::solver

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace whipple::solver {
+
+/// Wall-clock time per stage of the step, in the words of the step function.
+class Profile {
+ public:
+  struct Stage {
+    std::string name;
+    double seconds = 0.0;
+    long calls = 0;
+  };
+
+  /// Runs a stage and adds its time.
+  template <class Work>
+  decltype(auto) time(std::string_view name, Work&& work) {
+    const Stopwatch stopwatch(stage(name));
+    return work();
+  }
+
+  [[nodiscard]] const std::vector<Stage>& stages() const { return stages_; }
+  void clear() { stages_.clear(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  class Stopwatch {
+   public:
+    explicit Stopwatch(Stage& stage) : stage_(stage) {}
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+    ~Stopwatch() {
+      stage_.seconds += std::chrono::duration<double>(Clock::now() - begin_).count();
+      ++stage_.calls;
+    }
+
+   private:
+    Stage& stage_;
+    Clock::time_point begin_ = Clock::now();
+  };
+
+  Stage& stage(std::string_view name) {
+    for (Stage& known : stages_) {
+      if (known.name == name) return known;
+    }
+    stages_.reserve(32);  // stages do not nest deeper, references stay valid
+    return stages_.emplace_back(Stage{std::string(name)});
+  }
+
+  std::vector<Stage> stages_;
+};
+
+}  // namespace whipple::solver

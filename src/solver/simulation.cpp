@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "src/base/error.hpp"
+#include "src/material/update.hpp"
+#include "src/parallel/threads.hpp"
+#include "src/transfer/grid_to_particles.hpp"
+#include "src/transfer/particles_to_grid.hpp"
+
+namespace whipple::solver {
+namespace {
+
+constexpr std::int64_t sort_every = 20;       // steps between sorts of the particle arrays
+constexpr double lookahead_steps = 8.0;       // motion that the active blocks foresee
+
+bool affine(const setup::Case& setup) { return setup.transfer.particle_update != "flip"; }
+
+transfer::Relaxation relaxation(const setup::TransferControl& control) {
+  if (control.particle_update == "apic") return {.kappa = 0.0, .fixed = 1.0};
+  if (control.particle_update == "flip") return {.kappa = 0.0, .fixed = 0.0};
+  return {.kappa = control.kappa, .fixed = -1.0};
+}
+
+/// Particles are sorted by body: the ranges follow from where the bodies change.
+std::vector<setup::BodySummary> body_ranges(const Particles& particles, std::size_t bodies) {
+  std::vector<setup::BodySummary> ranges(bodies);
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    setup::BodySummary& range = ranges[particles.body[p]];
+    if (range.count == 0) range.first = p;
+    ++range.count;
+    range.mass += particles.mass[p];
+  }
+  return ranges;
+}
+
+}  // namespace
+
+Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
+    : setup_(setup), grid_(setup.geometry, communicator) {
+  setup::Seeding seeding = setup::seed(setup);
+  particles_ = std::move(seeding.particles);
+  bodies_ = std::move(seeding.bodies);
+  if (!affine(setup_)) std::ranges::fill(particles_.affine_velocity, Matrix3::Zero().eval());
+  start();
+  state_.ledger.initial = totals_;
+}
+
+Simulation::Simulation(const setup::Case& setup, Particles particles, const RunState& state, MPI_Comm communicator)
+    : setup_(setup),
+      particles_(std::move(particles)),
+      bodies_(body_ranges(particles_, setup.bodies.size())),
+      grid_(setup.geometry, communicator),
+      state_(state) {
+  start();
+}
+
+void Simulation::start() {
+  velocity_gradient_.resize(particles_.size());
+  totals_ = totals_of(particles_, setup_.domain.cell_size);
+}
+
+template <class Function>
+decltype(auto) Simulation::with_shape(Function&& f) {
+  if (setup_.transfer.shape_function == transfer::Linear::name) return f(transfer::Linear{});
+  return f(transfer::QuadraticBSpline{});
+}
+
+void Simulation::advance(double until) {
+  if (setup_.time.scheme == "musl") {
+    step_musl(*this, until);
+  } else {
+    step_symplectic(*this, until);
+  }
+}
+
+double Simulation::stable_time_step() const {
+  const double speed = parallel::maximum(particles_.size(), 0.0, [&](std::size_t p) {
+    return particles_.sound_speed[p] + particles_.velocity[p].cwiseAbs().maxCoeff();
+  });
+  const double dx = setup_.domain.cell_size;
+  double dt = setup_.time.courant * dx / speed;
+  if (state_.maximum_acceleration > 0.0) {
+    dt = std::min(dt, std::sqrt(setup_.time.acceleration_limit * dx / state_.maximum_acceleration));
+  }
+  if (state_.time_step > 0.0) dt = std::min(dt, setup_.time.maximum_growth * state_.time_step);
+  return dt;
+}
+
+void Simulation::begin_step(double until) {
+  profile_.time("time step", [&] {
+    if (particles_.size() == 0) throw StateError("all particles have left the domain");
+    double dt = stable_time_step();
+    if (!(dt > 0.0) || !std::isfinite(dt)) {
+      throw StateError(fmt::format("step {}, t = {} s: the stable time step is {} s", state_.step, state_.time, dt));
+    }
+    // The last step before `until` lands on it; the one before is halved rather than leaving a sliver.
+    const double left = until - state_.time;
+    if (dt >= left) {
+      dt = left;
+    } else if (2.0 * dt > left) {
+      dt = 0.5 * left;
+    }
+    state_.time_step = dt;
+  });
+}
+
+void Simulation::bin_particles() {
+  profile_.time("bin particles", [&] {
+    with_shape([&]<class Shape>(Shape) {
+      const double lookahead = lookahead_steps * state_.time_step;
+      grid_.bin(particles_.position, particles_.velocity, lookahead, Shape::stencil);
+      if (state_.step % sort_every == 0) {
+        sort_particles();
+        grid_.bin(particles_.position, particles_.velocity, lookahead, Shape::stencil);
+      }
+    });
+  });
+}
+
+/// By body (so that a material is a range), then by block.
+void Simulation::sort_particles() {
+  std::vector<std::uint32_t> next;
+  for (const setup::BodySummary& body : bodies_) next.push_back(static_cast<std::uint32_t>(body.first));
+  std::vector<std::uint32_t> order(particles_.size());
+  for (const std::uint32_t p : grid_.particles_by_block()) order[next[particles_.body[p]]++] = p;
+  reorder(particles_, order);
+  grid_.particles_reordered();
+}
+
+void Simulation::map_particles_to_grid() {
+  profile_.time("particles to grid", [&] {
+    with_shape([&]<class Shape>(Shape) { transfer::particles_to_grid<Shape>(particles_, grid_); });
+  });
+}
+
+transfer::GridBalance Simulation::advance_grid() {
+  return profile_.time("grid", [&] {
+    const transfer::GridBalance balance =
+        grid_update_.advance(grid_, state_.time_step, relaxation(setup_.transfer));
+    state_.ledger.wall_impulse += balance.wall_impulse;
+    former_velocity_ = particles_.velocity;
+    work_identity_error_ = balance.kinetic_energy_after - balance.kinetic_energy_before;
+    return balance;
+  });
+}
+
+void Simulation::map_grid_to_particles() {
+  profile_.time("grid to particles", [&] {
+    with_shape([&]<class Shape>(Shape) {
+      const transfer::TransferBalance balance = transfer::grid_to_particles<Shape>(
+          particles_, grid_, state_.time_step, affine(setup_), velocity_gradient_);
+      state_.ledger.work += balance.work;
+      state_.ledger.transfer_heat += balance.heat;
+      work_identity_error_ = (work_identity_error_ + balance.work) / std::max(totals_.kinetic_energy, 1e-300);
+    });
+  });
+}
+
+void Simulation::increment_particle_velocity() {
+  profile_.time("grid to particles", [&] {
+    displacement_.resize(particles_.size());
+    with_shape([&]<class Shape>(Shape) {
+      transfer::increment_velocity<Shape>(particles_, grid_, state_.time_step, displacement_);
+    });
+  });
+}
+
+void Simulation::map_momentum_to_grid() {
+  profile_.time("momentum to grid", [&] {
+    with_shape([&]<class Shape>(Shape) { transfer::momentum_to_grid<Shape>(particles_, grid_); });
+    grid_update_.velocity_from_momentum(grid_);
+  });
+}
+
+void Simulation::gather_velocity_gradient() {
+  profile_.time("velocity gradient", [&] {
+    with_shape([&]<class Shape>(Shape) {
+      transfer::gather_velocity_gradient<Shape>(particles_, grid_, velocity_gradient_);
+    });
+  });
+}
+
+void Simulation::update_material(EnergyUpdate energy) {
+  profile_.time("material", [&] {
+    const UpdateSettings settings{.time_step = state_.time_step,
+                                  .cell_size = setup_.domain.cell_size,
+                                  .linear_viscosity = setup_.viscosity.linear,
+                                  .quadratic_viscosity = setup_.viscosity.quadratic};
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const setup::BodySummary& body = bodies_[b];
+      const Material& material = *setup_.materials[b];
+      std::vector<MaterialReport> reports((body.count + parallel::chunk_size - 1) / parallel::chunk_size);
+      parallel::for_each_chunk(body.count, [&](std::size_t begin, std::size_t end) {
+        const std::span<const Matrix3> gradients =
+            std::span<const Matrix3>(velocity_gradient_).subspan(body.first + begin, end - begin);
+        reports[begin / parallel::chunk_size] =
+            energy == EnergyUpdate::by_work_identity
+                ? whipple::update_material(material, particles_, body.first + begin, body.first + end, gradients, settings)
+                : update_material_and_energy(material, particles_, body.first + begin, body.first + end, gradients,
+                                             settings);
+      });
+      MaterialReport report;
+      for (const MaterialReport& part : reports) report.merge(part);
+      state_.ledger.clamped_to_cold_curve += static_cast<double>(report.equation_of_state.below_cold_curve);
+      state_.ledger.limited_volume_changes += static_cast<double>(report.limited_volume_changes);
+      if (report.undefined != 0) {
+        throw_state_error(report.first_undefined, "the state is not defined (NaN, or a volume that is not positive)");
+      }
+      if (report.equation_of_state.out_of_range != 0) {
+        throw_state_error(report.equation_of_state.first,
+                          fmt::format("the equation of state of {} is out of range: {}", material.name,
+                                      report.equation_of_state.bound));
+      }
+    }
+  });
+}
+
+void Simulation::move_particles() {
+  profile_.time("move", [&] {
+    parallel::for_each(particles_.size(), [&](std::size_t p) { particles_.position[p] += displacement_[p]; });
+  });
+}
+
+void Simulation::reflect_and_remove() {
+  profile_.time("boundaries", [&] {
+    const grid::Geometry& g = setup_.geometry;
+    std::vector<std::uint32_t> leaving;
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+      bool leaves = false;
+      for (int a = 0; a < 3; ++a) {
+        double& x = particles_.position[p][a];
+        if (x >= g.lower[a] && x <= g.upper(a)) continue;
+        const bool low = x < g.lower[a];
+        const grid::Boundary boundary = g.boundary[static_cast<std::size_t>(2 * a + (low ? 0 : 1))];
+        if (boundary == grid::Boundary::outflow) {
+          leaves = true;
+          continue;
+        }
+        // Interpolation gives no normal velocity at a mirror plane, so only the finite time step brings a particle
+        // across: it is put back as its own image.
+        x = 2.0 * (low ? g.lower[a] : g.upper(a)) - x;
+        Matrix3 mirror = Matrix3::Identity();
+        mirror(a, a) = -1.0;
+        if (boundary == grid::Boundary::no_slip) mirror = -Matrix3::Identity();
+        state_.ledger.wall_impulse += particles_.mass[p] * (mirror * particles_.velocity[p] - particles_.velocity[p]);
+        particles_.velocity[p] = mirror * particles_.velocity[p];
+        particles_.affine_velocity[p] = mirror * particles_.affine_velocity[p] * mirror;
+        particles_.deviatoric_stress[p] =
+            SymmetricTensor::from(mirror * particles_.deviatoric_stress[p].matrix() * mirror);
+      }
+      if (leaves) leaving.push_back(static_cast<std::uint32_t>(p));
+    }
+    if (leaving.empty()) return;
+    std::vector<std::uint32_t> staying;
+    staying.reserve(particles_.size() - leaving.size());
+    auto next = leaving.begin();
+    for (std::uint32_t p = 0; p < particles_.size(); ++p) {
+      if (next != leaving.end() && *next == p) {
+        state_.ledger.outflow += totals_of(particles_, p, setup_.domain.cell_size);
+        ++next;
+      } else {
+        staying.push_back(p);
+      }
+    }
+    for (std::size_t i = 0; i < staying.size(); ++i) former_velocity_[i] = former_velocity_[staying[i]];
+    reorder(particles_, staying);
+    velocity_gradient_.resize(particles_.size());
+    bodies_ = body_ranges(particles_, bodies_.size());
+    grid_.particles_reordered();
+  });
+}
+
+void Simulation::end_step() {
+  profile_.time("ledger", [&] {
+    const double per_step = 1.0 / state_.time_step;
+    state_.maximum_acceleration = parallel::maximum(particles_.size(), 0.0, [&](std::size_t p) {
+      return per_step * (particles_.velocity[p] - former_velocity_[p]).norm();
+    });
+    totals_ = totals_of(particles_, setup_.domain.cell_size);
+    ++state_.step;
+    state_.time += state_.time_step;
+    const double error = state_.ledger.energy_error(totals_);
+    // The negation also catches NaN.
+    if (!(std::abs(error) <= setup_.output.maximum_energy_error)) {
+      throw StateError(fmt::format("step {}, t = {} s: the relative error of the total energy is {:.3e}, beyond "
+                                   "output.maximum_energy_error = {}",
+                                   state_.step, state_.time, error, setup_.output.maximum_energy_error));
+    }
+  });
+}
+
+void Simulation::throw_state_error(std::size_t p, const std::string& reason) const {
+  const Vector3& x = particles_.position[p];
+  const Vector3& v = particles_.velocity[p];
+  throw StateError(fmt::format(
+      "step {}, t = {} s, body \"{}\", particle {}: {}\n  position ({}, {}, {}) m, velocity ({}, {}, {}) m/s\n  density "
+      "{} kg/m^3, specific internal energy {} J/kg, pressure {} Pa, temperature {} K, failed {}",
+      state_.step + 1, state_.time + state_.time_step, setup_.bodies[particles_.body[p]].name, particles_.id[p], reason,
+      x[0], x[1], x[2], v[0], v[1], v[2], particles_.mass[p] / particles_.volume[p],
+      particles_.specific_internal_energy[p], particles_.pressure[p], particles_.temperature[p], particles_.failed[p]));
+}
+
+std::size_t Simulation::bytes() const {
+  std::size_t bytes = grid_.bytes() + velocity_gradient_.size() * sizeof(Matrix3) + 48 * particles_.size();
+  for_each_field<Particles>([&](const auto& field) {
+    const auto& values = particles_.*(field.values);
+    bytes += values.size() * sizeof(values[0]);
+  });
+  return bytes;
+}
+
+}  // namespace whipple::solver

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "src/grid/block_grid.hpp"
+#include "src/particles/particles.hpp"
+#include "src/setup/case.hpp"
+#include "src/setup/seeding.hpp"
+#include "src/solver/ledger.hpp"
+#include "src/solver/profile.hpp"
+#include "src/transfer/grid_update.hpp"
+
+namespace whipple::solver {
+
+/// State of a run that changes with time, apart from the particles; what a checkpoint must hold.
+struct RunState {
+  double time = 0.0;                  ///< s
+  double time_step = 0.0;             ///< s, of the last step; 0 before the first
+  double maximum_acceleration = 0.0;  ///< m/s^2, in the last step
+  std::int64_t step = 0;
+  Ledger ledger;
+};
+
+/// One simulation in memory: particles, grid, materials, ledger. The schemes are functions of it (schemes.hpp).
+class Simulation {
+ public:
+  /// Seeds the bodies of the case.
+  explicit Simulation(const setup::Case& setup, MPI_Comm communicator);
+  /// Goes on from a checkpoint.
+  Simulation(const setup::Case& setup, Particles particles, const RunState& state, MPI_Comm communicator);
+
+  /// Advances one step of the case's scheme; not beyond `until` (s).
+  /// @throws StateError with step, time, body, particle and state if a state is undefined or out of range, or if the
+  ///         energy error exceeds the case's limit
+  void advance(double until);
+
+  [[nodiscard]] const setup::Case& setup() const { return setup_; }
+  [[nodiscard]] const Particles& particles() const { return particles_; }
+  [[nodiscard]] const RunState& state() const { return state_; }
+  [[nodiscard]] const Totals& totals() const { return totals_; }
+  [[nodiscard]] const grid::BlockGrid& grid() const { return grid_; }
+  [[nodiscard]] const std::vector<setup::BodySummary>& bodies() const { return bodies_; }
+  [[nodiscard]] Profile& profile() { return profile_; }
+  /// Relative differences of the last step's work and transfer identities from the change of the grid's kinetic energy.
+  [[nodiscard]] double work_identity_error() const { return work_identity_error_; }
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  friend void step_symplectic(Simulation& s, double until);
+  friend void step_musl(Simulation& s, double until);
+
+  template <class Function>
+  decltype(auto) with_shape(Function&& f);
+
+  // The calls of the schemes, in the order of the step.
+  [[nodiscard]] double stable_time_step() const;
+  void begin_step(double until);
+  void bin_particles();
+  void map_particles_to_grid();
+  transfer::GridBalance advance_grid();
+  void map_grid_to_particles();
+  void increment_particle_velocity();
+  void map_momentum_to_grid();
+  void gather_velocity_gradient();
+  enum class EnergyUpdate { by_work_identity, by_constitutive_model };
+  void update_material(EnergyUpdate energy);
+  void move_particles();
+  void reflect_and_remove();
+  void end_step();
+
+  void start();
+  void sort_particles();
+  [[noreturn]] void throw_state_error(std::size_t particle, const std::string& reason) const;
+
+  setup::Case setup_;
+  Particles particles_;
+  std::vector<setup::BodySummary> bodies_;
+  grid::BlockGrid grid_;
+  transfer::GridUpdate grid_update_;
+  RunState state_;
+  Totals totals_;
+  Profile profile_;
+  std::vector<Matrix3> velocity_gradient_;
+  std::vector<Vector3> displacement_;
+  std::vector<Vector3> former_velocity_;
+  double work_identity_error_ = 0.0;
+};
+
+/// Symplectic scheme with exact energy (docs/theory/mpm.md, section 4).
+void step_symplectic(Simulation& s, double until);
+/// Modified update stress last (Sulsky, Zhou & Schreyer, Comput. Phys. Commun. 87 (1995) 236; docs/theory/mpm.md, 5).
+void step_musl(Simulation& s, double until);
+
+}  // namespace whipple::solver
