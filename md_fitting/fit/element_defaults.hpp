@@ -17,19 +17,17 @@ struct NamedDefault {
 };
 
 struct ElementDefaults {
-  std::string_view element;   ///< chemical symbol
-  std::string_view metal;     ///< English name, also the stem of its template material
-  double melting_point;       ///< K, at atmospheric pressure, measured
-  std::span<const NamedDefault> electronic;  ///< choices of electronic_heat_coefficient; the first is the default
-  NamedDefault melting_temperature;          ///< taken only if the store holds no coexistence point
-  std::span<const NamedDefault> constants;   ///< the remaining constants of GRAY
+  std::string_view element;  ///< chemical symbol
+  std::string_view metal;    ///< English name, also the stem of its template material
+  double melting_point;      ///< K, at atmospheric pressure, measured
+  std::span<const NamedDefault>
+      electronic;                    ///< choices of electronic_heat_coefficient; the first is the default
+  NamedDefault melting_temperature;  ///< taken only if the store holds no coexistence point
+  std::span<const NamedDefault> constants;  ///< the remaining constants of GRAY
 };
 
 /// @throws InputError naming the known elements.
 const ElementDefaults& element_defaults(std::string_view element);
-
-/// The element with this English name ("copper").
-const ElementDefaults& defaults_of_metal(std::string_view metal);
 
 std::span<const ElementDefaults> all_element_defaults();
 

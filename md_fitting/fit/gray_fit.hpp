@@ -2,71 +2,45 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "eos/models/gray_constants.hpp"
 #include "md_fitting/data_set/data_set.hpp"
-#include "md_fitting/fit/element_defaults.hpp"
-#include "md_fitting/fit/observations.hpp"
+#include "md_fitting/fit/fit_settings.hpp"
 
 /// The constants of the GRAY equation of state from molecular dynamics: one weighted nonlinear least-squares
 /// problem, one covariance (docs/theory/fit.md).
 namespace whipple::fit {
 
-/// What the laws of GRAY leave out even if the data had no noise: part of the weights
-/// (docs/theory/fit.md, section 3). All are one standard deviation.
-struct ModelErrors {
-  double zero_pressure_volume = 1e-4;  ///< relative
-  double shock_velocity = 3e-3;        ///< relative, per Hugoniot state: Us-Up is not exactly a line
-  double gruneisen = 0.02;             ///< relative, common to an isochore: gamma is not exactly linear in V
-  double anharmonic = 1.5e-4;          ///< J/(mol K^2), common to an isochore: the coefficient depends on V
-  double thermal_pressure = 2e7;       ///< Pa, per state
-  double energy = 50.0;                ///< J/mol, per state: the anharmonic energy is not exactly quadratic in T
-  double melting_temperature = 0.01;   ///< relative: Lindemann law
-
-  /// No model error at all: the weights are those of the noise.
-  static ModelErrors none() { return {0, 0, 0, 0, 0, 0, 0}; }
-};
-
-struct FitSettings {
-  double reference_temperature = 293.0;    ///< K: V0 is the volume at zero pressure and this temperature
-  double least_particle_velocity = 300.0;  ///< m/s, window of the Hugoniot states
-  double most_particle_velocity = 2500.0;  ///< m/s
-  /// "band": the solidus T_m(V) - delta_T/2 runs through the coexistence points, as in the default melting
-  /// transition of the model; "isochoric": T_m(V) itself does, as in Royce's.
-  std::string melting = "band";
-  ModelErrors model_errors;
-  std::string electronic = "measured";  ///< name of a choice of the element's table, or a quantity
-  std::optional<double> density;        ///< kg/m^3: replaces the fitted reference volume by a measured one
-};
-
 enum class Origin { fitted, given, by_default };
 
-/// One constant of the material file.
+/// One numerical constant of the material.
 struct Constant {
   std::string name;  ///< key of GRAY's parameter table
+  std::string unit;  ///< SI
+  std::string meaning;
   double value = 0.0;  ///< SI
   Origin origin = Origin::by_default;
   double error = 0.0;              ///< 1 sigma from noise and model error; 0 if not fitted
   double statistical_error = 0.0;  ///< 1 sigma from the noise alone
-  std::string source;              ///< of a constant that is not fitted: name of the default, and source
+  std::string source;              ///< of a constant that is not fitted: name of the default, and its source
 };
 
-/// One datum beside the fitted law.
+/// One datum beside the fitted law, SI.
 struct Residual {
   std::string quantity;  ///< "volume", "shock_velocity", "thermal_pressure", "thermal_energy", "melting"
-  double volume = 0.0;       ///< m^3/kg
-  double temperature = 0.0;  ///< K
-  double abscissa = 0.0;     ///< up (m/s), thermal energy (J/kg), temperature (K) or pressure (Pa)
-  double datum = 0.0;        ///< SI
-  double fitted = 0.0;       ///< SI
-  double sigma = 0.0;        ///< from both parts of the weights, SI
+  double volume = 0.0;
+  double temperature = 0.0;
+  double abscissa = 0.0;  ///< temperature, up, thermal energy, temperature, pressure
+  double datum = 0.0;
+  double fitted = 0.0;
+  double sigma = 0.0;  ///< from both parts of the weights
 };
 
-/// gamma of one isochore by itself, with the noise of its points.
+/// gamma of one isochore by itself: slope of P against E with the noise of its points.
 struct IsochoreGruneisen {
   double volume = 0.0;
   double gruneisen = 0.0;
@@ -78,37 +52,61 @@ struct IsochoreGruneisen {
 struct WindowResult {
   double least = 0.0, most = 0.0;  ///< m/s
   int states = 0;
-  double intercept = 0.0, slope = 0.0;
+  double intercept = 0.0, slope = 0.0;  ///< m/s, 1
+};
+
+/// chi^2 of one kind of data.
+struct ChiSquaredPart {
+  std::string quantity;
+  double chi_squared = 0.0;
+  int data = 0;
+};
+
+/// The complete model (without electrons) against all solid points of one protocol.
+struct ModelCheck {
+  std::string quantity;  ///< "Hugoniot pressure", ...
+  std::string unit;      ///< of the figures below
+  int points = 0;
+  double rms = 0.0, mean = 0.0, maximum = 0.0;  ///< model less molecular dynamics
 };
 
 struct GrayFit {
   std::string element;
-  double molar_mass = 0.0;                 ///< kg/mol
-  std::vector<Constant> constants;         ///< all of the material file, in the order of the parameter table
+  std::string potential;
+  eos::GrayConstants gray;                 ///< the model of the material
+  std::vector<Constant> constants;         ///< its numbers, in the order of the parameter table
   std::vector<std::string> fitted_names;   ///< of the covariance
-  Eigen::MatrixXd covariance;              ///< SI, of the fitted constants
+  Eigen::MatrixXd covariance;              ///< SI, from noise and model error
+  Eigen::MatrixXd statistical_covariance;  ///< SI, from the noise alone
+  double fitted_reference_volume = 0.0;    ///< m^3/kg; the material has another if a density was given
   double chi_squared = 0.0;
   int degrees_of_freedom = 0;
-  std::map<std::string, std::pair<double, int>> chi_squared_parts;  ///< per kind of data: chi^2, number of data
-  /// T_m where the solid at coexistence has the volume V0, whatever `melting` is; none without coexistence.
-  std::optional<double> melting_at_reference_volume;
+  std::vector<ChiSquaredPart> chi_squared_parts;
+  /// T_m0 if the solid melted isochorically: T_m where the solid of the volume V0 coexists with liquid.
+  std::optional<double> isochoric_melting_temperature;
   std::vector<Residual> residuals;
   std::vector<IsochoreGruneisen> isochores;
   std::vector<WindowResult> windows;  ///< the fit's own window comes first
-  int states_above_melting = 0;       ///< superheated isochore states that were left out
+  std::vector<ModelCheck> checks;
+  int superheated_states = 0;  ///< isochore states above T_m(V), left out
   FitSettings settings;
 
   [[nodiscard]] const Constant& constant(std::string_view name) const;
   [[nodiscard]] double value(std::string_view name) const { return constant(name).value; }
-  /// Correlation matrix of the fitted constants.
   [[nodiscard]] Eigen::MatrixXd correlation() const;
 };
 
 /// Fits V0, C, S, gamma0, a, g_anh and, if there is coexistence, T_m0; completes the rest from the element's
-/// table.
+/// table (element_defaults.hpp).
+/// @param store_name  for messages
 /// @throws InputError if points are missing (all missing protocols in one message); StateError if the fit
 /// does not converge.
 GrayFit fit_gray(std::span<const md::PointRecord> points, const FitSettings& settings,
                  const std::string& store_name);
+
+/// A value as it stands in the material file, in the practical unit of its SI unit: "0.1118 cm^3/g", and the
+/// value that it reads back to.
+std::string practical_quantity(double value, const std::string& si_unit);
+double as_written(double value, const std::string& si_unit);
 
 }  // namespace whipple::fit

@@ -29,8 +29,9 @@ int whitened_residuals(const gsl_vector* x, void* data, gsl_vector* f) {
     Eigen::VectorXd p(static_cast<Eigen::Index>(x->size));
     for (std::size_t i = 0; i < x->size; ++i) p[static_cast<Eigen::Index>(i)] = gsl_vector_get(x, i);
     const Eigen::VectorXd r = callback->sigma->matrixL().solve(callback->problem->residuals(p));
-    if (!r.allFinite()) return GSL_EDOM;  // the step is rejected and shortened
-    for (std::size_t i = 0; i < f->size; ++i) gsl_vector_set(f, i, r[static_cast<Eigen::Index>(i)]);
+    const bool usable = r.allFinite();  // otherwise worse than any fit: the step is taken back and shortened
+    for (std::size_t i = 0; i < f->size; ++i)
+      gsl_vector_set(f, i, usable ? r[static_cast<Eigen::Index>(i)] : 1e12);
     return GSL_SUCCESS;
   } catch (...) {
     callback->failure = std::current_exception();
@@ -75,7 +76,8 @@ LeastSquaresSolution solve(const LeastSquaresProblem& problem) {
   }
   const Eigen::LLT<Eigen::MatrixXd> sigma(problem.statistical + problem.model);
   if (sigma.info() != Eigen::Success) {
-    throw StateError("least squares: the covariance of the data is not positive definite (a datum without error?)");
+    throw StateError(
+        "least squares: the covariance of the data is not positive definite (a datum without error?)");
   }
 
   Callback callback{&problem, &sigma, nullptr};

@@ -11,9 +11,9 @@ namespace whipple::fit {
 /// Minimises r(p)^T Sigma^-1 r(p), Sigma = statistical + model covariance of the residuals.
 struct LeastSquaresProblem {
   std::function<Eigen::VectorXd(const Eigen::VectorXd& parameters)> residuals;
-  Eigen::VectorXd start;          ///< parameters of order one are best: scale them
-  Eigen::MatrixXd statistical;    ///< covariance of the residuals from the noise of the data
-  Eigen::MatrixXd model;          ///< covariance of what the fitted laws leave out
+  Eigen::VectorXd start;        ///< parameters of order one are best: scale them
+  Eigen::MatrixXd statistical;  ///< covariance of the residuals from the noise of the data
+  Eigen::MatrixXd model;        ///< covariance of what the fitted laws leave out
 };
 
 struct LeastSquaresSolution {

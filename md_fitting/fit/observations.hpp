@@ -40,7 +40,7 @@ struct Observations {
   std::string potential;
   double molar_mass = 0.0;
   double reference_temperature = 0.0;
-  md::Estimate reference_volume;  ///< at zero pressure and the reference temperature
+  md::Estimate reference_volume;        ///< at zero pressure and the reference temperature
   std::vector<HugoniotState> hugoniot;  ///< all states, by rising particle velocity
   std::vector<Isochore> isochores;      ///< by falling volume; at least three states each
   std::vector<MeltingPoint> melting;    ///< by rising pressure

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace whipple::fit {
+
+/// What the laws of GRAY leave out even if the data had no noise: part of the weights
+/// (docs/theory/fit.md, section 3). All are one standard deviation.
+struct ModelErrors {
+  double zero_pressure_volume = 1e-4;  ///< relative
+  double shock_velocity = 3e-3;        ///< relative, per Hugoniot state: Us-up is not exactly a line
+  double gruneisen = 0.02;             ///< relative, common to an isochore: gamma is not exactly linear in V
+  double anharmonic = 1.5e-4;          ///< J/(mol K^2), common to an isochore: the coefficient depends on V
+  double thermal_pressure = 2e7;       ///< Pa, per state
+  double energy = 50.0;  ///< J/mol, per state: the anharmonic energy is not exactly quadratic in T
+  double melting_temperature = 0.01;  ///< relative: Lindemann law
+
+  /// No model error at all: the weights are those of the noise.
+  static ModelErrors none() { return {0, 0, 0, 0, 0, 0, 0}; }
+};
+
+struct FitSettings {
+  double reference_temperature = 293.0;    ///< K: V0 is the volume at zero pressure and this temperature
+  double least_particle_velocity = 300.0;  ///< m/s, window of the Hugoniot states
+  double most_particle_velocity = 2500.0;  ///< m/s
+  /// "band": the lower edge of the model's melting band runs through the coexistence points; "isochoric":
+  /// T_m(V) itself does. It is also the melting transition of the material.
+  std::string melting = "band";
+  ModelErrors model_errors;
+  std::string electronic = "measured";  ///< name of a choice of the element's table, or a quantity
+  std::optional<double> density;        ///< kg/m^3: replaces the fitted reference volume by a measured one
+};
+
+}  // namespace whipple::fit

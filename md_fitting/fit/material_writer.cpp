@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/fit/material_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "md_fitting/data_set/hash.hpp"
+#include "md_fitting/fit/element_defaults.hpp"
+#include "src/base/error.hpp"
+#include "src/base/text.hpp"
+#include "src/base/units.hpp"
+
+namespace whipple::fit {
+namespace {
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(fmt::format("cannot read '{}'", path.string()));
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// Name of the table that a line opens: "strength" for "[strength]", "failure" for "[[failure]]"; empty if
+/// none.
+std::string_view opened_table(std::string_view line) {
+  const std::size_t begin = line.find_first_not_of(" \t[");
+  if (begin == std::string_view::npos || line[line.find_first_not_of(" \t")] != '[') return {};
+  return line.substr(begin, line.find_first_of("]. \t", begin) - begin);
+}
+
+std::string constant_line(const Constant& constant) {
+  const std::string unit = constant.unit;
+  const std::string text = practical_quantity(constant.value, unit);
+  const bool bare = text.find(' ') == std::string::npos;
+  std::string line = fmt::format("{} = {}", constant.name, bare ? text : whipple::quoted(text));
+  switch (constant.origin) {
+    case Origin::fitted: {
+      // The errors in the unit of the value.
+      const double size = units::parse_quantity(practical_quantity(constant.value, unit), unit);
+      const double factor = constant.value == 0.0 ? 1.0 : std::strtod(text.c_str(), nullptr) / size;
+      line += fmt::format("  # fitted: +- {:.2g}, of which noise {:.2g}", constant.error * factor,
+                          constant.statistical_error * factor);
+      break;
+    }
+    case Origin::given:
+      line += fmt::format("  # given: {}", constant.source);
+      break;
+    case Origin::by_default:
+      line += fmt::format("  # default {}", constant.source);
+      break;
+  }
+  return line + "\n";
+}
+
+std::string covariance_table(const GrayFit& fit) {
+  std::vector<std::string> names;
+  std::vector<std::string> si_units;
+  for (const std::string& name : fit.fitted_names) {
+    names.push_back(whipple::quoted(name));
+    si_units.push_back(whipple::quoted(fit.constant(name).unit));
+  }
+  std::string text = fmt::format(
+      "[covariance]\n# Of the fitted constants, from the noise of the data and the model error; entry (i, j) "
+      "in "
+      "units[i] * units[j].\nnames = [{}]\nunits = [{}]\nmatrix = [\n",
+      fmt::join(names, ", "), fmt::join(si_units, ", "));
+  for (Eigen::Index i = 0; i < fit.covariance.rows(); ++i) {
+    std::vector<std::string> row;
+    for (Eigen::Index k = 0; k < fit.covariance.cols(); ++k) {
+      row.push_back(fmt::format("{:.6e}", fit.covariance(i, k)));
+    }
+    text += fmt::format("  [{}],\n", fmt::join(row, ", "));
+  }
+  std::vector<std::string> noise;
+  for (Eigen::Index i = 0; i < fit.statistical_covariance.rows(); ++i) {
+    noise.push_back(fmt::format("{:.4e}", std::sqrt(fit.statistical_covariance(i, i))));
+  }
+  text += fmt::format("]\nstatistical_error = [{}]\n", fmt::join(noise, ", "));
+  text +=
+      fmt::format("chi_squared = {:.6g}\ndegrees_of_freedom = {}\n", fit.chi_squared, fit.degrees_of_freedom);
+  return text;
+}
+
+std::string settings_table(const FitSettings& settings) {
+  const ModelErrors& errors = settings.model_errors;
+  std::string text = "[provenance.fit]\n";
+  text += fmt::format("reference_temperature = \"{} K\"\n", settings.reference_temperature);
+  text += fmt::format("particle_velocities = [\"{} km/s\", \"{} km/s\"]\n",
+                      settings.least_particle_velocity / 1000.0, settings.most_particle_velocity / 1000.0);
+  text += fmt::format("melting = {}\n", whipple::quoted(settings.melting));
+  text += "# Model errors, one standard deviation (docs/theory/fit.md)\n";
+  text += fmt::format("model_error_volume = {}\nmodel_error_shock_velocity = {}\n",
+                      errors.zero_pressure_volume, errors.shock_velocity);
+  text += fmt::format("model_error_gruneisen = {}\nmodel_error_anharmonic = \"{} J/(mol K^2)\"\n",
+                      errors.gruneisen, errors.anharmonic);
+  text += fmt::format("model_error_thermal_pressure = \"{} GPa\"\nmodel_error_energy = \"{} J/mol\"\n",
+                      errors.thermal_pressure * 1e-9, errors.energy);
+  text += fmt::format("model_error_melting_temperature = {}\n", errors.melting_temperature);
+  return text;
+}
+
+std::string provenance_table(const GrayFit& fit, const StoreOrigin& origin) {
+  std::string text = fmt::format("[provenance]\nstore = {}\nstore_sha256 = {}\npotential = {}\n",
+                                 whipple::quoted(origin.name), whipple::quoted(origin.sha256),
+                                 whipple::quoted(fit.potential));
+  for (const auto& [name, value] : origin.common) {
+    if (name != "potential") text += fmt::format("{} = {}\n", name, whipple::quoted(value));
+  }
+  text += fmt::format("superheated_states_left_out = {}\n", fit.superheated_states);
+  for (const auto& [title, counts] :
+       {std::pair{"finished_points", &origin.finished}, std::pair{"failed_points", &origin.failed}}) {
+    if (counts->empty()) continue;
+    text += fmt::format("\n[provenance.{}]\n", title);
+    for (const auto& [protocol, count] : *counts) text += fmt::format("{} = {}\n", protocol, count);
+  }
+  return text + "\n" + settings_table(fit.settings);
+}
+
+std::string defaults_table(const GrayFit& fit) {
+  std::string text =
+      "[defaults]\n# Constants that the simulations do not bear: name of the choice, and its source.\n";
+  for (const Constant& constant : fit.constants) {
+    if (constant.origin == Origin::by_default) {
+      text += fmt::format("{} = {}\n", constant.name, whipple::quoted(constant.source));
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+StoreOrigin store_origin(const std::filesystem::path& store, std::span<const md::PointRecord> points) {
+  StoreOrigin origin;
+  origin.name = store.filename().string();
+  origin.sha256 = md::sha256_of_file(store);
+  std::map<std::string, std::set<std::string>> values;
+  int finished = 0;
+  for (const md::PointRecord& point : points) {
+    ++(point.done() ? origin.finished : origin.failed)[point.protocol];
+    if (!point.done()) continue;
+    ++finished;
+    for (const auto& [name, value] : point.provenance) values[name].insert(value);
+  }
+  for (const auto& [name, found] : values) {
+    if (found.size() != 1) continue;
+    const bool everywhere =
+        std::all_of(points.begin(), points.end(), [&, key = name](const md::PointRecord& point) {
+          return !point.done() || point.provenance.contains(key);
+        });
+    if (everywhere && finished > 0) origin.common[name] = *found.begin();
+  }
+  return origin;
+}
+
+std::string strength_and_failure(const std::filesystem::path& material) {
+  std::istringstream lines(read_text(material));
+  std::string text;
+  std::string pending;  // comments and blank lines: they belong to what follows
+  bool copying = false;
+  for (std::string line; std::getline(lines, line);) {
+    const std::string_view table = opened_table(line);
+    if (!table.empty()) copying = table == "strength" || table == "failure";
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first == std::string::npos || line[first] == '#') {
+      pending += line + "\n";
+      continue;
+    }
+    if (copying) text += pending + line + "\n";
+    pending.clear();
+  }
+  const std::size_t begin = text.find_first_not_of('\n');
+  return begin == std::string::npos ? std::string() : text.substr(begin);
+}
+
+std::filesystem::path default_template(const std::string& element) {
+  const std::string file = fmt::format("{}.toml", element_defaults(element).metal);
+  std::vector<std::filesystem::path> folders;
+  if (const char* variable = std::getenv("WHIPPLE_MATERIALS")) folders.emplace_back(variable);
+  folders.push_back(std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() /
+                    "share/whipple/materials");
+  folders.emplace_back(WHIPPLE_MATERIALS_FOLDER);
+  for (const std::filesystem::path& folder : folders) {
+    if (std::filesystem::exists(folder / file)) return folder / file;
+  }
+  std::vector<std::string> names;
+  for (const std::filesystem::path& folder : folders) names.push_back(folder.string());
+  throw InputError(
+      fmt::format("no material '{}' to take strength and failure from (searched: {}); name one with "
+                  "--template",
+                  file, fmt::join(names, ", ")));
+}
+
+std::string material_text(const GrayFit& fit, const StoreOrigin& origin,
+                          const std::filesystem::path& template_file) {
+  const std::string_view metal = element_defaults(fit.element).metal;
+  std::string text =
+      fmt::format("name = \"{} (GRAY fitted to molecular dynamics, {})\"\n", metal, origin.name);
+  text +=
+      fmt::format("source = {}\n", whipple::quoted(fmt::format("whipple fit of {}; interatomic potential {}",
+                                                               origin.name, fit.potential)));
+  text += fmt::format(
+      "note = \"solid from molecular dynamics; electrons, liquid and vapour from the named defaults; "
+      "strength and "
+      "failure as in {}\"\n\n",
+      template_file.filename().string());
+  text += "[eos]\nmodel = \"gray\"\n";
+  text +=
+      fmt::format("source = {}\n",
+                  whipple::quoted(fmt::format(
+                      "fitted: weighted least squares, {} (docs/theory/fit.md); the rest: table [defaults]",
+                      origin.name)));
+  for (const Constant& constant : fit.constants) text += constant_line(constant);
+  text += fmt::format("melting = {}\n\n", whipple::quoted(fit.gray.melting));
+  text += strength_and_failure(template_file);
+  text += "\n" + covariance_table(fit) + "\n" + provenance_table(fit, origin) + "\n" + defaults_table(fit);
+  return text;
+}
+
+void write_file(const std::filesystem::path& path, const std::string& text, bool force) {
+  if (std::filesystem::exists(path) && !force) {
+    throw InputError(fmt::format("'{}' exists; --force overwrites it", path.string()));
+  }
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
+  std::filesystem::path temporary = path;
+  temporary += ".part";
+  {
+    std::ofstream file(temporary, std::ios::binary);
+    file << text;
+    if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", path.string()));
+  }
+  std::filesystem::rename(temporary, path);
+}
+
+}  // namespace whipple::fit

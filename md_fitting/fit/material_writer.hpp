@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+
+#include "md_fitting/fit/gray_fit.hpp"
+
+namespace whipple::fit {
+
+/// Where the points of a fit come from: the [provenance] table. Neither times nor paths, so that the same
+/// store gives the same bytes.
+struct StoreOrigin {
+  std::string name;                           ///< file name of the store
+  std::string sha256;                         ///< of the file
+  std::map<std::string, int> finished;        ///< per protocol
+  std::map<std::string, int> failed;          ///< per protocol
+  std::map<std::string, std::string> common;  ///< provenance entries that all finished points share
+};
+StoreOrigin store_origin(const std::filesystem::path& store, std::span<const md::PointRecord> points);
+
+/// The tables [strength] and [[failure]] of a material file, as they stand there, comments included.
+/// @throws InputError if the file cannot be read
+std::string strength_and_failure(const std::filesystem::path& material);
+
+/// The material file that strength and failure of an element are taken from by default:
+/// eos/materials/METAL.toml of $WHIPPLE_MATERIALS, the installation or the source tree.
+/// @throws InputError if there is none
+std::filesystem::path default_template(const std::string& element);
+
+/// Text of the complete material file: [eos] with every constant in practical units, its error or the name of
+/// its default beside it; [covariance]; [provenance]; [defaults]; [strength] and [[failure]] of the template.
+std::string material_text(const GrayFit& fit, const StoreOrigin& origin,
+                          const std::filesystem::path& template_file);
+
+/// Writes a file as a whole (temporary name, then renamed).
+/// @throws InputError if it is there already and `force` is false, or if it cannot be written
+void write_file(const std::filesystem::path& path, const std::string& text, bool force);
+
+}  // namespace whipple::fit

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/fit/model_check.hpp"
+
+#include <cmath>
+
+#include "eos/loci.hpp"
+#include "eos/model_equation_of_state.hpp"
+#include "eos/models/gray.hpp"
+#include "src/base/error.hpp"
+
+namespace whipple::fit {
+namespace {
+
+/// Collects model less datum.
+class Deviations {
+ public:
+  Deviations(std::string quantity, std::string unit, double unit_size)
+      : check_{std::move(quantity), std::move(unit)}, unit_size_(unit_size) {}
+
+  template <class Model>
+  void add(double datum, const Model& model) {
+    try {
+      const double deviation = (model() - datum) / unit_size_;
+      ++check_.points;
+      check_.mean += deviation;
+      check_.rms += deviation * deviation;
+      if (std::abs(deviation) > std::abs(check_.maximum)) check_.maximum = deviation;
+    } catch (const StateError&) {
+      // Outside the model: not counted.
+    }
+  }
+  void finish(std::vector<ModelCheck>& checks) {
+    if (check_.points == 0) return;
+    check_.mean /= check_.points;
+    check_.rms = std::sqrt(check_.rms / check_.points);
+    checks.push_back(check_);
+  }
+
+ private:
+  ModelCheck check_;
+  double unit_size_;
+};
+
+/// Temperature of one edge of the melting band where its pressure is the asked one.
+double edge_temperature(const eos::GrayFreeEnergy& surface, double pressure, bool liquid) {
+  const auto edge = [&](double volume) {
+    const eos::GrayBand band = surface.band(surface.isochore(volume));
+    return liquid ? std::pair(band.P2, band.T2) : std::pair(band.P1, band.T1);
+  };
+  double small = surface.least_volume();
+  double large = surface.join_volume();
+  if (edge(small).first < pressure || edge(large).first > pressure) {
+    throw StateError("the melting curve does not reach the pressure");
+  }
+  while (large - small > 1e-10 * large) {
+    const double middle = 0.5 * (small + large);
+    (edge(middle).first > pressure ? small : large) = middle;
+  }
+  return edge(0.5 * (small + large)).second;
+}
+
+bool is_solid(const md::PointRecord& point) {
+  const auto flag = point.results.find("solid");
+  return flag == point.results.end() || flag->second.value > 0.5;
+}
+
+}  // namespace
+
+std::vector<ModelCheck> check_model(eos::GrayConstants constants, const Observations& data,
+                                    std::span<const md::PointRecord> points) {
+  constants.electronic_heat_coefficient = 0.0;
+  const eos::ModelEquationOfState<eos::Gray> model(constants);
+  const eos::GrayFreeEnergy& surface = model.underlying().free_energy();
+  std::vector<ModelCheck> checks;
+
+  Deviations shock("Hugoniot pressure", "GPa", 1e9);
+  const eos::Hugoniot hugoniot(model);
+  for (const HugoniotState& state : data.hugoniot) {
+    shock.add(state.pressure.value, [&] { return hugoniot.at_density(1.0 / state.volume).state.pressure; });
+  }
+  shock.finish(checks);
+
+  for (const char* protocol : {"isotherm", "isochore"}) {
+    Deviations pressure(std::string(protocol) + " pressure", "GPa", 1e9);
+    for (const md::PointRecord& point : md::select(points, protocol)) {
+      if (!is_solid(point)) continue;
+      pressure.add(point.result("pressure").value, [&] {
+        return surface.solid(point.condition("specific_volume"), point.condition("temperature")).pressure;
+      });
+    }
+    pressure.finish(checks);
+  }
+
+  Deviations expansion("volume at zero pressure", "%", 0.01);
+  for (const md::PointRecord& point : md::select(points, "zero_pressure_volume")) {
+    const double volume = point.result("specific_volume").value;
+    expansion.add(1.0, [&] {
+      return 1.0 /
+             (eos::density_at_pressure(model, point.condition("pressure"), point.condition("temperature")) *
+              volume);
+    });
+  }
+  expansion.finish(checks);
+
+  Deviations melting("melting temperature at the pressure", "K", 1.0);
+  for (const MeltingPoint& point : data.melting) {
+    melting.add(point.temperature.value, [&] {
+      return 0.5 * (edge_temperature(surface, point.pressure, false) +
+                    edge_temperature(surface, point.pressure, true));
+    });
+  }
+  melting.finish(checks);
+  return checks;
+}
+
+}  // namespace whipple::fit

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/fit/observations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "src/base/error.hpp"
+
+namespace whipple::fit {
+namespace {
+
+using md::Estimate;
+using md::PointRecord;
+
+constexpr double same_volume = 1e-6;      // relative: states of one isochore
+constexpr double same_temperature = 0.5;  // K: a volume at the reference temperature itself
+constexpr std::size_t least_states = 3;   // of the Hugoniot window, of an isochore
+constexpr std::size_t least_isochores = 2;
+
+bool is_solid(const PointRecord& point) {
+  const auto flag = point.results.find("solid");
+  return flag == point.results.end() || flag->second.value > 0.5;
+}
+
+/// V at zero pressure and the reference temperature: the point there, or the line through its neighbours.
+bool reference_volume(const std::vector<PointRecord>& points, double temperature, Estimate& volume) {
+  const PointRecord* below = nullptr;
+  const PointRecord* above = nullptr;
+  for (const PointRecord& point : points) {
+    if (!is_solid(point)) continue;
+    const double t = point.condition("temperature");
+    if (std::abs(t - temperature) <= same_temperature) {
+      volume = point.result("specific_volume");
+      return true;
+    }
+    if (t < temperature && (below == nullptr || t > below->condition("temperature"))) below = &point;
+    if (t > temperature && (above == nullptr || t < above->condition("temperature"))) above = &point;
+  }
+  if (below == nullptr || above == nullptr) return false;
+  const double t0 = below->condition("temperature");
+  const double weight = (temperature - t0) / (above->condition("temperature") - t0);
+  const Estimate v0 = below->result("specific_volume");
+  const Estimate v1 = above->result("specific_volume");
+  volume.value = (1 - weight) * v0.value + weight * v1.value;
+  volume.error = std::hypot((1 - weight) * v0.error, weight * v1.error);
+  return true;
+}
+
+/// The state behind the shock by the jump conditions: V is exact, us and up stand for the pressure above the
+/// initial one, P = us up / V0 with V0 = V us / (us - up).
+HugoniotState hugoniot_state(const PointRecord& point) {
+  HugoniotState state;
+  state.volume = point.condition("specific_volume");
+  state.shock_velocity = point.result("shock_velocity").value;
+  state.particle_velocity = point.result("particle_velocity").value;
+  state.pressure.value =
+      state.particle_velocity * (state.shock_velocity - state.particle_velocity) / state.volume;
+  state.pressure.error = point.result("pressure").error;
+  return state;
+}
+
+std::vector<Isochore> isochores(std::span<const PointRecord> points) {
+  std::vector<Isochore> found;
+  for (const char* protocol : {"isochore", "isotherm"}) {
+    for (const PointRecord& point : md::select(points, protocol)) {
+      if (!is_solid(point)) continue;
+      const double volume = point.condition("specific_volume");
+      const ThermalState state{point.condition("temperature"), point.result("pressure"),
+                               point.result("specific_internal_energy")};
+      const auto place = std::find_if(found.begin(), found.end(), [&](const Isochore& isochore) {
+        return std::abs(isochore.volume - volume) <= same_volume * volume;
+      });
+      if (place == found.end()) {
+        found.push_back({volume, {state}});
+        continue;
+      }
+      // An isotherm and an isochore may cross in one state: it is one datum.
+      const bool twice =
+          std::any_of(place->states.begin(), place->states.end(), [&](const ThermalState& other) {
+            return other.temperature == state.temperature && other.pressure.value == state.pressure.value;
+          });
+      if (!twice) place->states.push_back(state);
+    }
+  }
+  std::erase_if(found, [](const Isochore& isochore) {
+    std::set<double> temperatures;
+    for (const ThermalState& state : isochore.states) temperatures.insert(state.temperature);
+    return temperatures.size() < least_states;
+  });
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.volume > b.volume; });
+  for (Isochore& isochore : found) {
+    std::sort(isochore.states.begin(), isochore.states.end(),
+              [](const auto& a, const auto& b) { return a.temperature < b.temperature; });
+  }
+  return found;
+}
+
+std::vector<MeltingPoint> melting_points(const std::vector<PointRecord>& points) {
+  std::vector<MeltingPoint> found;
+  for (const PointRecord& point : points) {
+    if (!point.results.contains("solid_specific_volume"))
+      continue;  // without it the point says nothing on V0
+    found.push_back({point.condition("pressure"), point.result("melting_temperature"),
+                     point.result("solid_specific_volume")});
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.pressure < b.pressure; });
+  return found;
+}
+
+/// The one value that all finished points share.
+std::string common_origin(std::span<const PointRecord> points, const char* entry,
+                          const std::string& store_name) {
+  std::set<std::string> values;
+  for (const PointRecord& point : points) {
+    if (point.done()) values.insert(point.origin(entry));
+  }
+  if (values.size() > 1) {
+    throw InputError(
+        fmt::format("{}: the points were computed with different values of '{}' ({}); keep one store "
+                    "for each",
+                    store_name, entry, fmt::join(values, ", ")));
+  }
+  return *values.begin();
+}
+
+std::string missing(std::span<const PointRecord> points, const char* protocol, const std::string& have,
+                    const std::string& need) {
+  const auto failed = std::count_if(points.begin(), points.end(), [&](const PointRecord& point) {
+    return point.protocol == protocol && !point.done();
+  });
+  std::string text = fmt::format("\n  protocol \"{}\": {}, the fit needs {}", protocol, have, need);
+  if (failed > 0) text += fmt::format(" ({} failed)", failed);
+  return text;
+}
+
+}  // namespace
+
+Observations observe(std::span<const PointRecord> points, double reference_temperature, double least,
+                     double most, const std::string& store_name) {
+  if (std::none_of(points.begin(), points.end(), [](const PointRecord& point) { return point.done(); })) {
+    throw InputError(
+        fmt::format("{}: no finished points ({} failed); run a plan with the protocols "
+                    "\"zero_pressure_volume\", \"hugoniot\", "
+                    "\"isochore\" and, for the melting temperature, \"coexistence\"",
+                    store_name, points.size()));
+  }
+  Observations data;
+  data.element = common_origin(points, "element", store_name);
+  data.potential = common_origin(points, "potential", store_name);
+  const auto first =
+      std::find_if(points.begin(), points.end(), [](const auto& point) { return point.done(); });
+  data.molar_mass = first->origin_number("molar_mass");
+  data.reference_temperature = reference_temperature;
+
+  std::string lacking;
+  const std::vector<PointRecord> volumes = md::select(points, "zero_pressure_volume");
+  if (!reference_volume(volumes, reference_temperature, data.reference_volume)) {
+    lacking += missing(points, "zero_pressure_volume",
+                       fmt::format("{} finished, none at {} K nor on both sides of it", volumes.size(),
+                                   reference_temperature),
+                       fmt::format("one at {} K", reference_temperature));
+  }
+  for (const PointRecord& point : md::select(points, "hugoniot")) {
+    if (is_solid(point)) data.hugoniot.push_back(hugoniot_state(point));
+  }
+  std::sort(data.hugoniot.begin(), data.hugoniot.end(),
+            [](const auto& a, const auto& b) { return a.particle_velocity < b.particle_velocity; });
+  const auto inside =
+      std::count_if(data.hugoniot.begin(), data.hugoniot.end(), [&](const HugoniotState& state) {
+        return state.particle_velocity >= least && state.particle_velocity <= most;
+      });
+  if (inside < static_cast<std::ptrdiff_t>(least_states)) {
+    lacking += missing(points, "hugoniot",
+                       fmt::format("{} finished, {} of them with a particle velocity of {} ... {} km/s",
+                                   data.hugoniot.size(), inside, 1e-3 * least, 1e-3 * most),
+                       fmt::format("{} there", least_states));
+  }
+  data.isochores = isochores(points);
+  if (data.isochores.size() < least_isochores) {
+    lacking += missing(points, "isochore",
+                       fmt::format("{} volumes with {} or more temperatures of the solid",
+                                   data.isochores.size(), least_states),
+                       fmt::format("{}", least_isochores));
+  }
+  data.melting = melting_points(md::select(points, "coexistence"));
+  if (!lacking.empty()) {
+    throw InputError(fmt::format("{}: points are missing:{}", store_name, lacking));
+  }
+  return data;
+}
+
+}  // namespace whipple::fit
