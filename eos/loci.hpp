@@ -60,12 +60,14 @@ std::vector<IsentropeState> isentrope(const EquationOfState& eos, const State& s
 /// Release (or isentropic compression) to a pressure.
 struct Release {
   IsentropeState end;
-  /// Equilibrium mass fraction of vapour at the end pressure with the entropy of the start, by the lever rule
-  /// (end.state is the metastable liquid there); equal to end.state.vaporised_fraction if the model has no
-  /// dome.
-  double equilibrium_vaporised_fraction = 0;
+  /// The end is an equilibrium mixture of liquid and vapour: `end.state` holds the mixture's density, energy,
+  /// temperature and fractions; sound speed and Riemann velocity are not defined (NaN).
+  bool in_equilibrium = false;
 };
-/// @param pressure lies between the start's pressure and the least pressure that the isentrope reaches
+/// If the model has a liquid-vapour dome at the pressure and the entropy of the start lies in it, the end is
+/// the equilibrium mixture (lever rule on the entropy); otherwise the isentrope is integrated on the model's
+/// own surface.
+/// @throws StateError if the isentrope turns around before it reaches the pressure; the message says where
 Release release(const EquationOfState& eos, const State& start, double pressure);
 
 /// Where the principal Hugoniot enters and leaves the melting region.

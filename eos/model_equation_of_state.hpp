@@ -59,7 +59,7 @@ class ModelEquationOfState final : public EquationOfState {
   }
   [[nodiscard]] std::string constants() const override {
     typename M::Constants values = model_.constants();
-    return to_toml(bind(M::parameters(), values));
+    return to_toml(whipple::bind(M::parameters(), values));
   }
 
  private:

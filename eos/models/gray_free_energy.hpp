@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cmath>
-#include <vector>
 
+#include "eos/hermite_table.hpp"
 #include "eos/models/gray_constants.hpp"
 
 /// Helmholtz free energy of GRAY in closed form, phase by phase (docs/theory/gray.md, sections 2 to 4). All
@@ -151,12 +151,8 @@ class GrayFreeEnergy {
   double cold_offset_ = 0, cold_energy_at_reference_ = 0;  ///< P_CC (G6), E_00 (G4)
   double entropy_offset_ = 0;
   double least_volume_ = 0, join_volume_ = 0, covolume_ = 0;
-  /// Quintic Hermite table of E_c - E_0H over x: value, first and second derivative times the step.
-  struct Node {
-    double value, slope, curvature;
-  };
-  double table_begin_ = 0, table_step_ = 0;
-  std::vector<Node> table_;
+  HermiteTable table_;  ///< E_c - E_0H over x
+  bool isochoric_ = false;
   // Vapour.
   GrayIsochore join_;
   GrayBand join_band_;

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "eos/equation_of_state.hpp"
+#include "eos/hermite_table.hpp"
 #include "src/base/parameter_table.hpp"
 
 namespace whipple::eos {
@@ -50,10 +51,26 @@ class MieGruneisen {
   [[nodiscard]] State state_at_temperature(double density, double temperature) const;
 
  private:
-  struct Pressure;
-  [[nodiscard]] Pressure pressure(double density) const;
+  /// p = A + B e and its derivatives by density.
+  struct Coefficients {
+    double A, B, A_slope, B_slope;
+  };
+  /// Energy and temperature on the isentrope through the reference state.
+  struct Isentrope {
+    double energy, temperature;
+  };
+  struct Point;
+  [[nodiscard]] Coefficients coefficients(double density) const;
+  [[nodiscard]] Isentrope isentrope(double density) const;
+  [[nodiscard]] Point point(double density, double energy) const;
+  [[nodiscard]] State full_state(const Point& point) const;
+  void find_limit();
+  void tabulate_isentrope();
+
   Constants constants_;
+  bool constant_product_ = true;
   double maximum_density_ = 0;
+  HermiteTable isentrope_energy_;  ///< over eta = 1 - rho0/rho, in compression
 };
 
 }  // namespace whipple::eos

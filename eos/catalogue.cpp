@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eos/catalogue.hpp"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "eos/model_equation_of_state.hpp"
+#include "eos/models/gray.hpp"
+#include "eos/models/mie_gruneisen.hpp"
+#include "src/base/error.hpp"
+#include "src/base/text.hpp"
+
+namespace whipple::eos {
+namespace {
+
+template <Model M>
+ModelEntry entry() {
+  using Constants = typename M::Constants;
+  return {std::string(M::name), std::string(M::summary), [] { return describe_table(M::parameters()); },
+          [](const ParameterReader& read) -> std::function<std::unique_ptr<EquationOfState>()> {
+            Constants constants;
+            read(whipple::bind(M::parameters(), constants));
+            return [constants] { return std::make_unique<ModelEquationOfState<M>>(constants); };
+          }};
+}
+
+}  // namespace
+
+std::span<const ModelEntry> catalogue() {
+  static const std::array entries = {
+      entry<Gray>(),
+      entry<MieGruneisen>(),
+  };
+  return entries;
+}
+
+const ModelEntry& find_model(std::string_view name) {
+  std::vector<std::string> names;
+  for (const ModelEntry& candidate : catalogue()) {
+    if (candidate.name == name) return candidate;
+    names.push_back(candidate.name);
+  }
+  throw InputError(fmt::format("unknown equation of state {}{}; known: {}", quoted(name),
+                               did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
+}  // namespace whipple::eos

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eos/models/gray_constants.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "src/base/error.hpp"
+
+namespace whipple::eos {
+
+ParameterTable<GrayConstants> gray_parameters() {
+  using C = GrayConstants;
+  return {
+      real("molar_mass", &C::molar_mass, "kg/mol", range::positive(), "mass of a mole of atoms"),
+      real("reference_specific_volume", &C::reference_specific_volume, "m^3/kg", range::positive(),
+           "V0, specific volume at the reference temperature and zero pressure"),
+      real("hugoniot_intercept", &C::hugoniot_intercept, "m/s", range::positive(),
+           "C of the linear shock Hugoniot Us = C + S up"),
+      real("hugoniot_slope", &C::hugoniot_slope, "", range::positive(), "S of Us = C + S up"),
+      real("gruneisen", &C::gruneisen, "", range::positive(), "gamma0, lattice Grueneisen parameter at V0"),
+      real("gruneisen_slope", &C::gruneisen_slope, "", range::any(), "a of gamma = gamma0 - a (1 - V/V0)"),
+      real("electronic_heat_coefficient", &C::electronic_heat_coefficient, "J/(mol K^2)",
+           range::non_negative(), "g_el of the electronic heat capacity g_el T at V0"),
+      real("anharmonic_heat_coefficient", &C::anharmonic_heat_coefficient, "J/(mol K^2)", range::any(),
+           "g_anh of the anharmonic heat capacity g_anh T at V0; g_e of GRAY is g_el + g_anh")
+          .optional(),
+      real("electronic_gruneisen", &C::electronic_gruneisen, "", range::any(),
+           "gamma_e of the terms in T^2: g_e (V/V0)^gamma_e")
+          .optional(),
+      real("melting_temperature", &C::melting_temperature, "K", range::positive(),
+           "T_m0, melting temperature on the isochore V0 (not at zero pressure)"),
+      real("melting_gruneisen", &C::melting_gruneisen, "", range::positive(),
+           "gamma_m0 of the Lindemann melting law; if missing: gruneisen")
+          .optional(),
+      real("melting_gruneisen_slope", &C::melting_gruneisen_slope, "", range::any(),
+           "a_m of the Lindemann melting law; if missing: gruneisen_slope")
+          .optional(),
+      real("melting_entropy", &C::melting_entropy, "J/(mol K)", range::positive(),
+           "Delta S; the entropy of melting at constant volume is Delta S - alpha")
+          .optional(),
+      real("liquid_heat_coefficient", &C::liquid_heat_coefficient, "J/(mol K)", range::non_negative(),
+           "alpha of the liquid's heat capacity 3R - alpha T/T_m")
+          .optional(),
+      real("hot_liquid_ratio", &C::hot_liquid_ratio, "", {.lower = 2.0, .lower_open = true},
+           "T_G/T_m: above T_G the heat capacity stays at 3R - alpha T_G/T_m")
+          .optional(),
+      choice("melting", &C::melting, {"band", "isochoric"},
+             "symmetric temperature band of melting, or melting at one temperature of each isochore")
+          .optional(),
+      real("join_volume_ratio", &C::join_volume_ratio, "", range::open_between(1.0, 2.0),
+           "V_J/V0, where the vapour is joined to the liquid; 1.2 to 1.4 is sound")
+          .optional(),
+      real("covolume_ratio", &C::covolume_ratio, "", range::open_between(0.0, 1.0),
+           "V_b/V0, hard-sphere volume scale of the vapour")
+          .optional(),
+      real("join_shape", &C::join_shape, "", range::positive(), "theta of the join function of the vapour")
+          .optional(),
+      real("vapour_attraction", &C::vapour_attraction, "J m^3/kg^2", range::positive(),
+           "a_y, van der Waals attraction of the vapour: R T_c V_b/0.0943 for a wanted T_c"),
+      real("reference_temperature", &C::reference_temperature, "K", range::positive(), "T0").optional(),
+      real("reference_energy", &C::reference_energy, "J/kg", range::any(), "E(V0, T0)").optional(),
+  };
+}
+
+GrayConstants resolved(GrayConstants c) {
+  if (std::isnan(c.melting_gruneisen)) c.melting_gruneisen = c.gruneisen;
+  if (std::isnan(c.melting_gruneisen_slope)) c.melting_gruneisen_slope = c.gruneisen_slope;
+  if (c.melting_entropy <= c.liquid_heat_coefficient) {
+    throw InputError(fmt::format(
+        "gray: melting_entropy ({} J/(mol K)) must exceed liquid_heat_coefficient ({} J/(mol K)): "
+        "their difference is the entropy of melting",
+        c.melting_entropy, c.liquid_heat_coefficient));
+  }
+  if (c.covolume_ratio >= c.join_volume_ratio) {
+    throw InputError(fmt::format("gray: covolume_ratio ({}) must be below join_volume_ratio ({})",
+                                 c.covolume_ratio, c.join_volume_ratio));
+  }
+  if (c.join_shape <= c.covolume_ratio / c.join_volume_ratio) {
+    throw InputError(fmt::format("gray: join_shape ({}) must exceed covolume_ratio/join_volume_ratio ({})",
+                                 c.join_shape, c.covolume_ratio / c.join_volume_ratio));
+  }
+  return c;
+}
+
+}  // namespace whipple::eos

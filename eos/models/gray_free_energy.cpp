@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Condensed phases of GRAY. Equation numbers: docs/theory/gray.md.
+#include "eos/models/gray_free_energy.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+
+#include "src/base/error.hpp"
+
+namespace whipple::eos {
+namespace {
+
+constexpr int table_intervals = 1024;
+/// Nearest approach to the pole 1 - S x = 0 of the linear Hugoniot if the cold pressure has not turned over
+/// before.
+constexpr double pole_margin = 0.03;
+constexpr double greatest_compression = 0.9;     ///< x; tenfold compression
+constexpr double checked_temperature = 30000.0;  ///< K: the heat capacity must be positive up to here
+
+/// (P1a V0/C^2)(x) of (G5) and its first two derivatives: n/d with n = x (1 - (1 + gamma0/2) x + a x^2/2) and
+/// d = (1 - x)(1 - S x)^2.
+std::array<double, 3> reference_pressure(double x, double S, double gamma0, double a) {
+  const double b = 1 + gamma0 / 2;
+  const double n = x * (1 - b * x + a * x * x / 2);
+  const double n1 = 1 - 2 * b * x + 1.5 * a * x * x;
+  const double n2 = -2 * b + 3 * a * x;
+  const double y = 1 - x, s = 1 - S * x;
+  const double d = y * s * s;
+  const double d1 = -s * s - 2 * S * y * s;
+  const double d2 = 4 * S * s + 2 * S * S * y;
+  const double f = n / d;
+  const double f1 = (n1 - f * d1) / d;
+  const double f2 = (n2 - 2 * f1 * d1 - f * d2) / d;
+  return {f, f1, f2};
+}
+
+}  // namespace
+
+GrayFreeEnergy::GrayFreeEnergy(const GrayConstants& constants) : constants_(resolved(constants)) {
+  const GrayConstants& c = constants_;
+  gas_ = GrayConstants::gas_constant / c.molar_mass;
+  lattice_ = 3 * gas_;
+  heat_coefficient_ = (c.electronic_heat_coefficient + c.anharmonic_heat_coefficient) / c.molar_mass;
+  melting_entropy_ = c.melting_entropy / c.molar_mass;
+  liquid_slope_ = c.liquid_heat_coefficient / c.molar_mass;
+  const double T0 = c.reference_temperature, V0 = c.reference_specific_volume;
+  cold_energy_at_reference_ = -T0 * (lattice_ + heat_coefficient_ * T0 / 2);                       // (G4)
+  cold_offset_ = T0 * T0 * heat_coefficient_ * (c.gruneisen - c.electronic_gruneisen) / (2 * V0);  // (G6)
+  isochoric_ = c.melting == "isochoric";
+  entropy_offset_ = -heat_coefficient_ * T0;  // zero entropy at (V0, T0)
+  join_volume_ = c.join_volume_ratio * V0;
+  covolume_ = c.covolume_ratio * V0;
+  tabulate_cold_curve();
+  prepare_vapour();
+  check_heat_capacity();
+}
+
+double GrayFreeEnergy::lattice_factor(double x) const {  // (G10)
+  const double a = constants_.gruneisen_slope;
+  return std::exp(a * x - (constants_.gruneisen - a) * std::log1p(-x));
+}
+
+GrayFreeEnergy::Cold GrayFreeEnergy::cold_from_energy(double x, double energy) const {
+  // dE_c/dx = V0 P_c turns (G9) into P_c = P1a + P_CC + q (E_c - E_0H)/V0 with q = gamma/(1 - x).
+  const GrayConstants& c = constants_;
+  const double V0 = c.reference_specific_volume;
+  const auto [f, f1, f2] = reference_pressure(x, c.hugoniot_slope, c.gruneisen, c.gruneisen_slope);
+  const double scale = c.hugoniot_intercept * c.hugoniot_intercept / V0;
+  const double y = 1 - x, excess = c.gruneisen - c.gruneisen_slope;
+  const double q = c.gruneisen_slope + excess / y, q1 = excess / (y * y), q2 = 2 * q1 / y;
+  const double p = scale * f + cold_offset_ + q * energy / V0;
+  const double p1 = scale * f1 + q1 * energy / V0 + q * p;
+  const double p2 = scale * f2 + q2 * energy / V0 + 2 * q1 * p + q * p1;
+  return {energy, p, p1, p2};
+}
+
+void GrayFreeEnergy::tabulate_cold_curve() {
+  const GrayConstants& c = constants_;
+  const double V0 = c.reference_specific_volume;
+  const double scale = c.hugoniot_intercept * c.hugoniot_intercept;  // V0 P1a = scale * f
+  const auto integrand = [&](double x) {
+    const double f = reference_pressure(x, c.hugoniot_slope, c.gruneisen, c.gruneisen_slope)[0];
+    return (scale * f + V0 * cold_offset_) / lattice_factor(x);
+  };
+  const auto integral = [&](double from, double to) {
+    return boost::math::quadrature::gauss<double, 10>::integrate(integrand, from, to);
+  };
+  const auto energy = [&](double x, double sum) {
+    return lattice_factor(x) * (cold_energy_at_reference_ + sum);
+  };
+
+  // Compression limit (G29): the first x at which the cold pressure stops rising.
+  const double last = std::min((1 - pole_margin) / c.hugoniot_slope, greatest_compression);
+  constexpr int steps = 4000;
+  double limit = last, sum = 0, previous_slope = cold_from_energy(0, energy(0, 0)).p1;
+  if (previous_slope <= 0) {
+    throw InputError(
+        "gray: the cold pressure does not rise with compression at V0; check hugoniot_intercept, gruneisen "
+        "and "
+        "the heat coefficients");
+  }
+  for (int i = 1; i <= steps; ++i) {
+    const double x0 = last * (i - 1) / steps, x1 = last * i / steps;
+    sum += integral(x0, x1);
+    const double slope = cold_from_energy(x1, energy(x1, sum)).p1;
+    if (slope <= 0) {
+      limit = x0 + (x1 - x0) * previous_slope / (previous_slope - slope);
+      break;
+    }
+    previous_slope = slope;
+  }
+  least_volume_ = V0 * (1 - limit);
+
+  const double begin = 1 - c.join_volume_ratio, step = (limit - begin) / table_intervals;
+  const auto node = [&](int i) { return begin + i * step; };
+  const int origin = static_cast<int>(std::lround(-begin / step));  // node nearest to x = 0
+  std::vector<double> sums(table_intervals + 1);
+  sums[origin] = integral(0, node(origin));
+  for (int i = origin; i < table_intervals; ++i) sums[i + 1] = sums[i] + integral(node(i), node(i + 1));
+  for (int i = origin; i > 0; --i) sums[i - 1] = sums[i] - integral(node(i - 1), node(i));
+  std::vector<HermiteTable::Node> nodes;
+  for (int i = 0; i <= table_intervals; ++i) {
+    const Cold cold = cold_from_energy(node(i), energy(node(i), sums[i]));
+    nodes.push_back({cold.e, V0 * cold.p, V0 * cold.p1});
+  }
+  table_ = HermiteTable(begin, step, std::move(nodes));
+}
+
+GrayFreeEnergy::Cold GrayFreeEnergy::cold(double x) const { return cold_from_energy(x, table_(x)); }
+
+GrayIsochore GrayFreeEnergy::isochore(double V) const {
+  const GrayConstants& c = constants_;
+  const double V0 = c.reference_specific_volume;
+  const double ratio = V / V0, x = 1 - ratio;
+  GrayIsochore result;
+  result.V = V;
+  result.log_ratio = std::log(ratio);
+  result.gruneisen = c.gruneisen - c.gruneisen_slope * x;                                             // (G2)
+  result.heat_coefficient = heat_coefficient_ * std::exp(c.electronic_gruneisen * result.log_ratio);  // (G8)
+  result.lindemann_exponent =
+      2.0 / 3.0 - 2 * c.melting_gruneisen + 2 * c.melting_gruneisen_slope * x;  // (G12)
+  result.melting_temperature =
+      c.melting_temperature * std::exp(2 * c.melting_gruneisen_slope * x -
+                                       2 * (c.melting_gruneisen - 1.0 / 3.0 - c.melting_gruneisen_slope) *
+                                           result.log_ratio);  // (G11)
+
+  const Cold cold_state = cold(x);
+  const double g = result.heat_coefficient, gamma = result.gruneisen, gamma_e = c.electronic_gruneisen;
+  result.cold_curvature = cold_state.p2 / (V0 * V0);
+  GrayBranch& s = result.solid;  // (G1), (G3) with (G8)
+  s.e0 = c.reference_energy + cold_state.e;
+  s.e1 = lattice_;
+  s.e2 = g / 2;
+  s.p0 = cold_state.p;
+  s.p1 = gamma * lattice_ / V;
+  s.p2 = gamma_e * g / (2 * V);
+  s.q0 = -cold_state.p1 / V0;
+  s.q1 = lattice_ * (c.gruneisen_slope / V0 - gamma / V) / V;
+  s.q2 = (gamma_e - 1) * s.p2 / V;
+  return result;
+}
+
+GrayBranch GrayFreeEnergy::liquid_branch(const GrayIsochore& iso) const {
+  // E_l - E_s = T_m (dS - alpha/2) - alpha T^2/(2 T_m) (G16), P_l - P_s = -(lambda/V)(E_l - E_s) (G18).
+  const double m = iso.lindemann_exponent / iso.V;
+  const double m1 =
+      -(2 * constants_.melting_gruneisen_slope / constants_.reference_specific_volume + m) / iso.V;
+  const double heat = iso.melting_temperature * (melting_entropy_ - liquid_slope_ / 2);
+  const double slope = liquid_slope_ / (2 * iso.melting_temperature);
+  GrayBranch l = iso.solid;
+  l.e0 += heat;
+  l.e2 -= slope;
+  l.p0 -= m * heat;
+  l.p2 += m * slope;
+  l.q0 -= (m1 + m * m) * heat;
+  l.q2 += (m1 - m * m) * slope;
+  return l;
+}
+
+GrayBranch GrayFreeEnergy::hot_liquid_branch(const GrayIsochore& iso) const {
+  // E_l - E_s = T_m [dS - alpha (1 - tau_G^2)/2] - tau_G alpha T (G17), pressure as above.
+  const double tau = constants_.hot_liquid_ratio;
+  const double m = iso.lindemann_exponent / iso.V;
+  const double m1 =
+      -(2 * constants_.melting_gruneisen_slope / constants_.reference_specific_volume + m) / iso.V;
+  const double heat = iso.melting_temperature * (melting_entropy_ - liquid_slope_ * (1 - tau * tau) / 2);
+  const double slope = tau * liquid_slope_;
+  GrayBranch l = iso.solid;
+  l.e0 += heat;
+  l.e1 -= slope;
+  l.p0 -= m * heat;
+  l.p1 += m * slope;
+  l.q0 -= (m1 + m * m) * heat;
+  l.q1 += m1 * slope;
+  return l;
+}
+
+double GrayFreeEnergy::solid_entropy(const GrayIsochore& iso, double T) const {
+  // S = 3R ln(T/T0) - 3R ln h + g_e T - g_e0 T0
+  const GrayConstants& c = constants_;
+  const double x = 1 - iso.V / c.reference_specific_volume;
+  const double log_h = c.gruneisen_slope * x - (c.gruneisen - c.gruneisen_slope) * iso.log_ratio;
+  return lattice_ * (std::log(T / c.reference_temperature) - log_h) + iso.heat_coefficient * T +
+         entropy_offset_;
+}
+
+double GrayFreeEnergy::liquid_entropy_excess(double tau) const {
+  // -phi'(tau) of (G15)
+  const double tau_g = constants_.hot_liquid_ratio;
+  if (tau <= tau_g) return melting_entropy_ - liquid_slope_ * tau;
+  return melting_entropy_ - liquid_slope_ * tau_g * (1 + std::log(tau / tau_g));
+}
+
+// Width of the melting band, (G31) with the bound of (G32): delta = T_m s(k), s = (1 + k^4)^(-1/4) for k > 0,
+// 1 for k <= 0, where 1/k = delta_T/T_m of (G31). Near and beyond the solid's spinodal K_T -> 0 and (G31)
+// alone would reach below T = 0; where (G31) is meant to be used, k > 5, the bound changes it by less than
+// 0.04 %.
+namespace {
+double band_shape(double k) { return k > 0 ? 1 / std::sqrt(std::sqrt(1 + k * k * k * k)) : 1.0; }
+}  // namespace
+
+double GrayFreeEnergy::band_width(const GrayIsochore& iso) const {
+  const double T = iso.melting_temperature, lambda = iso.lindemann_exponent;
+  const double entropy = melting_entropy_ - liquid_slope_;
+  const double k = -iso.V * iso.V * iso.solid.pressure_by_volume(T) / (entropy * lambda * lambda * T);
+  return T * band_shape(k);
+}
+
+double GrayFreeEnergy::band_width_slope(const GrayIsochore& iso) const {
+  const GrayConstants& c = constants_;
+  const GrayBranch& s = iso.solid;
+  const double V = iso.V, V0 = c.reference_specific_volume, T = iso.melting_temperature;
+  const double lambda = iso.lindemann_exponent, lambda1 = -2 * c.melting_gruneisen_slope / V0;
+  const double T1 = lambda * T / V;
+  const double Q = s.pressure_by_volume(T);
+  const double q1_slope = 2 * lattice_ * (iso.gruneisen / V - c.gruneisen_slope / V0) / (V * V);
+  const double q2_slope = (c.electronic_gruneisen - 2) * s.q2 / V;
+  const double Q1 = iso.cold_curvature + T * (q1_slope + T * q2_slope) + (s.q1 + 2 * s.q2 * T) * T1;
+  const double scale = (melting_entropy_ - liquid_slope_) * lambda * lambda * T;
+  const double k = -V * V * Q / scale;
+  const double k1 = -(2 * V * Q + V * V * Q1) / scale - k * (2 * lambda1 / lambda + lambda / V);
+  const double shape = band_shape(k);
+  const double shape1 = k > 0 ? -k * k * k * std::pow(shape, 5) : 0.0;
+  return T1 * shape + T * shape1 * k1;
+}
+
+GrayBand GrayFreeEnergy::band(const GrayIsochore& iso) const {
+  const double half = isochoric_ ? 0.0 : band_width(iso) / 2;
+  const GrayBranch l = liquid_branch(iso);
+  GrayBand b;
+  b.T1 = iso.melting_temperature - half;
+  b.T2 = iso.melting_temperature + half;
+  b.E1 = iso.solid.energy(b.T1);
+  b.E2 = l.energy(b.T2);
+  b.P1 = iso.solid.pressure(b.T1);
+  b.P2 = l.pressure(b.T2);
+  return b;
+}
+
+GrayBandSlopes GrayFreeEnergy::band_slopes(const GrayIsochore& iso, const GrayBand& band) const {
+  const double half = isochoric_ ? 0.0 : band_width_slope(iso) / 2;
+  const double melting_slope = iso.lindemann_exponent * iso.melting_temperature / iso.V;
+  const GrayBranch l = liquid_branch(iso);
+  GrayBandSlopes d;
+  d.T1 = melting_slope - half;
+  d.T2 = melting_slope + half;
+  d.E1 = iso.solid.energy_by_volume(band.T1) + iso.solid.heat_capacity(band.T1) * d.T1;
+  d.E2 = l.energy_by_volume(band.T2) + l.heat_capacity(band.T2) * d.T2;
+  d.P1 = iso.solid.pressure_by_volume(band.T1) + iso.solid.pressure_by_temperature(band.T1) * d.T1;
+  d.P2 = l.pressure_by_volume(band.T2) + l.pressure_by_temperature(band.T2) * d.T2;
+  return d;
+}
+
+GrayPoint GrayFreeEnergy::solid(double V, double T) const {
+  const GrayIsochore iso = isochore(V);
+  const GrayBranch& b = iso.solid;
+  return {b.pressure(T),
+          b.energy(T),
+          solid_entropy(iso, T),
+          b.heat_capacity(T),
+          b.pressure_by_temperature(T),
+          b.pressure_by_volume(T)};
+}
+
+GrayPoint GrayFreeEnergy::liquid(double V, double T) const {
+  const GrayIsochore iso = isochore(V);
+  const double tau = T / iso.melting_temperature;
+  const GrayBranch b = tau > constants_.hot_liquid_ratio ? hot_liquid_branch(iso) : liquid_branch(iso);
+  return {b.pressure(T),
+          b.energy(T),
+          solid_entropy(iso, T) + liquid_entropy_excess(tau),
+          b.heat_capacity(T),
+          b.pressure_by_temperature(T),
+          b.pressure_by_volume(T)};
+}
+
+double GrayFreeEnergy::cold_energy(double V) const { return isochore(V).solid.e0; }
+double GrayFreeEnergy::cold_pressure(double V) const { return isochore(V).solid.p0; }
+double GrayFreeEnergy::gamma(double V) const {
+  return constants_.gruneisen - constants_.gruneisen_slope * (1 - V / constants_.reference_specific_volume);
+}
+double GrayFreeEnergy::melting_temperature(double V) const { return isochore(V).melting_temperature; }
+double GrayFreeEnergy::electronic_heat_coefficient(double V) const { return isochore(V).heat_coefficient; }
+
+void GrayFreeEnergy::check_heat_capacity() const {
+  const auto refuse = [&](const char* phase, double V, double T, double value) {
+    throw InputError(fmt::format(
+        "gray: the heat capacity of the {} is {:.4g} J/(kg K) at V/V0 = {:.3f} and {:.0f} K, but must be "
+        "positive up "
+        "to {:.0f} K; check electronic_heat_coefficient + anharmonic_heat_coefficient ({:.4g} J/(mol K^2)), "
+        "liquid_heat_coefficient ({:.4g} J/(mol K)) and hot_liquid_ratio ({:.4g})",
+        phase, value, V / constants_.reference_specific_volume, T, checked_temperature,
+        constants_.electronic_heat_coefficient + constants_.anharmonic_heat_coefficient,
+        constants_.liquid_heat_coefficient, constants_.hot_liquid_ratio));
+  };
+  constexpr int samples = 64;
+  for (int i = 0; i <= samples; ++i) {
+    const double V = least_volume_ + (join_volume_ - least_volume_) * i / samples;
+    const GrayIsochore iso = isochore(V);
+    // Heat capacities are linear in T: the ends of each branch decide.
+    const double hot = constants_.hot_liquid_ratio * iso.melting_temperature;
+    const double solid_end = std::min(1.5 * iso.melting_temperature, checked_temperature);
+    const double liquid_end = std::min(hot, checked_temperature);
+    if (const double cv = iso.solid.heat_capacity(solid_end); !(cv > 0)) refuse("solid", V, solid_end, cv);
+    if (const double cv = liquid_branch(iso).heat_capacity(liquid_end); !(cv > 0))
+      refuse("liquid", V, liquid_end, cv);
+    for (const double T : {hot, checked_temperature}) {
+      if (T < hot || hot > checked_temperature) continue;
+      if (const double cv = hot_liquid_branch(iso).heat_capacity(T); !(cv > 0))
+        refuse("hot liquid", V, T, cv);
+    }
+  }
+  for (const double ratio : {1.0, 1.5, 2.0, 4.0, 10.0, 1e3, 1e6}) {
+    const double V = ratio * join_volume_;
+    const double cool_end = std::min(join_hot_temperature_, checked_temperature);
+    if (const double cv = vapour_branch(V, false).heat_capacity(cool_end); !(cv > 0))
+      refuse("vapour", V, cool_end, cv);
+    if (join_hot_temperature_ > checked_temperature) continue;
+    for (const double T : {join_hot_temperature_, checked_temperature}) {
+      if (const double cv = vapour_branch(V, true).heat_capacity(T); !(cv > 0))
+        refuse("hot vapour", V, T, cv);
+    }
+  }
+}
+
+}  // namespace whipple::eos

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Vapour of GRAY, V > V_J: Carnahan-Starling hard spheres with van der Waals attraction (Young and Alder
+// 1971), joined to the liquid at V_J. Equation numbers: docs/theory/gray.md.
+#include <cmath>
+
+#include "eos/models/gray_free_energy.hpp"
+
+namespace whipple::eos {
+namespace {
+
+/// Compressibility of hard spheres, Carnahan and Starling, J. Chem. Phys. 51, 635 (1969).
+double compressibility(double z) {
+  const double y = 1 - z;
+  return (1 + z * (1 + z * (1 - z))) / (y * y * y);
+}
+/// dZ/dz
+double compressibility_slope(double z) {
+  const double y = 1 - z;
+  return (1 + z * (2 - 3 * z)) / (y * y * y) + 3 * (1 + z * (1 + z * (1 - z))) / (y * y * y * y);
+}
+/// Integral of (Z - 1)/z from 0 to z: excess free energy of hard spheres over R T.
+double excess_free_energy(double z) { return z * (4 - 3 * z) / ((1 - z) * (1 - z)); }
+
+/// Join function F_P (G21), its derivative dF_P/dV and its integral F_E (G23).
+struct Join {
+  double pressure, pressure_by_volume, energy;
+};
+Join join_function(double V, double covolume, double z_join, double theta) {
+  const double z = covolume / V;
+  const double root = z * (theta - z_join) / (z_join * (theta - z));
+  const double cube = root * root * root;
+  // d ln(root)/dz = 1/z + 1/(theta - z) = theta/(z (theta - z)), dz/dV = -z/V
+  const double slope = -3 * cube * theta / ((theta - z) * V);
+  const double d = theta - z_join;
+  const double ratio = d / (theta - z);
+  const double energy = covolume / (2 * z_join * z_join * z_join) * d *
+                        (ratio * ratio * (2 * z - theta) - (2 * z_join - theta));
+  return {cube, slope, energy};
+}
+
+}  // namespace
+
+void GrayFreeEnergy::prepare_vapour() {
+  join_ = isochore(join_volume_);
+  join_band_ = band(join_);
+  join_hot_temperature_ = constants_.hot_liquid_ratio * join_.melting_temperature;
+  join_cool_ = liquid_branch(join_);
+  join_hot_ = hot_liquid_branch(join_);
+  join_compressibility_ = compressibility(covolume_ / join_volume_);
+}
+
+GrayBranch GrayFreeEnergy::vapour_branch(double V, bool hot) const {
+  // (G25): F = F_l(V_J, T) + hard spheres and attraction relative to V_J + D(T) F_E(V), with
+  // D = P_l(V_J, T) - P_HS(V_J, T) + a_y/V_J^2 = d0 + d1 T + d2 T^2.
+  const GrayBranch& l = hot ? join_hot_ : join_cool_;
+  const double a = constants_.vapour_attraction;
+  const double d0 = l.p0 + a / (join_volume_ * join_volume_);
+  const double d1 = l.p1 - gas_ * join_compressibility_ / join_volume_;
+  const double d2 = l.p2;
+  const double z = covolume_ / V;
+  const Join join = join_function(V, covolume_, covolume_ / join_volume_, constants_.join_shape);
+  GrayBranch v;
+  v.e0 = l.e0 - a * (1 / V - 1 / join_volume_) + d0 * join.energy;
+  v.e1 = l.e1;
+  v.e2 = l.e2 - d2 * join.energy;
+  v.p0 = -a / (V * V) + d0 * join.pressure;
+  v.p1 = gas_ * compressibility(z) / V + d1 * join.pressure;
+  v.p2 = d2 * join.pressure;
+  v.q0 = 2 * a / (V * V * V) + d0 * join.pressure_by_volume;
+  v.q1 = -gas_ * (compressibility(z) + z * compressibility_slope(z)) / (V * V) + d1 * join.pressure_by_volume;
+  v.q2 = d2 * join.pressure_by_volume;
+  return v;
+}
+
+double GrayFreeEnergy::join_difference_slope(double T) const {
+  const GrayBranch& l = T > join_hot_temperature_ ? join_hot_ : join_cool_;
+  return l.pressure_by_temperature(T) - gas_ * join_compressibility_ / join_volume_;
+}
+
+double GrayFreeEnergy::vapour_entropy(double V, double T) const {
+  // -dF/dT of (G25)
+  const double z = covolume_ / V, z_join = covolume_ / join_volume_;
+  const Join join = join_function(V, covolume_, z_join, constants_.join_shape);
+  return solid_entropy(join_, T) + liquid_entropy_excess(T / join_.melting_temperature) -
+         gas_ * (std::log(z / z_join) + excess_free_energy(z) - excess_free_energy(z_join)) -
+         join_difference_slope(T) * join.energy;
+}
+
+GrayPoint GrayFreeEnergy::vapour(double V, double T) const {
+  const GrayBranch b = vapour_branch(V, T > join_hot_temperature_);
+  return {b.pressure(T),
+          b.energy(T),
+          vapour_entropy(V, T),
+          b.heat_capacity(T),
+          b.pressure_by_temperature(T),
+          b.pressure_by_volume(T)};
+}
+
+}  // namespace whipple::eos

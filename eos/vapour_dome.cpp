@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eos/vapour_dome.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <utility>
+
+#include "eos/root.hpp"
+#include "src/base/error.hpp"
+
+namespace whipple::eos {
+namespace {
+
+constexpr int scan_points = 240;
+/// sqrt(1 - T/T_c) of the hottest row: T = 0.9999 T_c
+constexpr double least_distance = 0.01;
+
+double spaced(double from, double to, int i, int n) {
+  return from * std::pow(to / from, static_cast<double>(i) / n);
+}
+
+double gibbs(const FluidPoint& p, double V, double T) { return p.energy - T * p.entropy + p.pressure * V; }
+
+}  // namespace
+
+VapourDome::VapourDome(const Search& search) : search_(search) {
+  find_critical_point();
+  // V_l and V_v leave the critical point like sqrt(1 - T/T_c): rows uniform in that distance keep them
+  // smooth.
+  const double far = std::sqrt(1 - search_.least_reduced_temperature);
+  rows_.reserve(search_.rows);
+  for (int i = 0; i < search_.rows; ++i) {
+    const double distance = far + (least_distance - far) * i / (search_.rows - 1);
+    rows_.push_back(maxwell(critical_.temperature * (1 - distance * distance)));
+  }
+}
+
+void VapourDome::find_critical_point() {
+  // Largest (dP/dV)_T V^2 over the volumes: positive below T_c (a loop), zero at it.
+  double volume = 0;
+  const auto steepest = [&](double T) {
+    const auto slope = [&](double log_volume) {
+      const double V = std::exp(log_volume);
+      return V * V * search_.fluid(V, T).pressure_by_volume;
+    };
+    const double first = std::log(search_.loop_volume), last = std::log(100 * search_.loop_volume);
+    int best = 0;
+    double greatest = -INFINITY;
+    for (int i = 0; i <= scan_points; ++i) {
+      const double value = slope(first + (last - first) * i / scan_points);
+      if (value > greatest) {
+        greatest = value;
+        best = i;
+      }
+    }
+    const double step = (last - first) / scan_points;
+    const double centre = first + best * step;
+    const auto [log_volume, negative] = boost::math::tools::brent_find_minima(
+        [&](double x) { return -slope(x); }, std::max(first, centre - step), std::min(last, centre + step),
+        40);
+    volume = std::exp(log_volume);
+    return -negative;
+  };
+  const double low = search_.temperature_guess / 6, high = 6 * search_.temperature_guess;
+  if (!(steepest(low) > 0) || !(steepest(high) < 0)) {
+    throw InputError(fmt::format(
+        "no critical point between {:.0f} and {:.0f} K; check the vapour constants (vapour_attraction, "
+        "covolume_ratio, join_volume_ratio)",
+        low, high));
+  }
+  const double T = find_root(steepest, low, high, "critical temperature", 40);
+  static_cast<void>(steepest(T));
+  const FluidPoint point = search_.fluid(volume, T);
+  critical_ = {T, point.pressure, volume, point.energy};
+}
+
+Saturation VapourDome::maxwell(double T) const {
+  const auto slope = [&](double V) { return search_.fluid(V, T).pressure_by_volume; };
+  const auto pressure = [&](double V) { return search_.fluid(V, T).pressure; };
+  // First spinodal from the dense side and from the dilute side; between them lies the unstable critical
+  // volume.
+  const auto spinodal = [&](double outer, double inner) {
+    double before = outer;
+    for (int i = 1; i <= scan_points; ++i) {
+      const double V = spaced(outer, inner, i, scan_points);
+      if (slope(V) >= 0) return find_root(slope, before, V, "spinodal");
+      before = V;
+    }
+    throw InputError(
+        fmt::format("no liquid-vapour loop at {:.0f} K, below the critical temperature of {:.0f} K; check "
+                    "the vapour constants "
+                    "(vapour_attraction, covolume_ratio, join_volume_ratio)",
+                    T, critical_.temperature));
+  };
+  const double liquid_spinodal = spinodal(search_.dense_volume, critical_.specific_volume);
+  const double vapour_spinodal = spinodal(search_.dilute_volume, critical_.specific_volume);
+  const double highest = pressure(vapour_spinodal);
+  const double spinodal_pressure = pressure(liquid_spinodal);
+
+  const auto liquid_volume = [&](double p) {
+    return find_root([&](double V) { return pressure(V) - p; }, search_.dense_volume, liquid_spinodal,
+                     "volume of the saturated liquid");
+  };
+  const auto vapour_volume = [&](double p) {
+    const double ideal = 2 * search_.gas_constant * T / p;
+    return find_root([&](double V) { return pressure(V) / p - 1; }, vapour_spinodal,
+                     std::max(ideal, 2 * vapour_spinodal), "volume of the saturated vapour");
+  };
+  // Gibbs energy of the liquid minus that of the vapour falls with P, d(dG)/dP = V_l - V_v < 0.
+  const auto difference = [&](double log_pressure) {
+    const double p = std::exp(log_pressure);
+    const double Vl = liquid_volume(p), Vv = vapour_volume(p);
+    return gibbs(search_.fluid(Vl, T), Vl, T) - gibbs(search_.fluid(Vv, T), Vv, T);
+  };
+  const double upper = std::log(highest) - 1e-12;
+  double lower = spinodal_pressure > 0 ? std::log(spinodal_pressure) + 1e-12 : upper - 1;
+  if (spinodal_pressure <= 0) {
+    while (difference(lower) < 0 && lower > upper - 600) lower -= 2 * (upper - lower);
+  }
+  const double p = std::exp(find_root(difference, lower, upper, "vapour pressure"));
+
+  Saturation s;
+  s.temperature = T;
+  s.pressure = p;
+  s.liquid_volume = liquid_volume(p);
+  s.vapour_volume = vapour_volume(p);
+  const FluidPoint l = search_.fluid(s.liquid_volume, T), v = search_.fluid(s.vapour_volume, T);
+  s.liquid_energy = l.energy;
+  s.liquid_entropy = l.entropy;
+  s.vapour_energy = v.energy;
+  s.vapour_entropy = v.entropy;
+  return s;
+}
+
+double VapourDome::vaporised_fraction(double V, double E) const {
+  // Fraction that the volume asks for at a row, and the energy of that mixture; continued linearly out of the
+  // dome.
+  const auto fraction = [&](const Saturation& s) {
+    return (V - s.liquid_volume) / (s.vapour_volume - s.liquid_volume);
+  };
+  const auto energy = [&](const Saturation& s, double x) {
+    return s.liquid_energy + x * (s.vapour_energy - s.liquid_energy);
+  };
+  const auto colder = [&](const Saturation& s) {
+    const double x = fraction(s);
+    return x >= 0 && x <= 1 && energy(s, x) < E;
+  };
+  const Saturation& coldest = rows_.front();
+  if (V <= coldest.liquid_volume) return 0.0;
+  // The last row that lies in the dome at V with less energy than E.
+  const auto next = std::partition_point(rows_.begin(), rows_.end(), colder);
+  if (next == rows_.begin()) return std::clamp(fraction(coldest), 0.0, 1.0);
+  const Saturation& below = *(next - 1);
+  const double x0 = fraction(below);
+  if (next == rows_.end()) return std::clamp(x0, 0.0, 1.0);
+  const double x1 = fraction(*next);
+  const double e0 = energy(below, x0), e1 = energy(*next, x1);
+  if (!(e1 > e0)) return std::clamp(x0, 0.0, 1.0);
+  return std::clamp(x0 + (x1 - x0) * std::min(1.0, (E - e0) / (e1 - e0)), 0.0, 1.0);
+}
+
+std::optional<Saturation> VapourDome::at_temperature(double temperature) const {
+  if (!(temperature >= rows_.front().temperature && temperature <= rows_.back().temperature))
+    return std::nullopt;
+  return maxwell(temperature);
+}
+
+std::optional<Saturation> VapourDome::at_pressure(double pressure) const {
+  if (!(pressure >= rows_.front().pressure && pressure <= rows_.back().pressure)) return std::nullopt;
+  const auto above = std::partition_point(rows_.begin(), rows_.end(),
+                                          [&](const Saturation& s) { return s.pressure < pressure; });
+  if (above == rows_.begin()) return rows_.front();
+  const double T = find_root([&](double t) { return std::log(maxwell(t).pressure / pressure); },
+                             (above - 1)->temperature, above->temperature, "saturation temperature", 40);
+  return maxwell(T);
+}
+
+}  // namespace whipple::eos
