@@ -232,7 +232,7 @@ Case read(input::Document document,
 
 template <class Owner>
 std::string section(const char* name, const ParameterTable<Owner>& table, Owner owner) {
-  return fmt::format("\n[{}]\n{}", name, whipple::to_toml(bind(table, owner)));
+  return fmt::format("\n[{}]\n{}", name, whipple::to_toml(whipple::bind(table, owner)));
 }
 
 }  // namespace
@@ -247,7 +247,7 @@ Case read_case_text(const std::string& text, const std::string& name) {
 }
 
 std::string to_toml(const Case& setup, const std::vector<std::string>& material_of_body) {
-  std::string text = fmt::format("title = {}\n", quoted(setup.title));
+  std::string text = fmt::format("title = {}\n", whipple::quoted(setup.title));
   text += section("domain", Domain::parameters(), setup.domain);
   text += section("domain.boundary", Domain::boundary_parameters(), setup.domain);
   text += section("time", TimeControl::parameters(), setup.time);
@@ -257,8 +257,8 @@ std::string to_toml(const Case& setup, const std::vector<std::string>& material_
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     Body body = setup.bodies[b];
     body.material = material_of_body[b];
-    text += "\n[[body]]\n" + whipple::to_toml(bind(Body::parameters(), body));
-    text += fmt::format("discretization = {{ method = {}, per_cell = {} }}\n", quoted(body.discretization.method),
+    text += "\n[[body]]\n" + whipple::to_toml(whipple::bind(Body::parameters(), body));
+    text += fmt::format("discretization = {{ method = {}, per_cell = {} }}\n", whipple::quoted(body.discretization.method),
                         body.discretization.per_cell);
     text += fmt::format("shape = {}\n", body.shape->toml());
   }

@@ -15,7 +15,7 @@ constexpr double pi = std::numbers::pi;
 template <class Primitive>
 std::string shape_as_toml(const char* name, Primitive shape) {
   std::string keys;
-  for (const BoundParameter& parameter : bind(Primitive::parameters(), shape)) {
+  for (const BoundParameter& parameter : whipple::bind(Primitive::parameters(), shape)) {
     keys += fmt::format("{}{} = {}", keys.empty() ? "" : ", ", parameter.info.name, value_as_toml(parameter));
   }
   return fmt::format("{{ {} = {{ {} }} }}", name, keys);

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "src/io/checkpoint.hpp"
+#include "src/solver/simulation.hpp"
+
+namespace whipple::solver {
+
+/// Everything of the run's state by name, for a checkpoint.
+io::CheckpointValues to_checkpoint(const RunState& state);
+
+/// @throws InputError naming what is missing
+RunState from_checkpoint(const io::CheckpointValues& values);
+
+}  // namespace whipple::solver

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/run.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "src/base/error.hpp"
+#include "src/base/log.hpp"
+#include "src/base/progress.hpp"
+#include "src/base/text.hpp"
+#include "src/io/history.hpp"
+#include "src/io/particle_series.hpp"
+#include "src/io/run_directory.hpp"
+#include "src/parallel/mpi.hpp"
+#include "src/parallel/threads.hpp"
+#include "src/solver/checkpointing.hpp"
+#include "src/solver/signals.hpp"
+
+namespace whipple::solver {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
+
+/// One rank for now: blocks and particles are not exchanged between processes.
+void require_one_rank(MPI_Comm communicator) {
+  if (parallel::size(communicator) > 1) {
+    throw InputError(fmt::format("the solver was started on {} MPI ranks; it runs on one, with threads (--threads N)",
+                                 parallel::size(communicator)));
+  }
+}
+
+void set_threads(int threads) {
+  parallel::set_threads(threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+}
+
+/// Name of a run: the folder of its case, or the file if that is not called case.toml.
+std::string run_name(const fs::path& case_file) {
+  const std::string stem = case_file.stem().string();
+  if (stem != "case") return stem;
+  const std::string folder = fs::absolute(case_file).parent_path().filename().string();
+  return folder.empty() ? stem : folder;
+}
+
+/// Material files as they lie in the run directory, so that a restart does not depend on files elsewhere.
+std::vector<std::string> material_copies(const setup::Case& setup) {
+  std::vector<std::string> names;
+  std::map<std::string, fs::path> taken;
+  for (const auto& material : setup.materials) {
+    std::string name = material->file.filename().string();
+    for (int i = 2; taken.contains(name) && taken[name] != material->file; ++i) {
+      name = fmt::format("{}_{}.toml", material->file.stem().string(), i);
+    }
+    taken[name] = material->file;
+    names.push_back("materials/" + name);
+  }
+  return names;
+}
+
+std::string provenance(const setup::Case& setup, const std::string& program) {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  return fmt::format(
+      "\n[provenance]\nprogram = {}\ncase_file = {}\nmachine = {}\nthreads = {}\nstarted = {}\n",
+      whipple::quoted(program), whipple::quoted(setup.file.string()),
+      whipple::quoted(host.data()), parallel::threads(),
+      whipple::quoted(fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())))));
+}
+
+io::RunDirectory new_directory(const setup::Case& setup, const fs::path& path, const RunOptions& options) {
+  const std::string name = run_name(setup.file);
+  io::RunDirectory directory = io::RunDirectory::create(path, name, options.force);
+  const std::vector<std::string> copies = material_copies(setup);
+  fs::create_directories(directory.path() / "materials");
+  for (std::size_t b = 0; b < copies.size(); ++b) {
+    io::write_text_atomically(directory.path() / copies[b], io::read_text(setup.materials[b]->file));
+  }
+  directory.write_input(setup::to_toml(setup, copies) + provenance(setup, options.program));
+  return directory;
+}
+
+std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
+  const RunState& state = simulation.state();
+  const Totals& t = simulation.totals();
+  const Particles& particles = simulation.particles();
+  const std::vector<setup::Body>& bodies = simulation.setup().bodies;
+  const std::vector<PhaseMasses> by_body = phase_masses(particles, bodies.size());
+  PhaseMasses all;
+  for (const PhaseMasses& body : by_body) all += body;
+  const auto largest = [&](const std::vector<double>& values) {
+    return parallel::maximum(values.size(), -std::numeric_limits<double>::infinity(),
+                             [&](std::size_t p) { return values[p]; });
+  };
+  std::vector<io::HistoryValue> row = {
+      {"step", "", static_cast<double>(state.step)},
+      {"time", "s", state.time},
+      {"dt", "s", state.time_step},
+      {"mass", "kg", t.mass},
+      {"kinetic_energy", "J", t.kinetic_energy},
+      {"affine_kinetic_energy", "J", t.affine_kinetic_energy},
+      {"internal_energy", "J", t.internal_energy},
+      {"total_energy", "J", t.energy()},
+      {"energy_error", "1", state.ledger.energy_error(t)},
+      {"momentum_x", "kg m/s", t.momentum[0]},
+      {"momentum_y", "kg m/s", t.momentum[1]},
+      {"momentum_z", "kg m/s", t.momentum[2]},
+      {"momentum_error", "1", state.ledger.momentum_error(t)},
+      {"transfer_heat", "J", state.ledger.transfer_heat},
+      {"outflow_mass", "kg", state.ledger.outflow.mass},
+      {"outflow_energy", "J", state.ledger.outflow.energy()},
+      {"wall_impulse_x", "N s", state.ledger.wall_impulse[0]},
+      {"wall_impulse_y", "N s", state.ledger.wall_impulse[1]},
+      {"wall_impulse_z", "N s", state.ledger.wall_impulse[2]},
+      {"mass_solid", "kg", all.mass[0]},
+      {"mass_melting", "kg", all.mass[1]},
+      {"mass_liquid", "kg", all.mass[2]},
+      {"mass_vapour", "kg", all.mass[3]},
+      {"failed_mass", "kg", all.failed},
+      {"maximum_speed", "m/s",
+       parallel::maximum(particles.size(), 0.0, [&](std::size_t p) { return particles.velocity[p].norm(); })},
+      {"maximum_pressure", "Pa", largest(particles.pressure)},
+      {"maximum_temperature", "K", largest(particles.temperature)},
+      {"below_cold_curve", "1", state.ledger.clamped_to_cold_curve},
+      {"limited_volume_changes", "1", state.ledger.limited_volume_changes},
+      {"particles", "1", static_cast<double>(particles.size())},
+  };
+  static constexpr std::array<const char*, 4> phases = {"mass_solid", "mass_melting", "mass_liquid", "mass_vapour"};
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    for (std::size_t i = 0; i < phases.size(); ++i) {
+      row.push_back({fmt::format("{}.{}", phases[i], bodies[b].name), "kg", by_body[b].mass[i]});
+    }
+  }
+  return row;
+}
+
+std::string profile_as_json(Simulation& simulation, double wall_seconds) {
+  nlohmann::json stages = nlohmann::json::array();
+  for (const Profile::Stage& stage : simulation.profile().stages()) {
+    stages.push_back({{"stage", stage.name}, {"seconds", stage.seconds}, {"calls", stage.calls}});
+  }
+  return nlohmann::json({{"wall_seconds", wall_seconds},
+                         {"threads", parallel::threads()},
+                         {"steps", simulation.state().step},
+                         {"particles", simulation.particles().size()},
+                         {"bytes", simulation.bytes()},
+                         {"stages", stages}})
+      .dump(2);
+}
+
+io::ParticleSeries open_series(const setup::Case& setup, const io::RunDirectory& directory, MPI_Comm communicator) {
+  io::ParticleSeriesOptions options{.folder = directory.path(),
+                                    .name = directory.name(),
+                                    .fields = setup.output.fields,
+                                    .material_of_body = {},
+                                    .provenance = {{"units", "SI"},
+                                                   {"input", io::read_text(directory.input_file())}}};
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    options.material_of_body.push_back(static_cast<std::uint16_t>(b));
+  }
+  return io::ParticleSeries(std::move(options), communicator);
+}
+
+/// The loop of a run and everything that it writes.
+class Runner {
+ public:
+  Runner(const setup::Case& setup, const io::RunDirectory& directory, MPI_Comm communicator)
+      : directory_(directory),
+        communicator_(communicator),
+        simulation_(setup, communicator),
+        series_(open_series(setup, directory, communicator)),
+        history_(directory.history_file()) {
+    write_snapshot();
+    history_.append(history_row(simulation_));
+  }
+
+  Runner(const setup::Case& setup, const io::RunDirectory& directory, io::Checkpoint checkpoint, MPI_Comm communicator)
+      : directory_(directory),
+        communicator_(communicator),
+        simulation_(setup, std::move(checkpoint.particles), from_checkpoint(checkpoint.values), communicator),
+        series_(open_series(setup, directory, communicator)),
+        history_(io::History::restart(directory.history_file(), simulation_.state().step)),
+        snapshots_(checkpoint.values.integer("snapshots")) {
+    series_.restart(simulation_.state().time);
+    log::info("restarted from {} at step {}, t = {:.6g} s", checkpoint.path.string(), simulation_.state().step,
+              simulation_.state().time);
+  }
+
+  int run() {
+    const setup::Case& setup = simulation_.setup();
+    const double end = setup.time.end;
+    const Signals signals;
+    Progress progress("run", end);
+    progress.start_from(simulation_.state().time);
+    const Clock::time_point begin = Clock::now();
+    Clock::time_point last_checkpoint = begin;
+    int signal = 0;
+    while (simulation_.state().time < end && signal == 0) {
+      advance(end);
+      const RunState& state = simulation_.state();
+      const bool last = state.time >= end;
+      if (last || state.step % setup.output.history_every == 0) history_.append(history_row(simulation_));
+      const double next_snapshot = setup.output.snapshot_every * static_cast<double>(snapshots_);
+      if (last || (setup.output.snapshot_every > 0.0 && state.time >= next_snapshot)) write_snapshot();
+      signal = signals.end_requested();
+      const double since = std::chrono::duration<double>(Clock::now() - last_checkpoint).count();
+      const bool due = setup.output.checkpoint_every > 0.0 && since >= setup.output.checkpoint_every;
+      if (last || due || signal != 0 || signals.checkpoint_requested()) {
+        write_checkpoint(directory_.checkpoint_folder());
+        last_checkpoint = Clock::now();
+      }
+      progress.update(state.time, fmt::format("step {}, t = {:.3f} us, dt = {:.2f} ns, {} particles, dE/E = {:.1e}",
+                                              state.step, 1e6 * state.time, 1e9 * state.time_step,
+                                              simulation_.particles().size(),
+                                              state.ledger.energy_error(simulation_.totals())));
+    }
+    const double wall = std::chrono::duration<double>(Clock::now() - begin).count();
+    io::write_text_atomically(directory_.profile_file(), profile_as_json(simulation_, wall));
+    report_end(signal, wall);
+    return signal == 0 ? 0 : 128 + signal;
+  }
+
+ private:
+  void advance(double end) {
+    try {
+      simulation_.advance(end);
+    } catch (const StateError& error) {
+      const fs::path folder = directory_.path() / "failed";
+      write_checkpoint(folder);
+      series_.write(simulation_.particles(), simulation_.state().time + simulation_.state().time_step);
+      throw StateError(fmt::format("{}\n  the state is saved in {} and as the last snapshot", error.what(),
+                                   folder.string()));
+    }
+  }
+
+  void write_snapshot() {
+    series_.write(simulation_.particles(), simulation_.state().time);
+    const double every = simulation_.setup().output.snapshot_every;
+    // The next multiple of the interval, also when a step was longer than it.
+    snapshots_ = every > 0.0 ? static_cast<std::int64_t>(std::floor(simulation_.state().time / every)) + 1 : 1;
+  }
+
+  void write_checkpoint(const fs::path& folder) {
+    io::CheckpointValues values = to_checkpoint(simulation_.state());
+    values.integers["snapshots"] = snapshots_;
+    values.texts["run_name"] = directory_.name();
+    const fs::path path =
+        io::write_checkpoint(folder, simulation_.state().step, simulation_.particles(), values, communicator_);
+    log::detail("checkpoint {}", path.string());
+  }
+
+  void report_end(int signal, double wall) {
+    const RunState& state = simulation_.state();
+    const Totals& totals = simulation_.totals();
+    if (signal != 0) {
+      log::info("stopped by signal {} at step {}, t = {:.6g} s; go on with: whipple run --restart {}", signal,
+                state.step, state.time, directory_.path().string());
+    }
+    log::info("{} steps to t = {:.6g} s in {}; energy error {:.2e}, momentum error {:.2e}, outflow {:.3g} kg", state.step,
+              state.time, format_duration(wall), state.ledger.energy_error(totals), state.ledger.momentum_error(totals),
+              state.ledger.outflow.mass);
+    if (state.ledger.clamped_to_cold_curve > 0 || state.ledger.limited_volume_changes > 0) {
+      log::info("clamped: temperature below the cold curve {} times, volume change of a step {} times",
+                state.ledger.clamped_to_cold_curve, state.ledger.limited_volume_changes);
+    }
+    log::info("wrote {} ({} snapshots: open {} in ParaView)", directory_.path().string(), series_.size(),
+              series_.index_path().string());
+  }
+
+  io::RunDirectory directory_;
+  MPI_Comm communicator_;
+  Simulation simulation_;
+  io::ParticleSeries series_;
+  io::History history_;
+  std::int64_t snapshots_ = 0;  // multiple of the interval at which the next snapshot is due
+};
+
+fs::path output_directory(const RunOptions& options, const fs::path& case_file) {
+  return options.output_directory.empty() ? fs::path("run") / run_name(case_file) : options.output_directory;
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  const MPI_Comm communicator = parallel::world();
+  require_one_rank(communicator);
+  set_threads(options.threads);
+  if (options.restart) {
+    const fs::path input = options.output_directory / "run.toml";
+    const setup::Case setup = setup::read_case(input, options.overrides);
+    io::Checkpoint checkpoint = io::read_latest_checkpoint(options.output_directory / "checkpoint", communicator);
+    const io::RunDirectory directory =
+        io::RunDirectory::open(options.output_directory, checkpoint.values.text("run_name"));
+    log::add_file(directory.log_file());
+    Runner runner(setup, directory, std::move(checkpoint), communicator);
+    return runner.run();
+  }
+  const setup::Case setup = setup::read_case(options.case_file, options.overrides);
+  const io::RunDirectory directory =
+      new_directory(setup, output_directory(options, options.case_file), options);
+  log::add_file(directory.log_file());
+  log::info("{}: {}", setup.title.empty() ? directory.name() : setup.title, directory.path().string());
+  Runner runner(setup, directory, communicator);
+  return runner.run();
+}
+
+std::string check(const RunOptions& options) {
+  const MPI_Comm communicator = parallel::world();
+  require_one_rank(communicator);
+  set_threads(options.threads);
+  const setup::Case setup = setup::read_case(options.case_file, options.overrides);
+  Simulation simulation(setup, communicator);
+  std::string text = fmt::format("{}\n{}\n\n", setup.file.string(), setup.title);
+  text += fmt::format("grid: {} x {} x {} cells of {:.6g} mm\n", setup.geometry.cells[0], setup.geometry.cells[1],
+                      setup.geometry.cells[2], 1e3 * setup.geometry.cell_size);
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const setup::BodySummary& body = simulation.bodies()[b];
+    text += fmt::format("body \"{}\" of {}: {} particles, {:.6g} g in the domain; whole shape {:.6g} g\n",
+                        setup.bodies[b].name, setup.materials[b]->name, body.count, 1e3 * body.mass,
+                        1e3 * body.shape_mass);
+  }
+  const std::size_t particles = simulation.particles().size();
+  simulation.advance(setup.time.end);  // activates the blocks
+  constexpr int measured_steps = 2;
+  const Clock::time_point begin = Clock::now();
+  for (int i = 0; i < measured_steps && simulation.state().time < setup.time.end; ++i) simulation.advance(setup.time.end);
+  const double per_step = std::chrono::duration<double>(Clock::now() - begin).count() / measured_steps;
+  const double steps = std::ceil(setup.time.end / simulation.state().time_step);
+  text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", particles, simulation.grid().slots(),
+                      format_bytes(static_cast<double>(simulation.bytes())));
+  text += fmt::format("time step: {:.4g} ns at the start; about {:.0f} steps to t = {:.6g} us, more as shocks raise "
+                      "the sound speed\n",
+                      1e9 * simulation.state().time_step, steps, 1e6 * setup.time.end);
+  text += fmt::format("estimated time: {} on {} threads ({:.0f} ns per particle and step, measured)\n",
+                      format_duration(steps * per_step), parallel::threads(),
+                      1e9 * per_step / static_cast<double>(particles));
+  return text;
+}
+
+}  // namespace whipple::solver

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "src/setup/case.hpp"
+
+namespace whipple::solver {
+
+/// What the user asks of a run besides the case.
+struct RunOptions {
+  std::filesystem::path case_file;        ///< empty on restart: run.toml of the directory
+  std::filesystem::path output_directory; ///< empty: the name of the case's folder, or of its file, in ./run
+  bool restart = false;                   ///< go on from the latest checkpoint in output_directory
+  bool force = false;                     ///< remove the outputs of an earlier run in output_directory
+  int threads = 0;                        ///< 0: all cores
+  std::string program = "whipple";        ///< name and version, for provenance
+  std::vector<std::pair<std::string, std::string>> overrides;  ///< --set
+};
+
+/// Runs a case from its file to its last snapshot (docs/output.md has what it writes). Collective.
+/// SIGINT and SIGTERM write a checkpoint and end the run, SIGUSR1 writes one and goes on.
+/// @returns 0, or 128 + number of the signal that ended the run
+/// @throws InputError before any work and before anything is written if the input is wrong;
+///         StateError if the physics leaves its range: the state is saved in the folder failed/ of the run
+int run(const RunOptions& options);
+
+/// What `whipple check` prints: bodies, particles, memory, steps, time, from the case and two measured steps.
+std::string check(const RunOptions& options);
+
+}  // namespace whipple::solver

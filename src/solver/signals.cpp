@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/signals.hpp"
+
+#include <array>
+#include <csignal>
+
+namespace whipple::solver {
+namespace {
+
+// A handler may only touch such variables.
+volatile std::sig_atomic_t end_signal = 0;
+volatile std::sig_atomic_t checkpoint_signal = 0;
+
+using Handler = void (*)(int);
+constexpr std::array<int, 3> caught = {SIGINT, SIGTERM, SIGUSR1};
+std::array<Handler, 3> former{};
+
+extern "C" void on_signal(int number) {
+  if (number == SIGUSR1) {
+    checkpoint_signal = 1;
+  } else {
+    end_signal = number;
+  }
+}
+
+}  // namespace
+
+Signals::Signals() {
+  end_signal = 0;
+  checkpoint_signal = 0;
+  for (std::size_t i = 0; i < caught.size(); ++i) former[i] = std::signal(caught[i], on_signal);
+}
+
+Signals::~Signals() {
+  for (std::size_t i = 0; i < caught.size(); ++i) std::signal(caught[i], former[i]);
+}
+
+int Signals::end_requested() const { return end_signal; }
+
+bool Signals::checkpoint_requested() const {
+  const bool requested = checkpoint_signal != 0;
+  checkpoint_signal = 0;
+  return requested;
+}
+
+}  // namespace whipple::solver

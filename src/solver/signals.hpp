@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace whipple::solver {
+
+/// Catches SIGINT, SIGTERM (end the run) and SIGUSR1 (write a checkpoint) while it lives.
+class Signals {
+ public:
+  Signals();
+  Signals(const Signals&) = delete;
+  Signals& operator=(const Signals&) = delete;
+  ~Signals();
+
+  /// Number of the signal that asked for the end, 0 if none.
+  [[nodiscard]] int end_requested() const;
+  /// True once per request.
+  [[nodiscard]] bool checkpoint_requested() const;
+};
+
+}  // namespace whipple::solver
