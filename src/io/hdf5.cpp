@@ -213,6 +213,7 @@ void Dataset::read_bytes(void* values, hid_t memory_type, std::uint64_t size, co
       H5Tget_size(type.get()) != H5Tget_size(memory_type)) {
     throw InputError(fmt::format("{}: has numbers of another type than expected", name_));
   }
+  if (rows == 0) return;
   const Handle space = checked(H5Dget_space(id()), H5Sclose, name_, "read the shape");
   if (lengths.empty()) {
     check(H5Dread(id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name_, "read");
@@ -282,6 +283,7 @@ Dataset Group::write_bytes(const std::string& name, const void* values, hid_t me
                                      H5P_DEFAULT),
                           H5Dclose, where, "create the array"),
                   where);
+  if (slab.total == 0) return dataset;  // nothing has an address: a collective transfer of it fails in HDF5 1.10
   const Handle memory = select(space.get(), slab, columns, one_dimensional, where);
   const Handle transfer = transfer_properties(ranks, where);
   check(H5Dwrite(dataset.id(), memory_type, memory.get(), space.get(), transfer.get(), values), where,

@@ -194,6 +194,12 @@ void ParticleSeries::write_file(const fs::path& path, const Particles& particles
   constexpr std::uint8_t vertex = 1;  // VTK_VERTEX
   vtk.write<std::uint8_t>("Types", std::vector<std::uint8_t>(n, vertex), points, compressed, ranks_);
 
+  for (const std::uint32_t body : particles.body) {
+    if (body >= options_.material_of_body.size()) {
+      throw InternalError(fmt::format("a particle of body {}, but the materials of {} bodies were given",
+                                      body, options_.material_of_body.size()));
+    }
+  }
   const FieldSource source{particles, options_.material_of_body};
   const hdf5::Group point_data = vtk.create_group("PointData");
   for (const OutputField& field : fields_) {

@@ -76,8 +76,6 @@ std::string message_of(const std::string& text, const std::string& si_unit) {
 }
 
 TEST(Units, WrongDimensionNamesBothUnits) {
-  EXPECT_EQ(message_of("6.58 kms", "m/s"),
-            "unit 'kms' has the wrong dimension: expected a unit of the kind 'm/s'");
   EXPECT_EQ(message_of("3 GPa", "m/s"),
             "unit 'GPa' has the wrong dimension: expected a unit of the kind 'm/s'");
   EXPECT_EQ(message_of("3 GPa", ""),

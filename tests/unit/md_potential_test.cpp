@@ -31,18 +31,19 @@ TEST(Potential, LatticeSumsGiveThePublishedCopper) {
     const Potential potential = Potential::load(name, "Cu");
     EXPECT_NEAR(potential.lattice_constant(), 3.615, 5e-4) << name;
     EXPECT_NEAR(potential.tables().crystal_energy(potential.lattice_constant()), -3.54, 5e-3) << name;
-    EXPECT_EQ(potential.mass(), 63.55) << name;
+    EXPECT_NEAR(potential.mass(), 63.546, 0.005) << name;
     EXPECT_NEAR(potential.static_volume(), 1.119e-4, 1e-7) << name;
   }
 }
 
-// The short table of the file that LAMMPS ships and the full table are the same function where both exist.
+// The short table of the file that LAMMPS ships and the full table are two tabulations of the same function: they differ by
+// their resolution, 0.2 meV at V0 and 0.5 meV at V/V0 = 0.75, where the crystal is 550 meV above its minimum.
 TEST(Potential, FullTableOfMishinsCopperContinuesTheShortOne) {
   const EamTables full = Potential::load("copper_mishin_2001", "Cu").tables();
   const EamTables small = Potential::load("Cu_mishin1.eam.alloy", "Cu").tables();
   for (const double ratio : {0.75, 0.85, 0.95, 1.0, 1.1, 1.3}) {
     const double a = 3.615 * std::cbrt(ratio);
-    EXPECT_NEAR(full.crystal_energy(a), small.crystal_energy(a), 2e-4) << "V/V0 = " << ratio;
+    EXPECT_NEAR(full.crystal_energy(a), small.crystal_energy(a), 6e-4) << "V/V0 = " << ratio;
   }
   EXPECT_GT(full.density_end() / full.crystal_density(3.615), 20.0);
 }

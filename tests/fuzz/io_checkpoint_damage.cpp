@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A checkpoint that was damaged in any one place is recognised: no crash, no hang, no state read from it.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <random>
+
+#include "src/base/error.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/io/run_directory.hpp"
+#include "tests/unit/io_support.hpp"
+
+namespace whipple::io {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class DamagedCheckpoint : public FolderTest {
+ protected:
+  void SetUp() override {
+    FolderTest::SetUp();
+    CheckpointValues values;
+    values.reals = {{"time", 0.25}};
+    values.texts = {{"case", "title"}};
+    path_ = write_checkpoint(folder_, 1, random_bits(40, 7), values, MPI_COMM_SELF);
+    bytes_ = read_text(path_);
+  }
+  void expect_refused(const std::string& bytes, const std::string& what) {
+    std::ofstream(path_, std::ios::binary) << bytes;
+    try {
+      (void)read_checkpoint(path_, MPI_COMM_SELF);
+      FAIL() << "accepted: " << what;
+    } catch (const InputError& error) {
+      ASSERT_THAT(error.what(), HasSubstr(path_.string())) << what;
+    }
+  }
+  fs::path path_;
+  std::string bytes_;
+};
+
+TEST_F(DamagedCheckpoint, every_single_flipped_bit_is_recognised) {
+  std::mt19937 random(8);
+  for (std::size_t i = 0; i < bytes_.size(); i += i < 4096 ? 1 : 1 + random() % 13) {
+    std::string damaged = bytes_;
+    damaged[i] = static_cast<char>(damaged[i] ^ (1 << (random() % 8)));
+    expect_refused(damaged, "bit flipped in byte " + std::to_string(i));
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST_F(DamagedCheckpoint, every_truncation_is_recognised) {
+  for (std::size_t size = 0; size < bytes_.size(); size += size < 1100 ? 1 : 97) {
+    expect_refused(bytes_.substr(0, size), "cut to " + std::to_string(size) + " bytes");
+    if (HasFatalFailure()) return;
+  }
+  expect_refused(bytes_ + "x", "one byte more");
+}
+
+TEST_F(DamagedCheckpoint, overwritten_and_swapped_blocks_are_recognised) {
+  std::mt19937 random(9);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::string damaged = bytes_;
+    const std::size_t length = 1 + random() % 2048;
+    const std::size_t from = random() % (bytes_.size() - length);
+    const std::size_t to = random() % (bytes_.size() - length);
+    damaged.replace(to, length, trial % 2 == 0 ? std::string(length, '\0') : bytes_.substr(from, length));
+    if (damaged == bytes_) continue;
+    expect_refused(damaged, "block of " + std::to_string(length) + " bytes at " + std::to_string(to));
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST_F(DamagedCheckpoint, the_undamaged_file_is_accepted) {
+  EXPECT_EQ(differing_fields(read_checkpoint(path_, MPI_COMM_SELF).particles, random_bits(40, 7)), "");
+}
+
+}  // namespace
+}  // namespace whipple::io
