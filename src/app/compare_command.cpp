@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/app/compare_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "src/app/compare_data.hpp"
+#include "src/app/paths.hpp"
+#include "src/app/process.hpp"
+#include "src/base/error.hpp"
+#include "src/base/units.hpp"
+#include "src/material/material_file.hpp"
+
+namespace whipple::app {
+namespace {
+
+struct Options {
+  std::vector<std::string> materials;
+  std::vector<std::string> experiments;
+  std::string temperature;
+  std::string csv;
+  std::string plot;
+  bool force = false;
+};
+
+/// How a kind is printed: deviations in `unit` of `unit_size` (SI or percent), abscissa likewise.
+struct Style {
+  const char* kind;
+  const char* deviation;
+  double deviation_size;
+  const char* abscissa;
+  const char* abscissa_unit;
+  double abscissa_size;
+  const char* ordinate;
+  const char* ordinate_unit;
+  double ordinate_size;
+};
+
+Style style(ExperimentKind kind) {
+  switch (kind) {
+    case ExperimentKind::shock_velocity:
+      return {"Hugoniot", "% of Us", 1.0, "up", "km/s", 1e3, "Us", "km/s", 1e3};
+    case ExperimentKind::shock_pressure:
+      return {"Hugoniot", "GPa", 1e9, "V/V0", "", 1.0, "P", "GPa", 1e9};
+    case ExperimentKind::isotherm:
+      return {"isotherm", "GPa", 1e9, "V/V0", "", 1.0, "P", "GPa", 1e9};
+  }
+  throw InternalError("unknown kind of experiment");
+}
+
+/// A path, or a bare file name of the experiments that come with the program.
+std::filesystem::path find_experiment(const std::string& name) {
+  const std::filesystem::path path(name);
+  if (std::filesystem::exists(path)) return path;
+  if (!path.has_parent_path()) {
+    std::filesystem::path file = path;
+    if (!file.has_extension()) file += ".csv";
+    try {
+      return find_data(std::filesystem::path("eos/data") / file);
+    } catch (const InputError&) {
+      // Reported below, with the folders in the user's words.
+    }
+  }
+  throw InputError(
+      fmt::format("no experiment '{}': neither a file nor one of the data that come with the program "
+                  "(eos/data)",
+                  name));
+}
+
+void require_new(const std::string& path, bool force) {
+  if (!path.empty() && std::filesystem::exists(path) && !force) {
+    throw InputError(fmt::format("'{}' exists; --force overwrites it", path));
+  }
+}
+
+struct Row {
+  const Experiment* experiment;
+  const Material* material;
+  std::string label;  ///< of the material
+  Comparison comparison;
+};
+
+void print_table(const std::vector<Row>& rows) {
+  std::vector<std::vector<std::string>> cells = {
+      {"experiment", "kind", "material", "points", "range", "rms", "mean", "largest", "unit"}};
+  for (const Row& row : rows) {
+    const Experiment& experiment = *row.experiment;
+    const Style s = style(experiment.kind);
+    const std::string kind = experiment.kind == ExperimentKind::isotherm
+                                 ? fmt::format("{} {} K", s.kind, experiment.temperature)
+                                 : std::string(s.kind);
+    const auto figure = [&](double value) { return fmt::format("{:.2f}", value / s.deviation_size); };
+    const auto signed_figure = [&](double value) { return fmt::format("{:+.2f}", value / s.deviation_size); };
+    const bool any = row.comparison.points > 0;
+    cells.push_back(
+        {experiment.name, kind, row.label, fmt::format("{}", row.comparison.points),
+         fmt::format("{} {:.3g} ... {:.3g}{}{}", s.abscissa, experiment.abscissa.front() / s.abscissa_size,
+                     experiment.abscissa.back() / s.abscissa_size, *s.abscissa_unit == '\0' ? "" : " ",
+                     s.abscissa_unit),
+         any ? figure(row.comparison.rms) : "-", any ? signed_figure(row.comparison.mean) : "-",
+         any ? signed_figure(row.comparison.maximum) : "-", s.deviation});
+  }
+  std::vector<std::size_t> widths(cells.front().size(), 0);
+  for (const auto& line : cells) {
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  }
+  for (const auto& line : cells) {
+    std::string text;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const bool number = i == 3 || (i >= 5 && i <= 7);
+      text +=
+          number ? fmt::format("{:>{}}  ", line[i], widths[i]) : fmt::format("{:<{}}  ", line[i], widths[i]);
+    }
+    fmt::print("{}\n", text.substr(0, text.find_last_not_of(' ') + 1));
+  }
+  fmt::print("deviations: material less experiment\n");
+  for (const Row& row : rows) {
+    if (row.comparison.out_of_range > 0) {
+      fmt::print("{}: {} points of {} are outside its range and not counted\n", row.label,
+                 row.comparison.out_of_range, row.experiment->name);
+    }
+  }
+}
+
+void write_csv(const std::vector<Row>& rows, const std::string& path) {
+  std::ofstream file(path);
+  file << "# whipple compare: measured points beside the equations of state\n"
+          "experiment,material,abscissa,abscissa_value,abscissa_unit,ordinate,measured,model,ordinate_unit,"
+          "deviation,"
+          "deviation_unit\n";
+  for (const Row& row : rows) {
+    const Experiment& experiment = *row.experiment;
+    const Style s = style(experiment.kind);
+    for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
+      file << fmt::format("{},\"{}\",{},{:.8g},{},{},{:.8g},{:.8g},{},{:.6g},{}\n", experiment.name,
+                          row.label, s.abscissa, experiment.abscissa[i] / s.abscissa_size, s.abscissa_unit,
+                          s.ordinate, experiment.ordinate[i] / s.ordinate_size,
+                          row.comparison.model[i] / s.ordinate_size, s.ordinate_unit,
+                          row.comparison.deviation[i] / s.deviation_size, s.deviation);
+    }
+  }
+  if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", path));
+}
+
+/// JSON has no NaN: a point out of range becomes null.
+nlohmann::json numbers(const std::vector<double>& values, double size) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const double value : values) {
+    list.push_back(std::isnan(value) ? nlohmann::json() : nlohmann::json(value / size));
+  }
+  return list;
+}
+
+void draw(const std::vector<Row>& rows, const std::string& path) {
+  constexpr int curve_points = 200;
+  nlohmann::json panels = nlohmann::json::array();
+  const Experiment* last = nullptr;
+  for (const Row& row : rows) {
+    const Experiment& experiment = *row.experiment;
+    const Style s = style(experiment.kind);
+    if (&experiment != last) {
+      panels.push_back({{"experiment", experiment.name},
+                        {"source", experiment.source},
+                        {"kind", s.kind},
+                        {"temperature", experiment.temperature},
+                        {"abscissa", s.abscissa},
+                        {"abscissa_unit", s.abscissa_unit},
+                        {"ordinate", s.ordinate},
+                        {"ordinate_unit", s.ordinate_unit},
+                        {"deviation_unit", s.deviation},
+                        {"x", numbers(experiment.abscissa, s.abscissa_size)},
+                        {"measured", numbers(experiment.ordinate, s.ordinate_size)},
+                        {"materials", nlohmann::json::array()}});
+      last = &experiment;
+    }
+    std::vector<double> x;
+    const double least = experiment.abscissa.front();
+    const double most = experiment.abscissa.back();
+    for (int i = 0; i < curve_points; ++i) x.push_back(least + (most - least) * i / (curve_points - 1));
+    panels.back()["materials"].push_back(
+        {{"name", row.label},
+         {"x", numbers(x, s.abscissa_size)},
+         {"curve", numbers(curve(*row.material, experiment, x), s.ordinate_size)},
+         {"deviation", numbers(row.comparison.deviation, s.deviation_size)},
+         {"rms", row.comparison.rms / s.deviation_size}});
+  }
+  const std::filesystem::path data = path + ".json.part";
+  {
+    std::ofstream file(data);
+    file << panels.dump(1);
+    if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", data.string()));
+  }
+  // Debian's Python has matplotlib; another one can be named.
+  const char* variable = std::getenv("WHIPPLE_PYTHON");
+  const std::string python = variable != nullptr                           ? variable
+                             : std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3"
+                                                                           : "python3";
+  const int code = run_process({python, find_data("scripts/plot_compare.py").string(), data.string(), path});
+  std::filesystem::remove(data);
+  if (code != 0) {
+    throw InputError(
+        "scripts/plot_compare.py failed (it needs python3 with numpy and matplotlib; WHIPPLE_PYTHON names "
+        "another interpreter)");
+  }
+}
+
+void run(const Options& options) {
+  require_new(options.csv, options.force);
+  require_new(options.plot, options.force);
+  std::optional<double> temperature;
+  if (!options.temperature.empty()) temperature = units::parse_quantity(options.temperature, "K");
+  std::vector<Material> materials;
+  for (const std::string& name : options.materials) materials.push_back(read_material(name));
+  std::vector<Experiment> experiments;
+  for (const std::string& name : options.experiments) {
+    experiments.push_back(read_experiment(find_experiment(name), temperature));
+  }
+  std::vector<Row> rows;
+  for (const Experiment& experiment : experiments) {
+    for (const Material& material : materials) {
+      rows.push_back({&experiment, &material, material.file.stem().string(), compare(material, experiment)});
+    }
+  }
+  print_table(rows);
+  if (!options.csv.empty()) write_csv(rows, options.csv);
+  if (!options.plot.empty()) draw(rows, options.plot);
+  for (const std::string& path : {options.csv, options.plot}) {
+    if (!path.empty()) fmt::print("written: {}\n", path);
+  }
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("compare", "Compare equations of state with measured Hugoniots and isotherms");
+  command->add_option("materials", options->materials, "Material files, or names of the library")->required();
+  command
+      ->add_option("--with", options->experiments,
+                   "CSV files of experiments, or names of those that come with the program (eos/data)")
+      ->required();
+  command->add_option("--temperature", options->temperature,
+                      "Temperature of the isotherms (default: what the file says)");
+  command->add_option("--csv", options->csv, "Write every point with its deviation");
+  command->add_option("--plot", options->plot, "Figure of curves, points and deviations, FILE.png");
+  command->add_flag("--force", options->force, "Overwrite existing files");
+  command->footer(
+      "Example:\n  whipple compare copper copper_slides_md --with cu_hugoniot_marsh1980 "
+      "cu_isotherm_298K_dewaele2004 "
+      "--plot copper.png");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace whipple::app
