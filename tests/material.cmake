@@ -1,1 +1,5 @@
 # Tests of this part: whipple_test(name SOURCES ... DEPENDS ... LABELS ...)
+whipple_test(test_material_strength SOURCES unit/material_strength_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
+whipple_test(test_material_reference_step SOURCES unit/material_reference_step_test.cpp DEPENDS whipple_material LABELS fast)
+whipple_test(test_material_update SOURCES property/material_update_test.cpp DEPENDS whipple_material LABELS fast)
+whipple_test(test_material_failure SOURCES property/material_failure_test.cpp DEPENDS whipple_material LABELS fast)

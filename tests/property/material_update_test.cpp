@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Laws that the constitutive update must obey whatever the material: objectivity, the elastic-plastic
+// uniaxial path, simple shear, energy of closed cycles, loss of strength by melting.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstring>
+#include <numbers>
+
+#include "src/material/kinematics.hpp"
+#include "tests/unit/material_support.hpp"
+
+namespace whipple {
+namespace {
+
+using namespace material_test;
+
+constexpr UpdateSettings without_viscosity(double dt) {
+  return {.time_step = dt, .cell_size = 1e-3, .linear_viscosity = 0.0, .quadratic_viscosity = 0.0};
+}
+
+Matrix3 rotation(double angle, const Vector3& axis) {
+  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+}
+
+TEST(Objectivity, RigidRotationTurnsTheStressAndChangesNothingElse) {
+  const Material material = with(taylor_copper());
+  MaterialPoints points = points_of(material, 1);
+  const SymmetricTensor initial{40e6, -25e6, -15e6, 30e6, -10e6, 20e6};
+  points.deviatoric_stress[0] = initial;
+  const double dt = 1e-6;
+  const Vector3 axis(1.0, 2.0, -0.5);
+  const int steps = 100;  // 0.0628 rad per step, one turn
+  for (int n = 0; n < steps; ++n) {
+    const Matrix3 turn = rotation(2.0 * std::numbers::pi / steps, axis);
+    const Matrix3 gradient = (turn - Matrix3::Identity()) / dt;
+    update_material(material, points, 0, 1, std::span(&gradient, 1), without_viscosity(dt));
+    const Matrix3 total = rotation(2.0 * std::numbers::pi * (n + 1) / steps, axis);
+    const Matrix3 expected = total * initial.matrix() * total.transpose();
+    ASSERT_LE((points.deviatoric_stress[0].matrix() - expected).norm(), 1e-11 * expected.norm())
+        << "step " << n;
+  }
+  EXPECT_NEAR(points.volume[0], 1e-9, 1e-9 * 1e-13);
+  EXPECT_EQ(points.plastic_strain[0], 0.0);
+  EXPECT_EQ(points.void_volume[0], 0.0);
+}
+
+/// Stress at the end of a path of stretch and shear, with or without a superposed rotation (turned back).
+Matrix3 end_stress(int steps, bool rotate) {
+  const Material material = with(taylor_copper());
+  MaterialPoints points = points_of(material, 1);
+  const double dt = 1e-6 / steps;
+  const auto configuration = [&](double t) {
+    Matrix3 f = Matrix3::Identity();
+    f(0, 0) += 0.03 * t;
+    f(0, 1) += 0.05 * t * t;
+    f(2, 1) -= 0.04 * t;
+    f(2, 2) -= 0.02 * t;
+    return Matrix3((rotate ? rotation(2.0 * t, {0.3, 1.0, 0.2}) : Matrix3(Matrix3::Identity())) * f);
+  };
+  for (int n = 0; n < steps; ++n) {
+    const Matrix3 gradient =
+        gradient_between(configuration(double(n) / steps), configuration(double(n + 1) / steps), dt);
+    points.specific_internal_energy[0] = 0.0;
+    update_material(material, points, 0, 1, std::span(&gradient, 1), without_viscosity(dt));
+  }
+  const Matrix3 q = rotate ? rotation(2.0, {0.3, 1.0, 0.2}) : Matrix3(Matrix3::Identity());
+  return q.transpose() * points.deviatoric_stress[0].matrix() * q;
+}
+
+TEST(Objectivity, SuperposedRotationChangesTheStressInFirstOrderOfTheStepOnly) {
+  const auto difference = [](int steps) {
+    return (end_stress(steps, true) - end_stress(steps, false)).norm();
+  };
+  const double coarse = difference(50);
+  const double fine = difference(100);
+  // The strain increment stands in the midpoint configuration: half the rotation of a step, here 0.02 rad, is
+  // missing.
+  EXPECT_LT(coarse, 0.02 * end_stress(50, false).norm());
+  EXPECT_GT(std::log2(coarse / fine), 0.98);
+}
+
+/// Shear stress and largest stress of simple shear to a strain.
+struct ShearResult {
+  double shear_stress, equivalent, greatest_change;
+};
+ShearResult simple_shear(const strength::VonMises& constants, double strain, int steps) {
+  const Material material = with(constants);
+  MaterialPoints points = points_of(material, 1);
+  const double dt = 1e-6;
+  Matrix3 gradient = Matrix3::Zero();
+  gradient(0, 1) = strain / steps / dt;
+  double greatest_change = 0.0;
+  for (int n = 0; n < steps; ++n) {
+    const double before = points.deviatoric_stress[0].xy;
+    update_material(material, points, 0, 1, std::span(&gradient, 1), without_viscosity(dt));
+    points.specific_internal_energy[0] = 0.0;
+    if (n > steps / 10)
+      greatest_change = std::max(greatest_change, std::abs(points.deviatoric_stress[0].xy - before));
+  }
+  return {points.deviatoric_stress[0].xy, equivalent_stress(points.deviatoric_stress[0]), greatest_change};
+}
+
+TEST(SimpleShear, PlasticFlowStaysAtYieldOverRootThreeWithoutOscillation) {
+  strength::VonMises constants = taylor_copper();
+  constants.hardening_modulus = 0.0;
+  const ShearResult result = simple_shear(constants, 100.0, 100000);
+  // The spin turns the elastic part of the strain, of order Y/G: the shear stress lies below Y/sqrt(3) by
+  // (Y/G)^2.
+  EXPECT_NEAR(result.shear_stress, 157e6 / std::sqrt(3.0), 2e-5 * 157e6);
+  EXPECT_NEAR(result.equivalent, 157e6, 1e-6 * 157e6);
+  EXPECT_LT(result.greatest_change, 1e-9 * 157e6);
+}
+
+TEST(SimpleShear, ElasticStressFollowsTheJaumannSolution) {
+  // The closed solution of the Jaumann rate, G sin(gamma): it leaves G gamma by 1 % at a strain of 0.25, far
+  // beyond the elastic range of any metal.
+  strength::VonMises constants = taylor_copper();
+  constants.yield_stress = 1e15;
+  const ShearResult result = simple_shear(constants, 0.25, 1000);
+  EXPECT_NEAR(result.shear_stress, constants.shear_modulus * std::sin(0.25), 5e-6 * constants.shear_modulus);
+}
+
+TEST(UniaxialStrain, FollowsTheElasticPlasticSolutionInLogarithmicStrain) {
+  // Elastic: s_x = -4/3 G eps. Yield where 2 G eps = A (the Hugoniot elastic limit A (K + 4G/3) / 2G).
+  // Plastic: ep = 2 G (eps - eps_y) / (3 G + B), Y = A + B ep, s_x = -2/3 Y; sigma_x = s_x - p at every
+  // strain.
+  const strength::VonMises constants = taylor_copper();
+  const Material material = with(constants);
+  MaterialPoints points = points_of(material, 1);
+  const double g = constants.shear_modulus, a = constants.yield_stress, b = constants.hardening_modulus;
+  const double yield_strain = a / (2.0 * g);
+  const int steps = 4000;
+  const double dt = 1e-9, step_strain = 5.0 * yield_strain / steps;
+  Matrix3 gradient = Matrix3::Zero();
+  gradient(0, 0) = std::expm1(-step_strain) / dt;  // log strain steps
+  for (int n = 1; n <= steps; ++n) {
+    step_with_work(material, points, gradient, without_viscosity(dt));
+    const double strain = n * step_strain;
+    const double plastic = std::max(0.0, 2.0 * g * (strain - yield_strain) / (3.0 * g + b));
+    const double expected = strain < yield_strain ? -4.0 / 3.0 * g * strain : -2.0 / 3.0 * (a + b * plastic);
+    ASSERT_NEAR(points.deviatoric_stress[0].xx, expected, 1e-6 * a) << "strain " << strain;
+    ASSERT_NEAR(points.plastic_strain[0], plastic, 1e-6 * yield_strain + 1e-6 * plastic);
+    ASSERT_NEAR(points.volume[0], 1e-9 * std::exp(-strain), 1e-9 * 1e-12);
+  }
+  // The published Hugoniot elastic limit to first order: sigma_x at yield = A (K + 4G/3) / (2G).
+  const LinearInEnergy eos;
+  const double bulk = eos.rho0 * eos.c0 * eos.c0;
+  const double limit = a * (bulk + 4.0 / 3.0 * g) / (2.0 * g);
+  const double at_yield = eos.pressure(eos.rho0 * std::exp(yield_strain), 0.0) + 2.0 / 3.0 * a;
+  EXPECT_NEAR(at_yield, limit, 6e-3 * limit);
+}
+
+/// Internal energy after a closed shear cycle of amplitude `strain`, and plastic work w = sum Y dep V.
+struct Cycle {
+  double energy, plastic_work, elastic_energy, pressure;
+};
+template <class StepFunction>
+Cycle shear_cycle(const Material& material, double amplitude, int steps, StepFunction step_function) {
+  MaterialPoints points = points_of(material, 1);
+  const double dt = 1e-7;
+  Cycle cycle{};
+  Matrix3 gradient = Matrix3::Zero(), before = Matrix3::Zero();
+  for (int n = 0; n < steps; ++n) {
+    // triangle wave, symmetric in the deformation: up, down to -amplitude, back to zero
+    const auto wave = [&](int k) {
+      const double phase = 4.0 * k / steps;
+      return amplitude * (phase < 1.0 ? phase : phase < 3.0 ? 2.0 - phase : phase - 4.0);
+    };
+    Matrix3 f0 = Matrix3::Identity(), f1 = Matrix3::Identity();
+    f0(0, 1) = wave(n);
+    f1(0, 1) = wave(n + 1);
+    gradient = gradient_between(f0, f1, dt);
+    const double strain_before = points.plastic_strain[0];
+    const double stress_before = equivalent_stress(points.deviatoric_stress[0]);
+    step_function(material, points, gradient, without_viscosity(dt), before);
+    before = gradient;
+    const double stress = equivalent_stress(points.deviatoric_stress[0]);
+    if (points.plastic_strain[0] > strain_before) {
+      cycle.plastic_work += 0.5 * (stress + stress_before) * (points.plastic_strain[0] - strain_before) *
+                            points.volume[0] / points.mass[0];
+    }
+  }
+  cycle.energy = points.specific_internal_energy[0];
+  cycle.elastic_energy = points.deviatoric_stress[0].squared_norm() / (4.0 * taylor_copper().shear_modulus) *
+                         points.volume[0] / points.mass[0];
+  cycle.pressure = points.pressure[0];
+  return cycle;
+}
+
+MaterialReport step_with_grid_work(const Material& material, MaterialPoints& points, const Matrix3& gradient,
+                                   const UpdateSettings& settings, const Matrix3& before) {
+  return step_with_work(material, points, gradient, settings, before);
+}
+MaterialReport step_with_own_energy(const Material& material, MaterialPoints& points, const Matrix3& gradient,
+                                    const UpdateSettings& settings, const Matrix3&) {
+  return update_material_and_energy(material, points, 0, 1, std::span(&gradient, 1), settings);
+}
+
+TEST(EnergyOfACycle, ElasticShearGivesAllItsWorkBack) {
+  strength::VonMises constants = taylor_copper();
+  constants.yield_stress = 1e12;
+  const Material material = with(constants);
+  const double amplitude = 2e-3;
+  const double peak =
+      0.5 * constants.shear_modulus * amplitude * amplitude / 8930.0;  // J/kg at the turning points
+  for (const int steps : {200, 400}) {
+    const Cycle trapezoidal = shear_cycle(material, amplitude, steps, step_with_own_energy);
+    EXPECT_NEAR(trapezoidal.energy, 0.0, 1e-4 * peak);
+    // The work of a half step at each turn is all that is left.
+    // order.
+    const Cycle symplectic = shear_cycle(material, amplitude, steps, step_with_grid_work);
+    EXPECT_NEAR(symplectic.energy, 0.0, 1e-3 * peak);
+  }
+}
+
+TEST(EnergyOfACycle, PlasticShearTurnsTheWorkIntoHeat) {
+  const Material material = with(taylor_copper());
+  for (const auto step : {step_with_own_energy, step_with_grid_work}) {
+    const Cycle cycle = shear_cycle(material, 0.2, 8000, step);
+    ASSERT_GT(cycle.plastic_work, 1e3);
+    EXPECT_NEAR(cycle.energy, cycle.plastic_work + cycle.elastic_energy, 2e-3 * cycle.plastic_work);
+    // At constant volume the heat raises the pressure by rho Gamma e; the elastic energy of the deviator does
+    // not.
+    const double thermal = step == step_with_grid_work ? cycle.energy - cycle.elastic_energy : cycle.energy;
+    EXPECT_NEAR(cycle.pressure, 1.96 * 8930.0 * thermal, 2e-3 * cycle.pressure);
+  }
+}
+
+TEST(Melting, TakesYieldStressAndShearModulusLinearlyAndStressWithIt) {
+  LinearInEnergy eos;
+  eos.melting_starts = 400e3;
+  eos.melting_ends = 600e3;
+  strength::VonMises constants = taylor_copper();
+  constants.hardening_modulus = 0.0;
+  const Material material = with(constants, {}, eos);
+  const double dt = 1e-7;
+  for (const double melted : {0.0, 0.25, 0.5, 0.9, 1.0}) {
+    MaterialPoints points = points_of(material, 1);
+    points.specific_internal_energy[0] = 400e3 + melted * 200e3;
+    Matrix3 gradient = Matrix3::Zero();
+    update_material(material, points, 0, 1, std::span(&gradient, 1), without_viscosity(dt));
+    ASSERT_NEAR(points.melted_fraction[0], melted, 1e-12);
+    // sound speed: only the solid share of the shear modulus
+    const double bulk = eos.sound_squared(eos.rho0, points.specific_internal_energy[0]);
+    const double shear = 4.0 / 3.0 * (1.0 - melted) * constants.shear_modulus / eos.rho0;
+    EXPECT_NEAR(points.sound_speed[0], std::sqrt(bulk + shear), 1e-9 * std::sqrt(bulk + shear));
+    // elastic slope of the next small step: 2 G (1 - f) e_xy, e_xy = gamma/2
+    gradient(0, 1) = 1e-5 / dt;
+    update_material(material, points, 0, 1, std::span(&gradient, 1), without_viscosity(dt));
+    EXPECT_NEAR(points.deviatoric_stress[0].xy, constants.shear_modulus * (1.0 - melted) * 1e-5,
+                1e-9 * constants.shear_modulus * 1e-5);
+    gradient(0, 1) = 1e-2 / dt;
+    for (int n = 0; n < 20; ++n)
+      update_material(material, points, 0, 1, std::span(&gradient, 1), without_viscosity(dt));
+    // the plastic work of the half step melts a little more
+    EXPECT_NEAR(points.melted_fraction[0], melted, 1e-3);
+    EXPECT_NEAR(equivalent_stress(points.deviatoric_stress[0]), (1.0 - points.melted_fraction[0]) * 157e6,
+                1.0);
+  }
+}
+
+TEST(Melting, HeatingAStressedPointScalesItsStressWithTheSolidAndDoesNotStrainIt) {
+  LinearInEnergy eos;
+  eos.melting_starts = 400e3;
+  eos.melting_ends = 600e3;
+  const Material material = with(taylor_copper(), {}, eos);
+  MaterialPoints points = points_of(material, 1);
+  points.deviatoric_stress[0] = {0, 0, 0, 80e6, 0, 0};
+  const Matrix3 rest = Matrix3::Zero();
+  for (const double energy : {390e3, 500e3, 599e3, 700e3}) {
+    points.specific_internal_energy[0] = energy;
+    update_material(material, points, 0, 1, std::span(&rest, 1), without_viscosity(1e-7));
+    const double solid = 1.0 - points.melted_fraction[0];
+    EXPECT_NEAR(points.deviatoric_stress[0].xy, 80e6 * solid, 1e-3);
+    EXPECT_EQ(points.plastic_strain[0], 0.0);
+  }
+  EXPECT_EQ(points.deviatoric_stress[0].squared_norm(), 0.0);
+  points.specific_internal_energy[0] = 300e3;  // freezes: free of stress
+  update_material(material, points, 0, 1, std::span(&rest, 1), without_viscosity(1e-7));
+  EXPECT_EQ(points.deviatoric_stress[0].squared_norm(), 0.0);
+}
+
+TEST(Viscosity, ActsInCompressionOnlyWithThePublishedForm) {
+  const Material material = with(taylor_copper());
+  MaterialPoints points = points_of(material, 2);
+  const double sound = points.sound_speed[0];
+  const UpdateSettings settings{
+      .time_step = 1e-12, .cell_size = 2e-3, .linear_viscosity = 0.3, .quadratic_viscosity = 1.5};
+  std::array<Matrix3, 2> gradients = {Matrix3::Zero(), Matrix3::Zero()};
+  gradients[0](0, 0) = -1e5;
+  gradients[1](0, 0) = 1e5;
+  update_material(material, points, 0, 2, gradients, settings);
+  const double closing = 2e-3 * 1e5;
+  EXPECT_NEAR(points.artificial_viscosity[0], 8930.0 * closing * (1.5 * closing + 0.3 * sound),
+              1e3);  // of 3 GPa
+  EXPECT_EQ(points.artificial_viscosity[1], 0.0);
+}
+
+TEST(Ranges, ListsAndChunksGiveBitwiseTheSamePoints) {
+  const Material material = with(taylor_copper());
+  constexpr std::size_t n = 1000;
+  std::mt19937_64 generator(3);
+  std::vector<Matrix3> gradients;
+  std::vector<std::uint32_t> indices;
+  for (std::size_t i = 0; i < n; ++i) {
+    gradients.push_back(random_matrix(generator, 1e4));
+    indices.push_back(static_cast<std::uint32_t>(i));
+  }
+  std::ranges::shuffle(indices, generator);
+  std::vector<Matrix3> shuffled;
+  for (const std::uint32_t i : indices) shuffled.push_back(gradients[i]);
+  const UpdateSettings settings{.time_step = 1e-8, .cell_size = 1e-3};
+  MaterialPoints whole = points_of(material, n), parts = whole, list = whole;
+  for (int step = 0; step < 3; ++step) {
+    update_material(material, whole, 0, n, gradients, settings);
+    update_material(material, parts, 0, 333, std::span(gradients).subspan(0, 333), settings);
+    update_material(material, parts, 333, n, std::span(gradients).subspan(333), settings);
+    update_material(material, list, indices, shuffled, settings);
+  }
+  for_each_field<MaterialPoints>([&](const auto& field) {
+    const auto& expected = whole.*(field.values);
+    const auto bytes = expected.size() * sizeof(expected[0]);
+    EXPECT_EQ(std::memcmp(expected.data(), (parts.*(field.values)).data(), bytes), 0) << field.name;
+    EXPECT_EQ(std::memcmp(expected.data(), (list.*(field.values)).data(), bytes), 0) << field.name;
+  });
+}
+
+TEST(Report, NamesTheFirstUndefinedPointAndCountsLimitedVolumeChanges) {
+  const Material material = with(taylor_copper());
+  MaterialPoints points = points_of(material, 600);
+  std::vector<Matrix3> gradients(600, Matrix3::Zero());
+  gradients[17](0, 0) = -0.9e8;  // J = 0.1 in one step
+  gradients[400](1, 1) = std::nan("");
+  gradients[555](1, 2) = std::nan("");
+  points.specific_internal_energy[520] = std::nan("");
+  const MaterialReport report =
+      update_material(material, points, 0, 600, gradients, {.time_step = 1e-8, .cell_size = 1e-3});
+  EXPECT_EQ(report.undefined, 3U);
+  EXPECT_EQ(report.first_undefined, 400U);
+  EXPECT_EQ(report.limited_volume_changes, 1U);
+  EXPECT_EQ(report.equation_of_state.first, 17U);  // compressed to twice the density, the limit of this model
+  EXPECT_FALSE(report.valid());
+  EXPECT_NEAR(points.volume[17], 0.5e-9, 1e-20);
+}
+
+}  // namespace
+}  // namespace whipple
