@@ -22,12 +22,17 @@ template <class... Visitors>
 Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
 std::string quantity_as_toml(double value, const std::string& unit) {
-  if (unit.empty()) return fmt::format("{}", value);
+  if (unit.empty()) {
+    // "0" would be an integer of TOML.
+    const std::string text = fmt::format("{}", value);
+    return text.find_first_of(".ein") == std::string::npos ? text + ".0" : text;
+  }
   return fmt::format("\"{}\"", units::format_quantity(value, unit));
 }
 
 std::string check_number(double value, const ParameterInfo& info) {
   if (std::isnan(value)) return "is not a number (NaN)";
+  if (std::isinf(value)) return "is infinite";
   if (info.range.contains(value)) return {};
   return fmt::format("is {}, but must be {}", units::format_quantity(value, info.unit),
                      info.range.text() + (info.unit.empty() ? "" : " " + info.unit));
@@ -35,7 +40,8 @@ std::string check_number(double value, const ParameterInfo& info) {
 
 std::string check_word(const std::string& word, const ParameterInfo& info) {
   if (info.choices.empty() || std::ranges::find(info.choices, word) != info.choices.end()) return {};
-  return fmt::format("is \"{}\"{}; accepted: {}", word, did_you_mean(word, info.choices),
+  const std::string suggestion = did_you_mean(word, info.choices);
+  return fmt::format("is \"{}\"{} Accepted: {}", word, suggestion.empty() ? "." : suggestion,
                      fmt::join(info.choices, ", "));
 }
 
@@ -68,33 +74,36 @@ std::string Range::text() const {
 
 std::string value_as_toml(const BoundParameter& parameter) {
   const std::string& unit = parameter.info.unit;
-  return std::visit(
-      Overloaded{
-          [&](double* value) { return quantity_as_toml(*value, unit); },
-          [&](std::int64_t* value) { return fmt::format("{}", *value); },
-          [&](bool* value) { return std::string(*value ? "true" : "false"); },
-          [&](std::string* value) { return quoted(*value); },
-          [&](Vector3* value) {
-            return fmt::format("[{}, {}, {}]", quantity_as_toml((*value)[0], unit),
-                               quantity_as_toml((*value)[1], unit), quantity_as_toml((*value)[2], unit));
-          },
-          [&](std::vector<double>* values) {
-            std::vector<std::string> items;
-            for (const double value : *values) items.push_back(quantity_as_toml(value, unit));
-            return fmt::format("[{}]", fmt::join(items, ", "));
-          },
-          [&](std::vector<std::string>* values) {
-            std::vector<std::string> items;
-            for (const std::string& value : *values) items.push_back(quoted(value));
-            return fmt::format("[{}]", fmt::join(items, ", "));
-          }},
-      parameter.target);
+  return std::visit(Overloaded{[&](double* value) { return quantity_as_toml(*value, unit); },
+                               [&](std::int64_t* value) { return fmt::format("{}", *value); },
+                               [&](bool* value) { return std::string(*value ? "true" : "false"); },
+                               [&](std::string* value) { return quoted(*value); },
+                               [&](Vector3* value) {
+                                 return fmt::format("[{}, {}, {}]", quantity_as_toml((*value)[0], unit),
+                                                    quantity_as_toml((*value)[1], unit),
+                                                    quantity_as_toml((*value)[2], unit));
+                               },
+                               [&](std::vector<double>* values) {
+                                 std::vector<std::string> items;
+                                 for (const double value : *values)
+                                   items.push_back(quantity_as_toml(value, unit));
+                                 return fmt::format("[{}]", fmt::join(items, ", "));
+                               },
+                               [&](std::vector<std::string>* values) {
+                                 std::vector<std::string> items;
+                                 for (const std::string& value : *values) items.push_back(quoted(value));
+                                 return fmt::format("[{}]", fmt::join(items, ", "));
+                               }},
+                    parameter.target);
 }
 
 std::string to_toml(std::span<const BoundParameter> parameters) {
   std::string result;
   for (const BoundParameter& parameter : parameters) {
-    result += fmt::format("{} = {}  # {}\n", parameter.info.name, value_as_toml(parameter), parameter.info.meaning);
+    double* const* number = std::get_if<double*>(&parameter.target);
+    const bool no_bound = number != nullptr && std::isinf(**number);
+    result += fmt::format("{}{} = {}  # {}\n", no_bound ? "# " : "", parameter.info.name,
+                          value_as_toml(parameter), parameter.info.meaning);
   }
   return result;
 }
@@ -114,8 +123,8 @@ std::string describe(std::span<const BoundParameter> parameters) {
   }
   std::string result;
   for (const auto& row : rows) {
-    result += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:<{}}  {}\n", row[0], width[0], row[1], width[1], row[2],
-                          width[2], row[3], width[3], row[4]);
+    result += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:<{}}  {}\n", row[0], width[0], row[1], width[1],
+                          row[2], width[2], row[3], width[3], row[4]);
   }
   return result;
 }
@@ -124,16 +133,16 @@ std::string check(const BoundParameter& parameter) {
   const ParameterInfo& info = parameter.info;
   const auto number = [&](double value) { return check_number(value, info); };
   const auto word = [&](const std::string& value) { return check_word(value, info); };
-  return std::visit(Overloaded{[&](double* value) { return number(*value); },
-                               [&](std::int64_t* value) { return number(static_cast<double>(*value)); },
-                               [](bool*) { return std::string(); },
-                               [&](std::string* value) { return word(*value); },
-                               [&](Vector3* value) {
-                                 return first_fault(std::array{(*value)[0], (*value)[1], (*value)[2]}, number);
-                               },
-                               [&](std::vector<double>* values) { return first_fault(*values, number); },
-                               [&](std::vector<std::string>* values) { return first_fault(*values, word); }},
-                    parameter.target);
+  return std::visit(
+      Overloaded{[&](double* value) { return number(*value); },
+                 [&](std::int64_t* value) { return number(static_cast<double>(*value)); },
+                 [](bool*) { return std::string(); }, [&](std::string* value) { return word(*value); },
+                 [&](Vector3* value) {
+                   return first_fault(std::array{(*value)[0], (*value)[1], (*value)[2]}, number);
+                 },
+                 [&](std::vector<double>* values) { return first_fault(*values, number); },
+                 [&](std::vector<std::string>* values) { return first_fault(*values, word); }},
+      parameter.target);
 }
 
 }  // namespace whipple

@@ -60,8 +60,9 @@ struct BoundParameter {
 
 template <class Owner>
 struct Parameter {
-  using Member = std::variant<double Owner::*, std::int64_t Owner::*, bool Owner::*, std::string Owner::*,
-                              Vector3 Owner::*, std::vector<double> Owner::*, std::vector<std::string> Owner::*>;
+  using Member =
+      std::variant<double Owner::*, std::int64_t Owner::*, bool Owner::*, std::string Owner::*,
+                   Vector3 Owner::*, std::vector<double> Owner::*, std::vector<std::string> Owner::*>;
   ParameterInfo info;
   Member member;
 
@@ -77,7 +78,8 @@ using ParameterTable = std::vector<Parameter<Owner>>;
 
 /// A number with a unit.
 template <class Owner>
-Parameter<Owner> real(std::string name, double Owner::* member, std::string unit, Range range, std::string meaning) {
+Parameter<Owner> real(std::string name, double Owner::* member, std::string unit, Range range,
+                      std::string meaning) {
   return {{std::move(name), std::move(unit), range, std::move(meaning), true, {}}, member};
 }
 template <class Owner>
@@ -105,8 +107,8 @@ Parameter<Owner> vector(std::string name, Vector3 Owner::* member, std::string u
 }
 /// A list of numbers with units; the range holds for every entry.
 template <class Owner>
-Parameter<Owner> real_list(std::string name, std::vector<double> Owner::* member, std::string unit, Range range,
-                           std::string meaning) {
+Parameter<Owner> real_list(std::string name, std::vector<double> Owner::* member, std::string unit,
+                           Range range, std::string meaning) {
   return {{std::move(name), std::move(unit), range, std::move(meaning), true, {}}, member};
 }
 template <class Owner>
@@ -121,8 +123,9 @@ std::vector<BoundParameter> bind(const ParameterTable<Owner>& table, Owner& owne
   std::vector<BoundParameter> bound;
   bound.reserve(table.size());
   for (const Parameter<Owner>& parameter : table) {
-    bound.push_back({parameter.info, std::visit([&](auto member) { return ParameterTarget(&(owner.*member)); },
-                                                parameter.member)});
+    bound.push_back(
+        {parameter.info,
+         std::visit([&](auto member) { return ParameterTarget(&(owner.*member)); }, parameter.member)});
   }
   return bound;
 }
@@ -130,7 +133,8 @@ std::vector<BoundParameter> bind(const ParameterTable<Owner>& table, Owner& owne
 /// The value as it stands in an input file: `"6580 m/s"`, `3`, `true`, `"text"`, `["1 m", "2 m", "3 m"]`.
 std::string value_as_toml(const BoundParameter& parameter);
 
-/// All parameters of a table as lines `name = value  # meaning`.
+/// All parameters of a table as lines `name = value  # meaning`. An infinite default means that there is no
+/// bound; no input may hold it, so its line is a comment.
 std::string to_toml(std::span<const BoundParameter> parameters);
 
 /// Rows "name  unit  range  default  meaning" for `whipple describe`, aligned in columns.

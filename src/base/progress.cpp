@@ -43,14 +43,14 @@ void Progress::print(double done, const std::string& remark, bool last) {
   const double elapsed = std::chrono::duration<double>(Clock::now() - begin_).count();
   const double share = total_ > 0 ? std::clamp(done / total_, 0.0, 1.0) : 0.0;
   const double rate = elapsed > 0 ? (done - first_) / elapsed : 0.0;
-  const std::string left = last          ? "in " + format_duration(elapsed)
+  const std::string left = last         ? "in " + format_duration(elapsed)
                            : rate > 0.0 ? format_duration((total_ - done) / rate) + " left"
                                         : "time left unknown";
   if (terminal_) {
     const int filled = static_cast<int>(std::lround(share * bar_width));
     const std::string bar(static_cast<std::size_t>(filled), '#');
-    fmt::print(stderr, "\r{} [{:-<{}}] {:5.1f} %  {}  {}\033[K{}", label_, bar, bar_width, 100 * share, left, remark,
-               last ? "\n" : "");
+    fmt::print(stderr, "\r{} [{:-<{}}] {:5.1f} %  {}  {}\033[K{}", label_, bar, bar_width, 100 * share, left,
+               remark, last ? "\n" : "");
   } else {
     fmt::print(stderr, "{} {:5.1f} %  {}  {}\n", label_, 100 * share, left, remark);
   }

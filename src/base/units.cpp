@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -55,7 +56,9 @@ class UnitSystem {
 };
 
 UnitPtr parse_unit(const UnitSystem& system, std::string_view text) {
-  UnitPtr unit = system.parse(std::string(text));
+  // The scanner of UDUNITS2 copies characters that it does not know to standard output.
+  const bool printable = std::ranges::none_of(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+  UnitPtr unit = printable ? system.parse(std::string(text)) : UnitPtr(nullptr, &ut_free);
   if (!unit) throw InputError(fmt::format("unknown unit '{}'", text));
   return unit;
 }

@@ -15,14 +15,17 @@
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
 #include "src/base/units.hpp"
+#include "src/input/structure_check.hpp"
 
 namespace whipple::input {
 
 struct Document::State {
   std::filesystem::path path;
   toml::table root;
-  std::vector<std::pair<std::pair<unsigned, unsigned>, std::string>> errors;  // sorted by position when thrown
-  std::map<const toml::table*, std::set<std::string, std::less<>>> known_keys;  // keys that a reader asked for
+  std::vector<std::pair<std::pair<unsigned, unsigned>, std::string>>
+      errors;  // sorted by position when thrown
+  std::map<const toml::table*, std::set<std::string, std::less<>>>
+      known_keys;  // keys that a reader asked for
 
   [[nodiscard]] std::string position(const toml::source_position& at) const {
     return at.line == 0 ? fmt::format("{} (--set)", path.string())
@@ -40,13 +43,20 @@ toml::table& as_table(void* node) { return *static_cast<toml::table*>(node); }
 
 std::string type_name(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::string: return "a text";
-    case toml::node_type::integer: return "an integer";
-    case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return "true or false";
-    case toml::node_type::array: return "a list";
-    case toml::node_type::table: return "a table";
-    default: return "a date";
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true or false";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::table:
+      return "a table";
+    default:
+      return "a date";
   }
 }
 
@@ -55,8 +65,9 @@ double read_real(const toml::node& node, const ParameterInfo& info) {
   if (const auto number = node.value_exact<double>()) return *number;
   if (const auto number = node.value_exact<std::int64_t>()) return static_cast<double>(*number);
   if (const auto words = node.value_exact<std::string>()) return units::parse_quantity(*words, info.unit);
-  throw InputError(fmt::format("is {}, expected a number{}", type_name(node),
-                               info.unit.empty() ? "" : fmt::format(" with a unit, like \"1.5 {}\"", info.unit)));
+  throw InputError(
+      fmt::format("is {}, expected a number{}", type_name(node),
+                  info.unit.empty() ? "" : fmt::format(" with a unit, like \"1.5 {}\"", info.unit)));
 }
 
 template <class Value>
@@ -70,7 +81,9 @@ const toml::array& read_array(const toml::node& node, const char* expected) {
   throw InputError(fmt::format("is {}, expected {}", type_name(node), expected));
 }
 
-void read_into(double* target, const toml::node& node, const ParameterInfo& info) { *target = read_real(node, info); }
+void read_into(double* target, const toml::node& node, const ParameterInfo& info) {
+  *target = read_real(node, info);
+}
 void read_into(std::int64_t* target, const toml::node& node, const ParameterInfo&) {
   *target = read_exact<std::int64_t>(node, "an integer");
 }
@@ -119,11 +132,12 @@ void report_unknown(Document::State& state, const toml::table& table, const std:
     const std::string path = name.empty() ? key_name : name + "." + key_name;
     if (!known.contains(key_name)) {
       const std::vector<std::string> candidates(known.begin(), known.end());
+      const std::string suggestion = did_you_mean(key_name, candidates);
       const toml::source_position at = key.source().begin;
       state.errors.push_back(
           {{at.line, at.column},
-           fmt::format("{}: error: unknown key '{}'{} (accepted here: {})", state.position(at), path,
-                       did_you_mean(key_name, candidates), fmt::join(candidates, ", "))});
+           fmt::format("{}: error: unknown key '{}'{} Accepted here: {}", state.position(at), path,
+                       suggestion.empty() ? "." : suggestion, fmt::join(candidates, ", "))});
     } else if (const toml::table* child = node.as_table(); child && state.known_keys.contains(child)) {
       report_unknown(state, *child, path);
     } else if (const toml::array* array = node.as_array()) {
@@ -141,10 +155,15 @@ void report_unknown(Document::State& state, const toml::table& table, const std:
 std::unique_ptr<Document::State> parse(const std::string& text, const std::filesystem::path& path) {
   auto state = std::make_unique<Document::State>();
   state->path = path;
+  if (const auto stray = find_stray_character(text)) {
+    throw InputError(fmt::format("{}:{}:{}: error: a character beyond ASCII outside of quotes", path.string(),
+                                 stray->line, stray->column));
+  }
   try {
     state->root = toml::parse(std::string_view(text), path.string());
   } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}: error: {}", state->position(error.source().begin), error.description()));
+    throw InputError(
+        fmt::format("{}: error: {}", state->position(error.source().begin), error.description()));
   }
   return state;
 }
@@ -167,7 +186,9 @@ Document Document::from_file(const std::filesystem::path& path) {
   return Document(parse(text.str(), path));
 }
 
-Document Document::from_text(const std::string& text, const std::string& name) { return Document(parse(text, name)); }
+Document Document::from_text(const std::string& text, const std::string& name) {
+  return Document(parse(text, name));
+}
 
 void Document::set(std::string_view key, std::string_view value) {
   const auto fault = [&](const std::string& why) {
@@ -187,7 +208,8 @@ void Document::set(std::string_view key, std::string_view value) {
     } else if (toml::array* array = node->as_array()) {
       const bool number = std::ranges::all_of(path[i], [](unsigned char c) { return std::isdigit(c) != 0; });
       const std::size_t index = number && path[i].size() < 9 ? std::stoul(path[i]) : array->size();
-      if (index >= array->size()) throw fault(fmt::format("the list has {} entries, numbered from 0", array->size()));
+      if (index >= array->size())
+        throw fault(fmt::format("the list has {} entries, numbered from 0", array->size()));
       next = array->get(index);
     }
     if (next == nullptr) throw fault(fmt::format("'{}' is neither a table nor a list", path[i]));
@@ -195,12 +217,18 @@ void Document::set(std::string_view key, std::string_view value) {
   }
   toml::table* table = node->as_table();
   if (table == nullptr) throw fault("the last part but one is not a table");
+  const std::string line = fmt::format("value = {}", value);
   try {
-    toml::table parsed = toml::parse(fmt::format("value = {}", value));
-    table->insert_or_assign(path.back(), std::move(*parsed.get("value")));
+    const toml::table parsed = find_stray_character(line) ? toml::table() : toml::parse(line);
+    if (parsed.size() == 1) {
+      // Copies carry no position: errors then name --set, not line 1 of the file.
+      table->insert_or_assign(path.back(), *parsed.get("value"));
+      return;
+    }
   } catch (const toml::parse_error&) {
-    table->insert_or_assign(path.back(), std::string(value));
+    // A text without quotes, as in --set body.0.material=copper.toml.
   }
+  table->insert_or_assign(path.back(), std::string(value));
 }
 
 Table Document::root() {
@@ -260,7 +288,8 @@ std::optional<Table> Table::optional_table(std::string_view key) {
 std::optional<Table> Table::required_table(std::string_view key) {
   if (!has(key)) {
     state_->known_keys[&as_table(node_)].insert(std::string(key));
-    error(fmt::format("missing table [{}]", name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key)));
+    error(fmt::format("missing table [{}]",
+                      name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key)));
     return std::nullopt;
   }
   return optional_table(key);
@@ -273,7 +302,8 @@ std::vector<Table> Table::list(std::string_view key) {
   if (node == nullptr) return tables;
   toml::array* array = node->as_array();
   if (array == nullptr) {
-    state_->error(*node, fmt::format("'{}' is {}, expected a list of tables [[{}]]", key, type_name(*node), key));
+    state_->error(*node,
+                  fmt::format("'{}' is {}, expected a list of tables [[{}]]", key, type_name(*node), key));
     return tables;
   }
   for (std::size_t i = 0; i < array->size(); ++i) {
@@ -290,10 +320,15 @@ std::vector<Table> Table::list(std::string_view key) {
   return tables;
 }
 
-std::string Table::choice(std::string_view key, std::span<const std::string> choices, std::string_view fallback) {
+std::string Table::choice(std::string_view key, std::span<const std::string> choices,
+                          std::string_view fallback) {
   std::string word(fallback);
-  BoundParameter parameter{{std::string(key), "", {}, fmt::format("one of {}", fmt::join(choices, ", ")),
-                            fallback.empty(), {choices.begin(), choices.end()}},
+  BoundParameter parameter{{std::string(key),
+                            "",
+                            {},
+                            fmt::format("one of {}", fmt::join(choices, ", ")),
+                            fallback.empty(),
+                            {choices.begin(), choices.end()}},
                            &word};
   read(std::span(&parameter, 1));
   return word;
@@ -302,7 +337,8 @@ std::string Table::choice(std::string_view key, std::span<const std::string> cho
 std::vector<std::string> Table::table_names() const {
   std::vector<std::pair<std::pair<unsigned, unsigned>, std::string>> found;
   for (const auto& [key, node] : as_table(node_)) {
-    if (node.is_table()) found.push_back({{key.source().begin.line, key.source().begin.column}, std::string(key.str())});
+    if (node.is_table())
+      found.push_back({{key.source().begin.line, key.source().begin.column}, std::string(key.str())});
   }
   std::ranges::sort(found);
   std::vector<std::string> names;

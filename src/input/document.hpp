@@ -47,8 +47,8 @@ class Document {
 /// One table of a document. Cheap to copy; valid while the document lives.
 class Table {
  public:
-  /// Reads the keys of a parameter table into the bound object. Missing required keys, wrong types, wrong units
-  /// and values out of range become errors of the document; the object then keeps its former value.
+  /// Reads the keys of a parameter table into the bound object. Missing required keys, wrong types, wrong
+  /// units and values out of range become errors of the document; the object then keeps its former value.
   void read(std::span<const BoundParameter> parameters);
 
   template <class Owner>
@@ -64,9 +64,10 @@ class Table {
   std::optional<Table> optional_table(std::string_view key);
   /// The tables of a list `[[key]]`; none if the key is missing.
   std::vector<Table> list(std::string_view key);
-  /// The word under a key that selects a variant ("model", "method"): reports a missing key or a word that is not
-  /// among the choices and returns an empty text.
-  std::string choice(std::string_view key, std::span<const std::string> choices, std::string_view fallback = {});
+  /// The word under a key that selects a variant ("model", "method"): reports a missing key or a word that is
+  /// not among the choices and returns an empty text.
+  std::string choice(std::string_view key, std::span<const std::string> choices,
+                     std::string_view fallback = {});
   /// The names of all keys that are tables, in the order of the file.
   [[nodiscard]] std::vector<std::string> table_names() const;
   /// Marks a key, with everything below it, as known (free text such as provenance).
@@ -84,7 +85,8 @@ class Table {
 
  private:
   friend class Document;
-  Table(Document::State* state, void* node, std::string name) : state_(state), node_(node), name_(std::move(name)) {}
+  Table(Document::State* state, void* node, std::string name)
+      : state_(state), node_(node), name_(std::move(name)) {}
 
   Document::State* state_;
   void* node_;  // toml::table; the library's header stays out of this one

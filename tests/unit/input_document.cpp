@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reading of TOML inputs: exact texts with file:line:column, all errors at once, unknown keys, --set.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "src/base/error.hpp"
+#include "src/input/document.hpp"
+
+namespace whipple::input {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Domain {
+  double cell_size = 1e-3;
+  Vector3 lower = Vector3::Zero();
+  std::string boundary = "outflow";
+  std::int64_t layers = 2;
+};
+
+ParameterTable<Domain> domain_table() {
+  return {real("cell_size", &Domain::cell_size, "m", range::positive(), "edge of a cell"),
+          vector("lower", &Domain::lower, "m", range::any(), "lower corner"),
+          choice("boundary", &Domain::boundary, {"outflow", "symmetry", "wall"}, "what happens at the rim")
+              .optional(),
+          integer("layers", &Domain::layers, range::between(1, 8), "layers of ghosts").optional()};
+}
+
+/// Reads [domain] and every [[body]] with a name; returns the errors, or an empty text.
+std::string read(Document document, Domain* domain, std::vector<std::string>* bodies = nullptr) {
+  try {
+    Table root = document.root();
+    if (auto table = root.required_table("domain")) table->read(domain_table(), *domain);
+    for (Table& body : root.list("body")) {
+      struct Body {
+        std::string name;
+      } one;
+      body.read(ParameterTable<Body>{text("name", &Body::name, "what it is called")}, one);
+      if (bodies != nullptr) bodies->push_back(one.name);
+    }
+    document.finish();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+std::string read_text(const std::string& text) {
+  Domain domain;
+  try {
+    return read(Document::from_text(text, "case.toml"), &domain);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+const std::string good =
+    "[domain]\n"
+    "cell_size = \"0.5 mm\"\n"
+    "lower = [\"0 mm\", \"1 cm\", 2]\n"
+    "boundary = \"wall\"\n"
+    "[[body]]\n"
+    "name = \"disk\"\n"
+    "[[body]]\n"
+    "name = \"plate\"\n";
+
+TEST(Document, ReadsQuantitiesInSi) {
+  Domain domain;
+  std::vector<std::string> bodies;
+  EXPECT_EQ(read(Document::from_text(good, "case.toml"), &domain, &bodies), "");
+  EXPECT_DOUBLE_EQ(domain.cell_size, 5e-4);
+  EXPECT_DOUBLE_EQ(domain.lower[1], 1e-2);
+  EXPECT_DOUBLE_EQ(domain.lower[2], 2.0);
+  EXPECT_EQ(domain.boundary, "wall");
+  EXPECT_EQ(domain.layers, 2) << "a missing optional key keeps its default";
+  EXPECT_EQ(bodies, (std::vector<std::string>{"disk", "plate"}));
+}
+
+TEST(Document, SyntaxErrorHasItsPosition) {
+  EXPECT_THAT(read_text("[domain]\ncell_size = = 3\n"), HasSubstr("case.toml:2:13: error: "));
+}
+
+// Bare keys and values are ASCII in TOML; the parser below would run into undefined behaviour.
+TEST(Document, CharactersBeyondAsciiBelongInQuotesOrComments) {
+  const std::string fault = ": error: a character beyond ASCII outside of quotes";
+  EXPECT_EQ(read_text("[domain]\nb\xc3\xa4r = 1\n"), "case.toml:2:2" + fault);
+  EXPECT_EQ(read_text("x = 3 \xc2\xb5\n"), "case.toml:1:7" + fault);
+  EXPECT_EQ(read_text("x = \"\"\"a\\\n\xc2\xa7\"\"\"\n"), "case.toml:2:1" + fault);
+  Domain domain;
+  const std::string text =
+      "# \xc2\xb5\n[domain] # '\xc2\xb5\ncell_size = \"3 \xc2\xb5m\"\n"
+      "lower = ['1 \xc2\xb5m', '''0 m''', \"\"\"2 \xc2\xb5m\"\"\"]\nboundary = '\xc2\xb5\\'\n";
+  EXPECT_THAT(read(Document::from_text(text, "case.toml"), &domain),
+              HasSubstr("case.toml:5:12: error: 'boundary' is"));
+  EXPECT_DOUBLE_EQ(domain.cell_size, 3e-6);
+  EXPECT_DOUBLE_EQ(domain.lower[2], 2e-6);
+}
+
+TEST(Document, UnknownKeyIsAnErrorWithTheNearestName) {
+  EXPECT_EQ(read_text("[domain]\ncell_sze = 1\ncell_size = 1\nlower = [0, 0, 0]\n"),
+            "case.toml:2:1: error: unknown key 'domain.cell_sze', did you mean \"cell_size\"? "
+            "Accepted here: boundary, cell_size, layers, lower");
+}
+
+TEST(Document, UnknownTableIsAnError) {
+  EXPECT_EQ(read_text(good + "[outptu]\nx = 1\n"),
+            "case.toml:9:2: error: unknown key 'outptu'. Accepted here: body, domain");
+}
+
+TEST(Document, UnknownKeyInAListEntryNamesTheEntry) {
+  EXPECT_EQ(read_text(good + "colour = \"red\"\n"),
+            "case.toml:9:1: error: unknown key 'body[1].colour'. Accepted here: name");
+}
+
+TEST(Document, MissingKeySaysWhatItMeans) {
+  EXPECT_EQ(read_text("[domain]\nlower = [0, 0, 0]\n"),
+            "case.toml:1:1: error: missing key 'cell_size' in [domain]: edge of a cell (unit m)");
+  EXPECT_EQ(read_text("x = 1\n"),
+            "case.toml:1:1: error: missing table [domain]\n"
+            "case.toml:1:1: error: unknown key 'x'. Accepted here: body, domain");
+}
+
+TEST(Document, WrongValuesNamePositionValueAndWhatIsAccepted) {
+  const std::string head = "[domain]\nlower = [0, 0, 0]\n";
+  EXPECT_EQ(read_text(head + "cell_size = \"0.5 mn\"\n"),
+            "case.toml:3:13: error: 'cell_size' unknown unit 'mn'");
+  EXPECT_EQ(
+      read_text(head + "cell_size = \"5 s\"\n"),
+      "case.toml:3:13: error: 'cell_size' unit 's' has the wrong dimension: expected a unit of the kind 'm'");
+  EXPECT_EQ(read_text(head + "cell_size = \"-1 mm\"\n"),
+            "case.toml:3:13: error: 'cell_size' is -0.001 m, but must be > 0 m");
+  EXPECT_EQ(
+      read_text(head + "cell_size = true\n"),
+      "case.toml:3:13: error: 'cell_size' is true or false, expected a number with a unit, like \"1.5 m\"");
+  EXPECT_EQ(read_text(head + "cell_size = 1\nlayers = 2.5\n"),
+            "case.toml:4:10: error: 'layers' is a number, expected an integer");
+  EXPECT_EQ(read_text(head + "cell_size = 1\nlayers = 9\n"),
+            "case.toml:4:10: error: 'layers' is 9, but must be >= 1 and <= 8");
+  EXPECT_EQ(read_text(head + "cell_size = 1\nboundary = \"symetry\"\n"),
+            "case.toml:4:12: error: 'boundary' is \"symetry\", did you mean \"symmetry\"? "
+            "Accepted: outflow, symmetry, wall");
+  EXPECT_EQ(read_text("[domain]\ncell_size = 1\nlower = [0, 0]\n"),
+            "case.toml:3:9: error: 'lower' has 2 entries, expected 3");
+  EXPECT_EQ(read_text("[domain]\ncell_size = inf\nlower = [0, 0, nan]\n"),
+            "case.toml:2:13: error: 'cell_size' is infinite\n"
+            "case.toml:3:9: error: 'lower' is not a number (NaN)");
+}
+
+TEST(Document, AllErrorsComeAtOnceInTheOrderOfTheFile) {
+  EXPECT_EQ(
+      read_text("[domain]\n"
+                "cell_size = \"0.5 s\"\n"
+                "lower = [0, 0]\n"
+                "boundry = \"wall\"\n"
+                "[[body]]\n"
+                "nam = \"disk\"\n"),
+      "case.toml:2:13: error: 'cell_size' unit 's' has the wrong dimension: expected a unit of the kind 'm'\n"
+      "case.toml:3:9: error: 'lower' has 2 entries, expected 3\n"
+      "case.toml:4:1: error: unknown key 'domain.boundry', did you mean \"boundary\"? "
+      "Accepted here: boundary, cell_size, layers, lower\n"
+      "case.toml:5:1: error: missing key 'name' in [body[0]]: what it is called\n"
+      "case.toml:6:1: error: unknown key 'body[0].nam', did you mean \"name\"? Accepted here: name");
+}
+
+TEST(Document, ARejectedValueLeavesTheObjectAsItWas) {
+  Domain domain;
+  read(Document::from_text("[domain]\ncell_size = -1\nlower = [1, 2, \"3 kg\"]\n", "case.toml"), &domain);
+  EXPECT_EQ(domain.cell_size, 1e-3);
+  EXPECT_EQ(domain.lower, Vector3(Vector3::Zero()));
+}
+
+TEST(Document, WrongKindsOfTablesAreReported) {
+  EXPECT_EQ(read_text("domain = 3\n"), "case.toml:1:10: error: 'domain' is an integer, expected a table");
+  EXPECT_EQ(read_text("body = [1, {name = \"x\"}]\n[domain]\ncell_size = 1\nlower = [0, 0, 0]\n"),
+            "case.toml:1:9: error: entry 0 of 'body' is an integer, expected a table");
+  EXPECT_EQ(read_text("[body]\nname = \"x\"\n[domain]\ncell_size = 1\nlower = [0, 0, 0]\n"),
+            "case.toml:1:1: error: 'body' is a table, expected a list of tables [[body]]");
+}
+
+std::string set_and_read(const std::string& key, const std::string& value, Domain* domain,
+                         std::vector<std::string>* bodies = nullptr) {
+  Document document = Document::from_text(good, "case.toml");
+  try {
+    document.set(key, value);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return read(std::move(document), domain, bodies);
+}
+
+TEST(Set, OverridesKeysWithAndWithoutQuotes) {
+  Domain domain;
+  EXPECT_EQ(set_and_read("domain.cell_size", "0.3 mm", &domain), "");
+  EXPECT_DOUBLE_EQ(domain.cell_size, 3e-4);
+  EXPECT_EQ(set_and_read("domain.cell_size", "\"0.4 mm\"", &domain), "");
+  EXPECT_DOUBLE_EQ(domain.cell_size, 4e-4);
+  EXPECT_EQ(set_and_read("domain.layers", "5", &domain), "");
+  EXPECT_EQ(domain.layers, 5);
+  EXPECT_EQ(set_and_read("domain.lower", "[1, 2, \"3 mm\"]", &domain), "");
+  EXPECT_EQ(domain.lower, Vector3(1, 2, 3e-3));
+}
+
+TEST(Set, AddressesListEntriesByNumber) {
+  Domain domain;
+  std::vector<std::string> bodies;
+  EXPECT_EQ(set_and_read("body.1.name", "shield", &domain, &bodies), "");
+  EXPECT_EQ(bodies, (std::vector<std::string>{"disk", "shield"}));
+}
+
+TEST(Set, FaultsNameTheOption) {
+  Domain domain;
+  EXPECT_EQ(set_and_read("body.2.name", "x", &domain),
+            "--set body.2.name=x: the list has 2 entries, numbered from 0");
+  EXPECT_EQ(set_and_read("domain..x", "1", &domain), "--set domain..x=1: expected table.key=value");
+  EXPECT_EQ(set_and_read("", "1", &domain), "--set =1: expected table.key=value");
+  EXPECT_EQ(set_and_read("domain.boundary.x", "1", &domain),
+            "--set domain.boundary.x=1: the last part but one is not a table");
+  EXPECT_EQ(set_and_read("domain.boundary.x.y", "1", &domain),
+            "--set domain.boundary.x.y=1: 'x' is neither a table nor a list");
+}
+
+TEST(Set, ErrorsInSetValuesSayWhereTheyComeFrom) {
+  Domain domain;
+  EXPECT_EQ(set_and_read("domain.layers", "99", &domain),
+            "case.toml (--set): error: 'layers' is 99, but must be >= 1 and <= 8");
+  EXPECT_EQ(set_and_read("domain.layer", "3", &domain),
+            "case.toml (--set): error: unknown key 'domain.layer', did you mean \"layers\"? "
+            "Accepted here: boundary, cell_size, layers, lower");
+}
+
+// "1\nlayers = 7" must not smuggle a second key into the table; it is a text, and no number.
+TEST(Set, AValueCannotHoldASecondKey) {
+  Domain domain;
+  EXPECT_NE(set_and_read("domain.cell_size", "1\nlayers = 7", &domain), "");
+  EXPECT_EQ(domain.layers, 2);
+}
+
+TEST(Table, ChoiceFallsBackOrReports) {
+  Document document = Document::from_text("method = \"fem\"\n", "case.toml");
+  Table root = document.root();
+  const std::vector<std::string> choices = {"particles", "finite_elements"};
+  EXPECT_EQ(root.choice("kind", choices, "particles"), "particles");
+  EXPECT_EQ(root.choice("method", choices, "particles"), "particles")
+      << "an error was noted, the fallback stands";
+  EXPECT_EQ(root.choice("other", choices), "");
+  try {
+    document.finish();
+    FAIL() << "two errors were expected";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("case.toml:1:10: error: 'method' is \"fem\""));
+    EXPECT_THAT(error.what(), HasSubstr("missing key 'other'"));
+  }
+}
+
+TEST(Table, AcceptedFreeTextMayHoldAnything) {
+  Document document =
+      Document::from_text("[provenance]\nwho = \"we\"\n[provenance.deep]\nx = 1\n", "case.toml");
+  document.root().accept("provenance");
+  EXPECT_NO_THROW(document.finish());
+}
+
+TEST(Table, NamesOfTablesKeepTheOrderOfTheFile) {
+  Document document = Document::from_text("[zinc]\n[alpha]\n[middle]\n", "case.toml");
+  EXPECT_EQ(document.root().table_names(), (std::vector<std::string>{"zinc", "alpha", "middle"}));
+}
+
+TEST(Document, FileErrorsNameTheFile) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  EXPECT_THROW(Document::from_file(folder), InputError);
+  try {
+    Document::from_file("/nonexistent/case.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "/nonexistent/case.toml: error: cannot open the file");
+  }
+}
+
+}  // namespace
+}  // namespace whipple::input
