@@ -17,3 +17,20 @@ endforeach()
 # A made-up run, to test what reads runs.
 add_executable(io_synthetic_cloud unit/io_synthetic_cloud.cpp)
 target_link_libraries(io_synthetic_cloud PRIVATE whipple_flags whipple_io)
+set(mpi_environment "OMP_NUM_THREADS=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_mpi_yield_when_idle=1")
+
+# The layout as h5py sees it, written by one and by three ranks.
+find_program(WHIPPLE_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+if(WHIPPLE_PYTHON)
+  foreach(ranks 1 3)
+    set(cloud ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_${ranks})
+    add_test(NAME io_synthetic_cloud.${ranks}
+             COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:io_synthetic_cloud> ${cloud} 20000 5)
+    set_tests_properties(io_synthetic_cloud.${ranks} PROPERTIES LABELS fast TIMEOUT 120 PROCESSORS 2
+      ENVIRONMENT "${mpi_environment}" FIXTURES_SETUP synthetic_cloud_${ranks})
+    add_test(NAME io_vtkhdf_schema.${ranks}
+             COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/io_vtkhdf_schema.py ${cloud} ${ranks})
+    set_tests_properties(io_vtkhdf_schema.${ranks} PROPERTIES LABELS fast TIMEOUT 120
+      FIXTURES_REQUIRED synthetic_cloud_${ranks})
+  endforeach()
+endif()

@@ -1,0 +1,258 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures and tables of a run: one self-contained HTML page with its PNG files beside it.
+
+usage: report.py RUN_DIR [--output DIR] [--figure TITLE=FILE.png]... [--times N]
+
+Reads run.toml, history.csv and the snapshots of RUN.particles.hdf.series (docs/output.md); columns and fields that
+the run did not write are left out. A quarter or half model is reported as the full problem (masses, momentum and
+energies times 4 or 2), with the figures of the model beside it where both matter.
+Exit code 2 if the folder is not that of a run.
+"""
+import argparse
+import json
+import math
+import pathlib
+import sys
+
+try:
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    import report_curves
+    import report_metrics
+    import report_pictures
+    from report_data import AXES, PHASES, NotARun, Run
+    from report_html import Page
+except ImportError as missing:
+    sys.exit(f"report: error: {missing}; install python3-numpy python3-h5py python3-matplotlib")
+
+CURVE_SNAPSHOTS = 60  # front and radius are taken from at most so many snapshots
+
+
+def number(value, digits=4):
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return "–"
+    return f"{value:.{digits}g}"
+
+
+class Report:
+    def __init__(self, run, output, picture_times):
+        self.run, self.output, self.picture_times = run, output, picture_times
+        output.mkdir(parents=True, exist_ok=True)
+        versions = run.input.get("run", {})
+        subtitle = f"{run.folder.resolve()}"
+        if isinstance(versions, dict) and "version" in versions:
+            subtitle += f" · whipple {versions['version']}"
+        self.page = Page(run.title, subtitle)
+        self.metrics = {"title": run.title, "multiplicity": run.multiplicity}
+
+    def add_figure(self, name, caption, figure):
+        if figure is None:
+            return
+        path = self.output / name
+        figure.savefig(path, dpi=110)
+        plt.close(figure)
+        self.page.image(path, caption)
+
+    def summary(self):
+        run, history = self.run, self.run.history
+        tiles = []
+        if history.last("time") is not None:
+            tiles.append(("physical time", f"{1e6 * history.last('time'):.4g} µs"))
+        if history.last("step") is not None:
+            tiles.append(("steps", f"{history.last('step'):.0f}"))
+        if history.last("particles") is not None:
+            tiles.append(("particles", f"{history.last('particles'):,.0f}"))
+        if history.last("mass") is not None:
+            tiles.append(("mass" + (", full problem" if run.multiplicity > 1 else ""),
+                          report_curves.format_mass(run.multiplicity * history.last("mass"))))
+        if "energy_error" in history:
+            tiles.append(("largest energy error", number(float(abs(history["energy_error"]).max()), 2)))
+        if "momentum_error" in history:
+            tiles.append(("largest momentum error", number(float(abs(history["momentum_error"]).max()), 2)))
+        if history.last("below_cold_curve"):
+            tiles.append(("points clamped to the cold curve", f"{history.last('below_cold_curve'):.0f}"))
+        self.page.tiles(tiles)
+        if run.multiplicity > 1:
+            planes = ", ".join(AXES[axis] for axis in sorted(run.symmetry_planes))
+            self.page.note(f"Symmetry planes normal to {planes}: the model is 1/{run.multiplicity} of the problem. "
+                           f"Masses, axial momentum and energies below are those of the full problem "
+                           f"({run.multiplicity} times the model) unless they are said to be of the model.")
+
+    def input(self):
+        run = self.run
+        self.page.heading("Input")
+        rows = []
+        for body in run.input.get("body", []):
+            velocity = body.get("velocity", "")
+            discretization = body.get("discretization", {})
+            shape = body.get("shape", {})
+            rows.append([body.get("name", ""), body.get("material", ""),
+                         ", ".join(map(str, velocity)) if isinstance(velocity, list) else velocity,
+                         ", ".join(f"{k} {v}" for k, v in discretization.items()) if isinstance(discretization, dict)
+                         else discretization, describe_shape(shape)])
+        if rows:
+            self.page.table(["body", "material", "velocity", "discretization", "shape"], rows, text_columns=range(5))
+        facts = []
+        for table, keys in (("domain", ("lower", "upper", "cell_size", "boundary")),
+                            ("time", ("end", "courant", "scheme")),
+                            ("transfer", ("shape_function", "particle_update"))):
+            values = run.input.get(table, {})
+            for key in keys if isinstance(values, dict) else ():
+                if key in values:
+                    facts.append([f"{table}.{key}", describe_value(values[key])])
+        if facts:
+            self.page.table(["setting", "value"], facts, text_columns=(0, 1))
+        self.page.details("complete input (run.toml)", run.input_text)
+
+    def given_figures(self, figures):
+        for title, path in figures:
+            self.page.heading(title)
+            (self.output / path.name).write_bytes(path.read_bytes())
+            self.page.image(self.output / path.name, title)
+
+    def cloud(self):
+        run = self.run
+        if not run.entries:
+            self.page.note("The run has no snapshots: no pictures and no measures of the cloud.")
+            return
+        pictures = set(run.spread(self.picture_times))
+        shown, extents, geo = [], [], None
+        curve = run.spread(CURVE_SNAPSHOTS)
+        for i in sorted(pictures | set(curve)):
+            snapshot = next(iter_snapshot(run, i))
+            if len(snapshot) and geo is None:
+                geo = report_metrics.geometry(run, snapshot)
+            if geo is not None and i in curve:
+                extents.append(report_metrics.extent(snapshot, geo))
+            if i in pictures:
+                shown.append(snapshot)
+        if geo is None:
+            self.page.note("The snapshots hold no particles: no pictures and no measures of the cloud.")
+            return
+        self.page.heading("Debris cloud")
+        for name, caption, figure in report_pictures.cloud_figures(run, geo, shown):
+            self.add_figure(name, caption, figure)
+        columns = report_metrics.with_speeds(extents)
+        self.page.heading("Front, rear and radius of the cloud")
+        self.add_figure("extent.png", "Position and speed of the debris. " + "; ".join(
+            f"{name}: {text}" for name, text in report_metrics.DEFINITIONS
+            if name in ("front, rear", "radius", "radial speed")) + ".", report_curves.extent_figure(columns))
+        self.final_table(shown[-1], geo, columns)
+
+    def final_table(self, last, geo, columns):
+        run = self.run
+        self.page.heading(f"Cloud at {1e6 * last.time:.4g} µs")
+        names = run.body_names(last)
+        rows = report_metrics.table(run, last, geo)
+        residual = next((m["mean_axial_velocity"] for body, part, m in rows
+                         if body == names[geo.projectile] and part == "whole"), float("nan"))
+        final = {name: float(values[-1]) for name, values in columns.items()}
+        self.page.tiles([
+            ("impact speed", f"{1e-3 * geo.impact_speed:.4g} km/s"),
+            (f"residual velocity of {names[geo.projectile]}", f"{1e-3 * residual:.4g} km/s"),
+            ("front speed", f"{1e-3 * final['front_speed']:.4g} km/s"),
+            ("rear speed", f"{1e-3 * final['rear_speed']:.4g} km/s"),
+            ("radial speed", f"{1e-3 * final['radial_speed']:.4g} km/s"),
+            ("length", f"{1e3 * (final['front'] - final['rear']):.4g} mm"),
+            ("diameter", f"{2e3 * final['radius']:.4g} mm"),
+        ])
+        head = ["body", "part"] + (["mass of model (g)"] if run.multiplicity > 1 else []) + [
+            "mass (g)", "axial momentum (kg m/s)", "mean axial velocity (m/s)", "kinetic energy (J)",
+            "internal energy (J)", "mean temperature (K)"] + [f"{p} (%)" for p in PHASES] + ["failed (%)"]
+        lines, strong = [], []
+        for body, part, m in rows:
+            if part == "whole":
+                strong.append(len(lines))
+            percent = [number(100 * m[f"{p}_fraction"]) if f"{p}_fraction" in m else "–" for p in (*PHASES, "failed")]
+            model = [number(1e3 * m["mass"] / run.multiplicity)] if run.multiplicity > 1 else []
+            lines.append([body if part == "whole" else "", part, *model, number(1e3 * m["mass"]),
+                          number(m["axial_momentum"]), number(m["mean_axial_velocity"]), number(m["kinetic_energy"]),
+                          number(m.get("internal_energy")), number(m.get("mean_temperature")), *percent])
+        self.page.table(head, lines, strong=strong, text_columns=(0, 1))
+        self.page.definitions(report_metrics.DEFINITIONS)
+        self.metrics |= {
+            "time": last.time, "axis": report_metrics.axis_name(geo), "impact_speed": geo.impact_speed,
+            "projectile": names[geo.projectile], "residual_velocity": residual, "cloud": final,
+            "bodies": [{"body": body, "part": part, **m} for body, part, m in rows]}
+
+    def curves(self):
+        run = self.run
+        if "time" not in run.history:
+            self.page.note("The run has no history.csv: no curves.")
+            return
+        self.page.heading("Phases")
+        phases = report_curves.phase_figure(run)
+        if phases is None:
+            self.page.note("The run wrote no masses of phases.")
+        self.add_figure("phases.png", "Mass of each phase over time, as shares of the mass of the body.", phases)
+        self.page.heading("Energy and momentum")
+        self.add_figure("energy.png", "Energies, and the errors of their balance relative to the beginning.",
+                        report_curves.energy_figure(run))
+        self.page.heading("Time step and extreme states")
+        self.add_figure("step.png", "Time step, largest pressure and temperature of any particle.",
+                        report_curves.step_figure(run))
+
+    def write(self):
+        path = self.output / "report.html"
+        path.write_text(self.page.text(), encoding="utf-8")
+        clean = json.loads(json.dumps(self.metrics), parse_constant=lambda _: None)  # JSON knows no NaN
+        (self.output / "metrics.json").write_text(json.dumps(clean, indent=1) + "\n", encoding="utf-8")
+        return path
+
+
+def iter_snapshot(run, i):
+    from report_data import Snapshot
+    yield Snapshot(*run.entries[i])
+
+
+def describe_value(value):
+    if isinstance(value, dict):
+        return ", ".join(f"{k}: {v}" for k, v in value.items())
+    return ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+
+
+def describe_shape(shape):
+    if not isinstance(shape, dict):
+        return str(shape)
+    return "; ".join(f"{kind} ({describe_value(keys)})" for kind, keys in shape.items())
+
+
+def parse_figure(text):
+    title, separator, path = text.partition("=")
+    if not separator or not title:
+        raise argparse.ArgumentTypeError(f"{text!r}: give TITLE=FILE.png")
+    path = pathlib.Path(path)
+    if not path.is_file():
+        raise argparse.ArgumentTypeError(f"{path}: there is no such file")
+    return title, path
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="report", description="Figures and tables of a run as one HTML page.",
+                                     epilog="example: report.py RUN_DIR --figure 'Hugoniot of copper=hugoniot.png'")
+    parser.add_argument("run", metavar="RUN_DIR", help="folder that `whipple run` wrote")
+    parser.add_argument("--output", metavar="DIR", help="folder of the report (default: RUN_DIR/report)")
+    parser.add_argument("--figure", metavar="TITLE=FILE.png", action="append", default=[], type=parse_figure,
+                        help="a figure to show before the pictures (Hugoniot, isotherm, ...); may be repeated")
+    parser.add_argument("--times", metavar="N", type=int, default=6, help="pictures at so many times (default 6)")
+    arguments = parser.parse_args()
+    try:
+        run = Run(arguments.run)
+        output = pathlib.Path(arguments.output) if arguments.output else run.folder / "report"
+        report = Report(run, output, max(arguments.times, 1))
+        report.summary()
+        report.input()
+        report.given_figures(arguments.figure)
+        report.cloud()
+        report.curves()
+        print(report.write())
+    except (NotARun, OSError) as error:
+        print(f"report: error: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Curves of a run over time: energies, errors, phases, time step, front and radial speeds."""
+import matplotlib.pyplot as plt
+import numpy as np
+
+from report_data import PHASES
+from report_metrics import BEYOND
+from report_pictures import PHASE_COLOURS, legend_below
+
+MICRO = 1e6
+
+
+def new_figure(columns, height=3.6):
+    figure, axes = plt.subplots(1, columns, figsize=(12.0 if columns > 1 else 8.0, height), squeeze=False,
+                                layout="constrained")
+    for ax in axes.flat:
+        ax.grid(True, color="#e3e5e8", linewidth=0.7)
+        ax.set_axisbelow(True)
+        ax.spines[["top", "right"]].set_visible(False)
+        ax.set_xlabel("time (µs)")
+    return figure, axes[0]
+
+
+def lines(ax, history, names, scale=1.0):
+    drawn = False
+    for name, label in names:
+        if name in history:
+            ax.plot(MICRO * history["time"], scale * history[name], label=label, linewidth=1.6)
+            drawn = True
+    return drawn
+
+
+def phase_figure(run):
+    """Mass of every phase over time as shares of the mass, one panel per body."""
+    history = run.history
+    groups = [(name, [f"mass_{p}.{name}" for p in PHASES]) for name in run.bodies]
+    groups = [g for g in groups if all(column in history for column in g[1])]
+    if not groups:
+        groups = [("all bodies", [f"mass_{p}" for p in PHASES])]
+        if not all(column in history for column in groups[0][1]):
+            return None
+    figure, axes = new_figure(min(len(groups), 4))
+    for ax, (name, columns) in zip(axes, groups):
+        masses = np.array([history[c] for c in columns])
+        total = np.maximum(masses.sum(axis=0), 1e-300)
+        ax.stackplot(MICRO * history["time"], 100 * masses / total, colors=PHASE_COLOURS, labels=PHASES,
+                     linewidth=0, alpha=0.95)
+        ax.set_title(f"{name}: {format_mass(run.multiplicity * total[-1])}", fontsize=10, loc="left")
+        ax.set_ylim(0, 100)
+        ax.set_xlim(MICRO * history["time"][0], max(MICRO * history["time"][-1], 1e-12))
+    axes[0].set_ylabel("share of the mass (%)")
+    legend_below(figure, *axes[0].get_legend_handles_labels())
+    return figure
+
+
+def format_mass(mass):
+    return f"{1e3 * mass:.4g} g" if mass >= 1e-4 else f"{1e6 * mass:.4g} mg"
+
+
+def energy_figure(run):
+    history = run.history
+    figure, (left, right) = new_figure(2)
+    scale = run.multiplicity * 1e-3
+    drawn = lines(left, history, [("total_energy", "total"), ("kinetic_energy", "kinetic"),
+                                  ("internal_energy", "internal"), ("affine_kinetic_energy", "affine kinetic"),
+                                  ("outflow_energy", "left through the border")], scale)
+    left.set_ylabel("energy (kJ)" + (", full problem" if run.multiplicity > 1 else ""))
+    if drawn:
+        left.legend(frameon=False, fontsize=9)
+    errors = lines(right, history, [("energy_error", "energy, over the initial total"),
+                                    ("momentum_error", "momentum")])
+    right.set_ylabel("relative error")
+    right.ticklabel_format(axis="y", style="sci", scilimits=(-2, 3))
+    if errors:
+        right.legend(frameon=False, fontsize=9)
+    if drawn or errors:
+        return figure
+    plt.close(figure)
+    return None
+
+
+def step_figure(run):
+    history = run.history
+    figure, (left, middle, right) = new_figure(3)
+    drawn = lines(left, history, [("dt", "time step")], 1e9)
+    left.set_ylabel("time step (ns)")
+    drawn |= lines(middle, history, [("maximum_pressure", "largest pressure")], 1e-9)
+    middle.set_ylabel("largest pressure (GPa)")
+    drawn |= lines(right, history, [("maximum_temperature", "largest temperature")])
+    right.set_ylabel("largest temperature (K)")
+    if drawn:
+        return figure
+    plt.close(figure)
+    return None
+
+
+def extent_figure(columns):
+    """Position and speed of front, rear and radius of the debris; `columns` of report_metrics.with_speeds."""
+    figure, (left, right) = new_figure(2)
+    time = MICRO * columns["time"]
+    for name, label, colour, outer in (("front", "front", "#c0392b", "foremost"), ("rear", "rear", "#2c6fbb", None),
+                                       ("radius", "radius", "#3a8f5c", "outermost")):
+        left.plot(time, 1e3 * columns[name], "o-", color=colour, label=label, markersize=3, linewidth=1.6)
+        if outer:
+            left.plot(time, 1e3 * columns[outer], ":", color=colour, label=f"{outer} particle", linewidth=1.0)
+    left.set_ylabel("position of the debris (mm)")
+    left.legend(frameon=False, fontsize=9)
+    for name, label, colour in (("front_speed", "front", "#c0392b"), ("rear_speed", "rear", "#2c6fbb"),
+                                ("expansion_speed", "expansion of the radius", "#3a8f5c"),
+                                ("mean_velocity", "mean axial velocity", "#555b66"),
+                                ("radial_speed", f"radial speed exceeded by {100 * BEYOND:.1f} %", "#b07aa1")):
+        right.plot(time, 1e-3 * columns[name], "o-", color=colour, label=label, markersize=3, linewidth=1.6)
+    right.set_ylabel("speed (km/s)")
+    right.legend(frameon=False, fontsize=9)
+    return figure

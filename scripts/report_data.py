@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What `report.py` reads: the folder of a run (docs/output.md). SI throughout."""
+import csv
+import json
+import pathlib
+import re
+import tomllib
+
+import h5py
+import numpy as np
+
+AXES = "xyz"
+PHASES = ("solid", "melting", "liquid", "vapour")  # numbers of the field "phase"
+LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
+
+
+class NotARun(Exception):
+    """The folder is not that of a run, or something in it cannot be read."""
+
+
+def length(text):
+    """"40 mm" or a number in metres."""
+    if isinstance(text, (int, float)):
+        return float(text)
+    number, _, unit = str(text).strip().partition(" ")
+    try:
+        return float(number) * LENGTHS[unit.strip() or "m"]
+    except (ValueError, KeyError):
+        raise NotARun(f"run.toml: {text!r} is not a length in {', '.join(LENGTHS)}") from None
+
+
+class History:
+    """history.csv: columns by their name without unit. Columns that a run does not write are absent."""
+
+    def __init__(self, path):
+        self.columns = {}
+        self.units = {}
+        if not path.is_file():
+            return
+        with path.open(newline="") as stream:
+            rows = list(csv.reader(stream))
+        if not rows:
+            return
+        data = [row for row in rows[1:] if len(row) == len(rows[0])]  # a row in the making may be incomplete
+        try:
+            values = np.array([[float(cell) for cell in row] for row in data]).reshape(len(data), len(rows[0]))
+        except ValueError as error:
+            raise NotARun(f"{path}: {error}") from None
+        for i, head in enumerate(rows[0]):
+            match = re.fullmatch(r"(.*?)(?: \[([^\]]*)\])?", head)
+            self.columns[match[1]] = values[:, i]
+            self.units[match[1]] = match[2] or ""
+
+    def __contains__(self, name):
+        return name in self.columns and len(self.columns[name]) > 0
+
+    def __getitem__(self, name):
+        return self.columns[name]
+
+    def last(self, name):
+        return float(self.columns[name][-1]) if name in self else None
+
+
+class Snapshot:
+    """The particles at one time: arrays by the names of the fields, `position` included; None if not written."""
+
+    def __init__(self, path, time):
+        self.path, self.time = path, time
+        try:
+            with h5py.File(path, "r") as file:
+                vtk = file["VTKHDF"]
+                self.fields = {name: vtk["PointData"][name][:] for name in vtk["PointData"]}
+                self.fields["position"] = vtk["Points"][:].astype(float)
+        except (OSError, KeyError) as error:
+            raise NotARun(f"{path}: {error}") from None
+        for name in ("velocity", "mass"):
+            if name not in self.fields:
+                raise NotARun(f"{path}: the field {name!r} is missing")
+        self.fields["velocity"] = self.fields["velocity"].astype(float)
+        self.fields["mass"] = self.fields["mass"].astype(float)
+
+    def __getattr__(self, name):
+        return self.__dict__.get("fields", {}).get(name)
+
+    def __len__(self):
+        return len(self.fields["mass"])
+
+
+class Run:
+    """The folder of a run."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        if not self.folder.is_dir():
+            raise NotARun(f"{folder}: there is no such folder")
+        path = self.folder / "run.toml"
+        if not path.is_file():
+            raise NotARun(f"{folder}: is not the folder of a run: it holds no run.toml")
+        self.input_text = path.read_text(encoding="utf-8", errors="replace")
+        try:
+            self.input = tomllib.loads(self.input_text)
+        except tomllib.TOMLDecodeError as error:
+            raise NotARun(f"{path}: {error}") from None
+        self.history = History(self.folder / "history.csv")
+        self.entries = self._read_index()
+        if not self.entries and not self.history.columns:
+            raise NotARun(f"{folder}: the run has neither snapshots nor a history.csv yet")
+
+    def _read_index(self):
+        indices = sorted(self.folder.glob("*.particles.hdf.series"))
+        if not indices:
+            return []
+        if len(indices) > 1:
+            raise NotARun(f"{self.folder}: more than one series: {', '.join(p.name for p in indices)}")
+        try:
+            files = json.loads(indices[0].read_text())["files"]
+            return [(self.folder / entry["name"], float(entry["time"])) for entry in files]
+        except (ValueError, KeyError, TypeError) as error:
+            raise NotARun(f"{indices[0]}: is not the index of a series: {error}") from None
+
+    def snapshots(self, at_most):
+        """At most so many snapshots, evenly spread, the first and the last among them; one at a time."""
+        for i in self.spread(at_most):
+            yield Snapshot(*self.entries[i])
+
+    def spread(self, at_most):
+        """Indices of at most so many snapshots, evenly spread, the first and the last among them."""
+        n = len(self.entries)
+        return sorted(set(np.linspace(0, n - 1, min(n, at_most)).round().astype(int))) if n else []
+
+    @property
+    def title(self):
+        return str(self.input.get("title", self.folder.name))
+
+    @property
+    def bodies(self):
+        """Names of the bodies, by number."""
+        return [str(body.get("name", f"body {i}")) for i, body in enumerate(self.input.get("body", []))]
+
+    def body_names(self, snapshot):
+        """Names of the bodies that occur, also of those the input does not name."""
+        names = self.bodies
+        count = int(snapshot.body.max()) + 1 if snapshot.body is not None and len(snapshot) else 0
+        return names + [f"body {i}" for i in range(len(names), max(count, len(names), 1))]
+
+    @property
+    def symmetry_planes(self):
+        """Position (m) of the symmetry plane normal to an axis, {0: 0.0, 1: 0.0} for a quarter model."""
+        domain = self.input.get("domain", {})
+        planes = {}
+        for face, kind in domain.get("boundary", {}).items():
+            axis, _, side = face.partition("_")
+            if kind == "symmetry" and axis in AXES and side in ("lower", "upper") and side in domain:
+                planes[AXES.index(axis)] = length(domain[side][AXES.index(axis)])
+        return planes
+
+    @property
+    def multiplicity(self):
+        """Of how many copies of the model the full problem consists: 4 for a quarter model."""
+        return 2 ** len(self.symmetry_planes)
