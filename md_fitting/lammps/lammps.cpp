@@ -41,13 +41,13 @@ Lammps::~Lammps() {
   }
 }
 
-void Lammps::command(const std::string& line) {
-  transcript_ += line + '\n';
+void Lammps::command_shown_as(const std::string& line, const std::string& shown) {
+  transcript_ += shown + '\n';
   const ErrorGuard guard(ranks_);
   try {
     lammps_command(handle_, line.c_str());
   } catch (const LammpsError& error) {
-    throw LammpsError(fmt::format("{}; command: {}", error.what(), line));
+    throw LammpsError(fmt::format("{}; command: {}", error.what(), shown));
   }
 }
 

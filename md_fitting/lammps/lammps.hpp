@@ -25,7 +25,10 @@ class Lammps {
   ~Lammps();
 
   /// Runs one input line. Collective.
-  void command(const std::string& line);
+  void command(const std::string& line) { command_shown_as(line, line); }
+  /// The same for a line whose transcript must not show a path that lives as long as this process only.
+  /// Collective.
+  void command_shown_as(const std::string& line, const std::string& shown);
   template <class... Args>
   void command(fmt::format_string<Args...> format, Args&&... args) {
     command(std::string(fmt::format(format, std::forward<Args>(args)...)));

@@ -168,13 +168,11 @@ void Potential::apply(Lammps& lammps) const {
     throw InputError(
         fmt::format("LAMMPS was built without the pair style {}, which {} needs", style_, name_));
   }
-  const std::string path = (written_ ? written_->path() : file_).string();
+  const std::filesystem::path& path = written_ ? written_->path() : file_;
+  const std::string elements = style_ == "eam" ? "" : " " + element();
   lammps.command("pair_style {}", style_);
-  if (style_ == "eam") {
-    lammps.command("pair_coeff * * \"{}\"", path);
-  } else {
-    lammps.command("pair_coeff * * \"{}\" {}", path, element());
-  }
+  lammps.command_shown_as(fmt::format("pair_coeff * * \"{}\"{}", path.string(), elements),
+                          fmt::format("pair_coeff * * \"{}\"{}", path.filename().string(), elements));
   // pair_coeff sets the mass that the file gives; set again to the value that all conversions use.
   lammps.command("mass 1 {:.17g}", mass());
 }

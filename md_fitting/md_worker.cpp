@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// whipple-md: computes what is missing of a plan of molecular-dynamics points, alone or under mpirun.
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+#include "md_fitting/plan/plan.hpp"
+#include "md_fitting/protocols/campaign.hpp"
+#include "src/base/error.hpp"
+#include "src/base/log.hpp"
+#include "src/base/progress.hpp"
+
+namespace whipple::md {
+namespace {
+
+struct Options {
+  std::string plan;
+  std::string store;
+  bool retry_failed = false;
+  bool describe = false;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+/// Rank 0 tries the store, all ranks learn the outcome.
+void require_writable_on_all(const std::filesystem::path& store, int rank) {
+  std::string fault;
+  if (rank == 0) {
+    try {
+      require_writable(store);
+    } catch (const InputError& error) {
+      fault = error.what();
+    }
+  }
+  int length = static_cast<int>(fault.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  fault.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(fault.data(), length, MPI_CHAR, 0, MPI_COMM_WORLD);
+  if (length > 0) throw InputError(fault);
+}
+
+void report(const CampaignSummary& summary, const std::string& store) {
+  if (summary.computed + summary.failed + summary.blocked == 0 && summary.left == 0) {
+    log::info("nothing to compute: all {} points are in {}", summary.present, store);
+    return;
+  }
+  log::info("{}: {} points computed, {} were there", store, summary.computed, summary.present);
+  if (summary.failed > 0) log::warning("{} points failed; their messages are in the store", summary.failed);
+  if (summary.blocked > 0) log::warning("{} points wait for a point that failed", summary.blocked);
+  if (summary.left > 0) {
+    log::warning(
+        "{} points failed in an earlier call and were left alone; --retry-failed computes them again",
+        summary.left);
+  }
+}
+
+int run_plan(const Options& options) {
+  int rank = 0;
+  int ranks = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  const Plan plan = read_plan(options.plan);
+  const Potential potential = Potential::load(plan.potential, plan.element, plan.folder);
+  const std::vector<Task> tasks = make_tasks(plan, potential);
+  require_writable_on_all(options.store, rank);
+  if (rank == 0) {
+    log::info("{}: {} points, potential {} ({}), {} rank{}", plan.title.empty() ? options.plan : plan.title,
+              tasks.size(), potential.name(), potential.file().filename().string(), ranks,
+              ranks == 1 ? "" : "s");
+    log::detail(
+        "density table of {} ends at V/V0 = {:.3f}, usable down to {:.3f}; static a0 = {:.4f} angstrom",
+        potential.name(), potential.table_end(), potential.least_volume_ratio(),
+        potential.lattice_constant());
+  }
+  const CampaignSummary summary = run_campaign(tasks, options.store, MPI_COMM_WORLD, options.retry_failed);
+  if (rank == 0) report(summary, options.store);
+  const bool complete = summary.failed + summary.blocked + summary.left == 0;
+  return static_cast<int>(complete ? ExitCode::success : ExitCode::state);
+}
+
+int body(int argc, char** argv) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  Options options;
+  CLI::App app("Computes what is missing of a plan of molecular-dynamics points and adds it to a store",
+               "whipple-md");
+  app.add_option("plan", options.plan, "The plan (PLAN.toml)");
+  app.add_option("-o,--output", options.store, "The store (default: PLAN.md.h5 in the present folder)");
+  app.add_flag("--retry-failed", options.retry_failed, "Compute points again that failed in an earlier call");
+  app.add_flag("--describe", options.describe,
+               "Print every key of a plan with unit, range, default and meaning");
+  app.add_flag("--quiet", options.quiet, "Warnings and errors only");
+  app.add_flag("--verbose", options.verbose, "More detail");
+  app.footer("Example:\n  mpirun -n 2 whipple-md cases/md/copper_mishin_short.toml -o copper.md.h5");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool help = error.get_exit_code() == 0;
+    if (rank == 0) app.exit(error);
+    return static_cast<int>(help ? ExitCode::success : ExitCode::input);
+  }
+  if (options.quiet) log::set_level(log::Level::quiet);
+  if (options.verbose) log::set_level(log::Level::verbose);
+  set_progress_visible(!options.quiet);
+  if (options.describe) {
+    if (rank == 0) fmt::print("{}", describe_plan());
+    return 0;
+  }
+  if (options.plan.empty()) throw InputError("name a plan: whipple-md PLAN.toml [-o STORE.md.h5]");
+  if (options.store.empty()) options.store = std::filesystem::path(options.plan).stem().string() + ".md.h5";
+  return run_plan(options);
+}
+
+/// The other ranks meet the same errors as rank 0 at the same places: one of them is enough on the screen.
+int body_without_words(int argc, char** argv) {
+  try {
+    return body(argc, argv);
+  } catch (const InputError&) {
+    return static_cast<int>(ExitCode::input);
+  } catch (const StateError&) {
+    return static_cast<int>(ExitCode::state);
+  } catch (const std::exception&) {
+    return static_cast<int>(ExitCode::internal);
+  }
+}
+
+}  // namespace
+}  // namespace whipple::md
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const int code = rank == 0 ? whipple::run_guarded("whipple-md", whipple::md::body, argc, argv)
+                             : whipple::md::body_without_words(argc, argv);
+  MPI_Finalize();
+  return code;
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/protocols/state_source.hpp"
+
+namespace whipple::md {
+
+/// The state before the shock.
+struct ReferenceState {
+  Estimate specific_volume;           ///< m^3/kg
+  Estimate specific_internal_energy;  ///< J/kg
+  double pressure = 0.0;              ///< Pa
+};
+
+struct HugoniotSearch {
+  double first_temperature = 0.0;       ///< K; any guess, a good one saves runs
+  double specific_heat = 0.0;           ///< J/(kg K) of the first Newton steps, about 3R
+  double gruneisen = 2.0;               ///< of the first Newton steps
+  double temperature_tolerance = 0.02;  ///< the final run is made when two temperatures agree to this share
+  int most_runs = 8;
+};
+
+struct HugoniotState {
+  Estimate temperature;               ///< K
+  Estimate pressure;                  ///< Pa
+  Estimate specific_internal_energy;  ///< J/kg
+  Estimate shock_velocity;            ///< m/s
+  Estimate particle_velocity;         ///< m/s
+  Estimate mean_square_displacement;  ///< m^2
+  bool solid = true;
+  int runs = 0;
+};
+
+/// The state behind a steady shock at one specific volume: the temperature at which
+/// G(T) = E - E0 - (P + P0)(V0 - V)/2 vanishes (Rankine and Hugoniot; docs/theory/molecular_dynamics.md,
+/// equation 8). Newton steps with the slope of a harmonic solid until two temperatures are far enough apart
+/// for a secant slope not to be noise; the last Newton step, from the final run, moves temperature, energy
+/// and pressure along the isochore. Errors hold the noise of the final run, with its correlation of pressure
+/// and energy, and of the reference.
+/// @param specific_volume below that of the reference
+/// @throws StateError if the search does not converge or leaves positive temperatures.
+HugoniotState solve_hugoniot(StateSource& source, const ReferenceState& reference, double specific_volume,
+                             const HugoniotSearch& search);
+
+}  // namespace whipple::md

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/lammps/potential.hpp"
+
+namespace whipple::md {
+
+/// The static crystal at zero pressure, as LAMMPS computes it. No statistical errors: those given are of the
+/// root.
+struct LatticeResult {
+  Estimate lattice_constant;  ///< m
+  Estimate cohesive_energy;   ///< J/kg, negative
+  Estimate specific_volume;   ///< m^3/kg
+  std::string transcript;
+};
+LatticeResult measure_lattice(const Potential& potential);
+
+}  // namespace whipple::md

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "md_fitting/data_set/data_set.hpp"
+
+namespace whipple::md {
+
+/// What a run at constant volume and temperature yields; SI, per mass.
+struct State {
+  Estimate pressure;                  ///< Pa
+  Estimate specific_internal_energy;  ///< J/kg
+  Estimate mean_square_displacement;  ///< m^2, from the lattice sites
+  double correlation = 0.0;           ///< of the errors of pressure and energy, -1 ... 1
+  bool solid = true;
+};
+
+/// Anything that knows the state at a volume and a temperature: molecular dynamics, or in tests a formula.
+class StateSource {
+ public:
+  enum class Effort { search, final };
+
+  virtual ~StateSource() = default;
+  /// @param specific_volume m^3/kg
+  /// @param temperature     K
+  /// @param effort          a short run while a root is searched, a long one for the result
+  /// @throws LammpsError, StateError if the state cannot be had
+  virtual State state(double specific_volume, double temperature, Effort effort) = 0;
+};
+
+}  // namespace whipple::md

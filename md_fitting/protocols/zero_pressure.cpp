@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/protocols/zero_pressure.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "md_fitting/lammps/units.hpp"
+#include "md_fitting/protocols/crystal.hpp"
+#include "md_fitting/protocols/nvt_state.hpp"
+#include "md_fitting/protocols/statistics.hpp"
+#include "src/base/error.hpp"
+
+namespace whipple::md {
+
+ZeroPressureResult measure_zero_pressure(const Potential& potential, double temperature, const RunSize& size,
+                                         std::int64_t seed) {
+  const double mass = potential.mass();
+  const double a = potential.lattice_constant();
+  const double dt = time_step(potential, 1.0, temperature, size);
+  Crystal crystal(potential, a, size.cells, size.cells, size.cells);
+  Lammps& lammps = crystal.lammps();
+  crystal.evaluate();
+  const double cold_energy = lammps.variable("energy");
+  const double cold_volume = lammps.variable("volume");
+  lammps.command("timestep {:.17g}", dt);
+  lammps.command("velocity all create {:.17g} {} mom yes rot no dist gaussian", 2.0 * temperature, seed);
+  lammps.command("fix integrate all npt temp {0:.17g} {0:.17g} {1:.17g} iso 0.0 0.0 {2:.17g}", temperature,
+                 100.0 * dt, 1000.0 * dt);
+  lammps.command("run {} post no", size.equilibration_steps);
+  auto series =
+      crystal.sample({"energy", "volume", "displacement"}, sampling_interval(size.steps), size.steps);
+  const double neighbour = potential.tables().structure == "fcc" ? a * std::sqrt(0.5) : a * std::sqrt(0.75);
+  if (std::sqrt(series[2].back()) > melting_displacement * neighbour) {
+    throw StateError(
+        fmt::format("the crystal melted at {} K and zero pressure: atoms moved {:.2f} A from their sites",
+                    temperature, std::sqrt(series[2].back())));
+  }
+  const double n = crystal.atoms();
+  const double modes = n / (n - 1.0);
+  const double kinetic_energy = 1.5 * metal::boltzmann * temperature;
+  for (double& energy : series[0]) energy = cold_energy + modes * (energy - cold_energy) + kinetic_energy;
+  for (double& volume : series[1]) volume = cold_volume + modes * (volume - cold_volume);
+  const Estimate energy = block_average(series[0]);
+  const Estimate volume = block_average(series[1]);
+  return {{metal::specific_volume(volume.value, mass), metal::specific_volume(volume.error, mass)},
+          {metal::specific_energy(energy.value, mass), metal::specific_energy(energy.error, mass)},
+          lammps.transcript()};
+}
+
+}  // namespace whipple::md
