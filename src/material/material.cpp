@@ -89,9 +89,9 @@ void initialise(const Material& material, MaterialPoints& points, std::size_t be
 }
 
 std::string Material::constants() const {
-  std::string text = fmt::format("name = {}\n", whipple::quoted(name));
-  if (!source.empty()) text += fmt::format("source = {}\n", whipple::quoted(source));
-  if (!file.empty()) text += fmt::format("file = {}\n", whipple::quoted(file.string()));
+  std::string text = file.empty() ? "" : fmt::format("# read from {}\n", file.string());
+  text += fmt::format("name = {}\nsource = {}\n", whipple::quoted(name), whipple::quoted(source));
+  if (!note.empty()) text += fmt::format("note = {}\n", whipple::quoted(note));
   text += fmt::format("[eos]\nmodel = {}\n{}\n[strength]\n{}", whipple::quoted(eos->model()),
                       eos->constants(), strength->constants());
   for (const auto& criterion : failure) text += fmt::format("\n[[failure]]\n{}", criterion->constants());

@@ -27,7 +27,7 @@ struct Material {
   std::vector<std::shared_ptr<const failure::Criterion>> failure;  ///< in the order of the file; may be empty
   eos::State reference;  ///< the state that bodies start from: p = 0 at the reference temperature
 
-  /// Constants of all parts as TOML tables (provenance in output files).
+  /// The material as a material file with every default written out (provenance in output files).
   [[nodiscard]] std::string constants() const;
 };
 

@@ -193,8 +193,12 @@ Material read_material(const fs::path& path, const fs::path& beside) {
 std::vector<LibraryMaterial> library_materials() {
   std::vector<LibraryMaterial> materials;
   for (const auto& [stem, file] : library_files()) {
-    const Material material = read_material(file);
-    materials.push_back({material.name, file, material.note});
+    try {
+      const Material material = read_material(file);
+      materials.push_back({material.name, file, material.note});
+    } catch (const InputError& fault) {
+      materials.push_back({stem, file, fmt::format("cannot be read: {}", fault.what())});
+    }
   }
   return materials;
 }

@@ -32,7 +32,8 @@ struct LibraryMaterial {
   std::filesystem::path file;
   std::string note;  ///< one line
 };
-/// All materials of the library, by file name; a file in an earlier folder hides one of the same name.
+/// All materials of the library, by file name; a file in an earlier folder hides one of the same name. A file
+/// that cannot be read is listed with the reason as its note.
 std::vector<LibraryMaterial> library_materials();
 
 /// Text of `whipple describe strength [NAME]` and `whipple describe failure [NAME]`: summaries of all models,

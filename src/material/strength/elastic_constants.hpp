@@ -24,8 +24,8 @@ struct ElasticConstants {
             real<Owner>("youngs_modulus", &Owner::youngs_modulus, "Pa", range::non_negative(),
                         "Young's modulus E (0: G is given)")
                 .optional(),
-            real<Owner>("poisson_ratio", &Owner::poisson_ratio, "", range::between(-0.99, 0.5),
-                        "Poisson's ratio nu")
+            real<Owner>("poisson_ratio", &Owner::poisson_ratio, "",
+                        Range{.lower = -1.0, .upper = 0.5, .lower_open = true}, "Poisson's ratio nu")
                 .optional()};
   }
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Time of the constitutive update per point, by material and by state of the points: random deviatoric flow
+// of a body that is intact and yielding, or failed with open voids. `items_per_second` is points per second.
+#include <benchmark/benchmark.h>
+
+#include <numeric>
+#include <random>
+
+#include "src/material/material_file.hpp"
+#include "src/material/update.hpp"
+
+namespace whipple {
+namespace {
+
+constexpr std::size_t count = 32768;
+
+enum class Matter { intact, failed };
+
+void update(benchmark::State& state, const char* name, Matter matter, bool by_list) {
+  const Material material = read_material(name);
+  MaterialPoints points;
+  resize(points, count);
+  std::ranges::fill(points.mass, 1e-6);
+  initialise(material, points, 0, count);
+  std::mt19937_64 generator(5);
+  std::uniform_real_distribution<double> uniform(-1e4, 1e4);
+  std::vector<Matrix3> gradients(count);
+  for (Matrix3& gradient : gradients) {
+    for (int k = 0; k < 9; ++k) gradient(k / 3, k % 3) = uniform(generator);
+    gradient.diagonal().array() -= gradient.trace() / 3.0;
+  }
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::shuffle(order, generator);
+  if (matter == Matter::failed) {
+    std::ranges::fill(points.failed, std::uint8_t{1});
+    for (std::size_t i = 0; i < count; ++i) points.void_volume[i] = points.volume[i];
+  }
+  // The sign of the motion alternates: the points stay near their state and keep yielding.
+  std::vector<Matrix3> reversed = gradients;
+  for (Matrix3& gradient : reversed) gradient = -gradient;
+  const UpdateSettings settings{.time_step = 1e-7, .cell_size = 1e-3};
+  bool forward = true;
+  for (auto _ : state) {
+    const auto& motion = forward ? gradients : reversed;
+    const MaterialReport report = by_list ? update_material(material, points, order, motion, settings)
+                                          : update_material(material, points, 0, count, motion, settings);
+    if (!report.valid()) state.SkipWithError("a point left the range of its model");
+    forward = !forward;
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(count));
+}
+
+BENCHMARK_CAPTURE(update, no_strength, "aluminium_mie_gruneisen", Matter::intact, false);
+BENCHMARK_CAPTURE(update, linear_hardening, "copper_taylor", Matter::intact, false);
+BENCHMARK_CAPTURE(update, linear_hardening_shuffled_list, "copper_taylor", Matter::intact, true);
+BENCHMARK_CAPTURE(update, lead_with_open_voids, "lead_mie_gruneisen", Matter::failed, false);
+BENCHMARK_CAPTURE(update, gray_johnson_cook, "copper", Matter::intact, false);
+BENCHMARK_CAPTURE(update, gray_with_open_voids, "copper", Matter::failed, false);
+
+}  // namespace
+}  // namespace whipple
+
+BENCHMARK_MAIN();

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Material files: every library material reads and starts at zero pressure; errors name file, line, key and
+// what is accepted, all at once.
+#include "src/material/material_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+
+#include "eos/catalogue.hpp"
+#include "src/base/error.hpp"
+#include "src/material/failure/catalogue.hpp"
+#include "src/material/strength/catalogue.hpp"
+#include "src/material/update.hpp"
+
+namespace whipple {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// A folder of its own for each test.
+class MaterialFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        fs::path(::testing::TempDir()) /
+        ("material_file_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override {
+    unsetenv("WHIPPLE_MATERIALS");
+    fs::remove_all(folder_);
+  }
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  static std::string message(const fs::path& file, const fs::path& beside = {}) {
+    try {
+      static_cast<void>(read_material(file, beside));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  fs::path folder_;
+};
+
+const std::string sound_eos = R"toml(name = "metal"
+source = "test"
+[eos]
+model = "mie_gruneisen"
+reference_density = "8.93 g/cm^3"
+hugoniot_intercept = "3.94 km/s"
+hugoniot_slope = 1.49
+gruneisen = 1.96
+heat_capacity = "383 J/(kg K)"
+)toml";
+
+TEST_F(MaterialFile, ReadsUnitsModelsAndRemarks) {
+  const fs::path file = write("metal.toml", sound_eos + R"toml(
+[strength]
+model = "von_mises"
+source = "a report"
+note = "free text"
+youngs_modulus = "117 GPa"
+poisson_ratio = 0.35
+yield_stress = "157 MPa"
+[[failure]]
+model = "tensile_pressure"
+spall_strength = "13 kbar"
+[[failure]]
+model = "plastic_strain"
+failure_strain = 3.0
+[provenance]
+anything = { goes = [1, 2, "three"] }
+[defaults]
+cell_size = "1 mm"
+)toml");
+  const Material material = read_material(file);
+  EXPECT_EQ(material.name, "metal");
+  EXPECT_EQ(material.file, file);
+  EXPECT_EQ(material.eos->model(), "mie_gruneisen");
+  EXPECT_EQ(material.strength->model(), "von_mises");
+  EXPECT_NEAR(material.strength->flow_stress(0.0, 1.0, 300.0), 157e6, 1e-3);
+  ASSERT_EQ(material.failure.size(), 2U);
+  EXPECT_EQ(material.failure[0]->model(), "tensile_pressure");
+  EXPECT_THAT(material.failure[0]->constants(), HasSubstr("1300000000 Pa"));
+  EXPECT_NEAR(material.reference.density, 8930.0, 1e-9);
+  EXPECT_NEAR(material.reference.sound_speed, 3940.0, 1e-6);
+}
+
+TEST_F(MaterialFile, StrengthAndFailureMayBeMissing) {
+  const Material material = read_material(write("metal.toml", sound_eos));
+  EXPECT_EQ(material.strength->model(), "none");
+  EXPECT_TRUE(material.failure.empty());
+}
+
+TEST_F(MaterialFile, ReportsAllErrorsAtOnceWithLineColumnAndSuggestion) {
+  const fs::path file = write("bad.toml", R"toml(name = "bad"
+source = "test"
+[eos]
+model = "mie_gruneisen"
+reference_density = "8.93 km/s"
+hugoniot_intercept = "3.94 km/s"
+hugoniot_slpoe = 1.49
+gruneisen = 1.96
+heat_capacity = -3.0
+[strength]
+model = "jonson_cook"
+[[failure]]
+model = "tensile_pressure"
+spall_strength = "1 furlong"
+)toml");
+  const std::string text = message(file);
+  const std::string at = file.string() + ":";
+  EXPECT_THAT(text, HasSubstr(at + "5:21: error: 'reference_density' unit 'km/s' has the wrong dimension"));
+  EXPECT_THAT(text, HasSubstr("missing key 'hugoniot_slope' in [eos]"));
+  EXPECT_THAT(
+      text, HasSubstr(at + "7:1: error: unknown key 'eos.hugoniot_slpoe', did you mean \"hugoniot_slope\"?"));
+  EXPECT_THAT(text, HasSubstr(at + "9:17: error: 'heat_capacity' is -3 J/(kg K), but must be > 0 J/(kg K)"));
+  EXPECT_THAT(text, AllOf(HasSubstr("'model' is \"jonson_cook\", did you mean \"johnson_cook\"?"),
+                          HasSubstr("Accepted: none, von_mises, johnson_cook")));
+  EXPECT_THAT(text, HasSubstr(at + "14:18: error: 'spall_strength' unit"));
+  EXPECT_EQ(std::ranges::count(text, '\n'), 5);  // six errors
+}
+
+TEST_F(MaterialFile, ReportsMissingTableAndUnknownTable) {
+  EXPECT_THAT(message(write("a.toml", "name = \"a\"\nsource = \"b\"\n")), HasSubstr("missing table [eos]"));
+  EXPECT_THAT(message(write("b.toml", sound_eos + "[strenght]\nmodel = \"none\"\n")),
+              HasSubstr("unknown key 'strenght', did you mean \"strength\"?"));
+  EXPECT_THAT(
+      message(write("c.toml", "[eos]\nmodel = \"none\"\n")),
+      AllOf(HasSubstr("missing key 'name'"), HasSubstr("missing key 'source'"), HasSubstr("Accepted: ")));
+}
+
+TEST_F(MaterialFile, ReportsConstantsThatContradictOneAnotherWithTheirTable) {
+  const fs::path file =
+      write("metal.toml", sound_eos + "[strength]\nmodel = \"von_mises\"\nyield_stress = \"1 MPa\"\n");
+  EXPECT_THAT(message(file), AllOf(HasSubstr(file.string() + ":10:"), HasSubstr("[strength]"),
+                                   HasSubstr("'shear_modulus'")));
+}
+
+TEST_F(MaterialFile, BareNamesAreLookedUpBesideTheCaseThenInTheLibrary) {
+  EXPECT_EQ(find_material("copper").filename(), "copper.toml");
+  EXPECT_EQ(find_material("copper.toml", folder_), find_material("copper"));
+  write("copper.toml", sound_eos);
+  EXPECT_EQ(find_material("copper", folder_), folder_ / "copper.toml");
+  EXPECT_EQ(read_material("copper", folder_).name, "metal");
+}
+
+TEST_F(MaterialFile, EnvironmentAddsALibraryThatHidesTheOwnOne) {
+  write("copper.toml", sound_eos);
+  write("mine.toml", sound_eos);
+  setenv("WHIPPLE_MATERIALS", folder_.c_str(), 1);
+  EXPECT_EQ(find_material("copper"), folder_ / "copper.toml");
+  EXPECT_EQ(read_material("mine").name, "metal");
+  EXPECT_TRUE(std::ranges::any_of(library_materials(),
+                                  [&](const auto& m) { return m.file == folder_ / "mine.toml"; }));
+}
+
+TEST_F(MaterialFile, MissingFilesNameTheFoldersSearchedAndTheNearestMaterial) {
+  EXPECT_THAT(message("coper.toml", folder_),
+              AllOf(HasSubstr("no material file 'coper.toml', did you mean \"copper\"?"),
+                    HasSubstr(folder_.string()), HasSubstr("eos/materials")));
+  EXPECT_THAT(message("no/such.toml", folder_), HasSubstr((folder_ / "no/such.toml").string()));
+}
+
+TEST_F(MaterialFile, UnreadableLibraryFileIsListedWithItsReason) {
+  write("broken.toml", "name = 3\n");
+  setenv("WHIPPLE_MATERIALS", folder_.c_str(), 1);
+  const auto all = library_materials();
+  const auto found = std::ranges::find(all, std::string("broken"), &LibraryMaterial::name);
+  ASSERT_NE(found, all.end());
+  EXPECT_THAT(found->note, HasSubstr("cannot be read"));
+}
+
+TEST_F(MaterialFile, ConstantsWrittenToOutputReadBackToTheSameMaterial) {
+  for (const LibraryMaterial& entry : library_materials()) {
+    const Material material = read_material(entry.file);
+    const Material again = read_material(write("again.toml", material.constants()));
+    const auto without_first_line = [](const std::string& text) { return text.substr(text.find('\n')); };
+    EXPECT_EQ(without_first_line(again.constants()), without_first_line(material.constants())) << entry.file;
+    EXPECT_EQ(again.reference.density, material.reference.density) << entry.file;
+  }
+}
+
+TEST(Library, EveryMaterialStartsAtZeroPressureAndStaysThereAtRest) {
+  const std::vector<LibraryMaterial> all = library_materials();
+  ASSERT_GE(all.size(), 7U);
+  for (const LibraryMaterial& entry : all) {
+    SCOPED_TRACE(entry.file.string());
+    EXPECT_FALSE(entry.note.empty());
+    const Material material = read_material(entry.file);
+    const double modulus =
+        material.reference.density * material.reference.sound_speed * material.reference.sound_speed;
+    EXPECT_NEAR(material.reference.pressure, 0.0, 1e-10 * modulus);
+    EXPECT_NEAR(material.reference.density, material.eos->reference_density(),
+                1e-6 * material.reference.density);
+    EXPECT_EQ(material.reference.temperature, 300.0);
+    MaterialPoints points;
+    resize(points, 3);
+    for (double& mass : points.mass) mass = 1e-6;
+    initialise(material, points, 0, 3);
+    const MaterialPoints before = points;
+    const std::vector<Matrix3> rest(3, Matrix3::Zero());
+    const MaterialReport report =
+        update_material(material, points, 0, 3, rest, {.time_step = 1e-9, .cell_size = 1e-3});
+    EXPECT_TRUE(report.valid());
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(points.volume[i], before.volume[i]);
+      EXPECT_NEAR(points.pressure[i], 0.0, 1e-10 * modulus);
+      EXPECT_NEAR(points.sound_speed[i], before.sound_speed[i], 1e-9 * before.sound_speed[i]);
+      EXPECT_NEAR(points.temperature[i], 300.0, 1e-5);
+      EXPECT_EQ(points.failed[i], 0);
+    }
+  }
+}
+
+TEST(Library, EveryTableOfConstantsNamesItsSource) {
+  for (const LibraryMaterial& entry : library_materials()) {
+    std::ifstream file(entry.file);
+    std::string line, table = "file";
+    std::map<std::string, bool> sourced;
+    int number = 0;
+    while (std::getline(file, line)) {
+      if (line.starts_with("[")) table = line + std::to_string(++number);
+      if (line.starts_with("source = ") || line == "model = \"none\"") sourced[table] = true;
+      sourced.try_emplace(table, false);
+    }
+    for (const auto& [name, has_source] : sourced) EXPECT_TRUE(has_source) << entry.file << " " << name;
+  }
+}
+
+TEST(Library, CopperMeltsAndLosesItsStrengthByTheEquationOfState) {
+  // Heated at its reference volume, copper melts between the isochoric melting points of its equation of
+  // state; the deviator is gone when the melted fraction is 1, and the sound speed is then the bulk one.
+  const Material copper = read_material("copper");
+  MaterialPoints points;
+  resize(points, 1);
+  points.mass[0] = 1e-6;
+  initialise(copper, points, 0, 1);
+  const UpdateSettings settings{.time_step = 1e-9, .cell_size = 1e-3};
+  Matrix3 shear = Matrix3::Zero();
+  shear(0, 1) = 2e5;
+  for (int n = 0; n < 20; ++n) update_material(copper, points, 0, 1, std::span(&shear, 1), settings);
+  ASSERT_GT(points.deviatoric_stress[0].xy, 40e6);
+  double melting_begins = 0.0, melting_ends = 0.0;
+  const Matrix3 rest = Matrix3::Zero();
+  for (double energy = 0.0; energy < 1.5e6; energy += 5e3) {
+    points.specific_internal_energy[0] = energy;
+    ASSERT_TRUE(update_material(copper, points, 0, 1, std::span(&rest, 1), settings).valid());
+    if (melting_begins == 0.0 && points.melted_fraction[0] > 0.0) melting_begins = points.temperature[0];
+    if (melting_ends == 0.0 && points.melted_fraction[0] >= 1.0) melting_ends = points.temperature[0];
+  }
+  // The melting band lies symmetrically about the melting temperature of the isochore V0, here 1790 K; the
+  // energy step of the loop is 13 K.
+  EXPECT_NEAR(0.5 * (melting_begins + melting_ends), 1790.0, 40.0);
+  EXPECT_GE(melting_ends, melting_begins);
+  EXPECT_EQ(points.deviatoric_stress[0].squared_norm(), 0.0);
+  EXPECT_NEAR(
+      points.sound_speed[0],
+      copper.eos->state(points.mass[0] / points.volume[0], points.specific_internal_energy[0]).sound_speed,
+      1e-9 * points.sound_speed[0]);
+}
+
+TEST(InitialState, GivenTemperatureOrDensityGivesTheirState) {
+  const Material copper = read_material("copper");
+  const eos::State hot = initial_state(copper, {}, 800.0);
+  EXPECT_LT(hot.density, copper.reference.density);  // thermal expansion at zero pressure
+  EXPECT_NEAR(hot.pressure, 0.0, 10.0);
+  // Touloukian's recommended linear expansion of copper at 800 K is 0.92 % (volume 2.8 %)
+  EXPECT_NEAR(copper.reference.density / hot.density, 1.028, 0.006);
+  const eos::State dense = initial_state(copper, 9500.0);
+  EXPECT_GT(dense.pressure, 5e9);
+  EXPECT_EQ(dense.temperature, 300.0);
+  EXPECT_THROW(static_cast<void>(initial_state(copper, {}, 50000.0)), InputError);
+  EXPECT_THROW(static_cast<void>(initial_state(copper, 1e6)), InputError);
+}
+
+TEST(Describe, NamesEveryModelAndRefusesUnknownOnes) {
+  for (const auto& entry : strength::catalogue()) EXPECT_THAT(describe_strength(), HasSubstr(entry.name));
+  for (const auto& entry : failure::catalogue()) {
+    EXPECT_THAT(describe_failure(), HasSubstr(entry.summary));
+    EXPECT_THAT(describe_failure(entry.name), AllOf(HasSubstr("required"), HasSubstr("meaning")));
+  }
+  EXPECT_THAT(describe_strength("johnson_cook"), HasSubstr("Johnson and Cook"));
+  EXPECT_THROW(static_cast<void>(describe_strength("johnson")), InputError);
+}
+
+}  // namespace
+}  // namespace whipple
