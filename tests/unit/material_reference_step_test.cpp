@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The update against a plain scalar transcription of its equations (docs/theory/material.md, section 7) for
+// The update against a plain scalar transcription of its equations (docs/theory/material.md) for
 // p = A(rho) + B(rho) e with linear hardening, where the implicit energy step can be solved exactly. Written
 // with arrays and index loops, and sharing no code with the update.
 #include <gtest/gtest.h>
