@@ -72,9 +72,8 @@ std::vector<std::vector<double>> Lammps::series(const std::string& fix, int colu
     if (value == nullptr) throw LammpsError(fmt::format("LAMMPS has no data of a fix '{}'", fix));
     return value;
   };
-  int* const rows = static_cast<int*>(entry(columns == 1 ? LMP_SIZE_VECTOR : LMP_SIZE_ROWS, 0, 0));
-  const int count = *rows;
-  lammps_free(rows);
+  // The size is a pointer into the fix itself; the entries are allocated one by one and are ours to free.
+  const int count = *static_cast<const int*>(entry(columns == 1 ? LMP_SIZE_VECTOR : LMP_SIZE_ROWS, 0, 0));
   std::vector<std::vector<double>> table(static_cast<std::size_t>(columns));
   for (int column = 0; column < columns; ++column) {
     for (int row = 0; row < count; ++row) {

@@ -166,7 +166,11 @@ std::string format_result(const std::string& quantity, const Estimate& estimate)
   const double error = factor * estimate.error;
   const std::string tail = unit.empty() ? "" : " " + unit;
   if (!(error > 0.0)) return fmt::format("{} = {:.6g}{}", quantity, value, tail);
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12);
+  // Two digits of the error, but no more than seven of the value: a lattice constant is known to any digit.
+  const int digits_of_value =
+      6 - static_cast<int>(std::floor(std::log10(std::fmax(std::abs(value), 1e-300))));
+  const int digits_of_error = 1 - static_cast<int>(std::floor(std::log10(error)));
+  const int decimals = std::clamp(std::min(digits_of_error, digits_of_value), 0, 12);
   return fmt::format("{} = {:.{}f} +- {:.{}f}{}", quantity, value, decimals, error, decimals, tail);
 }
 
