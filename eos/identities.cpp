@@ -56,30 +56,47 @@ IdentityDefects check_identities(const EquationOfState& eos, double density, dou
   // (V, E): holds in every phase, also where T is a function of V alone.
   const double dE = step * (std::isfinite(s.heat_capacity) ? s.heat_capacity * T
                                                            : 0.01 * std::abs(specific_internal_energy));
+  // Where a model holds the temperature (below its cold curve), the energy no longer follows from it.
+  const bool thermal = std::isfinite(s.heat_capacity);
+  const auto unclamped = [&](double rho, double e) {
+    const State node = eos.state(rho, e);
+    if (thermal && std::abs(eos.state_at_temperature(rho, node.temperature).specific_internal_energy - e) >
+                       1e-9 * (std::abs(e) + node.heat_capacity * node.temperature)) {
+      throw StateError("temperature held at the model's least");
+    }
+    return node;
+  };
   const auto along_energy =
-      stencil([&](int i) { return eos.state(density, specific_internal_energy + i * dE); }, s.phase);
+      stencil([&](int i) { return unclamped(density, specific_internal_energy + i * dE); }, s.phase);
+  // At constant energy the cold curve's work -P dV heats the point: the step must change T by little.
+  const double thermal_energy = thermal ? s.heat_capacity * T : dE / step;
+  const double dVe = std::min(dV, 0.02 * thermal_energy / (std::abs(P) + 1.0));
   const auto along_volume =
-      stencil([&](int i) { return eos.state(1 / (V + i * dV), specific_internal_energy); }, s.phase);
+      stencil([&](int i) { return unclamped(1 / (V + i * dVe), specific_internal_energy); }, s.phase);
   if (along_energy) {
     const double slope = derivative(*along_energy, &State::pressure, dE);
     defects.gruneisen = (s.gruneisen - V * slope) / (std::abs(s.gruneisen) + 1);
     defects.entropy_energy = T * derivative(*along_energy, &State::specific_entropy, dE) - 1;
     if (along_volume) {
-      const double by_volume = derivative(*along_volume, &State::pressure, dV);
+      const double by_volume = derivative(*along_volume, &State::pressure, dVe);
       const double squared = V * V * (P * slope - by_volume);
-      // Where c^2 <= 0 (loop of the metastable fluid) the model reports its least sound speed instead.
-      if (squared > 0)
-        defects.sound_speed =
-            (s.sound_speed * s.sound_speed - squared) / (V * V * (std::abs(P * slope) + std::abs(by_volume)));
+      // In the loop of a metastable fluid c^2 may fall below what the model reports at least: known from
+      // c^2 = V K_T + Gamma^2 C_v T.
+      const double from_moduli =
+          V * s.isothermal_bulk_modulus + s.gruneisen * s.gruneisen * s.heat_capacity * T;
+      const double reported = s.sound_speed * s.sound_speed;
+      if (!(from_moduli < 0.999999 * reported)) {
+        defects.sound_speed = (reported - squared) / (V * V * (std::abs(P * slope) + std::abs(by_volume)));
+      }
     }
   }
   if (along_volume) {
     defects.entropy_volume =
-        (T * derivative(*along_volume, &State::specific_entropy, dV) - P) / (std::abs(P) + stiffness);
+        (T * derivative(*along_volume, &State::specific_entropy, dVe) - P) / (std::abs(P) + stiffness);
   }
 
   // (V, T), where temperature and volume are independent.
-  if (!std::isfinite(s.heat_capacity)) return defects;
+  if (!thermal) return defects;
   const auto hotter = stencil([&](int i) { return eos.state_at_temperature(density, T + i * dT); }, s.phase);
   const auto wider = stencil([&](int i) { return eos.state_at_temperature(1 / (V + i * dV), T); }, s.phase);
   if (hotter) {

@@ -64,12 +64,23 @@ void VapourDome::find_critical_point() {
     volume = std::exp(log_volume);
     return -negative;
   };
-  const double low = search_.temperature_guess / 6, high = 6 * search_.temperature_guess;
-  if (!(steepest(low) > 0) || !(steepest(high) < 0)) {
+  // The first temperature without a loop, from below: hotter isotherms may fall again at the join of the
+  // model.
+  const double lowest = search_.temperature_guess / 6, highest = 6 * search_.temperature_guess;
+  double low = lowest, high = 0;
+  for (double T = lowest; T <= highest; T *= 1.1) {
+    if (steepest(T) > 0) {
+      low = T;
+    } else {
+      high = T;
+      break;
+    }
+  }
+  if (high <= lowest) {
     throw InputError(fmt::format(
         "no critical point between {:.0f} and {:.0f} K; check the vapour constants (vapour_attraction, "
         "covolume_ratio, join_volume_ratio)",
-        low, high));
+        lowest, highest));
   }
   const double T = find_root(steepest, low, high, "critical temperature", 40);
   static_cast<void>(steepest(T));

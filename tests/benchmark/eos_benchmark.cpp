@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Nanoseconds per point of a batch call, by phase. Compare ratios on one machine, never times of two.
+#include <benchmark/benchmark.h>
+
+#include <random>
+#include <vector>
+
+#include "tests/unit/eos_support.hpp"
+
+namespace {
+
+using namespace whipple::eos;
+
+struct Region {
+  double volume_ratio, energy;  ///< V/V0, J/kg
+};
+
+void evaluate(benchmark::State& bench, const EquationOfState& eos, Region region) {
+  constexpr std::size_t n = 4096;
+  std::vector<double> rho(n), e(n), P(n), T(n), c(n), melted(n), vapour(n);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> spread(0.99, 1.01);
+  for (std::size_t i = 0; i < n; ++i) {
+    rho[i] = eos.reference_density() / (region.volume_ratio * spread(random));
+    e[i] = region.energy * spread(random);
+  }
+  for (auto _ : bench) {
+    benchmark::DoNotOptimize(eos.evaluate({rho, e, P, T, c, melted, vapour}));
+    benchmark::ClobberMemory();
+  }
+  bench.SetLabel(std::string(eos.state(rho[0], e[0]).phase));
+  bench.counters["ns/point"] = benchmark::Counter(
+      n * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+const test::GrayEos& copper_eos() {
+  static const test::GrayEos eos(test::copper());
+  return eos;
+}
+const test::MieGruneisenEos& aluminium_eos() {
+  static const test::MieGruneisenEos eos(test::aluminium_2024());
+  return eos;
+}
+
+void gray_solid(benchmark::State& s) { evaluate(s, copper_eos(), {0.9, 3e5}); }
+void gray_melting(benchmark::State& s) { evaluate(s, copper_eos(), {0.8, 1.93e6}); }
+void gray_liquid(benchmark::State& s) { evaluate(s, copper_eos(), {0.8, 3e6}); }
+void gray_hot_liquid(benchmark::State& s) { evaluate(s, copper_eos(), {1.1, 8e6}); }
+void gray_vapour(benchmark::State& s) { evaluate(s, copper_eos(), {50, 8e6}); }
+void gray_dome(benchmark::State& s) { evaluate(s, copper_eos(), {5, 3.5e6}); }
+void mie_gruneisen(benchmark::State& s) { evaluate(s, aluminium_eos(), {0.9, 3e5}); }
+BENCHMARK(gray_solid);
+BENCHMARK(gray_melting);
+BENCHMARK(gray_liquid);
+BENCHMARK(gray_hot_liquid);
+BENCHMARK(gray_vapour);
+BENCHMARK(gray_dome);
+BENCHMARK(mie_gruneisen);
+
+void build_gray(benchmark::State& bench) {
+  for (auto _ : bench) benchmark::DoNotOptimize(Gray(test::copper()));
+}
+void build_free_energy(benchmark::State& bench) {
+  for (auto _ : bench) benchmark::DoNotOptimize(GrayFreeEnergy(test::copper()));
+}
+BENCHMARK(build_gray)->Unit(benchmark::kMillisecond);
+BENCHMARK(build_free_energy)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();

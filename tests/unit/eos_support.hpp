@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "eos/model_equation_of_state.hpp"
+#include "eos/models/gray.hpp"
+#include "eos/models/mie_gruneisen.hpp"
+
+/// Constants that the tests of the equations of state share.
+namespace whipple::eos::test {
+
+using GrayEos = ModelEquationOfState<Gray>;
+using MieGruneisenEos = ModelEquationOfState<MieGruneisen>;
+
+/// Copper: C, S, a, T_m0 of Steinberg, UCRL-MA-106439 (1996), with gamma0 = 1.97.
+inline GrayConstants copper(const std::string& melting = "band") {
+  GrayConstants c;
+  c.molar_mass = 63.546e-3;
+  c.reference_specific_volume = 0.1118e-3;
+  c.hugoniot_intercept = 3940;
+  c.hugoniot_slope = 1.489;
+  c.gruneisen = 1.97;
+  c.gruneisen_slope = 1.5;
+  c.electronic_heat_coefficient = 4.9e-4;
+  c.melting_temperature = 1790;
+  c.vapour_attraction = 620;  // 0.62 kJ cm^3/g^2
+  c.melting = melting;
+  return c;
+}
+
+/// Aluminium 1100-O: Steinberg's row, electronic heat capacity of aluminium, a_y for T_c near 6600 K.
+inline GrayConstants aluminium() {
+  GrayConstants c;
+  c.molar_mass = 26.9815e-3;
+  c.reference_specific_volume = 1 / 2707.0;
+  c.hugoniot_intercept = 5386;
+  c.hugoniot_slope = 1.339;
+  c.gruneisen = 1.97;
+  c.gruneisen_slope = 1.5;
+  c.electronic_heat_coefficient = 1.35e-3;
+  c.melting_temperature = 1220;
+  c.vapour_attraction = 3600;
+  return c;
+}
+
+/// Aluminium 2024-T4 on Steinberg's linear Hugoniot.
+inline MieGruneisenConstants aluminium_2024(const std::string& law = "constant_product") {
+  MieGruneisenConstants c;
+  c.reference_density = 2785;
+  c.hugoniot_intercept = 5328;
+  c.hugoniot_slope = 1.338;
+  c.gruneisen = 2.0;
+  c.gruneisen_law = law;
+  c.heat_capacity = 863;
+  return c;
+}
+
+/// Rows of a CSV file as words, without comments and header.
+inline std::vector<std::vector<std::string>> read_csv(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot open " + path);
+  std::vector<std::vector<std::string>> rows;
+  bool header = true;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    if (header) {
+      header = false;
+      continue;
+    }
+    std::vector<std::string> row;
+    std::istringstream words(line);
+    for (std::string word; std::getline(words, word, ',');) row.push_back(word);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace whipple::eos::test
