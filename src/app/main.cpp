@@ -3,6 +3,8 @@
 
 #include "src/app/build_info.hpp"
 #include "src/app/command_line.hpp"
+#include "src/app/compare_command.hpp"
+#include "src/app/describe_command.hpp"
 #include "src/app/fit_command.hpp"
 #include "src/app/materials_command.hpp"
 #include "src/app/md_command.hpp"
@@ -24,7 +26,9 @@ int whipple_main(int argc, char** argv) {
 
   add_md_command(app);
   add_fit_command(app);
+  add_compare_command(app);
   add_report_command(app);
+  add_describe_command(app);
   add_materials_command(app);
   add_units_command(app);
   add_version_command(app);

@@ -1,0 +1,236 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Who may know whom: enforces the layers of docs/architecture.md from #include lines and from CMake dependencies.
+
+Usage: check_layers.py [ROOT]      check the tree (default: the one that this script belongs to)
+       check_layers.py --self-test  check that every rule finds its violation in a tree made for it
+"""
+import pathlib
+import re
+import sys
+import tempfile
+
+# Module (folder) -> the modules that it may use. A module may always use itself. The order is that of the layers.
+MAY_USE = {
+    "src/base": [],
+    "src/input": ["src/base"],
+    "src/parallel": ["src/base"],
+    "eos": ["src/base"],
+    "src/particles": ["src/base", "src/parallel"],
+    "src/grid": ["src/base", "src/parallel"],
+    "src/material": ["src/base", "src/input", "eos", "src/particles"],
+    "src/transfer": ["src/base", "src/parallel", "src/particles", "src/grid"],
+    "src/fem": ["src/base", "src/parallel", "src/particles", "src/material"],
+    "src/contact": ["src/base", "src/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
+    "src/afemp": ["src/base", "src/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
+    "src/io": ["src/base", "src/parallel", "src/particles"],
+    "src/setup": ["src/base", "src/input", "src/parallel", "eos", "src/particles", "src/grid", "src/material",
+                  "src/io"],
+    "src/solver": ["src/base", "src/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
+                   "src/fem", "src/contact", "src/afemp", "src/io", "src/setup"],
+    "md_fitting/data_set": ["src/base"],
+    "md_fitting/plan": ["src/base", "src/input"],
+    "md_fitting/lammps": ["src/base", "md_fitting/data_set"],
+    "md_fitting/protocols": ["src/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],
+    "md_fitting/fit": ["src/base", "src/input", "eos", "md_fitting/data_set"],
+    # The program whipple-md.
+    "md_fitting": ["src/base", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],
+    # The program whipple: it starts the other two, so of their side it knows the plan's keys only.
+    "src/app": ["src/base", "src/input", "src/parallel", "eos", "src/particles", "src/grid", "src/material",
+                "src/transfer", "src/io", "src/setup", "src/solver", "md_fitting/plan"],
+}
+
+# CMake library -> module, where the name is not the last part of the folder.
+LIBRARY_OF = {"whipple_md_data_set": "md_fitting/data_set", "whipple_md_plan": "md_fitting/plan",
+              "whipple_md_lammps": "md_fitting/lammps", "whipple_md_protocols": "md_fitting/protocols",
+              "whipple_fit": "md_fitting/fit", "whipple_eos": "eos"}
+
+VERSION_QUERY = "src/app/version_command.cpp"  # asks the libraries for their version, nothing else
+
+# What is allowed in a few places only: (name, pattern of the line, the places).
+CONFINED = [
+    ("an OpenMP pragma", re.compile(r"^\s*#\s*pragma\s+omp|\b_Pragma\s*\(\s*\"omp"), ["src/parallel"]),
+    ("OpenMP's interface", re.compile(r"^\s*#\s*include\s*<omp\.h>"), ["src/parallel"]),
+    ("an MPI call", re.compile(r"\bP?MPI_[A-Z][a-z]\w*\s*\("),
+     ["src/parallel", "src/grid", "src/io", VERSION_QUERY, "md_fitting/lammps", "md_fitting/protocols",
+      "md_fitting/md_worker.cpp"]),
+    ("toml++", re.compile(r"^\s*#\s*include\s*[<\"]toml\+\+"), ["src/input"]),
+    ("GSL", re.compile(r"^\s*#\s*include\s*[<\"]gsl/"), ["md_fitting/fit"]),
+    ("LAMMPS", re.compile(r"^\s*#\s*include\s*[<\"](lammps/|library\.h)"), ["md_fitting/lammps"]),
+    ("HDF5", re.compile(r"^\s*#\s*include\s*[<\"](hdf5|H5\w+)\.h"), ["src/io", "md_fitting/data_set", VERSION_QUERY]),
+    ("p4est", re.compile(r"^\s*#\s*include\s*[<\"](p[48]est\w*|sc(_\w+)?)\.h"), ["src/grid", VERSION_QUERY]),
+    ("UDUNITS2", re.compile(r"^\s*#\s*include\s*[<\"]udunits2\.h"), ["src/base"]),
+]
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
+SOURCE_ENDINGS = {".hpp", ".cpp", ".h", ".in"}
+
+
+def module_of(path):
+    """Longest known folder that holds the path; None outside of the layers."""
+    for folder in [path, *path.parents]:
+        if str(folder) in MAY_USE:
+            return str(folder)
+    return None
+
+
+def code_lines(text):
+    """Lines without comments; line numbers stay."""
+    text = re.sub(r"/\*.*?\*/", lambda found: "\n" * found.group(0).count("\n"), text, flags=re.DOTALL)
+    for number, line in enumerate(text.splitlines(), start=1):
+        yield number, re.sub(r"//.*", "", line)
+
+
+def sources(root):
+    for folder in ("src", "eos", "md_fitting"):
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in SOURCE_ENDINGS and path.is_file():
+                yield path.relative_to(root)
+
+
+def confined_to(path, places):
+    return any(str(path) == place or place in map(str, path.parents) for place in places)
+
+
+def check_sources(root):
+    faults = []
+    includes = {}
+    for path in sources(root):
+        module = module_of(path)
+        if module is None:
+            faults.append(f"{path}: this folder is in no layer: add it to MAY_USE and to docs/architecture.md")
+            continue
+        includes[path] = []
+        for number, line in code_lines((root / path).read_text(encoding="utf-8")):
+            for name, pattern, places in CONFINED:
+                if pattern.search(line) and not confined_to(path, places):
+                    faults.append(f"{path}:{number}: {name} outside of {', '.join(places)}")
+            found = INCLUDE.match(line)
+            if not found:
+                continue
+            target = pathlib.PurePosixPath(found.group(1))
+            used = module_of(target)
+            if used is None or not (root / target).exists():
+                faults.append(f"{path}:{number}: \"{target}\" is no file of a layer; include from the repository root")
+                continue
+            includes[path].append(target)
+            if used != module and used not in MAY_USE[module]:
+                faults.append(f"{path}:{number}: {module} may not use {used} (\"{target}\")")
+    return faults + cycles(includes)
+
+
+def cycles(includes):
+    """Include cycles, each reported once."""
+    graph = {str(path): [str(target) for target in targets] for path, targets in includes.items()}
+    faults, finished = [], set()
+
+    def visit(node, trail):
+        if node in trail:
+            faults.append("include cycle: " + " -> ".join(trail[trail.index(node):] + [node]))
+            return
+        if node in finished:
+            return
+        for target in graph.get(node, []):
+            visit(target, trail + [node])
+        finished.add(node)
+
+    for node in graph:
+        visit(node, [])
+    return faults
+
+
+def check_cmake(root):
+    """The DEPENDS of each whipple_library repeat the table."""
+    faults = []
+    for path in sorted(root.rglob("CMakeLists.txt")):
+        relative = path.relative_to(root)
+        module = module_of(relative.parent)
+        if module is None or relative.parts[0] not in ("src", "eos", "md_fitting"):
+            continue
+        text = re.sub(r"#.*", "", path.read_text(encoding="utf-8"))
+        for body in re.findall(r"whipple_library\s*\(([^)]*)\)", text):
+            for library in re.findall(r"\bwhipple_\w+", body):
+                used = LIBRARY_OF.get(library, "src/" + library.removeprefix("whipple_"))
+                if used not in MAY_USE:
+                    faults.append(f"{relative}: {library} is in no layer")
+                elif used != module and used not in MAY_USE[module]:
+                    faults.append(f"{relative}: {module} may not link {library}")
+    return faults
+
+
+def check_table():
+    """The table has an order: a module uses none that stands behind it."""
+    order = {module: place for place, module in enumerate(MAY_USE)}
+    return [f"MAY_USE: {module} uses {used}, which stands behind it" for module, uses in MAY_USE.items()
+            for used in uses if order[used] > order[module]]
+
+
+def check(root):
+    return check_table() + check_sources(root) + check_cmake(root)
+
+
+def self_test():
+    """Each bad file must be found, and for the expected reason."""
+    bad = {
+        "src/base/upward.hpp": ('#include "src/solver/run.hpp"\n', "src/base may not use src/solver"),
+        "eos/reads_files.cpp": ('#include "src/input/document.hpp"\n', "eos may not use src/input"),
+        "eos/models/knows_particles.hpp": ('#include "src/particles/p.hpp"\n', "eos may not use src/particles"),
+        "src/material/knows_grid.cpp": ('#include "src/grid/g.hpp"\n', "src/material may not use src/grid"),
+        "src/solver/starts_md.cpp": ('#include "md_fitting/plan/plan.hpp"\n', "src/solver may not use md_fitting/plan"),
+        "md_fitting/fit/knows_lammps.cpp": ('#include "md_fitting/lammps/l.hpp"\n',
+                                            "md_fitting/fit may not use md_fitting/lammps"),
+        "src/grid/pragma.cpp": ("#pragma omp parallel for\n", "an OpenMP pragma outside of"),
+        "src/solver/communicates.cpp": ("void f() { MPI_Barrier(c); }\n", "an MPI call outside of"),
+        "src/setup/toml.cpp": ("#include <toml++/toml.h>\n", "toml++ outside of"),
+        "eos/gsl.cpp": ("#include <gsl/gsl_fit.h>\n", "GSL outside of"),
+        "src/app/lammps.cpp": ("#include <lammps/library.h>\n", "LAMMPS outside of"),
+        "src/solver/hdf5.cpp": ("#include <hdf5.h>\n", "HDF5 outside of"),
+        "src/solver/forest.cpp": ("#include <p8est_bits.h>\n", "p4est outside of"),
+        "src/base/relative.cpp": ('#include "upward.hpp"\n', '"upward.hpp" is no file of a layer'),
+        "src/nowhere/file.cpp": ("", "this folder is in no layer"),
+        "src/io/a.hpp": ('#include "src/io/b.hpp"\n', "include cycle: src/io/a.hpp -> src/io/b.hpp -> src/io/a.hpp"),
+        "src/transfer/CMakeLists.txt": ("whipple_library(transfer SOURCES a.cpp DEPENDS whipple_material)\n",
+                                        "src/transfer may not link whipple_material"),
+    }
+    good = {
+        "src/solver/run.hpp": '#include "src/particles/p.hpp"\n// MPI_Barrier(c) in a comment\nMPI_Comm comm;\n',
+        "src/input/document.hpp": "/* #include <hdf5.h>\n*/\n",
+        "src/particles/p.hpp": "", "src/grid/g.hpp": "", "md_fitting/plan/plan.hpp": "", "md_fitting/lammps/l.hpp": "",
+        "src/io/b.hpp": '#include "src/io/a.hpp"\n',
+        "src/io/hdf5.hpp": "#include <hdf5.h>\n",
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        for name, text in [*good.items(), *((name, text) for name, (text, _) in bad.items())]:
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text, encoding="utf-8")
+        faults = check(root)
+        missed = [f"{name}: not found: {expected}" for name, (_, expected) in bad.items()
+                  if not any(expected in fault and (name in fault or "cycle" in fault) for fault in faults)]
+        spurious = [fault for fault in faults if not any(expected in fault for _, expected in bad.values())]
+    return missed + [f"spurious: {fault}" for fault in spurious]
+
+
+def main():
+    arguments = sys.argv[1:]
+    if arguments in (["-h"], ["--help"]):
+        print(__doc__.strip())
+        return 0
+    if arguments == ["--self-test"]:
+        faults = self_test()
+        subject = "self-test"
+    elif len(arguments) <= 1 and not any(argument.startswith("-") for argument in arguments):
+        root = pathlib.Path(arguments[0] if arguments else pathlib.Path(__file__).resolve().parent.parent)
+        faults = check(root)
+        subject = str(root)
+    else:
+        print(__doc__.strip(), file=sys.stderr)
+        return 2
+    for fault in faults:
+        print(fault)
+    print(f"layers of {subject}: {len(faults)} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/app/describe_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "eos/catalogue.hpp"
+#include "md_fitting/plan/plan.hpp"
+#include "src/base/error.hpp"
+#include "src/base/text.hpp"
+#include "src/material/failure/catalogue.hpp"
+#include "src/material/material_file.hpp"
+#include "src/material/strength/catalogue.hpp"
+#include "src/setup/case.hpp"
+#include "src/setup/shape.hpp"
+
+namespace whipple::app {
+namespace {
+
+/// A part of the inputs: its text, for all of it (empty name) or for one entry.
+struct Topic {
+  std::string name;
+  std::string title;
+  std::function<std::string(const std::string&)> text;
+  std::function<std::vector<std::string>()> entries;  ///< names that `text` knows; none: one text only
+};
+
+template <class Entry>
+std::vector<std::string> names_of(std::span<const Entry> catalogue) {
+  std::vector<std::string> names;
+  for (const Entry& entry : catalogue) names.push_back(entry.name);
+  return names;
+}
+
+/// Summaries of a catalogue, or all constants of one entry.
+template <class Entry>
+std::string describe_catalogue(const std::string& kind, std::span<const Entry> catalogue,
+                               const std::string& name) {
+  std::string text;
+  for (const Entry& entry : catalogue) {
+    if (name.empty()) {
+      text += fmt::format("{:<18}  {}\n", entry.name, entry.summary);
+    } else if (entry.name == name) {
+      return fmt::format("{}: {}\n{}", entry.name, entry.summary, entry.describe());
+    }
+  }
+  if (!name.empty()) {
+    const std::vector<std::string> names = names_of(catalogue);
+    throw InputError(fmt::format("unknown {} \"{}\"{} (known: {})", kind, name, did_you_mean(name, names),
+                                 fmt::join(names, ", ")));
+  }
+  return text;
+}
+
+std::string single(const std::string& topic, const std::string& name, const std::string& text) {
+  if (!name.empty())
+    throw InputError(fmt::format("'{}' has no part \"{}\": whipple describe {}", topic, name, topic));
+  return text;
+}
+
+const std::vector<Topic>& topics() {
+  static const std::vector<Topic> all = {
+      {"case", "Case files (`whipple run CASE.toml`)",
+       [](const std::string& name) { return single("case", name, setup::describe_case()); },
+       [] { return std::vector<std::string>(); }},
+      {"shape", "Shapes of bodies",
+       [](const std::string& name) { return describe_catalogue("shape", setup::shape_catalogue(), name); },
+       [] { return names_of(setup::shape_catalogue()); }},
+      {"eos", "Equations of state (`[eos]` of a material file)",
+       [](const std::string& name) {
+         return describe_catalogue("equation of state", eos::catalogue(), name);
+       },
+       [] { return names_of(eos::catalogue()); }},
+      {"strength", "Strength models (`[strength]` of a material file)", describe_strength,
+       [] { return names_of(strength::catalogue()); }},
+      {"failure", "Failure criteria (`[[failure]]` of a material file)", describe_failure,
+       [] { return names_of(failure::catalogue()); }},
+      {"md", "Plans of molecular dynamics (`whipple md PLAN.toml`)",
+       [](const std::string& name) { return single("md", name, md::describe_plan()); },
+       [] { return std::vector<std::string>(); }},
+  };
+  return all;
+}
+
+std::vector<std::string> topic_names() {
+  std::vector<std::string> names;
+  for (const Topic& topic : topics()) names.push_back(topic.name);
+  return names;
+}
+
+const Topic& find_topic(const std::string& name) {
+  for (const Topic& topic : topics()) {
+    if (topic.name == name) return topic;
+  }
+  const std::vector<std::string> names = topic_names();
+  throw InputError(fmt::format("nothing is called \"{}\"{} (known: {})", name, did_you_mean(name, names),
+                               fmt::join(names, ", ")));
+}
+
+std::string block(const std::string& text) {
+  return fmt::format("```text\n{}{}```\n\n", text, text.ends_with('\n') ? "" : "\n");
+}
+
+/// docs/input_reference.md
+std::string manual() {
+  std::string page =
+      "# Input reference\n\n"
+      "Written by `whipple describe --markdown` from the parameter tables that the program reads its inputs "
+      "with.\n"
+      "Quantities are texts with a unit (`\"6.58 km/s\"`); a bare number is in the unit of the column "
+      "`unit`.\n"
+      "Unknown keys are errors.\n\n";
+  for (const Topic& topic : topics()) {
+    page += fmt::format("## {}\n\n{}", topic.title, block(topic.text("")));
+    for (const std::string& name : topic.entries())
+      page += fmt::format("### {}\n\n{}", name, block(topic.text(name)));
+  }
+  page.pop_back();  // one line break ends the page
+  return page;
+}
+
+struct Options {
+  std::string topic;
+  std::string name;
+  bool markdown = false;
+};
+
+void describe_inputs(const Options& options) {
+  if (options.markdown) {
+    if (!options.topic.empty()) throw InputError("--markdown writes everything: leave the topic out");
+    fmt::print("{}", manual());
+  } else if (options.topic.empty()) {
+    for (const Topic& topic : topics()) fmt::print("{:<10}  {}\n", topic.name, topic.title);
+    fmt::print("\nsee whipple describe TOPIC [NAME]\n");
+  } else {
+    fmt::print("{}", find_topic(options.topic).text(options.name));
+  }
+}
+
+}  // namespace
+
+void add_describe_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("describe", "Every key of the inputs: unit, range, default, meaning");
+  command->add_option("topic", options->topic, "One of case, shape, eos, strength, failure, md");
+  command->add_option("name", options->name, "A model, criterion or shape");
+  command->add_flag("--markdown", options->markdown, "Everything, as the page docs/input_reference.md");
+  command->footer("Example:\n  whipple describe eos gray");
+  command->callback([options] { describe_inputs(*options); });
+}
+
+}  // namespace whipple::app
