@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mpi.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+
+#include "src/parallel/mpi.hpp"
+#include "src/setup/case.hpp"
+#include "src/solver/simulation.hpp"
+
+/// Tools of the verification problems.
+namespace whipple::verification {
+
+/// Choice of method under test; the default is that of the solver.
+struct Method {
+  std::string scheme = "symplectic";
+  std::string shape_function = "quadratic_bspline";
+  std::string particle_update = "relaxed_affine";
+  double courant = 0.5;
+  double linear_viscosity = 0.25;
+  double quadratic_viscosity = 1.0;
+
+  /// Linear FLIP-MUSL with the usual viscosity of hydrocodes: what most peers run.
+  static Method musl() {
+    return {"musl", "linear", "flip", 0.3, 0.06, 1.5};
+  }
+  [[nodiscard]] std::string toml() const {
+    return "[transfer]\nshape_function = \"" + shape_function + "\"\nparticle_update = \"" + particle_update +
+           "\"\n[artificial_viscosity]\nlinear = " + std::to_string(linear_viscosity) +
+           "\nquadratic = " + std::to_string(quadratic_viscosity) + "\n";
+  }
+  [[nodiscard]] std::string time_toml(double end) const {
+    return "[time]\nend = " + std::to_string(end * 1e9) + "e-9\ncourant = " + std::to_string(courant) +
+           "\nscheme = \"" + scheme + "\"\n";
+  }
+};
+
+/// A material file of the test's own in a temporary folder; returns its path.
+inline std::string write_material(const std::string& name, const std::string& text) {
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("whipple_" + name + ".toml");
+  std::ofstream(path) << text;
+  return path.string();
+}
+
+/// Linear elastic aluminium (von Mises far above every stress), the Grueneisen material of the shock problems.
+inline std::string elastic_aluminium() {
+  return write_material("elastic_aluminium", R"toml(
+name = "elastic aluminium"
+source = "constants of the verification problems"
+[eos]
+model = "mie_gruneisen"
+source = "Steinberg (1996), Al 2024-T4"
+reference_density = "2.785 g/cm^3"
+hugoniot_intercept = "5.328 km/s"
+hugoniot_slope = 1.338
+gruneisen = 2.0
+heat_capacity = "863 J/(kg K)"
+reference_temperature = "300 K"
+[strength]
+model = "von_mises"
+source = "test"
+shear_modulus = "27.6 GPa"
+yield_stress = "1e6 GPa"
+)toml");
+}
+
+/// Runs a simulation to a time; `each_step` may look at it after every step.
+inline void run_to(solver::Simulation& simulation, double end,
+                   const std::function<void(const solver::Simulation&)>& each_step = {}) {
+  while (simulation.state().time < end) {
+    simulation.advance(end);
+    if (each_step) each_step(simulation);
+  }
+}
+
+/// Largest absolute error of the total energy over the run, relative to the initial energy.
+struct EnergyWatch {
+  double worst = 0.0;
+  void operator()(const solver::Simulation& simulation) {
+    worst = std::max(worst, std::abs(simulation.state().ledger.energy_error(simulation.totals())));
+  }
+};
+
+}  // namespace whipple::verification
