@@ -18,11 +18,10 @@ import sys
 try:
     import matplotlib
     matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
     import report_curves
     import report_metrics
     import report_pictures
-    from report_data import AXES, PHASES, NotARun, Run
+    from report_data import AXES, PHASES, NotARun, Run, Snapshot
     from report_html import Page
 except ImportError as missing:
     sys.exit(f"report: error: {missing}; install python3-numpy python3-h5py python3-matplotlib")
@@ -51,8 +50,7 @@ class Report:
         if figure is None:
             return
         path = self.output / name
-        figure.savefig(path, dpi=110)
-        plt.close(figure)
+        report_pictures.save(figure, path)
         self.page.image(path, caption)
 
     def summary(self):
@@ -121,7 +119,7 @@ class Report:
         shown, extents, geo = [], [], None
         curve = run.spread(CURVE_SNAPSHOTS)
         for i in sorted(pictures | set(curve)):
-            snapshot = next(iter_snapshot(run, i))
+            snapshot = Snapshot(*run.entries[i])
             if len(snapshot) and geo is None:
                 geo = report_metrics.geometry(run, snapshot)
             if geo is not None and i in curve:
@@ -148,7 +146,7 @@ class Report:
         rows = report_metrics.table(run, last, geo)
         residual = next((m["mean_axial_velocity"] for body, part, m in rows
                          if body == names[geo.projectile] and part == "whole"), float("nan"))
-        final = {name: float(values[-1]) for name, values in columns.items()}
+        final = report_metrics.final_values(columns)
         self.page.tiles([
             ("impact speed", f"{1e-3 * geo.impact_speed:.4g} km/s"),
             (f"residual velocity of {names[geo.projectile]}", f"{1e-3 * residual:.4g} km/s"),
@@ -202,11 +200,6 @@ class Report:
         return path
 
 
-def iter_snapshot(run, i):
-    from report_data import Snapshot
-    yield Snapshot(*run.entries[i])
-
-
 def describe_value(value):
     if isinstance(value, dict):
         return ", ".join(f"{k}: {v}" for k, v in value.items())
@@ -229,7 +222,7 @@ def parse_figure(text):
     return title, path
 
 
-def main():
+def main(words=None):
     parser = argparse.ArgumentParser(prog="report", description="Figures and tables of a run as one HTML page.",
                                      epilog="example: report.py RUN_DIR --figure 'Hugoniot of copper=hugoniot.png'")
     parser.add_argument("run", metavar="RUN_DIR", help="folder that `whipple run` wrote")
@@ -237,7 +230,7 @@ def main():
     parser.add_argument("--figure", metavar="TITLE=FILE.png", action="append", default=[], type=parse_figure,
                         help="a figure to show before the pictures (Hugoniot, isotherm, ...); may be repeated")
     parser.add_argument("--times", metavar="N", type=int, default=6, help="pictures at so many times (default 6)")
-    arguments = parser.parse_args()
+    arguments = parser.parse_args(words)
     try:
         run = Run(arguments.run)
         output = pathlib.Path(arguments.output) if arguments.output else run.folder / "report"

@@ -10,7 +10,7 @@ from report_pictures import PHASE_COLOURS, legend_below
 MICRO = 1e6
 
 
-def new_figure(columns, height=3.6):
+def new_figure(columns, height=3.9):
     figure, axes = plt.subplots(1, columns, figsize=(12.0 if columns > 1 else 8.0, height), squeeze=False,
                                 layout="constrained")
     for ax in axes.flat:
@@ -19,6 +19,10 @@ def new_figure(columns, height=3.6):
         ax.spines[["top", "right"]].set_visible(False)
         ax.set_xlabel("time (µs)")
     return figure, axes[0]
+
+
+def legend_above(ax, columns=3):
+    ax.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=columns, frameon=False, fontsize=9, borderaxespad=0.2)
 
 
 def lines(ax, history, names, scale=1.0):
@@ -66,13 +70,13 @@ def energy_figure(run):
                                   ("outflow_energy", "left through the border")], scale)
     left.set_ylabel("energy (kJ)" + (", full problem" if run.multiplicity > 1 else ""))
     if drawn:
-        left.legend(frameon=False, fontsize=9)
+        legend_above(left)
     errors = lines(right, history, [("energy_error", "energy, over the initial total"),
                                     ("momentum_error", "momentum")])
     right.set_ylabel("relative error")
-    right.ticklabel_format(axis="y", style="sci", scilimits=(-2, 3))
+    right.yaxis.set_major_formatter(lambda value, _: f"{value:.2g}")
     if errors:
-        right.legend(frameon=False, fontsize=9)
+        legend_above(right)
     if drawn or errors:
         return figure
     plt.close(figure)
@@ -104,12 +108,12 @@ def extent_figure(columns):
         if outer:
             left.plot(time, 1e3 * columns[outer], ":", color=colour, label=f"{outer} particle", linewidth=1.0)
     left.set_ylabel("position of the debris (mm)")
-    left.legend(frameon=False, fontsize=9)
+    legend_above(left)
     for name, label, colour in (("front_speed", "front", "#c0392b"), ("rear_speed", "rear", "#2c6fbb"),
                                 ("expansion_speed", "expansion of the radius", "#3a8f5c"),
                                 ("mean_velocity", "mean axial velocity", "#555b66"),
                                 ("radial_speed", f"radial speed exceeded by {100 * BEYOND:.1f} %", "#b07aa1")):
         right.plot(time, 1e-3 * columns[name], "o-", color=colour, label=label, markersize=3, linewidth=1.6)
     right.set_ylabel("speed (km/s)")
-    right.legend(frameon=False, fontsize=9)
+    legend_above(right)
     return figure

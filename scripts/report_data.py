@@ -12,21 +12,22 @@ import numpy as np
 AXES = "xyz"
 PHASES = ("solid", "melting", "liquid", "vapour")  # numbers of the field "phase"
 LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
+SPEEDS = {"m/s": 1.0, "km/s": 1e3, "mm/us": 1e3, "cm/us": 1e4}
 
 
 class NotARun(Exception):
     """The folder is not that of a run, or something in it cannot be read."""
 
 
-def length(text):
-    """"40 mm" or a number in metres."""
+def quantity(text, units):
+    """"40 mm" or a number in the first of the units, which is that of the SI."""
     if isinstance(text, (int, float)):
         return float(text)
     number, _, unit = str(text).strip().partition(" ")
     try:
-        return float(number) * LENGTHS[unit.strip() or "m"]
+        return float(number) * units[unit.strip() or next(iter(units))]
     except (ValueError, KeyError):
-        raise NotARun(f"run.toml: {text!r} is not a length in {', '.join(LENGTHS)}") from None
+        raise NotARun(f"run.toml: {text!r} is not a number with one of the units {', '.join(units)}") from None
 
 
 class History:
@@ -118,11 +119,6 @@ class Run:
         except (ValueError, KeyError, TypeError) as error:
             raise NotARun(f"{indices[0]}: is not the index of a series: {error}") from None
 
-    def snapshots(self, at_most):
-        """At most so many snapshots, evenly spread, the first and the last among them; one at a time."""
-        for i in self.spread(at_most):
-            yield Snapshot(*self.entries[i])
-
     def spread(self, at_most):
         """Indices of at most so many snapshots, evenly spread, the first and the last among them."""
         n = len(self.entries)
@@ -136,6 +132,14 @@ class Run:
     def bodies(self):
         """Names of the bodies, by number."""
         return [str(body.get("name", f"body {i}")) for i, body in enumerate(self.input.get("body", []))]
+
+    @property
+    def body_velocities(self):
+        """Initial velocities (m/s) of the bodies as the input gives them; None if one of them does not say."""
+        given = [body.get("velocity") for body in self.input.get("body", [])]
+        if not given or not all(isinstance(v, list) and len(v) == 3 for v in given):
+            return None
+        return np.array([[quantity(component, SPEEDS) for component in v] for v in given])
 
     def body_names(self, snapshot):
         """Names of the bodies that occur, also of those the input does not name."""
@@ -151,7 +155,7 @@ class Run:
         for face, kind in domain.get("boundary", {}).items():
             axis, _, side = face.partition("_")
             if kind == "symmetry" and axis in AXES and side in ("lower", "upper") and side in domain:
-                planes[AXES.index(axis)] = length(domain[side][AXES.index(axis)])
+                planes[AXES.index(axis)] = quantity(domain[side][AXES.index(axis)], LENGTHS)
         return planes
 
     @property

@@ -12,15 +12,18 @@ BEYOND = 1e-3
 # impact speed.
 MOVING = 0.05
 
+SPEEDS_OF = {"front_speed": "front", "rear_speed": "rear", "expansion_speed": "radius"}
+
 DEFINITIONS = [
     ("axis", "the direction in which the bodies approach each other; through the symmetry planes, or the centre of "
              "mass of the projectile where there are none"),
-    ("impact speed", "difference of the mean axial velocities of the fastest and the slowest body in the first "
-                     "snapshot; the fastest is the projectile"),
+    ("impact speed", "difference of the initial axial velocities of the fastest and the slowest body; the fastest is "
+                     "the projectile"),
     ("debris, ejecta", f"particles whose axial velocity exceeds {MOVING:.0%} of the impact speed forward, backward"),
     ("front, rear", f"axial coordinate beyond, below which {BEYOND:.1%} of the debris mass lies"),
     ("radius", f"distance from the axis beyond which {BEYOND:.1%} of the debris mass lies"),
-    ("front, rear, expansion speed", "change of front, rear, radius from snapshot to snapshot"),
+    ("front, rear, expansion speed", "change of front, rear, radius from snapshot to snapshot; at the end the "
+                                     "least-squares slope over the last third of the snapshots"),
     ("radial speed", f"component of the velocity away from the axis that {BEYOND:.1%} of the debris mass exceeds"),
     ("residual velocity", "mean axial velocity of what is left of a body (momentum over mass)"),
 ]
@@ -49,10 +52,14 @@ class Geometry:
 
 
 def geometry(run, first):
-    """Axis, impact speed and projectile from the first snapshot."""
+    """Axis, impact speed and projectile from the velocities of the input (or, if it has none, of the first snapshot),
+    the place of the axis from the first snapshot."""
     body = first.body if first.body is not None else np.zeros(len(first), int)
-    numbers = np.unique(body)
-    means = np.array([np.average(first.velocity[body == b], axis=0, weights=first.mass[body == b]) for b in numbers])
+    means = run.body_velocities
+    numbers = np.arange(len(means)) if means is not None else np.unique(body)
+    if means is None:
+        means = np.array([np.average(first.velocity[body == b], axis=0, weights=first.mass[body == b])
+                          for b in numbers])
     spread = means.max(axis=0) - means.min(axis=0) if len(means) > 1 else np.abs(means[0])
     axis = int(np.argmax(spread))
     fastest = int(np.argmax(np.linalg.norm(means, axis=1)))
@@ -64,6 +71,7 @@ def geometry(run, first):
     up = next((i for i in transverse if i in planes), transverse[0])
     depth = next(i for i in transverse if i != up)
     flying = body == numbers[fastest]
+    flying = flying if flying.any() else np.ones(len(first), bool)
     centre = np.average(first.position[flying], axis=0, weights=first.mass[flying])
     for i in transverse:
         if i in planes:
@@ -111,10 +119,22 @@ def extent(snapshot, geo):
 def with_speeds(extents):
     """Columns of `extent` over time, with the speeds of front, rear and radius."""
     columns = {name: np.array([e[name] for e in extents]) for name in extents[0]}
-    for name, of in (("front_speed", "front"), ("rear_speed", "rear"), ("expansion_speed", "radius")):
+    for name, of in SPEEDS_OF.items():
         columns[name] = (np.gradient(columns[of], columns["time"]) if len(extents) > 1
                          else np.full(len(extents), np.nan))
     return columns
+
+
+def final_values(columns):
+    """The last entry of every column; speeds of front, rear and radius as slopes over the last third."""
+    final = {name: float(values[-1]) for name, values in columns.items()}
+    last = max(len(columns["time"]) // 3, 3)
+    time = columns["time"][-last:]
+    for name, of in SPEEDS_OF.items():
+        values = columns[of][-last:]
+        if len(time) > 1 and np.isfinite(values).all():
+            final[name] = float(np.polyfit(time - time[0], values, 1)[0])
+    return final
 
 
 def measures(snapshot, chosen, geo, copies):

@@ -5,19 +5,21 @@ whipple_test(test_io
   DEPENDS whipple_io GTest::gmock LABELS fast)
 whipple_test(test_io_damage SOURCES fuzz/io_checkpoint_damage.cpp DEPENDS whipple_io GTest::gmock LABELS fast)
 
+# Written and read by several ranks.
+set(mpi_environment
+    "OMP_NUM_THREADS=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_mpi_yield_when_idle=1")
 add_executable(test_io_ranks parallel/io_ranks.cpp)
 target_link_libraries(test_io_ranks PRIVATE whipple_flags whipple_io GTest::gmock GTest::gtest)
 foreach(ranks 1 3)
   add_test(NAME test_io_ranks.${ranks}
            COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:test_io_ranks>)
   set_tests_properties(test_io_ranks.${ranks} PROPERTIES LABELS fast TIMEOUT 120 PROCESSORS 2
-    ENVIRONMENT "OMP_NUM_THREADS=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_mpi_yield_when_idle=1")
+    ENVIRONMENT "${mpi_environment}")
 endforeach()
 
 # A made-up run, to test what reads runs.
 add_executable(io_synthetic_cloud unit/io_synthetic_cloud.cpp)
 target_link_libraries(io_synthetic_cloud PRIVATE whipple_flags whipple_io)
-set(mpi_environment "OMP_NUM_THREADS=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_mpi_yield_when_idle=1")
 
 # The layout as h5py sees it, written by one and by three ranks.
 find_program(WHIPPLE_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
@@ -33,4 +35,7 @@ if(WHIPPLE_PYTHON)
     set_tests_properties(io_vtkhdf_schema.${ranks} PROPERTIES LABELS fast TIMEOUT 120
       FIXTURES_REQUIRED synthetic_cloud_${ranks})
   endforeach()
+  add_test(NAME io_report COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/io_report.py
+           ${PROJECT_SOURCE_DIR}/scripts/report.py ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_1)
+  set_tests_properties(io_report PROPERTIES LABELS fast TIMEOUT 300 FIXTURES_REQUIRED synthetic_cloud_1)
 endif()
