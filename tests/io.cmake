@@ -39,3 +39,16 @@ if(WHIPPLE_PYTHON)
            ${PROJECT_SOURCE_DIR}/scripts/report.py ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_1)
   set_tests_properties(io_report PROPERTIES LABELS fast TIMEOUT 300 FIXTURES_REQUIRED synthetic_cloud_1)
 endif()
+
+# What ParaView makes of the series; where it is installed (scripts/install_deps.sh --paraview).
+find_program(WHIPPLE_PVBATCH pvbatch)
+find_program(WHIPPLE_XVFB_RUN xvfb-run)
+if(WHIPPLE_PYTHON AND WHIPPLE_PVBATCH AND WHIPPLE_XVFB_RUN)
+  foreach(ranks 1 3)
+    add_test(NAME io_paraview.${ranks}
+             COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/paraview_check.py
+                     ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_${ranks})
+    set_tests_properties(io_paraview.${ranks} PROPERTIES LABELS "paraview" TIMEOUT 300 PROCESSORS 2
+      FIXTURES_REQUIRED synthetic_cloud_${ranks})
+  endforeach()
+endif()
