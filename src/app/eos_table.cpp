@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/app/eos_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "src/app/paths.hpp"
+#include "src/app/process.hpp"
+#include "src/base/error.hpp"
+
+namespace whipple::app {
+namespace {
+
+bool known(const Cell& cell) {
+  const double* number = std::get_if<double>(&cell);
+  return number == nullptr || !std::isnan(*number);
+}
+
+std::string text(const Cell& cell, double size, int digits) {
+  if (const auto* word = std::get_if<std::string>(&cell)) return *word;
+  const double value = std::get<double>(cell) / size;
+  return std::isnan(value) ? "-" : fmt::format("{:.{}g}", value, digits);
+}
+
+void write_csv(const CurveTable& table, const std::filesystem::path& path) {
+  std::ofstream file(path);
+  file << "# " << table.title << '\n';
+  for (std::size_t i = 0; i < table.columns.size(); ++i) file << (i > 0 ? "," : "") << table.columns[i].name;
+  file << '\n';
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      file << (i > 0 ? "," : "") << (known(row[i]) ? text(row[i], table.columns[i].size, 10) : "");
+    }
+    file << '\n';
+  }
+  if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", path.string()));
+}
+
+}  // namespace
+
+std::vector<Column> state_columns() {
+  return {{"rho_kg_m3", "kg/m^3", 1},
+          {"V_over_V0", "", 1},
+          {"P_GPa", "GPa", 1e9},
+          {"T_K", "K", 1},
+          {"e_kJ_kg", "kJ/kg", 1e3},
+          {"c_km_s", "km/s", 1e3},
+          {"s_J_kg_K", "J/(kg K)", 1},
+          {"cv_J_kg_K", "J/(kg K)", 1},
+          {"gamma", "", 1},
+          {"KT_GPa", "GPa", 1e9},
+          {"melted", "", 1},
+          {"vaporised", "", 1},
+          {"phase", "", 1}};
+}
+
+std::vector<Cell> state_cells(const eos::State& s, const eos::EquationOfState& eos) {
+  return {s.density,
+          eos.reference_density() / s.density,
+          s.pressure,
+          s.temperature,
+          s.specific_internal_energy,
+          s.sound_speed,
+          s.specific_entropy,
+          s.heat_capacity,
+          s.gruneisen,
+          s.isothermal_bulk_modulus,
+          s.melted_fraction,
+          s.vaporised_fraction,
+          std::string(s.phase)};
+}
+
+void print(const CurveTable& table) {
+  fmt::print("{}\n", table.title);
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    if (std::ranges::any_of(table.rows, [&](const auto& row) { return known(row[i]); })) shown.push_back(i);
+  }
+  std::vector<std::vector<std::string>> lines(2);
+  for (const std::size_t i : shown) {
+    const Column& column = table.columns[i];
+    // "P_GPa" prints as P over GPa; a name without unit stands alone.
+    const std::size_t end = column.unit.empty() ? column.name.size() : column.name.find('_');
+    lines[0].push_back(column.name.substr(0, end));
+    lines[1].push_back(column.unit);
+  }
+  for (const auto& row : table.rows) {
+    lines.emplace_back();
+    for (const std::size_t i : shown) lines.back().push_back(text(row[i], table.columns[i].size, 6));
+  }
+  std::vector<std::size_t> width(shown.size(), 0);
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < line.size(); ++i) width[i] = std::max(width[i], line[i].size());
+  }
+  for (const auto& line : lines) {
+    std::string printed;
+    for (std::size_t i = 0; i < line.size(); ++i) printed += fmt::format("{:>{}}  ", line[i], width[i]);
+    fmt::print("{}\n", printed.substr(0, printed.find_last_not_of(' ') + 1));
+  }
+}
+
+void require_writable(const CurveOutput& output) {
+  for (const std::string& path : {output.csv, output.plot}) {
+    if (!path.empty() && std::filesystem::exists(path) && !output.force) {
+      throw InputError(fmt::format("'{}' exists; --force overwrites it", path));
+    }
+  }
+}
+
+void write(const CurveTable& table, const CurveOutput& output) {
+  print(table);
+  if (!output.csv.empty()) {
+    write_csv(table, output.csv);
+    fmt::print("written: {}\n", output.csv);
+  }
+  if (output.plot.empty()) return;
+  const std::filesystem::path data = output.plot + ".csv.part";
+  write_csv(table, data);
+  // Debian's Python has matplotlib; another one can be named.
+  const char* variable = std::getenv("WHIPPLE_PYTHON");
+  const std::string python = variable != nullptr                           ? variable
+                             : std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3"
+                                                                           : "python3";
+  std::vector<std::string> arguments = {python,        find_data("scripts/plot_curves.py").string(),
+                                        data.string(), "--output",
+                                        output.plot,   "--x",
+                                        output.x,      "--y",
+                                        output.y};
+  if (!output.overlay.empty()) {
+    arguments.emplace_back("--overlay");
+    arguments.insert(arguments.end(), output.overlay.begin(), output.overlay.end());
+  }
+  const int code = run_process(arguments);
+  std::filesystem::remove(data);
+  if (code != 0) {
+    throw InputError(
+        "scripts/plot_curves.py failed (it needs python3 with numpy and matplotlib; WHIPPLE_PYTHON names "
+        "another "
+        "interpreter)");
+  }
+  fmt::print("written: {}\n", output.plot);
+}
+
+}  // namespace whipple::app
