@@ -10,26 +10,22 @@
 namespace whipple {
 namespace {
 
-constexpr std::size_t chunk_size = 256;     ///< the scratch of a chunk stays in the second-level cache
 constexpr double least_volume_ratio = 0.5;  ///< limits of J in one step; named in the report
 constexpr double greatest_volume_ratio = 2.0;
 constexpr double greatest_void_step = 0.1;       ///< |dV/V| of matter beside its void in one step
 constexpr double least_sound_speed_ratio = 0.1;  ///< of the bulk sound speed of the reference state
 
-using Doubles = std::array<double, chunk_size>;
-using Tensors = std::array<SymmetricTensor, chunk_size>;
+using material::chunk_size;
+using material::Lanes;
 
 /// Scratch of one chunk, on the stack; entry k belongs to point `index[k]`.
 struct Chunk {
   std::size_t size = 0;
   std::array<std::size_t, chunk_size> index;
-  // old state
-  Doubles density, pressure, temperature, plastic_strain, solid_fraction, old_volume;
-  // kinematics and strength
-  Doubles divergence, solid_modulus, modulus, trial, increment;
-  Tensors deviator, strain;  // new deviatoric stress; strain increment of the step
-  // equation of state
-  Doubles energy, bulk_sound_speed, melted, vaporised;
+  Lanes density, pressure, temperature, plastic_strain, solid_fraction, old_volume;
+  material::Kinematics motion;  // its deviator becomes the new one
+  Lanes solid_modulus, increment;
+  Lanes energy, bulk_sound_speed, melted, vaporised;
 
   template <class Array>
   auto view(Array& array) {
@@ -58,6 +54,12 @@ void gather(Step& step, Chunk& chunk) {
     chunk.temperature[k] = points.temperature[i];
     chunk.plastic_strain[k] = points.plastic_strain[i];
     chunk.solid_fraction[k] = points.failed[i] == failure::intact ? 1.0 - points.melted_fraction[i] : 0.0;
+    for (std::size_t j = 0; j < 9; ++j) {
+      chunk.motion.gradient[j][k] = step.gradient[k](static_cast<int>(j / 3), static_cast<int>(j % 3));
+    }
+  }
+  for (std::size_t k = chunk.size; k < material::padded(chunk.size); ++k) {
+    for (Lanes& lane : chunk.motion.gradient) lane[k] = 0.0;
   }
 }
 
@@ -65,12 +67,10 @@ void gather(Step& step, Chunk& chunk) {
 /// change until it is closed.
 void advance_volume(Step& step, Chunk& chunk) {
   MaterialPoints& points = step.points;
-  const double dt = step.settings.time_step;
+  material::volume_change(material::padded(chunk.size), step.settings.time_step, chunk.motion);
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const std::size_t i = chunk.index[k];
-    const Matrix3& gradient = step.gradient[k];
-    chunk.divergence[k] = gradient.trace();
-    const double ratio = volume_ratio(gradient, dt);
+    const double ratio = chunk.motion.ratio[k];
     const double limited = std::clamp(ratio, least_volume_ratio, greatest_volume_ratio);
     if (ratio < least_volume_ratio || ratio > greatest_volume_ratio) ++step.report.limited_volume_changes;
     if (points.void_volume[i] > 0.0) {
@@ -87,52 +87,55 @@ void advance_volume(Step& step, Chunk& chunk) {
   }
 }
 
+constexpr std::array<double SymmetricTensor::*, 6> components = {&SymmetricTensor::xx, &SymmetricTensor::yy,
+                                                                 &SymmetricTensor::zz, &SymmetricTensor::xy,
+                                                                 &SymmetricTensor::yz, &SymmetricTensor::zx};
+
+SymmetricTensor deviator(const Chunk& chunk, std::size_t k) {
+  const material::SymmetricLanes& s = chunk.motion.deviator;
+  return {s[0][k], s[1][k], s[2][k], s[3][k], s[4][k], s[5][k]};
+}
+
+void scale_deviator(Chunk& chunk, std::size_t k, double factor) {
+  for (Lanes& lane : chunk.motion.deviator) lane[k] *= factor;
+}
+
 /// Deviatoric stress: rotation, elastic trial, radial return (eq. 3 to 7).
 void advance_deviator(Step& step, Chunk& chunk) {
-  MaterialPoints& points = step.points;
-  if (!step.material.strength->carries_deviator()) {
+  const MaterialPoints& points = step.points;
+  material::Kinematics& motion = chunk.motion;
+  const auto solid = [](double fraction) { return fraction > 0.0; };
+  const bool carries = step.material.strength->carries_deviator();
+  if (!carries ||
+      std::none_of(chunk.solid_fraction.begin(), chunk.solid_fraction.begin() + chunk.size, solid)) {
     std::fill_n(chunk.solid_modulus.data(), chunk.size, 0.0);
-    std::fill_n(chunk.modulus.data(), chunk.size, 0.0);
-    std::fill_n(chunk.deviator.data(), chunk.size, SymmetricTensor{});
-    std::fill_n(chunk.strain.data(), chunk.size, SymmetricTensor{});
+    std::fill_n(motion.modulus.data(), chunk.size, 0.0);
+    for (Lanes& lane : motion.deviator) std::fill_n(lane.data(), chunk.size, 0.0);
+    for (Lanes& lane : motion.strain) std::fill_n(lane.data(), chunk.size, 0.0);
     return;
   }
   const double dt = step.settings.time_step;
+  const std::size_t padded = material::padded(chunk.size);
   step.material.strength->shear_modulus(chunk.strength_state(), chunk.view(chunk.solid_modulus));
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const std::size_t i = chunk.index[k];
-    chunk.modulus[k] = chunk.solid_modulus[k] * chunk.solid_fraction[k];
-    if (!(chunk.modulus[k] > 0.0)) {  // failed or melted
-      chunk.deviator[k] = {};
-      chunk.strain[k] = {};
-      chunk.trial[k] = 0.0;
-      chunk.modulus[k] = 0.0;
-      continue;
-    }
-    const Matrix3 midpoint = midpoint_gradient(step.gradient[k], dt);
-    SymmetricTensor strain = symmetric_part(midpoint);
-    scale(strain, dt);
-    SymmetricTensor s = rotated(points.deviatoric_stress[i], step_rotation(midpoint, dt));
-    const double twice = 2.0 * chunk.modulus[k];
-    const double mean = trace(strain) / 3.0;
-    s.xx += twice * (strain.xx - mean);
-    s.yy += twice * (strain.yy - mean);
-    s.zz += twice * (strain.zz - mean);
-    s.xy += twice * strain.xy;
-    s.yz += twice * strain.yz;
-    s.zx += twice * strain.zx;
-    chunk.strain[k] = strain;
-    chunk.deviator[k] = s;
-    chunk.trial[k] = equivalent_stress(s);
+    motion.modulus[k] = chunk.solid_modulus[k] * chunk.solid_fraction[k];
+    const SymmetricTensor& s = points.deviatoric_stress[chunk.index[k]];
+    const double carried = solid(chunk.solid_fraction[k]) ? 1.0 : 0.0;  // failed or melted: none
+    for (std::size_t j = 0; j < 6; ++j) motion.deviator[j][k] = carried * (s.*components[j]);
   }
-  step.material.strength->plastic_increment(chunk.strength_state(), chunk.view(chunk.trial),
-                                            chunk.view(chunk.modulus), chunk.view(chunk.solid_fraction), dt,
+  for (std::size_t k = chunk.size; k < padded; ++k) {
+    motion.modulus[k] = 0.0;
+    for (Lanes& lane : motion.deviator) lane[k] = 0.0;
+  }
+  material::elastic_trial(padded, dt, motion);
+  step.material.strength->plastic_increment(chunk.strength_state(), chunk.view(motion.trial),
+                                            chunk.view(motion.modulus), chunk.view(chunk.solid_fraction), dt,
                                             chunk.view(chunk.increment));
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    if (!(chunk.modulus[k] > 0.0 && chunk.increment[k] > 0.0)) continue;
+    if (!(chunk.increment[k] > 0.0)) continue;
     chunk.plastic_strain[k] += chunk.increment[k];
-    scale(chunk.deviator[k],
-          std::max(0.0, 1.0 - 3.0 * chunk.modulus[k] * chunk.increment[k] / chunk.trial[k]));
+    scale_deviator(chunk, k,
+                   std::max(0.0, 1.0 - 3.0 * motion.modulus[k] * chunk.increment[k] / motion.trial[k]));
   }
 }
 
@@ -142,7 +145,7 @@ void advance_viscosity(Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const std::size_t i = chunk.index[k];
-    const double closing = -chunk.divergence[k] * settings.cell_size;  // l |D|, m/s
+    const double closing = -chunk.motion.divergence[k] * settings.cell_size;  // l |D|, m/s
     const bool active = closing > 0.0 && !(points.void_volume[i] > 0.0);
     points.artificial_viscosity[i] =
         active
@@ -160,10 +163,14 @@ void prepare_energy(Step& step, Chunk& chunk) {
   const double half_step = 0.5 * step.settings.time_step;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const std::size_t i = chunk.index[k];
-    const SymmetricTensor& s = chunk.deviator[k];
-    const double power = contract(s, symmetric_part(step.gradient[k])) -
-                         (points.pressure[i] + points.artificial_viscosity[i]) * chunk.divergence[k];
-    const double elastic = chunk.modulus[k] > 0.0 ? s.squared_norm() / (4.0 * chunk.modulus[k]) : 0.0;
+    const SymmetricTensor s = deviator(chunk, k);
+    const material::MatrixLanes& l = chunk.motion.gradient;
+    const double deviatoric = s.xx * l[0][k] + s.yy * l[4][k] + s.zz * l[8][k] + s.xy * (l[1][k] + l[3][k]) +
+                              s.yz * (l[5][k] + l[7][k]) + s.zx * (l[2][k] + l[6][k]);
+    const double power =
+        deviatoric - (points.pressure[i] + points.artificial_viscosity[i]) * chunk.motion.divergence[k];
+    const double modulus = chunk.motion.modulus[k];
+    const double elastic = modulus > 0.0 ? s.squared_norm() / (4.0 * modulus) : 0.0;
     const double specific_volume = points.volume[i] / points.mass[i];
     chunk.energy[k] = points.specific_internal_energy[i] + (half_step * power - elastic) * specific_volume;
   }
@@ -188,15 +195,16 @@ eos::RangeReport evaluate(Step& step, Chunk& chunk) {
 /// exact for an equation of state that is linear in e at constant density.
 eos::RangeReport integrate_energy(Step& step, Chunk& chunk) {
   MaterialPoints& points = step.points;
-  Doubles without_new_pressure, first_energy, first_pressure;
+  Lanes without_new_pressure, first_energy, first_pressure;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const std::size_t i = chunk.index[k];
     const double change = points.volume[i] - chunk.old_volume[k];
-    SymmetricTensor mean = chunk.deviator[k];
-    const SymmetricTensor& old = points.deviatoric_stress[i];
-    mean = {0.5 * (mean.xx + old.xx), 0.5 * (mean.yy + old.yy), 0.5 * (mean.zz + old.zz),
-            0.5 * (mean.xy + old.xy), 0.5 * (mean.yz + old.yz), 0.5 * (mean.zx + old.zx)};
-    const double work = contract(mean, chunk.strain[k]) * 0.5 * (points.volume[i] + chunk.old_volume[k]) -
+    double strain_work = 0.0;  // mean stress : strain increment
+    for (std::size_t j = 0; j < 6; ++j) {
+      const double mean = 0.5 * (chunk.motion.deviator[j][k] + points.deviatoric_stress[i].*components[j]);
+      strain_work += (j < 3 ? 1.0 : 2.0) * mean * chunk.motion.strain[j][k];
+    }
+    const double work = strain_work * 0.5 * (points.volume[i] + chunk.old_volume[k]) -
                         change * (0.5 * points.pressure[i] + points.artificial_viscosity[i]);
     without_new_pressure[k] = points.specific_internal_energy[i] + work / points.mass[i];
     chunk.energy[k] = without_new_pressure[k] - 0.5 * change * points.pressure[i] / points.mass[i];
@@ -227,7 +235,7 @@ eos::RangeReport integrate_energy(Step& step, Chunk& chunk) {
 void apply_failure(Step& step, Chunk& chunk) {
   MaterialPoints& points = step.points;
   if (step.material.failure.empty()) return;
-  Doubles factor;
+  Lanes factor;
   std::array<std::uint8_t, chunk_size> failed;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     factor[k] = points.failure_threshold_factor[chunk.index[k]];
@@ -279,15 +287,15 @@ void finish(Step& step, Chunk& chunk) {
     if (intact) {
       const double solid = 1.0 - chunk.melted[k];
       // What melts takes its share of the stress with it; what freezes is free of stress.
-      if (solid < chunk.solid_fraction[k]) scale(chunk.deviator[k], solid / chunk.solid_fraction[k]);
+      if (solid < chunk.solid_fraction[k]) scale_deviator(chunk, k, solid / chunk.solid_fraction[k]);
       squared += 4.0 / 3.0 * solid * chunk.solid_modulus[k] / density;
     } else {
-      chunk.deviator[k] = {};
+      scale_deviator(chunk, k, 0.0);
       pressure = share_volume(pressure, density * bulk, points.volume[i], points.void_volume[i]);
       if (pressure <= 0.0) squared = least_sound_speed * least_sound_speed;
     }
     points.pressure[i] = pressure;
-    points.deviatoric_stress[i] = chunk.deviator[k];
+    points.deviatoric_stress[i] = deviator(chunk, k);
     points.plastic_strain[i] = chunk.plastic_strain[k];
     points.temperature[i] = chunk.temperature[k];
     points.melted_fraction[i] = chunk.melted[k];
@@ -312,7 +320,7 @@ void update_chunk(Step& step, Chunk& chunk, Energy energy) {
   }
   step.report.equation_of_state.merge(integrate_energy(step, chunk));
   apply_failure(step, chunk);
-  Doubles change;
+  Lanes change;
   for (std::size_t k = 0; k < chunk.size; ++k)
     change[k] = step.points.volume[chunk.index[k]] - chunk.old_volume[k];
   finish(step, chunk);

@@ -4,7 +4,6 @@
 
 #include "src/material/failure/plastic_strain.hpp"
 #include "src/material/failure/tensile_pressure.hpp"
-#include "src/material/kinematics.hpp"
 #include "tests/unit/material_support.hpp"
 
 namespace whipple {

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <numbers>
 
-#include "src/material/kinematics.hpp"
 #include "tests/unit/material_support.hpp"
 
 namespace whipple {

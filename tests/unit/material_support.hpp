@@ -137,6 +137,16 @@ inline Matrix3 gradient_between(const Matrix3& f0, const Matrix3& f1, double dt)
   return (f1 * f0.inverse() - Matrix3::Identity()) / dt;
 }
 
+/// Volume ratio of a step.
+inline double volume_ratio(const Matrix3& gradient, double dt) {
+  return (Matrix3::Identity() + dt * gradient).determinant();
+}
+
+/// von Mises stress of a deviator.
+inline double equivalent_stress(const SymmetricTensor& deviator) {
+  return std::sqrt(1.5 * deviator.squared_norm());
+}
+
 inline Matrix3 random_matrix(std::mt19937_64& generator, double size) {
   std::uniform_real_distribution<double> uniform(-size, size);
   Matrix3 m;

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/material/kinematics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace whipple::material {
+namespace {
+
+/// 3x3 matrix in registers; every function on it is inlined straight-line arithmetic.
+struct Matrix {
+  double xx, xy, xz, yx, yy, yz, zx, zy, zz;
+};
+
+inline Matrix load(const MatrixLanes& lanes, std::size_t k) {
+  return {lanes[0][k], lanes[1][k], lanes[2][k], lanes[3][k], lanes[4][k],
+          lanes[5][k], lanes[6][k], lanes[7][k], lanes[8][k]};
+}
+
+/// I + a M
+inline Matrix identity_plus(double a, const Matrix& m) {
+  return {1.0 + a * m.xx, a * m.xy, a * m.xz, a * m.yx,      1.0 + a * m.yy,
+          a * m.yz,       a * m.zx, a * m.zy, 1.0 + a * m.zz};
+}
+
+inline double determinant(const Matrix& m) {
+  return m.xx * (m.yy * m.zz - m.yz * m.zy) - m.xy * (m.yx * m.zz - m.yz * m.zx) +
+         m.xz * (m.yx * m.zy - m.yy * m.zx);
+}
+
+/// Adjugate: inverse times determinant.
+inline Matrix adjugate(const Matrix& m) {
+  return {m.yy * m.zz - m.yz * m.zy, m.xz * m.zy - m.xy * m.zz, m.xy * m.yz - m.xz * m.yy,
+          m.yz * m.zx - m.yx * m.zz, m.xx * m.zz - m.xz * m.zx, m.xz * m.yx - m.xx * m.yz,
+          m.yx * m.zy - m.yy * m.zx, m.xy * m.zx - m.xx * m.zy, m.xx * m.yy - m.xy * m.yx};
+}
+
+inline Matrix multiply(const Matrix& a, const Matrix& b) {
+  return {a.xx * b.xx + a.xy * b.yx + a.xz * b.zx, a.xx * b.xy + a.xy * b.yy + a.xz * b.zy,
+          a.xx * b.xz + a.xy * b.yz + a.xz * b.zz, a.yx * b.xx + a.yy * b.yx + a.yz * b.zx,
+          a.yx * b.xy + a.yy * b.yy + a.yz * b.zy, a.yx * b.xz + a.yy * b.yz + a.yz * b.zz,
+          a.zx * b.xx + a.zy * b.yx + a.zz * b.zx, a.zx * b.xy + a.zy * b.yy + a.zz * b.zy,
+          a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
+}
+
+}  // namespace
+
+void volume_change(std::size_t size, double dt, Kinematics& step) {
+  for (std::size_t k = 0; k < size; ++k) {
+    const Matrix l = load(step.gradient, k);
+    step.ratio[k] = determinant(identity_plus(dt, l));
+    step.divergence[k] = l.xx + l.yy + l.zz;
+  }
+}
+
+void elastic_trial(std::size_t size, double dt, Kinematics& step) {
+  for (std::size_t k = 0; k < size; ++k) {
+    const Matrix l = load(step.gradient, k);
+    const Matrix half = identity_plus(0.5 * dt, l);
+    // The bound acts only where the half step nearly inverts the point; its volume change is limited anyway.
+    const double scale = dt / std::max(determinant(half), 0.1);
+    const Matrix product = multiply(l, adjugate(half));
+    const Matrix m = {scale * product.xx, scale * product.xy, scale * product.xz,
+                      scale * product.yx, scale * product.yy, scale * product.yz,
+                      scale * product.zx, scale * product.zy, scale * product.zz};
+    const double exy = 0.5 * (m.xy + m.yx), eyz = 0.5 * (m.yz + m.zy), ezx = 0.5 * (m.zx + m.xz);
+
+    // R = I + (W + W^2/2) / (1 + |w|^2/4), w the axial vector of W: closed form of (I - W/2)^-1 (I + W/2).
+    const double wx = 0.5 * (m.zy - m.yz), wy = 0.5 * (m.xz - m.zx), wz = 0.5 * (m.yx - m.xy);
+    const double square = wx * wx + wy * wy + wz * wz;
+    const double a = 1.0 / (1.0 + 0.25 * square), b = 0.5 * a;
+    const Matrix r = {
+        1.0 + b * (wx * wx - square), b * wx * wy - a * wz,         b * wx * wz + a * wy,
+        b * wx * wy + a * wz,         1.0 + b * (wy * wy - square), b * wy * wz - a * wx,
+        b * wx * wz - a * wy,         b * wy * wz + a * wx,         1.0 + b * (wz * wz - square)};
+    const double sxx = step.deviator[0][k], syy = step.deviator[1][k], szz = step.deviator[2][k];
+    const double sxy = step.deviator[3][k], syz = step.deviator[4][k], szx = step.deviator[5][k];
+    const Matrix t = multiply(r, {sxx, sxy, szx, sxy, syy, syz, szx, syz, szz});
+
+    const double twice = 2.0 * step.modulus[k], mean = (m.xx + m.yy + m.zz) / 3.0;
+    const double xx = t.xx * r.xx + t.xy * r.xy + t.xz * r.xz + twice * (m.xx - mean);
+    const double yy = t.yx * r.yx + t.yy * r.yy + t.yz * r.yz + twice * (m.yy - mean);
+    const double zz = t.zx * r.zx + t.zy * r.zy + t.zz * r.zz + twice * (m.zz - mean);
+    const double xy = t.xx * r.yx + t.xy * r.yy + t.xz * r.yz + twice * exy;
+    const double yz = t.yx * r.zx + t.yy * r.zy + t.yz * r.zz + twice * eyz;
+    const double zx = t.zx * r.xx + t.zy * r.xy + t.zz * r.xz + twice * ezx;
+
+    step.deviator[0][k] = xx;
+    step.deviator[1][k] = yy;
+    step.deviator[2][k] = zz;
+    step.deviator[3][k] = xy;
+    step.deviator[4][k] = yz;
+    step.deviator[5][k] = zx;
+    step.strain[0][k] = m.xx;
+    step.strain[1][k] = m.yy;
+    step.strain[2][k] = m.zz;
+    step.strain[3][k] = exy;
+    step.strain[4][k] = eyz;
+    step.strain[5][k] = ezx;
+    const double norm = xx * xx + yy * yy + zz * zz + 2.0 * (xy * xy + yz * yz + zx * zx);
+    step.trial[k] = std::sqrt(1.5 * norm);
+  }
+}
+
+}  // namespace whipple::material
