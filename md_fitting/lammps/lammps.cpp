@@ -10,6 +10,27 @@
 #include "src/base/error.hpp"
 
 namespace whipple::md {
+namespace {
+
+/// Instances given up after an error, kept reachable so that leak checkers do not report them.
+std::vector<void*>& abandoned_instances() {
+  static std::vector<void*> instances;
+  return instances;
+}
+
+}  // namespace
+
+template <class Call>
+auto Lammps::guarded(const Call& call) -> decltype(call()) {
+  if (!sound_) throw InternalError("a LAMMPS instance was used again after an error");
+  const ErrorGuard guard(ranks_);
+  try {
+    return call();
+  } catch (const LammpsError&) {
+    sound_ = false;
+    throw;
+  }
+}
 
 Lammps::Lammps(MPI_Comm communicator) {
   // One thread per rank: LAMMPS links OpenMP, and idle threads of several ranks would fight for the cores.
@@ -29,10 +50,15 @@ Lammps::Lammps(MPI_Comm communicator) {
 Lammps::Lammps(Lammps&& other) noexcept
     : handle_(std::exchange(other.handle_, nullptr)),
       ranks_(other.ranks_),
+      sound_(other.sound_),
       transcript_(std::move(other.transcript_)) {}
 
 Lammps::~Lammps() {
   if (handle_ == nullptr) return;
+  if (!sound_) {
+    abandoned_instances().push_back(handle_);
+    return;
+  }
   const ErrorGuard guard(ranks_);
   try {
     lammps_close(handle_);
@@ -43,22 +69,19 @@ Lammps::~Lammps() {
 
 void Lammps::command_shown_as(const std::string& line, const std::string& shown) {
   transcript_ += shown + '\n';
-  const ErrorGuard guard(ranks_);
   try {
-    lammps_command(handle_, line.c_str());
+    guarded([&] { lammps_command(handle_, line.c_str()); });
   } catch (const LammpsError& error) {
     throw LammpsError(fmt::format("{}; command: {}", error.what(), shown));
   }
 }
 
 double Lammps::thermo(const std::string& keyword) {
-  const ErrorGuard guard(ranks_);
-  return lammps_get_thermo(handle_, keyword.c_str());
+  return guarded([&] { return lammps_get_thermo(handle_, keyword.c_str()); });
 }
 
 double Lammps::variable(const std::string& name) {
-  const ErrorGuard guard(ranks_);
-  void* const value = lammps_extract_variable(handle_, name.c_str(), nullptr);
+  void* const value = guarded([&] { return lammps_extract_variable(handle_, name.c_str(), nullptr); });
   if (value == nullptr) throw LammpsError(fmt::format("LAMMPS has no variable '{}'", name));
   const double number = *static_cast<double*>(value);
   lammps_free(value);  // LAMMPS allocates every number that it returns through a pointer
@@ -66,24 +89,25 @@ double Lammps::variable(const std::string& name) {
 }
 
 std::vector<std::vector<double>> Lammps::series(const std::string& fix, int columns) {
-  const ErrorGuard guard(ranks_);
-  const auto entry = [&](int type, int row, int column) {
-    void* const value = lammps_extract_fix(handle_, fix.c_str(), LMP_STYLE_GLOBAL, type, row, column);
-    if (value == nullptr) throw LammpsError(fmt::format("LAMMPS has no data of a fix '{}'", fix));
-    return value;
-  };
-  // The size is a pointer into the fix itself; the entries are allocated one by one and are ours to free.
-  const int count = *static_cast<const int*>(entry(columns == 1 ? LMP_SIZE_VECTOR : LMP_SIZE_ROWS, 0, 0));
-  std::vector<std::vector<double>> table(static_cast<std::size_t>(columns));
-  for (int column = 0; column < columns; ++column) {
-    for (int row = 0; row < count; ++row) {
-      double* const value =
-          static_cast<double*>(entry(columns == 1 ? LMP_TYPE_VECTOR : LMP_TYPE_ARRAY, row, column));
-      table[static_cast<std::size_t>(column)].push_back(*value);
-      lammps_free(value);
+  return guarded([&] {
+    const auto entry = [&](int type, int row, int column) {
+      void* const value = lammps_extract_fix(handle_, fix.c_str(), LMP_STYLE_GLOBAL, type, row, column);
+      if (value == nullptr) throw LammpsError(fmt::format("LAMMPS has no data of a fix '{}'", fix));
+      return value;
+    };
+    // The size is a pointer into the fix itself; the entries are allocated one by one and are ours to free.
+    const int count = *static_cast<const int*>(entry(columns == 1 ? LMP_SIZE_VECTOR : LMP_SIZE_ROWS, 0, 0));
+    std::vector<std::vector<double>> table(static_cast<std::size_t>(columns));
+    for (int column = 0; column < columns; ++column) {
+      for (int row = 0; row < count; ++row) {
+        double* const value =
+            static_cast<double*>(entry(columns == 1 ? LMP_TYPE_VECTOR : LMP_TYPE_ARRAY, row, column));
+        table[static_cast<std::size_t>(column)].push_back(*value);
+        lammps_free(value);
+      }
     }
-  }
-  return table;
+    return table;
+  });
 }
 
 bool Lammps::has_style(const std::string& category, const std::string& name) const {

@@ -53,7 +53,12 @@ class Lammps {
  private:
   void* handle_ = nullptr;
   int ranks_ = 1;
+  bool sound_ = true;  // no error so far
   std::string transcript_;
+
+  /// Runs a call for this instance; an error marks the instance.
+  template <class Call>
+  auto guarded(const Call& call) -> decltype(call());
 };
 
 /// LAMMPS' release as a date, without an instance at hand.

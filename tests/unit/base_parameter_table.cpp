@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -125,6 +127,21 @@ TEST(ParameterTable, DescribeShowsUnitRangeDefaultAndMeaning) {
   EXPECT_THAT(text, HasSubstr("constant | linear"));
   EXPECT_THAT(text, HasSubstr("ratio of Poisson"));
   EXPECT_THAT(text, HasSubstr("0.3"));
+}
+
+TEST(ParameterTable, LongListsOfWordsGoBelowTheirRow) {
+  std::vector<std::string> words;
+  for (int i = 0; i < 20; ++i) words.push_back("a_long_word_" + std::to_string(i));
+  struct Owner {
+    std::string word = "a_long_word_0";
+  };
+  const std::string text =
+      describe_table<Owner>({choice("word", &Owner::word, words, "pick one").optional()});
+  std::size_t longest = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
+  EXPECT_LE(longest, 100U);
+  for (const std::string& word : words) EXPECT_THAT(text, HasSubstr(word));
 }
 
 // A unit that does not parse would make every reading of the key fail.

@@ -81,6 +81,13 @@ TEST(RunGuarded, TurnsErrorsIntoExitCodesAndMessages) {
             "prog: internal error (please report it): what happened\n");
 }
 
+TEST(RunGuarded, AMessageThatNamesItsPlaceStandsAlone) {
+  ::testing::internal::CaptureStderr();
+  const auto body = [](int, char**) -> int { throw InputError("case.toml:3:1: error: unknown key 'x'"); };
+  EXPECT_EQ(run_guarded("prog", body, 0, nullptr), 2);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "case.toml:3:1: error: unknown key 'x'\n");
+}
+
 TEST(Progress, EndsWithShareTimeAndRemarkAndCanBeSilenced) {
   ::testing::internal::CaptureStderr();
   {

@@ -59,6 +59,17 @@ TEST(Units, ElectronVoltIsTheExactSiValue) {
   EXPECT_DOUBLE_EQ(convert(1.0, "eV/angstrom^3", "Pa"), 1.602176634e11);
 }
 
+// The number in memory is the one nearest to what was written, as if it had been written in SI.
+TEST(Units, DecimalFractionsRoundOnce) {
+  EXPECT_EQ(parse_quantity("2.03 g", "kg"), 0.00203);
+  EXPECT_EQ(parse_quantity("40 um", "m"), 40e-6);
+  EXPECT_EQ(parse_quantity("3.615 angstrom", "m"), 3.615e-10);
+  EXPECT_EQ(parse_quantity("0.1118 cm^3/g", "m^3/kg"), 0.1118e-3);
+  EXPECT_EQ(parse_quantity("20 us", "s"), 20e-6);
+  EXPECT_EQ(parse_quantity("-8.93e0 g/cm^3", "kg/m^3"), -8930.0);
+  EXPECT_EQ(parse_quantity("1.4E+2 GPa", "Pa"), 140e9);
+}
+
 TEST(Units, CelsiusCarriesItsOffsetAndOtherUnitsCarryNone) {
   const Conversion celsius = conversion("degC", "K");
   EXPECT_DOUBLE_EQ(celsius.factor, 1.0);

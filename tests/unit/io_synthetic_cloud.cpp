@@ -38,7 +38,13 @@ constexpr const char* input = R"(title = "Synthetic cloud: copper disk on alumin
 lower = ["0 m", "0 m", "-0.02 m"]
 upper = ["0.04 m", "0.04 m", "0.12 m"]
 cell_size = "0.0005 m"
-boundary = { x_lower = "symmetry", y_lower = "symmetry", x_upper = "outflow", y_upper = "outflow", z_lower = "outflow", z_upper = "outflow" }
+[domain.boundary]
+x_lower = "symmetry"
+x_upper = "outflow"
+y_lower = "symmetry"
+y_upper = "outflow"
+z_lower = "outflow"
+z_upper = "outflow"
 [time]
 end = "2e-05 s"
 courant = 0.5
@@ -61,8 +67,8 @@ shape = { cylinder = { center = ["0 m", "0 m", "0.001435 m"], axis = "z", radius
 [output]
 snapshot_every = "1e-06 s"
 fields = ["pressure", "temperature", "density", "internal_energy", "phase", "plastic_strain", "failed"]
-[run]
-version = "0.1.0"
+[provenance]
+program = "io_synthetic_cloud"
 threads = 2
 )";
 

@@ -36,8 +36,9 @@ TEST(Potential, LatticeSumsGiveThePublishedCopper) {
   }
 }
 
-// The short table of the file that LAMMPS ships and the full table are two tabulations of the same function: they differ by
-// their resolution, 0.2 meV at V0 and 0.5 meV at V/V0 = 0.75, where the crystal is 550 meV above its minimum.
+// The short table of the file that LAMMPS ships and the full table are two tabulations of the same function:
+// they differ by their resolution, 0.2 meV at V0 and 0.5 meV at V/V0 = 0.75, where the crystal is 550 meV
+// above its minimum.
 TEST(Potential, FullTableOfMishinsCopperContinuesTheShortOne) {
   const EamTables full = Potential::load("copper_mishin_2001", "Cu").tables();
   const EamTables small = Potential::load("Cu_mishin1.eam.alloy", "Cu").tables();

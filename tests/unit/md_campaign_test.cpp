@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The campaign: nothing is computed twice, a failure stays alone, what depends on a failure waits.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "md_fitting/data_set/hash.hpp"
+#include "md_fitting/protocols/campaign.hpp"
+#include "md_fitting/protocols/coexistence.hpp"
+#include "src/base/error.hpp"
+#include "src/base/log.hpp"
+#include "tests/unit/md_mpi_environment.hpp"
+#include "tests/unit/md_temporary_folder.hpp"
+
+namespace whipple::md {
+namespace {
+
+class Campaign : public ::testing::Test {
+ protected:
+  void SetUp() override { log::set_level(log::Level::quiet); }
+
+  Task task(const std::string& name, const std::string& dependency = {}) {
+    Task made;
+    made.key = sha256(name);
+    made.protocol = "isotherm";
+    made.conditions = {{"temperature", static_cast<double>(name.size())}};
+    made.provenance = {{"name", name}};
+    if (!dependency.empty()) made.dependency = sha256(dependency);
+    made.compute = [this, name](const PointRecord* needed) {
+      ++calls[name];
+      if (failing == name) throw LammpsError("LAMMPS: Lost atoms: original 256 current 255");
+      double value = 1.0;
+      if (needed != nullptr) value += needed->result("pressure").value;
+      return TaskResult{{{"pressure", {value, 0.25}}}, "", "units metal\n"};
+    };
+    return made;
+  }
+  CampaignSummary run(const std::vector<Task>& tasks, bool retry = false) {
+    return run_campaign(tasks, store, MPI_COMM_WORLD, retry);
+  }
+
+  TemporaryFolder folder;
+  std::filesystem::path store = folder.path() / "points.md.h5";
+  std::map<std::string, int> calls;
+  std::string failing;
+};
+
+TEST_F(Campaign, SecondCallComputesNothing) {
+  const std::vector<Task> tasks = {task("a"), task("bb"), task("ccc", "a")};
+  EXPECT_EQ(run(tasks).computed, 3);
+  const CampaignSummary again = run(tasks);
+  EXPECT_EQ(again.computed, 0);
+  EXPECT_EQ(again.present, 3);
+  EXPECT_EQ(calls["a"], 1);
+  // The point that depends on another was given its numbers.
+  EXPECT_EQ(read_store(store).at(2).result("pressure").value, 2.0);
+  EXPECT_EQ(read_store(store).at(0).origin("lammps_commands"), "units metal\n");
+}
+
+TEST_F(Campaign, MorePointsAreAdded) {
+  run({task("a")});
+  const CampaignSummary summary = run({task("a"), task("bb"), task("ccc", "a")});
+  EXPECT_EQ(summary.present, 1);
+  EXPECT_EQ(summary.computed, 2);
+  EXPECT_EQ(calls["a"], 1);
+  EXPECT_EQ(read_store(store).size(), 3U);
+}
+
+TEST_F(Campaign, FailureIsRecordedAndTheOthersGoOn) {
+  failing = "bb";
+  const std::vector<Task> tasks = {task("a"), task("bb"), task("ccc"), task("dddd", "bb")};
+  const CampaignSummary first = run(tasks);
+  EXPECT_EQ(first.computed, 2);
+  EXPECT_EQ(first.failed, 1);
+  EXPECT_EQ(first.blocked, 1);
+  const std::vector<PointRecord> points = read_store(store);
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_EQ(points[1].status, "failed");
+  EXPECT_NE(points[1].message.find("Lost atoms"), std::string::npos);
+  EXPECT_TRUE(points[1].results.empty());
+  EXPECT_NE(summarize(points[1]).find("isotherm at temperature = 2 K FAILED: LAMMPS: Lost atoms"),
+            std::string::npos)
+      << summarize(points[1]);
+
+  // Left alone until asked for; then only what is missing is computed.
+  failing.clear();
+  const CampaignSummary second = run(tasks);
+  EXPECT_EQ(second.left, 1);
+  EXPECT_EQ(second.blocked, 1);
+  EXPECT_EQ(calls["bb"], 1);
+  const CampaignSummary third = run(tasks, true);
+  EXPECT_EQ(third.computed, 2);
+  EXPECT_EQ(third.left, 0);
+  EXPECT_EQ(calls["a"], 1);
+  EXPECT_EQ(calls["bb"], 2);
+  EXPECT_EQ(select(read_store(store), "isotherm").size(), 4U);
+}
+
+TEST_F(Campaign, ResultsThatAreNotFiniteAreFailures) {
+  std::vector<Task> tasks = {task("a")};
+  tasks[0].compute = [](const PointRecord*) {
+    return TaskResult{{{"pressure", {std::nan(""), 0.0}}}, "", ""};
+  };
+  EXPECT_EQ(run(tasks).failed, 1);
+  EXPECT_EQ(read_store(store).at(0).message, "pressure is not finite");
+}
+
+TEST_F(Campaign, StoreThatIsSomethingElseIsReportedBeforeWork) {
+  store = "/proc/self/status";
+  EXPECT_THROW(run({task("a")}), InputError);
+  EXPECT_EQ(calls["a"], 0);
+}
+
+TEST(FormatResult, UsesUsualUnitsAndTheDigitsOfTheError) {
+  EXPECT_EQ(format_result("pressure", {45.3124e9, 0.0111e9}), "pressure = 45.312 +- 0.011 GPa");
+  EXPECT_EQ(format_result("shock_velocity", {5418.2, 0.94}), "shock_velocity = 5.41820 +- 0.00094 km/s");
+  EXPECT_EQ(format_result("specific_volume", {1.13465e-4, 1.1e-8}),
+            "specific_volume = 0.113465 +- 0.000011 cm^3/g");
+  EXPECT_EQ(format_result("temperature", {293.0, 0.0}), "temperature = 293 K");
+}
+
+// The acceptance of a two-phase run: end states that have lost a phase look as steady as coexistence.
+TEST(Coexistence, AcceptsOnlyTwoPhasesAtRest) {
+  const CoexistenceRun good{{1325.0, 2.0}, {1327.0, 2.0}, 0.50, 0.52, 0.40, 0.60};
+  EXPECT_EQ(refusal(good), "");
+  CoexistenceRun run = good;
+  run.largest_share = 0.97;
+  EXPECT_NE(refusal(run).find("the melt froze"), std::string::npos);
+  run = good;
+  run.least_share = 0.05;
+  EXPECT_NE(refusal(run).find("the crystal melted"), std::string::npos);
+  run = good;
+  run.second_share = 0.70;
+  EXPECT_NE(refusal(run).find("the share of crystal drifts"), std::string::npos);
+  run = good;
+  run.second_half.value = 1340.0;
+  EXPECT_NE(refusal(run).find("the temperature drifts"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace whipple::md

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Block averages find the error of the mean of correlated data, where the naive formula is several times too
+// small.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "md_fitting/protocols/statistics.hpp"
+#include "src/base/error.hpp"
+
+namespace whipple::md {
+namespace {
+
+constexpr double correlation = 0.9;  // x[i+1] = correlation x[i] + noise
+constexpr std::size_t samples = 8192;
+
+std::vector<double> autoregressive(unsigned seed) {
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> noise;
+  std::vector<double> series(samples);
+  double x = noise(generator) / std::sqrt(1 - correlation * correlation);
+  for (double& value : series) value = x = correlation * x + noise(generator);
+  return series;
+}
+
+// The mean of an AR(1) series with unit noise has the standard error 1/((1 - c) sqrt(n)) for long series.
+TEST(BlockAverage, FindsTheErrorOfAnAutoregressiveSeries) {
+  const double exact = 1.0 / ((1.0 - correlation) * std::sqrt(static_cast<double>(samples)));
+  const double naive = exact * std::sqrt((1 - correlation) / (1 + correlation));
+  double mean_error = 0.0;
+  int within = 0;
+  constexpr int realisations = 200;
+  for (unsigned seed = 0; seed < realisations; ++seed) {
+    const Estimate estimate = block_average(autoregressive(seed));
+    mean_error += estimate.error / realisations;
+    if (std::abs(estimate.value) < 2.0 * estimate.error) ++within;
+  }
+  EXPECT_GT(mean_error, 0.95 * exact);
+  EXPECT_LT(mean_error, 1.35 * exact);
+  EXPECT_GT(mean_error, 3.5 * naive);
+  // 95 % of normal means lie within two standard errors; 200 trials scatter by 1.5 %.
+  EXPECT_GE(within, 184);
+}
+
+TEST(BlockAverage, RefusesWhatHasNoError) {
+  EXPECT_THROW(block_average(std::vector<double>(15, 1.0)), InternalError);
+  std::vector<double> series(100, 1.0);
+  EXPECT_EQ(block_average(series).error, 0.0);
+  series[50] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(block_average(series), StateError);
+}
+
+TEST(ErrorCorrelation, SeesCommonNoise) {
+  double independent = 0.0;
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    const std::vector<double> a = autoregressive(2 * seed);
+    const std::vector<double> b = autoregressive(2 * seed + 1);
+    independent += error_correlation(a, b) / 50;
+    std::vector<double> opposite = a;
+    std::vector<double> mixed = a;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      opposite[i] = -3.0 * a[i];
+      mixed[i] = a[i] + b[i];
+    }
+    EXPECT_NEAR(error_correlation(a, a), 1.0, 1e-9);
+    EXPECT_NEAR(error_correlation(a, opposite), -1.0, 1e-9);
+    EXPECT_GT(error_correlation(a, mixed), 0.2);
+  }
+  EXPECT_NEAR(independent, 0.0, 0.12);
+}
+
+}  // namespace
+}  // namespace whipple::md
