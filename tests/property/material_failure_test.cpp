@@ -4,6 +4,7 @@
 
 #include "src/material/failure/plastic_strain.hpp"
 #include "src/material/failure/tensile_pressure.hpp"
+#include "src/material/material_file.hpp"
 #include "tests/unit/material_support.hpp"
 
 namespace whipple {
@@ -213,6 +214,63 @@ TEST(Failure, EnergyIntegratingSchemeDoesNoWorkOnAnOpenVoid) {
   for (int n = 0; n < 99; ++n) step(1.0 / 1.005);
   EXPECT_GT(points.void_volume[0], 0.0);
   EXPECT_EQ(points.specific_internal_energy[0], opened);
+}
+
+TEST(Void, RulesHoldOnRandomWalksThroughSolidLiquidAndVapour) {
+  // Copper with its three-phase equation of state, failed, from cold to vapour, volume wandering between
+  // 1/1.2 and 20 of the initial one: the total volume follows J, void and pressure exclude each other, the
+  // energy is constant while a void is open, and no state leaves the range of the model.
+  const Material material = read_material("copper");
+  std::mt19937_64 generator(17);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int open = 0, pressed = 0;
+  for (const double initial_energy : {0.0, 0.3e6, 0.8e6, 2e6, 5e6, 9e6}) {
+    SCOPED_TRACE(initial_energy);
+    MaterialPoints points = points_of(material, 1);
+    points.failed[0] = failure::tensile;
+    points.specific_internal_energy[0] = initial_energy;
+    const double initial = points.volume[0];
+    double total = initial;
+    double drift = 0.0;
+    for (int n = 0; n < 3000; ++n) {
+      drift = 0.95 * drift + 0.003 * uniform(generator);
+      if (total > 20.0 * initial) drift = -std::abs(drift);
+      if (total < initial / 1.2) drift = std::abs(drift);
+      const Matrix3 gradient = dilation(std::exp(drift));
+      const double before = points.specific_internal_energy[0];
+      const bool was_open = points.void_volume[0] > 0.0;
+      ASSERT_TRUE(step_with_work(material, points, gradient, without_viscosity).valid()) << "step " << n;
+      total *= volume_ratio(gradient, dt);
+      ASSERT_NO_FATAL_FAILURE(expect_void_rules(points, total)) << "step " << n;
+      ASSERT_TRUE(std::isfinite(points.temperature[0]) && points.temperature[0] > 0.0);
+      if (was_open) {
+        ASSERT_EQ(points.specific_internal_energy[0], before);
+      }
+      ++(points.void_volume[0] > 0.0 ? open : pressed);
+    }
+  }
+  EXPECT_GT(open, 1000);
+  EXPECT_GT(pressed, 1000);
+}
+
+TEST(FreeLiquid, CopperMeltedByTheEquationOfStateFailsAtTheFirstTension) {
+  const Material material = read_material("copper");
+  MaterialPoints points = points_of(material, 1);
+  points.specific_internal_energy[0] = 1.2e6;  // liquid at its reference volume, under pressure
+  step_with_work(material, points, Matrix3::Zero(), without_viscosity);
+  ASSERT_EQ(points.melted_fraction[0], 1.0);
+  ASSERT_GT(points.pressure[0], 10e9);
+  double last_pressure = points.pressure[0];
+  int steps = 0;
+  while (points.failed[0] == failure::intact) {
+    ASSERT_LT(++steps, 2000);
+    ASSERT_GE(points.pressure[0], 0.0);
+    last_pressure = points.pressure[0];
+    step_with_work(material, points, dilation(1.0005), without_viscosity);
+  }
+  EXPECT_LT(last_pressure, 0.2e9);  // it came down to zero before it parted
+  EXPECT_EQ(points.pressure[0], 0.0);
+  EXPECT_GT(points.void_volume[0], 0.0);
 }
 
 }  // namespace
