@@ -2,6 +2,7 @@
 #include "src/base/error.hpp"
 
 #include <cstdio>
+#include <string_view>
 
 namespace whipple {
 namespace {
@@ -16,6 +17,13 @@ int run_guarded(const char* program, int (*body)(int, char**), int argc, char** 
   try {
     return body(argc, argv);
   } catch (const InputError& error) {
+    const std::string_view message(error.what());
+    // "case.toml:3:1: error: ..." says what it is by itself.
+    if (message.substr(0, message.find('\n')).find(": error: ") != std::string_view::npos) {
+      std::fflush(stdout);
+      std::fprintf(stderr, "%s\n", error.what());
+      return static_cast<int>(ExitCode::input);
+    }
     return report(program, "error", error.what(), ExitCode::input);
   } catch (const StateError& error) {
     return report(program, "physics error", error.what(), ExitCode::state);

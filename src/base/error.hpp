@@ -35,7 +35,8 @@ class InternalError : public std::logic_error {
 };
 
 /// Runs `body` and turns the three kinds of errors into the exit codes above; prints the message to
-/// standard error in the form "program: error: message".
+/// standard error in the form "program: error: message", or as it is if it names its place in a file
+/// ("case.toml:3:1: error: message").
 /// @param program name printed before the message
 /// @param body    returns the exit code of the undisturbed case
 int run_guarded(const char* program, int (*body)(int, char**), int argc, char** argv);

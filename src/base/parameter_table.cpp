@@ -54,6 +54,21 @@ std::string first_fault(const Values& values, Check check_one) {
   return {};
 }
 
+/// The words of a list on indented lines of at most a hundred columns.
+std::string wrapped(const std::vector<std::string>& words) {
+  constexpr std::size_t columns = 100;
+  std::string result;
+  std::string line = "     ";
+  for (const std::string& word : words) {
+    if (line.size() + 1 + word.size() > columns) {
+      result += line + "\n";
+      line = "     ";
+    }
+    line += " " + word;
+  }
+  return result + line + "\n";
+}
+
 }  // namespace
 
 bool Range::contains(double value) const {
@@ -109,12 +124,17 @@ std::string to_toml(std::span<const BoundParameter> parameters) {
 }
 
 std::string describe(std::span<const BoundParameter> parameters) {
+  constexpr std::size_t widest_range = 44;  // longer lists of words go below their row
   std::vector<std::array<std::string, 5>> rows = {{"key", "unit", "range", "default", "meaning"}};
+  std::vector<std::string> below = {""};
   for (const BoundParameter& parameter : parameters) {
     const ParameterInfo& info = parameter.info;
-    const bool word = !info.choices.empty();
-    rows.push_back({info.name, info.unit.empty() ? "-" : info.unit,
-                    word ? fmt::format("{}", fmt::join(info.choices, " | ")) : info.range.text(),
+    std::string range =
+        info.choices.empty() ? info.range.text() : fmt::format("{}", fmt::join(info.choices, " | "));
+    const bool wide = range.size() > widest_range;
+    below.push_back(wide ? wrapped(info.choices) : "");
+    if (wide) range = "words below";
+    rows.push_back({info.name, info.unit.empty() ? "-" : info.unit, range,
                     info.required ? "required" : value_as_toml(parameter), info.meaning});
   }
   std::array<std::size_t, 5> width{};
@@ -122,9 +142,11 @@ std::string describe(std::span<const BoundParameter> parameters) {
     for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
   }
   std::string result;
-  for (const auto& row : rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& row = rows[i];
     result += fmt::format("  {:<{}}  {:<{}}  {:<{}}  {:<{}}  {}\n", row[0], width[0], row[1], width[1],
                           row[2], width[2], row[3], width[3], row[4]);
+    result += below[i];
   }
   return result;
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "src/base/error.hpp"
@@ -79,6 +80,32 @@ bool has_factor(std::string_view unit) {
   return false;
 }
 
+/// k of a conversion that multiplies by 10^k; none for any other.
+std::optional<int> power_of_ten(const Conversion& c) {
+  if (c.offset != 0.0 || !(c.factor > 0.0)) return std::nullopt;
+  const double power = std::round(std::log10(c.factor));
+  if (std::abs(c.factor / std::pow(10.0, power) - 1.0) > 1e-14) return std::nullopt;
+  return static_cast<int>(power);
+}
+
+/// Reads a decimal number times 10^power with one rounding: "2.03 g" becomes the double nearest to 0.00203
+/// kg, which 2.03 * 0.001 is not.
+double scaled_decimal(std::string_view number, int power) {
+  const std::size_t mark = number.find_first_of("eE");
+  const std::string_view mantissa = number.substr(0, mark);
+  int exponent = 0;
+  if (mark != std::string_view::npos) {
+    std::string_view digits = number.substr(mark + 1);
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+  }
+  const std::string scaled = fmt::format("{}e{}", mantissa, exponent + power);
+  double value = 0.0;
+  const auto [rest, status] = std::from_chars(scaled.data(), scaled.data() + scaled.size(), value);
+  if (status != std::errc()) throw InputError(fmt::format("'{}' is beyond the range of numbers", scaled));
+  return value;
+}
+
 std::mutex& database_mutex() {
   static std::mutex mutex;
   return mutex;
@@ -123,7 +150,9 @@ double parse_quantity(std::string_view text, std::string_view si_unit) {
   while (!unit.empty() && unit.back() == ' ') unit.remove_suffix(1);
   if (unit.empty()) return value;
   if (has_factor(unit)) throw InputError(fmt::format("'{}' is not a unit: it holds a second number", unit));
-  return convert(value, unit, si_unit);
+  const Conversion c = conversion(unit, si_unit);
+  if (const auto power = power_of_ten(c)) return scaled_decimal(std::string_view(begin, rest), *power);
+  return c.factor * value + c.offset;
 }
 
 std::string format_quantity(double value, std::string_view unit) {
