@@ -26,6 +26,9 @@ try:
 except ImportError as missing:
     sys.exit(f"report: error: {missing}; install python3-numpy python3-h5py python3-matplotlib")
 
+# Clamps are counted by the solver and shown if there were any.
+COUNTED = (("below_cold_curve", "points clamped to the cold curve"),
+           ("limited_volume_changes", "limited changes of volume"))
 CURVE_SNAPSHOTS = 60  # front and radius are taken from at most so many snapshots
 
 
@@ -39,11 +42,9 @@ class Report:
     def __init__(self, run, output, picture_times):
         self.run, self.output, self.picture_times = run, output, picture_times
         output.mkdir(parents=True, exist_ok=True)
-        versions = run.input.get("run", {})
-        subtitle = f"{run.folder.resolve()}"
-        if isinstance(versions, dict) and "version" in versions:
-            subtitle += f" · whipple {versions['version']}"
-        self.page = Page(run.title, subtitle)
+        origin = run.input.get("provenance", {})
+        facts = [origin[key] for key in ("program", "machine", "started") if key in origin]
+        self.page = Page(run.title, " · ".join(map(str, [run.folder.resolve(), *facts])))
         self.metrics = {"title": run.title, "multiplicity": run.multiplicity}
 
     def add_figure(self, name, caption, figure):
@@ -69,8 +70,9 @@ class Report:
             tiles.append(("largest energy error", number(float(abs(history["energy_error"]).max()), 2)))
         if "momentum_error" in history:
             tiles.append(("largest momentum error", number(float(abs(history["momentum_error"]).max()), 2)))
-        if history.last("below_cold_curve"):
-            tiles.append(("points clamped to the cold curve", f"{history.last('below_cold_curve'):.0f}"))
+        for name, meaning in COUNTED:
+            if history.last(name):
+                tiles.append((meaning, f"{history.last(name):.0f}"))
         self.page.tiles(tiles)
         if run.multiplicity > 1:
             planes = ", ".join(AXES[axis] for axis in sorted(run.symmetry_planes))
