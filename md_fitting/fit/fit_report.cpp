@@ -166,12 +166,10 @@ std::string fit_details(const GrayFit& fit) {
         fmt::format("  {} = {}  {} {}\n", constant.name, practical_quantity(constant.value, constant.unit),
                     constant.origin == Origin::given ? "given:" : "default", constant.source);
   }
-  if (!fit.checks.empty()) {
-    text += "\ncomplete model (without electrons) less simulations: points, rms, mean, largest\n";
-    for (const ModelCheck& check : fit.checks) {
-      text += fmt::format("  {}: {}, {:.3g}, {:+.3g}, {:+.3g} {}\n", check.quantity, check.points, check.rms,
-                          check.mean, check.maximum, check.unit);
-    }
+  text += "\ncomplete model of the material less simulations: points, rms, mean, largest\n";
+  for (const ModelCheck& check : fit.checks) {
+    text += fmt::format("  {}: {}, {:.3g}, {:+.3g}, {:+.3g} {}\n", check.quantity, check.points, check.rms,
+                        check.mean, check.maximum, check.unit);
   }
   return text;
 }

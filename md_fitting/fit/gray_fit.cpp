@@ -180,6 +180,19 @@ int remove_superheated(Observations& data, const GrayConstants& constants, const
   return removed;
 }
 
+/// Solves until the point about which the solidus is linear is the solution.
+GrayConstants converged(const Observations& data, const FitSettings& settings, GrayConstants constants) {
+  constexpr int most_passes = 30;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const GrayProblem problem(data, settings, constants);
+    const VectorXd step = solve(problem.least_squares()).parameters;
+    constants = problem.constants_at(step);
+    const double change = step.head(problem.constants()).lpNorm<Eigen::Infinity>();
+    if (change < 1e-7 || data.melting.empty()) return constants;
+  }
+  throw StateError("the fit of the melting temperature does not settle");
+}
+
 std::vector<Residual> residual_rows(const GrayProblem& problem, const Observations& data,
                                     const LeastSquaresProblem& weights, const LeastSquaresSolution& solution,
                                     double v0) {
@@ -303,12 +316,9 @@ GrayFit fit_gray(std::span<const md::PointRecord> points, const FitSettings& set
   fit.settings = settings;
   fit.element = data.element;
   fit.potential = data.potential;
-  {
-    const GrayProblem first(data, settings, start);
-    const LeastSquaresSolution solution = solve(first.least_squares());
-    start = first.constants_at(solution.parameters);
-    fit.superheated_states = remove_superheated(data, start, store_name);
-  }
+  start = converged(data, settings, start);
+  fit.superheated_states = remove_superheated(data, start, store_name);
+  start = converged(data, settings, start);
   const GrayProblem problem(data, settings, start);
   const LeastSquaresProblem weights = problem.least_squares();
   const LeastSquaresSolution solution = solve(weights);
@@ -330,7 +340,14 @@ GrayFit fit_gray(std::span<const md::PointRecord> points, const FitSettings& set
       data, settings, fit.gray,
       {settings.least_particle_velocity, settings.most_particle_velocity,
        static_cast<int>(problem.window().size()), fit.gray.hugoniot_intercept, fit.gray.hugoniot_slope});
-  fit.checks = check_model(fit.gray, data, points);
+  try {
+    fit.checks = check_model(fit.gray, data, points);
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{}: the fitted constants make no complete material with the electronic heat "
+                    "coefficient '{}': {}",
+                    store_name, settings.electronic, error.what()));
+  }
 
   if (settings.density) {
     fit.gray.reference_specific_volume = 1.0 / *settings.density;

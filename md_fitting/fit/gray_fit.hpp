@@ -62,7 +62,7 @@ struct ChiSquaredPart {
   int data = 0;
 };
 
-/// The complete model (without electrons) against all solid points of one protocol.
+/// The complete model of the material against all solid points of one protocol.
 struct ModelCheck {
   std::string quantity;  ///< "Hugoniot pressure", ...
   std::string unit;      ///< of the figures below

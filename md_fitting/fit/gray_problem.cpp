@@ -2,10 +2,8 @@
 #include "md_fitting/fit/gray_problem.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "md_fitting/fit/laws.hpp"
-#include "src/base/error.hpp"
 
 namespace whipple::fit {
 namespace {
@@ -38,6 +36,31 @@ GrayProblem::GrayProblem(const Observations& data, const FitSettings& settings, 
                      cold.energy.value - thermal_energy(start, v, cold.temperature)});
   }
   constants_ = fits_melting() ? Place::melting + 1 : Place::melting;
+  linearise_solidus();
+}
+
+void GrayProblem::linearise_solidus() {
+  const auto points = static_cast<Index>(data_.melting.size());
+  if (points == 0) return;
+  const auto temperatures = [&](const VectorXd& p) {
+    const Solidus solidus(constants_at(p));
+    VectorXd t(points);
+    for (Index i = 0; i < points; ++i) {
+      t[i] = solidus.temperature(data_.melting[static_cast<std::size_t>(i)].solid_volume.value);
+    }
+    return t;
+  };
+  VectorXd p = VectorXd::Zero(constants_);
+  solidus_ = temperatures(p);
+  solidus_slopes_.resize(points, constants_);
+  constexpr double step = 1e-4;
+  for (Index k = 0; k < constants_; ++k) {
+    p[k] = step;
+    const VectorXd above = temperatures(p);
+    p[k] = -step;
+    solidus_slopes_.col(k) = (above - temperatures(p)) / (2.0 * step);
+    p[k] = 0.0;
+  }
 }
 
 std::vector<std::string> GrayProblem::fitted_names() const {
@@ -102,14 +125,9 @@ VectorXd GrayProblem::residuals(const VectorXd& p) const {
       r[row++] = state.energy.value - at_zero.energy - thermal_energy(constants, v, state.temperature);
     }
   }
-  for (const MeltingPoint& point : data_.melting) {
-    try {
-      r[row++] = point.temperature.value - solidus(constants, point.solid_volume.value);
-    } catch (const InputError&) {
-      // A trial step led to constants that contradict each other: worse than any fit, so it is taken back.
-      r.setConstant(std::numeric_limits<double>::infinity());
-      return r;
-    }
+  for (std::size_t i = 0; i < data_.melting.size(); ++i) {
+    r[row++] = data_.melting[i].temperature.value - solidus_[i] -
+               solidus_slopes_.row(static_cast<Index>(i)).dot(p.head(constants_));
   }
   return r;
 }
@@ -166,10 +184,11 @@ void GrayProblem::weigh_isochore(const Isochore& isochore, Index begin, MatrixXd
     const ThermalState& state = isochore.states[static_cast<std::size_t>(i / 2)];
     const Index row = begin + i;
     const double noise = square(state.energy.error);
+    const double common = state.correlation * state.pressure.error * state.energy.error;
     // The residual of P contains -gamma E/V: the noise of E is common to both rows.
-    statistical(row, row) = square(state.pressure.error) + k * k * noise;
+    statistical(row, row) = square(state.pressure.error) + k * k * noise - 2.0 * k * common;
     statistical(row + 1, row + 1) = noise;
-    statistical(row, row + 1) = statistical(row + 1, row) = -k * noise;
+    statistical(row, row + 1) = statistical(row + 1, row) = common - k * noise;
     model(row, row) = square(errors.thermal_pressure);
     model(row + 1, row + 1) = square(errors.energy / data_.molar_mass);
     pressure[i] = errors.gruneisen * k * (state.energy.value - cold.energy.value);

@@ -19,6 +19,7 @@ class GrayProblem {
  public:
   /// @param data   outlives the problem
   /// @param start  start values of the fitted constants, and the values of all others
+  /// @throws InputError if the start values contradict each other
   GrayProblem(const Observations& data, const FitSettings& settings, const eos::GrayConstants& start);
 
   [[nodiscard]] LeastSquaresProblem least_squares() const;
@@ -33,6 +34,7 @@ class GrayProblem {
   /// Us and up of a state from its pressure and volume by the jump conditions about V0.
   static std::pair<double, double> velocities(const HugoniotState& state, double reference_volume);
 
+  [[nodiscard]] Eigen::Index constants() const { return constants_; }  ///< number of fitted ones
   [[nodiscard]] const std::vector<HugoniotState>& window() const { return window_; }
   [[nodiscard]] Eigen::Index hugoniot_begin() const { return 1; }
   [[nodiscard]] Eigen::Index isochores_begin() const { return 1 + static_cast<Eigen::Index>(window_.size()); }
@@ -48,6 +50,7 @@ class GrayProblem {
     double pressure, energy;  ///< of P - gamma E/V - ... and of E - 3RT - ..., at T = 0
   };
   [[nodiscard]] Intercepts intercepts(const Eigen::VectorXd& parameters, std::size_t isochore) const;
+  void linearise_solidus();
   void weigh(Eigen::MatrixXd& statistical, Eigen::MatrixXd& model) const;
   void weigh_isochore(const Isochore& isochore, Eigen::Index begin, Eigen::MatrixXd& statistical,
                       Eigen::MatrixXd& model) const;
@@ -57,7 +60,9 @@ class GrayProblem {
   FitSettings settings_;
   eos::GrayConstants start_;
   std::vector<HugoniotState> window_;
-  std::vector<Intercepts> cold_;  ///< of the start values: the parameters count from there
+  std::vector<Intercepts> cold_;    ///< of the start values: the parameters count from there
+  Eigen::VectorXd solidus_;         ///< of the coexistence points, at the start values, K
+  Eigen::MatrixXd solidus_slopes_;  ///< by the parameters
   Eigen::Index thermal_states_ = 0;
   Eigen::Index constants_ = 0;
 };

@@ -2,8 +2,7 @@
 #include "md_fitting/fit/laws.hpp"
 
 #include <cmath>
-
-#include "eos/models/gray_free_energy.hpp"
+#include <utility>
 
 namespace whipple::fit {
 namespace {
@@ -32,9 +31,19 @@ double melting_temperature(const eos::GrayConstants& c, double V) {
          std::exp(2.0 * c.gruneisen_slope * (1.0 - ratio));
 }
 
-double solidus(const eos::GrayConstants& constants, double V) {
-  const eos::GrayFreeEnergy surface(constants);
-  return surface.band(surface.isochore(V)).T1;
+namespace {
+/// The band rests on Delta S - alpha alone. Without the fall of the liquid's heat capacity (alpha = 0) the
+/// surface exists for every g, also where liquid or vapour of the complete model would have no positive heat
+/// capacity.
+eos::GrayConstants without_liquid_slope(eos::GrayConstants constants) {
+  constants.melting_entropy -= constants.liquid_heat_coefficient;
+  constants.liquid_heat_coefficient = 0.0;
+  return constants;
 }
+}  // namespace
+
+Solidus::Solidus(eos::GrayConstants constants) : surface_(without_liquid_slope(std::move(constants))) {}
+
+double Solidus::temperature(double V) const { return surface_.band(surface_.isochore(V)).T1; }
 
 }  // namespace whipple::fit

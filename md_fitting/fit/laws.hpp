@@ -2,6 +2,7 @@
 #pragma once
 
 #include "eos/models/gray_constants.hpp"
+#include "eos/models/gray_free_energy.hpp"
 
 /// The laws of GRAY that tie its constants to thermal data of a solid (docs/theory/fit.md, section 1). The
 /// electrons are left out: the simulations hold none. V in m^3/kg, T in K.
@@ -19,9 +20,16 @@ double anharmonic_pressure(const eos::GrayConstants& constants, double V, double
 /// T_m(V) = T_m0 (V/V0)^(-2(gamma0 - 1/3 - a)) exp(2 a (1 - V/V0)): Lindemann
 double melting_temperature(const eos::GrayConstants& constants, double V);
 
-/// Temperature at which the solid of the volume V begins to melt: the lower edge of the model's melting band,
-/// or T_m(V) if it melts isochorically. Here, and only here, the electrons of the material count.
-/// @throws InputError if the constants contradict each other
-double solidus(const eos::GrayConstants& constants, double V);
+/// Temperature at which the solid of a volume begins to melt: the lower edge of the model's melting band, or
+/// T_m(V) if it melts isochorically. Here, and only here, the electrons of the material count.
+class Solidus {
+ public:
+  /// @throws InputError if the constants contradict each other
+  explicit Solidus(eos::GrayConstants constants);
+  [[nodiscard]] double temperature(double V) const;
+
+ private:
+  eos::GrayFreeEnergy surface_;
+};
 
 }  // namespace whipple::fit

@@ -28,6 +28,7 @@ int whitened_residuals(const gsl_vector* x, void* data, gsl_vector* f) {
   try {
     Eigen::VectorXd p(static_cast<Eigen::Index>(x->size));
     for (std::size_t i = 0; i < x->size; ++i) p[static_cast<Eigen::Index>(i)] = gsl_vector_get(x, i);
+    p += callback->problem->start - Eigen::VectorXd::Ones(p.size());
     const Eigen::VectorXd r = callback->sigma->matrixL().solve(callback->problem->residuals(p));
     const bool usable = r.allFinite();  // otherwise worse than any fit: the step is taken back and shortened
     for (std::size_t i = 0; i < f->size; ++i)
@@ -89,11 +90,14 @@ LeastSquaresSolution solve(const LeastSquaresProblem& problem) {
   gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
   settings.trs = gsl_multifit_nlinear_trs_lm;
   settings.fdtype = GSL_MULTIFIT_NLINEAR_CTRDIFF;
+  settings.h_df = 1e-5;
   const Workspace workspace(
       gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, system.n, system.p),
       &gsl_multifit_nlinear_free);
 
-  Eigen::VectorXd start = problem.start;
+  // GSL's difference step is relative to the parameter: iterate on 1 + (p - start), so that none is near
+  // zero.
+  Eigen::VectorXd start = Eigen::VectorXd::Ones(p);
   const gsl_vector_view view = gsl_vector_view_array(start.data(), system.p);
   gsl_error_handler_t* handler = gsl_set_error_handler_off();  // errors come back as codes
   int status = gsl_multifit_nlinear_init(&view.vector, &system, workspace.get());
@@ -115,7 +119,7 @@ LeastSquaresSolution solve(const LeastSquaresProblem& problem) {
   const gsl_vector* x = gsl_multifit_nlinear_position(workspace.get());
   solution.parameters.resize(p);
   for (Eigen::Index i = 0; i < p; ++i) {
-    solution.parameters[i] = gsl_vector_get(x, static_cast<std::size_t>(i));
+    solution.parameters[i] = problem.start[i] + gsl_vector_get(x, static_cast<std::size_t>(i)) - 1.0;
   }
   solution.residuals = problem.residuals(solution.parameters);
   solution.whitened = sigma.matrixL().solve(solution.residuals);

@@ -122,7 +122,7 @@ std::string provenance_table(const GrayFit& fit, const StoreOrigin& origin) {
     text += fmt::format("\n[provenance.{}]\n", title);
     for (const auto& [protocol, count] : *counts) text += fmt::format("{} = {}\n", protocol, count);
   }
-  return text + "\n" + settings_table(fit.settings);
+  return fmt::format("{}\n{}", text, settings_table(fit.settings));
 }
 
 std::string defaults_table(const GrayFit& fit) {
@@ -151,7 +151,7 @@ StoreOrigin store_origin(const std::filesystem::path& store, std::span<const md:
     for (const auto& [name, value] : point.provenance) values[name].insert(value);
   }
   for (const auto& [name, found] : values) {
-    if (found.size() != 1) continue;
+    if (found.size() != 1 || name == "lammps_commands") continue;  // the commands stay in the store
     const bool everywhere =
         std::all_of(points.begin(), points.end(), [&, key = name](const md::PointRecord& point) {
           return !point.done() || point.provenance.contains(key);
@@ -221,7 +221,8 @@ std::string material_text(const GrayFit& fit, const StoreOrigin& origin,
   for (const Constant& constant : fit.constants) text += constant_line(constant);
   text += fmt::format("melting = {}\n\n", whipple::quoted(fit.gray.melting));
   text += strength_and_failure(template_file);
-  text += "\n" + covariance_table(fit) + "\n" + provenance_table(fit, origin) + "\n" + defaults_table(fit);
+  text +=
+      fmt::format("\n{}\n{}\n{}", covariance_table(fit), provenance_table(fit, origin), defaults_table(fit));
   return text;
 }
 

@@ -66,9 +66,8 @@ bool is_solid(const md::PointRecord& point) {
 
 }  // namespace
 
-std::vector<ModelCheck> check_model(eos::GrayConstants constants, const Observations& data,
+std::vector<ModelCheck> check_model(const eos::GrayConstants& constants, const Observations& data,
                                     std::span<const md::PointRecord> points) {
-  constants.electronic_heat_coefficient = 0.0;
   const eos::ModelEquationOfState<eos::Gray> model(constants);
   const eos::GrayFreeEnergy& surface = model.underlying().free_energy();
   std::vector<ModelCheck> checks;

@@ -11,10 +11,10 @@
 
 namespace whipple::fit {
 
-/// The complete model against everything solid that was simulated, used in the fit or not. The electrons of
-/// the material are taken out: the simulations hold none. Points outside the model's range are left out of a
-/// figure.
-std::vector<ModelCheck> check_model(eos::GrayConstants constants, const Observations& data,
+/// The complete model of the material, electrons included, against everything solid that was simulated, used
+/// in the fit or not. Points outside the model's range are left out of a figure.
+/// @throws InputError if the constants make no complete model
+std::vector<ModelCheck> check_model(const eos::GrayConstants& constants, const Observations& data,
                                     std::span<const md::PointRecord> points);
 
 }  // namespace whipple::fit

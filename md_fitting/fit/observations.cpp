@@ -68,8 +68,11 @@ std::vector<Isochore> isochores(std::span<const PointRecord> points) {
     for (const PointRecord& point : md::select(points, protocol)) {
       if (!is_solid(point)) continue;
       const double volume = point.condition("specific_volume");
-      const ThermalState state{point.condition("temperature"), point.result("pressure"),
-                               point.result("specific_internal_energy")};
+      ThermalState state{point.condition("temperature"), point.result("pressure"),
+                         point.result("specific_internal_energy")};
+      // Both are means over the same trajectory.
+      const auto correlation = point.results.find("error_correlation");
+      if (correlation != point.results.end()) state.correlation = correlation->second.value;
       const auto place = std::find_if(found.begin(), found.end(), [&](const Isochore& isochore) {
         return std::abs(isochore.volume - volume) <= same_volume * volume;
       });

@@ -20,7 +20,8 @@ struct HugoniotState {
 struct ThermalState {
   double temperature = 0.0;
   md::Estimate pressure;
-  md::Estimate energy;  ///< specific internal energy
+  md::Estimate energy;       ///< specific internal energy
+  double correlation = 0.0;  ///< of the errors of pressure and energy
 };
 
 /// Solid states of equal volume, by rising temperature.

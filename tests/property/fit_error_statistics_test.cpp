@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The errors that the fit states are those that it makes, over many realisations of the noise.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "md_fitting/fit/gray_fit.hpp"
+#include "tests/unit/fit_support.hpp"
+
+namespace whipple::fit {
+namespace {
+
+using testing::Noise;
+using testing::SyntheticStore;
+using testing::true_constants;
+
+const std::vector<std::string> fitted = {
+    "reference_specific_volume", "hugoniot_intercept",          "hugoniot_slope",     "gruneisen",
+    "gruneisen_slope",           "anharmonic_heat_coefficient", "melting_temperature"};
+
+std::vector<double> values(const eos::GrayConstants& c) {
+  return {c.reference_specific_volume, c.hugoniot_intercept,          c.hugoniot_slope,     c.gruneisen,
+          c.gruneisen_slope,           c.anharmonic_heat_coefficient, c.melting_temperature};
+}
+
+FitSettings noise_only() {
+  FitSettings settings;
+  settings.model_errors = ModelErrors::none();
+  settings.electronic = "none";  // as in the data
+  return settings;
+}
+
+// Over many seeds: no bias beyond 3 sigma of the mean, the scatter is the stated error, the correlation of C
+// and S is the stated one, and chi^2 is its number of degrees of freedom.
+TEST(FitRecovery, StatedErrorsAreTheErrorsMade) {
+  constexpr int seeds = 60;
+  const eos::GrayConstants truth = true_constants();
+  const std::vector<double> expected = values(truth);
+  std::vector<double> sum(fitted.size(), 0.0);
+  std::vector<double> squares(fitted.size(), 0.0);
+  double chi_squared = 0.0;
+  double degrees_of_freedom = 0.0;
+  double product = 0.0;
+  double stated_correlation = 0.0;
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    const SyntheticStore store(truth, Noise{}, seed);
+    const GrayFit fit = fit_gray(store.points, noise_only(), "synthetic");
+    std::vector<double> pull(fitted.size());
+    for (std::size_t i = 0; i < fitted.size(); ++i) {
+      const Constant& constant = fit.constant(fitted[i]);
+      pull[i] = (constant.value - expected[i]) / constant.error;
+      EXPECT_LT(std::abs(pull[i]), 4.5) << fitted[i] << ", seed " << seed;  // 1 in 1000 tests by chance
+      EXPECT_NEAR(constant.statistical_error, constant.error, 1e-6 * constant.error);
+      sum[i] += pull[i];
+      squares[i] += pull[i] * pull[i];
+    }
+    product += pull[1] * pull[2];
+    stated_correlation += fit.correlation()(1, 2);
+    chi_squared += fit.chi_squared;
+    degrees_of_freedom += fit.degrees_of_freedom;
+  }
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    const double mean = sum[i] / seeds;
+    EXPECT_LT(std::abs(mean), 3.5 / std::sqrt(seeds)) << fitted[i];
+    const double scatter = std::sqrt(squares[i] / seeds - mean * mean);
+    EXPECT_NEAR(scatter, 1.0, 3.5 / std::sqrt(2.0 * seeds)) << fitted[i];
+  }
+  EXPECT_NEAR(product / seeds, stated_correlation / seeds, 3.5 * 1.4 / std::sqrt(seeds));
+  EXPECT_LT(stated_correlation / seeds, -0.5);  // intercept and slope of a line far from the origin
+  EXPECT_NEAR(chi_squared / degrees_of_freedom, 1.0, 3.5 * std::sqrt(2.0 / degrees_of_freedom));
+}
+
+}  // namespace
+}  // namespace whipple::fit
