@@ -293,6 +293,7 @@ void finish(Step& step, Chunk& chunk) {
       scale_deviator(chunk, k, 0.0);
       pressure = share_volume(pressure, density * bulk, points.volume[i], points.void_volume[i]);
       if (pressure <= 0.0) squared = least_sound_speed * least_sound_speed;
+      if (points.void_volume[i] > 0.0) points.artificial_viscosity[i] = 0.0;  // opened in this step
     }
     points.pressure[i] = pressure;
     points.deviatoric_stress[i] = deviator(chunk, k);

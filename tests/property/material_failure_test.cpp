@@ -239,7 +239,7 @@ TEST(Void, RulesHoldOnRandomWalksThroughSolidLiquidAndVapour) {
       const Matrix3 gradient = dilation(std::exp(drift));
       const double before = points.specific_internal_energy[0];
       const bool was_open = points.void_volume[0] > 0.0;
-      ASSERT_TRUE(step_with_work(material, points, gradient, without_viscosity).valid()) << "step " << n;
+      ASSERT_TRUE(step_with_work(material, points, gradient, settings).valid()) << "step " << n;
       total *= volume_ratio(gradient, dt);
       ASSERT_NO_FATAL_FAILURE(expect_void_rules(points, total)) << "step " << n;
       ASSERT_TRUE(std::isfinite(points.temperature[0]) && points.temperature[0] > 0.0);
