@@ -1,1 +1,9 @@
-# Tests of this part: whipple_test(name SOURCES ... DEPENDS ... LABELS ...)
+# Tests of the command line and of the scripts.
+whipple_test(app_process_test SOURCES unit/app_process.cpp DEPENDS whipple_app LABELS fast)
+whipple_test(app_command_line_test SOURCES unit/app_command_line.cpp DEPENDS GTest::gmock LABELS fast)
+add_dependencies(app_command_line_test whipple whipple-md whipple-fit)
+
+# Who may know whom (docs/architecture.md), and that the checker finds violations.
+add_test(NAME layers COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_layers.py)
+add_test(NAME layers_self_test COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_layers.py --self-test)
+set_tests_properties(layers layers_self_test PROPERTIES LABELS fast)

@@ -5,6 +5,7 @@
 #include "src/app/command_line.hpp"
 #include "src/app/compare_command.hpp"
 #include "src/app/describe_command.hpp"
+#include "src/app/eos_command.hpp"
 #include "src/app/fit_command.hpp"
 #include "src/app/materials_command.hpp"
 #include "src/app/md_command.hpp"
@@ -28,6 +29,7 @@ int whipple_main(int argc, char** argv) {
   add_fit_command(app);
   add_compare_command(app);
   add_report_command(app);
+  add_eos_command(app);
   add_describe_command(app);
   add_materials_command(app);
   add_units_command(app);

@@ -11,32 +11,47 @@
 #include "src/app/paths.hpp"
 #include "src/app/process.hpp"
 #include "src/base/error.hpp"
-#include "src/base/log.hpp"
 
 namespace whipple::app {
 namespace {
 
-int run_report(const std::string& run_directory) {
-  if (!std::filesystem::is_directory(run_directory)) {
+struct Options {
+  std::string run;
+  std::string output;
+  std::vector<std::string> figures;
+  int times = 6;
+};
+
+int run_report(const Options& options) {
+  if (!std::filesystem::is_directory(options.run)) {
     throw InputError(
-        fmt::format("{}: error: is not a folder; expected the output of whipple run", run_directory));
+        fmt::format("{}: error: is not a folder; expected the output of whipple run", options.run));
   }
   // Debian's interpreter, not the first of PATH: numpy, h5py and matplotlib are Debian's packages.
   std::vector<std::string> arguments = {"/usr/bin/python3", find_data("scripts/report.py").string(),
-                                        run_directory};
-  if (log::level() == log::Level::quiet) arguments.emplace_back("--quiet");
+                                        options.run, "--times", std::to_string(options.times)};
+  if (!options.output.empty()) arguments.insert(arguments.end(), {"--output", options.output});
+  for (const std::string& figure : options.figures) arguments.insert(arguments.end(), {"--figure", figure});
   return run_process(arguments);
 }
 
 }  // namespace
 
 void add_report_command(CLI::App& app) {
-  auto run_directory = std::make_shared<std::string>();
+  auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("report", "Figures and tables of a run, as one HTML page");
-  command->add_option("run", *run_directory, "The run directory")->required();
-  command->footer("Example:\n  whipple report run/copper_disk_on_aluminium");
-  command->callback([run_directory] {
-    const int code = run_report(*run_directory);
+  command->add_option("run", options->run, "The run directory")->required();
+  command->add_option("-o,--output", options->output,
+                      "Folder of the page (default: report/ in the run directory)");
+  command->add_option("--figure", options->figures, "A figure to show before the pictures (repeatable)")
+      ->type_name("TITLE=FILE.png")
+      ->allow_extra_args(false);
+  command->add_option("--times", options->times, "Pictures at so many times")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->footer("Example:\n  whipple report run/copper_disk_on_aluminium --figure Hugoniot=compare.png");
+  command->callback([options] {
+    const int code = run_report(*options);
     if (code != 0) throw CLI::RuntimeError(code);
   });
 }

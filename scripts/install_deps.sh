@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs the packages of Debian 12 that the project is built from. A second call finds nothing to do.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+usage: scripts/install_deps.sh [--dev] [--paraview] [--list]
+  --dev        also clang-format-19 and clang-tidy-19 (scripts/lint.sh, format check of scripts/test.sh)
+  --paraview   also ParaView with its Python interface and a virtual screen (tests of the output files)
+  --list       print the packages and whether each is installed; install nothing
+TEXT
+}
+
+packages=(
+  g++ cmake ninja-build ccache mold git python3
+  liblammps-dev lammps-data
+  libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libp4est-dev
+  libeigen3-dev libgsl-dev libnanoflann-dev
+  libcli11-dev libspdlog-dev libfmt-dev libtomlplusplus-dev libudunits2-dev nlohmann-json3-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
+  python3-numpy python3-h5py python3-matplotlib
+)
+list=false
+for argument in "$@"; do
+  case $argument in
+    --dev) packages+=(clang-format-19 clang-tidy-19) ;;
+    --paraview) packages+=(paraview python3-paraview xvfb xauth) ;;
+    --list) list=true ;;
+    -h | --help) usage; exit 0 ;;
+    *) echo "install_deps.sh: unknown option '$argument'" >&2; usage >&2; exit 2 ;;
+  esac
+done
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "install_deps.sh: this is not Debian or Ubuntu (no apt). Install the counterparts of:" >&2
+  printf '  %s\n' "${packages[@]}" >&2
+  exit 2
+fi
+
+is_installed() {
+  [[ $(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+}
+
+missing=()
+for package in "${packages[@]}"; do
+  if is_installed "$package"; then
+    $list && echo "installed  $package"
+  else
+    $list && echo "missing    $package"
+    missing+=("$package")
+  fi
+done
+$list && exit 0
+
+if ((${#missing[@]} == 0)); then
+  echo "all ${#packages[@]} packages are installed"
+  exit 0
+fi
+
+privileged=()
+if ((EUID != 0)); then
+  if ! command -v sudo >/dev/null; then
+    echo "install_deps.sh: needs root to install: ${missing[*]}" >&2
+    exit 2
+  fi
+  privileged=(sudo)
+fi
+
+echo "installing: ${missing[*]}"
+"${privileged[@]}" apt-get update -q
+"${privileged[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"
+echo "installed ${#missing[@]} packages"

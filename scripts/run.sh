@@ -1,0 +1,134 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# From atoms to debris clouds, the whole way: molecular dynamics of copper, fit of its equation of state, comparison
+# with experiments, a copper disk through an aluminium plate, report. A second call redoes what is out of date only.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+usage() {
+  cat <<'TEXT'
+usage: scripts/run.sh [--long] [--force] [--ranks N] [--output DIR] [--set KEY=VALUE]...
+  --long           the molecular dynamics behind the material of the library (cases/md/copper_mishin.toml)
+  --force          redo every step
+  --ranks N        MPI ranks of the molecular dynamics (default: the physical cores)
+  --output DIR     where everything is written (default: run)
+  --set KEY=VALUE  changes a key of the impact case, for example domain.cell_size='0.6 mm'
+TEXT
+}
+
+plan=cases/md/copper_mishin_short.toml
+name=copper_mishin_short
+force=false
+output=run
+ranks=()
+overrides=()
+while (($# > 0)); do
+  case $1 in
+    --long) plan=cases/md/copper_mishin.toml; name=copper_mishin ;;
+    --force) force=true ;;
+    --ranks) ranks=(--ranks "${2:?--ranks needs a number}"); shift ;;
+    --output) output=${2:?--output needs a folder}; shift ;;
+    --set) overrides+=(--set "${2:?--set needs KEY=VALUE}"); shift ;;
+    -h | --help) usage; exit 0 ;;
+    *) echo "run.sh: unknown option '$1'" >&2; usage >&2; exit 2 ;;
+  esac
+  shift
+done
+
+case_file=cases/copper_disk_on_aluminium/case.toml
+store=$output/$name.md.h5
+material=$output/copper_fitted.toml
+comparison=$output/compare.png
+impact=$output/copper_disk_on_aluminium
+stamps=$output/.finished
+whipple=build/release/bin/whipple
+
+begin=$SECONDS
+stage() {
+  echo
+  echo "== $1 ($((SECONDS - begin)) s) =="
+}
+# up_to_date STEP INPUT...: the step finished, with these inputs and this command line, and none is newer than its end
+up_to_date() {
+  local stamp=$stamps/$1 input
+  shift
+  $force && return 1
+  [[ -f $stamp && $(<"$stamp") == "$*" ]] || return 1
+  for input in "$@"; do
+    [[ -e $input && $input -nt $stamp ]] && return 1
+  done
+  return 0
+}
+finished() {
+  local stamp=$stamps/$1
+  shift
+  printf '%s' "$*" >"$stamp"
+}
+
+stage "packages and build"
+scripts/install_deps.sh
+configured=$(cmake --preset release 2>&1) || { echo "$configured"; exit 1; }
+cmake --build --preset release --parallel "$(nproc)" --target whipple whipple-md whipple-fit
+mkdir -p "$output" "$stamps"
+
+stage "1/5 molecular dynamics: $plan"
+# The store knows which points it holds: an interrupted or changed plan computes what is missing.
+if $force; then rm -f "$store"; fi
+"$whipple" md "$plan" -o "$store" "${ranks[@]}"
+echo "written: $store"
+
+stage "2/5 fit of the equation of state"
+# The potential gives the shape of the equation of state; the density at rest is the measured one (0.1118 cm^3/g).
+inputs=("$store" build/release/bin/whipple-fit eos/materials/copper.toml)
+if up_to_date fit "${inputs[@]}"; then
+  echo "up to date: $material"
+  cat "$output/fit.txt"
+else
+  "$whipple" fit "$store" -o "$material" --density "8.9445 g/cm^3" --plot "$output/fit.png" --force |
+    tee "$output/fit.txt"
+  finished fit "${inputs[@]}"
+fi
+
+stage "3/5 comparison with experiments"
+inputs=("$material" build/release/bin/whipple eos/materials/copper.toml eos/data/cu_hugoniot_marsh1980.csv
+  eos/data/cu_isotherm_298K_dewaele2004.csv)
+if up_to_date compare "${inputs[@]}"; then
+  echo "up to date: $comparison"
+  cat "$output/compare.txt"
+else
+  "$whipple" compare "$material" eos/materials/copper.toml \
+    --with eos/data/cu_hugoniot_marsh1980.csv eos/data/cu_isotherm_298K_dewaele2004.csv \
+    --plot "$comparison" --force | tee "$output/compare.txt"
+  finished compare "${inputs[@]}"
+  echo "written: $comparison"
+fi
+
+stage "4/5 impact: $case_file"
+inputs=("$material" "$case_file" "${overrides[@]}")
+if up_to_date impact "${inputs[@]}"; then
+  echo "up to date: $impact"
+elif ! $force && [[ -f $stamps/impact_begun && $(<"$stamps/impact_begun") == "${inputs[*]}" &&
+  ! $material -nt $stamps/impact_begun && ! $case_file -nt $stamps/impact_begun ]] &&
+  compgen -G "$impact/checkpoint/*.h5" >/dev/null; then
+  echo "going on with an interrupted run"
+  "$whipple" run --restart "$impact"
+  finished impact "${inputs[@]}"
+else
+  rm -f "$stamps/impact"
+  finished impact_begun "${inputs[@]}"
+  "$whipple" run "$case_file" -o "$impact" --force --set body.0.material="$(realpath "$material")" "${overrides[@]}"
+  finished impact "${inputs[@]}"
+fi
+echo "written: $impact"
+
+stage "5/5 report"
+inputs=("$stamps/impact" "$comparison" scripts/report.py)
+if up_to_date report "${inputs[@]}"; then
+  echo "up to date"
+else
+  "$whipple" report "$impact" --figure "Equation of state and experiments=$comparison" --figure "Fit=$output/fit.png"
+  finished report "${inputs[@]}"
+fi
+
+echo
+echo "done in $((SECONDS - begin)) s; open $impact/report/report.html"

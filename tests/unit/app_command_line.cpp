@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The executable as its users meet it: exit codes, messages on standard error, help with examples,
+// suggestions.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace whipple {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Result {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class CommandLine : public ::testing::Test {
+ protected:
+  CommandLine()
+      : folder_(std::filesystem::temp_directory_path() / ("whipple_cli_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~CommandLine() override { std::filesystem::remove_all(folder_); }
+
+  /// Runs `whipple ARGUMENTS` (as a shell reads them) in the folder of the test.
+  [[nodiscard]] Result whipple(const std::string& arguments) const {
+    const std::string program = WHIPPLE_BINARY_DIR "/bin/whipple";
+    const std::string command = "cd '" + folder_.string() + "' && '" + program + "' " + arguments +
+                                " > .stdout 2> .stderr < /dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / ".stdout"),
+            text_of(folder_ / ".stderr")};
+  }
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(CommandLine, EverySubcommandHasHelpWithAnExample) {
+  for (const char* command : {"run", "check", "eos", "md", "fit", "compare", "report", "describe",
+                              "materials", "units", "version"}) {
+    const Result result = whipple(std::string(command) + " --help");
+    EXPECT_EQ(result.code, 0) << command;
+    EXPECT_THAT(result.out, HasSubstr("Example")) << command;
+    EXPECT_THAT(result.out, HasSubstr("--quiet")) << command;
+    EXPECT_EQ(result.err, "") << command;
+  }
+}
+
+TEST_F(CommandLine, HelpOfTheProgramListsTheSubcommandsAndTheExitCodes) {
+  const Result result = whipple("--help");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_THAT(result.out, HasSubstr("describe"));
+  EXPECT_THAT(result.out, HasSubstr("Exit codes"));
+}
+
+TEST_F(CommandLine, WithoutArgumentsItShowsTheHelpAsAnError) {
+  const Result result = whipple("");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr("Usage"));
+}
+
+TEST_F(CommandLine, AMistypedSubcommandIsAnsweredByTheNearest) {
+  const Result result = whipple("descirbe eos");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err,
+              HasSubstr("whipple: error: unknown subcommand 'descirbe', did you mean \"describe\"?"));
+}
+
+TEST_F(CommandLine, AMistypedOptionIsAnsweredByTheNearest) {
+  const Result result = whipple("md plan.toml --rank 2");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("unknown option '--rank', did you mean \"--ranks\"?"));
+  EXPECT_THAT(result.err, HasSubstr("see whipple md --help"));
+}
+
+TEST_F(CommandLine, WrongArgumentsHaveExitCodeTwo) {
+  EXPECT_EQ(whipple("md").code, 2) << "a required argument is missing";
+  EXPECT_EQ(whipple("md plan.toml --ranks many").code, 2) << "no number";
+  EXPECT_EQ(whipple("md plan.toml --ranks 0").code, 2) << "out of range";
+  EXPECT_EQ(whipple("version surplus").code, 2);
+  EXPECT_EQ(whipple("units '3 m'").code, 2) << "--to is missing";
+}
+
+TEST_F(CommandLine, MissingFilesAreNamedOnStandardError) {
+  for (const char* arguments :
+       {"run nowhere.toml", "check nowhere.toml", "md nowhere.toml", "report nowhere.toml"}) {
+    const Result result = whipple(arguments);
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_EQ(result.out, "") << arguments;
+    EXPECT_THAT(result.err, HasSubstr("nowhere.toml")) << arguments;
+  }
+}
+
+TEST_F(CommandLine, AllErrorsOfACaseComeAtOnceAndNothingIsWritten) {
+  write("case.toml", "[domain]\ncell_size = \"0.5 s\"\nlowr = [0, 0, 0]\n");
+  const Result result = whipple("run case.toml -o out");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("case.toml:2:13: error: 'cell_size' unit 's' has the wrong dimension"));
+  EXPECT_THAT(result.err,
+              HasSubstr("case.toml:3:1: error: unknown key 'domain.lowr', did you mean \"lower\"?"));
+  EXPECT_THAT(result.err, HasSubstr("missing"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+TEST_F(CommandLine, UnitsConvertsAndRefuses) {
+  EXPECT_EQ(whipple("units '1.4 Mbar' --to GPa").out, "140 GPa\n");
+  const Result wrong = whipple("units '1.4 Mbar' --to m");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("wrong dimension"));
+}
+
+TEST_F(CommandLine, DescribeKnowsModelsAndSuggestsThem) {
+  EXPECT_THAT(whipple("describe eos").out, HasSubstr("mie_gruneisen"));
+  EXPECT_THAT(whipple("describe eos gray").out, HasSubstr("hugoniot_intercept"));
+  EXPECT_THAT(whipple("describe md").out, HasSubstr("potential"));
+  EXPECT_THAT(whipple("describe case").out, HasSubstr("cell_size"));
+  const Result wrong = whipple("describe eos grey");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("did you mean \"gray\"?"));
+}
+
+// The page of the manual is the program's own output: it cannot lag behind the tables.
+TEST_F(CommandLine, TheInputReferenceIsUpToDate) {
+  const Result result = whipple("describe --markdown");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_TRUE(result.out == text_of(WHIPPLE_SOURCE_DIR "/docs/input_reference.md"))
+      << "run: build/release/bin/whipple describe --markdown > docs/input_reference.md";
+}
+
+TEST_F(CommandLine, MaterialsListsTheLibrary) {
+  const Result result = whipple("materials");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_THAT(result.out, HasSubstr("copper.toml"));
+  EXPECT_THAT(result.err, HasSubstr("eos/materials"));
+  EXPECT_EQ(whipple("materials --quiet").err, "") << "--quiet leaves the result only";
+}
+
+TEST_F(CommandLine, VersionNamesRevisionAndLibraries) {
+  const Result result = whipple("version");
+  EXPECT_EQ(result.code, 0);
+  for (const char* part : {"whipple ", "revision", "GNU", "HDF5", "Open MPI", "p4est"}) {
+    EXPECT_THAT(result.out, HasSubstr(part));
+  }
+  EXPECT_THAT(whipple("--version").out, HasSubstr("whipple "));
+}
+
+TEST_F(CommandLine, TheSisterProgramsAreFoundAndTheirExitCodesPassThrough) {
+  write("plan.toml", "element = \"Cu\"\npotental = \"x\"\n");
+  const Result md = whipple("md plan.toml --ranks 1");
+  EXPECT_EQ(md.code, 2);
+  EXPECT_THAT(md.err, HasSubstr("plan.toml:2:1: error: unknown key 'potental', did you mean \"potential\"?"));
+  const Result fit = whipple("fit nowhere.md.h5 -o new.toml");
+  EXPECT_EQ(fit.code, 2);
+  EXPECT_THAT(fit.err, HasSubstr("nowhere.md.h5"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "new.toml"));
+}
+
+TEST_F(CommandLine, NothingIsOverwrittenWithoutForce) {
+  write("points.csv", "precious\n");
+  const Result result = whipple("compare copper --with cu_hugoniot_marsh1980 --csv points.csv");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--force"));
+  EXPECT_EQ(text_of(folder_ / "points.csv"), "precious\n");
+}
+
+}  // namespace
+}  // namespace whipple

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Starting of other programs: exit codes, environment, and signals that must reach them.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <thread>
+
+#include "src/app/process.hpp"
+#include "src/base/error.hpp"
+
+namespace whipple::app {
+namespace {
+
+TEST(RunProcess, ReturnsTheExitCodeOfTheProgram) {
+  EXPECT_EQ(run_process({"sh", "-c", "exit 0"}), 0);
+  EXPECT_EQ(run_process({"sh", "-c", "exit 3"}), 3);
+}
+
+TEST(RunProcess, AProgramThatIsNotThereIsAnInputError) {
+  EXPECT_THROW(run_process({"/nonexistent/program"}), InputError);
+}
+
+TEST(RunProcess, ACrashOfTheProgramIsReported) {
+  EXPECT_THROW(run_process({"sh", "-c", "kill -KILL $$"}), InternalError);
+}
+
+TEST(RunProcess, VariablesAreAddedAndReplaced) {
+  ASSERT_EQ(setenv("WHIPPLE_TEST_OLD", "old", 1), 0);
+  const Environment environment = {{"WHIPPLE_TEST_OLD", "new"}, {"WHIPPLE_TEST_ADDED", "a b"}};
+  EXPECT_EQ(
+      run_process({"sh", "-c", "test \"$WHIPPLE_TEST_OLD $WHIPPLE_TEST_ADDED\" = 'new a b'"}, environment),
+      0);
+  EXPECT_EQ(run_process({"sh", "-c", "test \"$WHIPPLE_TEST_OLD\" = old"}), 0);
+}
+
+TEST(RunProcess, StandardInputIsEmpty) { EXPECT_EQ(run_process({"sh", "-c", "! read line"}), 0); }
+
+/// Sends a signal to this process as soon as the file exists (the program is ready for it then).
+std::jthread signal_when_ready(const std::filesystem::path& ready, int signal) {
+  return std::jthread([ready, signal] {
+    while (!std::filesystem::exists(ready)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    kill(getpid(), signal);
+  });
+}
+
+class Signals : public ::testing::TestWithParam<std::pair<int, const char*>> {};
+
+// A checkpoint is written by the program that is told of the signal: it must not end with this one.
+TEST_P(Signals, ReachTheProgram) {
+  const auto [signal, name] = GetParam();
+  const std::filesystem::path ready =
+      std::filesystem::temp_directory_path() / ("whipple_signal_" + std::to_string(getpid()) + name);
+  std::filesystem::remove(ready);
+  const std::string script = std::string("trap 'exit 7' ") + name + "; : > '" + ready.string() +
+                             "'; i=0; while [ $i -lt 400 ]; do sleep 0.05; i=$((i+1)); done; exit 1";
+  {
+    const std::jthread sender = signal_when_ready(ready, signal);
+    EXPECT_EQ(run_process({"sh", "-c", script}), 7);
+  }
+  std::filesystem::remove(ready);
+}
+
+INSTANTIATE_TEST_SUITE_P(RunProcess, Signals,
+                         ::testing::Values(std::pair(SIGINT, "INT"), std::pair(SIGTERM, "TERM"),
+                                           std::pair(SIGUSR1, "USR1")));
+
+TEST(RunProcess, AProgramEndedByASignalPassedOnGivesTheCodeOfShells) {
+  const std::filesystem::path ready =
+      std::filesystem::temp_directory_path() / ("whipple_signal_" + std::to_string(getpid()) + "default");
+  std::filesystem::remove(ready);
+  const std::jthread sender = signal_when_ready(ready, SIGTERM);
+  EXPECT_EQ(run_process({"sh", "-c", ": > '" + ready.string() + "'; exec sleep 20"}), 128 + SIGTERM);
+  std::filesystem::remove(ready);
+}
+
+TEST(RunProcess, HandlersAreRestored) {
+  struct sigaction before = {}, after = {};
+  sigaction(SIGTERM, nullptr, &before);
+  run_process({"true"});
+  sigaction(SIGTERM, nullptr, &after);
+  EXPECT_EQ(before.sa_handler, after.sa_handler);
+}
+
+TEST(PhysicalCores, AreAtLeastOneAndNoMoreThanTheThreads) {
+  EXPECT_GE(physical_cores(), 1);
+  EXPECT_LE(physical_cores(), static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+}  // namespace whipple::app
