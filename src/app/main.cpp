@@ -10,6 +10,7 @@
 #include "src/app/materials_command.hpp"
 #include "src/app/md_command.hpp"
 #include "src/app/report_command.hpp"
+#include "src/app/run_command.hpp"
 #include "src/app/units_command.hpp"
 #include "src/app/version_command.hpp"
 #include "src/base/error.hpp"
@@ -25,6 +26,8 @@ int whipple_main(int argc, char** argv) {
   app.set_version_flag("--version", fmt::format("whipple {}", build_info().version));
   app.require_subcommand(1);
 
+  add_run_command(app);
+  add_check_command(app);
   add_md_command(app);
   add_fit_command(app);
   add_compare_command(app);
