@@ -7,3 +7,10 @@ whipple_test(md_statistics_test SOURCES unit/md_statistics_test.cpp DEPENDS whip
 whipple_test(md_hugoniot_test SOURCES unit/md_hugoniot_test.cpp DEPENDS whipple_md_protocols LABELS fast)
 whipple_test(md_campaign_test SOURCES unit/md_campaign_test.cpp DEPENDS whipple_md_protocols LABELS fast)
 whipple_test(md_copper_test SOURCES validation/md_copper_test.cpp DEPENDS whipple_md_protocols LABELS fast)
+# Programs under mpirun, started by the test itself.
+add_executable(md_guard_abort parallel/md_guard_abort.cpp)
+target_link_libraries(md_guard_abort PRIVATE whipple_md_lammps)
+whipple_test(md_ranks_test SOURCES parallel/md_ranks_test.cpp DEPENDS whipple_md_data_set LABELS fast)
+target_compile_definitions(md_ranks_test PRIVATE WHIPPLE_MD="$<TARGET_FILE:whipple-md>"
+  WHIPPLE_MD_GUARD_ABORT="$<TARGET_FILE:md_guard_abort>" WHIPPLE_MPIEXEC="${MPIEXEC_EXECUTABLE}")
+add_dependencies(md_ranks_test whipple-md md_guard_abort)

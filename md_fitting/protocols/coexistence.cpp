@@ -61,7 +61,7 @@ class TwoPhaseCell {
     // The upper half melts at constant volume while the lower half rests.
     lammps.command("variable middle equal 0.5*(zlo+zhi)");
     lammps.command("variable middle_now equal {:.17g}", lammps.variable("middle"));
-    lammps.command("region upper block INF INF INF INF ${{middle_now}} INF units box");
+    lammps.command("region upper block INF INF INF INF ${middle_now} INF units box");
     lammps.command("group upper region upper");
     lammps.command("compute upper_share upper reduce ave v_is_crystal");
     lammps.command("variable upper_share equal c_upper_share");

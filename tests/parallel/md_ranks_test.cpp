@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// whipple-md as its users start it: the numbers do not depend on the ranks, a killed run goes on where it
+// stood, and the exit codes say what happened.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "md_fitting/data_set/data_set.hpp"
+#include "tests/unit/md_temporary_folder.hpp"
+
+namespace whipple::md {
+namespace {
+
+struct Outcome {
+  int code = -1;
+  std::string text;  // standard output and standard error
+};
+
+/// mpirun in containers (root), with more ranks than cores, without threads.
+void set_mpi_environment() {
+  for (const char* name :
+       {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_rmaps_base_oversubscribe",
+        "OMPI_MCA_mpi_yield_when_idle", "OMP_NUM_THREADS"}) {
+    setenv(name, "1", 1);
+  }
+}
+
+Outcome run(const std::string& command) {
+  set_mpi_environment();
+  Outcome outcome;
+  FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (pipe != nullptr && fgets(buffer.data(), buffer.size(), pipe) != nullptr)
+    outcome.text += buffer.data();
+  const int status = pipe == nullptr ? -1 : pclose(pipe);
+  if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
+  return outcome;
+}
+
+std::string mpirun(int ranks, const std::string& command) {
+  return std::string(WHIPPLE_MPIEXEC) + " -n " + std::to_string(ranks) + " " + command;
+}
+
+constexpr const char* plan_text = R"(
+title = "test"
+element = "Cu"
+potential = "copper_universal_3"
+[zero_pressure_volume]
+cells = 3
+equilibration_steps = 200
+steps = 400
+[[isotherm]]
+volume_ratio = [1.0, 0.9, 0.8]
+cells = 3
+equilibration_steps = 100
+steps = 400
+[hugoniot]
+volume_ratio = [0.9, 0.8]
+cells = 3
+equilibration_steps = 100
+steps = 400
+)";
+
+class WhippleMd : public ::testing::Test {
+ protected:
+  void SetUp() override { write("plan.toml", plan_text); }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder.path() / name) << text;
+  }
+  std::string path(const std::string& name) { return (folder.path() / name).string(); }
+  std::string command(const std::string& store) {
+    return std::string(WHIPPLE_MD) + " " + path("plan.toml") + " -o " + path(store);
+  }
+  TemporaryFolder folder;
+};
+
+void expect_same_points(std::vector<PointRecord> first, std::vector<PointRecord> second) {
+  ASSERT_EQ(first.size(), second.size());
+  const auto by_key = [](const PointRecord& a, const PointRecord& b) { return a.key < b.key; };
+  std::sort(first.begin(), first.end(), by_key);
+  std::sort(second.begin(), second.end(), by_key);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].key, second[i].key);
+    EXPECT_TRUE(first[i].done());
+    for (const auto& [name, estimate] : first[i].results) {
+      EXPECT_EQ(estimate.value, second[i].result(name).value) << first[i].label() << " " << name;
+      EXPECT_EQ(estimate.error, second[i].result(name).error) << first[i].label() << " " << name;
+    }
+  }
+}
+
+TEST_F(WhippleMd, NumbersDoNotDependOnTheRanks) {
+  const Outcome alone = run(command("one.md.h5"));
+  ASSERT_EQ(alone.code, 0) << alone.text;
+  for (const int ranks : {2, 3}) {
+    const std::string store = std::to_string(ranks) + ".md.h5";
+    const Outcome together = run(mpirun(ranks, command(store)));
+    ASSERT_EQ(together.code, 0) << together.text;
+    expect_same_points(read_store(path("one.md.h5")), read_store(path(store)));
+  }
+  const Outcome again = run(mpirun(2, command("one.md.h5")));
+  EXPECT_EQ(again.code, 0);
+  EXPECT_NE(again.text.find("nothing to compute: all 7 points are in"), std::string::npos) << again.text;
+}
+
+TEST_F(WhippleMd, KilledRunGoesOnWhereItStood) {
+  const pid_t child = fork();
+  if (child == 0) {
+    if (std::freopen("/dev/null", "w", stderr) == nullptr) _exit(1);
+    execl(WHIPPLE_MD, WHIPPLE_MD, path("plan.toml").c_str(), "-o", path("killed.md.h5").c_str(), nullptr);
+    _exit(1);
+  }
+  const auto store = folder.path() / "killed.md.h5";
+  std::size_t before = 0;
+  for (int i = 0; i < 6000 && before < 2; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (std::filesystem::exists(store)) before = read_store(store).size();
+  }
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  before = read_store(store).size();
+  ASSERT_GE(before, 2U);
+  const Outcome rest = run(command("killed.md.h5"));
+  EXPECT_EQ(rest.code, 0) << rest.text;
+  if (before < 7) {
+    EXPECT_NE(rest.text.find(std::to_string(7 - before) + " points computed, " + std::to_string(before) +
+                             " were there"),
+              std::string::npos)
+        << rest.text;
+  }
+  ASSERT_EQ(run(command("whole.md.h5")).code, 0);
+  expect_same_points(read_store(store), read_store(path("whole.md.h5")));
+}
+
+TEST_F(WhippleMd, ExitCodesTellWhatHappened) {
+  // The user's input: every rank ends with code 2, one of them speaks.
+  write("plan.toml", "element = \"Cu\"\npotential = \"nothing\"\n");
+  const Outcome unknown = run(mpirun(2, command("x.md.h5")));
+  EXPECT_EQ(unknown.code, 2) << unknown.text;
+  EXPECT_NE(unknown.text.find("there is no potential 'nothing'"), std::string::npos) << unknown.text;
+  EXPECT_EQ(unknown.text.find("there is no potential"), unknown.text.rfind("there is no potential"));
+  EXPECT_EQ(run(std::string(WHIPPLE_MD) + " /does/not/exist.toml").code, 2);
+  EXPECT_EQ(run(std::string(WHIPPLE_MD) + " --no-such-option").code, 2);
+
+  write("plan.toml",
+        "element = \"Cu\"\npotential = \"Cu_mishin1.eam.alloy\"\n[[isotherm]]\nvolume_ratio = [0.65]\n");
+  const Outcome range = run(command("x.md.h5"));
+  EXPECT_EQ(range.code, 2);
+  EXPECT_NE(range.text.find("density table ends at V/V0 = 0.719"), std::string::npos) << range.text;
+  EXPECT_FALSE(std::filesystem::exists(path("x.md.h5")));
+
+  write("plan.toml", plan_text);
+  const Outcome unwritable =
+      run(std::string(WHIPPLE_MD) + " " + path("plan.toml") + " -o /proc/whipple/x.md.h5");
+  EXPECT_EQ(unwritable.code, 2);
+  EXPECT_EQ(unwritable.text.find("lattice"), std::string::npos) << unwritable.text;
+
+  // The physics: one point fails, the others are there, a second call leaves it alone and still says so.
+  write(
+      "plan.toml",
+      "element = \"Cu\"\npotential = \"copper_universal_3\"\n[[isotherm]]\nvolume_ratio = [1.0]\ncells = 3\n"
+      "temperature = 5000\nequilibration_steps = 200\nsteps = 200\ntime_step = \"80 fs\"\n");
+  const Outcome failed = run(mpirun(2, command("failed.md.h5")));
+  EXPECT_EQ(failed.code, 3) << failed.text;
+  EXPECT_NE(failed.text.find("FAILED: LAMMPS: "), std::string::npos) << failed.text;
+  EXPECT_EQ(read_store(path("failed.md.h5")).size(), 2U);
+  const Outcome again = run(command("failed.md.h5"));
+  EXPECT_EQ(again.code, 3);
+  EXPECT_NE(again.text.find("--retry-failed"), std::string::npos) << again.text;
+  const Outcome retried = run(command("failed.md.h5") + " --retry-failed");
+  EXPECT_NE(retried.text.find("FAILED: LAMMPS: "), std::string::npos) << retried.text;
+
+  const Outcome quiet = run(command("failed.md.h5") + " --quiet --retry-failed");
+  EXPECT_EQ(quiet.text.find("points, potential"), std::string::npos) << quiet.text;
+  EXPECT_NE(run(std::string(WHIPPLE_MD) + " --describe").text.find("[hugoniot]"), std::string::npos);
+}
+
+// An instance on two ranks where one rank alone reports an error: the job ends with the message instead of
+// hanging.
+TEST(ErrorGuard, AbortsWhenOneRankOfSeveralReportsAnError) {
+  const Outcome outcome = run("timeout 60 " + mpirun(2, WHIPPLE_MD_GUARD_ABORT));
+  EXPECT_NE(outcome.code, 0);
+  EXPECT_NE(outcome.code, 124) << "the ranks hang";
+  EXPECT_NE(outcome.text.find("reported by one of 2 ranks: aborting"), std::string::npos) << outcome.text;
+  EXPECT_EQ(outcome.text.find("no error was reported"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace whipple::md
