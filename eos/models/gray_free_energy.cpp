@@ -14,7 +14,7 @@
 namespace whipple::eos {
 namespace {
 
-constexpr int table_intervals = 1024;
+constexpr int table_intervals = 512;
 /// Nearest approach to the pole 1 - S x = 0 of the linear Hugoniot if the cold pressure has not turned over
 /// before.
 constexpr double pole_margin = 0.03;
@@ -95,7 +95,7 @@ void GrayFreeEnergy::tabulate_cold_curve() {
 
   // Compression limit (G29): the first x at which the cold pressure stops rising.
   const double last = std::min((1 - pole_margin) / c.hugoniot_slope, greatest_compression);
-  constexpr int steps = 4000;
+  constexpr int steps = 500;
   double limit = last, sum = 0, previous_slope = cold_from_energy(0, energy(0, 0)).p1;
   if (previous_slope <= 0) {
     throw InputError(

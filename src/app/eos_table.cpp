@@ -88,9 +88,21 @@ void print(const CurveTable& table) {
     lines[0].push_back(column.name.substr(0, end));
     lines[1].push_back(column.unit);
   }
+  // Round-off about zero (the pressure of a state at rest) prints as 0; the CSV keeps every digit.
+  std::vector<double> greatest(table.columns.size(), 0.0);
+  for (const auto& row : table.rows) {
+    for (const std::size_t i : shown) {
+      const double* number = std::get_if<double>(&row[i]);
+      if (number != nullptr && std::isfinite(*number)) greatest[i] = std::max(greatest[i], std::abs(*number));
+    }
+  }
   for (const auto& row : table.rows) {
     lines.emplace_back();
-    for (const std::size_t i : shown) lines.back().push_back(text(row[i], table.columns[i].size, 6));
+    for (const std::size_t i : shown) {
+      const double* number = std::get_if<double>(&row[i]);
+      const bool nothing = number != nullptr && std::abs(*number) < 1e-11 * greatest[i];
+      lines.back().push_back(nothing ? "0" : text(row[i], table.columns[i].size, 6));
+    }
   }
   std::vector<std::size_t> width(shown.size(), 0);
   for (const auto& line : lines) {
