@@ -2,3 +2,8 @@
 whipple_test(fit_least_squares_test SOURCES unit/fit_least_squares_test.cpp DEPENDS whipple_fit LABELS fast)
 whipple_test(fit_recovery_test SOURCES property/fit_recovery_test.cpp DEPENDS whipple_fit LABELS fast)
 whipple_test(fit_error_statistics_test SOURCES property/fit_error_statistics_test.cpp DEPENDS whipple_fit LABELS long)
+whipple_test(fit_material_test SOURCES unit/fit_material_test.cpp DEPENDS whipple_fit whipple_material GTest::gmock LABELS fast)
+add_dependencies(fit_material_test whipple-fit)
+target_compile_definitions(fit_material_test PRIVATE WHIPPLE_FIT_EXECUTABLE="$<TARGET_FILE:whipple-fit>")
+whipple_test(fit_compare_test SOURCES validation/fit_compare_test.cpp ${PROJECT_SOURCE_DIR}/src/app/compare_data.cpp
+             DEPENDS whipple_material whipple_eos GTest::gmock LABELS fast)

@@ -12,9 +12,9 @@ struct ModelErrors {
   double zero_pressure_volume = 1e-4;  ///< relative
   double shock_velocity = 3e-3;        ///< relative, per Hugoniot state: Us-up is not exactly a line
   double gruneisen = 0.02;             ///< relative, common to an isochore: gamma is not exactly linear in V
-  double anharmonic = 1.5e-4;          ///< J/(mol K^2), common to an isochore: the coefficient depends on V
-  double thermal_pressure = 2e7;       ///< Pa, per state
-  double energy = 50.0;  ///< J/mol, per state: the anharmonic energy is not exactly quadratic in T
+  double anharmonic = 2e-4;            ///< J/(mol K^2), common to an isochore: the coefficient depends on V
+  double thermal_pressure = 0.01;      ///< relative, per state: gamma depends on T, too
+  double energy = 0.003;  ///< relative to the thermal energy, per state: not exactly quadratic in T
   double melting_temperature = 0.01;  ///< relative: Lindemann law
 
   /// No model error at all: the weights are those of the noise.

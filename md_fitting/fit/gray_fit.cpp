@@ -143,7 +143,8 @@ IsochoreGruneisen isochore_gruneisen(const Isochore& isochore) {
   for (int pass = 0; pass < 3; ++pass) {  // the weights hold the slope
     double w = 0, we = 0, wp = 0, wee = 0, wep = 0;
     for (const ThermalState& state : isochore.states) {
-      const double variance = std::pow(state.pressure.error, 2) + std::pow(slope * state.energy.error, 2);
+      const double variance = std::pow(state.pressure.error, 2) + std::pow(slope * state.energy.error, 2) -
+                              2.0 * slope * state.correlation * state.pressure.error * state.energy.error;
       const double weight = variance > 0.0 ? 1.0 / variance : 1.0;
       const double e = state.energy.value - isochore.states.front().energy.value;
       const double p = state.pressure.value - isochore.states.front().pressure.value;

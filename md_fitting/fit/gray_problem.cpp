@@ -189,9 +189,10 @@ void GrayProblem::weigh_isochore(const Isochore& isochore, Index begin, MatrixXd
     statistical(row, row) = square(state.pressure.error) + k * k * noise - 2.0 * k * common;
     statistical(row + 1, row + 1) = noise;
     statistical(row, row + 1) = statistical(row + 1, row) = common - k * noise;
-    model(row, row) = square(errors.thermal_pressure);
-    model(row + 1, row + 1) = square(errors.energy / data_.molar_mass);
-    pressure[i] = errors.gruneisen * k * (state.energy.value - cold.energy.value);
+    const double heat = state.energy.value - cold.energy.value;
+    model(row, row) = square(errors.thermal_pressure * k * heat);
+    model(row + 1, row + 1) = square(errors.energy * heat);
+    pressure[i] = errors.gruneisen * k * heat;
     energy[i + 1] =
         errors.anharmonic * (square(state.temperature) - square(cold.temperature)) / (2.0 * data_.molar_mass);
   }

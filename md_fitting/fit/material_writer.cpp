@@ -102,8 +102,8 @@ std::string settings_table(const FitSettings& settings) {
                       errors.zero_pressure_volume, errors.shock_velocity);
   text += fmt::format("model_error_gruneisen = {}\nmodel_error_anharmonic = \"{} J/(mol K^2)\"\n",
                       errors.gruneisen, errors.anharmonic);
-  text += fmt::format("model_error_thermal_pressure = \"{} GPa\"\nmodel_error_energy = \"{} J/mol\"\n",
-                      errors.thermal_pressure * 1e-9, errors.energy);
+  text += fmt::format("model_error_thermal_pressure = {}\nmodel_error_energy = {}\n", errors.thermal_pressure,
+                      errors.energy);
   text += fmt::format("model_error_melting_temperature = {}\n", errors.melting_temperature);
   return text;
 }

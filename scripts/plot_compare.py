@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Materials against experiments: plot_compare.py DATA.json FIGURE.png (started by whipple compare --plot)."""
+import json
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+
+def numbers(values):
+    return np.array([np.nan if value is None else value for value in values], dtype=float)
+
+
+def label(quantity, unit):
+    names = {"up": "particle velocity", "Us": "shock velocity", "P": "pressure", "V/V0": "$V/V_0$"}
+    name = names.get(quantity, quantity)
+    return f"{name} ({unit})" if unit else name
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    with open(sys.argv[1], encoding="utf-8") as file:
+        panels = json.load(file)
+    plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False})
+    count = len(panels)
+    figure, axes = plt.subplots(2, count, figsize=(5.2 * count, 5.4), sharex="col", height_ratios=(3, 1.2),
+                                layout="constrained", squeeze=False)
+    for column, panel in enumerate(panels):
+        top, bottom = axes[0, column], axes[1, column]
+        x = numbers(panel["x"])
+        top.plot(x, numbers(panel["measured"]), "o", ms=4, mfc="none", mec="0.25", mew=0.8, label="experiment",
+                 zorder=3)
+        unit = panel["deviation_unit"].split()[0]
+        for i, material in enumerate(panel["materials"]):
+            colour = f"C{i}"
+            top.plot(numbers(material["x"]), numbers(material["curve"]), color=colour, lw=1.3,
+                     label=f"{material['name']} (rms {material['rms']:.2f} {unit})")
+            bottom.plot(x, numbers(material["deviation"]), "o", ms=2.8, color=colour)
+        bottom.axhline(0.0, color="0.4", lw=0.8)
+        kind = panel["kind"] + (f", {panel['temperature']:g} K" if panel["kind"] == "isotherm" else "")
+        top.set_title(f"{panel['experiment']}\n{kind}", fontsize=9)
+        top.set_ylabel(label(panel["ordinate"], panel["ordinate_unit"]))
+        bottom.set_ylabel(f"material less\nexperiment ({panel['deviation_unit']})")
+        bottom.set_xlabel(label(panel["abscissa"], panel["abscissa_unit"]))
+        top.legend(frameon=False, fontsize=8)
+    figure.savefig(sys.argv[2], dpi=200)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Data, fitted laws and residuals of whipple-fit: plot_fit.py DATA.json FIGURE.png (started by whipple fit --plot)."""
+import json
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+
+def rows(data, quantity):
+    found = [row for row in data["residuals"] if row["quantity"] == quantity]
+    return {key: np.array([row[key] for row in found]) for key in found[0] if key != "quantity"} if found else None
+
+
+def residual_panel(axes, x, table, size, unit):
+    axes.errorbar(x, (table["datum"] - table["fitted"]) / size, yerr=table["sigma"] / size, fmt="o", ms=3.5, lw=0.9,
+                  capsize=2, color="tab:blue")
+    axes.axhline(0.0, color="0.4", lw=0.8)
+    axes.set_ylabel(f"residual\n({unit})")
+
+
+def value(data, name):
+    return data["constants"][name]["value"]
+
+
+def plot_shock_velocity(data, top, bottom):
+    table = rows(data, "shock_velocity")
+    up = np.linspace(0.0, 1.05 * table["abscissa"].max(), 50)
+    c, s = value(data, "hugoniot_intercept"), value(data, "hugoniot_slope")
+    top.plot(up / 1e3, (c + s * up) / 1e3, color="0.2", lw=1.2, label=f"{c / 1e3:.3f} km/s + {s:.3f} $u_p$")
+    top.plot(table["abscissa"] / 1e3, table["datum"] / 1e3, "o", ms=4, color="tab:blue", label="simulations")
+    top.set_ylabel("shock velocity (km/s)")
+    top.legend(frameon=False)
+    residual_panel(bottom, table["abscissa"] / 1e3, table, 1.0, "m/s")
+    bottom.set_xlabel("particle velocity (km/s)")
+
+
+def plot_gruneisen(data, top, bottom):
+    v0 = data["reference_volume"]
+    volume = np.array([row["volume"] for row in data["isochores"]]) / v0
+    gamma = np.array([row["gruneisen"] for row in data["isochores"]])
+    error = np.array([row["error"] for row in data["isochores"]])
+    grid = np.linspace(volume.min() - 0.01, volume.max() + 0.01, 50)
+
+    def line(ratio):
+        return value(data, "gruneisen") - value(data, "gruneisen_slope") * (1.0 - ratio)
+
+    top.plot(grid, line(grid), color="0.2", lw=1.2, label="fitted $\\gamma_0 - a (1 - V/V_0)$")
+    top.errorbar(volume, gamma, yerr=error, fmt="o", ms=4, capsize=2, color="tab:blue",
+                 label="$V\\,\\Delta P/\\Delta E$ of each isochore")
+    top.set_ylabel("Grüneisen parameter")
+    top.legend(frameon=False)
+    bottom.errorbar(volume, gamma - line(volume), yerr=error, fmt="o", ms=3.5, capsize=2, color="tab:blue")
+    bottom.axhline(0.0, color="0.4", lw=0.8)
+    bottom.set_ylabel("residual")
+    bottom.set_xlabel("$V/V_0$")
+
+
+def plot_energy(data, top, bottom):
+    table = rows(data, "thermal_energy")
+    v0 = data["reference_volume"]
+    mass = value(data, "molar_mass")
+    gas_constant = 8.314  # J/(mol K), that of the GRAY constants
+    colours = plt.get_cmap("viridis")
+    volumes = sorted(set(table["volume"]), reverse=True)
+    for i, volume in enumerate(volumes):
+        here = table["volume"] == volume
+        colour = colours(i / max(1, len(volumes) - 1) * 0.9)
+        temperature = table["temperature"][here]
+        harmonic = 3.0 * gas_constant * (temperature - temperature.min())
+        top.plot(temperature, (table["datum"][here] * mass - harmonic) / 1e3, "o", ms=4, color=colour,
+                 label=f"{volume / v0:.3f}")
+        top.plot(temperature, (table["fitted"][here] * mass - harmonic) / 1e3, "-", lw=1.0, color=colour)
+        bottom.errorbar(temperature, (table["datum"][here] - table["fitted"][here]) * mass / 1e3,
+                        yerr=table["sigma"][here] * mass / 1e3, fmt="o", ms=3.5, capsize=2, color=colour)
+    top.set_ylabel("$E - 3RT$ above the coldest (kJ/mol)")
+    top.legend(frameon=False, title="$V/V_0$", fontsize=7)
+    bottom.axhline(0.0, color="0.4", lw=0.8)
+    bottom.set_ylabel("residual\n(kJ/mol)")
+    bottom.set_xlabel("temperature (K)")
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    with open(sys.argv[1], encoding="utf-8") as file:
+        data = json.load(file)
+    plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False})
+    figure, axes = plt.subplots(2, 3, figsize=(12.5, 5.2), sharex="col", height_ratios=(3, 1), layout="constrained")
+    for column, draw in enumerate((plot_shock_velocity, plot_gruneisen, plot_energy)):
+        draw(data, axes[0, column], axes[1, column])
+    figure.suptitle(f"GRAY fitted to {data['title']}")
+    figure.savefig(sys.argv[2], dpi=200)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What whipple-fit writes: a material file that the solver reads back with the same constants, that says of
+// each where it comes from, and that is the same for the same input; and what it refuses, with which words.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "eos/model_equation_of_state.hpp"
+#include "eos/models/gray.hpp"
+#include "md_fitting/fit/element_defaults.hpp"
+#include "md_fitting/fit/fit_report.hpp"
+#include "md_fitting/fit/gray_fit.hpp"
+#include "md_fitting/fit/material_writer.hpp"
+#include "src/base/error.hpp"
+#include "src/base/units.hpp"
+#include "src/material/material_file.hpp"
+#include "tests/unit/fit_support.hpp"
+#include "tests/unit/md_temporary_folder.hpp"
+
+namespace whipple::fit {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::Noise;
+using ::testing::Not;
+using testing::SyntheticStore;
+using testing::true_constants;
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+constexpr const char* template_text = R"(name = "template"
+source = "test"
+[eos]
+model = "gray"
+molar_mass = "1 g/mol"  # must not be copied
+# About the strength.
+[strength]
+model = "von_mises"
+source = "test"
+shear_modulus = "47.7 GPa"  # G
+yield_stress = "120 MPa"
+
+# First criterion.
+[[failure]]
+model = "tensile_pressure"
+source = "test"
+spall_strength = "1.3 GPa"
+
+# Must not be copied.
+[provenance]
+what = "nothing"
+)";
+
+class FitMaterial : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream(folder.path() / "template.toml") << template_text;
+    for (const md::PointRecord& point : store.points) md::append_point(file, point);
+  }
+
+  [[nodiscard]] std::string text(const FitSettings& settings = {}) const {
+    const std::vector<md::PointRecord> points = md::read_store(file);
+    return material_text(fit_gray(points, settings, file.string()), store_origin(file, points),
+                         folder.path() / "template.toml");
+  }
+  [[nodiscard]] int run(const std::string& arguments) const {
+    const int status = std::system(fmt::format("'{}' {} > '{}' 2>&1", WHIPPLE_FIT_EXECUTABLE, arguments,
+                                               (folder.path() / "output.txt").string())
+                                       .c_str());
+    return WEXITSTATUS(status);
+  }
+  [[nodiscard]] std::string output() const { return read_text(folder.path() / "output.txt"); }
+
+  md::TemporaryFolder folder;
+  std::filesystem::path file = folder.path() / "copper.md.h5";
+  SyntheticStore store{true_constants(), Noise{}, 11};
+};
+
+TEST_F(FitMaterial, ReadsBackThroughTheSolverWithTheSameConstants) {
+  const std::vector<md::PointRecord> points = md::read_store(file);
+  const GrayFit fit = fit_gray(points, {}, file.string());
+  const std::filesystem::path material_file = folder.path() / "copper_fitted.toml";
+  write_file(material_file, text(), false);
+  const Material material = read_material(material_file);
+  const eos::ModelEquationOfState<eos::Gray> expected(fit.gray);
+  // Every constant as text, in SI with all digits.
+  EXPECT_EQ(material.eos->constants(), expected.constants());
+  EXPECT_NE(material.strength, nullptr);
+  ASSERT_EQ(material.failure.size(), 1u);
+}
+
+TEST_F(FitMaterial, SaysOfEveryConstantWhereItComesFrom) {
+  const std::string material = text();
+  std::istringstream lines(
+      material.substr(material.find("[eos]"), material.find("[strength]") - material.find("[eos]")));
+  int fitted = 0;
+  int defaults = 0;
+  int given = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find(" = ") == std::string::npos || line.starts_with("model") || line.starts_with("source") ||
+        line.starts_with("melting =")) {
+      continue;
+    }
+    if (line.starts_with("# ")) continue;
+    const bool is_fitted = line.find("# fitted: +- ") != std::string::npos;
+    const bool is_default = line.find("# default \"") != std::string::npos;
+    const bool is_given = line.find("# given: ") != std::string::npos;
+    EXPECT_EQ(is_fitted + is_default + is_given, 1) << line;
+    fitted += is_fitted;
+    defaults += is_default;
+    given += is_given;
+  }
+  EXPECT_EQ(fitted, 7);
+  EXPECT_EQ(given, 2);  // molar mass, reference temperature
+  EXPECT_EQ(defaults, 10);
+  EXPECT_THAT(material, HasSubstr("electronic_heat_coefficient = \"\\\"measured\\\": calorimetry"));
+  EXPECT_THAT(material, HasSubstr("vapour_attraction = \"\\\"critical\\\""));
+  EXPECT_THAT(material, HasSubstr("[covariance]"));
+  EXPECT_THAT(material, HasSubstr("store = \"copper.md.h5\""));
+  EXPECT_THAT(material, HasSubstr(md::sha256_of_file(file)));
+  EXPECT_THAT(material, HasSubstr("lammps_version = \"none\""));
+  EXPECT_THAT(material, HasSubstr("[provenance.finished_points]\ncoexistence = 4\nhugoniot = 9"));
+}
+
+TEST_F(FitMaterial, CopiesStrengthAndFailureVerbatim) {
+  EXPECT_EQ(strength_and_failure(folder.path() / "template.toml"), R"(# About the strength.
+[strength]
+model = "von_mises"
+source = "test"
+shear_modulus = "47.7 GPa"  # G
+yield_stress = "120 MPa"
+
+# First criterion.
+[[failure]]
+model = "tensile_pressure"
+source = "test"
+spall_strength = "1.3 GPa"
+)");
+  EXPECT_THAT(text(), HasSubstr(strength_and_failure(folder.path() / "template.toml")));
+}
+
+TEST_F(FitMaterial, SameInputGivesTheSameBytes) { EXPECT_EQ(text(), text()); }
+
+TEST_F(FitMaterial, DensityReplacesTheFittedVolumeOnly) {
+  FitSettings settings;
+  const std::vector<md::PointRecord> points = md::read_store(file);
+  const GrayFit free = fit_gray(points, settings, "store");
+  settings.density = 8944.5;
+  const GrayFit fixed = fit_gray(points, settings, "store");
+  EXPECT_NEAR(fixed.value("reference_specific_volume") * 8944.5, 1.0, 1e-7);
+  EXPECT_EQ(fixed.constant("reference_specific_volume").origin, Origin::given);
+  EXPECT_THAT(fixed.constant("reference_specific_volume").source,
+              HasSubstr("measured density 8944.5 kg/m^3"));
+  EXPECT_DOUBLE_EQ(fixed.fitted_reference_volume, free.fitted_reference_volume);
+  for (const char* name : {"hugoniot_intercept", "hugoniot_slope", "gruneisen", "gruneisen_slope",
+                           "anharmonic_heat_coefficient", "melting_temperature"}) {
+    EXPECT_DOUBLE_EQ(fixed.value(name), free.value(name)) << name;
+    EXPECT_DOUBLE_EQ(fixed.constant(name).error, free.constant(name).error) << name;
+  }
+  EXPECT_EQ(fixed.covariance.rows(), free.covariance.rows() - 1);
+}
+
+TEST_F(FitMaterial, ElectronsAreANamedChoice) {
+  const std::vector<md::PointRecord> points = md::read_store(file);
+  FitSettings settings;
+  EXPECT_DOUBLE_EQ(fit_gray(points, settings, "s").value("electronic_heat_coefficient"), 6.9e-4);
+  settings.electronic = "liu2013";
+  EXPECT_DOUBLE_EQ(fit_gray(points, settings, "s").value("electronic_heat_coefficient"), 4.9e-4);
+  settings.electronic = "0.5 mJ/(mol K^2)";
+  const GrayFit given = fit_gray(points, settings, "s");
+  EXPECT_DOUBLE_EQ(given.value("electronic_heat_coefficient"), 5e-4);
+  EXPECT_EQ(given.constant("electronic_heat_coefficient").origin, Origin::given);
+  for (const char* wrong : {"mesured", "-1e-4", "3 km"}) {
+    settings.electronic = wrong;
+    EXPECT_THROW(fit_gray(points, settings, "s"), InputError) << wrong;
+  }
+}
+
+TEST_F(FitMaterial, WithoutCoexistenceTheMeltingTemperatureIsTheNamedDefault) {
+  std::erase_if(store.points, [](const md::PointRecord& point) { return point.protocol == "coexistence"; });
+  const GrayFit fit = fit_gray(store.points, {}, "store");
+  const Constant& melting = fit.constant("melting_temperature");
+  EXPECT_EQ(melting.origin, Origin::by_default);
+  EXPECT_DOUBLE_EQ(melting.value, 1790.0);
+  EXPECT_THAT(melting.source, HasSubstr("Steinberg 1996"));
+  EXPECT_EQ(fit.fitted_names.size(), 6u);
+  EXPECT_FALSE(fit.isochoric_melting_temperature.has_value());
+}
+
+/// The message of the error that a fit of some points must raise.
+std::string refusal(const std::vector<md::PointRecord>& points) {
+  try {
+    fit_gray(points, {}, "cu.md.h5");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST_F(FitMaterial, NamesAllMissingProtocolsAtOnce) {
+  EXPECT_THAT(refusal({}), HasSubstr("cu.md.h5: no finished points"));
+  std::vector<md::PointRecord> points = store.points;
+  std::erase_if(points, [](const md::PointRecord& point) {
+    return point.protocol == "hugoniot" || point.protocol == "zero_pressure_volume";
+  });
+  md::PointRecord failed = store.points.back();
+  failed.protocol = "hugoniot";
+  failed.status = "failed";
+  points.push_back(failed);
+  const std::string message = refusal(points);
+  EXPECT_THAT(message, HasSubstr("protocol \"zero_pressure_volume\": 0 finished"));
+  EXPECT_THAT(message, HasSubstr("the fit needs one at 293 K"));
+  EXPECT_THAT(
+      message,
+      HasSubstr("protocol \"hugoniot\": 0 finished, 0 of them with a particle velocity of 0.3 ... 2.5 "
+                "km/s, the fit needs 3 there (1 failed)"));
+  EXPECT_THAT(message, Not(HasSubstr("isochore")));
+}
+
+TEST_F(FitMaterial, RefusesPointsOfTwoPotentials) {
+  store.points.back().provenance["potential"] = "another";
+  EXPECT_THAT(refusal(store.points), HasSubstr("different values of 'potential' (another, synthetic)"));
+}
+
+TEST_F(FitMaterial, UnknownElementNamesTheKnownOnes) {
+  for (md::PointRecord& point : store.points) point.provenance["element"] = "Xx";
+  EXPECT_THAT(refusal(store.points), HasSubstr("element 'Xx': known are Cu"));
+}
+
+TEST_F(FitMaterial, TableHoldsThePublishedRows) {
+  const std::vector<NamedFit> fits = {{"mine", fit_gray(store.points, {}, "s")}};
+  const std::string table = constants_table(fits);
+  EXPECT_THAT(table, HasSubstr("mine"));
+  EXPECT_THAT(table, HasSubstr("Liu, Wang & Zhang, Int. J. Mech. Mater. Des. 9 (2013) 127"));
+  for (const char* figure :
+       {"0.11180", "3.940", "1.489", "1790", "0.11190", "3.980", "1.301", "8.30", "2006"}) {
+    EXPECT_THAT(table, HasSubstr(figure));
+  }
+}
+
+// The defaults' table says what the documents say: units and values of the public constants.
+TEST(ElementDefaults, CopperHoldsThePublishedConstants) {
+  const ElementDefaults& copper = element_defaults("Cu");
+  for (const NamedDefault& entry : copper.constants) {
+    EXPECT_FALSE(entry.source.empty()) << entry.parameter;
+    if (entry.parameter == "vapour_attraction") {
+      EXPECT_NEAR(entry.value, units::convert(0.62, "kJ cm^3/g^2", "J m^3/kg^2"), 1e-9);
+    }
+  }
+  EXPECT_EQ(copper.electronic.front().name, "measured");
+}
+
+TEST_F(FitMaterial, ExecutableWritesRefusesAndOverwrites) {
+  const std::filesystem::path target = folder.path() / "new" / "copper.toml";
+  const std::string basic =
+      fmt::format("'{}' --template '{}'", file.string(), (folder.path() / "template.toml").string());
+  EXPECT_EQ(run(fmt::format("{} -o '{}'", basic, target.string())), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("written: " + target.string()));
+  EXPECT_EQ(read_text(target), text());
+  EXPECT_EQ(run(fmt::format("{} -o '{}'", basic, target.string())), 2);
+  EXPECT_THAT(output(), HasSubstr("exists; --force overwrites it"));
+  EXPECT_EQ(run(fmt::format("{} -o '{}' --force", basic, target.string())), 0) << output();
+  EXPECT_EQ(run(basic), 0);
+  EXPECT_THAT(output(), HasSubstr("no material written"));
+}
+
+TEST_F(FitMaterial, ExecutableReportsWrongInput) {
+  EXPECT_EQ(run("missing.md.h5"), 2);
+  EXPECT_THAT(output(), HasSubstr("missing.md.h5"));
+  EXPECT_EQ(run(fmt::format("'{}' --density '3 m/s'", file.string())), 2);
+  EXPECT_THAT(output(), HasSubstr("--density: unit 'm/s' has the wrong dimension"));
+  EXPECT_EQ(run(fmt::format("'{}' --up-range '2 km/s' '1 km/s'", file.string())), 2);
+  EXPECT_THAT(output(), HasSubstr("expected two rising velocities"));
+  EXPECT_EQ(run(fmt::format("'{}' --model jwl", file.string())), 2);
+  EXPECT_EQ(run(fmt::format("'{0}' '{0}' -o one.toml", file.string())), 2);
+  EXPECT_THAT(output(), HasSubstr("2 stores and 1 outputs"));
+}
+
+TEST_F(FitMaterial, SeveralStoresAreWrittenIntoAFolder) {
+  const SyntheticStore other(true_constants(), Noise{}, 12);
+  const std::filesystem::path second = folder.path() / "second.md.h5";
+  for (const md::PointRecord& point : other.points) md::append_point(second, point);
+  const std::string materials = (folder.path() / "materials").string() + "/";
+  EXPECT_EQ(run(fmt::format("'{}' '{}' -q --template '{}' -o '{}'", file.string(), second.string(),
+                            (folder.path() / "template.toml").string(), materials)),
+            0)
+      << output();
+  EXPECT_TRUE(std::filesystem::exists(materials + "copper.toml"));
+  EXPECT_TRUE(std::filesystem::exists(materials + "second.toml"));
+  EXPECT_THAT(output(), HasSubstr("\ncopper  "));
+  EXPECT_THAT(output(), HasSubstr("\nsecond  "));
+}
+
+}  // namespace
+}  // namespace whipple::fit

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The measured Hugoniot and isotherm of copper against GRAY with the two published rows of constants. The
+// figures were found before with an independent implementation of the same equations (docs/theory/fit.md,
+// section 6).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "eos/loci.hpp"
+#include "eos/model_equation_of_state.hpp"
+#include "eos/models/gray.hpp"
+#include "src/app/compare_data.hpp"
+#include "src/base/error.hpp"
+#include "tests/unit/md_temporary_folder.hpp"
+
+namespace whipple::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::filesystem::path data = std::filesystem::path(WHIPPLE_SOURCE_DIR) / "eos/data";
+
+/// Rows of Liu, Wang & Zhang, Int. J. Mech. Mater. Des. 9 (2013) 127.
+Material copper(bool measured) {
+  eos::GrayConstants c;
+  c.molar_mass = 0.063546;
+  c.reference_specific_volume = measured ? 0.1118e-3 : 0.1119e-3;
+  c.hugoniot_intercept = measured ? 3940.0 : 3980.0;
+  c.hugoniot_slope = measured ? 1.489 : 1.301;
+  c.gruneisen = measured ? 1.97 : 1.86;
+  c.gruneisen_slope = measured ? 1.5 : 1.7;
+  c.electronic_heat_coefficient = measured ? 4.9e-4 : 8.3e-4;
+  c.melting_temperature = measured ? 1790.0 : 2006.0;
+  c.vapour_attraction = 620.0;
+  return make_material(measured ? "measured" : "simulated",
+                       std::make_shared<eos::ModelEquationOfState<eos::Gray>>(c));
+}
+
+// Marsh (ed.), LASL Shock Hugoniot Data (1980): 144 shocks up to 366 GPa.
+TEST(Compare, CopperHugoniotOfMarsh) {
+  const Experiment marsh = read_experiment(data / "cu_hugoniot_marsh1980.csv");
+  EXPECT_EQ(marsh.kind, ExperimentKind::shock_velocity);
+  ASSERT_EQ(marsh.abscissa.size(), 144u);
+  EXPECT_NEAR(marsh.abscissa.back(), 4161.0, 1e-9);
+  const Comparison measured = compare(copper(true), marsh);
+  EXPECT_EQ(measured.points, 144);
+  EXPECT_NEAR(measured.rms, 1.2, 0.05);  // % of Us
+  EXPECT_NEAR(measured.mean, -0.07, 0.03);
+  const Comparison simulated = compare(copper(false), marsh);
+  EXPECT_LT(simulated.mean, -2.5);  // S = 1.301 is too low
+  EXPECT_GT(simulated.rms, 2.0 * measured.rms);
+}
+
+// Dewaele, Loubeyre, Mezouar, Phys. Rev. B 70 (2004) 094112: 298 K to 153 GPa.
+TEST(Compare, CopperIsothermOfDewaele) {
+  const Experiment dewaele = read_experiment(data / "cu_isotherm_298K_dewaele2004.csv");
+  EXPECT_EQ(dewaele.kind, ExperimentKind::isotherm);
+  EXPECT_DOUBLE_EQ(dewaele.temperature, 298.0);
+  EXPECT_NEAR(dewaele.ambient_volume, 11.808e-30, 1e-36);
+  ASSERT_EQ(dewaele.abscissa.size(), 41u);            // 42 rows, one of them the reference at P = 0
+  EXPECT_DOUBLE_EQ(dewaele.ordinate.front(), 153e9);  // the revised pressure scale
+  const Comparison measured = compare(copper(true), dewaele);
+  EXPECT_EQ(measured.points, 41);
+  EXPECT_NEAR(measured.rms, 0.50e9, 0.03e9);
+  EXPECT_NEAR(measured.mean, 0.08e9, 0.05e9);
+  EXPECT_NEAR(measured.model.front(), 153.6e9, 0.3e9);
+  const Comparison simulated = compare(copper(false), dewaele);
+  EXPECT_NEAR(simulated.rms, 9.8e9, 0.4e9);
+  EXPECT_NEAR(simulated.model.front(), 130e9, 1.5e9);
+}
+
+TEST(Compare, RoomTemperatureIsothermOfTheHandbook) {
+  const Experiment handbook = read_experiment(data / "cu_isotherm_aip_handbook.csv");
+  EXPECT_EQ(handbook.kind, ExperimentKind::isotherm);
+  EXPECT_DOUBLE_EQ(handbook.temperature, 298.0);  // "room-temperature"
+  const Comparison measured = compare(copper(true), handbook);
+  EXPECT_LT(measured.rms, 1.0e9);
+}
+
+TEST(Compare, PressureVolumeHugoniotIsRecognisedByItsComments) {
+  const Experiment hugoniot = read_experiment(data / "al_hugoniot_mitchell_nellis1981.csv");
+  EXPECT_EQ(hugoniot.kind, ExperimentKind::shock_pressure);
+}
+
+// Points taken from the model's own Hugoniot and isotherm must leave no deviation: the jump conditions and
+// the volume ratio are those of the loci.
+TEST(Compare, OwnCurvesLeaveNoDeviation) {
+  const md::TemporaryFolder folder;
+  const Material material = copper(true);
+  const eos::Hugoniot hugoniot(*material.eos, material.reference.density,
+                               material.reference.specific_internal_energy);
+  {
+    std::ofstream shocks(folder.path() / "own_hugoniot.csv");
+    std::ofstream ratios(folder.path() / "own_pv_hugoniot.csv");
+    shocks << "# test\nus_km_s,up_km_s\n";
+    ratios << "# test\nP_GPa,rho_g_cm3,note\n";
+    ratios << fmt::format("0,{:.12g},\"start, at rest\"\n", material.reference.density * 1e-3);
+    for (const double up : {300.0, 1000.0, 2500.0}) {
+      const eos::ShockState state = hugoniot.at_particle_velocity(up);
+      shocks << fmt::format("{:.12g},{:.12g}\n", state.shock_velocity * 1e-3, up * 1e-3);
+      ratios << fmt::format("{:.12g},{:.12g},\"a, b\"\n", state.state.pressure * 1e-9,
+                            state.state.density * 1e-3);
+    }
+    std::ofstream isotherm(folder.path() / "own_500K.csv");
+    isotherm << "# test\nP_GPa,V_over_V0\n";
+    const double density = eos::density_at_pressure(*material.eos, 0.0, 500.0);
+    for (const double ratio : {0.95, 0.8, 0.7}) {
+      isotherm << fmt::format(
+          "{:.12g},{}\n", material.eos->state_at_temperature(density / ratio, 500.0).pressure * 1e-9, ratio);
+    }
+  }
+  const Comparison shocks = compare(material, read_experiment(folder.path() / "own_hugoniot.csv"));
+  EXPECT_EQ(shocks.points, 3);
+  EXPECT_LT(std::abs(shocks.maximum), 1e-7);  // %
+  const Experiment ratios = read_experiment(folder.path() / "own_pv_hugoniot.csv");
+  EXPECT_EQ(ratios.kind, ExperimentKind::shock_pressure);
+  EXPECT_LT(std::abs(compare(material, ratios).maximum), 1e3);  // Pa of up to 150 GPa
+  const Experiment isotherm = read_experiment(folder.path() / "own_500K.csv");
+  EXPECT_DOUBLE_EQ(isotherm.temperature, 500.0);
+  EXPECT_LT(std::abs(compare(material, isotherm).maximum), 1e3);
+  // The wrong temperature shows.
+  EXPECT_GT(std::abs(compare(material, read_experiment(folder.path() / "own_500K.csv", 1000.0)).maximum),
+            1e6);
+}
+
+std::string refusal(const std::string& text, const std::string& name = "measurement.csv") {
+  const md::TemporaryFolder folder;
+  std::ofstream(folder.path() / name) << text;
+  try {
+    read_experiment(folder.path() / name);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Compare, ReportsFilesThatItCannotUse) {
+  EXPECT_THAT(refusal("# no temperature\nP_GPa,V_over_V0\n1,0.99\n"), HasSubstr("give --temperature"));
+  EXPECT_THAT(refusal("T_K,alpha\n1,2\n"), HasSubstr("the columns are T_K, alpha"));
+  EXPECT_THAT(refusal("# 298 K\nP_GPa,atomic_volume_A3\n1,11.7\n"), HasSubstr("add a row with P = 0"));
+  EXPECT_THAT(refusal("# 298 K\nP_GPa,T_K\n1,2\n"), HasSubstr("no column of volume"));
+  EXPECT_THAT(refusal("us_km_s,up_km_s\n5,x\n"),
+              HasSubstr("measurement.csv:2: 'x' in column up_km_s is not a number"));
+  EXPECT_THAT(refusal("us_km_s,up_km_s\n5\n"), HasSubstr("measurement.csv:2: 1 cells, the header has 2"));
+  EXPECT_THAT(refusal("us_km_s,up_km_s\n"), HasSubstr("no rows of data"));
+  EXPECT_THAT(refusal("us_km_s,up_km_s\n4,0\n"), HasSubstr("no compressed state"));
+}
+
+}  // namespace
+}  // namespace whipple::app
