@@ -14,10 +14,12 @@
 namespace whipple::app {
 namespace {
 
-/// The innermost subcommand that the arguments reached.
-const CLI::App& reached(const CLI::App& app) {
+/// The outermost command with arguments that nobody took, or else the innermost that the arguments reached.
+const CLI::App& faulty(const CLI::App& app) {
   const CLI::App* command = &app;
-  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  while (command->remaining(false).empty() && !command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+  }
   return *command;
 }
 
@@ -59,8 +61,8 @@ std::string unexpected(const CLI::App& command, const std::string& argument) {
 }
 
 [[noreturn]] void report(const CLI::App& app, const CLI::ParseError& error) {
-  const CLI::App& command = reached(app);
-  const std::vector<std::string> rest = app.remaining(true);
+  const CLI::App& command = faulty(app);
+  const std::vector<std::string> rest = command.remaining(false);
   const std::string what = rest.empty() ? std::string(error.what()) : unexpected(command, rest.front());
   throw InputError(fmt::format("{}\nsee {} --help", what, full_name(command)));
 }
