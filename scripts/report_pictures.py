@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of the cloud from the side: every particle a lit sphere, the nearest in front."""
-import io
-
 import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
@@ -69,6 +67,7 @@ def draw_spheres(x, y, z, radius, shape):
     seen = np.full(height * width, -1, np.int64)
     surface = np.full(height * width, -np.inf)
     light = np.zeros(height * width)
+    last = np.empty(height * width, np.int64)  # read only where it was just written
     classes = np.clip(np.round(radius), 1, 12).astype(int)
     direction = np.array([-0.4, 0.55, 0.73])  # of the light, from the upper left in front
     order = np.argsort(z)  # of several in one pixel the last that is assigned is the nearest
@@ -85,14 +84,13 @@ def draw_spheres(x, y, z, radius, shape):
                 c, w = column[mine] + dx, row[mine] + dy
                 valid = (c >= 0) & (c < width) & (w >= 0) & (w < height)
                 index, pixel = mine[valid], w[valid] * width + c[valid]
-                top = np.full(height * width, -1, np.int64)
-                top[pixel] = index
-                hit = np.flatnonzero(top >= 0)
-                depth = z[top[hit]] + np.sqrt(inside)
-                nearer = hit[depth > surface[hit]]
-                seen[nearer] = top[nearer]
-                surface[nearer] = z[top[nearer]] + np.sqrt(inside)
-                light[nearer] = 0.42 + 0.58 * max(0.0, float(normal @ direction))
+                last[pixel] = index
+                depth = z[index] + np.sqrt(inside)
+                nearer = (last[pixel] == index) & (depth > surface[pixel])
+                pixel = pixel[nearer]
+                seen[pixel] = index[nearer]
+                surface[pixel] = depth[nearer]
+                light[pixel] = 0.42 + 0.58 * max(0.0, float(normal @ direction))
     return seen.reshape(shape), light.reshape(shape)
 
 
@@ -117,12 +115,12 @@ def render(snapshot, view, outside):
 
 
 def paint(rendered, colours):
-    """RGB image of a rendered view; `colours` has one RGB row per particle."""
+    """RGB image (8 bit) of a rendered view; `colours` has one RGB row per particle."""
     seen, light = rendered
     image = np.broadcast_to(BACKGROUND, (*seen.shape, 3)).copy()
     hit = seen >= 0
     image[hit] = np.clip(colours[seen[hit]] * light[hit][:, None] * 1.12, 0, 1)
-    return image
+    return np.round(255 * image).astype(np.uint8)
 
 
 def phase_colours(snapshot):
@@ -171,12 +169,11 @@ def panels(view, images, times, title, legend=None, bar=None):
 
 def save(figure, path):
     """PNG; without colour scales with a palette of 256 colours: a third of the size, no difference that one sees."""
-    memory = io.BytesIO()
     continuous = any(ax.get_label() == "<colorbar>" for ax in figure.axes)
-    figure.savefig(memory, dpi=130)
+    figure.set_dpi(130)
+    figure.canvas.draw()
+    image = PIL.Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
     plt.close(figure)
-    memory.seek(0)
-    image = PIL.Image.open(memory).convert("RGB")
     if not continuous:
         image = image.quantize(256, dither=PIL.Image.Dither.NONE)
     image.save(path)
@@ -253,6 +250,6 @@ def radiograph(view, snapshots, times):
         maps.append(0.1 * blurred(grid) / area)  # kg/m^2 to g/cm^2
     highest = max(m.max() for m in maps)
     norm = LogNorm(max(highest, 1e-12) * 1e-3, max(highest, 1e-12))
-    images = [matplotlib.colormaps["gray_r"](norm(np.maximum(m, 1e-300)))[:, :, :3] for m in maps]
+    images = [matplotlib.colormaps["gray_r"](norm(np.maximum(m, 1e-300)), bytes=True)[:, :, :3] for m in maps]
     return panels(view, images, times, "Areal density (radiograph)",
                   bar=(plt.cm.ScalarMappable(norm, "gray_r"), "areal density (g/cm²)"))
