@@ -7,3 +7,28 @@ whipple_test(eos_copper_test SOURCES validation/eos_copper_test.cpp DEPENDS whip
 
 add_executable(eos_benchmark benchmark/eos_benchmark.cpp)
 target_link_libraries(eos_benchmark PRIVATE whipple_eos benchmark::benchmark)
+
+# The command: figures of the library's copper through the executable, exit codes, files.
+set(eos_csv ${CMAKE_CURRENT_BINARY_DIR}/eos_hugoniot.csv)
+add_test(NAME eos_command.hugoniot_prints_shock_melting
+  COMMAND whipple eos hugoniot copper --to "300 GPa" --points 7 --csv ${eos_csv} --plot ${eos_csv}.png --force
+          --with ${PROJECT_SOURCE_DIR}/eos/data/cu_hugoniot_marsh1980.csv)
+set_tests_properties(eos_command.hugoniot_prints_shock_melting PROPERTIES
+  PASS_REGULAR_EXPRESSION "written.*png.*onset 221\\.[78].*completion 286\\.[12]" FIXTURES_SETUP eos_csv)
+add_test(NAME eos_command.refuses_to_overwrite COMMAND whipple eos hugoniot copper --csv ${eos_csv})
+set_tests_properties(eos_command.refuses_to_overwrite PROPERTIES
+  PASS_REGULAR_EXPRESSION "exists; --force overwrites it" FIXTURES_REQUIRED eos_csv)
+add_test(NAME eos_command.release_to_one_bar_vaporises_a_tenth
+  COMMAND whipple eos release copper --pressure "396 GPa" --to "1 bar")
+set_tests_properties(eos_command.release_to_one_bar_vaporises_a_tenth PROPERTIES
+  PASS_REGULAR_EXPRESSION "0\\.100[0-9]* +liquid and vapour")
+add_test(NAME eos_command.beyond_the_model_is_a_state_error COMMAND whipple eos hugoniot copper --pressure "900 TPa")
+set_tests_properties(eos_command.beyond_the_model_is_a_state_error PROPERTIES
+  PASS_REGULAR_EXPRESSION "beyond the greatest density of model gray")
+foreach(query state isotherm isentrope melt dome audit)
+  add_test(NAME eos_command.${query} COMMAND whipple eos ${query} copper --points 5)
+endforeach()
+foreach(query hugoniot_prints_shock_melting refuses_to_overwrite release_to_one_bar_vaporises_a_tenth
+        beyond_the_model_is_a_state_error state isotherm isentrope melt dome audit)
+  set_property(TEST eos_command.${query} PROPERTY LABELS fast)
+endforeach()

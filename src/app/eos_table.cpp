@@ -100,7 +100,9 @@ void print(const CurveTable& table) {
     lines.emplace_back();
     for (const std::size_t i : shown) {
       const double* number = std::get_if<double>(&row[i]);
-      const bool nothing = number != nullptr && std::abs(*number) < 1e-11 * greatest[i];
+      const double size = table.columns[i].size;
+      const bool nothing =
+          number != nullptr && std::abs(*number) < std::max(1e-11 * greatest[i], 1e-12 * size);
       lines.back().push_back(nothing ? "0" : text(row[i], table.columns[i].size, 6));
     }
   }
