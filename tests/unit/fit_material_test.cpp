@@ -64,7 +64,21 @@ class FitMaterial : public ::testing::Test {
  protected:
   void SetUp() override {
     std::ofstream(folder.path() / "template.toml") << template_text;
-    for (const md::PointRecord& point : store.points) md::append_point(file, point);
+    std::filesystem::copy_file(shared().file, file);
+  }
+
+  /// Appending rewrites the whole store: it is done once, and copied for each test.
+  struct Shared {
+    md::TemporaryFolder folder;
+    std::filesystem::path file = folder.path() / "copper.md.h5";
+    Shared() {
+      const SyntheticStore points(true_constants(), Noise{}, 11);
+      for (const md::PointRecord& point : points.points) md::append_point(file, point);
+    }
+  };
+  static const Shared& shared() {
+    static const Shared once;
+    return once;
   }
 
   [[nodiscard]] std::string text(const FitSettings& settings = {}) const {
@@ -286,9 +300,8 @@ TEST_F(FitMaterial, ExecutableReportsWrongInput) {
 }
 
 TEST_F(FitMaterial, SeveralStoresAreWrittenIntoAFolder) {
-  const SyntheticStore other(true_constants(), Noise{}, 12);
   const std::filesystem::path second = folder.path() / "second.md.h5";
-  for (const md::PointRecord& point : other.points) md::append_point(second, point);
+  std::filesystem::copy_file(file, second);
   const std::string materials = (folder.path() / "materials").string() + "/";
   EXPECT_EQ(run(fmt::format("'{}' '{}' -q --template '{}' -o '{}'", file.string(), second.string(),
                             (folder.path() / "template.toml").string(), materials)),
