@@ -78,8 +78,8 @@ void VapourDome::find_critical_point() {
   }
   if (high <= lowest) {
     throw InputError(fmt::format(
-        "no critical point between {:.0f} and {:.0f} K; check the vapour constants (vapour_attraction, "
-        "covolume_ratio, join_volume_ratio)",
+        "no critical point between {:.0f} and {:.0f} K; check the vapour constants vapour_attraction and "
+        "covolume_ratio, or try a smaller join_volume_ratio",
         lowest, highest));
   }
   const double T = find_root(steepest, low, high, "critical temperature", 40);
@@ -91,14 +91,17 @@ void VapourDome::find_critical_point() {
 Saturation VapourDome::maxwell(double T) const {
   const auto slope = [&](double V) { return search_.fluid(V, T).pressure_by_volume; };
   const auto pressure = [&](double V) { return search_.fluid(V, T).pressure; };
-  // First spinodal from the dense side and from the dilute side; between them lies the unstable critical
-  // volume.
-  const auto spinodal = [&](double outer, double inner) {
-    double before = outer;
+  // From the critical volume, which lies in the loop, outwards to the first volume where P falls again: the
+  // spinodals of this loop, also if the model's join makes another one elsewhere.
+  const auto spinodal = [&](double outer) {
+    double inside = critical_.specific_volume;
+    bool in_loop = slope(inside) >= 0;
     for (int i = 1; i <= scan_points; ++i) {
-      const double V = spaced(outer, inner, i, scan_points);
-      if (slope(V) >= 0) return find_root(slope, before, V, "spinodal");
-      before = V;
+      const double V = spaced(critical_.specific_volume, outer, i, scan_points);
+      const bool rises = slope(V) >= 0;
+      if (in_loop && !rises) return find_root(slope, inside, V, "spinodal");
+      in_loop = in_loop || rises;
+      inside = V;
     }
     throw InputError(
         fmt::format("no liquid-vapour loop at {:.0f} K, below the critical temperature of {:.0f} K; check "
@@ -106,8 +109,8 @@ Saturation VapourDome::maxwell(double T) const {
                     "(vapour_attraction, covolume_ratio, join_volume_ratio)",
                     T, critical_.temperature));
   };
-  const double liquid_spinodal = spinodal(search_.dense_volume, critical_.specific_volume);
-  const double vapour_spinodal = spinodal(search_.dilute_volume, critical_.specific_volume);
+  const double liquid_spinodal = spinodal(search_.dense_volume);
+  const double vapour_spinodal = spinodal(search_.dilute_volume);
   const double highest = pressure(vapour_spinodal);
   const double spinodal_pressure = pressure(liquid_spinodal);
 

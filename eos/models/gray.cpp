@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "src/base/error.hpp"
+#include "src/base/log.hpp"
 
 namespace whipple::eos {
 namespace {
@@ -20,7 +21,8 @@ VapourDome make_dome(const GrayFreeEnergy& surface) {
                            return FluidPoint{p.pressure, p.energy, p.entropy, p.pressure_by_volume};
                          },
                      .dense_volume = std::max(0.6 * c.reference_specific_volume, surface.least_volume()),
-                     .loop_volume = surface.join_volume() * (1 + 1e-9),
+                     // Away from V_J, where the kink of the join may make a loop of its own.
+                     .loop_volume = 1.15 * surface.join_volume(),
                      .dilute_volume = 1e4 * c.reference_specific_volume,
                      .gas_constant = surface.specific_gas_constant(),
                      // Critical point of the fluid without the join (G30).
@@ -45,7 +47,16 @@ struct Gray::Point {
 Gray::Gray(const Constants& constants)
     : surface_(constants),
       dome_(make_dome(surface_)),
-      least_squared_sound_speed_(std::pow(least_sound_speed_ratio * constants.hugoniot_intercept, 2)) {}
+      least_squared_sound_speed_(std::pow(least_sound_speed_ratio * constants.hugoniot_intercept, 2)) {
+  const double T = surface_.vapour_branch_temperature();
+  const GrayBranch thin = surface_.vapour_branch(1e6 * surface_.join_volume(), false);
+  if (thin.heat_capacity(T) <= 0) {
+    log::warning(
+        "gray: the heat capacity of the thin vapour vanishes at {:.0f} K, below T_G(V_J) = {:.0f} K; its "
+        "temperature jumps there. More electronic_heat_coefficient or a smaller join_volume_ratio avoids it",
+        -thin.e1 / (2 * thin.e2), T);
+  }
+}
 
 double Gray::sound_speed(double squared) const {
   return std::sqrt(std::max(squared, least_squared_sound_speed_));

@@ -335,11 +335,11 @@ void GrayFreeEnergy::check_heat_capacity() const {
     }
   }
   // Vapour: the term T D'' F_E of (G25) lowers the heat capacity below T_G(V_J), most at large volumes.
-  // Without electronic heat it may vanish a few per cent below T_G(V_J); a state of (V, E) then passes to the
-  // hot branch with a jump in T of that size. More than that is refused.
+  // With little electronic heat it may vanish there; a state of (V, E) then passes to the hot branch with a
+  // jump in T (the complete model warns). Below T_G/2 that is refused.
   for (const double ratio : {1.0, 1.5, 2.0, 4.0, 10.0, 1e3, 1e6}) {
     const double V = ratio * join_volume_;
-    const double cool_end = std::min(0.8 * join_hot_temperature_, checked_temperature);
+    const double cool_end = std::min(0.5 * join_hot_temperature_, checked_temperature);
     if (const double cv = vapour_branch(V, false).heat_capacity(cool_end); !(cv > 0))
       refuse("vapour", V, cool_end, cv);
     if (join_hot_temperature_ > checked_temperature) continue;
