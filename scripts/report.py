@@ -18,6 +18,7 @@ import sys
 try:
     import matplotlib
     matplotlib.use("Agg")
+    import numpy as np
     import report_curves
     import report_metrics
     import report_pictures
@@ -66,6 +67,9 @@ class Report:
         if history.last("mass") is not None:
             tiles.append(("mass" + (", full problem" if run.multiplicity > 1 else ""),
                           report_curves.format_mass(run.multiplicity * history.last("mass"))))
+        if history.last("outflow_mass"):
+            tiles.append(("left through the border",
+                          report_curves.format_mass(run.multiplicity * history.last("outflow_mass"))))
         if "energy_error" in history:
             tiles.append(("largest energy error", number(float(abs(history["energy_error"]).max()), 2)))
         if "momentum_error" in history:
@@ -134,8 +138,14 @@ class Report:
         self.page.heading("Debris cloud")
         for name, caption, figure in report_pictures.cloud_figures(run, geo, shown):
             self.add_figure(name, caption, figure)
-        columns = report_metrics.with_speeds(extents)
+        columns = report_metrics.with_speeds(extents, report_metrics.domain_reach(run, geo))
         self.page.heading("Front, rear and radius of the cloud")
+        for name, what in (("front", "front"), ("radius", "side")):
+            gone = ~np.isfinite(columns[name]) & np.isfinite(columns["mean_velocity"])
+            if gone.any():
+                self.page.note(f"The {what} of the debris reached the border of the domain at "
+                               f"{1e6 * columns['time'][gone][0]:.4g} µs: it is not followed further, and the "
+                               f"table below counts what is still inside.")
         self.add_figure("extent.png", "Position and speed of the debris. " + "; ".join(
             f"{name}: {text}" for name, text in report_metrics.DEFINITIONS
             if name in ("front, rear", "radius", "radial speed")) + ".", report_curves.extent_figure(columns))
@@ -150,13 +160,13 @@ class Report:
                          if body == names[geo.projectile] and part == "whole"), float("nan"))
         final = report_metrics.final_values(columns)
         self.page.tiles([
-            ("impact speed", f"{1e-3 * geo.impact_speed:.4g} km/s"),
-            (f"residual velocity of {names[geo.projectile]}", f"{1e-3 * residual:.4g} km/s"),
-            ("front speed", f"{1e-3 * final['front_speed']:.4g} km/s"),
-            ("rear speed", f"{1e-3 * final['rear_speed']:.4g} km/s"),
-            ("radial speed", f"{1e-3 * final['radial_speed']:.4g} km/s"),
-            ("length", f"{1e3 * (final['front'] - final['rear']):.4g} mm"),
-            ("diameter", f"{2e3 * final['radius']:.4g} mm"),
+            ("impact speed", f"{number(1e-3 * geo.impact_speed)} km/s"),
+            (f"residual velocity of {names[geo.projectile]}", f"{number(1e-3 * residual)} km/s"),
+            ("front speed", f"{number(1e-3 * final['front_speed'])} km/s"),
+            ("rear speed", f"{number(1e-3 * final['rear_speed'])} km/s"),
+            ("radial speed", f"{number(1e-3 * final['radial_speed'])} km/s"),
+            ("length", f"{number(1e3 * (final['front'] - final['rear']))} mm"),
+            ("diameter", f"{number(2e3 * final['radius'])} mm"),
         ])
         head = ["body", "part"] + (["mass of model (g)"] if run.multiplicity > 1 else []) + [
             "mass (g)", "axial momentum (kg m/s)", "mean axial velocity (m/s)", "kinetic energy (J)",

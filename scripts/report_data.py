@@ -159,6 +159,16 @@ class Run:
         return planes
 
     @property
+    def domain(self):
+        """Lower and upper corner and cell size (m), or None if the input does not say."""
+        domain = self.input.get("domain", {})
+        try:
+            lower, upper = ([quantity(v, LENGTHS) for v in domain[side]] for side in ("lower", "upper"))
+            return np.array(lower), np.array(upper), quantity(domain["cell_size"], LENGTHS)
+        except (KeyError, TypeError):
+            return None
+
+    @property
     def multiplicity(self):
         """Of how many copies of the model the full problem consists: 4 for a quarter model."""
         return 2 ** len(self.symmetry_planes)

@@ -23,7 +23,8 @@ DEFINITIONS = [
     ("front, rear", f"axial coordinate beyond, below which {BEYOND:.1%} of the debris mass lies"),
     ("radius", f"distance from the axis beyond which {BEYOND:.1%} of the debris mass lies"),
     ("front, rear, expansion speed", "change of front, rear, radius from snapshot to snapshot; at the end the "
-                                     "least-squares slope over the last third of the snapshots"),
+                                     "least-squares slope over the last third of the snapshots (of those before the debris "
+                                     "reached the border of the domain)"),
     ("radial speed", f"component of the velocity away from the axis that {BEYOND:.1%} of the debris mass exceeds"),
     ("residual velocity", "mean axial velocity of what is left of a body (momentum over mass)"),
 ]
@@ -73,6 +74,7 @@ def geometry(run, first):
     flying = body == numbers[fastest]
     flying = flying if flying.any() else np.ones(len(first), bool)
     centre = np.average(first.position[flying], axis=0, weights=first.mass[flying])
+    centre[axis] = 0.0  # axial coordinates are those of the model
     for i in transverse:
         if i in planes:
             centre[i] = planes[i]
@@ -116,23 +118,43 @@ def extent(snapshot, geo):
     }
 
 
-def with_speeds(extents):
-    """Columns of `extent` over time, with the speeds of front, rear and radius."""
+def with_speeds(extents, reach=None):
+    """Columns of `extent` over time, with the speeds of front, rear and radius. Front and radius end where the
+    foremost or outermost particle comes to the border of the domain: what leaves cannot be followed.
+    `reach`: of `domain_reach`."""
     columns = {name: np.array([e[name] for e in extents]) for name in extents[0]}
+    for (outermost, name), limit in zip((("foremost", "front"), ("outermost", "radius")), reach or ()):
+        left = np.maximum.accumulate(columns[outermost] >= limit)
+        columns[name] = np.where(left, np.nan, columns[name])
+        columns[outermost] = np.where(left, np.nan, columns[outermost])
     for name, of in SPEEDS_OF.items():
-        columns[name] = (np.gradient(columns[of], columns["time"]) if len(extents) > 1
-                         else np.full(len(extents), np.nan))
+        columns[name] = np.full(len(extents), np.nan)
+        known = np.isfinite(columns[of])
+        if known.sum() > 1:
+            columns[name][known] = np.gradient(columns[of][known], columns["time"][known])
     return columns
+
+
+def domain_reach(run, geo):
+    """Axial coordinate and distance from the axis at which particles come within a cell of the border of the
+    domain; infinite at symmetry planes."""
+    if run.domain is None:
+        return np.inf, np.inf
+    lower, upper, cell = run.domain
+    front = (upper[geo.axis] if geo.sign > 0 else -lower[geo.axis]) - geo.sign * geo.centre[geo.axis] - cell
+    sides = [abs(corner[i] - geo.centre[i]) - cell for i in (geo.up, geo.depth) for corner in (lower, upper)
+             if i not in run.symmetry_planes or abs(corner[i] - run.symmetry_planes[i]) > cell]
+    return front, min(sides)
 
 
 def final_values(columns):
     """The last entry of every column; speeds of front, rear and radius as slopes over the last third."""
     final = {name: float(values[-1]) for name, values in columns.items()}
-    last = max(len(columns["time"]) // 3, 3)
-    time = columns["time"][-last:]
     for name, of in SPEEDS_OF.items():
-        values = columns[of][-last:]
-        if len(time) > 1 and np.isfinite(values).all():
+        known = np.isfinite(columns[of])
+        last = max(known.sum() // 3, 3)
+        time, values = columns["time"][known][-last:], columns[of][known][-last:]
+        if len(time) > 1:
             final[name] = float(np.polyfit(time - time[0], values, 1)[0])
     return final
 

@@ -137,7 +137,7 @@ def scale_colours(values, norm, name):
     return matplotlib.colormaps[name](norm(values))[:, :3]
 
 
-def panels(view, images, times, title, legend=None, bar=None):
+def panels(view, images, times, title, legend=None, bar=None, interpolation="antialiased"):
     """A figure of one image per time, with axes in mm, and a legend or a colour bar (mappable, label)."""
     columns = min(2 if view.aspect() < 0.75 else 3, len(images))
     rows = -(-len(images) // columns)
@@ -149,7 +149,7 @@ def panels(view, images, times, title, legend=None, bar=None):
     for ax in axes.flat[len(images):]:
         ax.set_visible(False)
     for ax, image, time in zip(axes.flat, images, times):
-        ax.imshow(image, origin="lower", extent=limits, interpolation="antialiased", aspect="equal")
+        ax.imshow(image, origin="lower", extent=limits, interpolation=interpolation, aspect="equal")
         ax.set_title(f"t = {1e6 * time:.4g} µs", fontsize=10, loc="left")
         for side in ax.spines.values():
             side.set_color("#b0b4ba")
@@ -168,15 +168,11 @@ def panels(view, images, times, title, legend=None, bar=None):
 
 
 def save(figure, path):
-    """PNG; without colour scales with a palette of 256 colours: a third of the size, no difference that one sees."""
-    continuous = any(ax.get_label() == "<colorbar>" for ax in figure.axes)
+    """Draws once and writes the PNG (`savefig` draws a constrained layout twice)."""
     figure.set_dpi(130)
     figure.canvas.draw()
-    image = PIL.Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
+    PIL.Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB").save(path)
     plt.close(figure)
-    if not continuous:
-        image = image.quantize(256, dither=PIL.Image.Dither.NONE)
-    image.save(path)
 
 
 def legend_below(figure, handles, labels):
@@ -223,11 +219,11 @@ def cloud_figures(run, geo, snapshots):
                panels(view, images, times, "Section, by temperature",
                       bar=(plt.cm.ScalarMappable(norm, "inferno"), "temperature (K)")))
     yield ("cloud_radiograph.png", "Mass per area along the line of sight, through the complete problem: what a "
-           "flash radiograph shows, without the response of a film; blurred over one to two particles.", radiograph(view, snapshots, times))
+           "flash radiograph shows, without the response of a film; blurred over about two particles.", radiograph(view, snapshots, times))
 
 
 def blurred(grid):
-    """Binomial blur over five pixels in each direction: hides the lattice of the particles."""
+    """Binomial blur over five bins in each direction: hides the lattice of the particles."""
     weights = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)
     for axis in (0, 1):
         padded = np.pad(grid, [(2, 2) if a == axis else (0, 0) for a in (0, 1)])
@@ -237,7 +233,9 @@ def blurred(grid):
 
 
 def radiograph(view, snapshots, times):
-    bins = (view.shape[0] // 3, view.shape[1] // 3)
+    size = np.median(np.concatenate([2 * radii(s) for s in snapshots] or [np.zeros(1)]))
+    size = max(3 * view.pixel, size if np.isfinite(size) else 0.0)  # of a bin: that of a particle, or three pixels
+    bins = (max(int(view.shape[0] * view.pixel / size), 1), max(int(view.shape[1] * view.pixel / size), 1))
     area = (view.limits[1] - view.limits[0]) * (view.limits[3] - view.limits[2]) / (bins[0] * bins[1])
     maps = []
     for s in snapshots:
@@ -251,5 +249,5 @@ def radiograph(view, snapshots, times):
     highest = max(m.max() for m in maps)
     norm = LogNorm(max(highest, 1e-12) * 1e-3, max(highest, 1e-12))
     images = [matplotlib.colormaps["gray_r"](norm(np.maximum(m, 1e-300)), bytes=True)[:, :, :3] for m in maps]
-    return panels(view, images, times, "Areal density (radiograph)",
+    return panels(view, images, times, "Areal density (radiograph)", interpolation="bilinear",
                   bar=(plt.cm.ScalarMappable(norm, "gray_r"), "areal density (g/cm²)"))

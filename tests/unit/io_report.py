@@ -135,6 +135,15 @@ def speeds_of_a_known_cloud():
     near(final["foremost"], 0.03, 1e-6, "foremost particle")
     require(report_metrics.axis_name(geo) == "-x", "name of the axis")
 
+    # A border at 20 mm: the front is followed until the foremost particle is there, and its speed is unchanged.
+    cut = report_metrics.with_speeds([report_metrics.extent(at(t), geo) for t in np.linspace(0, 1e-5, 7)],
+                                     reach=(0.0199, np.inf))
+    require(np.isfinite(cut["front"]).tolist() == [True] * 4 + [False] * 3, f"front {cut['front']}")
+    require(np.isfinite(cut["radius"]).all(), "radius")
+    final = report_metrics.final_values(cut)
+    near(final["front_speed"], 2998.0, 1e-3, "front speed before the border")
+    require(np.isnan(final["front"]), "the front at the end is unknown")
+
 
 def spheres_hide_what_is_behind():
     """Two spheres in one line of sight: the nearer one is seen, whichever comes first in memory."""
