@@ -30,6 +30,11 @@ constexpr std::array<const char*, 103> symbols = {
 constexpr double funcfl_hartree = 27.2;
 constexpr double funcfl_bohr = 0.529;
 
+// No embedded-atom potential reaches further; a damaged file must not make a lattice sum endless.
+constexpr double longest_cutoff = 25.0;            // A
+constexpr double longest_lattice_constant = 15.0;  // A
+constexpr double shortest_lattice_constant = 1.5;  // A; a file may give 0 for unknown
+
 /// Words of a potential file with an error that names the file and what was expected.
 class Reader {
  public:
@@ -82,7 +87,7 @@ Grid read_grid(Reader& reader) {
   if (!(words >> densities >> grid.density_step >> radii >> grid.radius_step >> grid.cutoff) ||
       densities < 4 || radii < 4 || densities > 10'000'000 || radii > 10'000'000 ||
       !(grid.density_step > 0.0) || !(grid.radius_step > 0.0) || !(grid.cutoff > 0.0) ||
-      !std::isfinite(grid.cutoff)) {
+      !(grid.cutoff <= longest_cutoff)) {
     reader.fail("has no valid line of table sizes 'nrho drho nr dr cutoff'");
   }
   grid.densities = static_cast<std::size_t>(densities);
@@ -101,7 +106,10 @@ int read_element_line(Reader& reader, EamTables& tables) {
   int atomic_number = 0;
   std::string structure;
   if (!(words >> atomic_number >> tables.mass >> tables.header_lattice_constant >> structure) ||
-      !(tables.mass > 0.0)) {
+      !(tables.mass > 0.0 && tables.mass < 1000.0) ||
+      (tables.header_lattice_constant != 0.0 &&
+       !(tables.header_lattice_constant > shortest_lattice_constant &&
+         tables.header_lattice_constant < longest_lattice_constant))) {
     reader.fail("has no valid line 'atomic number, mass, lattice constant, structure'");
   }
   tables.structure = lower_case(structure);

@@ -165,7 +165,8 @@ std::string format_result(const std::string& quantity, const Estimate& estimate)
   const double value = factor * estimate.value;
   const double error = factor * estimate.error;
   const std::string tail = unit.empty() ? "" : " " + unit;
-  if (!(error > 0.0)) return fmt::format("{} = {:.6g}{}", quantity, value, tail);
+  // Errors below the digits of the value are those of a root search, not of a measurement.
+  if (!(error > 0.5e-6 * std::abs(value))) return fmt::format("{} = {:.7g}{}", quantity, value, tail);
   // Two digits of the error, but no more than seven of the value: a lattice constant is known to any digit.
   const int digits_of_value =
       6 - static_cast<int>(std::floor(std::log10(std::fmax(std::abs(value), 1e-300))));
@@ -174,15 +175,20 @@ std::string format_result(const std::string& quantity, const Estimate& estimate)
   return fmt::format("{} = {:.{}f} +- {:.{}f}{}", quantity, value, decimals, error, decimals, tail);
 }
 
-std::string summarize(const PointRecord& point) {
+std::string short_label(const PointRecord& point) {
   std::string text = point.protocol;
   const char* joint = " at ";
   for (const auto& [name, value] : point.conditions) {
     text += joint + format_result(name, {value, 0.0});
     joint = ", ";
   }
+  return text;
+}
+
+std::string summarize(const PointRecord& point) {
+  std::string text = short_label(point);
   if (!point.done()) return fmt::format("{} FAILED: {}", text, point.message);
-  joint = ": ";
+  const char* joint = ": ";
   for (const auto& [name, estimate] : point.results) {
     if (name == "solid" || name == "error_correlation") continue;
     text += joint + format_result(name, estimate);
@@ -233,7 +239,7 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
         if (place >= static_cast<long>(queue.size())) break;
         const std::size_t index = queue[static_cast<std::size_t>(place)];
         const Task& task = tasks[index];
-        show(unfinished(task).label());
+        show(short_label(unfinished(task)));
         std::optional<PointRecord> dependency;
         if (!task.dependency.empty()) {
           // Tasks that others need stand earlier in the queue: another rank is computing it, or it is in the
@@ -243,7 +249,7 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
           dependency = find_point(store, task.dependency);
           if (!dependency || !dependency->done()) {
             ++counts[2];
-            log::warning("{} not computed: the point it depends on failed", task.protocol);
+            log::warning("{} not computed: the point it depends on failed", short_label(unfinished(task)));
             shared.add(SharedNumbers::finished, 1);
             continue;
           }
@@ -259,7 +265,7 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
         } else {
           log::warning("{}", summarize(point));
         }
-        show(point.label());
+        show(short_label(point));
       }
     } catch (const std::exception& error) {
       fault = error.what();

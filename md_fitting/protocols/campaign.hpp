@@ -30,6 +30,9 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
 /// "pressure = 45.312 +- 0.011 GPa" for people: usual units, two digits of the error.
 std::string format_result(const std::string& quantity, const Estimate& estimate);
 
+/// "isotherm at specific_volume = 0.1119 cm^3/g, temperature = 293 K"
+std::string short_label(const PointRecord& point);
+
 /// One line on a point: what it is and what it brought.
 std::string summarize(const PointRecord& point);
 

@@ -117,6 +117,7 @@ TEST(FormatResult, UsesUsualUnitsAndTheDigitsOfTheError) {
   EXPECT_EQ(format_result("specific_volume", {1.13465e-4, 1.1e-8}),
             "specific_volume = 0.113465 +- 0.000011 cm^3/g");
   EXPECT_EQ(format_result("temperature", {293.0, 0.0}), "temperature = 293 K");
+  EXPECT_EQ(format_result("lattice_constant", {3.615e-10, 1e-19}), "lattice_constant = 3.615 angstrom");
 }
 
 // The acceptance of a two-phase run: end states that have lost a phase look as steady as coexistence.
