@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/transfer/grid_update.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "src/parallel/threads.hpp"
 
@@ -72,16 +72,20 @@ struct Energies {
 void GridUpdate::remember_nodes_at_planes(const BlockGrid& grid) {
   if (at_planes_of_ == grid.adaptations()) return;
   at_planes_of_ = grid.adaptations();
-  at_planes_.clear();
+  std::map<std::uint32_t, std::uint8_t> nodes;  // node -> is it only an image?
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
     for (const auto& [outside, image] : plane.pairs) {
-      at_planes_.push_back(outside);
-      at_planes_.push_back(image);
+      nodes[outside] = 0;
+      nodes.try_emplace(image, std::uint8_t{1});
     }
-    at_planes_.insert(at_planes_.end(), plane.on_plane.begin(), plane.on_plane.end());
+    for (const std::uint32_t on_plane : plane.on_plane) nodes[on_plane] = 0;
   }
-  std::ranges::sort(at_planes_);
-  at_planes_.erase(std::unique(at_planes_.begin(), at_planes_.end()), at_planes_.end());
+  at_planes_.clear();
+  may_be_unchanged_.clear();
+  for (const auto& [node, only_image] : nodes) {
+    at_planes_.push_back(node);
+    may_be_unchanged_.push_back(only_image);
+  }
 }
 
 GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& relaxation) {
@@ -122,6 +126,8 @@ GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& re
     const Node& real = before_[i];
     const Node& node = nodes[at_planes_[i]];
     const double mass = real.first[0];
+    // A node that received nothing in the fold is not changed by the planes: only its round-off would count.
+    if (may_be_unchanged_[i] != 0 && node.second[3] == mass) continue;
     const Lanes momentum = {real.first[1], real.first[2], real.first[3], 0.0};
     const Lanes force = {real.second[1], real.second[2], real.second[3], 0.0};
     impulse += mass * node.second - dt * force - node.first[3] * (momentum - mass * node.first);

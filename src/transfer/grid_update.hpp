@@ -37,7 +37,8 @@ class GridUpdate {
  private:
   void remember_nodes_at_planes(const grid::BlockGrid& grid);
 
-  std::vector<std::uint32_t> at_planes_;  // nodes that the planes change
+  std::vector<std::uint32_t> at_planes_;       // nodes that the planes may change, ascending
+  std::vector<std::uint8_t> may_be_unchanged_;  // of each: it is only an image, which may have received nothing
   std::size_t at_planes_of_ = static_cast<std::size_t>(-1);  // adaptation that they belong to
   std::vector<grid::Node> before_;        // their content before the fold: what the real particles brought
 };

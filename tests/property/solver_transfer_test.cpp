@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Properties of grid and transfers on random particles: partition of unity, conservation, mirror planes equal to real
+// images, identity of work and heat, independence of how blocks are stored.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+
+#include "src/parallel/mpi.hpp"
+#include "src/particles/particles.hpp"
+#include "src/transfer/grid_to_particles.hpp"
+#include "src/transfer/grid_update.hpp"
+#include "src/transfer/particles_to_grid.hpp"
+
+namespace whipple::transfer {
+namespace {
+
+constexpr double dx = 0.5;
+
+grid::Geometry geometry(std::array<grid::Boundary, 6> boundary = {}) {
+  return {.lower = Vector3(-2, -1, 3), .cells = {22, 17, 19}, .cell_size = dx, .boundary = boundary};
+}
+
+SymmetricTensor random_stress(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  return {normal(random), normal(random), normal(random), normal(random), normal(random), normal(random)};
+}
+
+/// Particles with random state between two corners; a third of them in one dense block, the rest scattered, so that
+/// both accesses to the nodes are used.
+Particles random_particles(std::size_t n, const Vector3& lower, const Vector3& upper, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform;
+  std::normal_distribution<double> normal;
+  Particles q;
+  resize(q, n);
+  for (std::size_t p = 0; p < n; ++p) {
+    q.id[p] = p;
+    const double share = p % 3 == 0 ? 0.1 : 1.0;
+    for (int a = 0; a < 3; ++a) q.position[p][a] = lower[a] + share * uniform(random) * (upper[a] - lower[a]);
+    q.mass[p] = 0.5 + uniform(random);
+    q.volume[p] = 0.01 * (0.5 + uniform(random));
+    q.velocity[p] = Vector3(normal(random), normal(random), normal(random));
+    for (int i = 0; i < 9; ++i) q.affine_velocity[p].data()[i] = normal(random);
+    q.deviatoric_stress[p] = random_stress(random);
+    q.pressure[p] = normal(random);
+    q.artificial_viscosity[p] = uniform(random);
+    q.sound_speed[p] = 1.0 + uniform(random);
+    q.specific_internal_energy[p] = normal(random);
+  }
+  return q;
+}
+
+template <class Shape>
+void bin(grid::BlockGrid& grid, const Particles& q) {
+  grid.bin(q.position, q.velocity, 0.0, Shape::stencil);
+}
+
+struct NodeSums {
+  double mass = 0;
+  Vector3 momentum = Vector3::Zero(), force = Vector3::Zero(), angular = Vector3::Zero();
+};
+
+NodeSums node_sums(grid::BlockGrid& grid) {
+  NodeSums sums;
+  for (std::size_t s = 0; s < grid.slots(); ++s) {
+    for (int i = 0; i < grid::nodes_per_block; ++i) {
+      const grid::Node& node = grid.nodes(s)[i];
+      const grid::BlockCoordinate& c = grid.coordinate(s);
+      const Vector3 x = grid.geometry().lower + dx * Vector3(c[0] * 4 + i / 16, c[1] * 4 + i / 4 % 4, c[2] * 4 + i % 4);
+      const Vector3 momentum(node.first[1], node.first[2], node.first[3]);
+      sums.mass += node.first[0];
+      sums.momentum += momentum;
+      sums.force += Vector3(node.second[1], node.second[2], node.second[3]);
+      sums.angular += x.cross(momentum);
+    }
+  }
+  return sums;
+}
+
+template <class Shape>
+class Transfer : public testing::Test {};
+using Shapes = testing::Types<Linear, QuadraticBSpline>;
+TYPED_TEST_SUITE(Transfer, Shapes);
+
+TYPED_TEST(Transfer, ShapeFunctionsArePartitionsOfUnityWithConsistentGradients) {
+  constexpr int count = TypeParam::count;
+  for (double x = 0.001; x < 4.0; x += 0.0137) {
+    const AxisWeights<count> w = TypeParam::weights(x, dx);
+    double sum = 0, slope = 0, first = 0, second = 0, linear = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      sum += w.weight[i];
+      slope += w.derivative[i];
+      first += w.weight[i] * w.distance[i];
+      second += w.weight[i] * w.distance[i] * w.distance[i];
+      linear += w.derivative[i] * w.distance[i];
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-14);
+    EXPECT_NEAR(slope, 0.0, 1e-13);
+    EXPECT_NEAR(first, 0.0, 1e-14);
+    EXPECT_NEAR(linear, 1.0, 1e-13);  // gradient of a linear field is exact
+    if constexpr (count == 3) {
+      EXPECT_NEAR(second, dx * dx / 4, 1e-14);  // what the affine transfer relies on
+    }
+    // Derivative by finite difference, away from the jumps of the linear functions.
+    constexpr double h = 1e-6;
+    const AxisWeights<count> w2 = TypeParam::weights(x + h, dx);
+    if (w2.first == w.first) {
+      for (std::size_t i = 0; i < count; ++i) {
+        EXPECT_NEAR((w2.weight[i] - w.weight[i]) / (h * dx), w.derivative[i], 1e-5);
+      }
+    }
+  }
+}
+
+TYPED_TEST(Transfer, MassAndMomentumArriveOnTheGridAndForcesSumToZero) {
+  const Particles q = random_particles(500, Vector3(-1.2, -0.3, 4), Vector3(8, 6.5, 11.8), 1);
+  grid::BlockGrid grid(geometry(), parallel::world());
+  bin<TypeParam>(grid, q);
+  particles_to_grid<TypeParam>(q, grid);
+  const NodeSums sums = node_sums(grid);
+  double mass = 0;
+  Vector3 momentum = Vector3::Zero();
+  for (std::size_t p = 0; p < q.size(); ++p) {
+    mass += q.mass[p];
+    momentum += q.mass[p] * q.velocity[p];
+  }
+  EXPECT_NEAR(sums.mass, mass, 1e-11 * mass);
+  EXPECT_LT((sums.momentum - momentum).norm(), 1e-10);
+  EXPECT_LT(sums.force.norm(), 1e-10);
+}
+
+TEST(AffineTransfer, AngularMomentumWithTheAffineFieldsArrivesOnTheGrid) {
+  const Particles q = random_particles(500, Vector3(-1.2, -0.3, 4), Vector3(8, 6.5, 11.8), 2);
+  grid::BlockGrid grid(geometry(), parallel::world());
+  bin<QuadraticBSpline>(grid, q);
+  particles_to_grid<QuadraticBSpline>(q, grid);
+  Vector3 angular = Vector3::Zero();
+  for (std::size_t p = 0; p < q.size(); ++p) {
+    const Matrix3& c = q.affine_velocity[p];
+    const Vector3 spin(c(2, 1) - c(1, 2), c(0, 2) - c(2, 0), c(1, 0) - c(0, 1));
+    angular += q.mass[p] * (q.position[p].cross(q.velocity[p]) + dx * dx / 4 * spin);
+  }
+  EXPECT_LT((node_sums(grid).angular - angular).norm(), 1e-9 * angular.norm());
+}
+
+double kinetic_energy(const Particles& q) {
+  double sum = 0;
+  for (std::size_t p = 0; p < q.size(); ++p) {
+    sum += 0.5 * q.mass[p] * (q.velocity[p].squaredNorm() + dx * dx / 4 * q.affine_velocity[p].squaredNorm());
+  }
+  return sum;
+}
+double total_energy(const Particles& q) {
+  double sum = kinetic_energy(q);
+  for (std::size_t p = 0; p < q.size(); ++p) sum += q.mass[p] * q.specific_internal_energy[p];
+  return sum;
+}
+
+/// One symplectic transfer cycle; checks the exact identities of section 4 of docs/theory/mpm.md.
+void check_energy_identities(const Relaxation& relaxation, bool affine, std::array<grid::Boundary, 6> boundary,
+                             const Vector3& lower) {
+  Particles q = random_particles(700, lower, Vector3(8, 6.5, 11.8), 3);
+  if (!affine) {
+    for (Matrix3& c : q.affine_velocity) c.setZero();
+  }
+  grid::BlockGrid grid(geometry(boundary), parallel::world());
+  bin<QuadraticBSpline>(grid, q);
+  particles_to_grid<QuadraticBSpline>(q, grid);
+  GridUpdate update;
+  constexpr double dt = 0.05;
+  const double before = total_energy(q);
+  Vector3 momentum_before = Vector3::Zero(), momentum_after = Vector3::Zero();
+  for (std::size_t p = 0; p < q.size(); ++p) momentum_before += q.mass[p] * q.velocity[p];
+  const GridBalance balance = update.advance(grid, dt, relaxation);
+  std::vector<Matrix3> gradient(q.size());
+  const std::vector<double> energy = q.specific_internal_energy;
+  const TransferBalance transfer = grid_to_particles<QuadraticBSpline>(q, grid, dt, affine, gradient);
+  for (std::size_t p = 0; p < q.size(); ++p) momentum_after += q.mass[p] * q.velocity[p];
+
+  const double scale = std::abs(before) + balance.kinetic_energy_before;
+  EXPECT_NEAR(total_energy(q), before, 1e-12 * scale);
+  EXPECT_NEAR(balance.kinetic_energy_after - balance.kinetic_energy_before, -transfer.work, 1e-12 * scale);
+  EXPECT_GE(transfer.heat, 0.0);
+  EXPECT_LT((momentum_after - momentum_before - balance.wall_impulse).norm(), 1e-10 * scale);
+}
+
+TEST(AffineTransfer, EnergyAndMomentumAreExactForEveryMemberOfTheFamily) {
+  for (const Relaxation& relaxation : {Relaxation{.kappa = 0.2}, Relaxation{.kappa = 5.0}, Relaxation{.fixed = 1.0},
+                                       Relaxation{.fixed = 0.0}, Relaxation{.fixed = 0.37}}) {
+    check_energy_identities(relaxation, true, {}, Vector3(-1.2, -0.3, 4));
+    check_energy_identities(relaxation, false, {}, Vector3(-1.2, -0.3, 4));
+  }
+}
+
+TEST(AffineTransfer, EnergyAndMomentumAreExactAtMirrorPlanesAndCorners) {
+  using enum grid::Boundary;
+  const Vector3 corner(-2, -1, 3);
+  check_energy_identities({}, true, {symmetry, outflow, outflow, outflow, outflow, outflow}, corner);
+  check_energy_identities({}, true, {symmetry, outflow, symmetry, outflow, symmetry, outflow}, corner);
+  check_energy_identities({.fixed = 1.0}, true, {no_slip, outflow, symmetry, outflow, no_slip, outflow}, corner);
+  check_energy_identities({}, false, {symmetry, outflow, no_slip, outflow, symmetry, outflow}, corner);
+}
+
+// The fold equals real images: half of the particles with a plane against all of them with their images.
+TEST(MirrorPlane, EqualsATransferOfRealImages) {
+  using enum grid::Boundary;
+  Particles half = random_particles(400, Vector3(-2, 0.5, 4.5), Vector3(1, 5, 10), 4);
+  grid::BlockGrid grid(geometry({symmetry, outflow, outflow, outflow, outflow, outflow}), parallel::world());
+
+  // The full problem: a domain with its lower corner further left, particles and images about x = -2.
+  Particles full = half;
+  resize(full, 2 * half.size());
+  for (std::size_t p = 0; p < half.size(); ++p) {
+    const std::size_t image = half.size() + p;
+    for_each_field<Particles>([&](const auto& field) { (full.*(field.values))[image] = (half.*(field.values))[p]; });
+    const Matrix3 mirror = Vector3(-1, 1, 1).asDiagonal();
+    full.position[image][0] = -4 - half.position[p][0];
+    full.velocity[image] = mirror * half.velocity[p];
+    full.affine_velocity[image] = mirror * half.affine_velocity[p] * mirror;
+    full.deviatoric_stress[image] = SymmetricTensor::from(mirror * half.deviatoric_stress[p].matrix() * mirror);
+  }
+  grid::Geometry wide = geometry();
+  wide.lower[0] = -2 - 20 * dx;
+  wide.cells[0] = 42;
+  grid::BlockGrid full_grid(wide, parallel::world());
+
+  constexpr double dt = 0.05;
+  std::vector<Matrix3> half_gradient(half.size()), full_gradient(full.size());
+  const auto cycle = [&](Particles& q, grid::BlockGrid& g, std::vector<Matrix3>& gradient) {
+    bin<QuadraticBSpline>(g, q);
+    particles_to_grid<QuadraticBSpline>(q, g);
+    GridUpdate().advance(g, dt, {});
+    grid_to_particles<QuadraticBSpline>(q, g, dt, true, gradient);
+  };
+  cycle(half, grid, half_gradient);
+  cycle(full, full_grid, full_gradient);
+  for (std::size_t p = 0; p < half.size(); ++p) {
+    EXPECT_LT((half.velocity[p] - full.velocity[p]).norm(), 1e-11);
+    EXPECT_LT((half.position[p] - full.position[p]).norm(), 1e-12);
+    EXPECT_LT((half_gradient[p] - full_gradient[p]).norm(), 1e-10);
+    EXPECT_LT((half.affine_velocity[p] - full.affine_velocity[p]).norm(), 1e-10);
+    EXPECT_NEAR(half.specific_internal_energy[p], full.specific_internal_energy[p], 1e-11);
+  }
+}
+
+// Galilean invariance: heat, work and velocity gradients do not see a common velocity.
+TEST(AffineTransfer, IsGalileanInvariant) {
+  Particles at_rest = random_particles(500, Vector3(-1.2, -0.3, 4), Vector3(8, 6.5, 11.8), 5);
+  Particles moving = at_rest;
+  const Vector3 common(30, -20, 10);
+  for (Vector3& v : moving.velocity) v += common;
+  std::vector<Matrix3> g1(at_rest.size()), g2(at_rest.size());
+  const auto cycle = [](Particles& q, std::vector<Matrix3>& gradient) {
+    grid::BlockGrid grid(geometry(), parallel::world());
+    bin<QuadraticBSpline>(grid, q);
+    particles_to_grid<QuadraticBSpline>(q, grid);
+    GridUpdate().advance(grid, 0.02, {});
+    return grid_to_particles<QuadraticBSpline>(q, grid, 0.02, true, gradient);
+  };
+  const TransferBalance b1 = cycle(at_rest, g1);
+  const TransferBalance b2 = cycle(moving, g2);
+  EXPECT_NEAR(b1.heat, b2.heat, 1e-9 * b1.heat);
+  EXPECT_NEAR(b1.work, b2.work, 1e-9 * std::abs(b1.work) + 1e-9);
+  for (std::size_t p = 0; p < at_rest.size(); ++p) {
+    EXPECT_LT((g1[p] - g2[p]).norm(), 1e-10);
+    EXPECT_LT((moving.velocity[p] - common - at_rest.velocity[p]).norm(), 1e-11);
+  }
+}
+
+}  // namespace
+}  // namespace whipple::transfer

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The block grid follows the particles: blocks exist where stencils reach, particles are listed by block, empty space
+// costs nothing, and a position outside of the domain is an error.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <set>
+
+#include "src/base/error.hpp"
+#include "src/grid/block_grid.hpp"
+#include "src/parallel/mpi.hpp"
+
+namespace whipple::grid {
+namespace {
+
+Geometry geometry() { return {.lower = Vector3(0, 0, 0), .cells = {50, 37, 410}, .cell_size = 1.0, .boundary = {}}; }
+
+std::vector<Vector3> random_positions(std::size_t n, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform;
+  std::vector<Vector3> x;
+  for (std::size_t i = 0; i < n; ++i) {
+    x.emplace_back(50 * uniform(random), 37 * uniform(random), 410 * uniform(random));
+  }
+  return x;
+}
+
+void check_lists(const BlockGrid& grid, const std::vector<Vector3>& x) {
+  std::vector<int> seen(x.size(), 0);
+  std::set<BlockCoordinate> blocks;
+  for (std::size_t s = 0; s < grid.slots(); ++s) {
+    EXPECT_TRUE(blocks.insert(grid.coordinate(s)).second);
+    EXPECT_EQ(grid.neighbours(s)[neighbour_index(1, 1, 1)], static_cast<std::int32_t>(s));
+    std::uint32_t former = 0;
+    for (const std::uint32_t p : grid.particles_in(s)) {
+      ++seen[p];
+      EXPECT_GE(p, former);
+      former = p;
+      for (int a = 0; a < 3; ++a) {
+        const double local = x[p][a] - 4 * grid.coordinate(s)[static_cast<std::size_t>(a)];
+        EXPECT_TRUE(local >= 0 && local < 4);
+      }
+      // All 27 nodes of a quadratic B-spline lie in active blocks.
+      for (int n = 0; n < 27; ++n) {
+        BlockCoordinate block{};
+        const std::array<int, 3> offset = {n / 9, n / 3 % 3, n % 3};
+        for (std::size_t a = 0; a < 3; ++a) {
+          const double node = std::floor(x[p][static_cast<Eigen::Index>(a)] - 0.5) + offset[a];
+          block[a] = static_cast<std::int32_t>(std::floor(node / 4));
+        }
+        bool active = false;
+        for (const std::int32_t neighbour : grid.neighbours(s)) {
+          active = active || (neighbour >= 0 && grid.coordinate(static_cast<std::size_t>(neighbour)) == block);
+        }
+        EXPECT_TRUE(active);
+      }
+    }
+  }
+  for (const int count : seen) EXPECT_EQ(count, 1);
+}
+
+TEST(BlockGrid, FollowsMovingParticles) {
+  std::vector<Vector3> x = random_positions(300, 1);
+  const std::vector<Vector3> v(x.size(), Vector3(0.3, -0.2, 0.4));
+  BlockGrid grid(geometry(), parallel::world());
+  const Stencil stencil{.shift = 0.5, .count = 3};
+  grid.bin(x, v, 8.0, stencil);
+  check_lists(grid, x);
+  const std::size_t adaptations = grid.adaptations();
+  for (int step = 0; step < 40; ++step) {
+    for (std::size_t p = 0; p < x.size(); ++p) {
+      for (int a = 0; a < 3; ++a) {
+        const double limit = a == 0 ? 50 : a == 1 ? 37 : 410;
+        x[p][a] = std::clamp(x[p][a] + v[p][a], 0.0, limit);
+      }
+    }
+    grid.bin(x, v, 8.0, stencil);
+  }
+  check_lists(grid, x);
+  EXPECT_GT(grid.adaptations(), adaptations);
+  EXPECT_LT(grid.adaptations(), adaptations + 40) << "the active set must foresee the motion";
+}
+
+TEST(BlockGrid, EmptySpaceCostsNothing) {
+  Geometry huge = geometry();
+  huge.cells = {100000, 100000, 100000};
+  BlockGrid grid(huge, parallel::world());
+  const std::vector<Vector3> x = {Vector3(50000, 50000, 50000), Vector3(2, 99990, 3)};
+  const std::vector<Vector3> v(2, Vector3::Zero());
+  grid.bin(x, v, 0.0, {.shift = 0.5, .count = 3});
+  EXPECT_LE(grid.slots(), 2U * 27U);
+  EXPECT_LT(grid.forest_leaves(), 5000U);
+  check_lists(grid, x);
+}
+
+TEST(BlockGrid, RefusesPositionsOutsideOfTheDomain) {
+  BlockGrid grid(geometry(), parallel::world());
+  const std::vector<Vector3> v(1, Vector3::Zero());
+  for (const double bad : {-2.0, 60.0, std::numeric_limits<double>::quiet_NaN()}) {
+    const std::vector<Vector3> x = {Vector3(bad, 1, 1)};
+    EXPECT_THROW(grid.bin(x, v, 0.0, {.shift = 0.5, .count = 3}), StateError);
+  }
+}
+
+}  // namespace
+}  // namespace whipple::grid
