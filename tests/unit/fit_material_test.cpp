@@ -287,6 +287,15 @@ TEST_F(FitMaterial, ExecutableWritesRefusesAndOverwrites) {
   EXPECT_THAT(output(), HasSubstr("no material written"));
 }
 
+TEST_F(FitMaterial, ExecutableDrawsTheFigure) {
+  const std::filesystem::path figure = folder.path() / "fit.png";
+  ASSERT_EQ(run(fmt::format("'{}' -q --plot '{}'", file.string(), figure.string())), 0) << output();
+  EXPECT_EQ(read_text(figure).substr(1, 3), "PNG");
+  EXPECT_FALSE(std::filesystem::exists(figure.string() + ".json.part"));
+  EXPECT_EQ(run(fmt::format("'{}' -q --plot '{}'", file.string(), figure.string())), 2);
+  EXPECT_THAT(output(), HasSubstr("--force overwrites it"));
+}
+
 TEST_F(FitMaterial, ExecutableReportsWrongInput) {
   EXPECT_EQ(run("missing.md.h5"), 2);
   EXPECT_THAT(output(), HasSubstr("missing.md.h5"));

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `whipple compare` as a user calls it: table, files, refusals.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "tests/unit/md_temporary_folder.hpp"
+
+namespace whipple::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class CompareCommand : public ::testing::Test {
+ protected:
+  [[nodiscard]] int run(const std::string& arguments) const {
+    const int status = std::system(fmt::format("cd '{}' && '{}' compare {} > output.txt 2>&1",
+                                               folder.path().string(), WHIPPLE_EXECUTABLE, arguments)
+                                       .c_str());
+    return WEXITSTATUS(status);
+  }
+  [[nodiscard]] std::string output() const { return read_text(folder.path() / "output.txt"); }
+
+  md::TemporaryFolder folder;
+};
+
+TEST_F(CompareCommand, PrintsOneRowPerMaterialAndExperiment) {
+  ASSERT_EQ(run("copper copper_slides_md --with cu_hugoniot_marsh1980 cu_isotherm_298K_dewaele2004.csv"), 0)
+      << output();
+  // Figures of docs/theory/fit.md, section 6, with the library's own files.
+  EXPECT_THAT(output(), ::testing::ContainsRegex(
+                            "cu_hugoniot_marsh1980 +Hugoniot +copper +144 .*1\\.18 +\\+0\\.08"));
+  EXPECT_THAT(output(),
+              ::testing::ContainsRegex("dewaele2004 +isotherm 298 K +copper +41 .*0\\.50 +\\+0\\.08"));
+  EXPECT_THAT(output(),
+              ::testing::ContainsRegex("dewaele2004 +isotherm 298 K +copper_slides_md +41 .*9\\.75"));
+  EXPECT_THAT(output(), HasSubstr("% of Us"));
+}
+
+TEST_F(CompareCommand, WritesPointsAndFigureOnce) {
+  const std::string arguments = "copper --with cu_isotherm_aip_handbook --csv points.csv --plot figure.png";
+  ASSERT_EQ(run(arguments), 0) << output();
+  EXPECT_EQ(read_text(folder.path() / "figure.png").substr(1, 3), "PNG");
+  const std::string points = read_text(folder.path() / "points.csv");
+  EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 2 + 25);
+  EXPECT_EQ(run(arguments), 2);
+  EXPECT_THAT(output(), HasSubstr("'points.csv' exists; --force overwrites it"));
+  EXPECT_EQ(run(arguments + " --force"), 0) << output();
+}
+
+TEST_F(CompareCommand, RefusesWithReasons) {
+  EXPECT_EQ(run("copper --with nothing.csv"), 2);
+  EXPECT_THAT(output(), HasSubstr("no experiment 'nothing.csv'"));
+  EXPECT_EQ(run("coper --with cu_hugoniot_marsh1980"), 2);
+  EXPECT_THAT(output(), HasSubstr("copper"));
+  EXPECT_EQ(run("copper"), 2);
+  EXPECT_EQ(run("copper --with cu_melting"), 2);
+}
+
+}  // namespace
+}  // namespace whipple::app
