@@ -63,8 +63,17 @@ int run_plan(const Options& options) {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   const Plan plan = read_plan(options.plan);
-  const Potential potential = Potential::load(plan.potential, plan.element, plan.folder);
-  const std::vector<Task> tasks = make_tasks(plan, potential);
+  // Errors of the potential, or of states outside its range, are errors of the plan.
+  const auto of_plan = [&](const auto& call) {
+    try {
+      return call();
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: error: {}", options.plan, error.what()));
+    }
+  };
+  const Potential potential =
+      of_plan([&] { return Potential::load(plan.potential, plan.element, plan.folder); });
+  const std::vector<Task> tasks = of_plan([&] { return make_tasks(plan, potential); });
   require_writable_on_all(options.store, rank);
   if (rank == 0) {
     log::info("{}: {} points, potential {} ({}), {} rank{}", plan.title.empty() ? options.plan : plan.title,

@@ -26,7 +26,7 @@ class SharedNumbers {
  public:
   enum Index : MPI_Aint { next_task, finished, stop, first_task };
 
-  /// @param tasks numbers of its own for each task: whether it is in the store
+  /// @param tasks numbers of its own for each task: whether its turn is over
   SharedNumbers(MPI_Comm communicator, std::size_t tasks) {
     int rank = 0;
     MPI_Comm_rank(communicator, &rank);
@@ -133,7 +133,7 @@ PointRecord compute_point(const Task& task, const PointRecord* dependency) {
   return point;
 }
 
-/// Waits until another rank has stored a task. False: the work is being stopped.
+/// Waits until the turn of a task is over: stored, or given up. False: the work is being stopped.
 bool wait_for(std::size_t task, SharedNumbers& shared) {
   while (shared.read(SharedNumbers::stop) == 0) {
     if (shared.read(SharedNumbers::of_task(task)) != 0) return true;
@@ -250,6 +250,8 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
           if (!dependency || !dependency->done()) {
             ++counts[2];
             log::warning("{} not computed: the point it depends on failed", short_label(unfinished(task)));
+            shared.add(SharedNumbers::of_task(index),
+                       1);  // whoever waits for it learns that it will not come
             shared.add(SharedNumbers::finished, 1);
             continue;
           }

@@ -96,6 +96,19 @@ TEST_F(Campaign, FailureIsRecordedAndTheOthersGoOn) {
   EXPECT_EQ(select(read_store(store), "isotherm").size(), 4U);
 }
 
+// A chain of dependencies behind a failure ends instead of waiting for points that never come.
+TEST_F(Campaign, ChainBehindAFailureIsBlocked) {
+  failing = "a";
+  const std::vector<Task> tasks = {task("a"), task("bb", "a"), task("ccc", "bb"), task("dddd", "ccc"),
+                                   task("other")};
+  const CampaignSummary summary = run(tasks);
+  EXPECT_EQ(summary.failed, 1);
+  EXPECT_EQ(summary.blocked, 3);
+  EXPECT_EQ(summary.computed, 1);
+  failing.clear();
+  EXPECT_EQ(run(tasks, true).computed, 4);
+}
+
 TEST_F(Campaign, ResultsThatAreNotFiniteAreFailures) {
   std::vector<Task> tasks = {task("a")};
   tasks[0].compute = [](const PointRecord*) {
