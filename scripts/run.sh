@@ -100,7 +100,6 @@ else
     --with eos/data/cu_hugoniot_marsh1980.csv eos/data/cu_isotherm_298K_dewaele2004.csv \
     --plot "$comparison" --force | tee "$output/compare.txt"
   finished compare "${inputs[@]}"
-  echo "written: $comparison"
 fi
 
 stage "4/5 impact: $case_file"
