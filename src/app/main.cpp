@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include "src/app/bench_command.hpp"
 #include "src/app/build_info.hpp"
 #include "src/app/command_line.hpp"
 #include "src/app/compare_command.hpp"
@@ -36,6 +37,7 @@ int whipple_main(int argc, char** argv) {
   add_describe_command(app);
   add_materials_command(app);
   add_units_command(app);
+  add_bench_command(app);
   add_version_command(app);
 
   add_verbosity(app);

@@ -24,17 +24,20 @@ struct Arguments {
 };
 
 solver::RunOptions run_options(const Arguments& arguments) {
-  solver::RunOptions options{.case_file = arguments.case_file,
-                             .output_directory = arguments.output,
-                             .restart = !arguments.restart.empty(),
-                             .force = arguments.force,
-                             .threads = arguments.threads,
-                             .program = fmt::format("whipple {} ({})", build_info().version, build_info().revision),
-                             .overrides = {}};
+  solver::RunOptions options{
+      .case_file = arguments.case_file,
+      .output_directory = arguments.output,
+      .restart = !arguments.restart.empty(),
+      .force = arguments.force,
+      .threads = arguments.threads,
+      .program = fmt::format("whipple {} ({})", build_info().version, build_info().revision),
+      .overrides = {}};
   if (options.restart) {
-    if (!arguments.output.empty()) throw InputError("--restart DIR goes on in DIR: -o cannot name another one");
+    if (!arguments.output.empty())
+      throw InputError("--restart DIR goes on in DIR: -o cannot name another one");
     if (!arguments.case_file.empty()) {
-      throw InputError("--restart DIR takes the case from DIR/run.toml: leave CASE.toml out, change keys with --set");
+      throw InputError(
+          "--restart DIR takes the case from DIR/run.toml: leave CASE.toml out, change keys with --set");
     }
     options.output_directory = arguments.restart;
   } else if (arguments.case_file.empty()) {
@@ -52,10 +55,13 @@ solver::RunOptions run_options(const Arguments& arguments) {
 
 void add_common(CLI::App& command, Arguments& arguments) {
   command.add_option("case", arguments.case_file, "The case (CASE.toml)");
-  command.add_option("--set", arguments.set, "Override a key of the case, e.g. domain.cell_size='0.3 mm' (repeatable)")
+  command
+      .add_option("--set", arguments.set,
+                  "Override a key of the case, e.g. domain.cell_size='0.3 mm' (repeatable)")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--threads", arguments.threads, "Threads (default: all cores)")->check(CLI::Range(1, 4096));
+  command.add_option("--threads", arguments.threads, "Threads (default: all cores)")
+      ->check(CLI::Range(1, 4096));
 }
 
 }  // namespace
@@ -64,7 +70,8 @@ void add_run_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("run", "Simulate a case, or go on with an interrupted run");
   add_common(*command, *arguments);
-  command->add_option("-o,--output", arguments->output, "Run directory (default: run/NAME); must be new or empty");
+  command->add_option("-o,--output", arguments->output,
+                      "Run directory (default: run/NAME); must be new or empty");
   command->add_option("--restart", arguments->restart, "Go on from the latest checkpoint of a run directory")
       ->type_name("DIR");
   command->add_flag("--force", arguments->force, "Remove the outputs of an earlier run in the run directory");
@@ -72,7 +79,8 @@ void add_run_command(CLI::App& app) {
       "Example:\n  whipple run cases/copper_disk_on_aluminium/case.toml -o run/disk --set time.end='5 us'\n"
       "  whipple run --restart run/disk\n"
       "Signals: INT and TERM write a checkpoint and end the run, USR1 writes one and goes on.\n"
-      "Exit codes: 0 done, 2 wrong input, 3 the physics left its range (state saved), 128 + signal when stopped");
+      "Exit codes: 0 done, 2 wrong input, 3 the physics left its range (state saved), 128 + signal when "
+      "stopped");
   command->callback([arguments] {
     const int code = solver::run(run_options(*arguments));
     if (code != 0) throw CLI::RuntimeError(code);

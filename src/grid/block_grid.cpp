@@ -36,8 +36,8 @@ constexpr std::array<std::uint32_t, 64> neighbour_masks() {
 }
 constexpr std::array<std::uint32_t, 64> masks = neighbour_masks();
 
-/// Neighbours that the nodes of a stencil fall into when the particle is at `local` (cells from the block's lower
-/// corner), with `ahead` cells of motion before it.
+/// Neighbours that the nodes of a stencil fall into when the particle is at `local` (cells from the block's
+/// lower corner), with `ahead` cells of motion before it.
 std::uint32_t touched_neighbours(const Vector3& local, const Vector3& ahead, Stencil stencil) {
   unsigned reach = 0;
   for (int a = 0; a < 3; ++a) {
@@ -60,7 +60,8 @@ BlockGrid::BlockGrid(const Geometry& geometry, MPI_Comm communicator)
   for (int face = 0; face < 6; ++face) {
     const Boundary boundary = geometry.boundary[static_cast<std::size_t>(face)];
     if (boundary == Boundary::outflow) continue;
-    planes_.push_back({.axis = face / 2, .no_slip = boundary == Boundary::no_slip, .pairs = {}, .on_plane = {}});
+    planes_.push_back(
+        {.axis = face / 2, .no_slip = boundary == Boundary::no_slip, .pairs = {}, .on_plane = {}});
   }
 }
 
@@ -70,8 +71,9 @@ BlockCoordinate BlockGrid::block_of(const Vector3& position, std::size_t index) 
     const double cells = (position[a] - geometry_.lower[a]) / geometry_.cell_size;
     // The negation also catches NaN.
     if (!(cells > -1.0 && cells < geometry_.cells[static_cast<std::size_t>(a)] + 1.0)) {
-      throw StateError(fmt::format("particle with index {} is outside of the domain: position {} m along axis {}",
-                                   index, position[a], "xyz"[a]));
+      throw StateError(
+          fmt::format("particle with index {} is outside of the domain: position {} m along axis {}", index,
+                      position[a], "xyz"[a]));
     }
     block[static_cast<std::size_t>(a)] = static_cast<std::int32_t>(std::floor(cells / block_edge));
   }
@@ -121,7 +123,8 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
 void BlockGrid::adapt(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
                       Stencil stencil) {
   ++adaptations_;
-  // Blocks with particles, and for each the neighbours that its particles reach now and within the look-ahead.
+  // Blocks with particles, and for each the neighbours that its particles reach now and within the
+  // look-ahead.
   BlockTable homes;
   homes.reserve(coordinate_.size() + 64);
   std::vector<BlockCoordinate> home;
@@ -171,7 +174,8 @@ void BlockGrid::adapt(std::span<const Vector3> position, std::span<const Vector3
   });
   nodes_.resize(coordinate_.size() * nodes_per_block);
   slot_of_particle_.resize(position.size());
-  for (std::size_t p = 0; p < position.size(); ++p) slot_of_particle_[p] = table_.find(block_of(position[p], p));
+  for (std::size_t p = 0; p < position.size(); ++p)
+    slot_of_particle_[p] = table_.find(block_of(position[p], p));
   find_mirror_nodes();
 }
 
@@ -225,10 +229,12 @@ void BlockGrid::find_mirror_nodes() {
         for (std::size_t a = 0; a < 3; ++a) image[a] = coordinate_[s][a] * block_edge + inside_block[a];
         image[axis] = 2 * at - image[axis];
         BlockCoordinate block{};
-        for (std::size_t a = 0; a < 3; ++a) block[a] = (image[a] + block_edge) / block_edge - 1;  // floor for >= -4
+        for (std::size_t a = 0; a < 3; ++a)
+          block[a] = (image[a] + block_edge) / block_edge - 1;  // floor for >= -4
         if (image[axis] < -block_edge) continue;
         const std::int32_t slot = table_.find(block);
-        if (slot == no_slot) continue;  // no particle reaches so far beyond the plane: its stencil is symmetric
+        if (slot == no_slot)
+          continue;  // no particle reaches so far beyond the plane: its stencil is symmetric
         const int node = node_index(image[0] - block[0] * block_edge, image[1] - block[1] * block_edge,
                                     image[2] - block[2] * block_edge);
         mirror.pairs.push_back({index, static_cast<std::uint32_t>(slot * nodes_per_block + node)});

@@ -14,15 +14,16 @@
 namespace whipple::grid {
 
 /// Payload of a node, two registers of four doubles (SI).
-/// After particles_to_grid: `first` = mass, momentum x y z;           `second` = mass * sound speed, force x y z.
-/// After the grid update:   `first` = velocity x y z, relaxation beta; `second` = velocity increment x y z, mass.
+/// After particles_to_grid: `first` = mass, momentum x y z;           `second` = mass * sound speed, force x
+/// y z. After the grid update:   `first` = velocity x y z, relaxation beta; `second` = velocity increment x y
+/// z, mass.
 struct alignas(64) Node {
   Lanes first;
   Lanes second;
 };
 
-/// Nodes that a kernel reaches from a particle: `count` nodes per direction, the first at floor(X - shift) where X is
-/// the position in cells.
+/// Nodes that a kernel reaches from a particle: `count` nodes per direction, the first at floor(X - shift)
+/// where X is the position in cells.
 struct Stencil {
   double shift = 0.5;
   int count = 3;
@@ -31,8 +32,8 @@ struct Stencil {
 /// Edge of the region of nodes that the particles of one block reach: one before, four inside, two behind.
 constexpr int reach_edge = block_edge + 3;
 
-/// Place of a node of that region, per direction: offset of the block that owns it (0 before, 1 same, 2 behind) and
-/// index inside that block. Position 0 is the node before the block's first.
+/// Place of a node of that region, per direction: offset of the block that owns it (0 before, 1 same, 2
+/// behind) and index inside that block. Position 0 is the node before the block's first.
 struct ReachMap {
   std::array<int, reach_edge> block{};
   std::array<int, reach_edge> node{};
@@ -50,8 +51,8 @@ constexpr ReachMap reach_map() {
 constexpr int node_index(int x, int y, int z) { return (x * block_edge + y) * block_edge + z; }
 constexpr int neighbour_index(int x, int y, int z) { return (x * 3 + y) * 3 + z; }
 
-/// The sparse background grid: the blocks where particles are, their nodes, and the list of particles in each block.
-/// Slots number the active blocks in the order of the forest's space-filling curve.
+/// The sparse background grid: the blocks where particles are, their nodes, and the list of particles in each
+/// block. Slots number the active blocks in the order of the forest's space-filling curve.
 class BlockGrid {
  public:
   static constexpr std::int32_t no_slot = BlockTable::none;
@@ -59,12 +60,13 @@ class BlockGrid {
   /// Collective over `communicator`.
   BlockGrid(const Geometry& geometry, MPI_Comm communicator);
 
-  /// Finds the block of every particle, activates blocks where the stencil of a particle reaches beyond the active
-  /// ones, and lists the particles by block, in the order of their index. Active blocks beyond the reach of all
-  /// particles are dropped when the set is adapted; the set foresees the motion over `lookahead` seconds so that it
-  /// need not be adapted every step.
+  /// Finds the block of every particle, activates blocks where the stencil of a particle reaches beyond the
+  /// active ones, and lists the particles by block, in the order of their index. Active blocks beyond the
+  /// reach of all particles are dropped when the set is adapted; the set foresees the motion over `lookahead`
+  /// seconds so that it need not be adapted every step.
   /// @throws StateError if a particle is outside of the domain and its outer layer (names the index)
-  void bin(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead, Stencil stencil);
+  void bin(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
+           Stencil stencil);
 
   /// Particles changed their order or number: the next `bin` looks every block up anew.
   void particles_reordered() { slot_of_particle_.clear(); }
@@ -73,7 +75,9 @@ class BlockGrid {
   [[nodiscard]] std::size_t slots() const { return coordinate_.size(); }
   [[nodiscard]] const BlockCoordinate& coordinate(std::size_t slot) const { return coordinate_[slot]; }
   /// Slots of the 27 blocks around a slot (see neighbour_index), `no_slot` where inactive.
-  [[nodiscard]] const std::array<std::int32_t, 27>& neighbours(std::size_t slot) const { return neighbours_[slot]; }
+  [[nodiscard]] const std::array<std::int32_t, 27>& neighbours(std::size_t slot) const {
+    return neighbours_[slot];
+  }
   /// Indices of the particles in a block, ascending.
   [[nodiscard]] std::span<const std::uint32_t> particles_in(std::size_t slot) const {
     return std::span(particles_).subspan(begin_[slot], begin_[slot + 1] - begin_[slot]);
@@ -113,7 +117,8 @@ class BlockGrid {
  private:
   [[nodiscard]] BlockCoordinate block_of(const Vector3& position, std::size_t index) const;
   bool locate(std::span<const Vector3> position, Stencil stencil);
-  void adapt(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead, Stencil stencil);
+  void adapt(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
+             Stencil stencil);
   void list_particles(std::size_t n);
   void find_mirror_nodes();
 

@@ -8,7 +8,8 @@
 
 namespace whipple::grid {
 
-/// Hash table from block coordinate to an integer (open addressing, linear probing). Built once per adaptation.
+/// Hash table from block coordinate to an integer (open addressing, linear probing). Built once per
+/// adaptation.
 class BlockTable {
  public:
   static constexpr std::int32_t none = -1;

@@ -65,7 +65,7 @@ struct Forest::State {
   std::vector<std::array<int, 3>> tree_origin;  // place of each tree in the brick
   std::vector<p4est_topidx_t> tree_at;          // inverse, x fastest
   std::array<int, 3> trees;                     // number of trees per direction
-  std::vector<Key> keys;  // wanted blocks, sorted, during adapt
+  std::vector<Key> keys;                        // wanted blocks, sorted, during adapt
 };
 
 namespace {
@@ -90,7 +90,8 @@ Forest::Forest(const Geometry& geometry, MPI_Comm communicator) {
   for (int a = 0; a < 3; ++a) blocks[static_cast<std::size_t>(a)] = geometry.blocks(a) + 2;
   // About eight trees along the longest edge: few trees, and little of them outside of the domain.
   const int longest = std::max({blocks[0], blocks[1], blocks[2]});
-  const int level = std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>((longest + 7) / 8) - 1U)));
+  const int level =
+      std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>((longest + 7) / 8) - 1U)));
   if (level > P8EST_QMAXLEVEL) throw InputError("the domain has too many cells for one forest");
   std::array<int, 3> trees{};
   const int per_tree = 1 << level;
@@ -100,7 +101,8 @@ Forest::Forest(const Geometry& geometry, MPI_Comm communicator) {
   const p8est_connectivity_t* connectivity = state_->connectivity.pointer;
   state_->tree_at.resize(static_cast<std::size_t>(connectivity->num_trees));
   for (p4est_topidx_t t = 0; t < connectivity->num_trees; ++t) {
-    // p4est numbers the trees of a brick along a curve of its own; the first vertex of a tree tells where it is.
+    // p4est numbers the trees of a brick along a curve of its own; the first vertex of a tree tells where it
+    // is.
     const double* vertex = &connectivity->vertices[3 * connectivity->tree_to_vertex[8 * t]];
     std::array<int, 3> origin{};
     for (std::size_t a = 0; a < 3; ++a) origin[a] = static_cast<int>(std::lround(vertex[a]));
@@ -127,7 +129,8 @@ std::vector<BlockCoordinate> Forest::adapt(std::span<const BlockCoordinate> want
     for (std::size_t a = 0; a < 3; ++a) {
       const int shifted = block[a] + 1;  // the layer outside of the domain has coordinate -1
       tree[a] = shifted >> s.level;
-      if (shifted < 0 || tree[a] >= s.trees[a]) throw InternalError("a block outside of the forest was asked for");
+      if (shifted < 0 || tree[a] >= s.trees[a])
+        throw InternalError("a block outside of the forest was asked for");
       corner[a] = (shifted - (tree[a] << s.level)) * edge;
     }
     quadrant.x = corner[0];

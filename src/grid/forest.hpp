@@ -11,8 +11,9 @@
 
 namespace whipple::grid {
 
-/// p4est forest over the domain with one layer of blocks outside. A leaf at the finest level is a block; coarser
-/// leaves are empty space and carry nothing, so a large domain costs nothing where there is no matter.
+/// p4est forest over the domain with one layer of blocks outside. A leaf at the finest level is a block;
+/// coarser leaves are empty space and carry nothing, so a large domain costs nothing where there is no
+/// matter.
 class Forest {
  public:
   /// Collective over `communicator`.
@@ -21,8 +22,8 @@ class Forest {
   Forest(Forest&&) noexcept;
   Forest& operator=(Forest&&) noexcept;
 
-  /// Refines and coarsens the forest so that exactly the wanted blocks (and the siblings that refinement brings
-  /// along) are finest leaves. Collective.
+  /// Refines and coarsens the forest so that exactly the wanted blocks (and the siblings that refinement
+  /// brings along) are finest leaves. Collective.
   /// @param wanted blocks that must exist, any order, without repetition
   /// @returns the wanted blocks in the order of the forest's space-filling curve
   std::vector<BlockCoordinate> adapt(std::span<const BlockCoordinate> wanted);

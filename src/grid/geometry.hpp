@@ -12,8 +12,9 @@ namespace whipple::grid {
 constexpr int block_edge = 4;
 constexpr int nodes_per_block = block_edge * block_edge * block_edge;
 
-/// Position of a block in units of blocks; block (0,0,0) begins at the lower corner of the domain, one layer of
-/// blocks lies outside of every face (kernels are wider than a cell, mirror planes need nodes beyond them).
+/// Position of a block in units of blocks; block (0,0,0) begins at the lower corner of the domain, one layer
+/// of blocks lies outside of every face (kernels are wider than a cell, mirror planes need nodes beyond
+/// them).
 using BlockCoordinate = std::array<std::int32_t, 3>;
 
 /// What happens at a face of the domain.
@@ -25,9 +26,9 @@ enum class Boundary : std::uint8_t {
 
 /// The uniform background grid of the domain: node i of a direction lies at lower + i * cell_size.
 struct Geometry {
-  Vector3 lower = Vector3::Zero();          ///< m
-  std::array<std::int32_t, 3> cells{};      ///< number of cells
-  double cell_size = 0.0;                   ///< m, dx
+  Vector3 lower = Vector3::Zero();      ///< m
+  std::array<std::int32_t, 3> cells{};  ///< number of cells
+  double cell_size = 0.0;               ///< m, dx
   /// Faces in the order x_lower, x_upper, y_lower, y_upper, z_lower, z_upper.
   std::array<Boundary, 6> boundary{};
 

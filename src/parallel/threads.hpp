@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <vector>
 
-/// The one place with OpenMP pragmas. Every result is bitwise independent of the number of threads: loops write to
-/// their own elements only, and sums are taken over fixed chunks in a fixed order.
+/// The one place with OpenMP pragmas. Every result is bitwise independent of the number of threads: loops
+/// write to their own elements only, and sums are taken over fixed chunks in a fixed order.
 namespace whipple::parallel {
 
 inline void set_threads(int n) { omp_set_num_threads(n); }
@@ -39,7 +39,8 @@ void for_each_chunk(std::size_t n, Body&& body) {
   for_each_uneven(chunks, [&](std::size_t c) { body(c * chunk_size, std::min(n, (c + 1) * chunk_size)); });
 }
 
-/// Sum over i of term(i), whose value is default-constructible to zero and has +=. Chunks are summed in their order.
+/// Sum over i of term(i), whose value is default-constructible to zero and has +=. Chunks are summed in their
+/// order.
 template <class Sum, class Term>
 Sum sum(std::size_t n, Term&& term) {
   const std::size_t chunks = (n + chunk_size - 1) / chunk_size;

@@ -20,38 +20,37 @@ struct Field {
 template <class Points, class Value>
 Field(const char*, const char*, std::vector<Value> Points::*) -> Field<Points, Value>;
 
-/// State of matter at points, one array per field (SI): what MPM particles and Gauss points of finite elements
-/// share, so that `update_material` is one code path.
+/// State of matter at points, one array per field (SI): what MPM particles and Gauss points of finite
+/// elements share, so that `update_material` is one code path.
 struct MaterialPoints {
-  std::vector<double> mass;                       ///< kg, constant
-  std::vector<double> volume;                     ///< m^3 of matter: density = mass / volume enters the EOS
-  std::vector<double> void_volume;                ///< m^3 of opened void of failed points (0: none)
-  std::vector<double> specific_internal_energy;   ///< J/kg
-  std::vector<double> pressure;                   ///< Pa, positive in compression, without artificial viscosity
-  std::vector<double> artificial_viscosity;       ///< Pa, >= 0
-  std::vector<SymmetricTensor> deviatoric_stress; ///< Pa, positive in tension
-  std::vector<double> temperature;                ///< K
-  std::vector<double> sound_speed;                ///< m/s, longitudinal (with shear stiffness), for time step and viscosity
-  std::vector<double> plastic_strain;             ///< equivalent plastic strain
-  std::vector<double> melted_fraction;            ///< mass fraction of liquid and vapour
-  std::vector<double> vaporised_fraction;         ///< mass fraction of vapour
-  std::vector<double> failure_threshold_factor;   ///< scatter of the failure threshold (1: none)
-  std::vector<std::uint8_t> failed;               ///< 0 intact, 1 tensile (spall), 2 plastic strain; see failure models
+  std::vector<double> mass;                      ///< kg, constant
+  std::vector<double> volume;                    ///< m^3 of matter: density = mass / volume enters the EOS
+  std::vector<double> void_volume;               ///< m^3 of opened void of failed points (0: none)
+  std::vector<double> specific_internal_energy;  ///< J/kg
+  std::vector<double> pressure;              ///< Pa, positive in compression, without artificial viscosity
+  std::vector<double> artificial_viscosity;  ///< Pa, >= 0
+  std::vector<SymmetricTensor> deviatoric_stress;  ///< Pa, positive in tension
+  std::vector<double> temperature;                 ///< K
+  std::vector<double> sound_speed;  ///< m/s, longitudinal (with shear stiffness), for time step and viscosity
+  std::vector<double> plastic_strain;            ///< equivalent plastic strain
+  std::vector<double> melted_fraction;           ///< mass fraction of liquid and vapour
+  std::vector<double> vaporised_fraction;        ///< mass fraction of vapour
+  std::vector<double> failure_threshold_factor;  ///< scatter of the failure threshold (1: none)
+  std::vector<std::uint8_t> failed;  ///< 0 intact, 1 tensile (spall), 2 plastic strain; see failure models
 
   static constexpr auto fields() {
     using P = MaterialPoints;
-    return std::make_tuple(Field{"mass", "kg", &P::mass}, Field{"volume", "m^3", &P::volume},
-                           Field{"void_volume", "m^3", &P::void_volume},
-                           Field{"specific_internal_energy", "J/kg", &P::specific_internal_energy},
-                           Field{"pressure", "Pa", &P::pressure},
-                           Field{"artificial_viscosity", "Pa", &P::artificial_viscosity},
-                           Field{"deviatoric_stress", "Pa", &P::deviatoric_stress},
-                           Field{"temperature", "K", &P::temperature}, Field{"sound_speed", "m/s", &P::sound_speed},
-                           Field{"plastic_strain", "1", &P::plastic_strain},
-                           Field{"melted_fraction", "1", &P::melted_fraction},
-                           Field{"vaporised_fraction", "1", &P::vaporised_fraction},
-                           Field{"failure_threshold_factor", "1", &P::failure_threshold_factor},
-                           Field{"failed", "1", &P::failed});
+    return std::make_tuple(
+        Field{"mass", "kg", &P::mass}, Field{"volume", "m^3", &P::volume},
+        Field{"void_volume", "m^3", &P::void_volume},
+        Field{"specific_internal_energy", "J/kg", &P::specific_internal_energy},
+        Field{"pressure", "Pa", &P::pressure}, Field{"artificial_viscosity", "Pa", &P::artificial_viscosity},
+        Field{"deviatoric_stress", "Pa", &P::deviatoric_stress}, Field{"temperature", "K", &P::temperature},
+        Field{"sound_speed", "m/s", &P::sound_speed}, Field{"plastic_strain", "1", &P::plastic_strain},
+        Field{"melted_fraction", "1", &P::melted_fraction},
+        Field{"vaporised_fraction", "1", &P::vaporised_fraction},
+        Field{"failure_threshold_factor", "1", &P::failure_threshold_factor},
+        Field{"failed", "1", &P::failed});
   }
 };
 

@@ -11,25 +11,27 @@ namespace whipple {
 
 /// Material points that move through the grid. Sorted by block and cell of the grid (transfer/).
 struct Particles : MaterialPoints {
-  std::vector<std::uint64_t> id;         ///< unique, never changes
-  std::vector<std::uint32_t> body;       ///< index of the body in the case
-  std::vector<Vector3> position;         ///< m
-  std::vector<Vector3> velocity;         ///< m/s
-  std::vector<Matrix3> affine_velocity;  ///< 1/s: a_p(x) = v_p + C_p (x - x_p), NUMERICS eq. of the affine field
+  std::vector<std::uint64_t> id;    ///< unique, never changes
+  std::vector<std::uint32_t> body;  ///< index of the body in the case
+  std::vector<Vector3> position;    ///< m
+  std::vector<Vector3> velocity;    ///< m/s
+  std::vector<Matrix3>
+      affine_velocity;  ///< 1/s: a_p(x) = v_p + C_p (x - x_p), NUMERICS eq. of the affine field
 
   [[nodiscard]] std::size_t size() const { return mass.size(); }
 
   static constexpr auto fields() {
     using P = Particles;
-    return std::tuple_cat(MaterialPoints::fields(),
-                          std::make_tuple(Field{"id", "1", &P::id}, Field{"body", "1", &P::body},
-                                          Field{"position", "m", &P::position}, Field{"velocity", "m/s", &P::velocity},
-                                          Field{"affine_velocity", "1/s", &P::affine_velocity}));
+    return std::tuple_cat(
+        MaterialPoints::fields(),
+        std::make_tuple(Field{"id", "1", &P::id}, Field{"body", "1", &P::body},
+                        Field{"position", "m", &P::position}, Field{"velocity", "m/s", &P::velocity},
+                        Field{"affine_velocity", "1/s", &P::affine_velocity}));
   }
 };
 
-/// Brings every field into the order new[i] = old[order[i]]; `order` may be shorter than the particles (removal).
-/// Two calls that give the same order give bitwise the same particles.
+/// Brings every field into the order new[i] = old[order[i]]; `order` may be shorter than the particles
+/// (removal). Two calls that give the same order give bitwise the same particles.
 void reorder(Particles& particles, std::span<const std::uint32_t> order);
 
 }  // namespace whipple

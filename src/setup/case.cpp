@@ -20,7 +20,8 @@ ParameterTable<Domain> Domain::parameters() {
   return {vector("lower", &Domain::lower, "m", range::any(), "lower corner of the domain"),
           vector("upper", &Domain::upper, "m", range::any(),
                  "upper corner; moved outwards to whole cells at outflow faces"),
-          real("cell_size", &Domain::cell_size, "m", range::positive(), "edge of the cells of the background grid")};
+          real("cell_size", &Domain::cell_size, "m", range::positive(),
+               "edge of the cells of the background grid")};
 }
 
 ParameterTable<Domain> Domain::boundary_parameters() {
@@ -29,8 +30,9 @@ ParameterTable<Domain> Domain::boundary_parameters() {
                   "matter leaves and is counted | frictionless mirror plane | wall that matter sticks to")
         .optional();
   };
-  return {face("x_lower", &Domain::x_lower), face("x_upper", &Domain::x_upper), face("y_lower", &Domain::y_lower),
-          face("y_upper", &Domain::y_upper), face("z_lower", &Domain::z_lower), face("z_upper", &Domain::z_upper)};
+  return {face("x_lower", &Domain::x_lower), face("x_upper", &Domain::x_upper),
+          face("y_lower", &Domain::y_lower), face("y_upper", &Domain::y_upper),
+          face("z_lower", &Domain::z_lower), face("z_upper", &Domain::z_upper)};
 }
 
 ParameterTable<TimeControl> TimeControl::parameters() {
@@ -45,7 +47,8 @@ ParameterTable<TimeControl> TimeControl::parameters() {
                "largest acceleration * dt^2 as a share of the cell size")
               .optional(),
           choice("scheme", &TimeControl::scheme, {"symplectic", "musl"},
-                 "symplectic: exact energy (default); musl: modified update stress last, for comparison with other codes")
+                 "symplectic: exact energy (default); musl: modified update stress last, for comparison with "
+                 "other codes")
               .optional()};
 }
 
@@ -65,7 +68,8 @@ ParameterTable<ArtificialViscosity> ArtificialViscosity::parameters() {
   return {real("linear", &ArtificialViscosity::linear, "", range::non_negative(),
                "c1 of q = rho l |D| (c2 l |D| + c1 c), in compression")
               .optional(),
-          real("quadratic", &ArtificialViscosity::quadratic, "", range::non_negative(), "c2 of the same").optional()};
+          real("quadratic", &ArtificialViscosity::quadratic, "", range::non_negative(), "c2 of the same")
+              .optional()};
 }
 
 ParameterTable<OutputControl> OutputControl::parameters() {
@@ -81,7 +85,8 @@ ParameterTable<OutputControl> OutputControl::parameters() {
           real("maximum_energy_error", &OutputControl::maximum_energy_error, "", range::positive(),
                "the run stops when the relative error of the total energy exceeds this")
               .optional(),
-          text_list("fields", &OutputControl::fields, io::output_field_names(), "quantities in the snapshots").optional()};
+          text_list("fields", &OutputControl::fields, io::output_field_names(), "quantities in the snapshots")
+              .optional()};
 }
 
 ParameterTable<Discretization> Discretization::parameters() {
@@ -107,8 +112,9 @@ ParameterTable<Case> Case::parameters() {
 namespace {
 
 grid::Boundary boundary_kind(const std::string& word) {
-  return word == "symmetry" ? grid::Boundary::symmetry : word == "no_slip" ? grid::Boundary::no_slip
-                                                                           : grid::Boundary::outflow;
+  return word == "symmetry"  ? grid::Boundary::symmetry
+         : word == "no_slip" ? grid::Boundary::no_slip
+                             : grid::Boundary::outflow;
 }
 
 std::array<std::string, 6> faces(const Domain& domain) {
@@ -129,16 +135,18 @@ void make_geometry(Case& setup, input::Table& domain) {
     g.boundary[2 * a + 1] = boundary_kind(boundary[2 * a + 1]);
     const double exact = (d.upper[axis] - d.lower[axis]) / d.cell_size;
     if (!(exact > 0.0) || exact > 1e6) {
-      domain.error_at("upper", fmt::format("the domain has {} cells along {}; expected 1 to 1e6", exact, "xyz"[a]));
+      domain.error_at("upper",
+                      fmt::format("the domain has {} cells along {}; expected 1 to 1e6", exact, "xyz"[a]));
       continue;
     }
     const double nearest = std::round(exact);
     const bool whole = std::abs(exact - nearest) < 1e-6 * std::max(nearest, 1.0);
     if (!whole && g.boundary[2 * a + 1] != grid::Boundary::outflow) {
-      domain.error_at("upper", fmt::format("{}_upper is a {} face, so the domain must hold a whole number of cells "
-                                           "along {}: {} m holds {:.6g} cells of {} m",
-                                           "xyz"[a], boundary[2 * a + 1], "xyz"[a], d.upper[axis] - d.lower[axis],
-                                           exact, d.cell_size));
+      domain.error_at(
+          "upper", fmt::format("{}_upper is a {} face, so the domain must hold a whole number of cells "
+                               "along {}: {} m holds {:.6g} cells of {} m",
+                               "xyz"[a], boundary[2 * a + 1], "xyz"[a], d.upper[axis] - d.lower[axis], exact,
+                               d.cell_size));
     }
     g.cells[a] = static_cast<std::int32_t>(whole ? nearest : std::ceil(exact));
   }
@@ -184,16 +192,16 @@ void check_combinations(Case& setup, input::Table& root) {
       transfer->error_at("particle_update", "scheme \"musl\" transfers with particle_update = \"flip\" only");
     }
     if (!musl && affine && setup.transfer.shape_function == "linear") {
-      transfer->error_at("shape_function", fmt::format("particle_update = \"{}\" needs shape_function = "
-                                                       "\"quadratic_bspline\"; linear functions take \"flip\"",
-                                                       setup.transfer.particle_update));
+      transfer->error_at("shape_function",
+                         fmt::format("particle_update = \"{}\" needs shape_function = "
+                                     "\"quadratic_bspline\"; linear functions take \"flip\"",
+                                     setup.transfer.particle_update));
     }
   }
   if (setup.time.scheme == "musl") setup.transfer.particle_update = "flip";
 }
 
-Case read(input::Document document,
-          const std::vector<std::pair<std::string, std::string>>& overrides) {
+Case read(input::Document document, const std::vector<std::pair<std::string, std::string>>& overrides) {
   for (const auto& [key, value] : overrides) document.set(key, value);
   Case setup;
   setup.file = document.path();
@@ -210,7 +218,8 @@ Case read(input::Document document,
     make_geometry(setup, *domain);
   }
   if (auto table = root.required_table("time")) table->read(TimeControl::parameters(), setup.time);
-  if (auto table = root.optional_table("transfer")) table->read(TransferControl::parameters(), setup.transfer);
+  if (auto table = root.optional_table("transfer"))
+    table->read(TransferControl::parameters(), setup.transfer);
   if (auto table = root.optional_table("artificial_viscosity")) {
     table->read(ArtificialViscosity::parameters(), setup.viscosity);
   }
@@ -222,9 +231,11 @@ Case read(input::Document document,
   std::vector<input::Table> bodies = root.list("body");
   if (bodies.empty()) root.error("no bodies: expected at least one [[body]]");
   for (const input::Table& body : bodies) read_body(setup, body, names, materials);
-  const bool complete = domain && std::ranges::all_of(setup.bodies, [](const Body& b) { return b.shape != nullptr; });
+  const bool complete =
+      domain && std::ranges::all_of(setup.bodies, [](const Body& b) { return b.shape != nullptr; });
   if (complete && setup.geometry.cells[0] > 0 && setup.geometry.cells[1] > 0 && setup.geometry.cells[2] > 0) {
-    for (const PlacementFault& fault : placement_faults(setup)) bodies[fault.body].error_at("shape", fault.message);
+    for (const PlacementFault& fault : placement_faults(setup))
+      bodies[fault.body].error_at("shape", fault.message);
   }
   document.finish();
   return setup;
@@ -258,15 +269,16 @@ std::string to_toml(const Case& setup, const std::vector<std::string>& material_
     Body body = setup.bodies[b];
     body.material = material_of_body[b];
     text += "\n[[body]]\n" + whipple::to_toml(whipple::bind(Body::parameters(), body));
-    text += fmt::format("discretization = {{ method = {}, per_cell = {} }}\n", whipple::quoted(body.discretization.method),
-                        body.discretization.per_cell);
+    text += fmt::format("discretization = {{ method = {}, per_cell = {} }}\n",
+                        whipple::quoted(body.discretization.method), body.discretization.per_cell);
     text += fmt::format("shape = {}\n", body.shape->toml());
   }
   return text;
 }
 
 std::string describe_case() {
-  std::string text = "Case file (TOML). Quantities are numbers in SI or texts with a unit, \"6.58 km/s\".\n\n";
+  std::string text =
+      "Case file (TOML). Quantities are numbers in SI or texts with a unit, \"6.58 km/s\".\n\n";
   text += describe_table(Case::parameters());
   text += "\n[domain]\n" + describe_table(Domain::parameters());
   text += "\n[domain.boundary], or boundary = { x_lower = \"symmetry\", ... }\n" +
@@ -278,7 +290,8 @@ std::string describe_case() {
   text += "\n[[body]]\n" + describe_table(Body::parameters());
   text += "\n[body.discretization]\n" + describe_table(Discretization::parameters());
   for (const ShapeEntry& entry : shape_catalogue()) {
-    text += fmt::format("\nshape = {{ {} = {{ ... }} }}: {}\n{}", entry.name, entry.summary, entry.describe());
+    text +=
+        fmt::format("\nshape = {{ {} = {{ ... }} }}: {}\n{}", entry.name, entry.summary, entry.describe());
   }
   text += "\nQuantities for output.fields\n" + io::describe_output_fields();
   return text;

@@ -90,7 +90,8 @@ struct Case {
 
 /// Reads and checks a case: all errors at once, as InputError.
 /// @param overrides pairs of key and value as of --set
-Case read_case(const std::filesystem::path& path, const std::vector<std::pair<std::string, std::string>>& overrides);
+Case read_case(const std::filesystem::path& path,
+               const std::vector<std::pair<std::string, std::string>>& overrides);
 Case read_case_text(const std::string& text, const std::string& name);
 
 /// The complete case as TOML, with every default, readable by `read_case`.

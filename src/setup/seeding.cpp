@@ -17,8 +17,9 @@ struct Lattice {
   std::array<long, 3> count{};
 
   [[nodiscard]] Vector3 point(long i, long j, long k) const {
-    return lower + Vector3(static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5, static_cast<double>(k) + 0.5)
-                       .cwiseProduct(spacing);
+    return lower +
+           Vector3(static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5, static_cast<double>(k) + 0.5)
+               .cwiseProduct(spacing);
   }
 };
 
@@ -26,21 +27,22 @@ bool is_mirror(const Case& setup, int face) {
   return setup.geometry.boundary[static_cast<std::size_t>(face)] != grid::Boundary::outflow;
 }
 
-/// The lattice divides the bounding box evenly, so that faces of boxes and ends of cylinders are met exactly; a body
-/// that a mirror plane halves gets an even number, so that its image continues the lattice.
+/// The lattice divides the bounding box evenly, so that faces of boxes and ends of cylinders are met exactly;
+/// a body that a mirror plane halves gets an even number, so that its image continues the lattice.
 Lattice lattice_of(const Case& setup, const Body& body) {
   const Shape::Bounds bounds = body.shape->bounds();
-  const double wanted = setup.geometry.cell_size / std::cbrt(static_cast<double>(body.discretization.per_cell));
+  const double wanted =
+      setup.geometry.cell_size / std::cbrt(static_cast<double>(body.discretization.per_cell));
   Lattice lattice;
   lattice.lower = bounds.lower;
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<Eigen::Index>(a);
     const double length = bounds.upper[axis] - bounds.lower[axis];
     const double middle = 0.5 * (bounds.upper[axis] + bounds.lower[axis]);
-    const bool halved =
-        (is_mirror(setup, static_cast<int>(2 * a)) && std::abs(middle - setup.geometry.lower[axis]) < 1e-9 * length) ||
-        (is_mirror(setup, static_cast<int>(2 * a + 1)) &&
-         std::abs(middle - setup.geometry.upper(static_cast<int>(a))) < 1e-9 * length);
+    const bool halved = (is_mirror(setup, static_cast<int>(2 * a)) &&
+                         std::abs(middle - setup.geometry.lower[axis]) < 1e-9 * length) ||
+                        (is_mirror(setup, static_cast<int>(2 * a + 1)) &&
+                         std::abs(middle - setup.geometry.upper(static_cast<int>(a))) < 1e-9 * length);
     const double part = halved ? 0.5 * length : length;
     const long n = std::max(1L, std::lround(part / wanted)) * (halved ? 2 : 1);
     lattice.count[a] = n;
@@ -86,10 +88,11 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
       const bool beyond = face % 2 == 0 ? bounds.lower[a] < setup.geometry.lower[a] - tolerance
                                         : bounds.upper[a] > setup.geometry.upper(a) + tolerance;
       if (beyond && !is_mirror(setup, face)) {
-        faults.push_back({b, fmt::format("body \"{}\" reaches {} = {} m, outside of the domain, which goes from {} m "
-                                         "to {} m",
-                                         body.name, "xyz"[a], face % 2 == 0 ? bounds.lower[a] : bounds.upper[a],
-                                         setup.geometry.lower[a], setup.geometry.upper(a))});
+        faults.push_back(
+            {b, fmt::format("body \"{}\" reaches {} = {} m, outside of the domain, which goes from {} m "
+                            "to {} m",
+                            body.name, "xyz"[a], face % 2 == 0 ? bounds.lower[a] : bounds.upper[a],
+                            setup.geometry.lower[a], setup.geometry.upper(a))});
       }
     }
     const Lattice lattice = lattice_of(setup, body);
@@ -100,8 +103,9 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
       for (std::size_t other = 0; other < b; ++other) {
         if (!overlaps[other] && setup.bodies[other].shape->contains(point)) {
           overlaps[other] = true;
-          faults.push_back({b, fmt::format("body \"{}\" overlaps body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m", body.name,
-                                           setup.bodies[other].name, point[0], point[1], point[2])});
+          faults.push_back(
+              {b, fmt::format("body \"{}\" overlaps body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m", body.name,
+                              setup.bodies[other].name, point[0], point[1], point[2])});
         }
       }
     });
@@ -109,15 +113,16 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
       const Body& former = setup.bodies[other];
       if (overlaps[other] || !boxes_meet(bounds, former.shape->bounds())) continue;
       bool found = false;
-      for_each_point(setup, former, lattice_of(setup, former), [&](const Vector3& point) {
-        found = found || body.shape->contains(point);
-      });
-      if (found) faults.push_back({b, fmt::format("body \"{}\" overlaps body \"{}\"", body.name, former.name)});
+      for_each_point(setup, former, lattice_of(setup, former),
+                     [&](const Vector3& point) { found = found || body.shape->contains(point); });
+      if (found)
+        faults.push_back({b, fmt::format("body \"{}\" overlaps body \"{}\"", body.name, former.name)});
     }
     if (count == 0) {
-      faults.push_back({b, fmt::format("body \"{}\" holds no particle: it is outside of the domain or thinner than a "
-                                       "particle spacing",
-                                       body.name)});
+      faults.push_back(
+          {b, fmt::format("body \"{}\" holds no particle: it is outside of the domain or thinner than a "
+                          "particle spacing",
+                          body.name)});
     }
   }
   return faults;

@@ -31,8 +31,8 @@ struct Seeding {
   std::vector<BodySummary> bodies;
 };
 
-/// Fills the bodies with particles on lattices that fit each body's bounding box, as near as possible to the wanted
-/// number per cell. Parts of a body beyond a symmetry plane or wall are left out (quarter models).
+/// Fills the bodies with particles on lattices that fit each body's bounding box, as near as possible to the
+/// wanted number per cell. Parts of a body beyond a symmetry plane or wall are left out (quarter models).
 Seeding seed(const Case& setup);
 
 }  // namespace whipple::setup

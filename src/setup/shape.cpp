@@ -128,7 +128,8 @@ std::unique_ptr<Shape> read_shape(input::Table& body) {
   }
   const Shape::Bounds bounds = shape->bounds();
   if (!(bounds.lower.array() < bounds.upper.array()).all()) {
-    body.error_at("shape", fmt::format("'{}.shape' is empty: the lower corner is not below the upper one", body.name()));
+    body.error_at("shape", fmt::format("'{}.shape' is empty: the lower corner is not below the upper one",
+                                       body.name()));
     return nullptr;
   }
   return shape;

@@ -42,9 +42,8 @@ io::CheckpointValues to_checkpoint(const RunState& state) {
   io::CheckpointValues values;
   values.integers["step"] = state.step;
   for_each_real(state, [&](const std::string& name, double value) { values.reals[name] = value; });
-  for_each_vector(state, [&](const std::string& name, const Vector3& v) {
-    values.arrays[name] = {v[0], v[1], v[2]};
-  });
+  for_each_vector(
+      state, [&](const std::string& name, const Vector3& v) { values.arrays[name] = {v[0], v[1], v[2]}; });
   return values;
 }
 
@@ -55,7 +54,8 @@ RunState from_checkpoint(const io::CheckpointValues& values) {
   for_each_vector(state, [&](const std::string& name, Vector3& v) {
     const std::vector<double>& stored = values.array(name);
     if (stored.size() != 3) {
-      throw InputError(fmt::format("{}: array '{}' has {} entries, expected 3", values.source, name, stored.size()));
+      throw InputError(
+          fmt::format("{}: array '{}' has {} entries, expected 3", values.source, name, stored.size()));
     }
     v = Vector3(stored[0], stored[1], stored[2]);
   });

@@ -23,12 +23,13 @@ Totals totals_of(const Particles& particles, std::size_t p, double cell_size) {
   const double m = particles.mass[p];
   const Vector3& v = particles.velocity[p];
   const double speed2 = v.squaredNorm();
-  return {.mass = m,
-          .momentum = m * v,
-          .momentum_scale = m * std::sqrt(speed2),
-          .kinetic_energy = 0.5 * m * speed2,
-          .affine_kinetic_energy = 0.125 * m * cell_size * cell_size * particles.affine_velocity[p].squaredNorm(),
-          .internal_energy = m * particles.specific_internal_energy[p]};
+  return {
+      .mass = m,
+      .momentum = m * v,
+      .momentum_scale = m * std::sqrt(speed2),
+      .kinetic_energy = 0.5 * m * speed2,
+      .affine_kinetic_energy = 0.125 * m * cell_size * cell_size * particles.affine_velocity[p].squaredNorm(),
+      .internal_energy = m * particles.specific_internal_energy[p]};
 }
 
 Totals totals_of(const Particles& particles, double cell_size) {

@@ -14,9 +14,9 @@ namespace whipple::solver {
 struct Totals {
   double mass = 0.0;
   Vector3 momentum = Vector3::Zero();
-  double momentum_scale = 0.0;          ///< sum m |v|, to judge momentum errors by
-  double kinetic_energy = 0.0;          ///< of the particles' own velocities
-  double affine_kinetic_energy = 0.0;   ///< of their affine fields: m dx^2 |C|^2 / 8
+  double momentum_scale = 0.0;         ///< sum m |v|, to judge momentum errors by
+  double kinetic_energy = 0.0;         ///< of the particles' own velocities
+  double affine_kinetic_energy = 0.0;  ///< of their affine fields: m dx^2 |C|^2 / 8
   double internal_energy = 0.0;
 
   [[nodiscard]] double energy() const { return kinetic_energy + affine_kinetic_energy + internal_energy; }
@@ -36,8 +36,9 @@ struct Ledger {
   Vector3 wall_impulse = Vector3::Zero();  ///< N s, by mirror planes and walls
   double work = 0.0;                       ///< J, stress on strain, into internal energy
   double transfer_heat = 0.0;              ///< J, kinetic energy lost in transfers, into internal energy
-  double clamped_to_cold_curve = 0.0;      ///< evaluations below the cold curve (temperature clamped, energy kept)
-  double limited_volume_changes = 0.0;     ///< steps of particles whose volume change was limited
+  double clamped_to_cold_curve =
+      0.0;  ///< evaluations below the cold curve (temperature clamped, energy kept)
+  double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
 
   /// Relative error of the total energy.
   [[nodiscard]] double energy_error(const Totals& now) const;

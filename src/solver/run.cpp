@@ -32,13 +32,15 @@ namespace fs = std::filesystem;
 /// One rank for now: blocks and particles are not exchanged between processes.
 void require_one_rank(MPI_Comm communicator) {
   if (parallel::size(communicator) > 1) {
-    throw InputError(fmt::format("the solver was started on {} MPI ranks; it runs on one, with threads (--threads N)",
-                                 parallel::size(communicator)));
+    throw InputError(
+        fmt::format("the solver was started on {} MPI ranks; it runs on one, with threads (--threads N)",
+                    parallel::size(communicator)));
   }
 }
 
 void set_threads(int threads) {
-  parallel::set_threads(threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+  parallel::set_threads(threads > 0 ? threads
+                                    : static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }
 
 /// Name of a run: the folder of its case, or the file if that is not called case.toml.
@@ -69,9 +71,10 @@ std::string provenance(const setup::Case& setup, const std::string& program) {
   gethostname(host.data(), host.size() - 1);
   return fmt::format(
       "\n[provenance]\nprogram = {}\ncase_file = {}\nmachine = {}\nthreads = {}\nstarted = {}\n",
-      whipple::quoted(program), whipple::quoted(setup.file.string()),
-      whipple::quoted(host.data()), parallel::threads(),
-      whipple::quoted(fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())))));
+      whipple::quoted(program), whipple::quoted(setup.file.string()), whipple::quoted(host.data()),
+      parallel::threads(),
+      whipple::quoted(fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(
+                                                              std::chrono::system_clock::now())))));
 }
 
 io::RunDirectory new_directory(const setup::Case& setup, const fs::path& path, const RunOptions& options) {
@@ -131,7 +134,8 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
       {"limited_volume_changes", "1", state.ledger.limited_volume_changes},
       {"particles", "1", static_cast<double>(particles.size())},
   };
-  static constexpr std::array<const char*, 4> phases = {"mass_solid", "mass_melting", "mass_liquid", "mass_vapour"};
+  static constexpr std::array<const char*, 4> phases = {"mass_solid", "mass_melting", "mass_liquid",
+                                                        "mass_vapour"};
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     for (std::size_t i = 0; i < phases.size(); ++i) {
       row.push_back({fmt::format("{}.{}", phases[i], bodies[b].name), "kg", by_body[b].mass[i]});
@@ -154,13 +158,14 @@ std::string profile_as_json(Simulation& simulation, double wall_seconds) {
       .dump(2);
 }
 
-io::ParticleSeries open_series(const setup::Case& setup, const io::RunDirectory& directory, MPI_Comm communicator) {
-  io::ParticleSeriesOptions options{.folder = directory.path(),
-                                    .name = directory.name(),
-                                    .fields = setup.output.fields,
-                                    .material_of_body = {},
-                                    .provenance = {{"units", "SI"},
-                                                   {"input", io::read_text(directory.input_file())}}};
+io::ParticleSeries open_series(const setup::Case& setup, const io::RunDirectory& directory,
+                               MPI_Comm communicator) {
+  io::ParticleSeriesOptions options{
+      .folder = directory.path(),
+      .name = directory.name(),
+      .fields = setup.output.fields,
+      .material_of_body = {},
+      .provenance = {{"units", "SI"}, {"input", io::read_text(directory.input_file())}}};
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     options.material_of_body.push_back(static_cast<std::uint16_t>(b));
   }
@@ -180,7 +185,8 @@ class Runner {
     history_.append(history_row(simulation_));
   }
 
-  Runner(const setup::Case& setup, const io::RunDirectory& directory, io::Checkpoint checkpoint, MPI_Comm communicator)
+  Runner(const setup::Case& setup, const io::RunDirectory& directory, io::Checkpoint checkpoint,
+         MPI_Comm communicator)
       : directory_(directory),
         communicator_(communicator),
         simulation_(setup, std::move(checkpoint.particles), from_checkpoint(checkpoint.values), communicator),
@@ -188,8 +194,8 @@ class Runner {
         history_(io::History::restart(directory.history_file(), simulation_.state().step)),
         snapshots_(checkpoint.values.integer("snapshots")) {
     series_.restart(simulation_.state().time);
-    log::info("restarted from {} at step {}, t = {:.6g} s", checkpoint.path.string(), simulation_.state().step,
-              simulation_.state().time);
+    log::info("restarted from {} at step {}, t = {:.6g} s", checkpoint.path.string(),
+              simulation_.state().step, simulation_.state().time);
   }
 
   int run() {
@@ -215,10 +221,11 @@ class Runner {
         write_checkpoint(directory_.checkpoint_folder());
         last_checkpoint = Clock::now();
       }
-      progress.update(state.time, fmt::format("step {}, t = {:.3f} us, dt = {:.2f} ns, {} particles, dE/E = {:.1e}",
-                                              state.step, 1e6 * state.time, 1e9 * state.time_step,
-                                              simulation_.particles().size(),
-                                              state.ledger.energy_error(simulation_.totals())));
+      progress.update(
+          state.time,
+          fmt::format("step {}, t = {:.3f} us, dt = {:.2f} ns, {} particles, dE/E = {:.1e}", state.step,
+                      1e6 * state.time, 1e9 * state.time_step, simulation_.particles().size(),
+                      state.ledger.energy_error(simulation_.totals())));
     }
     const double wall = std::chrono::duration<double>(Clock::now() - begin).count();
     io::write_text_atomically(directory_.profile_file(), profile_as_json(simulation_, wall));
@@ -243,15 +250,16 @@ class Runner {
     series_.write(simulation_.particles(), simulation_.state().time);
     const double every = simulation_.setup().output.snapshot_every;
     // The next multiple of the interval, also when a step was longer than it.
-    snapshots_ = every > 0.0 ? static_cast<std::int64_t>(std::floor(simulation_.state().time / every)) + 1 : 1;
+    snapshots_ =
+        every > 0.0 ? static_cast<std::int64_t>(std::floor(simulation_.state().time / every)) + 1 : 1;
   }
 
   void write_checkpoint(const fs::path& folder) {
     io::CheckpointValues values = to_checkpoint(simulation_.state());
     values.integers["snapshots"] = snapshots_;
     values.texts["run_name"] = directory_.name();
-    const fs::path path =
-        io::write_checkpoint(folder, simulation_.state().step, simulation_.particles(), values, communicator_);
+    const fs::path path = io::write_checkpoint(folder, simulation_.state().step, simulation_.particles(),
+                                               values, communicator_);
     log::detail("checkpoint {}", path.string());
   }
 
@@ -262,9 +270,9 @@ class Runner {
       log::info("stopped by signal {} at step {}, t = {:.6g} s; go on with: whipple run --restart {}", signal,
                 state.step, state.time, directory_.path().string());
     }
-    log::info("{} steps to t = {:.6g} s in {}; energy error {:.2e}, momentum error {:.2e}, outflow {:.3g} kg", state.step,
-              state.time, format_duration(wall), state.ledger.energy_error(totals), state.ledger.momentum_error(totals),
-              state.ledger.outflow.mass);
+    log::info("{} steps to t = {:.6g} s in {}; energy error {:.2e}, momentum error {:.2e}, outflow {:.3g} kg",
+              state.step, state.time, format_duration(wall), state.ledger.energy_error(totals),
+              state.ledger.momentum_error(totals), state.ledger.outflow.mass);
     if (state.ledger.clamped_to_cold_curve > 0 || state.ledger.limited_volume_changes > 0) {
       log::info("clamped: temperature below the cold curve {} times, volume change of a step {} times",
                 state.ledger.clamped_to_cold_curve, state.ledger.limited_volume_changes);
@@ -294,7 +302,8 @@ int run(const RunOptions& options) {
   if (options.restart) {
     const fs::path input = options.output_directory / "run.toml";
     const setup::Case setup = setup::read_case(input, options.overrides);
-    io::Checkpoint checkpoint = io::read_latest_checkpoint(options.output_directory / "checkpoint", communicator);
+    io::Checkpoint checkpoint =
+        io::read_latest_checkpoint(options.output_directory / "checkpoint", communicator);
     const io::RunDirectory directory =
         io::RunDirectory::open(options.output_directory, checkpoint.values.text("run_name"));
     log::add_file(directory.log_file());
@@ -317,8 +326,8 @@ std::string check(const RunOptions& options) {
   const setup::Case setup = setup::read_case(options.case_file, options.overrides);
   Simulation simulation(setup, communicator);
   std::string text = fmt::format("{}\n{}\n\n", setup.file.string(), setup.title);
-  text += fmt::format("grid: {} x {} x {} cells of {:.6g} mm\n", setup.geometry.cells[0], setup.geometry.cells[1],
-                      setup.geometry.cells[2], 1e3 * setup.geometry.cell_size);
+  text += fmt::format("grid: {} x {} x {} cells of {:.6g} mm\n", setup.geometry.cells[0],
+                      setup.geometry.cells[1], setup.geometry.cells[2], 1e3 * setup.geometry.cell_size);
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const setup::BodySummary& body = simulation.bodies()[b];
     text += fmt::format("body \"{}\" of {}: {} particles, {:.6g} g in the domain; whole shape {:.6g} g\n",
@@ -329,14 +338,16 @@ std::string check(const RunOptions& options) {
   simulation.advance(setup.time.end);  // activates the blocks
   constexpr int measured_steps = 2;
   const Clock::time_point begin = Clock::now();
-  for (int i = 0; i < measured_steps && simulation.state().time < setup.time.end; ++i) simulation.advance(setup.time.end);
+  for (int i = 0; i < measured_steps && simulation.state().time < setup.time.end; ++i)
+    simulation.advance(setup.time.end);
   const double per_step = std::chrono::duration<double>(Clock::now() - begin).count() / measured_steps;
   const double steps = std::ceil(setup.time.end / simulation.state().time_step);
-  text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", particles, simulation.grid().slots(),
-                      format_bytes(static_cast<double>(simulation.bytes())));
-  text += fmt::format("time step: {:.4g} ns at the start; about {:.0f} steps to t = {:.6g} us, more as shocks raise "
-                      "the sound speed\n",
-                      1e9 * simulation.state().time_step, steps, 1e6 * setup.time.end);
+  text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", particles,
+                      simulation.grid().slots(), format_bytes(static_cast<double>(simulation.bytes())));
+  text += fmt::format(
+      "time step: {:.4g} ns at the start; about {:.0f} steps to t = {:.6g} us, more as shocks raise "
+      "the sound speed\n",
+      1e9 * simulation.state().time_step, steps, 1e6 * setup.time.end);
   text += fmt::format("estimated time: {} on {} threads ({:.0f} ns per particle and step, measured)\n",
                       format_duration(steps * per_step), parallel::threads(),
                       1e9 * per_step / static_cast<double>(particles));

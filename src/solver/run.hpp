@@ -12,12 +12,12 @@ namespace whipple::solver {
 
 /// What the user asks of a run besides the case.
 struct RunOptions {
-  std::filesystem::path case_file;        ///< empty on restart: run.toml of the directory
-  std::filesystem::path output_directory; ///< empty: the name of the case's folder, or of its file, in ./run
-  bool restart = false;                   ///< go on from the latest checkpoint in output_directory
-  bool force = false;                     ///< remove the outputs of an earlier run in output_directory
-  int threads = 0;                        ///< 0: all cores
-  std::string program = "whipple";        ///< name and version, for provenance
+  std::filesystem::path case_file;         ///< empty on restart: run.toml of the directory
+  std::filesystem::path output_directory;  ///< empty: the name of the case's folder, or of its file, in ./run
+  bool restart = false;                    ///< go on from the latest checkpoint in output_directory
+  bool force = false;                      ///< remove the outputs of an earlier run in output_directory
+  int threads = 0;                         ///< 0: all cores
+  std::string program = "whipple";         ///< name and version, for provenance
   std::vector<std::pair<std::string, std::string>> overrides;  ///< --set
 };
 

@@ -16,8 +16,8 @@
 namespace whipple::solver {
 namespace {
 
-constexpr std::int64_t sort_every = 20;       // steps between sorts of the particle arrays
-constexpr double lookahead_steps = 8.0;       // motion that the active blocks foresee
+constexpr std::int64_t sort_every = 20;  // steps between sorts of the particle arrays
+constexpr double lookahead_steps = 8.0;  // motion that the active blocks foresee
 
 bool affine(const setup::Case& setup) { return setup.transfer.particle_update != "flip"; }
 
@@ -51,7 +51,8 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
   state_.ledger.initial = totals_;
 }
 
-Simulation::Simulation(const setup::Case& setup, Particles particles, const RunState& state, MPI_Comm communicator)
+Simulation::Simulation(const setup::Case& setup, Particles particles, const RunState& state,
+                       MPI_Comm communicator)
     : setup_(setup),
       particles_(std::move(particles)),
       bodies_(body_ranges(particles_, setup.bodies.size())),
@@ -97,7 +98,8 @@ void Simulation::begin_step(double until) {
     if (particles_.size() == 0) throw StateError("all particles have left the domain");
     double dt = stable_time_step();
     if (!(dt > 0.0) || !std::isfinite(dt)) {
-      throw StateError(fmt::format("step {}, t = {} s: the stable time step is {} s", state_.step, state_.time, dt));
+      throw StateError(
+          fmt::format("step {}, t = {} s: the stable time step is {} s", state_.step, state_.time, dt));
     }
     // The last step before `until` lands on it; the one before is halved rather than leaving a sliver.
     const double left = until - state_.time;
@@ -201,16 +203,18 @@ void Simulation::update_material(EnergyUpdate energy) {
             std::span<const Matrix3>(velocity_gradient_).subspan(body.first + begin, end - begin);
         reports[begin / parallel::chunk_size] =
             energy == EnergyUpdate::by_work_identity
-                ? whipple::update_material(material, particles_, body.first + begin, body.first + end, gradients, settings)
-                : update_material_and_energy(material, particles_, body.first + begin, body.first + end, gradients,
-                                             settings);
+                ? whipple::update_material(material, particles_, body.first + begin, body.first + end,
+                                           gradients, settings)
+                : update_material_and_energy(material, particles_, body.first + begin, body.first + end,
+                                             gradients, settings);
       });
       MaterialReport report;
       for (const MaterialReport& part : reports) report.merge(part);
       state_.ledger.clamped_to_cold_curve += static_cast<double>(report.equation_of_state.below_cold_curve);
       state_.ledger.limited_volume_changes += static_cast<double>(report.limited_volume_changes);
       if (report.undefined != 0) {
-        throw_state_error(report.first_undefined, "the state is not defined (NaN, or a volume that is not positive)");
+        throw_state_error(report.first_undefined,
+                          "the state is not defined (NaN, or a volume that is not positive)");
       }
       if (report.equation_of_state.out_of_range != 0) {
         throw_state_error(report.equation_of_state.first,
@@ -242,13 +246,14 @@ void Simulation::reflect_and_remove() {
           leaves = true;
           continue;
         }
-        // Interpolation gives no normal velocity at a mirror plane, so only the finite time step brings a particle
-        // across: it is put back as its own image.
+        // Interpolation gives no normal velocity at a mirror plane, so only the finite time step brings a
+        // particle across: it is put back as its own image.
         x = 2.0 * (low ? g.lower[a] : g.upper(a)) - x;
         Matrix3 mirror = Matrix3::Identity();
         mirror(a, a) = -1.0;
         if (boundary == grid::Boundary::no_slip) mirror = -Matrix3::Identity();
-        state_.ledger.wall_impulse += particles_.mass[p] * (mirror * particles_.velocity[p] - particles_.velocity[p]);
+        state_.ledger.wall_impulse +=
+            particles_.mass[p] * (mirror * particles_.velocity[p] - particles_.velocity[p]);
         particles_.velocity[p] = mirror * particles_.velocity[p];
         particles_.affine_velocity[p] = mirror * particles_.affine_velocity[p] * mirror;
         particles_.deviatoric_stress[p] =
@@ -288,9 +293,10 @@ void Simulation::end_step() {
     const double error = state_.ledger.energy_error(totals_);
     // The negation also catches NaN.
     if (!(std::abs(error) <= setup_.output.maximum_energy_error)) {
-      throw StateError(fmt::format("step {}, t = {} s: the relative error of the total energy is {:.3e}, beyond "
-                                   "output.maximum_energy_error = {}",
-                                   state_.step, state_.time, error, setup_.output.maximum_energy_error));
+      throw StateError(
+          fmt::format("step {}, t = {} s: the relative error of the total energy is {:.3e}, beyond "
+                      "output.maximum_energy_error = {}",
+                      state_.step, state_.time, error, setup_.output.maximum_energy_error));
     }
   });
 }
@@ -298,12 +304,14 @@ void Simulation::end_step() {
 void Simulation::throw_state_error(std::size_t p, const std::string& reason) const {
   const Vector3& x = particles_.position[p];
   const Vector3& v = particles_.velocity[p];
-  throw StateError(fmt::format(
-      "step {}, t = {} s, body \"{}\", particle {}: {}\n  position ({}, {}, {}) m, velocity ({}, {}, {}) m/s\n  density "
-      "{} kg/m^3, specific internal energy {} J/kg, pressure {} Pa, temperature {} K, failed {}",
-      state_.step + 1, state_.time + state_.time_step, setup_.bodies[particles_.body[p]].name, particles_.id[p], reason,
-      x[0], x[1], x[2], v[0], v[1], v[2], particles_.mass[p] / particles_.volume[p],
-      particles_.specific_internal_energy[p], particles_.pressure[p], particles_.temperature[p], particles_.failed[p]));
+  throw StateError(
+      fmt::format("step {}, t = {} s, body \"{}\", particle {}: {}\n  position ({}, {}, {}) m, velocity ({}, "
+                  "{}, {}) m/s\n  density "
+                  "{} kg/m^3, specific internal energy {} J/kg, pressure {} Pa, temperature {} K, failed {}",
+                  state_.step + 1, state_.time + state_.time_step, setup_.bodies[particles_.body[p]].name,
+                  particles_.id[p], reason, x[0], x[1], x[2], v[0], v[1], v[2],
+                  particles_.mass[p] / particles_.volume[p], particles_.specific_internal_energy[p],
+                  particles_.pressure[p], particles_.temperature[p], particles_.failed[p]));
 }
 
 std::size_t Simulation::bytes() const {

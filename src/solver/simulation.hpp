@@ -26,7 +26,8 @@ struct RunState {
   Ledger ledger;
 };
 
-/// One simulation in memory: particles, grid, materials, ledger. The schemes are functions of it (schemes.hpp).
+/// One simulation in memory: particles, grid, materials, ledger. The schemes are functions of it
+/// (schemes.hpp).
 class Simulation {
  public:
   /// Seeds the bodies of the case.
@@ -35,7 +36,8 @@ class Simulation {
   Simulation(const setup::Case& setup, Particles particles, const RunState& state, MPI_Comm communicator);
 
   /// Advances one step of the case's scheme; not beyond `until` (s).
-  /// @throws StateError with step, time, body, particle and state if a state is undefined or out of range, or if the
+  /// @throws StateError with step, time, body, particle and state if a state is undefined or out of range, or
+  /// if the
   ///         energy error exceeds the case's limit
   void advance(double until);
 
@@ -46,7 +48,8 @@ class Simulation {
   [[nodiscard]] const grid::BlockGrid& grid() const { return grid_; }
   [[nodiscard]] const std::vector<setup::BodySummary>& bodies() const { return bodies_; }
   [[nodiscard]] Profile& profile() { return profile_; }
-  /// Relative differences of the last step's work and transfer identities from the change of the grid's kinetic energy.
+  /// Relative differences of the last step's work and transfer identities from the change of the grid's
+  /// kinetic energy.
   [[nodiscard]] double work_identity_error() const { return work_identity_error_; }
   [[nodiscard]] std::size_t bytes() const;
 
@@ -93,7 +96,8 @@ class Simulation {
 
 /// Symplectic scheme with exact energy (docs/theory/mpm.md, section 4).
 void step_symplectic(Simulation& s, double until);
-/// Modified update stress last (Sulsky, Zhou & Schreyer, Comput. Phys. Commun. 87 (1995) 236; docs/theory/mpm.md, 5).
+/// Modified update stress last (Sulsky, Zhou & Schreyer, Comput. Phys. Commun. 87 (1995) 236;
+/// docs/theory/mpm.md, 5).
 void step_musl(Simulation& s, double until);
 
 }  // namespace whipple::solver

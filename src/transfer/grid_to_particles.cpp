@@ -20,22 +20,23 @@ Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
 /// Broadcast of the last lane (the node's beta).
 Lanes last(Lanes v) { return __builtin_shuffle(v, (__v4di){3, 3, 3, 3}); }
 
-/// Sums over the nodes of a particle (docs/theory/mpm.md, equations 4.2 to 4.7); lane 3 of each is meaningless.
+/// Sums over the nodes of a particle (docs/theory/mpm.md, equations 4.2 to 4.7); lane 3 of each is
+/// meaningless.
 struct Moments {
-  Lanes velocity = broadcast(0.0);             // sum N v
-  Lanes increment = broadcast(0.0);            // sum N d
-  Lanes relaxed = broadcast(0.0);              // sum N beta D
-  Lanes loss = broadcast(0.0);                 // sum N [beta D (D - d) + d d / 2], per component
-  std::array<Lanes, 3> velocity_gradient{};    // sum dN/dx_a v
-  std::array<Lanes, 3> increment_gradient{};   // sum dN/dx_a d
-  std::array<Lanes, 3> increment_moment{};     // sum N d r_a
-  std::array<Lanes, 3> relaxed_moment{};       // sum N beta D r_a
+  Lanes velocity = broadcast(0.0);            // sum N v
+  Lanes increment = broadcast(0.0);           // sum N d
+  Lanes relaxed = broadcast(0.0);             // sum N beta D
+  Lanes loss = broadcast(0.0);                // sum N [beta D (D - d) + d d / 2], per component
+  std::array<Lanes, 3> velocity_gradient{};   // sum dN/dx_a v
+  std::array<Lanes, 3> increment_gradient{};  // sum dN/dx_a d
+  std::array<Lanes, 3> increment_moment{};    // sum N d r_a
+  std::array<Lanes, 3> relaxed_moment{};      // sum N beta D r_a
 };
 
 /// D = a_p(x_i) - v_i is the difference of the particle's affine field and the grid's velocity at node i.
 template <class Shape, bool affine, class Access>
-Moments gather(const std::array<AxisWeights<Shape::count>, 3>& weights, Lanes v, const std::array<Lanes, 3>& c,
-               Access& access) {
+Moments gather(const std::array<AxisWeights<Shape::count>, 3>& weights, Lanes v,
+               const std::array<Lanes, 3>& c, Access& access) {
   const auto& [wx, wy, wz] = weights;
   Moments m;
   for (std::size_t i = 0; i < Shape::count; ++i) {
@@ -89,11 +90,12 @@ Moments gather(const std::array<AxisWeights<Shape::count>, 3>& weights, Lanes v,
   return m;
 }
 
-/// C_p <- C_p (I + dt L)^-1, never growing (equation 4.8): v_p belongs to the new position, so C_p must be carried
-/// there. @returns the loss of |C|^2
+/// C_p <- C_p (I + dt L)^-1, never growing (equation 4.8): v_p belongs to the new position, so C_p must be
+/// carried there. @returns the loss of |C|^2
 double advect_affine_field(Matrix3& c, const Matrix3& gradient, double dt) {
   const Matrix3 deformation = Matrix3::Identity() + dt * gradient;
-  if (deformation.determinant() <= 0.1) return 0.0;  // a deformation that large in a step has no meaningful inverse
+  if (deformation.determinant() <= 0.1)
+    return 0.0;  // a deformation that large in a step has no meaningful inverse
   const double before = c.squaredNorm();
   Matrix3 carried = c * deformation.inverse();
   const double after = carried.squaredNorm();
@@ -104,7 +106,8 @@ double advect_affine_field(Matrix3& c, const Matrix3& gradient, double dt) {
 
 template <class Shape, bool affine, class Access>
 TransferBalance update_particle(Particles& particles, std::size_t p, const grid::Geometry& geometry,
-                                const grid::BlockCoordinate& block, double dt, Matrix3& gradient, Access& access) {
+                                const grid::BlockCoordinate& block, double dt, Matrix3& gradient,
+                                Access& access) {
   const double dx = geometry.cell_size;
   const double inertia = 0.25 * dx * dx;  // sum N r r^T of quadratic B-splines
   Matrix3& c = particles.affine_velocity[p];
@@ -112,8 +115,9 @@ TransferBalance update_particle(Particles& particles, std::size_t p, const grid:
   if constexpr (affine) {
     for (int a = 0; a < 3; ++a) columns[static_cast<std::size_t>(a)] = lanes(c.col(a));
   }
-  const Moments m = gather<Shape, affine>(weights_at<Shape>(local_position(particles.position[p], geometry, block), dx),
-                                          lanes(particles.velocity[p]), columns, access);
+  const Moments m =
+      gather<Shape, affine>(weights_at<Shape>(local_position(particles.position[p], geometry, block), dx),
+                            lanes(particles.velocity[p]), columns, access);
 
   // Velocity and affine field (4.3), heat of the transfer (4.5).
   particles.velocity[p] += vector(m.increment - m.relaxed);
@@ -134,11 +138,10 @@ TransferBalance update_particle(Particles& particles, std::size_t p, const grid:
 
   const SymmetricTensor& s = particles.deviatoric_stress[p];
   const double mean_stress = -(particles.pressure[p] + particles.artificial_viscosity[p]);
-  const double power = (s.xx + mean_stress) * mean_gradient(0, 0) + (s.yy + mean_stress) * mean_gradient(1, 1) +
-                       (s.zz + mean_stress) * mean_gradient(2, 2) +
-                       s.xy * (mean_gradient(0, 1) + mean_gradient(1, 0)) +
-                       s.yz * (mean_gradient(1, 2) + mean_gradient(2, 1)) +
-                       s.zx * (mean_gradient(2, 0) + mean_gradient(0, 2));
+  const double power =
+      (s.xx + mean_stress) * mean_gradient(0, 0) + (s.yy + mean_stress) * mean_gradient(1, 1) +
+      (s.zz + mean_stress) * mean_gradient(2, 2) + s.xy * (mean_gradient(0, 1) + mean_gradient(1, 0)) +
+      s.yz * (mean_gradient(1, 2) + mean_gradient(2, 1)) + s.zx * (mean_gradient(2, 0) + mean_gradient(0, 2));
   const double mass = particles.mass[p];
   const double work = power * particles.volume[p] * dt;
   particles.specific_internal_energy[p] += work / mass + heat;
@@ -165,11 +168,14 @@ void for_each_particle(BlockGrid& grid, Function&& f) {
 }
 
 template <class Shape, bool affine>
-TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt, std::span<Matrix3> velocity_gradient) {
+TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
+                           std::span<Matrix3> velocity_gradient) {
   std::vector<TransferBalance> of_slot(grid.slots());
-  for_each_particle(grid, [&](std::size_t p, std::size_t slot, const grid::BlockCoordinate& block, auto& access) {
-    of_slot[slot] += update_particle<Shape, affine>(particles, p, grid.geometry(), block, dt, velocity_gradient[p], access);
-  });
+  for_each_particle(grid,
+                    [&](std::size_t p, std::size_t slot, const grid::BlockCoordinate& block, auto& access) {
+                      of_slot[slot] += update_particle<Shape, affine>(particles, p, grid.geometry(), block,
+                                                                      dt, velocity_gradient[p], access);
+                    });
   TransferBalance total;
   for (const TransferBalance& part : of_slot) total += part;
   return total;
@@ -201,18 +207,21 @@ void increment_velocity(Particles& particles, BlockGrid& grid, double dt, std::s
 }
 
 template <class Shape>
-void gather_velocity_gradient(const Particles& particles, BlockGrid& grid, std::span<Matrix3> velocity_gradient) {
+void gather_velocity_gradient(const Particles& particles, BlockGrid& grid,
+                              std::span<Matrix3> velocity_gradient) {
   for_each_particle(grid, [&](std::size_t p, std::size_t, const grid::BlockCoordinate& block, auto& access) {
     const grid::Geometry& geometry = grid.geometry();
     const Moments m = gather<Shape, false>(
         weights_at<Shape>(local_position(particles.position[p], geometry, block), geometry.cell_size),
         lanes(particles.velocity[p]), {}, access);
-    for (int a = 0; a < 3; ++a) velocity_gradient[p].col(a) = vector(m.velocity_gradient[static_cast<std::size_t>(a)]);
+    for (int a = 0; a < 3; ++a)
+      velocity_gradient[p].col(a) = vector(m.velocity_gradient[static_cast<std::size_t>(a)]);
   });
 }
 
 template TransferBalance grid_to_particles<Linear>(Particles&, BlockGrid&, double, bool, std::span<Matrix3>);
-template TransferBalance grid_to_particles<QuadraticBSpline>(Particles&, BlockGrid&, double, bool, std::span<Matrix3>);
+template TransferBalance grid_to_particles<QuadraticBSpline>(Particles&, BlockGrid&, double, bool,
+                                                             std::span<Matrix3>);
 template void increment_velocity<Linear>(Particles&, BlockGrid&, double, std::span<Vector3>);
 template void increment_velocity<QuadraticBSpline>(Particles&, BlockGrid&, double, std::span<Vector3>);
 template void gather_velocity_gradient<Linear>(const Particles&, BlockGrid&, std::span<Matrix3>);

@@ -14,7 +14,8 @@ using grid::Node;
 
 constexpr double no_mass = 1e-300;  // kg; below it momentum / mass may overflow
 
-/// Sign of the components under reflection, for a vector in lanes 1 to 3 (P2G form) or 0 to 2 (velocity form).
+/// Sign of the components under reflection, for a vector in lanes 1 to 3 (P2G form) or 0 to 2 (velocity
+/// form).
 Lanes reflection(const BlockGrid::MirrorPlane& plane, int first_lane) {
   Lanes sign = broadcast(1.0);
   for (int c = 0; c < 3; ++c) {
@@ -23,8 +24,9 @@ Lanes reflection(const BlockGrid::MirrorPlane& plane, int first_lane) {
   return sign;
 }
 
-/// The image of a particle brings to node j what the particle brings to the mirror node of j, with the reflected
-/// vector. Real particles only were transferred, so what they brought beyond the plane is folded to the inside.
+/// The image of a particle brings to node j what the particle brings to the mirror node of j, with the
+/// reflected vector. Real particles only were transferred, so what they brought beyond the plane is folded to
+/// the inside.
 void fold(BlockGrid& grid, bool with_forces) {
   const std::span<Node> nodes = grid.all_nodes();
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
@@ -35,7 +37,8 @@ void fold(BlockGrid& grid, bool with_forces) {
       if (with_forces) nodes[image].second += sign * nodes[outside].second;
     });
     parallel::for_each(plane.on_plane.size(), [&](std::size_t i) {
-      // On the plane a vector is its own image: the reversed components vanish. Mass and force would double alike.
+      // On the plane a vector is its own image: the reversed components vanish. Mass and force would double
+      // alike.
       Node& node = nodes[plane.on_plane[i]];
       const Lanes keep = 0.5 * (broadcast(1.0) + sign);
       node.first *= keep;
@@ -106,18 +109,21 @@ GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& re
         node = {broadcast(0.0), broadcast(0.0)};
         continue;
       }
-      const double beta = relaxation.fixed >= 0.0 ? relaxation.fixed : -std::expm1(-rate * node.second[0] / mass);
+      const double beta =
+          relaxation.fixed >= 0.0 ? relaxation.fixed : -std::expm1(-rate * node.second[0] / mass);
       const Lanes velocity = node.first / mass;
       const Lanes increment = node.second * (dt / mass);
       node.first = Lanes{velocity[1], velocity[2], velocity[3], beta};
       node.second = Lanes{increment[1], increment[2], increment[3], mass};
       const Lanes advanced = node.first + node.second;
-      of_slot[slot] += Energies{0.5 * mass * sum3(node.first * node.first), 0.5 * mass * sum3(advanced * advanced)};
+      of_slot[slot] +=
+          Energies{0.5 * mass * sum3(node.first * node.first), 0.5 * mass * sum3(advanced * advanced)};
     }
   });
   copy_back(grid);
 
-  // Sums run in the order of the blocks, where empty blocks add zero: the same bits whatever blocks happen to be active.
+  // Sums run in the order of the blocks, where empty blocks add zero: the same bits whatever blocks happen to
+  // be active.
   Energies energy;
   for (const Energies& part : of_slot) energy += part;
   // Momentum that the planes gave to the real particles: equation 3.6 of docs/theory/mpm.md.

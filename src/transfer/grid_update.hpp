@@ -9,7 +9,8 @@
 
 namespace whipple::transfer {
 
-/// How strongly a step relaxes the particles' affine fields towards the grid's velocity (docs/theory/mpm.md, 4).
+/// How strongly a step relaxes the particles' affine fields towards the grid's velocity (docs/theory/mpm.md,
+/// 4).
 struct Relaxation {
   /// beta = 1 - exp(-kappa c dt / dx) with the node's sound speed c; the same answer for every time step.
   double kappa = 0.2;
@@ -21,26 +22,30 @@ struct Relaxation {
 struct GridBalance {
   double kinetic_energy_before = 0.0;  ///< J, of the nodes
   double kinetic_energy_after = 0.0;   ///< J
-  Vector3 wall_impulse = Vector3::Zero();  ///< N s, from mirror planes and walls on the particles in this step
+  Vector3 wall_impulse =
+      Vector3::Zero();  ///< N s, from mirror planes and walls on the particles in this step
 };
 
 /// Mirror planes and the momentum equation on the nodes.
 class GridUpdate {
  public:
-  /// Folds the nodes beyond the mirror planes onto their images, solves m dv/dt = f (equation 3.4), and copies the
-  /// result back to the nodes beyond. Node layout changes from the first to the second form (see grid::Node).
+  /// Folds the nodes beyond the mirror planes onto their images, solves m dv/dt = f (equation 3.4), and
+  /// copies the result back to the nodes beyond. Node layout changes from the first to the second form (see
+  /// grid::Node).
   GridBalance advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation);
 
-  /// Second pass of MUSL: nodes hold mass and momentum of the updated particles in `first`; afterwards the velocity.
+  /// Second pass of MUSL: nodes hold mass and momentum of the updated particles in `first`; afterwards the
+  /// velocity.
   void velocity_from_momentum(grid::BlockGrid& grid);
 
  private:
   void remember_nodes_at_planes(const grid::BlockGrid& grid);
 
-  std::vector<std::uint32_t> at_planes_;       // nodes that the planes may change, ascending
-  std::vector<std::uint8_t> may_be_unchanged_;  // of each: it is only an image, which may have received nothing
+  std::vector<std::uint32_t> at_planes_;  // nodes that the planes may change, ascending
+  std::vector<std::uint8_t>
+      may_be_unchanged_;  // of each: it is only an image, which may have received nothing
   std::size_t at_planes_of_ = static_cast<std::size_t>(-1);  // adaptation that they belong to
-  std::vector<grid::Node> before_;        // their content before the fold: what the real particles brought
+  std::vector<grid::Node> before_;  // their content before the fold: what the real particles brought
 };
 
 }  // namespace whipple::transfer

@@ -7,9 +7,9 @@
 
 #include "src/grid/block_grid.hpp"
 
-/// Two ways to the nodes that the particles of a block reach. Full blocks work on a copy of the 7x7x7 nodes in the
-/// first-level cache, so the kernel's addresses are affine; nearly empty blocks go to the nodes directly, so that a
-/// lone particle does not pay for 343 nodes.
+/// Two ways to the nodes that the particles of a block reach. Full blocks work on a copy of the 7x7x7 nodes
+/// in the first-level cache, so the kernel's addresses are affine; nearly empty blocks go to the nodes
+/// directly, so that a lone particle does not pay for 343 nodes.
 namespace whipple::transfer {
 
 /// Blocks with fewer particles than this use direct access.
@@ -41,10 +41,12 @@ class ReachCopy {
   }
 
  private:
-  static std::size_t index(int x, int y, int z) { return static_cast<std::size_t>((x * edge + y) * edge + z); }
+  static std::size_t index(int x, int y, int z) {
+    return static_cast<std::size_t>((x * edge + y) * edge + z);
+  }
 
-  /// Calls f(nodes of the owning block, index in it, index here) for every node of the reach whose block is active;
-  /// no particle reaches the others.
+  /// Calls f(nodes of the owning block, index in it, index here) for every node of the reach whose block is
+  /// active; no particle reaches the others.
   template <class Grid, class Function>
   static void for_each_owner(Grid& grid, std::size_t slot, Function&& f) {
     static constexpr grid::ReachMap map = grid::reach_map();
@@ -82,9 +84,10 @@ class DirectAccess {
     const auto ux = static_cast<std::size_t>(x + 1);
     const auto uy = static_cast<std::size_t>(y + 1);
     const auto uz = static_cast<std::size_t>(z + 1);
-    const std::int32_t owner =
-        neighbours_[static_cast<std::size_t>(grid::neighbour_index(map.block[ux], map.block[uy], map.block[uz]))];
-    return grid_.nodes(static_cast<std::size_t>(owner)) + grid::node_index(map.node[ux], map.node[uy], map.node[uz]);
+    const std::int32_t owner = neighbours_[static_cast<std::size_t>(
+        grid::neighbour_index(map.block[ux], map.block[uy], map.block[uz]))];
+    return grid_.nodes(static_cast<std::size_t>(owner)) +
+           grid::node_index(map.node[ux], map.node[uy], map.node[uz]);
   }
 
  private:

@@ -41,8 +41,8 @@ Payload payload(const Particles& particles, std::size_t p) {
 enum class Content { all, momentum };
 
 template <class Shape, Content content, class Access>
-void scatter(const Particles& particles, std::span<const std::uint32_t> members, const grid::Geometry& geometry,
-             const grid::BlockCoordinate& block, Access& access) {
+void scatter(const Particles& particles, std::span<const std::uint32_t> members,
+             const grid::Geometry& geometry, const grid::BlockCoordinate& block, Access& access) {
   constexpr int count = Shape::count;
   for (const std::uint32_t p : members) {
     const auto [wx, wy, wz] =

@@ -7,9 +7,9 @@
 
 namespace whipple::transfer {
 
-/// Mass, momentum (with the affine field), internal force and mass-weighted sound speed of the particles on the nodes
-/// (docs/theory/mpm.md, equations 3.1 to 3.3). Clears the grid first; mirror planes are not folded yet.
-/// The result is bitwise independent of the number of threads.
+/// Mass, momentum (with the affine field), internal force and mass-weighted sound speed of the particles on
+/// the nodes (docs/theory/mpm.md, equations 3.1 to 3.3). Clears the grid first; mirror planes are not folded
+/// yet. The result is bitwise independent of the number of threads.
 template <class Shape>
 void particles_to_grid(const Particles& particles, grid::BlockGrid& grid);
 

@@ -8,17 +8,17 @@
 
 #include "src/grid/block_grid.hpp"
 
-/// Shape functions as policies: weights of the nodes of one direction. A three-dimensional weight is the product of
-/// three of them. Equations: docs/theory/mpm.md, section 2.
+/// Shape functions as policies: weights of the nodes of one direction. A three-dimensional weight is the
+/// product of three of them. Equations: docs/theory/mpm.md, section 2.
 namespace whipple::transfer {
 
 /// Weights, derivatives and distances of the nodes that a particle reaches along one direction.
 template <int Count>
 struct AxisWeights {
-  int first = 0;                          ///< first node, counted from the block's lower corner (>= -1)
-  std::array<double, Count> weight;       ///< N
-  std::array<double, Count> derivative;   ///< dN/dx, 1/m
-  std::array<double, Count> distance;     ///< node position minus particle position, m
+  int first = 0;                         ///< first node, counted from the block's lower corner (>= -1)
+  std::array<double, Count> weight;      ///< N
+  std::array<double, Count> derivative;  ///< dN/dx, 1/m
+  std::array<double, Count> distance;    ///< node position minus particle position, m
 };
 
 /// Piecewise linear functions of the cells: two nodes per direction, gradients jump at the faces of cells.
@@ -40,8 +40,8 @@ struct Linear {
   }
 };
 
-/// Quadratic B-splines: three nodes per direction, continuous gradients (Steffen, Kirby & Berzins, IJNME 76 (2008)
-/// 922). Sum of N r r^T is dx^2/4 everywhere, which the affine transfer relies on.
+/// Quadratic B-splines: three nodes per direction, continuous gradients (Steffen, Kirby & Berzins, IJNME 76
+/// (2008) 922). Sum of N r r^T is dx^2/4 everywhere, which the affine transfer relies on.
 struct QuadraticBSpline {
   static constexpr std::string_view name = "quadratic_bspline";
   static constexpr int count = 3;

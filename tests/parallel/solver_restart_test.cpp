@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves: a run that is killed (SIGKILL) and restarted gives bitwise the history of an undisturbed run; one and two
-// threads give bitwise the same; SIGTERM writes a checkpoint and ends cleanly; a failed state is saved and named.
-// Every run is a child process, as a user's would be, and MPI is started in none of the parents.
+// Proves: a run that is killed (SIGKILL) and restarted gives bitwise the history of an undisturbed run; one
+// and two threads give bitwise the same; SIGTERM writes a checkpoint and ends cleanly; a failed state is
+// saved and named. Every run is a child process, as a user's would be, and MPI is started in none of the
+// parents.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,8 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A coarse copper disk through an aluminium plate with the three-phase equation of state: shocks, spall, melting,
-/// symmetry planes, particles that leave the domain.
+/// A coarse copper disk through an aluminium plate with the three-phase equation of state: shocks, spall,
+/// melting, symmetry planes, particles that leave the domain.
 const char* const debris_case = R"(
 title = "coarse debris cloud"
 [domain]
@@ -119,7 +120,8 @@ class Run : public testing::Test {
     }
   }
   /// Sends a signal once the history has so many rows.
-  [[nodiscard]] std::function<void(pid_t)> signal_at(const std::string& directory, std::size_t rows, int signal) const {
+  [[nodiscard]] std::function<void(pid_t)> signal_at(const std::string& directory, std::size_t rows,
+                                                     int signal) const {
     return [this, directory, rows, signal](pid_t child) {
       for (int i = 0; i < 60000 && history_rows(directory) < rows; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Properties of grid and transfers on random particles: partition of unity, conservation, mirror planes equal to real
-// images, identity of work and heat, independence of how blocks are stored.
+// Properties of grid and transfers on random particles: partition of unity, conservation, mirror planes equal
+// to real images, identity of work and heat, independence of how blocks are stored.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -27,8 +27,8 @@ SymmetricTensor random_stress(std::mt19937& random) {
   return {normal(random), normal(random), normal(random), normal(random), normal(random), normal(random)};
 }
 
-/// Particles with random state between two corners; a third of them in one dense block, the rest scattered, so that
-/// both accesses to the nodes are used.
+/// Particles with random state between two corners; a third of them in one dense block, the rest scattered,
+/// so that both accesses to the nodes are used.
 Particles random_particles(std::size_t n, const Vector3& lower, const Vector3& upper, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform;
@@ -68,7 +68,8 @@ NodeSums node_sums(grid::BlockGrid& grid) {
     for (int i = 0; i < grid::nodes_per_block; ++i) {
       const grid::Node& node = grid.nodes(s)[i];
       const grid::BlockCoordinate& c = grid.coordinate(s);
-      const Vector3 x = grid.geometry().lower + dx * Vector3(c[0] * 4 + i / 16, c[1] * 4 + i / 4 % 4, c[2] * 4 + i % 4);
+      const Vector3 x =
+          grid.geometry().lower + dx * Vector3(c[0] * 4 + i / 16, c[1] * 4 + i / 4 % 4, c[2] * 4 + i % 4);
       const Vector3 momentum(node.first[1], node.first[2], node.first[3]);
       sums.mass += node.first[0];
       sums.momentum += momentum;
@@ -159,8 +160,8 @@ double total_energy(const Particles& q) {
 }
 
 /// One symplectic transfer cycle; checks the exact identities of section 4 of docs/theory/mpm.md.
-void check_energy_identities(const Relaxation& relaxation, bool affine, std::array<grid::Boundary, 6> boundary,
-                             const Vector3& lower) {
+void check_energy_identities(const Relaxation& relaxation, bool affine,
+                             std::array<grid::Boundary, 6> boundary, const Vector3& lower) {
   Particles q = random_particles(700, lower, Vector3(8, 6.5, 11.8), 3);
   if (!affine) {
     for (Matrix3& c : q.affine_velocity) c.setZero();
@@ -187,8 +188,9 @@ void check_energy_identities(const Relaxation& relaxation, bool affine, std::arr
 }
 
 TEST(AffineTransfer, EnergyAndMomentumAreExactForEveryMemberOfTheFamily) {
-  for (const Relaxation& relaxation : {Relaxation{.kappa = 0.2}, Relaxation{.kappa = 5.0}, Relaxation{.fixed = 1.0},
-                                       Relaxation{.fixed = 0.0}, Relaxation{.fixed = 0.37}}) {
+  for (const Relaxation& relaxation :
+       {Relaxation{.kappa = 0.2}, Relaxation{.kappa = 5.0}, Relaxation{.fixed = 1.0},
+        Relaxation{.fixed = 0.0}, Relaxation{.fixed = 0.37}}) {
     check_energy_identities(relaxation, true, {}, Vector3(-1.2, -0.3, 4));
     check_energy_identities(relaxation, false, {}, Vector3(-1.2, -0.3, 4));
   }
@@ -199,7 +201,8 @@ TEST(AffineTransfer, EnergyAndMomentumAreExactAtMirrorPlanesAndCorners) {
   const Vector3 corner(-2, -1, 3);
   check_energy_identities({}, true, {symmetry, outflow, outflow, outflow, outflow, outflow}, corner);
   check_energy_identities({}, true, {symmetry, outflow, symmetry, outflow, symmetry, outflow}, corner);
-  check_energy_identities({.fixed = 1.0}, true, {no_slip, outflow, symmetry, outflow, no_slip, outflow}, corner);
+  check_energy_identities({.fixed = 1.0}, true, {no_slip, outflow, symmetry, outflow, no_slip, outflow},
+                          corner);
   check_energy_identities({}, false, {symmetry, outflow, no_slip, outflow, symmetry, outflow}, corner);
 }
 
@@ -214,12 +217,14 @@ TEST(MirrorPlane, EqualsATransferOfRealImages) {
   resize(full, 2 * half.size());
   for (std::size_t p = 0; p < half.size(); ++p) {
     const std::size_t image = half.size() + p;
-    for_each_field<Particles>([&](const auto& field) { (full.*(field.values))[image] = (half.*(field.values))[p]; });
+    for_each_field<Particles>(
+        [&](const auto& field) { (full.*(field.values))[image] = (half.*(field.values))[p]; });
     const Matrix3 mirror = Vector3(-1, 1, 1).asDiagonal();
     full.position[image][0] = -4 - half.position[p][0];
     full.velocity[image] = mirror * half.velocity[p];
     full.affine_velocity[image] = mirror * half.affine_velocity[p] * mirror;
-    full.deviatoric_stress[image] = SymmetricTensor::from(mirror * half.deviatoric_stress[p].matrix() * mirror);
+    full.deviatoric_stress[image] =
+        SymmetricTensor::from(mirror * half.deviatoric_stress[p].matrix() * mirror);
   }
   grid::Geometry wide = geometry();
   wide.lower[0] = -2 - 20 * dx;

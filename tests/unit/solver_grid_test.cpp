@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The block grid follows the particles: blocks exist where stencils reach, particles are listed by block, empty space
-// costs nothing, and a position outside of the domain is an error.
+// The block grid follows the particles: blocks exist where stencils reach, particles are listed by block,
+// empty space costs nothing, and a position outside of the domain is an error.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -14,7 +14,9 @@
 namespace whipple::grid {
 namespace {
 
-Geometry geometry() { return {.lower = Vector3(0, 0, 0), .cells = {50, 37, 410}, .cell_size = 1.0, .boundary = {}}; }
+Geometry geometry() {
+  return {.lower = Vector3(0, 0, 0), .cells = {50, 37, 410}, .cell_size = 1.0, .boundary = {}};
+}
 
 std::vector<Vector3> random_positions(std::size_t n, unsigned seed) {
   std::mt19937 random(seed);
@@ -51,7 +53,8 @@ void check_lists(const BlockGrid& grid, const std::vector<Vector3>& x) {
         }
         bool active = false;
         for (const std::int32_t neighbour : grid.neighbours(s)) {
-          active = active || (neighbour >= 0 && grid.coordinate(static_cast<std::size_t>(neighbour)) == block);
+          active =
+              active || (neighbour >= 0 && grid.coordinate(static_cast<std::size_t>(neighbour)) == block);
         }
         EXPECT_TRUE(active);
       }

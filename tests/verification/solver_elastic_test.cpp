@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bending of a free-free beam and rotation of a sphere: what a dissipative or unbalanced transfer spoils first.
+// Bending of a free-free beam and rotation of a sphere: what a dissipative or unbalanced transfer spoils
+// first.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +14,8 @@ namespace {
 
 constexpr double bulk = 2785.0 * 5328.0 * 5328.0, shear = 27.6e9;
 
-std::string elastic_case(const Method& method, double end, const std::string& domain, const std::string& body) {
+std::string elastic_case(const Method& method, double end, const std::string& domain,
+                         const std::string& body) {
   return method.time_toml(end) + method.toml() + "[output]\nmaximum_energy_error = 10.0\n" + domain +
          "\n[[body]]\nname = \"body\"\nmaterial = \"" + elastic_aluminium() + "\"\n" + body;
 }
@@ -24,7 +26,8 @@ double elastic_energy(const Particles& q) {
   for (std::size_t p = 0; p < q.size(); ++p) {
     const double v0 = q.mass[p] / 2785.0;
     const double dilatation = q.volume[p] / v0 - 1;
-    sum += 0.5 * bulk * dilatation * dilatation * v0 + q.deviatoric_stress[p].squared_norm() / (4 * shear) * q.volume[p];
+    sum += 0.5 * bulk * dilatation * dilatation * v0 +
+           q.deviatoric_stress[p].squared_norm() / (4 * shear) * q.volume[p];
   }
   return sum;
 }
@@ -40,9 +43,11 @@ double bending_loss(double courant) {
   method.linear_viscosity = method.quadratic_viscosity = 0;
   const double end = 3 * period;
   const setup::Case setup = setup::read_case_text(
-      elastic_case(method, end,
-                   "[domain]\nlower = [-0.008, -0.008, -0.008]\nupper = [0.032, 0.016, 0.016]\ncell_size = 0.001\n",
-                   "shape = { box = { lower = [0.00023, 0.000299, 0.000161], upper = [0.02423, 0.003299, 0.003161] } }\n"),
+      elastic_case(
+          method, end,
+          "[domain]\nlower = [-0.008, -0.008, -0.008]\nupper = [0.032, 0.016, 0.016]\ncell_size = 0.001\n",
+          "shape = { box = { lower = [0.00023, 0.000299, 0.000161], upper = [0.02423, 0.003299, 0.003161] } "
+          "}\n"),
       "beam.toml");
   Particles particles = setup::seed(setup).particles;
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -68,8 +73,8 @@ double bending_loss(double courant) {
   EnergyWatch watch;
   run_to(simulation, end, std::ref(watch));
   const double loss = 1 - std::cbrt(mechanical() / start);
-  std::printf("beam, courant %.2f: loss per period %.2f %%, %lld steps, energy error %.1e\n", courant, 100 * loss,
-              static_cast<long long>(simulation.state().step), watch.worst);
+  std::printf("beam, courant %.2f: loss per period %.2f %%, %lld steps, energy error %.1e\n", courant,
+              100 * loss, static_cast<long long>(simulation.state().step), watch.worst);
   EXPECT_LT(watch.worst, 1e-12);
   return loss;
 }
@@ -87,12 +92,14 @@ TEST(Sphere, RotationKeepsAngularMomentumAndStaysCold) {
   Method method;
   char body[256];
   std::snprintf(body, sizeof body,
-                "angular_velocity = [0, 0, %.17g]\nshape = { sphere = { center = [0.00023, 0.000299, 0.000161], radius = "
+                "angular_velocity = [0, 0, %.17g]\nshape = { sphere = { center = [0.00023, 0.000299, "
+                "0.000161], radius = "
                 "0.004 } }\n",
                 omega);
   const setup::Case setup = setup::read_case_text(
       elastic_case(method, end,
-                   "[domain]\nlower = [-0.01, -0.01, -0.01]\nupper = [0.01, 0.01, 0.01]\ncell_size = 0.001\n", body),
+                   "[domain]\nlower = [-0.01, -0.01, -0.01]\nupper = [0.01, 0.01, 0.01]\ncell_size = 0.001\n",
+                   body),
       "sphere.toml");
   solver::Simulation simulation(setup, parallel::world());
   const auto angular_momentum = [&] {
@@ -112,10 +119,12 @@ TEST(Sphere, RotationKeepsAngularMomentumAndStaysCold) {
   run_to(simulation, end, std::ref(watch));
   const double l = angular_momentum() / l0 - 1;
   const double heat = simulation.totals().internal_energy / k0;
-  std::printf("sphere, two turns: angular momentum %+.2e, internal energy %.2e of the kinetic energy, energy error %.1e\n",
-              l, heat, watch.worst);
-  EXPECT_LT(std::abs(l), 2e-3);     // the prototype: -1.1e-3; FLIP -13 %, linear MUSL -20 %
-  EXPECT_LT(heat, 5e-3);            // 3.6e-3, of which 1e-3 is elastic stretch; FLIP 22 %
+  std::printf(
+      "sphere, two turns: angular momentum %+.2e, internal energy %.2e of the kinetic energy, energy error "
+      "%.1e\n",
+      l, heat, watch.worst);
+  EXPECT_LT(std::abs(l), 2e-3);  // the prototype: -1.1e-3; FLIP -13 %, linear MUSL -20 %
+  EXPECT_LT(heat, 5e-3);         // 3.6e-3, of which 1e-3 is elastic stretch; FLIP 22 %
   EXPECT_LT(watch.worst, 1e-12);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Symmetric planar impact of aluminium with release, against the exact Hugoniot state and the exact release isentrope
-// of the same equation of state (docs/theory/mpm.md, section 7.1). Proves: shock jump, energy left after release (the
-// residual temperature), conservation; shows the peers' scheme beside it.
+// Symmetric planar impact of aluminium with release, against the exact Hugoniot state and the exact release
+// isentrope of the same equation of state (docs/theory/mpm.md, section 7.1). Proves: shock jump, energy left
+// after release (the residual temperature), conservation; shows the peers' scheme beside it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,13 +16,14 @@ constexpr double rho0 = 2785.0, c0 = 5328.0, s = 1.338;
 constexpr double slab = 5e-3, dx = 50e-6, area = 9 * dx * dx;
 
 struct Result {
-  double pressure, density, shock_speed;      // relative errors of the plateau
-  double pressure_noise;                      // rms, relative
-  double released_energy, released_scatter;   // relative
+  double pressure, density, shock_speed;     // relative errors of the plateau
+  double pressure_noise;                     // rms, relative
+  double released_energy, released_scatter;  // relative
   double energy_error;
 };
 
-/// Exact energies after release to zero pressure (J/kg), by Runge-Kutta along the isentrope (the EOS' own test).
+/// Exact energies after release to zero pressure (J/kg), by Runge-Kutta along the isentrope (the EOS' own
+/// test).
 double exact_released_energy(double up) { return up < 2000.0 ? 55795.0 : 822389.0; }
 
 Result planar_impact(double up, const Method& method) {
@@ -47,8 +48,10 @@ name = "right"
 material = "aluminium_mie_gruneisen.toml"
 velocity = [%.17g, 0, 0]
 shape = { box = { lower = [0, 0, 0], upper = [%.9g, 0.00015, 0.00015] } }
-)", dx, up, -slab, -up, slab);
-  const setup::Case setup = setup::read_case_text(method.time_toml(end) + method.toml() + bodies, "planar_impact.toml");
+)",
+                dx, up, -slab, -up, slab);
+  const setup::Case setup =
+      setup::read_case_text(method.time_toml(end) + method.toml() + bodies, "planar_impact.toml");
   solver::Simulation simulation(setup, parallel::world());
   std::vector<double> start(simulation.particles().size());
   for (std::size_t p = 0; p < start.size(); ++p) {
@@ -99,11 +102,13 @@ shape = { box = { lower = [0, 0, 0], upper = [%.9g, 0.00015, 0.00015] } }
   result.released_energy = e1 / n / exact - 1;
   result.released_scatter = std::sqrt(std::max(0.0, e2 / n - e1 / n * (e1 / n))) / exact;
   result.energy_error = watch.worst;
-  std::printf("up %.0f m/s, %s %s: p %+.2f %% (noise %.2f %%), rho %+.2f %%, Us %+.2f %%, released e %+.1f %% "
-              "(scatter %.1f %%), energy error %.1e, %lld steps\n",
-              up, method.scheme.c_str(), method.shape_function.c_str(), 100 * result.pressure,
-              100 * result.pressure_noise, 100 * result.density, 100 * result.shock_speed, 100 * result.released_energy,
-              100 * result.released_scatter, result.energy_error, static_cast<long long>(simulation.state().step));
+  std::printf(
+      "up %.0f m/s, %s %s: p %+.2f %% (noise %.2f %%), rho %+.2f %%, Us %+.2f %%, released e %+.1f %% "
+      "(scatter %.1f %%), energy error %.1e, %lld steps\n",
+      up, method.scheme.c_str(), method.shape_function.c_str(), 100 * result.pressure,
+      100 * result.pressure_noise, 100 * result.density, 100 * result.shock_speed,
+      100 * result.released_energy, 100 * result.released_scatter, result.energy_error,
+      static_cast<long long>(simulation.state().step));
   return result;
 }
 

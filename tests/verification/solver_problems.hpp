@@ -25,9 +25,7 @@ struct Method {
   double quadratic_viscosity = 1.0;
 
   /// Linear FLIP-MUSL with the usual viscosity of hydrocodes: what most peers run.
-  static Method musl() {
-    return {"musl", "linear", "flip", 0.3, 0.06, 1.5};
-  }
+  static Method musl() { return {"musl", "linear", "flip", 0.3, 0.06, 1.5}; }
   [[nodiscard]] std::string toml() const {
     return "[transfer]\nshape_function = \"" + shape_function + "\"\nparticle_update = \"" + particle_update +
            "\"\n[artificial_viscosity]\nlinear = " + std::to_string(linear_viscosity) +
@@ -46,7 +44,8 @@ inline std::string write_material(const std::string& name, const std::string& te
   return path.string();
 }
 
-/// Linear elastic aluminium (von Mises far above every stress), the Grueneisen material of the shock problems.
+/// Linear elastic aluminium (von Mises far above every stress), the Grueneisen material of the shock
+/// problems.
 inline std::string elastic_aluminium() {
   return write_material("elastic_aluminium", R"toml(
 name = "elastic aluminium"

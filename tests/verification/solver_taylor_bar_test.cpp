@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Taylor bar of copper, 190 m/s (Johnson & Holmquist 1988: length 16.2, foot diameter 13.5 mm). Proves: strength,
-// mirror wall with wide kernels (peers' fixed nodes give feet 12 to 40 % off), independence of the time step.
+// Taylor bar of copper, 190 m/s (Johnson & Holmquist 1988: length 16.2, foot diameter 13.5 mm). Proves:
+// strength, mirror wall with wide kernels (peers' fixed nodes give feet 12 to 40 % off), independence of the
+// time step.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,7 +55,8 @@ TEST(TaylorBar, DefaultSchemeMatchesExperimentForEveryTimeStep) {
     const Shape shape = taylor_bar(method);
     EXPECT_NEAR(shape.length, 16.2, 0.02 * 16.2);
     EXPECT_NEAR(shape.foot, 13.5, 0.02 * 13.5);
-    // The prototype's own figures for the complete default: 16.28 and 13.47 mm, the same within 0.1 % for every dt.
+    // The prototype's own figures for the complete default: 16.28 and 13.47 mm, the same within 0.1 % for
+    // every dt.
     EXPECT_NEAR(shape.length, 16.28, 0.003 * 16.28);
     EXPECT_NEAR(shape.foot, 13.47, 0.003 * 13.47);
     EXPECT_LT(shape.energy_error, 1e-12);
