@@ -18,7 +18,7 @@ namespace whipple::fit {
 namespace {
 
 std::filesystem::path find_script(const std::string& name) {
-  const std::filesystem::path installed =
+  std::filesystem::path installed =
       std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/whipple/scripts" /
       name;
   if (std::filesystem::exists(installed)) return installed;

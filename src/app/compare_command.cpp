@@ -57,7 +57,7 @@ Style style(ExperimentKind kind) {
 
 /// A path, or a bare file name of the experiments that come with the program.
 std::filesystem::path find_experiment(const std::string& name) {
-  const std::filesystem::path path(name);
+  std::filesystem::path path(name);
   if (std::filesystem::exists(path)) return path;
   if (!path.has_parent_path()) {
     std::filesystem::path file = path;
