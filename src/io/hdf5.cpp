@@ -36,6 +36,13 @@ void check(herr_t status, const std::string& where, const std::string& action) {
   if (status < 0) fail(where, action);
 }
 
+/// Properties for a new object. No time stamps: equal content shall give equal files.
+Handle creation_properties(hid_t kind, const std::string& where) {
+  Handle properties = checked(H5Pcreate(kind), H5Pclose, where, "prepare an object");
+  check(H5Pset_obj_track_times(properties.get(), false), where, "prepare an object");
+  return properties;
+}
+
 Handle transfer_properties(const Ranks& ranks, const std::string& where) {
   Handle properties = checked(H5Pcreate(H5P_DATASET_XFER), H5Pclose, where, "prepare a transfer");
   if (ranks.is_parallel()) {
@@ -227,7 +234,8 @@ void Dataset::read_bytes(void* values, hid_t memory_type, std::uint64_t size, co
 // ---- groups ----
 
 Group Group::create_group(const std::string& name) const {
-  return {checked(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name_,
+  const Handle creation = creation_properties(H5P_GROUP_CREATE, name_);
+  return {checked(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), H5Gclose, name_,
                   "create group " + name),
           name_ + name + "/"};
 }
@@ -268,7 +276,7 @@ Dataset Group::write_bytes(const std::string& name, const void* values, hid_t me
   const int dimensions = one_dimensional ? 1 : 2;
   const Handle space =
       checked(H5Screate_simple(dimensions, lengths, nullptr), H5Sclose, where, "describe the array");
-  const Handle creation = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, where, "prepare the array");
+  const Handle creation = creation_properties(H5P_DATASET_CREATE, where);
   if (slab.total > 0 && (storage.deflate >= 0 || storage.fletcher32)) {
     const hsize_t chunk[2] = {std::min<hsize_t>(slab.total, storage.chunk_rows), columns};
     check(H5Pset_chunk(creation.get(), dimensions, chunk), where, "prepare chunks");
@@ -283,7 +291,8 @@ Dataset Group::write_bytes(const std::string& name, const void* values, hid_t me
                                      H5P_DEFAULT),
                           H5Dclose, where, "create the array"),
                   where);
-  if (slab.total == 0) return dataset;  // nothing has an address: a collective transfer of it fails in HDF5 1.10
+  if (slab.total == 0)
+    return dataset;  // nothing has an address: a collective transfer of it fails in HDF5 1.10
   const Handle memory = select(space.get(), slab, columns, one_dimensional, where);
   const Handle transfer = transfer_properties(ranks, where);
   check(H5Dwrite(dataset.id(), memory_type, memory.get(), space.get(), transfer.get(), values), where,
@@ -313,7 +322,7 @@ File File::create(const std::filesystem::path& path, const Ranks& ranks, Compati
   const Handle access = access_properties(ranks, text);
   const H5F_libver_t low = compatibility == Compatibility::vtk ? H5F_LIBVER_EARLIEST : H5F_LIBVER_V110;
   check(H5Pset_libver_bounds(access.get(), low, H5F_LIBVER_V110), text, "choose the format version");
-  const Handle creation = checked(H5Pcreate(H5P_FILE_CREATE), H5Pclose, text, "prepare the file");
+  const Handle creation = creation_properties(H5P_FILE_CREATE, text);
   check(H5Pset_userblock(creation.get(), user_block), text, "reserve the user block");
   Handle file = checked(H5Fcreate(text.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose, text,
                         "create the file");
