@@ -13,6 +13,7 @@
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/statistics.hpp"
 #include "src/base/error.hpp"
+#include "src/base/log.hpp"
 
 namespace whipple::md {
 namespace {
@@ -199,6 +200,13 @@ CoexistenceResult measure_coexistence(const Potential& potential, double pressur
       const double average = 0.5 * (run.first_half.value + run.second_half.value);
       const double half_difference = 0.5 * std::abs(run.first_half.value - run.second_half.value);
       guess = run.second_half.value;
+      log::detail(
+          "coexistence at {} GPa, attempt {}.{}: {:.1f} +- {:.1f} K, then {:.1f} +- {:.1f} K, share of "
+          "crystal {:.2f} "
+          "... {:.2f}: {}",
+          1e-9 * pressure, attempt, part + 1, run.first_half.value, run.first_half.error,
+          run.second_half.value, run.second_half.error, run.least_share, run.largest_share,
+          reason.empty() ? "accepted" : reason);
       if (reason.empty()) {
         temperature = average;
         result.melting_temperature = {
