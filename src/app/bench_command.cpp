@@ -40,29 +40,28 @@ struct Problem {
 };
 
 std::vector<Problem> problems() {
-  return {
-      {"taylor_bar", "elastic-plastic solid, Mie-Grueneisen", "cases/taylor_bar/case.toml", {}, 20, 200},
-      {"taylor_bar_musl",
-       "the same with linear MUSL",
-       "cases/taylor_bar/case.toml",
-       {{"time.scheme", "musl"},
-        {"transfer.particle_update", "flip"},
-        {"transfer.shape_function", "linear"},
-        {"output.maximum_energy_error", "1"}},
-       20,
-       200},
-      {"lead_impact",
-       "lead sphere on plate during penetration, Mie-Grueneisen",
-       "cases/lead_sphere_on_plate/case.toml",
-       {},
-       50,
-       50},
-      {"debris_cloud",
-       "copper disk on aluminium, three-phase GRAY, cloud formed",
-       "cases/copper_disk_on_aluminium/case.toml",
-       {{"domain.cell_size", "0.5 mm"}},
-       200,
-       50}};
+  return {{"taylor_bar", "elastic-plastic solid, Mie-Grueneisen", "cases/taylor_bar/case.toml", {}, 20, 200},
+          {"taylor_bar_musl",
+           "the same with linear MUSL",
+           "cases/taylor_bar/case.toml",
+           {{"time.scheme", "musl"},
+            {"transfer.particle_update", "flip"},
+            {"transfer.shape_function", "linear"},
+            {"output.maximum_energy_error", "1"}},
+           20,
+           200},
+          {"lead_impact",
+           "lead sphere on plate during penetration, Mie-Grueneisen",
+           "cases/lead_sphere_on_plate/case.toml",
+           {},
+           50,
+           50},
+          {"debris_cloud",
+           "copper disk on aluminium, three-phase GRAY, cloud formed",
+           "cases/copper_disk_on_aluminium/case.toml",
+           {{"domain.cell_size", "0.5 mm"}},
+           200,
+           50}};
 }
 
 /// STREAM-like triad, best of five (GB/s): what memory can deliver to this many threads.

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Case files: every mistake is named with its place, all together and before any work; the complete case that
+// a run writes reads back to the same case; bodies become particles with the right mass.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "src/base/error.hpp"
+#include "src/setup/case.hpp"
+#include "src/setup/seeding.hpp"
+
+namespace whipple::setup {
+namespace {
+
+const std::string domain = R"(
+[domain]
+lower = ["0 mm", "0 mm", "-10 mm"]
+upper = ["12 mm", "12 mm", "20 mm"]
+cell_size = "1 mm"
+boundary = { x_lower = "symmetry", y_lower = "symmetry" }
+[time]
+end = "4 us"
+)";
+const std::string sphere = R"(
+[[body]]
+name = "sphere"
+material = "copper.toml"
+velocity = ["0 m/s", "0 m/s", "5.55 km/s"]
+shape = { sphere = { center = ["0 mm", "0 mm", "-4 mm"], radius = "3 mm" } }
+)";
+
+std::string error_of(const std::string& text) {
+  try {
+    read_case_text(text, "case.toml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expect_error(const std::string& text, const std::vector<std::string>& parts) {
+  const std::string error = error_of(text);
+  for (const std::string& part : parts)
+    EXPECT_NE(error.find(part), std::string::npos) << "missing: " << part << "\nin: " << error;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(Case, IsReadInSi) {
+  const Case setup = read_case_text(domain + sphere, "case.toml");
+  EXPECT_DOUBLE_EQ(setup.domain.cell_size, 1e-3);
+  EXPECT_DOUBLE_EQ(setup.time.end, 4e-6);
+  EXPECT_EQ(setup.geometry.cells, (std::array<std::int32_t, 3>{12, 12, 30}));
+  EXPECT_EQ(setup.geometry.boundary[0], grid::Boundary::symmetry);
+  EXPECT_EQ(setup.geometry.boundary[1], grid::Boundary::outflow);
+  EXPECT_DOUBLE_EQ(setup.bodies.at(0).velocity[2], 5550.0);
+}
+
+TEST(Case, NamesEveryMistakeAtOnceWithItsPlace) {
+  std::string text = domain + sphere;
+  text = replaced(text, "cell_size = \"1 mm\"", "cell_size = \"1 GPa\"");
+  text = replaced(text, "end = \"4 us\"", "ennd = \"4 us\"");
+  text = replaced(text, "copper.toml", "coper.toml");
+  expect_error(text, {"case.toml:5:13: error: 'cell_size'", "wrong dimension", "missing key 'end'",
+                      "unknown key 'time.ennd'", "did you mean \"end\"?", "coper", "copper"});
+}
+
+TEST(Case, RefusesBodiesOutsideOfTheDomainAndOverlaps) {
+  expect_error(domain + replaced(sphere, "\"-4 mm\"", "\"-8 mm\""),
+               {"body \"sphere\" reaches z = -0.011 m", "-0.01 m"});
+  expect_error(
+      domain + sphere + replaced(replaced(sphere, "\"sphere\"", "\"twin\""), "\"-4 mm\"", "\"-1 mm\""),
+      {"body \"twin\" overlaps body \"sphere\""});
+  // A body that lies between the particles of another is found as well.
+  const std::string grain = R"(
+[[body]]
+name = "grain"
+material = "copper.toml"
+shape = { sphere = { center = ["0.5 mm", "0.5 mm", "-4 mm"], radius = "0.6 mm" } }
+)";
+  expect_error(domain + sphere + grain, {"body \"grain\" overlaps body \"sphere\""});
+  expect_error(domain + sphere + sphere, {"two bodies are called \"sphere\""});
+}
+
+TEST(Case, RefusesCombinationsThatHaveNoMeaning) {
+  expect_error(domain + "[transfer]\nshape_function = \"linear\"\n" + sphere,
+               {"needs shape_function = \"quadratic_bspline\""});
+  expect_error(replaced(domain, "end =", "scheme = \"musl\"\nend =") +
+                   "[transfer]\nparticle_update = \"apic\"\n" + sphere,
+               {"scheme \"musl\" transfers with particle_update = \"flip\" only"});
+  expect_error(domain + sphere + "discretization = { per_cell = 5 }\n", {"'per_cell' is 5, expected a cube"});
+  expect_error(
+      replaced(replaced(domain, "x_lower", "x_upper = \"symmetry\", x_lower"), "12 mm", "11.5 mm") + sphere,
+      {"whole number of cells along x"});
+  expect_error(replaced(domain, "\"symmetry\" }", "\"mirror\" }") + sphere,
+               {"Accepted: outflow, symmetry, no_slip"});
+  expect_error(domain, {"no bodies"});
+}
+
+TEST(Case, WrittenWithAllDefaultsReadsBackTheSame) {
+  const Case setup = read_case_text(domain + sphere, "case.toml");
+  const std::string written = to_toml(setup, {"copper.toml"});
+  const Case again = read_case_text(written, "run.toml");
+  EXPECT_EQ(to_toml(again, {"copper.toml"}), written);
+  EXPECT_EQ(again.geometry.cells, setup.geometry.cells);
+}
+
+TEST(Seeding, FillsShapesWithTheirMass) {
+  const std::string bodies = R"(
+[[body]]
+name = "disk"
+material = "copper.toml"
+shape = { cylinder = { center = ["0 mm", "0 mm", "-4 mm"], axis = "z", radius = "5.59 mm", height = "3.45 mm" } }
+[[body]]
+name = "plate"
+material = "aluminium.toml"
+discretization = { per_cell = 27 }
+shape = { box = { lower = ["-10 mm", "-10 mm", "0 mm"], upper = ["10 mm", "10 mm", "2.87 mm"] } }
+)";
+  const Case setup = read_case_text(replaced(domain, "\"1 mm\"", "\"0.4 mm\"") + bodies, "case.toml");
+  const Seeding seeding = seed(setup);
+  ASSERT_EQ(seeding.bodies.size(), 2U);
+  // Quarter of the disk: 3.45 mm is met exactly by the lattice, the circle to the staircase of the particles.
+  EXPECT_NEAR(4 * seeding.bodies[0].mass, seeding.bodies[0].shape_mass, 0.01 * seeding.bodies[0].shape_mass);
+  EXPECT_NEAR(4 * seeding.bodies[1].mass, seeding.bodies[1].shape_mass, 1e-9 * seeding.bodies[1].shape_mass);
+  const double rho = initial_state(*setup.materials[1]).density;
+  EXPECT_NEAR(seeding.bodies[1].shape_mass, rho * 0.02 * 0.02 * 2.87e-3, 1e-9);
+  for (const Vector3& x : seeding.particles.position) EXPECT_TRUE(x[0] > 0 && x[1] > 0);
+}
+
+}  // namespace
+}  // namespace whipple::setup

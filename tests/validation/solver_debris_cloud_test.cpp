@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The main case, coarser (0.8 mm cells) and to 6 us: copper disk through an aluminium plate at 5.55 km/s.
+// Proves: conservation to round-off through shocks, spall, melting and outflow; no particle faster than
+// physics allows; the phase test of the case: the shock (about 106 GPa) melts the aluminium on release and
+// leaves the copper (threshold about 140 GPa) solid.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "eos/loci.hpp"
+#include "src/base/error.hpp"
+#include "tests/verification/solver_problems.hpp"
+
+namespace whipple::verification {
+namespace {
+
+const setup::Case& disk_case() {
+  static const setup::Case setup =
+      setup::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/copper_disk_on_aluminium/case.toml",
+                       {{"domain.cell_size", "0.8 mm"}, {"time.end", "6 us"}});
+  return setup;
+}
+
+/// Speed of the rear surface of the plate in the planar impact of the two bodies: particle velocity by
+/// impedance match of the Hugoniots, plus the integral of c d(rho)/rho along the release to zero pressure.
+double free_surface_speed() {
+  const eos::EquationOfState& disk = *disk_case().materials[0]->eos;
+  const eos::EquationOfState& plate = *disk_case().materials[1]->eos;
+  const double impact = disk_case().bodies[0].velocity[2];
+  const eos::Hugoniot of_disk(disk), of_plate(plate);
+  double low = 0.5 * impact, high = 0.9 * impact;
+  for (int i = 0; i < 50; ++i) {
+    const double up = 0.5 * (low + high);
+    const bool too_slow = of_plate.at_particle_velocity(up).state.pressure <
+                          of_disk.at_particle_velocity(impact - up).state.pressure;
+    (too_slow ? low : high) = up;
+  }
+  const eos::State shocked = of_plate.at_particle_velocity(low).state;
+  return low - eos::release(plate, shocked, 0.0).end.riemann_velocity;
+}
+
+TEST(DebrisCloud, ConservesMeltsTheAluminiumAndKeepsTheCopperSolid) {
+  solver::Simulation simulation(disk_case(), parallel::world());
+  const std::vector<Vector3> start = [&] {
+    std::vector<Vector3> x(simulation.particles().size());
+    for (std::size_t p = 0; p < x.size(); ++p)
+      x[simulation.particles().id[p]] = simulation.particles().position[p];
+    return x;
+  }();
+  EnergyWatch watch;
+  double momentum_error = 0, fastest = 0;
+  run_to(simulation, 6e-6, [&](const solver::Simulation& s) {
+    watch(s);
+    momentum_error = std::max(momentum_error, s.state().ledger.momentum_error(s.totals()));
+    for (const Vector3& v : s.particles().velocity) fastest = std::max(fastest, v.norm());
+  });
+  const Particles& q = simulation.particles();
+  const double surface = free_surface_speed();
+  // The shock is about three cells wide. Matter within one cell of the rear surface is released before it has
+  // fully passed: less heated and faster than it should be (docs/theory/mpm.md, 7.4). Its mass vanishes with
+  // the cell size.
+  const double skin = disk_case().domain.cell_size;
+  double axis = 0, axis_melted = 0, copper = 0, copper_solid = 0, too_fast = 0;
+  for (std::size_t p = 0; p < q.size(); ++p) {
+    const Vector3& x0 = start[q.id[p]];
+    if (q.velocity[p].norm() > 1.05 * surface) too_fast += q.mass[p];
+    if (q.body[p] == 0) {
+      copper += q.mass[p];
+      copper_solid += q.melted_fraction[p] < 0.5 ? q.mass[p] : 0.0;
+    } else if (std::hypot(x0[0], x0[1]) < 2.8e-3 && x0[2] > 0.4e-3 && x0[2] < 2.87e-3 - skin) {
+      axis += q.mass[p];
+      axis_melted += q.melted_fraction[p] * q.mass[p];
+    }
+  }
+  std::printf(
+      "energy error %.1e, momentum error %.1e, fastest %.0f m/s (free surface %.0f m/s), above 1.05 of it "
+      "%.2f %% of the "
+      "mass, aluminium on the axis melted %.0f %%, "
+      "copper "
+      "solid %.0f %%, %lld steps\n",
+      watch.worst, momentum_error, fastest, surface, 100 * too_fast / simulation.totals().mass,
+      100 * axis_melted / axis, 100 * copper_solid / copper, static_cast<long long>(simulation.state().step));
+  EXPECT_LT(watch.worst, 1e-10);
+  EXPECT_LT(momentum_error, 1e-11);
+  EXPECT_LT(fastest, 1.10 * surface);
+  EXPECT_LT(too_fast, 0.002 * simulation.totals().mass);
+  EXPECT_GT(axis_melted / axis, 0.9);
+  EXPECT_GT(copper_solid / copper, 0.6);
+}
+
+TEST(DebrisCloud, AnUndefinedStateStopsWithItsParticleNamed) {
+  Particles particles = setup::seed(disk_case()).particles;
+  particles.specific_internal_energy[777] = std::nan("");
+  solver::RunState state;
+  state.ledger.initial = solver::totals_of(particles, disk_case().domain.cell_size);
+  solver::Simulation simulation(disk_case(), std::move(particles), state, parallel::world());
+  try {
+    simulation.advance(1e-6);
+    FAIL() << "a NaN must stop the run";
+  } catch (const StateError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("step 1"), std::string::npos) << text;
+    EXPECT_NE(text.find("particle 777"), std::string::npos) << text;
+    EXPECT_NE(text.find("specific internal energy nan"), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace whipple::verification
