@@ -29,6 +29,8 @@ function(whipple_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE whipple_flags ${ARG_DEPENDS} GTest::gtest_main)
+  # The work is done in the libraries: what a test itself computes does not need the last optimisation.
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${name} PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" WHIPPLE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${ARG_LABELS}")
   # gtest_discover_tests splits a list in a property, so the environment is set when ctest has found the tests.
