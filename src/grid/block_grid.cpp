@@ -67,8 +67,9 @@ BlockGrid::BlockGrid(const Geometry& geometry, MPI_Comm communicator)
 
 BlockCoordinate BlockGrid::block_of(const Vector3& position, std::size_t index) const {
   BlockCoordinate block{};
+  const Vector3 in_cells = geometry_.in_cells(position);
   for (int a = 0; a < 3; ++a) {
-    const double cells = (position[a] - geometry_.lower[a]) / geometry_.cell_size;
+    const double cells = in_cells[a];
     // The negation also catches NaN.
     if (!(cells > -1.0 && cells < geometry_.cells[static_cast<std::size_t>(a)] + 1.0)) {
       throw StateError(
@@ -92,20 +93,19 @@ void BlockGrid::bin(std::span<const Vector3> position, std::span<const Vector3> 
 /// Updates the slot of every particle from its former slot; false if a particle left the active set.
 bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
   std::atomic<bool> complete = true;
-  const double per_cell = 1.0 / geometry_.cell_size;
   parallel::for_each_chunk(position.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       auto slot = static_cast<std::size_t>(slot_of_particle_[p]);
-      Vector3 local = (position[p] - geometry_.lower) * per_cell;
+      Vector3 local = geometry_.in_cells(position[p]);
       int neighbour = 0;
       bool far = false;
       for (std::size_t a = 0; a < 3; ++a) {
         const auto axis = static_cast<Eigen::Index>(a);
-        local[axis] -= coordinate_[slot][a] * block_edge;
-        const double offset = std::floor(local[axis] / block_edge);
+        const double block = std::floor(local[axis] / block_edge);
+        const double offset = block - coordinate_[slot][a];
         far = far || !(std::abs(offset) <= 1.0);
         neighbour = neighbour * 3 + (far ? 0 : static_cast<int>(offset) + 1);
-        local[axis] -= offset * block_edge;
+        local[axis] -= block * block_edge;
       }
       const std::int32_t moved = far ? no_slot : neighbours_[slot][static_cast<std::size_t>(neighbour)];
       if (moved == no_slot) {
@@ -136,7 +136,7 @@ void BlockGrid::adapt(std::span<const Vector3> position, std::span<const Vector3
       home.push_back(block);
       wanted_mask.push_back(0);
     }
-    Vector3 local = (position[p] - geometry_.lower) / geometry_.cell_size;
+    Vector3 local = geometry_.in_cells(position[p]);
     for (std::size_t a = 0; a < 3; ++a) local[static_cast<Eigen::Index>(a)] -= block[a] * block_edge;
     const Vector3 ahead = (velocity[p] * (lookahead / geometry_.cell_size)).cwiseMax(-2.0).cwiseMin(2.0);
     wanted_mask[static_cast<std::size_t>(i)] |= touched_neighbours(local, ahead, stencil);

@@ -32,6 +32,9 @@ struct Geometry {
   /// Faces in the order x_lower, x_upper, y_lower, y_upper, z_lower, z_upper.
   std::array<Boundary, 6> boundary{};
 
+  /// Position in cells from the lower corner. Whoever asks for the cell, block or stencil of a position takes
+  /// it from here: two ways of rounding would disagree about positions on the edge between two stencils.
+  [[nodiscard]] Vector3 in_cells(const Vector3& position) const { return (position - lower) / cell_size; }
   [[nodiscard]] double upper(int axis) const { return lower[axis] + cells[axis] * cell_size; }
   /// Blocks along an axis that hold cells of the domain (without the layer outside).
   [[nodiscard]] std::int32_t blocks(int axis) const { return (cells[axis] + block_edge - 1) / block_edge; }

@@ -36,9 +36,12 @@ void fold(BlockGrid& grid, bool with_forces) {
       nodes[image].first += sign * nodes[outside].first;
       if (with_forces) nodes[image].second += sign * nodes[outside].second;
     });
+  }
+  // On a plane a vector is its own image: the reversed components vanish. Mass and force would double alike.
+  // After all folds, because between two planes one cell apart each folds onto the nodes of the other.
+  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+    const Lanes sign = reflection(plane, 1);
     parallel::for_each(plane.on_plane.size(), [&](std::size_t i) {
-      // On the plane a vector is its own image: the reversed components vanish. Mass and force would double
-      // alike.
       Node& node = nodes[plane.on_plane[i]];
       const Lanes keep = 0.5 * (broadcast(1.0) + sign);
       node.first *= keep;

@@ -69,7 +69,7 @@ std::array<AxisWeights<Shape::count>, 3> weights_at(const Vector3& local, double
 /// Position in cells from the lower corner of a block.
 inline Vector3 local_position(const Vector3& position, const grid::Geometry& geometry,
                               const grid::BlockCoordinate& block) {
-  Vector3 local = (position - geometry.lower) / geometry.cell_size;
+  Vector3 local = geometry.in_cells(position);
   for (std::size_t a = 0; a < 3; ++a) local[static_cast<Eigen::Index>(a)] -= block[a] * grid::block_edge;
   return local;
 }

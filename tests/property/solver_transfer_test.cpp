@@ -250,6 +250,93 @@ TEST(MirrorPlane, EqualsATransferOfRealImages) {
   }
 }
 
+// Two planes one cell apart, the column of one cell of a planar problem: each folds onto nodes of the other.
+TEST(MirrorPlane, EqualsRealImagesBetweenPlanesOneCellApart) {
+  using enum grid::Boundary;
+  Particles thin = random_particles(300, Vector3(0, -1, 4.5), Vector3(3, -1 + dx, 7), 6);
+  grid::Geometry column = geometry({outflow, outflow, symmetry, symmetry, outflow, outflow});
+  column.cells[1] = 1;
+  grid::BlockGrid grid(column, parallel::world());
+
+  // Seven cells side by side, each the image of its neighbours: all that share a node with the one in the
+  // middle, which is the column.
+  constexpr int copies = 7;
+  Particles full = thin;
+  resize(full, copies * thin.size());
+  for (int copy = 0; copy < copies; ++copy) {
+    const int shift = copy <= 3 ? copy : 3 - copy;  // cells: the column itself first
+    const bool mirrored = shift % 2 != 0;
+    const Matrix3 mirror = Vector3(1, mirrored ? -1 : 1, 1).asDiagonal();
+    for (std::size_t p = 0; p < thin.size(); ++p) {
+      const std::size_t image = static_cast<std::size_t>(copy) * thin.size() + p;
+      for_each_field<Particles>(
+          [&](const auto& field) { (full.*(field.values))[image] = (thin.*(field.values))[p]; });
+      const double depth = thin.position[p][1] + 1;
+      full.position[image][1] = -1 + shift * dx + (mirrored ? dx - depth : depth);
+      full.velocity[image] = mirror * thin.velocity[p];
+      full.affine_velocity[image] = mirror * thin.affine_velocity[p] * mirror;
+      full.deviatoric_stress[image] =
+          SymmetricTensor::from(mirror * thin.deviatoric_stress[p].matrix() * mirror);
+    }
+  }
+  grid::Geometry wide = geometry();
+  wide.lower[1] = -1 - 8 * dx;
+  grid::BlockGrid full_grid(wide, parallel::world());
+
+  constexpr double dt = 0.05;
+  const double energy = total_energy(thin);
+  Vector3 momentum = Vector3::Zero();
+  for (std::size_t p = 0; p < thin.size(); ++p) momentum -= thin.mass[p] * thin.velocity[p];
+  std::vector<Matrix3> gradient(thin.size()), full_gradient(full.size());
+  const auto cycle = [&](Particles& q, grid::BlockGrid& g, std::vector<Matrix3>& l) {
+    bin<QuadraticBSpline>(g, q);
+    particles_to_grid<QuadraticBSpline>(q, g);
+    const GridBalance balance = GridUpdate().advance(g, dt, {});
+    grid_to_particles<QuadraticBSpline>(q, g, dt, true, l);
+    return balance;
+  };
+  const GridBalance balance = cycle(thin, grid, gradient);
+  cycle(full, full_grid, full_gradient);
+  for (std::size_t p = 0; p < thin.size(); ++p) {
+    EXPECT_LT((thin.velocity[p] - full.velocity[p]).norm(), 1e-11);
+    EXPECT_LT((gradient[p] - full_gradient[p]).norm(), 1e-10);
+    EXPECT_LT((thin.affine_velocity[p] - full.affine_velocity[p]).norm(), 1e-10);
+    EXPECT_NEAR(thin.specific_internal_energy[p], full.specific_internal_energy[p], 1e-11);
+    momentum += thin.mass[p] * thin.velocity[p];
+  }
+  EXPECT_NEAR(total_energy(thin), energy, 1e-12 * balance.kinetic_energy_before);
+  EXPECT_LT((momentum - balance.wall_impulse).norm(), 1e-10 * balance.kinetic_energy_before);
+}
+
+// A position on the edge between two stencils (the centre of a cell, where lattices put particles): the nodes
+// that the transfer reaches must be those whose blocks were activated, however the division by the cell size
+// rounds.
+TYPED_TEST(Transfer, NodesOfEveryStencilAreActiveWhereTheDivisionRounds) {
+  const std::vector<Vector3> velocity = {Vector3::Zero()};
+  for (const double cell_size : {0.0003, 0.0007, 0.00076}) {
+    grid::Geometry fine = geometry();
+    fine.lower.setZero();
+    fine.cells = {400, 8, 8};
+    fine.cell_size = cell_size;
+    for (int half_cells = 1; half_cells < 800; ++half_cells) {
+      const std::vector<Vector3> x = {Vector3(0.5 * half_cells, 2.5, 2.5) * cell_size};
+      grid::BlockGrid grid(fine, parallel::world());
+      ASSERT_NO_THROW(grid.bin(x, velocity, 0.0, TypeParam::stencil)) << half_cells << " " << cell_size;
+      for (std::size_t slot = 0; slot < grid.slots(); ++slot) {
+        if (grid.particles_in(slot).empty()) continue;
+        const auto weights =
+            weights_at<TypeParam>(local_position(x[0], fine, grid.coordinate(slot)), cell_size);
+        for (const int node : {weights[0].first, weights[0].first + TypeParam::count - 1}) {
+          const int block = node < 0 ? 0 : node < grid::block_edge ? 1 : 2;
+          EXPECT_NE(grid.neighbours(slot)[static_cast<std::size_t>(grid::neighbour_index(block, 1, 1))],
+                    grid::BlockGrid::no_slot)
+              << half_cells << " half cells of " << cell_size << " m";
+        }
+      }
+    }
+  }
+}
+
 // Galilean invariance: heat, work and velocity gradients do not see a common velocity.
 TEST(AffineTransfer, IsGalileanInvariant) {
   Particles at_rest = random_particles(500, Vector3(-1.2, -0.3, 4), Vector3(8, 6.5, 11.8), 5);
