@@ -261,7 +261,7 @@ std::vector<WindowResult> other_windows(const Observations& data, const FitSetti
   return results;
 }
 
-/// T_m0 such that T_m(V) itself runs through the coexistence points: weighted mean of T/(T_m(V)/T_m0).
+/// T_m0 such that T_m(V) itself runs through the coexistence points: geometric mean of T/(T_m(V)/T_m0).
 std::optional<double> isochoric_melting_temperature(const Observations& data, GrayConstants constants) {
   if (data.melting.empty()) return std::nullopt;
   constants.melting_temperature = 1.0;

@@ -28,7 +28,7 @@ struct Run {
   State state;
 };
 
-/// The final values as a function of the five measured numbers E, P, E0, V0 (and V fixed): differentiated
+/// The final values as a function of the four measured numbers E, P, E0, V0 (V is exact): differentiated
 /// numerically for the errors.
 struct Solution {
   std::array<double, 5> values;  ///< temperature, pressure, energy, shock velocity, particle velocity

@@ -15,7 +15,7 @@
 namespace whipple::md {
 namespace {
 
-/// A search run needs a tenth of the accuracy: its noise moves the next temperature, not the result.
+/// A search run takes a quarter of the steps: its noise moves the next temperature, not the result.
 constexpr std::int64_t search_share = 4;
 
 }  // namespace

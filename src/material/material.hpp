@@ -44,7 +44,7 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
 eos::State initial_state(const Material& material, std::optional<double> density = {},
                          std::optional<double> temperature = {});
 
-/// Sets every field of the points [begin, end) but mass and failure_threshold_factor to the initial state,
+/// Sets every field of the points [begin, end) but mass to the initial state, intact and without scatter,
 /// without deviatoric stress: volume = mass / density, specific internal energy of the equation of state,
 /// sound speed longitudinal.
 /// @throws as `initial_state`

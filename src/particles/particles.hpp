@@ -9,14 +9,14 @@
 
 namespace whipple {
 
-/// Material points that move through the grid. Sorted by block and cell of the grid (transfer/).
+/// Material points that move through the grid. The solver keeps them sorted by body, then by block of the
+/// grid.
 struct Particles : MaterialPoints {
-  std::vector<std::uint64_t> id;    ///< unique, never changes
-  std::vector<std::uint32_t> body;  ///< index of the body in the case
-  std::vector<Vector3> position;    ///< m
-  std::vector<Vector3> velocity;    ///< m/s
-  std::vector<Matrix3>
-      affine_velocity;  ///< 1/s: a_p(x) = v_p + C_p (x - x_p), NUMERICS eq. of the affine field
+  std::vector<std::uint64_t> id;         ///< unique, never changes
+  std::vector<std::uint32_t> body;       ///< index of the body in the case
+  std::vector<Vector3> position;         ///< m
+  std::vector<Vector3> velocity;         ///< m/s
+  std::vector<Matrix3> affine_velocity;  ///< 1/s: a_p(x) = v_p + C_p (x - x_p) (docs/theory/mpm.md, 1)
 
   [[nodiscard]] std::size_t size() const { return mass.size(); }
 

@@ -153,7 +153,6 @@ Seeding seed(const Case& setup) {
       particles.id[p] = p;
       particles.body[p] = static_cast<std::uint32_t>(b);
       particles.mass[p] = mass;
-      particles.failure_threshold_factor[p] = 1.0;
       particles.position[p] = points[i];
       particles.velocity[p] = body.velocity + spin * (points[i] - center);
       particles.affine_velocity[p] = spin;

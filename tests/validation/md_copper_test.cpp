@@ -19,7 +19,7 @@
 namespace whipple::md {
 namespace {
 
-/// MJ/kg of one eV per copper atom.
+/// J/kg of so many eV per copper atom.
 double specific(double electron_volts, const Potential& potential) {
   return metal::specific_energy(electron_volts, potential.mass());
 }

@@ -123,7 +123,7 @@ TEST(Sphere, RotationKeepsAngularMomentumAndStaysCold) {
       "sphere, two turns: angular momentum %+.2e, internal energy %.2e of the kinetic energy, energy error "
       "%.1e\n",
       l, heat, watch.worst);
-  EXPECT_LT(std::abs(l), 2e-3);  // the prototype: -1.1e-3; FLIP -13 %, linear MUSL -20 %
+  EXPECT_LT(std::abs(l), 2e-3);  // -1.1e-3; FLIP -13 %, linear MUSL -20 %
   EXPECT_LT(heat, 5e-3);         // 3.6e-3, of which 1e-3 is elastic stretch; FLIP 22 %
   EXPECT_LT(watch.worst, 1e-12);
 }

@@ -55,8 +55,7 @@ TEST(TaylorBar, DefaultSchemeMatchesExperimentForEveryTimeStep) {
     const Shape shape = taylor_bar(method);
     EXPECT_NEAR(shape.length, 16.2, 0.02 * 16.2);
     EXPECT_NEAR(shape.foot, 13.5, 0.02 * 13.5);
-    // The prototype's own figures for the complete default: 16.28 and 13.47 mm, the same within 0.1 % for
-    // every dt.
+    // What the scheme gives (docs/theory/mpm.md, 7.2): the same within 0.1 % for every time step.
     EXPECT_NEAR(shape.length, 16.28, 0.003 * 16.28);
     EXPECT_NEAR(shape.foot, 13.47, 0.003 * 13.47);
     EXPECT_LT(shape.energy_error, 1e-12);
