@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -160,14 +162,15 @@ std::string profile_as_json(Simulation& simulation, double wall_seconds) {
 
 io::ParticleSeries open_series(const setup::Case& setup, const io::RunDirectory& directory,
                                MPI_Comm communicator) {
-  io::ParticleSeriesOptions options{
-      .folder = directory.path(),
-      .name = directory.name(),
-      .fields = setup.output.fields,
-      .material_of_body = {},
-      .provenance = {{"units", "SI"}, {"input", io::read_text(directory.input_file())}}};
-  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
-    options.material_of_body.push_back(static_cast<std::uint16_t>(b));
+  io::ParticleSeriesOptions options{.folder = directory.path(),
+                                    .name = directory.name(),
+                                    .fields = setup.output.fields,
+                                    .material_of_body = {},
+                                    .provenance = {{"input", io::read_text(directory.input_file())}}};
+  // Bodies of one material share its number: that of its first body.
+  for (const auto& material : setup.materials) {
+    const auto first = std::ranges::find(setup.materials, material);
+    options.material_of_body.push_back(static_cast<std::uint16_t>(first - setup.materials.begin()));
   }
   return io::ParticleSeries(std::move(options), communicator);
 }
@@ -202,8 +205,8 @@ class Runner {
     const setup::Case& setup = simulation_.setup();
     const double end = setup.time.end;
     const Signals signals;
-    Progress progress("run", end);
-    progress.start_from(simulation_.state().time);
+    std::optional<Progress> progress(std::in_place, "run", end);
+    progress->start_from(simulation_.state().time);
     const Clock::time_point begin = Clock::now();
     Clock::time_point last_checkpoint = begin;
     int signal = 0;
@@ -227,6 +230,7 @@ class Runner {
                       1e6 * state.time, 1e9 * state.time_step, simulation_.particles().size(),
                       state.ledger.energy_error(simulation_.totals())));
     }
+    progress.reset();  // ends its line before the summary
     const double wall = std::chrono::duration<double>(Clock::now() - begin).count();
     io::write_text_atomically(directory_.profile_file(), profile_as_json(simulation_, wall));
     report_end(signal, wall);
