@@ -224,7 +224,7 @@ class Runner {
         write_checkpoint(directory_.checkpoint_folder());
         last_checkpoint = Clock::now();
       }
-      progress.update(
+      progress->update(
           state.time,
           fmt::format("step {}, t = {:.3f} us, dt = {:.2f} ns, {} particles, dE/E = {:.1e}", state.step,
                       1e6 * state.time, 1e9 * state.time_step, simulation_.particles().size(),
