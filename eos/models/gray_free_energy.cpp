@@ -298,13 +298,11 @@ GrayPoint GrayFreeEnergy::liquid(double V, double T) const {
           b.pressure_by_volume(T)};
 }
 
-double GrayFreeEnergy::cold_energy(double V) const { return isochore(V).solid.e0; }
 double GrayFreeEnergy::cold_pressure(double V) const { return isochore(V).solid.p0; }
 double GrayFreeEnergy::gamma(double V) const {
   return constants_.gruneisen - constants_.gruneisen_slope * (1 - V / constants_.reference_specific_volume);
 }
 double GrayFreeEnergy::melting_temperature(double V) const { return isochore(V).melting_temperature; }
-double GrayFreeEnergy::electronic_heat_coefficient(double V) const { return isochore(V).heat_coefficient; }
 
 void GrayFreeEnergy::check_heat_capacity() const {
   const auto refuse = [&](const char* phase, double V, double T, double value) {

@@ -75,7 +75,6 @@ struct GrayPoint {
   double pressure_by_temperature = 0;  ///< Pa/K
   double pressure_by_volume = 0;       ///< Pa kg/m^3
 
-  [[nodiscard]] double helmholtz(double T) const { return energy - T * entropy; }
   [[nodiscard]] double gibbs(double V, double T) const { return energy - T * entropy + pressure * V; }
 };
 
@@ -95,11 +94,9 @@ class GrayFreeEnergy {
   [[nodiscard]] double specific_gas_constant() const { return gas_; }
 
   // Functions of V, for least_volume() <= V <= join_volume().
-  [[nodiscard]] double cold_energy(double V) const;                  ///< E_c  (G9)
-  [[nodiscard]] double cold_pressure(double V) const;                ///< P_c = -dE_c/dV
-  [[nodiscard]] double gamma(double V) const;                        ///< (G2)
-  [[nodiscard]] double melting_temperature(double V) const;          ///< (G11)
-  [[nodiscard]] double electronic_heat_coefficient(double V) const;  ///< g_e(V), J/(kg K^2)  (G8)
+  [[nodiscard]] double cold_pressure(double V) const;        ///< P_c = -dE_c/dV
+  [[nodiscard]] double gamma(double V) const;                ///< (G2)
+  [[nodiscard]] double melting_temperature(double V) const;  ///< (G11)
 
   // Whole states on one phase's surface, stable there or not.
   [[nodiscard]] GrayPoint solid(double V, double T) const;   ///< V <= V_J
@@ -121,8 +118,7 @@ class GrayFreeEnergy {
   [[nodiscard]] GrayBranch vapour_branch(double V, bool hot) const;
   /// T_G(V_J): the vapour changes branch there at every volume.
   [[nodiscard]] double vapour_branch_temperature() const { return join_hot_temperature_; }
-  /// Isochore and melting band at V_J.
-  [[nodiscard]] const GrayIsochore& join_isochore() const { return join_; }
+  /// Melting band at V_J.
   [[nodiscard]] const GrayBand& join_band() const { return join_band_; }
 
   [[nodiscard]] double solid_entropy(const GrayIsochore& isochore, double T) const;

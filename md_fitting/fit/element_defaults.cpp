@@ -53,8 +53,6 @@ constexpr std::array rows = {
 
 }  // namespace
 
-std::span<const ElementDefaults> all_element_defaults() { return elements; }
-
 const ElementDefaults& element_defaults(std::string_view element) {
   std::vector<std::string> known;
   for (const ElementDefaults& entry : elements) {

@@ -29,8 +29,6 @@ struct ElementDefaults {
 /// @throws InputError naming the known elements.
 const ElementDefaults& element_defaults(std::string_view element);
 
-std::span<const ElementDefaults> all_element_defaults();
-
 /// A row of published constants that a fit is printed beside.
 struct PublishedRow {
   std::string_view name;

@@ -76,10 +76,6 @@ void Lammps::command_shown_as(const std::string& line, const std::string& shown)
   }
 }
 
-double Lammps::thermo(const std::string& keyword) {
-  return guarded([&] { return lammps_get_thermo(handle_, keyword.c_str()); });
-}
-
 double Lammps::variable(const std::string& name) {
   void* const value = guarded([&] { return lammps_extract_variable(handle_, name.c_str(), nullptr); });
   if (value == nullptr) throw LammpsError(fmt::format("LAMMPS has no variable '{}'", name));

@@ -34,8 +34,6 @@ class Lammps {
     command(std::string(fmt::format(format, std::forward<Args>(args)...)));
   }
 
-  /// A thermodynamic keyword ("pe", "vol", "temp") after a run. Collective.
-  double thermo(const std::string& keyword);
   /// The present value of an equal-style variable. Collective.
   double variable(const std::string& name);
   /// The columns collected by a `fix vector`, column by column.

@@ -21,6 +21,15 @@
 namespace whipple::md {
 namespace {
 
+/// A potential that the program knows by name.
+struct KnownPotential {
+  const char* name;
+  const char* element;
+  const char* file;    ///< in LAMMPS' folder of potentials
+  double cutoff;       ///< A, replaces that of the file; 0: that of the file
+  const char* source;  ///< publication
+};
+
 // Cu_mishin1.eam.alloy, the file that LAMMPS ships for Mishin's copper, ends at 1.64 times the equilibrium
 // density, which the static crystal reaches at V/V0 = 0.72 (102 GPa). The copper block of the
 // angular-dependent Al-Cu potential is the same function with a table that goes on to 22 times that density;
@@ -120,8 +129,6 @@ class Potential::TemporaryFile {
   std::filesystem::path folder_;
   std::filesystem::path path_;
 };
-
-std::span<const KnownPotential> known_potentials() { return known; }
 
 std::filesystem::path potential_folder() {
   const char* chosen = std::getenv("LAMMPS_POTENTIALS");

@@ -3,23 +3,12 @@
 
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
 
 #include "md_fitting/lammps/eam_tables.hpp"
 #include "md_fitting/lammps/lammps.hpp"
 
 namespace whipple::md {
-
-/// A potential that the program knows by name.
-struct KnownPotential {
-  const char* name;
-  const char* element;
-  const char* file;    ///< in LAMMPS' folder of potentials
-  double cutoff;       ///< A, replaces that of the file; 0: that of the file
-  const char* source;  ///< publication
-};
-std::span<const KnownPotential> known_potentials();
 
 /// The folder of the potential files that LAMMPS ships; the environment variable LAMMPS_POTENTIALS comes
 /// first.
@@ -28,7 +17,7 @@ std::filesystem::path potential_folder();
 /// An embedded-atom potential of one element, checked before LAMMPS sees it.
 class Potential {
  public:
-  /// Loads a potential by its name in `known_potentials`, or by a file name: a path, a file beside the plan
+  /// Loads a potential by the name of a known one, or by a file name: a path, a file beside the plan
   /// (`folder`), or a file in LAMMPS' folder.
   /// @throws InputError if there is no such file (listing the ones for the element), if the element is not in
   /// it, or if the file is damaged.

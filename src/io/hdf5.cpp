@@ -150,8 +150,6 @@ void Object::set_fixed_attribute(const std::string& name, std::string_view text)
   write_attribute(*this, name, type.get(), type.get(), space.get(), text.data());
 }
 
-bool Object::has_attribute(const std::string& name) const { return H5Aexists(id(), name.c_str()) > 0; }
-
 std::vector<std::string> Object::attribute_names() const {
   std::vector<std::string> names;
   hsize_t index = 0;

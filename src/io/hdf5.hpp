@@ -69,7 +69,6 @@ class Object {
   /// ASCII of exactly the length of the text (the `Type` attribute of VTKHDF).
   void set_fixed_attribute(const std::string& name, std::string_view text) const;
 
-  [[nodiscard]] bool has_attribute(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> attribute_names() const;
   [[nodiscard]] std::int64_t integer_attribute(const std::string& name) const;
   [[nodiscard]] double real_attribute(const std::string& name) const;

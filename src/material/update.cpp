@@ -261,7 +261,6 @@ double share_volume(double pressure, double modulus, double& volume, double& voi
   const double total = volume + void_volume;
   const double relaxation = std::clamp(pressure / modulus, -greatest_void_step, greatest_void_step) * volume;
   if (relaxation < void_volume) {  // tension opens the void, pressure lets the matter grow into it
-    if (pressure >= 0.0 && void_volume == 0.0) return pressure;
     volume += relaxation;
     void_volume = total - volume;
     return 0.0;

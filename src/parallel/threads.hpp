@@ -14,7 +14,6 @@ namespace whipple::parallel {
 
 inline void set_threads(int n) { omp_set_num_threads(n); }
 inline int threads() { return omp_get_max_threads(); }
-inline int thread_index() { return omp_get_thread_num(); }
 
 constexpr std::size_t chunk_size = 1024;
 
