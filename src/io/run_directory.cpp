@@ -123,6 +123,10 @@ RunDirectory RunDirectory::create(const fs::path& path, const std::string& name,
     fs::create_directory(directory.checkpoint_folder(), error);
     if (error) fail(directory.checkpoint_folder(), "make the folder", error.value());
   }
+  if (fs::is_directory(directory.failed_folder())) {
+    remove_matching(directory.failed_folder(), own_checkpoints());
+    fs::remove(directory.failed_folder(), error);  // stays if it holds something else
+  }
   return directory;
 }
 

@@ -35,6 +35,8 @@ class RunDirectory {
   [[nodiscard]] std::filesystem::path log_file() const { return path_ / "log.txt"; }
   [[nodiscard]] std::filesystem::path profile_file() const { return path_ / "profile.json"; }
   [[nodiscard]] std::filesystem::path checkpoint_folder() const { return path_ / "checkpoint"; }
+  /// Where the state goes that ended a run.
+  [[nodiscard]] std::filesystem::path failed_folder() const { return path_ / "failed"; }
 
   /// Writes run.toml: the complete input with all defaults.
   void write_input(std::string_view text) const { write_text_atomically(input_file(), text); }

@@ -49,12 +49,14 @@ TEST_F(RunDirectoryTest, force_removes_its_own_outputs_and_nothing_else) {
                        "disk.particles.000007.hdf",
                        "other.particles.000000.hdf.partial",
                        "checkpoint/checkpoint.00000012.h5",
-                       "checkpoint/checkpoint.00000012.h5.partial"};
+                       "checkpoint/checkpoint.00000012.h5.partial",
+                       "failed/checkpoint.00000012.h5"};
   const char* others[] = {
       "notes.md",         "case.toml",       "particles.hdf",          "disk.particles.7.hdf",
       "run.toml.backup",  "history.csv.old", "checkpoint/keep.h5",     "checkpoint/checkpoint.1.h5",
       "my.particles.txt", "report.html",     "disk.particles.000007.h"};
   fs::create_directories(folder_ / "checkpoint");
+  fs::create_directories(folder_ / "failed");
   fs::create_directories(folder_ / "subfolder" / "deep");
   touch(folder_ / "subfolder" / "run.toml");
   for (const char* file : own) touch(folder_ / file);
@@ -63,6 +65,7 @@ TEST_F(RunDirectoryTest, force_removes_its_own_outputs_and_nothing_else) {
   for (const char* file : own) EXPECT_FALSE(fs::exists(folder_ / file)) << file;
   for (const char* file : others) EXPECT_TRUE(fs::exists(folder_ / file)) << file;
   EXPECT_TRUE(fs::exists(folder_ / "subfolder" / "run.toml"));
+  EXPECT_FALSE(fs::exists(folder_ / "failed")) << "a run that did not fail must not seem to have";
 }
 
 TEST_F(RunDirectoryTest, refuses_a_file_an_unwritable_place_and_a_folder_without_a_run) {
