@@ -59,11 +59,6 @@ double edge_temperature(const eos::GrayFreeEnergy& surface, double pressure, boo
   return edge(0.5 * (small + large)).second;
 }
 
-bool is_solid(const md::PointRecord& point) {
-  const auto flag = point.results.find("solid");
-  return flag == point.results.end() || flag->second.value > 0.5;
-}
-
 }  // namespace
 
 std::vector<ModelCheck> check_model(const eos::GrayConstants& constants, const Observations& data,

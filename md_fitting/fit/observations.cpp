@@ -20,11 +20,6 @@ constexpr double same_temperature = 0.5;  // K: a volume at the reference temper
 constexpr std::size_t least_states = 3;   // of the Hugoniot window, of an isochore
 constexpr std::size_t least_isochores = 2;
 
-bool is_solid(const PointRecord& point) {
-  const auto flag = point.results.find("solid");
-  return flag == point.results.end() || flag->second.value > 0.5;
-}
-
 /// V at zero pressure and the reference temperature: the point there, or the line through its neighbours.
 bool reference_volume(const std::vector<PointRecord>& points, double temperature, Estimate& volume) {
   const PointRecord* below = nullptr;
@@ -140,6 +135,11 @@ std::string missing(std::span<const PointRecord> points, const char* protocol, c
 }
 
 }  // namespace
+
+bool is_solid(const PointRecord& point) {
+  const auto flag = point.results.find("solid");
+  return flag == point.results.end() || flag->second.value > 0.5;
+}
 
 Observations observe(std::span<const PointRecord> points, double reference_temperature, double least,
                      double most, const std::string& store_name) {

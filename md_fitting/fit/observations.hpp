@@ -47,6 +47,9 @@ struct Observations {
   std::vector<MeltingPoint> melting;    ///< by rising pressure
 };
 
+/// Has the crystal of a point not melted? Protocols without that flag simulate solids only.
+bool is_solid(const md::PointRecord& point);
+
 /// Sorts the finished points of a store into data.
 /// @param least, most window of particle velocities (m/s) that must hold at least three Hugoniot states
 /// @throws InputError listing every protocol whose points are missing or too few, and mixed potentials.
