@@ -209,7 +209,6 @@ TEST(EnergyOfACycle, ElasticShearGivesAllItsWorkBack) {
     const Cycle trapezoidal = shear_cycle(material, amplitude, steps, step_with_own_energy);
     EXPECT_NEAR(trapezoidal.energy, 0.0, 1e-4 * peak);
     // The work of a half step at each turn is all that is left.
-    // order.
     const Cycle symplectic = shear_cycle(material, amplitude, steps, step_with_grid_work);
     EXPECT_NEAR(symplectic.energy, 0.0, 1e-3 * peak);
   }
