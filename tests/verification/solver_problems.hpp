@@ -4,10 +4,10 @@
 #include <mpi.h>
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <string>
 
+#include "src/io/run_directory.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/setup/case.hpp"
 #include "src/solver/simulation.hpp"
@@ -37,10 +37,11 @@ struct Method {
   }
 };
 
-/// A material file of the test's own in a temporary folder; returns its path.
+/// A material file of the test's own in a temporary folder; returns its path. Written as a whole: tests that
+/// run at the same time write the same file.
 inline std::string write_material(const std::string& name, const std::string& text) {
   const std::filesystem::path path = std::filesystem::temp_directory_path() / ("whipple_" + name + ".toml");
-  std::ofstream(path) << text;
+  io::write_text_atomically(path, text);
   return path.string();
 }
 
