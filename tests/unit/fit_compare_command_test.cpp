@@ -40,8 +40,8 @@ TEST_F(CompareCommand, PrintsOneRowPerMaterialAndExperiment) {
   ASSERT_EQ(run("copper copper_slides_md --with cu_hugoniot_marsh1980 cu_isotherm_298K_dewaele2004.csv"), 0)
       << output();
   // Figures of docs/theory/fit.md, section 6, with the library's own files.
-  EXPECT_THAT(output(), ::testing::ContainsRegex(
-                            "cu_hugoniot_marsh1980 +Hugoniot +copper +144 .*1\\.18 +\\+0\\.08"));
+  EXPECT_THAT(output(),
+              ::testing::ContainsRegex("cu_hugoniot_marsh1980 +Hugoniot +copper +144 .*1\\.18 +\\+0\\.08"));
   EXPECT_THAT(output(),
               ::testing::ContainsRegex("dewaele2004 +isotherm 298 K +copper +41 .*0\\.50 +\\+0\\.08"));
   EXPECT_THAT(output(),
