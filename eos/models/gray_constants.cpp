@@ -31,11 +31,11 @@ ParameterTable<GrayConstants> gray_parameters() {
       real("melting_temperature", &C::melting_temperature, "K", range::positive(),
            "T_m0, melting temperature on the isochore V0 (not at zero pressure)"),
       real("melting_gruneisen", &C::melting_gruneisen, "", range::positive(),
-           "gamma_m0 of the Lindemann melting law; if missing: gruneisen")
-          .optional(),
+           "gamma_m0 of the Lindemann melting law")
+          .optional("same as gruneisen"),
       real("melting_gruneisen_slope", &C::melting_gruneisen_slope, "", range::any(),
-           "a_m of the Lindemann melting law; if missing: gruneisen_slope")
-          .optional(),
+           "a_m of the Lindemann melting law")
+          .optional("same as gruneisen_slope"),
       real("melting_entropy", &C::melting_entropy, "J/(mol K)", range::positive(),
            "Delta S; the entropy of melting at constant volume is Delta S - alpha")
           .optional(),

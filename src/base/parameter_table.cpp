@@ -54,6 +54,14 @@ std::string first_fault(const Values& values, Check check_one) {
   return {};
 }
 
+/// The default as `describe` shows it; an infinite one means that there is no bound.
+std::string default_of(const BoundParameter& parameter) {
+  if (parameter.info.required) return "required";
+  if (!parameter.info.default_text.empty()) return parameter.info.default_text;
+  double* const* number = std::get_if<double*>(&parameter.target);
+  return number != nullptr && std::isinf(**number) ? "no bound" : value_as_toml(parameter);
+}
+
 /// The words of a list on indented lines of at most a hundred columns.
 std::string wrapped(const std::vector<std::string>& words) {
   constexpr std::size_t columns = 100;
@@ -134,8 +142,8 @@ std::string describe(std::span<const BoundParameter> parameters) {
     const bool wide = range.size() > widest_range;
     below.push_back(wide ? wrapped(info.choices) : "");
     if (wide) range = "words below";
-    rows.push_back({info.name, info.unit.empty() ? "-" : info.unit, range,
-                    info.required ? "required" : value_as_toml(parameter), info.meaning});
+    rows.push_back(
+        {info.name, info.unit.empty() ? "-" : info.unit, range, default_of(parameter), info.meaning});
   }
   std::array<std::size_t, 5> width{};
   for (const auto& row : rows) {

@@ -46,6 +46,7 @@ struct ParameterInfo {
   std::string meaning;
   bool required = true;
   std::vector<std::string> choices;  ///< accepted words; empty: any
+  std::string default_text = {};     ///< what `describe` shows as default; empty: the value
 };
 
 /// Where a value goes.
@@ -69,6 +70,12 @@ struct Parameter {
   /// The key may be missing: the member's initial value stands.
   [[nodiscard]] Parameter optional() && {
     info.required = false;
+    return std::move(*this);
+  }
+  /// The same where the initial value only marks "missing": `default_text` says what stands in for it.
+  [[nodiscard]] Parameter optional(std::string default_text) && {
+    info.required = false;
+    info.default_text = std::move(default_text);
     return std::move(*this);
   }
 };

@@ -129,6 +129,18 @@ TEST(ParameterTable, DescribeShowsUnitRangeDefaultAndMeaning) {
   EXPECT_THAT(text, HasSubstr("0.3"));
 }
 
+TEST(ParameterTable, DescribeSaysWhatStandsInForAMissingValue) {
+  struct Owner {
+    double same = std::numeric_limits<double>::quiet_NaN();
+    double bound = std::numeric_limits<double>::infinity();
+  };
+  const std::string text = describe_table<Owner>(
+      {real("same", &Owner::same, "", range::positive(), "of the liquid").optional("same as the solid"),
+       real("bound", &Owner::bound, "Pa", range::positive(), "upper end").optional()});
+  EXPECT_THAT(text, HasSubstr("same as the solid  of the liquid"));
+  EXPECT_THAT(text, HasSubstr("no bound           upper end"));
+}
+
 TEST(ParameterTable, LongListsOfWordsGoBelowTheirRow) {
   std::vector<std::string> words;
   for (int i = 0; i < 20; ++i) words.push_back("a_long_word_" + std::to_string(i));
