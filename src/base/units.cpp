@@ -56,11 +56,11 @@ class UnitSystem {
   ut_system* system_ = nullptr;
 };
 
-UnitPtr parse_unit(const UnitSystem& system, std::string_view text) {
+UnitPtr parse_unit(const UnitSystem& system, std::string_view text, std::string_view kind) {
   // The scanner of UDUNITS2 copies characters that it does not know to standard output.
   const bool printable = std::ranges::none_of(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
   UnitPtr unit = printable ? system.parse(std::string(text)) : UnitPtr(nullptr, &ut_free);
-  if (!unit) throw InputError(fmt::format("unknown unit '{}'", text));
+  if (!unit) throw InputError(fmt::format("unknown unit '{}': expected a unit of the kind '{}'", text, kind));
   return unit;
 }
 
@@ -116,11 +116,12 @@ std::mutex& database_mutex() {
 Conversion conversion(std::string_view unit, std::string_view si_unit) {
   const std::scoped_lock lock(database_mutex());
   static const UnitSystem system;
-  const UnitPtr from = parse_unit(system, unit);
-  const UnitPtr to = parse_unit(system, si_unit);
+  const std::string_view kind = si_unit.empty() ? "1 (no unit)" : si_unit;
+  const UnitPtr from = parse_unit(system, unit, kind);
+  const UnitPtr to = parse_unit(system, si_unit, kind);
   if (ut_are_convertible(from.get(), to.get()) == 0) {
-    throw InputError(fmt::format("unit '{}' has the wrong dimension: expected a unit of the kind '{}'", unit,
-                                 si_unit.empty() ? "1 (no unit)" : si_unit));
+    throw InputError(
+        fmt::format("unit '{}' has the wrong dimension: expected a unit of the kind '{}'", unit, kind));
   }
   const ConverterPtr converter(ut_get_converter(from.get(), to.get()), &cv_free);
   const double offset = cv_convert_double(converter.get(), 0.0);

@@ -248,7 +248,8 @@ void Document::finish() {
   throw InputError(all);
 }
 
-void Table::read(std::span<const BoundParameter> parameters) {
+bool Table::read(std::span<const BoundParameter> parameters) {
+  bool sound = true;
   toml::table& table = as_table(node_);
   auto& known = state_->known_keys[&table];
   for (const BoundParameter& parameter : parameters) {
@@ -257,6 +258,7 @@ void Table::read(std::span<const BoundParameter> parameters) {
     const toml::node* node = table.get(info.name);
     if (node == nullptr) {
       if (info.required) {
+        sound = false;
         error(fmt::format("missing key '{}'{}: {}{}", info.name, name_.empty() ? "" : " in [" + name_ + "]",
                           info.meaning, info.unit.empty() ? "" : " (unit " + info.unit + ")"));
       }
@@ -265,9 +267,11 @@ void Table::read(std::span<const BoundParameter> parameters) {
     try {
       read_checked(parameter, *node);
     } catch (const InputError& fault) {
+      sound = false;
       state_->error(*node, fmt::format("'{}' {}", info.name, fault.what()));
     }
   }
+  return sound;
 }
 
 bool Table::has(std::string_view key) const { return as_table(node_).contains(key); }

@@ -49,12 +49,13 @@ class Table {
  public:
   /// Reads the keys of a parameter table into the bound object. Missing required keys, wrong types, wrong
   /// units and values out of range become errors of the document; the object then keeps its former value.
-  void read(std::span<const BoundParameter> parameters);
+  /// Returns whether there was no such error.
+  bool read(std::span<const BoundParameter> parameters);
 
   template <class Owner>
-  void read(const ParameterTable<Owner>& table, Owner& owner) {
+  bool read(const ParameterTable<Owner>& table, Owner& owner) {
     const std::vector<BoundParameter> bound = bind(table, owner);
-    read(bound);
+    return read(bound);
   }
 
   [[nodiscard]] bool has(std::string_view key) const;

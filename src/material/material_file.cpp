@@ -135,7 +135,9 @@ fs::path find_material(const fs::path& path, const fs::path& beside) {
   const fs::path local = with_ending(path.is_absolute() ? path : beside / path);
   if (!local.empty()) return local;
   if (path.has_parent_path()) {
-    throw InputError(fmt::format("material file '{}' does not exist", (beside / path).string()));
+    const fs::path file = beside / path;  // an absolute path stays as it is
+    throw InputError(fmt::format("material file '{}' {}", file.string(),
+                                 fs::is_directory(file) ? "is a folder" : "does not exist"));
   }
   std::vector<std::string> searched = {beside.empty() ? std::string(".") : beside.string()};
   for (const fs::path& folder : library_folders()) {

@@ -27,12 +27,22 @@ bool is_mirror(const Case& setup, int face) {
   return setup.geometry.boundary[static_cast<std::size_t>(face)] != grid::Boundary::outflow;
 }
 
+/// Edge of the cubes of a particle each.
+double wanted_spacing(const Case& setup, const Body& body) {
+  return setup.geometry.cell_size / std::cbrt(static_cast<double>(body.discretization.per_cell));
+}
+
+/// Points of the lattice of a body, before it is made: the number may be beyond any integer.
+double lattice_size(const Case& setup, const Body& body) {
+  const Shape::Bounds bounds = body.shape->bounds();
+  return ((bounds.upper - bounds.lower) / wanted_spacing(setup, body)).prod();
+}
+
 /// The lattice divides the bounding box evenly, so that faces of boxes and ends of cylinders are met exactly;
 /// a body that a mirror plane halves gets an even number, so that its image continues the lattice.
 Lattice lattice_of(const Case& setup, const Body& body) {
   const Shape::Bounds bounds = body.shape->bounds();
-  const double wanted =
-      setup.geometry.cell_size / std::cbrt(static_cast<double>(body.discretization.per_cell));
+  const double wanted = wanted_spacing(setup, body);
   Lattice lattice;
   lattice.lower = bounds.lower;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -78,7 +88,16 @@ bool boxes_meet(const Shape::Bounds& a, const Shape::Bounds& b) {
 }  // namespace
 
 std::vector<PlacementFault> placement_faults(const Case& setup) {
+  constexpr double most_points = 1e9;  // some 500 GB of particles
   std::vector<PlacementFault> faults;
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const double points = lattice_size(setup, setup.bodies[b]);
+    if (points <= most_points) continue;
+    faults.push_back({b, fmt::format("body \"{}\" takes a lattice of {:.2g} particles, more than {:.0e}: "
+                                     "enlarge 'cell_size' or reduce 'per_cell'",
+                                     setup.bodies[b].name, points, most_points)});
+  }
+  if (!faults.empty()) return faults;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Body& body = setup.bodies[b];
     const Shape::Bounds bounds = body.shape->bounds();

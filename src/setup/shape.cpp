@@ -95,7 +95,7 @@ ShapeEntry entry(const char* name, const char* summary) {
   return {name, summary, +[] { return describe_table(Primitive::parameters()); },
           +[](input::Table& table) -> std::unique_ptr<Shape> {
             auto shape = std::make_unique<Primitive>();
-            table.read(Primitive::parameters(), *shape);
+            if (!table.read(Primitive::parameters(), *shape)) return nullptr;
             return shape;
           }};
 }
@@ -126,6 +126,7 @@ std::unique_ptr<Shape> read_shape(input::Table& body) {
     body.error_at("shape", fmt::format("'{}.shape' must hold exactly one of: {}", body.name(), names));
     return nullptr;
   }
+  if (!shape) return nullptr;  // its errors are reported
   const Shape::Bounds bounds = shape->bounds();
   if (!(bounds.lower.array() < bounds.upper.array()).all()) {
     body.error_at("shape", fmt::format("'{}.shape' is empty: the lower corner is not below the upper one",

@@ -94,8 +94,8 @@ TEST(Units, WrongDimensionNamesBothUnits) {
 }
 
 TEST(Units, UnknownUnitIsNamed) {
-  EXPECT_EQ(message_of("3 furlongz", "m"), "unknown unit 'furlongz'");
-  EXPECT_EQ(message_of("6.58 kms", "m/s"), "unknown unit 'kms'");
+  EXPECT_EQ(message_of("3 furlongz", "m"), "unknown unit 'furlongz': expected a unit of the kind 'm'");
+  EXPECT_EQ(message_of("6.58 kms", "m/s"), "unknown unit 'kms': expected a unit of the kind 'm/s'");
 }
 
 TEST(Units, TextWithoutNumberIsRefusedWithAnExample) {

@@ -128,7 +128,7 @@ TEST(Document, MissingKeySaysWhatItMeans) {
 TEST(Document, WrongValuesNamePositionValueAndWhatIsAccepted) {
   const std::string head = "[domain]\nlower = [0, 0, 0]\n";
   EXPECT_EQ(read_text(head + "cell_size = \"0.5 mn\"\n"),
-            "case.toml:3:13: error: 'cell_size' unknown unit 'mn'");
+            "case.toml:3:13: error: 'cell_size' unknown unit 'mn': expected a unit of the kind 'm'");
   EXPECT_EQ(
       read_text(head + "cell_size = \"5 s\"\n"),
       "case.toml:3:13: error: 'cell_size' unit 's' has the wrong dimension: expected a unit of the kind 'm'");

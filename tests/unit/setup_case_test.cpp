@@ -87,6 +87,19 @@ shape = { sphere = { center = ["0.5 mm", "0.5 mm", "-4 mm"], radius = "0.6 mm" }
   expect_error(domain + sphere + sphere, {"two bodies are called \"sphere\""});
 }
 
+TEST(Case, RefusesMoreParticlesThanAMachineHolds) {
+  const std::string small =
+      replaced(domain + sphere, "cell_size = \"1 mm\"", "cell_size = \"0.002 mm\"");  // would take hours
+  expect_error(small, {"body \"sphere\" takes a lattice of", "'cell_size'", "'per_cell'"});
+}
+
+TEST(Case, AFaultyShapeIsNotPlaced) {
+  const std::string text = replaced(domain + sphere, "radius = \"3 mm\"", "radius = \"-3 mm\"");
+  const std::string error = error_of(text);
+  EXPECT_NE(error.find("'radius' is -0.003 m"), std::string::npos) << error;
+  EXPECT_EQ(error.find("reaches"), std::string::npos) << error;
+}
+
 TEST(Case, RefusesCombinationsThatHaveNoMeaning) {
   expect_error(domain + "[transfer]\nshape_function = \"linear\"\n" + sphere,
                {"needs shape_function = \"quadratic_bspline\""});
