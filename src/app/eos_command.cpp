@@ -33,9 +33,14 @@ struct Options {
   CurveOutput output;
 };
 
-std::optional<double> quantity(const std::string& text, const char* unit) {
+/// The quantity of an option, if it is given; errors name the option.
+std::optional<double> quantity(const char* option, const std::string& text, const char* unit) {
   if (text.empty()) return std::nullopt;
-  return units::parse_quantity(text, unit);
+  try {
+    return units::parse_quantity(text, unit);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", option, error.what()));
+  }
 }
 
 bool is_in(const std::string& text, const char* unit) {
@@ -45,6 +50,19 @@ bool is_in(const std::string& text, const char* unit) {
   } catch (const InputError&) {
     return false;
   }
+}
+
+/// The end of a curve: a pressure, or the other quantity that the curve may run over.
+struct End {
+  double value;
+  bool is_pressure;
+};
+
+End end_of(const Options& o, double standard_pressure, const char* other_unit) {
+  if (o.to.empty()) return {standard_pressure, true};
+  if (is_in(o.to, "Pa")) return {units::parse_quantity(o.to, "Pa"), true};
+  if (is_in(o.to, other_unit)) return {units::parse_quantity(o.to, other_unit), false};
+  throw InputError(fmt::format("--to: '{}': expected a quantity in Pa or in {}", o.to, other_unit));
 }
 
 std::vector<double> spaced(double from, double to, int points) {
@@ -71,8 +89,10 @@ const std::vector<Column> shock_columns = {{"up_km_s", "km/s", 1e3}, {"us_km_s",
 
 /// The state that two of density, temperature, energy and pressure name; without any, the reference state.
 State state_from(const Options& o, const EquationOfState& eos) {
-  const auto density = quantity(o.density, "kg/m^3"), temperature = quantity(o.temperature, "K");
-  const auto energy = quantity(o.energy, "J/kg"), pressure = quantity(o.pressure, "Pa");
+  const auto density = quantity("--density", o.density, "kg/m^3"),
+             temperature = quantity("--temperature", o.temperature, "K");
+  const auto energy = quantity("--energy", o.energy, "J/kg"),
+             pressure = quantity("--pressure", o.pressure, "Pa");
   const int given = density.has_value() + temperature.has_value() + energy.has_value() + pressure.has_value();
   if (given == 0) return eos.state(eos.reference_density(), eos.reference_energy());
   if (given == 2 && density && temperature) return eos.state_at_temperature(*density, *temperature);
@@ -88,8 +108,9 @@ State state_from(const Options& o, const EquationOfState& eos) {
 }
 
 eos::ShockState shock_from(const Options& o, const Hugoniot& hugoniot) {
-  const auto density = quantity(o.density, "kg/m^3"), pressure = quantity(o.pressure, "Pa");
-  const auto velocity = quantity(o.particle_velocity, "m/s");
+  const auto density = quantity("--density", o.density, "kg/m^3"),
+             pressure = quantity("--pressure", o.pressure, "Pa");
+  const auto velocity = quantity("--particle-velocity", o.particle_velocity, "m/s");
   if (density.has_value() + pressure.has_value() + velocity.has_value() != 1) {
     throw InputError("a shock is named by one of --pressure, --particle-velocity and --density");
   }
@@ -113,13 +134,12 @@ void run_hugoniot(const Options& o, const Material& material) {
   if (!o.pressure.empty() || !o.particle_velocity.empty() || !o.density.empty()) {
     add(shock_from(o, hugoniot));
   } else {
-    const std::string to = o.to.empty() ? "200 GPa" : o.to;
-    const bool velocity = !is_in(to, "Pa");
-    const char* unit = velocity ? "m/s" : "Pa";
-    const double first = quantity(o.from, unit).value_or(0.0);
-    for (const double value : spaced(first, units::parse_quantity(to, unit), o.points)) {
-      add(velocity ? hugoniot.at_particle_velocity(value)
-                   : hugoniot.at_pressure(std::max(value, hugoniot.initial().pressure)));
+    const End end = end_of(o, 200e9, "m/s");
+    const double first = quantity("--from", o.from, end.is_pressure ? "Pa" : "m/s").value_or(0.0);
+    if (first < 0 || end.value < 0) throw InputError("--from, --to: a shock compresses: expected >= 0");
+    for (const double value : spaced(first, end.value, o.points)) {
+      add(end.is_pressure ? hugoniot.at_pressure(std::max(value, hugoniot.initial().pressure))
+                          : hugoniot.at_particle_velocity(value));
     }
   }
   write(table, o.output);
@@ -132,9 +152,10 @@ void run_hugoniot(const Options& o, const Material& material) {
 
 void run_isotherm(const Options& o, const Material& material) {
   const EquationOfState& eos = *material.eos;
-  const double T = quantity(o.temperature, "K").value_or(eos.reference_temperature());
+  const double T = quantity("--temperature", o.temperature, "K").value_or(eos.reference_temperature());
   CurveTable table = table_of(fmt::format("Isotherm at {} K", T), material);
-  const double first = quantity(o.from, "Pa").value_or(0.0), last = quantity(o.to, "Pa").value_or(100e9);
+  const double first = quantity("--from", o.from, "Pa").value_or(0.0),
+               last = quantity("--to", o.to, "Pa").value_or(100e9);
   for (const double pressure : spaced(first, last, o.points)) {
     add_row(table, eos, eos.state_at_temperature(eos::density_at_pressure(eos, pressure, T), T));
   }
@@ -156,10 +177,8 @@ void add_isentrope(CurveTable& table, const EquationOfState& eos, const State& s
 void run_isentrope(const Options& o, const Material& material) {
   const EquationOfState& eos = *material.eos;
   const State start = state_from(o, eos);
-  const std::string to = o.to.empty() ? "100 GPa" : o.to;
-  const double last = is_in(to, "Pa")
-                          ? eos::release(eos, start, units::parse_quantity(to, "Pa")).end.state.density
-                          : units::parse_quantity(to, "kg/m^3");
+  const End end = end_of(o, 100e9, "kg/m^3");
+  const double last = end.is_pressure ? eos::release(eos, start, end.value).end.state.density : end.value;
   CurveTable table = table_of("Isentrope", material, {riemann_column});
   add_isentrope(table, eos, start, last, o.points);
   write(table, o.output);
@@ -168,7 +187,7 @@ void run_isentrope(const Options& o, const Material& material) {
 void run_release(const Options& o, const Material& material) {
   const EquationOfState& eos = *material.eos;
   const eos::ShockState shock = shock_from(o, Hugoniot(eos));
-  const eos::Release release = eos::release(eos, shock.state, quantity(o.to, "Pa").value_or(0.0));
+  const eos::Release release = eos::release(eos, shock.state, quantity("--to", o.to, "Pa").value_or(0.0));
   CurveTable table = table_of("Release of a shocked state", material, {riemann_column});
   if (release.in_equilibrium) {
     add_row(table, eos, shock.state, {0.0});
@@ -203,7 +222,8 @@ void run_melt(const Options& o, const Material& material) {
   CurveTable table;
   table.title = fmt::format("Melting curve: {} ({})", material.name, eos.model());
   table.columns = {{"P_GPa", "GPa", 1e9}, {"solidus_K", "K", 1}, {"liquidus_K", "K", 1}};
-  const double first = quantity(o.from, "Pa").value_or(0.0), last = quantity(o.to, "Pa").value_or(100e9);
+  const double first = quantity("--from", o.from, "Pa").value_or(0.0),
+               last = quantity("--to", o.to, "Pa").value_or(100e9);
   for (const double pressure : spaced(first, last, o.points)) {
     // Upper bound of the search: by steps, since a hot metal may have no condensed state at the pressure.
     double hottest = eos.reference_temperature();
@@ -223,7 +243,7 @@ void run_melt(const Options& o, const Material& material) {
 
 void run_dome(const Options& o, const Material& material) {
   const EquationOfState& eos = *material.eos;
-  double lower = quantity(o.from, "Pa").value_or(100.0);
+  double lower = quantity("--from", o.from, "Pa").value_or(100.0);
   if (!eos.saturation_at_pressure(lower)) {
     throw InputError(fmt::format("model {} of {} has no liquid and vapour in equilibrium at {:.4g} Pa",
                                  eos.model(), material.name, lower));
@@ -233,7 +253,7 @@ void run_dome(const Options& o, const Material& material) {
     const double middle = std::sqrt(top * beyond);
     (eos.saturation_at_pressure(middle) ? top : beyond) = middle;
   }
-  const double last = std::min(top, quantity(o.to, "Pa").value_or(top));
+  const double last = std::min(top, quantity("--to", o.to, "Pa").value_or(top));
   CurveTable table;
   table.title = fmt::format("Liquid and vapour in equilibrium: {} ({})", material.name, eos.model());
   table.columns = {{"P_MPa", "MPa", 1e6},

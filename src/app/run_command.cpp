@@ -93,7 +93,10 @@ void add_check_command(CLI::App& app) {
       "check", "Validate a case; print what would run: bodies, particles, memory, steps, time");
   add_common(*command, *arguments);
   command->footer("Example:\n  whipple check cases/copper_disk_on_aluminium/case.toml --threads 2");
-  command->callback([arguments] { fmt::print("{}", solver::check(run_options(*arguments))); });
+  command->callback([arguments] {
+    if (arguments->case_file.empty()) throw InputError("expected a case file (CASE.toml)");
+    fmt::print("{}", solver::check(run_options(*arguments)));
+  });
 }
 
 }  // namespace whipple::app
