@@ -253,7 +253,7 @@ void add_compare_command(CLI::App& app) {
   command->add_option("--plot", options->plot, "Figure of curves, points and deviations, FILE.png");
   command->add_flag("--force", options->force, "Overwrite existing files");
   command->footer(
-      "Example:\n  whipple compare copper copper_slides_md --with cu_hugoniot_marsh1980 "
+      "Example:\n  whipple compare copper copper_md_liu2013 --with cu_hugoniot_marsh1980 "
       "cu_isotherm_298K_dewaele2004 "
       "--plot copper.png");
   command->callback([options] { run(*options); });

@@ -37,7 +37,7 @@ class CompareCommand : public ::testing::Test {
 };
 
 TEST_F(CompareCommand, PrintsOneRowPerMaterialAndExperiment) {
-  ASSERT_EQ(run("copper copper_slides_md --with cu_hugoniot_marsh1980 cu_isotherm_298K_dewaele2004.csv"), 0)
+  ASSERT_EQ(run("copper copper_md_liu2013 --with cu_hugoniot_marsh1980 cu_isotherm_298K_dewaele2004.csv"), 0)
       << output();
   // Figures of docs/theory/fit.md, section 6, with the library's own files.
   EXPECT_THAT(output(),
@@ -45,7 +45,7 @@ TEST_F(CompareCommand, PrintsOneRowPerMaterialAndExperiment) {
   EXPECT_THAT(output(),
               ::testing::ContainsRegex("dewaele2004 +isotherm 298 K +copper +41 .*0\\.50 +\\+0\\.08"));
   EXPECT_THAT(output(),
-              ::testing::ContainsRegex("dewaele2004 +isotherm 298 K +copper_slides_md +41 .*9\\.75"));
+              ::testing::ContainsRegex("dewaele2004 +isotherm 298 K +copper_md_liu2013 +41 .*9\\.75"));
   EXPECT_THAT(output(), HasSubstr("% of Us"));
 }
 
