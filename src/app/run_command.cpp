@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "src/app/build_info.hpp"
 #include "src/base/error.hpp"
+#include "src/base/log.hpp"
 #include "src/solver/run.hpp"
 
 namespace whipple::app {
@@ -48,6 +51,12 @@ solver::RunOptions run_options(const Arguments& arguments) {
     if (equals == std::string::npos || equals == 0) {
       throw InputError(fmt::format("--set {}: expected key=value, for example --set time.end='5 us'", entry));
     }
+    const std::string table = entry.substr(0, std::min(equals, entry.find('.')));
+    if (options.restart && (table == "domain" || table == "body")) {
+      throw InputError(fmt::format(
+          "--set {}: grid and bodies are those of the checkpoint; a run that is to differ there begins anew",
+          entry));
+    }
     options.overrides.emplace_back(entry.substr(0, equals), entry.substr(equals + 1));
   }
   return options;
@@ -82,7 +91,13 @@ void add_run_command(CLI::App& app) {
       "Exit codes: 0 done, 2 wrong input, 3 the physics left its range (state saved), 128 + signal when "
       "stopped");
   command->callback([arguments] {
-    const int code = solver::run(run_options(*arguments));
+    int code = 0;
+    try {
+      code = solver::run(run_options(*arguments));
+    } catch (const std::exception& error) {  // also into log.txt, if the run directory is there
+      log::record_error(error.what());
+      throw;
+    }
     if (code != 0) throw CLI::RuntimeError(code);
   });
 }

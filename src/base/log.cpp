@@ -42,6 +42,14 @@ void add_file(const std::filesystem::path& path) {
   logger().sinks().push_back(std::move(sink));
 }
 
+void record_error(const std::string& message) {
+  const auto& sinks = logger().sinks();
+  for (std::size_t i = 1; i < sinks.size(); ++i) {
+    sinks[i]->log({"whipple", spdlog::level::err, message});
+    sinks[i]->flush();
+  }
+}
+
 void write_info(const std::string& message) { logger().info(message); }
 void write_warning(const std::string& message) { logger().warn("warning: {}", message); }
 void write_detail(const std::string& message) { logger().debug(message); }

@@ -18,6 +18,9 @@ void set_level(Level level);
 /// Additionally writes every message to a file, with a time stamp.
 void add_file(const std::filesystem::path& path);
 
+/// Writes an error to the files only: the program shows it itself when it ends.
+void record_error(const std::string& message);
+
 void write_info(const std::string& message);
 void write_warning(const std::string& message);
 void write_detail(const std::string& message);

@@ -105,6 +105,21 @@ TEST_F(CommandLine, WrongArgumentsHaveExitCodeTwo) {
   EXPECT_EQ(whipple("units '3 m'").code, 2) << "--to is missing";
 }
 
+TEST_F(CommandLine, ARestartKeepsGridAndBodies) {
+  for (const char* change : {"domain.cell_size=1e-3", "body.0.name=ball"}) {
+    const Result result = whipple(std::string("run --restart run/disk --set ") + change);
+    EXPECT_EQ(result.code, 2) << change;
+    EXPECT_THAT(result.err, HasSubstr("those of the checkpoint")) << change;
+  }
+}
+
+TEST_F(CommandLine, AWrongQuantityOfALocusNamesItsOption) {
+  EXPECT_THAT(whipple("eos hugoniot copper --to '3 kg'").err,
+              HasSubstr("--to: '3 kg': expected a quantity in Pa"));
+  EXPECT_THAT(whipple("eos isotherm copper --temperature '3 m'").err, HasSubstr("--temperature: unit 'm'"));
+  EXPECT_EQ(whipple("eos hugoniot copper --to '-3 GPa'").code, 2);
+}
+
 TEST_F(CommandLine, MissingFilesAreNamedOnStandardError) {
   for (const char* arguments :
        {"run nowhere.toml", "check nowhere.toml", "md nowhere.toml", "report nowhere.toml"}) {
