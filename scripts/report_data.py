@@ -149,12 +149,18 @@ class Run:
 
     @property
     def symmetry_planes(self):
-        """Position (m) of the symmetry plane normal to an axis, {0: 0.0, 1: 0.0} for a quarter model."""
+        """Position (m) of the symmetry plane normal to an axis, {0: 0.0, 1: 0.0} for a quarter model.
+
+        A mirror plane that a body flies towards or away from is the face of a wall, not of a model cut in halves.
+        """
         domain = self.input.get("domain", {})
+        flight = [any(float(str(body.get("velocity", [0, 0, 0])[i]).split()[0]) != 0
+                      for body in self.input.get("body", [])) for i in range(3)]
         planes = {}
         for face, kind in domain.get("boundary", {}).items():
             axis, _, side = face.partition("_")
-            if kind == "symmetry" and axis in AXES and side in ("lower", "upper") and side in domain:
+            if kind == "symmetry" and axis in AXES and side in ("lower", "upper") and side in domain \
+                    and not flight[AXES.index(axis)]:
                 planes[AXES.index(axis)] = quantity(domain[side][AXES.index(axis)], LENGTHS)
         return planes
 

@@ -103,11 +103,12 @@ else
 fi
 
 stage "4/5 impact: $case_file"
-inputs=("$material" "$case_file" "${overrides[@]}")
+inputs=("$material" "$case_file" eos/materials/aluminium.toml build/release/bin/whipple "${overrides[@]}")
 if up_to_date impact "${inputs[@]}"; then
   echo "up to date: $impact"
 elif ! $force && [[ -f $stamps/impact_begun && $(<"$stamps/impact_begun") == "${inputs[*]}" &&
-  ! $material -nt $stamps/impact_begun && ! $case_file -nt $stamps/impact_begun ]] &&
+  ! $material -nt $stamps/impact_begun && ! $case_file -nt $stamps/impact_begun &&
+  ! $whipple -nt $stamps/impact_begun ]] &&
   compgen -G "$impact/checkpoint/*.h5" >/dev/null; then
   echo "going on with an interrupted run"
   "$whipple" run --restart "$impact"

@@ -13,7 +13,7 @@
 
 #include "src/app/compare_data.hpp"
 #include "src/app/paths.hpp"
-#include "src/app/process.hpp"
+#include "src/app/scripts.hpp"
 #include "src/base/error.hpp"
 #include "src/base/units.hpp"
 #include "src/material/material_file.hpp"
@@ -197,18 +197,8 @@ void draw(const std::vector<Row>& rows, const std::string& path) {
     file << panels.dump(1);
     if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", data.string()));
   }
-  // Debian's Python has matplotlib; another one can be named.
-  const char* variable = std::getenv("WHIPPLE_PYTHON");
-  const std::string python = variable != nullptr                           ? variable
-                             : std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3"
-                                                                           : "python3";
-  const int code = run_process({python, find_data("scripts/plot_compare.py").string(), data.string(), path});
+  draw_with("scripts/plot_compare.py", {data.string(), path});
   std::filesystem::remove(data);
-  if (code != 0) {
-    throw InputError(
-        "scripts/plot_compare.py failed (it needs python3 with numpy and matplotlib; WHIPPLE_PYTHON names "
-        "another interpreter)");
-  }
 }
 
 void run(const Options& options) {

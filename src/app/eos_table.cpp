@@ -8,8 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "src/app/paths.hpp"
-#include "src/app/process.hpp"
+#include "src/app/scripts.hpp"
 #include "src/base/error.hpp"
 
 namespace whipple::app {
@@ -134,28 +133,14 @@ void write(const CurveTable& table, const CurveOutput& output) {
   if (output.plot.empty()) return;
   const std::filesystem::path data = output.plot + ".csv.part";
   write_csv(table, data);
-  // Debian's Python has matplotlib; another one can be named.
-  const char* variable = std::getenv("WHIPPLE_PYTHON");
-  const std::string python = variable != nullptr                           ? variable
-                             : std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3"
-                                                                           : "python3";
-  std::vector<std::string> arguments = {python,        find_data("scripts/plot_curves.py").string(),
-                                        data.string(), "--output",
-                                        output.plot,   "--x",
-                                        output.x,      "--y",
-                                        output.y};
+  std::vector<std::string> arguments = {data.string(), "--output", output.plot, "--x",
+                                        output.x,      "--y",      output.y};
   if (!output.overlay.empty()) {
     arguments.emplace_back("--overlay");
     arguments.insert(arguments.end(), output.overlay.begin(), output.overlay.end());
   }
-  const int code = run_process(arguments);
+  draw_with("scripts/plot_curves.py", arguments);
   std::filesystem::remove(data);
-  if (code != 0) {
-    throw InputError(
-        "scripts/plot_curves.py failed (it needs python3 with numpy and matplotlib; WHIPPLE_PYTHON names "
-        "another "
-        "interpreter)");
-  }
   fmt::print("written: {}\n", output.plot);
 }
 

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "src/app/paths.hpp"
-#include "src/app/process.hpp"
+#include "src/app/scripts.hpp"
 #include "src/base/error.hpp"
 
 namespace whipple::app {
@@ -27,12 +26,10 @@ int run_report(const Options& options) {
     throw InputError(
         fmt::format("{}: error: is not a folder; expected the output of whipple run", options.run));
   }
-  // Debian's interpreter, not the first of PATH: numpy, h5py and matplotlib are Debian's packages.
-  std::vector<std::string> arguments = {"/usr/bin/python3", find_data("scripts/report.py").string(),
-                                        options.run, "--times", std::to_string(options.times)};
+  std::vector<std::string> arguments = {options.run, "--times", std::to_string(options.times)};
   if (!options.output.empty()) arguments.insert(arguments.end(), {"--output", options.output});
   for (const std::string& figure : options.figures) arguments.insert(arguments.end(), {"--figure", figure});
-  return run_process(arguments);
+  return run_script("scripts/report.py", arguments);
 }
 
 }  // namespace

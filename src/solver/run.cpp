@@ -161,8 +161,8 @@ std::string profile_as_json(Simulation& simulation, double wall_seconds) {
 }
 
 io::ParticleSeries open_series(const setup::Case& setup, const io::RunDirectory& directory,
-                               MPI_Comm communicator) {
-  io::ParticleSeriesOptions options{.folder = directory.path(),
+                               const fs::path& folder, MPI_Comm communicator) {
+  io::ParticleSeriesOptions options{.folder = folder,
                                     .name = directory.name(),
                                     .fields = setup.output.fields,
                                     .material_of_body = {},
@@ -182,7 +182,7 @@ class Runner {
       : directory_(directory),
         communicator_(communicator),
         simulation_(setup, communicator),
-        series_(open_series(setup, directory, communicator)),
+        series_(open_series(setup, directory, directory.path(), communicator)),
         history_(directory.history_file()) {
     write_snapshot();
     history_.append(history_row(simulation_));
@@ -193,7 +193,7 @@ class Runner {
       : directory_(directory),
         communicator_(communicator),
         simulation_(setup, std::move(checkpoint.particles), from_checkpoint(checkpoint.values), communicator),
-        series_(open_series(setup, directory, communicator)),
+        series_(open_series(setup, directory, directory.path(), communicator)),
         history_(io::History::restart(directory.history_file(), simulation_.state().step)),
         snapshots_(checkpoint.values.integer("snapshots")) {
     series_.restart(simulation_.state().time);
@@ -234,7 +234,7 @@ class Runner {
     const double wall = std::chrono::duration<double>(Clock::now() - begin).count();
     io::write_text_atomically(directory_.profile_file(), profile_as_json(simulation_, wall));
     report_end(signal, wall);
-    return signal == 0 ? 0 : 128 + signal;
+    return signal == 0 || simulation_.state().time >= end ? 0 : 128 + signal;
   }
 
  private:
@@ -242,11 +242,21 @@ class Runner {
     try {
       simulation_.advance(end);
     } catch (const StateError& error) {
-      const fs::path folder = directory_.path() / "failed";
+      throw StateError(fmt::format("{}\n  {}", error.what(), save_failed_state()));
+    }
+  }
+
+  /// The state as the failing step left it, in a folder of its own: checkpoints and snapshots of the run stay
+  /// good.
+  std::string save_failed_state() {
+    const fs::path folder = directory_.path() / "failed";
+    try {
       write_checkpoint(folder);
-      series_.write(simulation_.particles(), simulation_.state().time + simulation_.state().time_step);
-      throw StateError(fmt::format("{}\n  the state is saved in {} and as the last snapshot", error.what(),
-                                   folder.string()));
+      open_series(simulation_.setup(), directory_, folder, communicator_)
+          .write(simulation_.particles(), simulation_.state().time);
+      return fmt::format("the state is saved in {}", folder.string());
+    } catch (const InputError& error) {
+      return fmt::format("the state could not be saved: {}", error.what());
     }
   }
 
@@ -270,7 +280,7 @@ class Runner {
   void report_end(int signal, double wall) {
     const RunState& state = simulation_.state();
     const Totals& totals = simulation_.totals();
-    if (signal != 0) {
+    if (signal != 0 && state.time < simulation_.setup().time.end) {
       log::info("stopped by signal {} at step {}, t = {:.6g} s; go on with: whipple run --restart {}", signal,
                 state.step, state.time, directory_.path().string());
     }
@@ -340,11 +350,14 @@ std::string check(const RunOptions& options) {
   }
   const std::size_t particles = simulation.particles().size();
   simulation.advance(setup.time.end);  // activates the blocks
-  constexpr int measured_steps = 2;
+  int measured_steps = 0;
   const Clock::time_point begin = Clock::now();
-  for (int i = 0; i < measured_steps && simulation.state().time < setup.time.end; ++i)
+  while (measured_steps < 2 && simulation.state().time < setup.time.end) {
     simulation.advance(setup.time.end);
-  const double per_step = std::chrono::duration<double>(Clock::now() - begin).count() / measured_steps;
+    ++measured_steps;
+  }
+  const double per_step =
+      std::chrono::duration<double>(Clock::now() - begin).count() / std::max(measured_steps, 1);
   const double steps = std::ceil(setup.time.end / simulation.state().time_step);
   text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", particles,
                       simulation.grid().slots(), format_bytes(static_cast<double>(simulation.bytes())));

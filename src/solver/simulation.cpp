@@ -251,11 +251,13 @@ void Simulation::reflect_and_remove() {
         x = 2.0 * (low ? g.lower[a] : g.upper(a)) - x;
         Matrix3 mirror = Matrix3::Identity();
         mirror(a, a) = -1.0;
-        if (boundary == grid::Boundary::no_slip) mirror = -Matrix3::Identity();
-        state_.ledger.wall_impulse +=
-            particles_.mass[p] * (mirror * particles_.velocity[p] - particles_.velocity[p]);
-        particles_.velocity[p] = mirror * particles_.velocity[p];
-        particles_.affine_velocity[p] = mirror * particles_.affine_velocity[p] * mirror;
+        // At a no-slip wall all components of the image's velocity are reversed, its place along one axis
+        // only.
+        const Matrix3 image = boundary == grid::Boundary::no_slip ? Matrix3(-Matrix3::Identity()) : mirror;
+        const Vector3 velocity = image * particles_.velocity[p];
+        state_.ledger.wall_impulse += particles_.mass[p] * (velocity - particles_.velocity[p]);
+        particles_.velocity[p] = velocity;
+        particles_.affine_velocity[p] = image * particles_.affine_velocity[p] * mirror;
         particles_.deviatoric_stress[p] =
             SymmetricTensor::from(mirror * particles_.deviatoric_stress[p].matrix() * mirror);
       }

@@ -40,7 +40,7 @@ double free_surface_speed() {
   return low - eos::release(plate, shocked, 0.0).end.riemann_velocity;
 }
 
-TEST(DebrisCloud, ConservesMeltsTheAluminiumAndKeepsTheCopperSolid) {
+TEST(DebrisCloud, ConservesMeltsTheAluminiumAndLeavesMostOfTheCopperSolid) {
   solver::Simulation simulation(disk_case(), parallel::world());
   const std::vector<Vector3> start = [&] {
     std::vector<Vector3> x(simulation.particles().size());
@@ -86,7 +86,7 @@ TEST(DebrisCloud, ConservesMeltsTheAluminiumAndKeepsTheCopperSolid) {
   EXPECT_LT(fastest, 1.10 * surface);
   EXPECT_LT(too_fast, 0.002 * simulation.totals().mass);
   EXPECT_GT(axis_melted / axis, 0.9);
-  EXPECT_GT(copper_solid / copper, 0.6);
+  EXPECT_GT(copper_solid / copper, 0.65);  // 0.81 with the case's own cells of 0.4 mm
 }
 
 TEST(DebrisCloud, AnUndefinedStateStopsWithItsParticleNamed) {

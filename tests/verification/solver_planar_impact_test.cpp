@@ -113,10 +113,10 @@ shape = { box = { lower = [0, 0, 0], upper = [%.9g, 0.00015, 0.00015] } }
 }
 
 void expect_default_accuracy(const Result& result) {
-  EXPECT_LT(std::abs(result.pressure), 0.01);
-  EXPECT_LT(std::abs(result.density), 0.01);
-  EXPECT_LT(std::abs(result.shock_speed), 0.01);
-  EXPECT_LT(std::abs(result.released_energy), 0.05);
+  EXPECT_LT(std::abs(result.pressure), 0.003);
+  EXPECT_LT(std::abs(result.density), 0.003);
+  EXPECT_LT(std::abs(result.shock_speed), 0.006);
+  EXPECT_LT(std::abs(result.released_energy), 0.045);
   EXPECT_LT(result.energy_error, 1e-12);
 }
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/app/scripts.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "src/app/paths.hpp"
+#include "src/app/process.hpp"
+#include "src/base/error.hpp"
+
+namespace whipple::app {
+
+int run_script(const std::string& script, const std::vector<std::string>& arguments) {
+  const char* variable = std::getenv("WHIPPLE_PYTHON");
+  const std::string debian = "/usr/bin/python3";
+  const std::string python = variable != nullptr               ? variable
+                             : std::filesystem::exists(debian) ? debian
+                                                               : "python3";
+  std::vector<std::string> command = {python, find_data(script).string()};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return run_process(command);
+}
+
+void draw_with(const std::string& script, const std::vector<std::string>& arguments) {
+  if (run_script(script, arguments) != 0) {
+    throw InputError(fmt::format(
+        "{} failed (it needs python3 with numpy and matplotlib; WHIPPLE_PYTHON names another interpreter)",
+        script));
+  }
+}
+
+}  // namespace whipple::app

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace whipple::app {
+
+/// Runs one of the project's Python scripts ("scripts/report.py"). The interpreter is $WHIPPLE_PYTHON, else
+/// /usr/bin/python3 (Debian's, which has numpy, h5py and matplotlib), else python3 of the path.
+/// @returns its exit code
+int run_script(const std::string& script, const std::vector<std::string>& arguments);
+
+/// The same for a script that draws a figure.
+/// @throws InputError if it fails
+void draw_with(const std::string& script, const std::vector<std::string>& arguments);
+
+}  // namespace whipple::app
