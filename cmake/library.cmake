@@ -12,7 +12,9 @@ elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   target_compile_options(whipple_flags INTERFACE -march=x86-64-v3)
 endif()
 if(WHIPPLE_SANITIZE)
-  target_compile_options(whipple_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  # GCC 12 sees uninitialised values in the standard library where the sanitizers split it up.
+  target_compile_options(whipple_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+    -fno-omit-frame-pointer -Wno-maybe-uninitialized)
   target_link_options(whipple_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
