@@ -11,6 +11,7 @@
 #include "md_fitting/fit/material_writer.hpp"
 #include "md_fitting/fit/plot.hpp"
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 #include "src/base/units.hpp"
 
 namespace whipple::fit {
@@ -105,7 +106,7 @@ void run(const Options& options) {
   const FitSettings chosen = settings(options);
   if (!options.plot.empty()) {
     if (options.stores.size() > 1) throw InputError("--plot draws one store: give one");
-    require_new(options.plot, options.force);
+    require_new_figure(options.plot, options.force);
   }
   std::vector<NamedFit> fits;
   std::vector<std::string> materials;

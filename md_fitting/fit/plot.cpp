@@ -35,12 +35,6 @@ std::string python() {
 
 }  // namespace
 
-void require_new(const std::filesystem::path& path, bool force) {
-  if (std::filesystem::exists(path) && !force) {
-    throw InputError(fmt::format("'{}' exists; --force overwrites it", path.string()));
-  }
-}
-
 void draw(const std::string& script, const std::string& data, const std::filesystem::path& figure) {
   std::filesystem::path data_file = figure;
   data_file += ".json.part";

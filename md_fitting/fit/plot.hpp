@@ -6,9 +6,6 @@
 
 namespace whipple::fit {
 
-/// @throws InputError if the file exists and `force` is false
-void require_new(const std::filesystem::path& path, bool force);
-
 /// Runs a plotting script of the project on JSON data: `python3 scripts/SCRIPT DATA.json FIGURE.png`. Python
 /// is $WHIPPLE_PYTHON, else /usr/bin/python3 (Debian's, which has matplotlib), else python3 of the path.
 /// @throws InputError if script or Python are missing or the script fails

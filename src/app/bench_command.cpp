@@ -13,7 +13,7 @@
 
 #include "src/app/build_info.hpp"
 #include "src/app/paths.hpp"
-#include "src/base/error.hpp"
+#include "src/base/files.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
@@ -115,9 +115,7 @@ struct Options {
 };
 
 void run_bench(const Options& options) {
-  if (!options.json.empty() && std::filesystem::exists(options.json) && !options.force) {
-    throw InputError(fmt::format("{} exists: choose another name, or --force", options.json));
-  }
+  require_new_file(options.json, options.force);
   parallel::world();
   parallel::set_threads(options.threads);
   const double bandwidth = triad_bandwidth();

@@ -15,6 +15,7 @@
 #include "src/app/paths.hpp"
 #include "src/app/scripts.hpp"
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 #include "src/base/units.hpp"
 #include "src/material/material_file.hpp"
 
@@ -72,12 +73,6 @@ std::filesystem::path find_experiment(const std::string& name) {
       fmt::format("no experiment '{}': neither a file nor one of the data that come with the program "
                   "(eos/data)",
                   name));
-}
-
-void require_new(const std::string& path, bool force) {
-  if (!path.empty() && std::filesystem::exists(path) && !force) {
-    throw InputError(fmt::format("'{}' exists; --force overwrites it", path));
-  }
 }
 
 struct Row {
@@ -202,8 +197,8 @@ void draw(const std::vector<Row>& rows, const std::string& path) {
 }
 
 void run(const Options& options) {
-  require_new(options.csv, options.force);
-  require_new(options.plot, options.force);
+  require_new_file(options.csv, options.force);
+  require_new_figure(options.plot, options.force);
   std::optional<double> temperature;
   if (!options.temperature.empty()) temperature = units::parse_quantity(options.temperature, "K");
   std::vector<Material> materials;

@@ -10,6 +10,7 @@
 
 #include "src/app/scripts.hpp"
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 
 namespace whipple::app {
 namespace {
@@ -117,11 +118,8 @@ void print(const CurveTable& table) {
 }
 
 void require_writable(const CurveOutput& output) {
-  for (const std::string& path : {output.csv, output.plot}) {
-    if (!path.empty() && std::filesystem::exists(path) && !output.force) {
-      throw InputError(fmt::format("'{}' exists; --force overwrites it", path));
-    }
-  }
+  require_new_file(output.csv, output.force);
+  require_new_figure(output.plot, output.force);
 }
 
 void write(const CurveTable& table, const CurveOutput& output) {

@@ -20,6 +20,7 @@ struct Options {
   std::string plan;
   std::string store;
   int ranks = 0;
+  bool retry_failed = false;
 };
 
 /// Ranks share no state but the queue of points: each runs one thread, a waiting one leaves its core to
@@ -48,6 +49,7 @@ int run_md(const Options& options) {
   arguments.push_back(find_executable("whipple-md").string());
   arguments.push_back(options.plan);
   if (!options.store.empty()) arguments.insert(arguments.end(), {"-o", options.store});
+  if (options.retry_failed) arguments.emplace_back("--retry-failed");
   if (level == log::Level::quiet) arguments.emplace_back("--quiet");
   if (level == log::Level::verbose) arguments.emplace_back("--verbose");
   log::detail("{}", fmt::join(arguments, " "));
@@ -65,6 +67,7 @@ void add_md_command(CLI::App& app) {
   command
       ->add_option("--ranks", options->ranks, "MPI ranks, one state point each (default: the physical cores)")
       ->check(CLI::Range(1, 4096));
+  command->add_flag("--retry-failed", options->retry_failed, "Also run points that failed before");
   command->footer("Example:\n  whipple md cases/md/copper_mishin_short.toml -o copper.md.h5 --ranks 2");
   command->callback([options] {
     const int code = run_md(*options);

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
@@ -156,6 +158,12 @@ void read_body(Case& setup, input::Table table, std::set<std::string>& names,
                std::map<std::string, std::shared_ptr<const Material>>& materials) {
   Body body;
   table.read(Body::parameters(), body);
+  if (!std::ranges::all_of(body.name,
+                           [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; })) {
+    table.error_at(
+        "name", fmt::format("'name' is \"{}\": letters, digits, '_' and '-' only, it names columns of output",
+                            body.name));
+  }
   if (!body.name.empty() && !names.insert(body.name).second) {
     table.error_at("name", fmt::format("two bodies are called \"{}\"", body.name));
   }

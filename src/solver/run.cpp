@@ -321,6 +321,12 @@ int run(const RunOptions& options) {
     const io::RunDirectory directory =
         io::RunDirectory::open(options.output_directory, checkpoint.values.text("run_name"));
     log::add_file(directory.log_file());
+    if (!options.overrides.empty()) {
+      // The next restart goes on with the changed input; its materials are the copies in the run directory.
+      std::vector<std::string> materials;
+      for (const setup::Body& body : setup.bodies) materials.push_back(body.material);
+      directory.write_input(setup::to_toml(setup, materials) + provenance(setup, options.program));
+    }
     Runner runner(setup, directory, std::move(checkpoint), communicator);
     return runner.run();
   }

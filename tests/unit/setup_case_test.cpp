@@ -113,6 +113,8 @@ TEST(Case, RefusesCombinationsThatHaveNoMeaning) {
   expect_error(replaced(domain, "\"symmetry\" }", "\"mirror\" }") + sphere,
                {"Accepted: outflow, symmetry, no_slip"});
   expect_error(domain, {"no bodies"});
+  expect_error(domain + replaced(sphere, "\"sphere\"", "\"../sphere\""),
+               {"'name' is \"../sphere\"", "letters, digits"});
 }
 
 TEST(Case, WrittenWithAllDefaultsReadsBackTheSame) {
