@@ -7,3 +7,4 @@ whipple_test(test_taylor_bar SOURCES verification/solver_taylor_bar_test.cpp DEP
 whipple_test(test_elastic SOURCES verification/solver_elastic_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_setup SOURCES unit/setup_case_test.cpp DEPENDS whipple_setup LABELS fast)
 whipple_test(test_debris_cloud SOURCES validation/solver_debris_cloud_test.cpp DEPENDS whipple_solver LABELS fast)
+whipple_test(test_solver_regression SOURCES regression/solver_regression_test.cpp DEPENDS whipple_solver LABELS fast)
