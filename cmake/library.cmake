@@ -6,6 +6,8 @@ target_compile_options(whipple_flags INTERFACE -Wall -Wextra -Wshadow -Wconversi
 # Contraction into fused multiply-adds is part of the speed; errno and traps of the mathematical functions are not needed.
 target_compile_options(whipple_flags INTERFACE -fno-math-errno -fno-trapping-math -fopenmp)
 target_link_options(whipple_flags INTERFACE -fopenmp)
+# The C interface of MPI only: Open MPI's C++ bindings do not pass our warnings.
+target_compile_definitions(whipple_flags INTERFACE OMPI_SKIP_MPICXX)
 if(WHIPPLE_NATIVE)
   target_compile_options(whipple_flags INTERFACE -march=native)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
