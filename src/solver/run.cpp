@@ -31,7 +31,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
-/// One rank for now: blocks and particles are not exchanged between processes.
+/// The solver runs on one rank: blocks and particles are not exchanged between processes.
 void require_one_rank(MPI_Comm communicator) {
   if (parallel::size(communicator) > 1) {
     throw InputError(
