@@ -5,31 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "md_fitting/fit/gray_fit.hpp"
-#include "tests/unit/fit_support.hpp"
+#include "tests/property/fit_recovery.hpp"
 
 namespace whipple::fit {
 namespace {
 
+using testing::fitted;
 using testing::Noise;
+using testing::noise_only;
 using testing::SyntheticStore;
 using testing::true_constants;
-
-const std::vector<std::string> fitted = {
-    "reference_specific_volume", "hugoniot_intercept",          "hugoniot_slope",     "gruneisen",
-    "gruneisen_slope",           "anharmonic_heat_coefficient", "melting_temperature"};
-
-std::vector<double> values(const eos::GrayConstants& c) {
-  return {c.reference_specific_volume, c.hugoniot_intercept,          c.hugoniot_slope,     c.gruneisen,
-          c.gruneisen_slope,           c.anharmonic_heat_coefficient, c.melting_temperature};
-}
-
-FitSettings noise_only() {
-  FitSettings settings;
-  settings.model_errors = ModelErrors::none();
-  settings.electronic = "none";  // as in the data
-  return settings;
-}
+using testing::values;
 
 // Over many seeds: no bias beyond 3 sigma of the mean, the scatter is the stated error, the correlation of C
 // and S is the stated one, and chi^2 is its number of degrees of freedom.

@@ -1,35 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The fit finds the constants that the data were made of, and its errors are those that it makes.
+#include "tests/property/fit_recovery.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "md_fitting/fit/gray_fit.hpp"
-#include "tests/unit/fit_support.hpp"
-
 namespace whipple::fit {
 namespace {
 
+using testing::fitted;
 using testing::Noise;
+using testing::noise_only;
 using testing::SyntheticStore;
 using testing::true_constants;
-
-const std::vector<std::string> fitted = {
-    "reference_specific_volume", "hugoniot_intercept",          "hugoniot_slope",     "gruneisen",
-    "gruneisen_slope",           "anharmonic_heat_coefficient", "melting_temperature"};
-
-std::vector<double> values(const eos::GrayConstants& c) {
-  return {c.reference_specific_volume, c.hugoniot_intercept,          c.hugoniot_slope,     c.gruneisen,
-          c.gruneisen_slope,           c.anharmonic_heat_coefficient, c.melting_temperature};
-}
-
-FitSettings noise_only() {
-  FitSettings settings;
-  settings.model_errors = ModelErrors::none();
-  settings.electronic = "none";  // as in the data
-  return settings;
-}
+using testing::values;
 
 // Without noise the constants come back.
 TEST(FitRecovery, ExactDataGiveTheirConstants) {

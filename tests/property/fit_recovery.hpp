@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "md_fitting/fit/gray_fit.hpp"
+#include "tests/unit/fit_support.hpp"
+
+/// What the tests of recovered constants share.
+namespace whipple::fit::testing {
+
+inline const std::vector<std::string> fitted = {
+    "reference_specific_volume", "hugoniot_intercept",          "hugoniot_slope",     "gruneisen",
+    "gruneisen_slope",           "anharmonic_heat_coefficient", "melting_temperature"};
+
+inline std::vector<double> values(const eos::GrayConstants& c) {
+  return {c.reference_specific_volume, c.hugoniot_intercept,          c.hugoniot_slope,     c.gruneisen,
+          c.gruneisen_slope,           c.anharmonic_heat_coefficient, c.melting_temperature};
+}
+
+inline FitSettings noise_only() {
+  FitSettings settings;
+  settings.model_errors = ModelErrors::none();
+  settings.electronic = "none";  // as in the data
+  return settings;
+}
+
+}  // namespace whipple::fit::testing
