@@ -8,27 +8,10 @@
 #include <string>
 #include <string_view>
 
+#include "eos/state.hpp"
 #include "eos/vapour_dome.hpp"
 
 namespace whipple::eos {
-
-/// Everything a complete equation of state knows about one point (SI; pressure positive in compression;
-/// energies per mass). Quantities that a model does not carry are NaN.
-struct State {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double density = unknown;                   ///< kg/m^3
-  double specific_internal_energy = unknown;  ///< J/kg
-  double temperature = unknown;               ///< K
-  double pressure = unknown;                  ///< Pa
-  double sound_speed = unknown;               ///< m/s, isentropic (bulk)
-  double specific_entropy = unknown;          ///< J/(kg K)
-  double heat_capacity = unknown;             ///< J/(kg K), at constant volume
-  double gruneisen = unknown;                 ///< V (dp/de)_V
-  double isothermal_bulk_modulus = unknown;   ///< Pa
-  double melted_fraction = 0.0;               ///< mass fraction of liquid (and vapour)
-  double vaporised_fraction = 0.0;            ///< mass fraction of vapour
-  std::string_view phase = "";                ///< "solid", "melting", "liquid", "hot liquid", "vapour"
-};
 
 /// Arrays of equal length, one entry per point (SI). `melted_fraction` and `vaporised_fraction` may be empty.
 struct Batch {
@@ -72,6 +55,10 @@ class EquationOfState {
   [[nodiscard]] virtual double reference_energy() const = 0;
   /// Largest density that the model is valid for (kg/m^3).
   [[nodiscard]] virtual double maximum_density() const = 0;
+  /// Least specific internal energy at a density (J/kg): that of the coldest state which the model describes.
+  [[nodiscard]] virtual double minimum_energy(double density) const = 0;
+  /// The coldest temperature that the model describes (K); points with less energy are held there.
+  [[nodiscard]] virtual double least_temperature() const = 0;
 
   /// p, T, c (and phase fractions) from density and specific internal energy. Does not throw, does not
   /// allocate.
@@ -83,10 +70,8 @@ class EquationOfState {
   /// @throws StateError out of range, InputError if the model carries no temperature
   [[nodiscard]] virtual State state_at_temperature(double density, double temperature) const = 0;
 
-  /// Liquid and vapour in equilibrium at a pressure; none if the model has no dome there.
-  [[nodiscard]] virtual std::optional<Saturation> saturation_at_pressure(double /*pressure*/) const {
-    return std::nullopt;
-  }
+  /// The dome of liquid and vapour in equilibrium; null if the model has none.
+  [[nodiscard]] virtual const VapourDome* vapour_dome() const { return nullptr; }
 
   /// All constants with units as TOML lines (provenance in output files).
   [[nodiscard]] virtual std::string constants() const = 0;

@@ -118,51 +118,6 @@ ShockState Hugoniot::at_density(double density) const {
   return shock(density, find_root(residual, e, e + step, "Hugoniot at the density", 52));
 }
 
-double density_at_pressure(const EquationOfState& eos, double pressure, double temperature) {
-  const auto at = [&](double density) { return eos.state_at_temperature(density, temperature); };
-  const auto residual = [&](double density) { return at(density).pressure - pressure; };
-  double density = eos.reference_density();
-  const bool compress = residual(density) < 0;
-  const double factor = compress ? 1.01 : 1 / 1.01;
-  for (;;) {
-    const double next = std::min(density * factor, eos.maximum_density());
-    const State state = at(next);
-    if ((state.pressure >= pressure) == compress)
-      return find_root(residual, density, next, "density at the pressure");
-    if (compress && next >= eos.maximum_density()) {
-      throw StateError(
-          fmt::format("{:.6g} Pa at {:.6g} K: beyond the greatest density of model {} ({:.6g} kg/m^3)",
-                      pressure, temperature, eos.model(), eos.maximum_density()));
-    }
-    if (!compress && ((state.isothermal_bulk_modulus < 0 && state.phase != "melting") ||
-                      next < 0.01 * eos.reference_density())) {
-      throw StateError(
-          fmt::format("no condensed state at {:.6g} Pa and {:.6g} K: the isotherm of model {} turns at "
-                      "{:.6g} kg/m^3, {:.6g} Pa",
-                      pressure, temperature, eos.model(), next, state.pressure));
-    }
-    density = next;
-  }
-}
-
-State state_at_pressure(const EquationOfState& eos, double density, double pressure) {
-  // p rises with e wherever the Grueneisen parameter is positive.
-  const auto residual = [&](double e) { return eos.state(density, e).pressure - pressure; };
-  const double scale = std::abs(pressure) / density + 1e3;
-  const double start = eos.state_at_temperature(density, 1.0).specific_internal_energy;
-  double step = scale;
-  if (residual(start) > 0) {
-    throw StateError(fmt::format("{:.6g} Pa at {:.6g} kg/m^3 lies below the cold curve of model {}", pressure,
-                                 density, eos.model()));
-  }
-  while (residual(start + step) < 0) {
-    step *= 2;
-    if (step > 1e15)
-      throw StateError(fmt::format("no state at {:.6g} Pa and {:.6g} kg/m^3", pressure, density));
-  }
-  return eos.state(density, find_root(residual, start, start + step, "energy at the pressure"));
-}
-
 namespace {
 
 /// Along w = ln V: de/dw = -p V, du/dw = -c  (L2).
@@ -238,7 +193,8 @@ std::vector<IsentropeState> isentrope(const EquationOfState& eos, const State& s
 }
 
 Release release(const EquationOfState& eos, const State& start, double pressure) {
-  const auto saturation = eos.saturation_at_pressure(pressure);
+  const VapourDome* dome = eos.vapour_dome();
+  const auto saturation = dome != nullptr ? dome->at_pressure(pressure) : std::nullopt;
   if (saturation && start.specific_entropy > saturation->liquid_entropy &&
       start.specific_entropy < saturation->vapour_entropy) {
     // Two phases in equilibrium: lever rule on the entropy (L4).

@@ -39,13 +39,6 @@ class Hugoniot {
   State initial_;
 };
 
-/// Density at pressure and temperature on the condensed branch: the one reached from the reference density by
-/// compression or expansion without crossing a spinodal.
-double density_at_pressure(const EquationOfState& eos, double pressure, double temperature);
-
-/// State at pressure and density: solves p(rho, e) = pressure for e.
-State state_at_pressure(const EquationOfState& eos, double density, double pressure);
-
 /// One point of an isentrope.
 struct IsentropeState {
   State state;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <concepts>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,6 +27,8 @@ concept Model = requires(const M& model, const Batch& batch, double number) {
   { model.reference_temperature() } -> std::same_as<double>;
   { model.reference_energy() } -> std::same_as<double>;
   { model.maximum_density() } -> std::same_as<double>;
+  { model.minimum_energy(number) } -> std::same_as<double>;
+  { M::least_temperature } -> std::convertible_to<double>;
 };
 
 /// Puts the run-time face on a model: one virtual call per batch.
@@ -43,18 +44,22 @@ class ModelEquationOfState final : public EquationOfState {
   [[nodiscard]] double reference_temperature() const override { return model_.reference_temperature(); }
   [[nodiscard]] double reference_energy() const override { return model_.reference_energy(); }
   [[nodiscard]] double maximum_density() const override { return model_.maximum_density(); }
+  [[nodiscard]] double minimum_energy(double density) const override {
+    return model_.minimum_energy(density);
+  }
+  [[nodiscard]] double least_temperature() const override { return M::least_temperature; }
   RangeReport evaluate(const Batch& batch) const override { return model_.evaluate(batch); }
   [[nodiscard]] State state(double density, double specific_internal_energy) const override {
-    return model_.state(density, specific_internal_energy);
+    return derived(model_.state(density, specific_internal_energy));
   }
   [[nodiscard]] State state_at_temperature(double density, double temperature) const override {
-    return model_.state_at_temperature(density, temperature);
+    return derived(model_.state_at_temperature(density, temperature));
   }
-  [[nodiscard]] std::optional<Saturation> saturation_at_pressure(double pressure) const override {
-    if constexpr (requires { model_.saturation_at_pressure(pressure); }) {
-      return model_.saturation_at_pressure(pressure);
+  [[nodiscard]] const VapourDome* vapour_dome() const override {
+    if constexpr (requires { model_.dome(); }) {
+      return &model_.dome();
     } else {
-      return std::nullopt;
+      return nullptr;
     }
   }
   [[nodiscard]] std::string constants() const override {
@@ -63,6 +68,11 @@ class ModelEquationOfState final : public EquationOfState {
   }
 
  private:
+  static State derived(State state) {
+    derive(state);
+    return state;
+  }
+
   M model_;
 };
 

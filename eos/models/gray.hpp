@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -43,12 +41,15 @@ class Gray {
   [[nodiscard]] double reference_energy() const { return constants().reference_energy; }
   [[nodiscard]] double maximum_density() const { return 1.0 / surface_.least_volume(); }
 
+  /// Energy of the coldest state at a density.
+  /// @throws StateError above the compression limit
+  [[nodiscard]] double minimum_energy(double density) const {
+    return state_at_temperature(density, least_temperature).specific_internal_energy;
+  }
+
   RangeReport evaluate(const Batch& batch) const;
   [[nodiscard]] State state(double density, double specific_internal_energy) const;
   [[nodiscard]] State state_at_temperature(double density, double temperature) const;
-  [[nodiscard]] std::optional<Saturation> saturation_at_pressure(double pressure) const {
-    return dome_.at_pressure(pressure);
-  }
 
   // The same at (V, T) in m^3/kg and K, in the phase that is stable there.
   /// @throws StateError out of range

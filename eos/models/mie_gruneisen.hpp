@@ -46,6 +46,12 @@ class MieGruneisen {
   [[nodiscard]] double reference_energy() const { return 0.0; }
   [[nodiscard]] double maximum_density() const { return maximum_density_; }
 
+  /// Energy of the coldest state at a density.
+  /// @throws StateError above the compression limit
+  [[nodiscard]] double minimum_energy(double density) const {
+    return state_at_temperature(density, least_temperature).specific_internal_energy;
+  }
+
   RangeReport evaluate(const Batch& batch) const;
   [[nodiscard]] State state(double density, double specific_internal_energy) const;
   [[nodiscard]] State state_at_temperature(double density, double temperature) const;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "eos/inversions.hpp"
 #include "eos/loci.hpp"
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/gray.hpp"

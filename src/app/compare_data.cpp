@@ -13,6 +13,7 @@
 #include <regex>
 #include <string_view>
 
+#include "eos/inversions.hpp"
 #include "eos/loci.hpp"
 #include "src/base/error.hpp"
 #include "src/base/units.hpp"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "eos/identities.hpp"
+#include "eos/inversions.hpp"
 #include "eos/loci.hpp"
 #include "src/app/eos_table.hpp"
 #include "src/base/error.hpp"
@@ -244,15 +245,12 @@ void run_melt(const Options& o, const Material& material) {
 void run_dome(const Options& o, const Material& material) {
   const EquationOfState& eos = *material.eos;
   double lower = quantity("--from", o.from, "Pa").value_or(100.0);
-  if (!eos.saturation_at_pressure(lower)) {
+  const eos::VapourDome* dome = eos.vapour_dome();
+  if (dome == nullptr || !dome->at_pressure(lower)) {
     throw InputError(fmt::format("model {} of {} has no liquid and vapour in equilibrium at {:.4g} Pa",
                                  eos.model(), material.name, lower));
   }
-  double top = lower, beyond = 1e12;
-  for (int i = 0; i < 40; ++i) {
-    const double middle = std::sqrt(top * beyond);
-    (eos.saturation_at_pressure(middle) ? top : beyond) = middle;
-  }
+  const double top = 0.999 * dome->critical_point().pressure;
   const double last = std::min(top, quantity("--to", o.to, "Pa").value_or(top));
   CurveTable table;
   table.title = fmt::format("Liquid and vapour in equilibrium: {} ({})", material.name, eos.model());
@@ -262,12 +260,14 @@ void run_dome(const Options& o, const Material& material) {
                    {"vapour_kg_m3", "kg/m^3", 1},
                    {"latent_kJ_kg", "kJ/kg", 1e3}};
   for (const double x : spaced(std::log(lower), std::log(last), o.points)) {
-    const auto s = eos.saturation_at_pressure(std::min(std::exp(x), last));
+    const auto s = dome->at_pressure(std::min(std::exp(x), last));
     table.rows.push_back(
         {s->pressure, s->temperature, 1 / s->liquid_volume, 1 / s->vapour_volume, s->latent_heat()});
   }
   write(table, o.output);
-  fmt::print("critical point: about {:.4g} GPa\n", top * 1e-9);
+  const eos::CriticalPoint& critical = dome->critical_point();
+  fmt::print("critical point: {:.5g} K, {:.4g} GPa, {:.4g} g/cm^3\n", critical.temperature,
+             critical.pressure * 1e-9, 1e-3 / critical.specific_volume);
 }
 
 void run_audit(const Options& o, const Material& material) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "eos/inversions.hpp"
 #include "eos/loci.hpp"
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/gray.hpp"

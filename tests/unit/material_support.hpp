@@ -58,6 +58,8 @@ struct LinearInEnergy final : eos::EquationOfState {
   [[nodiscard]] std::string_view model() const override { return "linear_in_energy"; }
   [[nodiscard]] double reference_density() const override { return rho0; }
   [[nodiscard]] double reference_temperature() const override { return 300.0; }
+  [[nodiscard]] double minimum_energy(double) const override { return -heat_capacity * 300.0; }
+  [[nodiscard]] double least_temperature() const override { return 0.0; }
   [[nodiscard]] double reference_energy() const override { return 0.0; }
   [[nodiscard]] double maximum_density() const override { return 2.0 * rho0; }
   eos::RangeReport evaluate(const eos::Batch& batch) const override {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "eos/inversions.hpp"
 #include "eos/loci.hpp"
 #include "tests/unit/eos_support.hpp"
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "eos/inversions.hpp"
 #include "eos/loci.hpp"
 #include "src/base/error.hpp"
 #include "tests/unit/eos_support.hpp"

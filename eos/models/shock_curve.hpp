@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace whipple::eos {
+
+/// Reference pressure of a shock Hugoniot in the form of Steinberg, UCRL-MA-106439 (1996),
+///   Us = C + S1 up + S2 (up/Us) up + S3 (up/Us)^2 up,
+/// which gives the pressure in closed form: with x = 1 - V/V0 = up/Us
+///   p_H = rho0 C^2 x/(1 - S1 x - S2 x^2 - S3 x^3)^2.
+/// S2 = S3 = 0: the linear Hugoniot. Continued as it stands for x < 0 (tension).
+struct ShockCurve {
+  double slope = 0;      ///< S1
+  double quadratic = 0;  ///< S2
+  double cubic = 0;      ///< S3
+
+  /// A function of x and its first two derivatives.
+  struct Value {
+    double value, slope, curvature;
+  };
+
+  /// y = 1 - S1 x - S2 x^2 - S3 x^3; the pole of the pressure is its first zero.
+  [[nodiscard]] Value denominator(double x) const {
+    return {1 - x * (slope + x * (quadratic + x * cubic)), -slope - x * (2 * quadratic + 3 * x * cubic),
+            -2 * quadratic - 6 * x * cubic};
+  }
+  /// p_H/(rho0 C^2) = x/y^2
+  [[nodiscard]] Value pressure(double x) const {
+    const Value y = denominator(x);
+    const double inverse = 1 / y.value, square = inverse * inverse, cube = square * inverse;
+    const double value = x * square;
+    const double first = square - 2 * x * cube * y.slope;
+    const double second =
+        -4 * cube * y.slope + 6 * x * square * square * y.slope * y.slope - 2 * x * cube * y.curvature;
+    return {value, first, second};
+  }
+  /// Greatest x, at most `bound`, up to which y stays above `margin` (y = 1 at x = 0).
+  [[nodiscard]] double limit(double margin, double bound) const {
+    constexpr int steps = 4000;
+    for (int i = 1; i <= steps; ++i) {
+      const double x = bound * i / steps;
+      if (denominator(x).value >= margin) continue;
+      double low = bound * (i - 1) / steps, high = x;
+      for (int k = 0; k < 60; ++k) {
+        const double middle = 0.5 * (low + high);
+        (denominator(middle).value >= margin ? low : high) = middle;
+      }
+      return low;
+    }
+    return bound;
+  }
+};
+
+}  // namespace whipple::eos
