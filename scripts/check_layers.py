@@ -15,6 +15,7 @@ MAY_USE = {
     "src/base": [],
     "src/input": ["src/base"],
     "src/parallel": ["src/base"],
+    "src/process": ["src/base"],
     "eos": ["src/base"],
     "src/particles": ["src/base", "src/parallel"],
     "src/grid": ["src/base", "src/parallel"],
@@ -32,11 +33,11 @@ MAY_USE = {
     "md_fitting/plan": ["src/base", "src/input"],
     "md_fitting/lammps": ["src/base", "md_fitting/data_set"],
     "md_fitting/protocols": ["src/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],
-    "md_fitting/fit": ["src/base", "src/input", "eos", "md_fitting/data_set"],
+    "md_fitting/fit": ["src/base", "src/input", "src/process", "eos", "md_fitting/data_set"],
     # The program whipple-md.
     "md_fitting": ["src/base", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],
     # The program whipple: it starts the other two, so of their side it knows the plan's keys only.
-    "src/app": ["src/base", "src/input", "src/parallel", "eos", "src/particles", "src/grid", "src/material",
+    "src/app": ["src/base", "src/input", "src/parallel", "src/process", "eos", "src/particles", "src/grid", "src/material",
                 "src/transfer", "src/io", "src/setup", "src/solver", "md_fitting/plan"],
 }
 

@@ -1,5 +1,5 @@
 # Tests of the command line and of the scripts.
-whipple_test(app_process_test SOURCES unit/app_process.cpp DEPENDS whipple_app LABELS fast)
+whipple_test(process_test SOURCES unit/process_run.cpp DEPENDS whipple_process LABELS fast)
 whipple_test(app_command_line_test SOURCES unit/app_command_line.cpp DEPENDS GTest::gmock LABELS fast)
 add_dependencies(app_command_line_test whipple whipple-md whipple-fit)
 

@@ -9,10 +9,10 @@
 
 #include "md_fitting/fit/fit_report.hpp"
 #include "md_fitting/fit/material_writer.hpp"
-#include "md_fitting/fit/plot.hpp"
 #include "src/base/error.hpp"
 #include "src/base/files.hpp"
 #include "src/base/units.hpp"
+#include "src/process/scripts.hpp"
 
 namespace whipple::fit {
 namespace {
@@ -121,7 +121,7 @@ void run(const Options& options) {
     materials.push_back(material_text(fit, store_origin(store, points), model));
   }
   for (std::size_t i = 0; i < files.size(); ++i) write_file(files[i], materials[i], options.force);
-  if (!options.plot.empty()) draw("plot_fit.py", plot_data(fits.front()), options.plot);
+  if (!options.plot.empty()) process::draw_json("scripts/plot_fit.py", plot_data(fits.front()), options.plot);
 
   fmt::print("{}", constants_table(fits));
   if (!options.quiet) {

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "src/app/build_info.hpp"
-#include "src/app/paths.hpp"
 #include "src/base/files.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
+#include "src/process/paths.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::app {
@@ -78,7 +78,7 @@ double triad_bandwidth() {
 }
 
 nlohmann::json time_problem(const Problem& problem, bool quick) {
-  const setup::Case setup = setup::read_case(find_data(problem.case_file), problem.overrides);
+  const setup::Case setup = setup::read_case(process::find_data(problem.case_file), problem.overrides);
   solver::Simulation simulation(setup, parallel::world());
   const int before = quick ? problem.steps_before / 5 : problem.steps_before;
   const int steps = quick ? std::max(10, problem.steps / 5) : problem.steps;

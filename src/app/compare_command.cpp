@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "src/app/compare_data.hpp"
-#include "src/app/paths.hpp"
-#include "src/app/scripts.hpp"
 #include "src/base/error.hpp"
 #include "src/base/files.hpp"
 #include "src/base/units.hpp"
 #include "src/material/material_file.hpp"
+#include "src/process/paths.hpp"
+#include "src/process/scripts.hpp"
 
 namespace whipple::app {
 namespace {
@@ -64,7 +64,7 @@ std::filesystem::path find_experiment(const std::string& name) {
     std::filesystem::path file = path;
     if (!file.has_extension()) file += ".csv";
     try {
-      return find_data(std::filesystem::path("eos/data") / file);
+      return process::find_data(std::filesystem::path("eos/data") / file);
     } catch (const InputError&) {
       // Reported below, with the folders in the user's words.
     }
@@ -186,14 +186,7 @@ void draw(const std::vector<Row>& rows, const std::string& path) {
          {"deviation", numbers(row.comparison.deviation, s.deviation_size)},
          {"rms", row.comparison.rms / s.deviation_size}});
   }
-  const std::filesystem::path data = path + ".json.part";
-  {
-    std::ofstream file(data);
-    file << panels.dump(1);
-    if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", data.string()));
-  }
-  draw_with("scripts/plot_compare.py", {data.string(), path});
-  std::filesystem::remove(data);
+  process::draw_json("scripts/plot_compare.py", panels.dump(1), path);
 }
 
 void run(const Options& options) {

@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "src/app/scripts.hpp"
 #include "src/base/error.hpp"
 #include "src/base/files.hpp"
+#include "src/process/scripts.hpp"
 
 namespace whipple::app {
 namespace {
@@ -137,7 +137,7 @@ void write(const CurveTable& table, const CurveOutput& output) {
     arguments.emplace_back("--overlay");
     arguments.insert(arguments.end(), output.overlay.begin(), output.overlay.end());
   }
-  draw_with("scripts/plot_curves.py", arguments);
+  process::draw_with("scripts/plot_curves.py", arguments);
   std::filesystem::remove(data);
   fmt::print("written: {}\n", output.plot);
 }

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "src/app/paths.hpp"
-#include "src/app/process.hpp"
+#include "src/process/paths.hpp"
+#include "src/process/process.hpp"
 
 namespace whipple::app {
 
@@ -17,10 +17,10 @@ void add_fit_command(CLI::App& app) {
   command->allow_extras();
   command->prefix_command();
   command->callback([command] {
-    std::vector<std::string> arguments = {find_executable("whipple-fit").string()};
+    std::vector<std::string> arguments = {process::find_executable("whipple-fit").string()};
     const std::vector<std::string> passed = command->remaining();
     arguments.insert(arguments.end(), passed.begin(), passed.end());
-    const int code = run_process(arguments);
+    const int code = process::run_process(arguments);
     if (code != 0) throw CLI::RuntimeError(code);
   });
 }

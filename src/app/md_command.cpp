@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "src/app/paths.hpp"
-#include "src/app/process.hpp"
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
+#include "src/process/paths.hpp"
+#include "src/process/process.hpp"
 
 namespace whipple::app {
 namespace {
@@ -25,11 +25,11 @@ struct Options {
 
 /// Ranks share no state but the queue of points: each runs one thread, a waiting one leaves its core to
 /// others.
-Environment mpi_environment() {
-  Environment environment = {{"OMP_NUM_THREADS", "1"},
-                             {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
-                             {"OMPI_MCA_mpi_yield_when_idle", "1"},
-                             {"OMPI_MCA_hwloc_base_binding_policy", "none"}};
+process::Environment mpi_environment() {
+  process::Environment environment = {{"OMP_NUM_THREADS", "1"},
+                                      {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
+                                      {"OMPI_MCA_mpi_yield_when_idle", "1"},
+                                      {"OMPI_MCA_hwloc_base_binding_policy", "none"}};
   if (geteuid() == 0) {  // Open MPI refuses root, as in containers, unless both are set
     environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT", "1");
     environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
@@ -41,19 +41,19 @@ int run_md(const Options& options) {
   if (!std::filesystem::exists(options.plan)) {
     throw InputError(fmt::format("{}: error: cannot open the file", options.plan));
   }
-  const int ranks = options.ranks > 0 ? options.ranks : physical_cores();
+  const int ranks = options.ranks > 0 ? options.ranks : process::physical_cores();
   std::vector<std::string> arguments = {"mpirun", "-np", std::to_string(ranks)};
   const log::Level level = log::level();
   // The worker says itself what went wrong; mpirun would add a page on the exit code.
   if (level != log::Level::verbose) arguments.emplace_back("--quiet");
-  arguments.push_back(find_executable("whipple-md").string());
+  arguments.push_back(process::find_executable("whipple-md").string());
   arguments.push_back(options.plan);
   if (!options.store.empty()) arguments.insert(arguments.end(), {"-o", options.store});
   if (options.retry_failed) arguments.emplace_back("--retry-failed");
   if (level == log::Level::quiet) arguments.emplace_back("--quiet");
   if (level == log::Level::verbose) arguments.emplace_back("--verbose");
   log::detail("{}", fmt::join(arguments, " "));
-  return run_process(arguments, mpi_environment());
+  return process::run_process(arguments, mpi_environment());
 }
 
 }  // namespace

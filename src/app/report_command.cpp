@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "src/app/scripts.hpp"
 #include "src/base/error.hpp"
+#include "src/process/scripts.hpp"
 
 namespace whipple::app {
 namespace {
@@ -29,7 +29,7 @@ int run_report(const Options& options) {
   std::vector<std::string> arguments = {options.run, "--times", std::to_string(options.times)};
   if (!options.output.empty()) arguments.insert(arguments.end(), {"--output", options.output});
   for (const std::string& figure : options.figures) arguments.insert(arguments.end(), {"--figure", figure});
-  return run_script("scripts/report.py", arguments);
+  return process::run_script("scripts/report.py", arguments);
 }
 
 }  // namespace

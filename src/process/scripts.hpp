@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
-namespace whipple::app {
+namespace whipple::process {
 
 /// Runs one of the project's Python scripts ("scripts/report.py"). The interpreter is $WHIPPLE_PYTHON, else
 /// /usr/bin/python3 (Debian's, which has numpy, h5py and matplotlib), else python3 of the path.
@@ -15,4 +16,8 @@ int run_script(const std::string& script, const std::vector<std::string>& argume
 /// @throws InputError if it fails
 void draw_with(const std::string& script, const std::vector<std::string>& arguments);
 
-}  // namespace whipple::app
+/// The same on JSON text: `SCRIPT DATA.json FIGURE`, the data in a file beside the figure while it is drawn.
+/// @throws InputError if the folder cannot be written or the script fails
+void draw_json(const std::string& script, const std::string& json, const std::filesystem::path& figure);
+
+}  // namespace whipple::process

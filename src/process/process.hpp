@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace whipple::app {
+namespace whipple::process {
 
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
@@ -23,4 +23,4 @@ int run_process(const std::vector<std::string>& arguments, const Environment& en
 /// least 1.
 int physical_cores();
 
-}  // namespace whipple::app
+}  // namespace whipple::process

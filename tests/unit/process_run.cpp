@@ -9,10 +9,10 @@
 #include <filesystem>
 #include <thread>
 
-#include "src/app/process.hpp"
 #include "src/base/error.hpp"
+#include "src/process/process.hpp"
 
-namespace whipple::app {
+namespace whipple::process {
 namespace {
 
 TEST(RunProcess, ReturnsTheExitCodeOfTheProgram) {
@@ -91,4 +91,4 @@ TEST(PhysicalCores, AreAtLeastOneAndNoMoreThanTheThreads) {
 }
 
 }  // namespace
-}  // namespace whipple::app
+}  // namespace whipple::process

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/app/scripts.hpp"
+#include "src/process/scripts.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
-#include "src/app/paths.hpp"
-#include "src/app/process.hpp"
 #include "src/base/error.hpp"
+#include "src/process/paths.hpp"
+#include "src/process/process.hpp"
 
-namespace whipple::app {
+namespace whipple::process {
 
 int run_script(const std::string& script, const std::vector<std::string>& arguments) {
   const char* variable = std::getenv("WHIPPLE_PYTHON");
@@ -31,4 +32,16 @@ void draw_with(const std::string& script, const std::vector<std::string>& argume
   }
 }
 
-}  // namespace whipple::app
+void draw_json(const std::string& script, const std::string& json, const std::filesystem::path& figure) {
+  std::filesystem::path data = figure;
+  data += ".json.part";
+  {
+    std::ofstream file(data);
+    file << json;
+    if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", data.string()));
+  }
+  draw_with(script, {data.string(), figure.string()});
+  std::filesystem::remove(data);
+}
+
+}  // namespace whipple::process

@@ -5,7 +5,7 @@
 #include <string>
 
 /// Where the other executables and the data of the project lie: in the build tree, or in an installation.
-namespace whipple::app {
+namespace whipple::process {
 
 /// The executable that is running.
 std::filesystem::path own_executable();
@@ -19,4 +19,4 @@ std::filesystem::path find_executable(const std::string& name);
 /// @throws InputError naming both places if it is in neither
 std::filesystem::path find_data(const std::filesystem::path& relative);
 
-}  // namespace whipple::app
+}  // namespace whipple::process

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/app/process.hpp"
+#include "src/process/process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -19,7 +19,7 @@
 
 #include "src/base/error.hpp"
 
-namespace whipple::app {
+namespace whipple::process {
 namespace {
 
 constexpr std::array forwarded_signals = {SIGINT, SIGTERM, SIGUSR1};
@@ -153,4 +153,4 @@ int physical_cores() {
   return std::max(1, cores.empty() ? hardware_threads : static_cast<int>(cores.size()));
 }
 
-}  // namespace whipple::app
+}  // namespace whipple::process
