@@ -20,8 +20,10 @@ struct GrayConstants {
   // Solid
   double molar_mass = 0;                    ///< kg/mol
   double reference_specific_volume = 0;     ///< V0, m^3/kg
-  double hugoniot_intercept = 0;            ///< C of Us = C + S up, m/s
-  double hugoniot_slope = 0;                ///< S
+  double hugoniot_intercept = 0;            ///< C of the shock curve, m/s
+  double hugoniot_slope = 0;                ///< S, the S1 of Steinberg's form
+  double hugoniot_quadratic = 0;            ///< S2 of Us = C + S1 up + S2 (up/Us) up + S3 (up/Us)^2 up
+  double hugoniot_cubic = 0;                ///< S3
   double gruneisen = 0;                     ///< gamma0, at V0
   double gruneisen_slope = 0;               ///< a of gamma = gamma0 - a (1 - V/V0)
   double electronic_heat_coefficient = 0;   ///< g_el, J/(mol K^2)

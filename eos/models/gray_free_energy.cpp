@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
@@ -15,27 +14,23 @@ namespace whipple::eos {
 namespace {
 
 constexpr int table_intervals = 512;
-/// Nearest approach to the pole 1 - S x = 0 of the linear Hugoniot if the cold pressure has not turned over
-/// before.
+/// Nearest approach to the pole y = 0 of the shock curve if the cold pressure has not turned over before.
 constexpr double pole_margin = 0.03;
 constexpr double greatest_compression = 0.9;     ///< x; tenfold compression
 constexpr double checked_temperature = 30000.0;  ///< K: the heat capacity must be positive up to here
 
-/// (P1a V0/C^2)(x) of (G5) and its first two derivatives: n/d with n = x (1 - (1 + gamma0/2) x + a x^2/2) and
-/// d = (1 - x)(1 - S x)^2.
-std::array<double, 3> reference_pressure(double x, double S, double gamma0, double a) {
-  const double b = 1 + gamma0 / 2;
-  const double n = x * (1 - b * x + a * x * x / 2);
-  const double n1 = 1 - 2 * b * x + 1.5 * a * x * x;
-  const double n2 = -2 * b + 3 * a * x;
-  const double y = 1 - x, s = 1 - S * x;
-  const double d = y * s * s;
-  const double d1 = -s * s - 2 * S * y * s;
-  const double d2 = 4 * S * s + 2 * S * S * y;
-  const double f = n / d;
-  const double f1 = (n1 - f * d1) / d;
-  const double f2 = (n2 - 2 * f1 * d1 - f * d2) / d;
-  return {f, f1, f2};
+/// (P1a V0/C^2)(x) of (G5) and its first two derivatives: x/y^2 of the shock curve times 1 - n/(2 (1 - x)),
+/// n = gamma x = gamma0 x - a x^2. S2 and S3 are fits of compression; in tension, where they may turn the
+/// pressure around at some per cent of strain, S1 alone continues the curve (two derivatives are continuous).
+ShockCurve::Value reference_pressure(double x, const ShockCurve& curve, double gamma0, double a) {
+  const ShockCurve::Value hugoniot = x < 0 ? ShockCurve{curve.slope}.pressure(x) : curve.pressure(x);
+  const double n = x * (gamma0 - a * x), n1 = gamma0 - 2 * a * x, n2 = -2 * a;
+  const double w = 1 / (1 - x);
+  const double f = 1 - 0.5 * n * w;
+  const double f1 = -0.5 * w * (n1 + n * w);
+  const double f2 = -0.5 * w * (n2 + 2 * w * (n1 + n * w));
+  return {hugoniot.value * f, hugoniot.slope * f + hugoniot.value * f1,
+          hugoniot.curvature * f + 2 * hugoniot.slope * f1 + hugoniot.value * f2};
 }
 
 }  // namespace
@@ -48,6 +43,7 @@ GrayFreeEnergy::GrayFreeEnergy(const GrayConstants& constants) : constants_(reso
   melting_entropy_ = c.melting_entropy / c.molar_mass;
   liquid_slope_ = c.liquid_heat_coefficient / c.molar_mass;
   const double T0 = c.reference_temperature, V0 = c.reference_specific_volume;
+  shock_curve_ = {c.hugoniot_slope, c.hugoniot_quadratic, c.hugoniot_cubic};
   cold_energy_at_reference_ = -T0 * (lattice_ + heat_coefficient_ * T0 / 2);                       // (G4)
   cold_offset_ = T0 * T0 * heat_coefficient_ * (c.gruneisen - c.electronic_gruneisen) / (2 * V0);  // (G6)
   isochoric_ = c.melting == "isochoric";
@@ -68,7 +64,7 @@ GrayFreeEnergy::Cold GrayFreeEnergy::cold_from_energy(double x, double energy) c
   // dE_c/dx = V0 P_c turns (G9) into P_c = P1a + P_CC + q (E_c - E_0H)/V0 with q = gamma/(1 - x).
   const GrayConstants& c = constants_;
   const double V0 = c.reference_specific_volume;
-  const auto [f, f1, f2] = reference_pressure(x, c.hugoniot_slope, c.gruneisen, c.gruneisen_slope);
+  const auto [f, f1, f2] = reference_pressure(x, shock_curve_, c.gruneisen, c.gruneisen_slope);
   const double scale = c.hugoniot_intercept * c.hugoniot_intercept / V0;
   const double y = 1 - x, excess = c.gruneisen - c.gruneisen_slope;
   const double q = c.gruneisen_slope + excess / y, q1 = excess / (y * y), q2 = 2 * q1 / y;
@@ -83,7 +79,7 @@ void GrayFreeEnergy::tabulate_cold_curve() {
   const double V0 = c.reference_specific_volume;
   const double scale = c.hugoniot_intercept * c.hugoniot_intercept;  // V0 P1a = scale * f
   const auto integrand = [&](double x) {
-    const double f = reference_pressure(x, c.hugoniot_slope, c.gruneisen, c.gruneisen_slope)[0];
+    const double f = reference_pressure(x, shock_curve_, c.gruneisen, c.gruneisen_slope).value;
     return (scale * f + V0 * cold_offset_) / lattice_factor(x);
   };
   const auto integral = [&](double from, double to) {
@@ -94,7 +90,7 @@ void GrayFreeEnergy::tabulate_cold_curve() {
   };
 
   // Compression limit (G29): the first x at which the cold pressure stops rising.
-  const double last = std::min((1 - pole_margin) / c.hugoniot_slope, greatest_compression);
+  const double last = shock_curve_.limit(pole_margin, greatest_compression);
   constexpr int steps = 500;
   double limit = last, sum = 0, previous_slope = cold_from_energy(0, energy(0, 0)).p1;
   if (previous_slope <= 0) {

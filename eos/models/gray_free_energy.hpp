@@ -5,6 +5,7 @@
 
 #include "eos/hermite_table.hpp"
 #include "eos/models/gray_constants.hpp"
+#include "eos/models/shock_curve.hpp"
 
 /// Helmholtz free energy of GRAY in closed form, phase by phase (docs/theory/gray.md, sections 2 to 4). All
 /// arguments and results SI; V is the specific volume in m^3/kg, T in K. Cheap to construct (about a tenth of
@@ -85,7 +86,7 @@ class GrayFreeEnergy {
 
   /// Constants with the defaults resolved.
   [[nodiscard]] const GrayConstants& constants() const { return constants_; }
-  /// Least specific volume: the cold pressure turns over there, or the linear Hugoniot nears its pole (G29).
+  /// Least specific volume: the cold pressure turns over there, or the shock curve nears its pole (G29).
   [[nodiscard]] double least_volume() const { return least_volume_; }
   /// V_J: condensed phases at and below, vapour above.
   [[nodiscard]] double join_volume() const { return join_volume_; }
@@ -144,6 +145,7 @@ class GrayFreeEnergy {
   GrayConstants constants_;
   // Per mass.
   double gas_ = 0, lattice_ = 0, heat_coefficient_ = 0, melting_entropy_ = 0, liquid_slope_ = 0;
+  ShockCurve shock_curve_;
   double cold_offset_ = 0, cold_energy_at_reference_ = 0;  ///< P_CC (G6), E_00 (G4)
   double entropy_offset_ = 0;
   double least_volume_ = 0, join_volume_ = 0, covolume_ = 0;
