@@ -10,6 +10,7 @@
 
 #include "md_fitting/data_set/hash.hpp"
 #include "md_fitting/lammps/units.hpp"
+#include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/statistics.hpp"
 #include "src/base/error.hpp"
@@ -242,6 +243,28 @@ CoexistenceResult measure_coexistence(const Potential& potential, double pressur
       metal::specific_energy(liquid.enthalpy.value - solid.enthalpy.value, mass),
       metal::specific_energy(std::hypot(liquid.enthalpy.error, solid.enthalpy.error), mass)};
   return result;
+}
+
+void add_coexistence(const Plan& plan, TaskList& list) {
+  if (!plan.coexistence) return;
+  const CoexistencePlan& melting = *plan.coexistence;
+  for (std::size_t i = 0; i < melting.pressure.size(); ++i) {
+    PointRequest request{{{"pressure", melting.pressure[i]}}, size_settings(melting.size), {}};
+    request.settings["first_guess"] = fmt::format("{}", melting.first_guess[i]);
+    request.settings["attempts"] = std::to_string(melting.attempts);
+    list.add(request, [&potential = list.potential(), size = melting.size, pressure = melting.pressure[i],
+                       guess = melting.first_guess[i],
+                       attempts = melting.attempts](std::int64_t seed, const PointRecord*) {
+      const CoexistenceResult result = measure_coexistence(potential, pressure, guess, attempts, size, seed);
+      return TaskResult{{{"melting_temperature", result.melting_temperature},
+                         {"solid_share", result.solid_share},
+                         {"solid_specific_volume", result.solid_specific_volume},
+                         {"liquid_specific_volume", result.liquid_specific_volume},
+                         {"latent_heat", result.latent_heat}},
+                        fmt::format("accepted at attempt {}", result.attempts),
+                        result.transcript};
+    });
+  }
 }
 
 }  // namespace whipple::md

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "md_fitting/lammps/units.hpp"
+#include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/crystal.hpp"
 #include "src/base/error.hpp"
 
@@ -46,6 +47,17 @@ LatticeResult measure_lattice(const Potential& potential) {
                             metal::specific_volume(volume, potential.mass()) * 3.0 * std::abs(step) / a};
   result.transcript = crystal.lammps().transcript();
   return result;
+}
+
+void add_lattice(const Plan&, TaskList& list) {
+  list.add({}, [&potential = list.potential()](std::int64_t, const PointRecord*) {
+    const LatticeResult result = measure_lattice(potential);
+    return TaskResult{{{"lattice_constant", result.lattice_constant},
+                       {"cohesive_energy", result.cohesive_energy},
+                       {"specific_volume", result.specific_volume}},
+                      "",
+                      result.transcript};
+  });
 }
 
 }  // namespace whipple::md

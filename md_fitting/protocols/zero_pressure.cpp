@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "md_fitting/lammps/units.hpp"
+#include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/nvt_state.hpp"
 #include "md_fitting/protocols/statistics.hpp"
@@ -46,6 +47,21 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
   return {{metal::specific_volume(volume.value, mass), metal::specific_volume(volume.error, mass)},
           {metal::specific_energy(energy.value, mass), metal::specific_energy(energy.error, mass)},
           lammps.transcript()};
+}
+
+void add_zero_pressure(const Plan& plan, TaskList& list) {
+  if (!plan.zero_pressure) return;
+  const RunSize size = plan.zero_pressure->size;
+  for (const double temperature : plan.zero_pressure->temperature) {
+    list.add({{{"temperature", temperature}, {"pressure", 0.0}}, size_settings(size), {}},
+             [&potential = list.potential(), size, temperature](std::int64_t seed, const PointRecord*) {
+               const ZeroPressureResult result = measure_zero_pressure(potential, temperature, size, seed);
+               return TaskResult{{{"specific_volume", result.specific_volume},
+                                  {"specific_internal_energy", result.specific_internal_energy}},
+                                 "",
+                                 result.transcript};
+             });
+  }
 }
 
 }  // namespace whipple::md

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/plan/coexistence.hpp"
+
+#include <fmt/format.h>
+
+namespace whipple::md {
+
+std::vector<BoundParameter> keys(CoexistencePlan& plan) {
+  static const ParameterTable<CoexistencePlan> table = {
+      real_list("pressure", &CoexistencePlan::pressure, "Pa", range::non_negative(),
+                "pressures of melting points"),
+      real_list("first_guess", &CoexistencePlan::first_guess, "K", range::positive(),
+                "where the search begins, one per pressure"),
+      integer("attempts", &CoexistencePlan::attempts, {.lower = 1, .upper = 20},
+              "restarts from the last temperature when crystal or melt has vanished")
+          .optional()};
+  return with_size(bind(table, plan), plan.size);
+}
+
+void check(const CoexistencePlan& section, const Plan&, input::Table& table) {
+  if (section.pressure.size() != section.first_guess.size()) {
+    table.error_at("first_guess", fmt::format("has {} temperatures for {} pressures",
+                                              section.first_guess.size(), section.pressure.size()));
+  }
+}
+
+}  // namespace whipple::md

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "md_fitting/plan/run_size.hpp"
+#include "src/input/document.hpp"
+
+namespace whipple::md {
+
+struct Plan;
+
+/// Melting temperatures by coexistence of crystal and melt.
+struct CoexistencePlan {
+  std::vector<double> pressure;
+  std::vector<double> first_guess;  ///< K, one per pressure
+  std::int64_t attempts = 4;
+  RunSize size{.cells = 8, .equilibration_steps = 5000, .steps = 10000};
+};
+
+std::vector<BoundParameter> keys(CoexistencePlan& plan);
+void check(const CoexistencePlan& section, const Plan& plan, input::Table& table);
+
+}  // namespace whipple::md

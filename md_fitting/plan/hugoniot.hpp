@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "md_fitting/plan/run_size.hpp"
+#include "src/input/document.hpp"
+
+namespace whipple::md {
+
+struct Plan;
+
+/// States behind a shock from the first state at zero pressure.
+struct HugoniotPlan {
+  std::vector<double> volume_ratio;
+  RunSize size{};
+};
+
+std::vector<BoundParameter> keys(HugoniotPlan& plan);
+void check(const HugoniotPlan& section, const Plan& plan, input::Table& table);
+
+}  // namespace whipple::md

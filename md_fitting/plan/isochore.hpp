@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "md_fitting/plan/run_size.hpp"
+
+namespace whipple::md {
+
+/// States at one volume and several temperatures.
+struct IsochorePlan {
+  double volume_ratio = 1.0;
+  std::vector<double> temperature;
+  RunSize size{};
+};
+
+std::vector<BoundParameter> keys(IsochorePlan& plan);
+
+}  // namespace whipple::md

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "md_fitting/plan/run_size.hpp"
+
+namespace whipple::md {
+
+/// States at one temperature and several volumes.
+struct IsothermPlan {
+  double temperature = 293.0;
+  std::vector<double> volume_ratio;
+  RunSize size{};
+};
+
+std::vector<BoundParameter> keys(IsothermPlan& plan);
+
+}  // namespace whipple::md

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "md_fitting/plan/run_size.hpp"
+#include "src/input/document.hpp"
+
+namespace whipple::md {
+
+struct Plan;
+
+/// Volume and energy at given temperatures and zero pressure; the first temperature is the reference of the
+/// Hugoniot.
+struct ZeroPressurePlan {
+  std::vector<double> temperature = {293.0};
+  RunSize size{.cells = 5, .equilibration_steps = 3000, .steps = 27000};
+};
+
+std::vector<BoundParameter> keys(ZeroPressurePlan& plan);
+void check(const ZeroPressurePlan& section, const Plan& plan, input::Table& table);
+
+}  // namespace whipple::md

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/protocols/catalogue.hpp"
+
+#include <array>
+
+namespace whipple::md {
+
+std::span<const Protocol> protocols() {
+  static constexpr std::array all = {
+      Protocol{"zero_pressure_volume", 1, add_zero_pressure},
+      Protocol{"lattice", 1, add_lattice},
+      Protocol{"coexistence", 1, add_coexistence},
+      Protocol{"isotherm", 1, add_isotherms},
+      Protocol{"isochore", 1, add_isochores},
+      Protocol{"hugoniot", 1, add_hugoniot},
+  };
+  return all;
+}
+
+std::vector<Task> make_tasks(const Plan& plan, const Potential& potential) {
+  TaskList list(plan, potential);
+  for (const Protocol& protocol : protocols()) {
+    list.begin_protocol(protocol.name, protocol.revision);
+    protocol.add(plan, list);
+  }
+  return list.take();
+}
+
+}  // namespace whipple::md

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Isotherms and isochores: points at constant volume and temperature.
+#include "md_fitting/protocols/catalogue.hpp"
+#include "md_fitting/protocols/nvt_state.hpp"
+
+namespace whipple::md {
+namespace {
+
+void add_state(TaskList& list, double ratio, double temperature, const RunSize& size) {
+  list.require_range(ratio);
+  const double volume = ratio * list.potential().static_volume();
+  list.add({{{"specific_volume", volume}, {"temperature", temperature}}, size_settings(size), {}},
+           [&potential = list.potential(), size, volume, temperature](std::int64_t seed, const PointRecord*) {
+             NvtStateSource source(potential, size, seed);
+             const State state = source.state(volume, temperature, StateSource::Effort::final);
+             return TaskResult{{{"pressure", state.pressure},
+                                {"specific_internal_energy", state.specific_internal_energy},
+                                {"error_correlation", {state.correlation, 0.0}},
+                                {"mean_square_displacement", state.mean_square_displacement},
+                                {"solid", {state.solid ? 1.0 : 0.0, 0.0}}},
+                               melting_remark(state.solid),
+                               source.transcript()};
+           });
+}
+
+}  // namespace
+
+void add_isotherms(const Plan& plan, TaskList& list) {
+  for (const IsothermPlan& isotherm : plan.isotherms) {
+    for (const double ratio : isotherm.volume_ratio) {
+      add_state(list, ratio, isotherm.temperature, isotherm.size);
+    }
+  }
+}
+
+void add_isochores(const Plan& plan, TaskList& list) {
+  for (const IsochorePlan& isochore : plan.isochores) {
+    for (const double temperature : isochore.temperature) {
+      add_state(list, isochore.volume_ratio, temperature, isochore.size);
+    }
+  }
+}
+
+}  // namespace whipple::md

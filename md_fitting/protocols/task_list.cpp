@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/protocols/task_list.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "md_fitting/data_set/hash.hpp"
+#include "src/base/error.hpp"
+
+namespace whipple::md {
+namespace {
+
+/// Provenance that all points of a plan share.
+std::map<std::string, std::string> common_settings(const Plan& plan, const Potential& potential) {
+  return {{"element", potential.element()},
+          {"molar_mass", fmt::format("{}", 1e-3 * potential.mass())},
+          {"potential", potential.name()},
+          {"potential_file", potential.file().filename().string()},
+          {"potential_sha256", potential.hash()},
+          {"potential_source", potential.source()},
+          {"structure", potential.tables().structure},
+          {"static_specific_volume", fmt::format("{}", potential.static_volume())},
+          {"density_table_end", fmt::format("{}", potential.table_end())},
+          {"lammps_version", std::to_string(lammps_release())},
+          {"ranks", "1"},
+          {"plan_seed", std::to_string(plan.seed)}};
+}
+
+/// Everything that the numbers of a point depend on, as text.
+std::string identity(const Task& task) {
+  // Names and places change no number; everything else does.
+  static const std::set<std::string> without_effect = {"potential", "potential_file", "potential_source",
+                                                       "static_specific_volume", "density_table_end"};
+  std::string text = "protocol=" + task.protocol + "\ndependency=" + task.dependency + "\n";
+  for (const auto& [name, value] : task.conditions) text += fmt::format("condition {}={}\n", name, value);
+  for (const auto& [name, value] : task.provenance) {
+    if (!without_effect.contains(name)) text += fmt::format("{}={}\n", name, value);
+  }
+  return text;
+}
+
+}  // namespace
+
+TaskList::TaskList(const Plan& plan, const Potential& potential)
+    : potential_(potential), common_(common_settings(plan, potential)) {}
+
+void TaskList::begin_protocol(const std::string& name, int revision) {
+  protocol_ = name;
+  revision_ = revision;
+}
+
+void TaskList::fault(const std::string& text) {
+  faults_ += fmt::format("{}{}: {}", faults_.empty() ? "" : "\n", protocol_, text);
+}
+
+void TaskList::require_range(double volume_ratio) {
+  try {
+    potential_.require_range(volume_ratio);
+  } catch (const InputError& error) {
+    fault(error.what());
+  }
+}
+
+std::string TaskList::add(const PointRequest& request, Compute compute) {
+  Task task;
+  task.protocol = protocol_;
+  task.conditions = request.conditions;
+  task.dependency = request.dependency;
+  task.provenance = common_;
+  task.provenance.insert(request.settings.begin(), request.settings.end());
+  task.provenance["revision"] = std::to_string(revision_);
+  task.key = sha256(identity(task));
+  const std::int64_t seed = seed_from(task.key);
+  task.provenance["seed"] = std::to_string(seed);
+  task.compute = [seed, compute = std::move(compute)](const PointRecord* dependency) {
+    return compute(seed, dependency);
+  };
+  std::string key = task.key;
+  if (keys_.insert(key).second) tasks_.push_back(std::move(task));
+  return key;
+}
+
+std::string TaskList::first_key(const std::string& protocol) const {
+  const auto found =
+      std::find_if(tasks_.begin(), tasks_.end(), [&](const Task& task) { return task.protocol == protocol; });
+  return found == tasks_.end() ? std::string{} : found->key;
+}
+
+std::vector<Task> TaskList::take() {
+  if (!faults_.empty()) throw InputError(faults_);
+  return std::move(tasks_);
+}
+
+std::map<std::string, std::string> size_settings(const RunSize& size) {
+  return {{"cells", std::to_string(size.cells)},
+          {"equilibration_steps", std::to_string(size.equilibration_steps)},
+          {"steps", std::to_string(size.steps)},
+          {"time_step", size.time_step > 0.0 ? fmt::format("{} s", size.time_step) : "automatic"}};
+}
+
+std::string melting_remark(bool solid) { return solid ? "" : "the crystal melted"; }
+
+}  // namespace whipple::md
