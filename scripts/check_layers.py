@@ -16,6 +16,7 @@ MAY_USE = {
     "src/input": ["src/base"],
     "src/parallel": ["src/base"],
     "src/process": ["src/base"],
+    "src/hdf5": ["src/base"],
     "eos": ["src/base"],
     "src/particles": ["src/base", "src/parallel"],
     "src/grid": ["src/base", "src/parallel"],
@@ -24,12 +25,12 @@ MAY_USE = {
     "src/fem": ["src/base", "src/parallel", "src/particles", "src/material"],
     "src/contact": ["src/base", "src/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
     "src/afemp": ["src/base", "src/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
-    "src/io": ["src/base", "src/parallel", "src/particles"],
+    "src/io": ["src/base", "src/parallel", "src/hdf5", "src/particles"],
     "src/setup": ["src/base", "src/input", "src/parallel", "eos", "src/particles", "src/grid", "src/material",
                   "src/io"],
     "src/solver": ["src/base", "src/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
                    "src/fem", "src/contact", "src/afemp", "src/io", "src/setup"],
-    "md_fitting/data_set": ["src/base"],
+    "md_fitting/data_set": ["src/base", "src/hdf5"],
     "md_fitting/plan": ["src/base", "src/input"],
     "md_fitting/lammps": ["src/base", "md_fitting/data_set"],
     "md_fitting/protocols": ["src/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],
@@ -58,7 +59,7 @@ CONFINED = [
     ("toml++", re.compile(r"^\s*#\s*include\s*[<\"]toml\+\+"), ["src/input"]),
     ("GSL", re.compile(r"^\s*#\s*include\s*[<\"]gsl/"), ["md_fitting/fit"]),
     ("LAMMPS", re.compile(r"^\s*#\s*include\s*[<\"](lammps/|library\.h)"), ["md_fitting/lammps"]),
-    ("HDF5", re.compile(r"^\s*#\s*include\s*[<\"](hdf5|H5\w+)\.h"), ["src/io", "md_fitting/data_set", VERSION_QUERY]),
+    ("HDF5", re.compile(r"^\s*#\s*include\s*[<\"](hdf5|H5\w+)\.h"), ["src/hdf5", VERSION_QUERY]),
     ("p4est", re.compile(r"^\s*#\s*include\s*[<\"](p[48]est\w*|sc(_\w+)?)\.h"), ["src/grid", VERSION_QUERY]),
     ("UDUNITS2", re.compile(r"^\s*#\s*include\s*[<\"]udunits2\.h"), ["src/base"]),
 ]
@@ -198,7 +199,7 @@ def self_test():
         "src/input/document.hpp": "/* #include <hdf5.h>\n*/\n",
         "src/particles/p.hpp": "", "src/grid/g.hpp": "", "md_fitting/plan/plan.hpp": "", "md_fitting/lammps/l.hpp": "",
         "src/io/b.hpp": '#include "src/io/a.hpp"\n',
-        "src/io/hdf5.hpp": "#include <hdf5.h>\n",
+        "src/hdf5/hdf5.hpp": "#include <hdf5.h>\n",
     }
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)

@@ -13,7 +13,7 @@
 
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
-#include "src/io/hdf5.hpp"
+#include "src/hdf5/hdf5.hpp"
 #include "src/io/ranks.hpp"
 #include "src/io/sealed_file.hpp"
 
@@ -66,7 +66,7 @@ void write_particles(const hdf5::Group& group, const Particles& particles, const
     hdf5::Storage storage = checksummed;
     storage.columns = Numbers<Value>::columns;
     const std::span<const Number> numbers(reinterpret_cast<const Number*>(values.data()), n * width<Value>());
-    const hdf5::Dataset array = group.write<Number>(field.name, numbers, slab, storage, ranks);
+    const hdf5::Dataset array = group.write<Number>(field.name, numbers, slab, storage);
     array.set_attribute("unit", std::string_view(field.unit));
   });
 }
@@ -106,7 +106,7 @@ void read_particles(const hdf5::Group& group, Particles& particles, const Ranks&
       throw InputError(fmt::format("{}: is in {}, expected {}", array.name(), unit, field.unit));
     }
     array.read_rows<Number>({reinterpret_cast<Number*>(values.data()), slab.count * width<Value>()}, slab,
-                            width<Value>(), ranks);
+                            width<Value>());
   });
 }
 
@@ -117,7 +117,7 @@ void write_named(const hdf5::Group& group, const std::string& name, std::span<co
   const std::uint64_t mine = ranks.is_root() ? numbers.size() : 0;
   const hdf5::Dataset array =
       group.write<Number>(fmt::format("{:06}", group.names().size()), numbers.first(mine),
-                          {0, mine, numbers.size()}, checksummed, ranks);
+                          {0, mine, numbers.size()}, checksummed);
   array.set_attribute("name", std::string_view(name));
 }
 
@@ -222,7 +222,8 @@ fs::path write_checkpoint(const fs::path& folder, std::int64_t step, const Parti
   const fs::path path = folder / fmt::format("checkpoint.{:08}.h5", step);
   const fs::path partial = path.string() + ".partial";
 
-  hdf5::File file = hdf5::File::create(partial, ranks, hdf5::File::Compatibility::checksummed, seal_size);
+  hdf5::File file =
+      hdf5::File::create(partial, hdf5::File::Compatibility::checksummed, seal_size, ranks.communicator());
   write_particles(file.root.create_group("particles"), particles, ranks);
   write_values(file.root.create_group("values"), values, ranks);
   file.close();
@@ -238,7 +239,7 @@ fs::path write_checkpoint(const fs::path& folder, std::int64_t step, const Parti
 Checkpoint read_checkpoint(const fs::path& path, MPI_Comm communicator) {
   const Ranks ranks(communicator);
   ranks.on_root([&] { require_seal(path); });
-  const hdf5::File file = hdf5::File::open(path, ranks);
+  const hdf5::File file = hdf5::File::open(path, hdf5::File::Access::read, ranks.communicator());
   Checkpoint checkpoint;
   checkpoint.path = path;
   read_particles(file.root.open_group("particles"), checkpoint.particles, ranks);

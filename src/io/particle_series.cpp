@@ -13,7 +13,7 @@
 #include <system_error>
 
 #include "src/base/error.hpp"
-#include "src/io/hdf5.hpp"
+#include "src/hdf5/hdf5.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/parallel/threads.hpp"
 
@@ -59,13 +59,12 @@ struct Row<Integer> {
 /// Evaluates value(i) for every particle and writes the array.
 template <class Value, class Function>
 hdf5::Dataset write_array(const hdf5::Group& group, const std::string& name, const hdf5::Slab& slab,
-                          int deflate, const Ranks& ranks, Function&& value) {
+                          int deflate, Function&& value) {
   using R = Row<Value>;
   constexpr std::uint64_t width = R::columns == 0 ? 1 : R::columns;
   std::vector<typename R::Number> numbers(slab.count * width);
   parallel::for_each(slab.count, [&](std::size_t i) { R::put(value(i), numbers.data() + i * width); });
-  return group.write<typename R::Number>(name, numbers, slab, {.columns = R::columns, .deflate = deflate},
-                                         ranks);
+  return group.write<typename R::Number>(name, numbers, slab, {.columns = R::columns, .deflate = deflate});
 }
 
 /// NNNNNN of RUN.particles.NNNNNN.hdf, if the file is one of this run's.
@@ -170,7 +169,7 @@ void ParticleSeries::write_file(const fs::path& path, const Particles& particles
   const hdf5::Slab points{first, n, total};
   const hdf5::Storage compressed{.deflate = options_.deflate};
 
-  hdf5::File file = hdf5::File::create(path, ranks_, hdf5::File::Compatibility::vtk);
+  hdf5::File file = hdf5::File::create(path, hdf5::File::Compatibility::vtk, 0, ranks_.communicator());
   const hdf5::Group vtk = file.root.create_group("VTKHDF");
   const std::array<std::int64_t, 2> version = {1, 0};
   vtk.set_attribute("Version", version);
@@ -179,20 +178,20 @@ void ParticleSeries::write_file(const fs::path& path, const Particles& particles
   // One partition per rank.
   const std::array<std::int64_t, 1> count = {static_cast<std::int64_t>(n)};
   for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"}) {
-    vtk.write<std::int64_t>(name, count, {rank, 1, partitions}, {}, ranks_);
+    vtk.write<std::int64_t>(name, count, {rank, 1, partitions});
   }
 
-  write_array<Vector3>(vtk, "Points", points, options_.deflate, ranks_,
+  write_array<Vector3>(vtk, "Points", points, options_.deflate,
                        [&](std::size_t i) -> const Vector3& { return particles.position[i]; });
 
   // One vertex cell per particle: thresholds and clips of ParaView work on cells. The arrays vanish in
   // compression.
   std::vector<std::int64_t> indices(n + 1);
   std::iota(indices.begin(), indices.end(), std::int64_t{0});
-  vtk.write<std::int64_t>("Connectivity", {indices.data(), n}, points, compressed, ranks_);
-  vtk.write<std::int64_t>("Offsets", indices, {first + rank, n + 1, total + partitions}, compressed, ranks_);
+  vtk.write<std::int64_t>("Connectivity", {indices.data(), n}, points, compressed);
+  vtk.write<std::int64_t>("Offsets", indices, {first + rank, n + 1, total + partitions}, compressed);
   constexpr std::uint8_t vertex = 1;  // VTK_VERTEX
-  vtk.write<std::uint8_t>("Types", std::vector<std::uint8_t>(n, vertex), points, compressed, ranks_);
+  vtk.write<std::uint8_t>("Types", std::vector<std::uint8_t>(n, vertex), points, compressed);
 
   for (const std::uint32_t body : particles.body) {
     if (body >= options_.material_of_body.size()) {
@@ -207,7 +206,7 @@ void ParticleSeries::write_file(const fs::path& path, const Particles& particles
         [&](auto value) {
           using Value = decltype(value(source, std::size_t{0}));
           const hdf5::Dataset array =
-              write_array<Value>(point_data, std::string(field.name), points, options_.deflate, ranks_,
+              write_array<Value>(point_data, std::string(field.name), points, options_.deflate,
                                  [&](std::size_t i) { return value(source, i); });
           array.set_attribute("unit", field.unit);
           array.set_attribute("meaning", field.meaning);
@@ -218,7 +217,7 @@ void ParticleSeries::write_file(const fs::path& path, const Particles& particles
   const hdf5::Group field_data = vtk.create_group("FieldData");
   const std::array<double, 1> times = {time};
   const std::uint64_t mine = ranks_.is_root() ? 1 : 0;
-  field_data.write<double>("TimeValue", {times.data(), mine}, {0, mine, 1}, {}, ranks_);
+  field_data.write<double>("TimeValue", {times.data(), mine}, {0, mine, 1});
 
   const hdf5::Group run = file.root.create_group("run");
   for (const auto& [name, value] : options_.provenance) run.set_attribute(name, std::string_view(value));

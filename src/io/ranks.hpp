@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,10 @@ class Ranks {
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] bool is_root() const { return rank_ == 0; }
   [[nodiscard]] bool is_parallel() const { return count_ > 1; }
-  [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
+  /// What files are opened with: the communicator if there are several processes.
+  [[nodiscard]] std::optional<MPI_Comm> communicator() const {
+    return is_parallel() ? std::optional(communicator_) : std::nullopt;
+  }
 
   /// One value of every rank, in their order. Collective.
   [[nodiscard]] std::vector<std::uint64_t> gather(std::uint64_t value) const;

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "src/base/error.hpp"
+#include "src/hdf5/hdf5.hpp"
 #include "src/io/checkpoint.hpp"
-#include "src/io/hdf5.hpp"
 #include "src/io/particle_series.hpp"
 #include "tests/unit/io_support.hpp"
 
@@ -97,8 +97,7 @@ TEST_F(RanksTest, a_snapshot_has_one_partition_per_rank) {
   series.write({}, 1.0);  // nothing on any rank
   const std::vector<std::uint64_t> counts = ranks_.gather(mine.size());
 
-  const Ranks one(MPI_COMM_SELF);
-  const hdf5::File file = hdf5::File::open(path, one);
+  const hdf5::File file = hdf5::File::open(path);
   const hdf5::Group vtk = file.root.open_group("VTKHDF");
   const std::vector<std::int64_t> points = vtk.open_dataset("NumberOfPoints").read_all<std::int64_t>();
   EXPECT_EQ(std::vector<std::uint64_t>(points.begin(), points.end()), counts);

@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "src/base/error.hpp"
+#include "src/hdf5/hdf5.hpp"
 #include "src/io/checkpoint.hpp"
-#include "src/io/hdf5.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/io/sealed_file.hpp"
 #include "tests/unit/io_support.hpp"
@@ -121,19 +121,18 @@ TEST_F(CheckpointFile, says_what_it_is_not) {
 }
 
 TEST_F(CheckpointFile, names_missing_and_unknown_fields_and_other_units) {
-  const Ranks one(MPI_COMM_SELF);
   const auto write = [&](const char* left_out, const char* added, const char* volume_unit) {
     const fs::path path = folder_ / "other_version.h5";
-    hdf5::File file = hdf5::File::create(path, one, hdf5::File::Compatibility::checksummed, seal_size);
+    hdf5::File file = hdf5::File::create(path, hdf5::File::Compatibility::checksummed, seal_size);
     const hdf5::Group group = file.root.create_group("particles");
     group.set_attribute("count", std::int64_t{0});
     for_each_field<Particles>([&](const auto& field) {
       if (std::string(field.name) == left_out) return;
-      const hdf5::Dataset array = group.write<double>(field.name, {}, hdf5::Slab::whole(0), {}, one);
+      const hdf5::Dataset array = group.write<double>(field.name, {}, hdf5::Slab::whole(0));
       array.set_attribute("unit",
                           std::string_view(std::string(field.name) == "volume" ? volume_unit : field.unit));
     });
-    if (*added != 0) group.write<double>(added, {}, hdf5::Slab::whole(0), {}, one);
+    if (*added != 0) group.write<double>(added, {}, hdf5::Slab::whole(0));
     file.close();
     seal(path);
     return message_of<InputError>([&] { (void)read_checkpoint(path, MPI_COMM_SELF); });

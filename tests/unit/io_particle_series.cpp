@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/base/error.hpp"
-#include "src/io/hdf5.hpp"
+#include "src/hdf5/hdf5.hpp"
 #include "src/io/particle_series.hpp"
 #include "src/io/run_directory.hpp"
 #include "tests/unit/io_support.hpp"
@@ -39,7 +39,6 @@ class Series : public FolderTest {
     }
     return times;
   }
-  const Ranks one_{MPI_COMM_SELF};
 };
 
 /// Finite, distinct values everywhere.
@@ -70,7 +69,7 @@ TEST_F(Series, follows_the_layout) {
   const fs::path path = series.write(particles, 2.5e-6);
   EXPECT_EQ(path, folder_ / "disk.particles.000000.hdf");
 
-  const hdf5::File file = hdf5::File::open(path, one_);
+  const hdf5::File file = hdf5::File::open(path);
   const hdf5::Group vtk = file.root.open_group("VTKHDF");
   const hdf5::Handle version(H5Aopen(vtk.id(), "Version", H5P_DEFAULT), H5Aclose);
   std::int64_t numbers[2] = {};
@@ -137,7 +136,7 @@ TEST_F(Series, uses_only_built_in_filters_and_an_old_file_format) {
   const std::string bytes = read_text(path);
   EXPECT_EQ(bytes.substr(1, 3), "HDF");
   EXPECT_EQ(static_cast<int>(bytes[8]), 0);  // version 0 of the superblock: H5F_LIBVER_EARLIEST
-  const hdf5::File file = hdf5::File::open(path, one_);
+  const hdf5::File file = hdf5::File::open(path);
   const hdf5::Dataset points = file.root.open_group("VTKHDF").open_dataset("Points");
   const hdf5::Handle creation(H5Dget_create_plist(points.id()), H5Pclose);
   ASSERT_EQ(H5Pget_nfilters(creation.get()), 2);
@@ -154,14 +153,14 @@ TEST_F(Series, uses_only_built_in_filters_and_an_old_file_format) {
 
 TEST_F(Series, writes_what_was_asked_for_and_what_reports_need) {
   ParticleSeries series(options({"pressure"}), MPI_COMM_SELF);
-  const hdf5::File file = hdf5::File::open(series.write(ramp(3), 0.0), one_);
+  const hdf5::File file = hdf5::File::open(series.write(ramp(3), 0.0));
   EXPECT_THAT(file.root.open_group("VTKHDF").open_group("PointData").names(),
               ElementsAre("body", "id", "mass", "pressure", "velocity"));
 }
 
 TEST_F(Series, no_particles_make_a_valid_file) {
   ParticleSeries series(options(), MPI_COMM_SELF);
-  const hdf5::File file = hdf5::File::open(series.write({}, 0.0), one_);
+  const hdf5::File file = hdf5::File::open(series.write({}, 0.0));
   const hdf5::Group vtk = file.root.open_group("VTKHDF");
   EXPECT_THAT(vtk.open_dataset("NumberOfPoints").read_all<std::int64_t>(), ElementsAre(0));
   EXPECT_THAT(vtk.open_dataset("Offsets").read_all<std::int64_t>(), ElementsAre(0));

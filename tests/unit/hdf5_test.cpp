@@ -1,30 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The HDF5 layer: what is written is read back bit by bit, and failures name the file, the act and HDF5's
 // reason.
+#include "src/hdf5/hdf5.hpp"
+
 #include <gmock/gmock.h>
 
 #include <fstream>
 
 #include "src/base/error.hpp"
-#include "src/io/hdf5.hpp"
-#include "tests/unit/io_support.hpp"
+#include "tests/unit/folder_test.hpp"
 
-namespace whipple::io::hdf5 {
+namespace whipple::hdf5 {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-class Hdf5 : public FolderTest {
- protected:
-  const Ranks one_{MPI_COMM_SELF};
-};
+class Hdf5 : public FolderTest {};
 
 TEST_F(Hdf5, reads_back_attributes_and_arrays) {
   const std::filesystem::path path = folder_ / "a.h5";
   const std::string long_text(200'000, 'x');  // longer than the 64 kB that an attribute itself may hold
   {
-    File file = File::create(path, one_, File::Compatibility::vtk);
+    File file = File::create(path, File::Compatibility::vtk);
     const Group group = file.root.create_group("group");
     group.set_attribute("integer", std::int64_t{-7});
     group.set_attribute("real", 0.1);
@@ -32,11 +30,10 @@ TEST_F(Hdf5, reads_back_attributes_and_arrays) {
     group.set_attribute("long", std::string_view(long_text));
     group.set_fixed_attribute("fixed", "UnstructuredGrid");
     const std::vector<double> numbers = {1, 2, 3, 4, 5, 6};
-    group.write<double>("numbers", numbers, Slab::whole(2), {.columns = 3, .deflate = 1, .fletcher32 = true},
-                        one_);
+    group.write<double>("numbers", numbers, Slab::whole(2), {.columns = 3, .deflate = 1, .fletcher32 = true});
     file.close();
   }
-  const File file = File::open(path, one_);
+  const File file = File::open(path);
   const Group group = file.root.open_group("group");
   EXPECT_EQ(group.integer_attribute("integer"), -7);
   EXPECT_EQ(group.real_attribute("real"), 0.1);
@@ -48,7 +45,7 @@ TEST_F(Hdf5, reads_back_attributes_and_arrays) {
   EXPECT_EQ(numbers.shape(), (std::vector<std::uint64_t>{2, 3}));
   EXPECT_EQ(numbers.read_all<double>(), (std::vector<double>{1, 2, 3, 4, 5, 6}));
   std::vector<double> second_row(3);
-  numbers.read_rows<double>(second_row, {1, 1, 2}, 3, one_);
+  numbers.read_rows<double>(second_row, {1, 1, 2}, 3);
   EXPECT_EQ(second_row, (std::vector<double>{4, 5, 6}));
 }
 
@@ -56,34 +53,60 @@ TEST_F(Hdf5, writes_slabs_that_need_more_than_one_chunk) {
   const std::filesystem::path path = folder_ / "chunks.h5";
   std::vector<std::uint64_t> numbers(1000);
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i * i;
-  File file = File::create(path, one_, File::Compatibility::vtk);
-  file.root.write<std::uint64_t>("squares", numbers, Slab::whole(1000), {.deflate = 4, .chunk_rows = 128},
-                                 one_);
+  File file = File::create(path, File::Compatibility::vtk);
+  file.root.write<std::uint64_t>("squares", numbers, Slab::whole(1000), {.deflate = 4, .chunk_rows = 128});
   file.close();
-  EXPECT_EQ(File::open(path, one_).root.open_dataset("squares").read_all<std::uint64_t>(), numbers);
+  EXPECT_EQ(File::open(path).root.open_dataset("squares").read_all<std::uint64_t>(), numbers);
+}
+
+TEST_F(Hdf5, keeps_the_order_of_creation_and_changes_an_open_file) {
+  const std::filesystem::path path = folder_ / "a.h5";
+  {
+    File file = File::create(path, File::Compatibility::compact);
+    const Group group = file.root.create_group("points", Order::creation);
+    for (const char* name : {"c", "a", "b"}) group.create_group(name);
+    file.close();
+  }
+  {
+    File file = File::open(path, File::Access::modify);
+    const Group group = file.root.open_group("points");
+    group.remove("a");
+    group.set_fixed_attribute("empty", "");
+    group.set_fixed_attribute("text", "10 \u00b5s", Characters::utf8);
+    file.close();
+  }
+  const File file = File::open(path);
+  const Group group = file.root.open_group("points");
+  EXPECT_EQ(group.names(), (std::vector<std::string>{"b", "c"}));
+  EXPECT_EQ(group.names(Order::creation), (std::vector<std::string>{"c", "b"}));
+  EXPECT_TRUE(group.has_attribute("empty"));
+  EXPECT_FALSE(group.has_attribute("other"));
+  EXPECT_EQ(group.text_attribute("empty"), "");
+  EXPECT_EQ(group.text_attribute("text"), "10 \u00b5s");
+  EXPECT_THAT(message_of<InputError>([&] { group.remove("c"); }), HasSubstr("cannot remove c"));
 }
 
 TEST_F(Hdf5, errors_name_file_act_and_reason) {
   const std::filesystem::path missing = folder_ / "missing.h5";
   EXPECT_THAT(
-      message_of<InputError>([&] { (void)File::open(missing, one_); }),
+      message_of<InputError>([&] { (void)File::open(missing); }),
       AllOf(HasSubstr(missing.string()), HasSubstr("cannot open the file"), HasSubstr("No such file")));
 
   const std::filesystem::path text = folder_ / "text.h5";
   std::ofstream(text) << "this is no HDF5 file\n";
-  EXPECT_THAT(message_of<InputError>([&] { (void)File::open(text, one_); }),
+  EXPECT_THAT(message_of<InputError>([&] { (void)File::open(text); }),
               AllOf(HasSubstr(text.string()), HasSubstr("signature")));
 
   const std::filesystem::path nowhere = folder_ / "no_such_folder" / "a.h5";
-  EXPECT_THAT(message_of<InputError>([&] { (void)File::create(nowhere, one_, File::Compatibility::vtk); }),
+  EXPECT_THAT(message_of<InputError>([&] { (void)File::create(nowhere, File::Compatibility::vtk); }),
               AllOf(HasSubstr(nowhere.string()), HasSubstr("cannot create the file")));
 
   const std::filesystem::path path = folder_ / "a.h5";
-  File file = File::create(path, one_, File::Compatibility::vtk);
+  File file = File::create(path, File::Compatibility::vtk);
   const std::vector<float> numbers = {1, 2, 3};
-  file.root.write<float>("numbers", numbers, Slab::whole(3), {}, one_);
+  file.root.write<float>("numbers", numbers, Slab::whole(3));
   file.close();
-  const File again = File::open(path, one_);
+  const File again = File::open(path);
   EXPECT_THAT(message_of<InputError>([&] { (void)again.root.open_dataset("other"); }),
               AllOf(HasSubstr(path.string()), HasSubstr("open data set other"), HasSubstr("doesn't exist")));
   EXPECT_THAT(message_of<InputError>([&] { (void)again.root.real_attribute("unit"); }),
@@ -91,7 +114,7 @@ TEST_F(Hdf5, errors_name_file_act_and_reason) {
   const Dataset dataset = again.root.open_dataset("numbers");
   EXPECT_THAT(message_of<InputError>([&] { (void)dataset.read_all<double>(); }), HasSubstr("another type"));
   std::vector<float> four(4);
-  EXPECT_THAT(message_of<InputError>([&] { dataset.read_rows<float>(four, Slab::whole(4), 1, one_); }),
+  EXPECT_THAT(message_of<InputError>([&] { dataset.read_rows<float>(four, Slab::whole(4), 1); }),
               HasSubstr("has 3 rows of 1 numbers, expected 4 rows of 1"));
 }
 
@@ -99,12 +122,12 @@ TEST_F(Hdf5, a_full_disk_is_reported) {
   // /dev/full accepts to be opened and refuses every byte.
   const std::vector<double> numbers(1 << 16, 1.0);
   EXPECT_THAT(message_of<InputError>([&] {
-                File file = File::create("/dev/full", one_, File::Compatibility::vtk);
-                file.root.write<double>("numbers", numbers, Slab::whole(numbers.size()), {}, one_);
+                File file = File::create("/dev/full", File::Compatibility::vtk);
+                file.root.write<double>("numbers", numbers, Slab::whole(numbers.size()));
                 file.close();
               }),
               HasSubstr("/dev/full"));
 }
 
 }  // namespace
-}  // namespace whipple::io::hdf5
+}  // namespace whipple::hdf5

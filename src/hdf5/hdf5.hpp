@@ -5,17 +5,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
-#include "src/io/ranks.hpp"
-
 /// Thin ownership over the C interface of HDF5. Every failure is an InputError with the name of the file,
 /// what was attempted and HDF5's own innermost message; HDF5 prints nothing by itself.
-namespace whipple::io::hdf5 {
+namespace whipple::hdf5 {
 
 /// An identifier that is closed with its owner.
 class Handle {
@@ -40,12 +39,12 @@ class Handle {
 template <class T>
 struct NumberType;
 
-/// The rows of a distributed array that this rank holds: [first, first + count) of `total`.
+/// The rows of a distributed array that this process holds: [first, first + count) of `total`.
 struct Slab {
   std::uint64_t first = 0;
   std::uint64_t count = 0;
   std::uint64_t total = 0;
-  /// All of an array on one rank.
+  /// All of an array in one process.
   static Slab whole(std::uint64_t n) { return {0, n, n}; }
 };
 
@@ -58,7 +57,13 @@ struct Storage {
   std::uint64_t chunk_rows = 65536;
 };
 
-/// A group or a data set: something with a name and attributes. Valid while its file is open.
+enum class Characters { ascii, utf8 };
+
+/// In which order a group lists its members. One that shall list them as they were added must be created so.
+enum class Order { name, creation };
+
+/// A group or a data set: something with a name and attributes. Valid while its file is open. What was opened
+/// with a communicator is read and written collectively.
 class Object {
  public:
   void set_attribute(const std::string& name, std::int64_t value) const;
@@ -66,12 +71,15 @@ class Object {
   void set_attribute(const std::string& name, std::span<const std::int64_t> values) const;
   /// UTF-8 of variable length.
   void set_attribute(const std::string& name, std::string_view text) const;
-  /// ASCII of exactly the length of the text (the `Type` attribute of VTKHDF).
-  void set_fixed_attribute(const std::string& name, std::string_view text) const;
+  /// Text of exactly its length, stored in the attribute itself (at least one byte; `Type` of VTKHDF).
+  void set_fixed_attribute(const std::string& name, std::string_view text,
+                           Characters characters = Characters::ascii) const;
 
+  [[nodiscard]] bool has_attribute(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> attribute_names() const;
   [[nodiscard]] std::int64_t integer_attribute(const std::string& name) const;
   [[nodiscard]] double real_attribute(const std::string& name) const;
+  /// A text of fixed or of variable length.
   [[nodiscard]] std::string text_attribute(const std::string& name) const;
 
   [[nodiscard]] hid_t id() const { return handle_.get(); }
@@ -79,9 +87,11 @@ class Object {
   [[nodiscard]] const std::string& name() const { return name_; }
 
  protected:
-  Object(Handle handle, std::string name) : handle_(std::move(handle)), name_(std::move(name)) {}
+  Object(Handle handle, std::string name, bool collective)
+      : handle_(std::move(handle)), name_(std::move(name)), collective_(collective) {}
   Handle handle_;
   std::string name_;
+  bool collective_;
 };
 
 class Dataset : public Object {
@@ -89,13 +99,13 @@ class Dataset : public Object {
   /// Lengths of the dimensions.
   [[nodiscard]] std::vector<std::uint64_t> shape() const;
 
-  /// Reads rows [slab.first, slab.first + slab.count), all columns, row by row. Collective if `ranks` is
-  /// parallel.
+  /// Reads rows [slab.first, slab.first + slab.count), all columns, row by row.
   /// @throws InputError also if the type is of another class or width than T, or the array has other columns.
   template <class T>
-  void read_rows(std::span<T> values, const Slab& slab, std::uint64_t columns, const Ranks& ranks) const {
-    read_bytes(values.data(), NumberType<T>::memory(), values.size(), slab, columns, ranks);
+  void read_rows(std::span<T> values, const Slab& slab, std::uint64_t columns) const {
+    read_bytes(values.data(), NumberType<T>::memory(), values.size(), slab, columns, collective_);
   }
+  /// The whole array, by this process alone.
   template <class T>
   [[nodiscard]] std::vector<T> read_all() const {
     std::uint64_t size = 1;
@@ -104,57 +114,62 @@ class Dataset : public Object {
     std::vector<T> values(size);
     const std::uint64_t rows = lengths.empty() ? 1 : lengths[0];
     read_bytes(values.data(), NumberType<T>::memory(), size, Slab::whole(rows), rows == 0 ? 0 : size / rows,
-               Ranks(MPI_COMM_SELF));
+               false);
     return values;
   }
 
  private:
   friend class Group;
-  Dataset(Handle handle, std::string name) : Object(std::move(handle), std::move(name)) {}
+  using Object::Object;
   void read_bytes(void* values, hid_t memory_type, std::uint64_t size, const Slab& slab,
-                  std::uint64_t columns, const Ranks& ranks) const;
+                  std::uint64_t columns, bool collective) const;
 };
 
 class Group : public Object {
  public:
-  [[nodiscard]] Group create_group(const std::string& name) const;
+  Group create_group(const std::string& name, Order order = Order::name) const;
   [[nodiscard]] Group open_group(const std::string& name) const;
   [[nodiscard]] Dataset open_dataset(const std::string& name) const;
   /// Is there a link of this name (one level)?
   [[nodiscard]] bool has(const std::string& name) const;
-  /// Names of the links of this group, sorted.
-  [[nodiscard]] std::vector<std::string> names() const;
+  /// Names of the links of this group.
+  [[nodiscard]] std::vector<std::string> names(Order order = Order::name) const;
+  /// Removes a link; the room of the object is not given back.
+  void remove(const std::string& name) const;
 
-  /// Creates a data set of slab.total rows and writes this rank's rows (`values` row by row). Collective.
+  /// Creates a data set of slab.total rows and writes the rows of this process (`values` row by row).
   template <class T>
-  Dataset write(const std::string& name, std::span<const T> values, const Slab& slab, const Storage& storage,
-                const Ranks& ranks) const {
+  Dataset write(const std::string& name, std::span<const T> values, const Slab& slab,
+                const Storage& storage = {}) const {
     return write_bytes(name, values.data(), NumberType<T>::memory(), NumberType<T>::file(), values.size(),
-                       slab, storage, ranks);
+                       slab, storage);
   }
 
  private:
   friend struct File;
-  Group(Handle handle, std::string name) : Object(std::move(handle), std::move(name)) {}
+  using Object::Object;
   Dataset write_bytes(const std::string& name, const void* values, hid_t memory_type, hid_t file_type,
-                      std::uint64_t size, const Slab& slab, const Storage& storage, const Ranks& ranks) const;
+                      std::uint64_t size, const Slab& slab, const Storage& storage) const;
 };
 
-/// An open file and its root group.
+/// An open file and its root group. With a communicator, all calls are collective over it.
 struct File {
   enum class Compatibility {
+    compact,     ///< H5F_LIBVER_V18 ... V110: small groups and attributes are stored compactly
     vtk,         ///< H5F_LIBVER_EARLIEST ... V110: what every ParaView since 5.10 reads
     checksummed  ///< H5F_LIBVER_V110 for all objects: metadata carry checksums
   };
 
-  /// Creates or replaces a file. Collective over the ranks; one rank writes without MPI.
-  /// @param user_block bytes left free at the beginning of the file (0, or a power of two from 512)
-  static File create(const std::filesystem::path& path, const Ranks& ranks, Compatibility compatibility,
-                     std::uint64_t user_block = 0);
-  /// Opens for reading. Collective over the ranks.
-  static File open(const std::filesystem::path& path, const Ranks& ranks);
+  enum class Access { read, modify };
 
-  /// Closes; reports what could not be written. Collective.
+  /// Creates or replaces a file.
+  /// @param user_block bytes left free at the beginning of the file (0, or a power of two from 512)
+  static File create(const std::filesystem::path& path, Compatibility compatibility,
+                     std::uint64_t user_block = 0, std::optional<MPI_Comm> communicator = {});
+  static File open(const std::filesystem::path& path, Access access = Access::read,
+                   std::optional<MPI_Comm> communicator = {});
+
+  /// Closes; reports what could not be written.
   void close();
 
   Handle handle;
@@ -198,4 +213,4 @@ struct NumberType<std::uint8_t> {
   static hid_t file() { return H5T_STD_U8LE; }
 };
 
-}  // namespace whipple::io::hdf5
+}  // namespace whipple::hdf5

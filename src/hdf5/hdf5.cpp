@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/io/hdf5.hpp"
+#include "src/hdf5/hdf5.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "src/base/error.hpp"
 
-namespace whipple::io::hdf5 {
+namespace whipple::hdf5 {
 namespace {
 
 /// HDF5's own printing goes to standard error in twenty lines; the innermost of them is what a user can use.
@@ -43,9 +43,9 @@ Handle creation_properties(hid_t kind, const std::string& where) {
   return properties;
 }
 
-Handle transfer_properties(const Ranks& ranks, const std::string& where) {
+Handle transfer_properties(bool collective, const std::string& where) {
   Handle properties = checked(H5Pcreate(H5P_DATASET_XFER), H5Pclose, where, "prepare a transfer");
-  if (ranks.is_parallel()) {
+  if (collective) {
     check(H5Pset_dxpl_mpio(properties.get(), H5FD_MPIO_COLLECTIVE), where, "prepare a collective transfer");
   }
   return properties;
@@ -142,12 +142,22 @@ void Object::set_attribute(const std::string& name, std::string_view text) const
   write_attribute(*this, name, type.get(), type.get(), space.get(), &pointer);
 }
 
-void Object::set_fixed_attribute(const std::string& name, std::string_view text) const {
+void Object::set_fixed_attribute(const std::string& name, std::string_view text,
+                                 Characters characters) const {
+  const std::string bytes = text.empty() ? std::string(1, '\0') : std::string(text);
   const Handle type = checked(H5Tcopy(H5T_C_S1), H5Tclose, name_, "describe a text");
-  check(H5Tset_size(type.get(), text.size()), name_, "describe a text");
+  check(H5Tset_size(type.get(), bytes.size()), name_, "describe a text");
+  check(H5Tset_cset(type.get(), characters == Characters::utf8 ? H5T_CSET_UTF8 : H5T_CSET_ASCII), name_,
+        "describe a text");
   check(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), name_, "describe a text");
   const Handle space = checked(H5Screate(H5S_SCALAR), H5Sclose, name_, "describe a text");
-  write_attribute(*this, name, type.get(), type.get(), space.get(), text.data());
+  write_attribute(*this, name, type.get(), type.get(), space.get(), bytes.data());
+}
+
+bool Object::has_attribute(const std::string& name) const {
+  const htri_t found = H5Aexists(id(), name.c_str());
+  if (found < 0) fail(name_, "look for attribute " + name);
+  return found > 0;
 }
 
 std::vector<std::string> Object::attribute_names() const {
@@ -203,7 +213,7 @@ std::vector<std::uint64_t> Dataset::shape() const {
 }
 
 void Dataset::read_bytes(void* values, hid_t memory_type, std::uint64_t size, const Slab& slab,
-                         std::uint64_t columns, const Ranks& ranks) const {
+                         std::uint64_t columns, bool collective) const {
   const std::vector<std::uint64_t> lengths = shape();
   const std::uint64_t rows = lengths.empty() ? 1 : lengths[0];
   std::uint64_t found_columns = 1;
@@ -225,45 +235,57 @@ void Dataset::read_bytes(void* values, hid_t memory_type, std::uint64_t size, co
     return;
   }
   const Handle memory = select(space.get(), slab, columns, lengths.size() == 1, name_);
-  const Handle transfer = transfer_properties(ranks, name_);
+  const Handle transfer = transfer_properties(collective, name_);
   check(H5Dread(id(), memory_type, memory.get(), space.get(), transfer.get(), values), name_, "read");
 }
 
 // ---- groups ----
 
-Group Group::create_group(const std::string& name) const {
+Group Group::create_group(const std::string& name, Order order) const {
+  const std::string action = "create group " + name;
   const Handle creation = creation_properties(H5P_GROUP_CREATE, name_);
+  if (order == Order::creation) {
+    check(H5Pset_link_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED), name_,
+          action);
+    // Many short attributes without an index.
+    check(H5Pset_attr_phase_change(creation.get(), 256, 128), name_, action);
+  }
   return {checked(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), H5Gclose, name_,
-                  "create group " + name),
-          name_ + name + "/"};
+                  action),
+          name_ + name + "/", collective_};
 }
 
 Group Group::open_group(const std::string& name) const {
   return {checked(H5Gopen2(id(), name.c_str(), H5P_DEFAULT), H5Gclose, name_, "open group " + name),
-          name_ + name + "/"};
+          name_ + name + "/", collective_};
 }
 
 Dataset Group::open_dataset(const std::string& name) const {
   return {checked(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose, name_, "open data set " + name),
-          name_ + name};
+          name_ + name, collective_};
 }
 
 bool Group::has(const std::string& name) const { return H5Lexists(id(), name.c_str(), H5P_DEFAULT) > 0; }
 
-std::vector<std::string> Group::names() const {
+std::vector<std::string> Group::names(Order order) const {
   std::vector<std::string> names;
   hsize_t index = 0;
   const auto add = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
-  check(H5Literate(id(), H5_INDEX_NAME, H5_ITER_INC, &index, add, &names), name_, "list the group");
+  check(H5Literate(id(), order == Order::creation ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME, H5_ITER_INC, &index,
+                   add, &names),
+        name_, "list the group");
   return names;
 }
 
+void Group::remove(const std::string& name) const {
+  check(H5Ldelete(id(), name.c_str(), H5P_DEFAULT), name_, "remove " + name);
+}
+
 Dataset Group::write_bytes(const std::string& name, const void* values, hid_t memory_type, hid_t file_type,
-                           std::uint64_t size, const Slab& slab, const Storage& storage,
-                           const Ranks& ranks) const {
+                           std::uint64_t size, const Slab& slab, const Storage& storage) const {
   const std::string where = name_ + name;
   const bool one_dimensional = storage.columns == 0;
   const std::uint64_t columns = one_dimensional ? 1 : storage.columns;
@@ -288,11 +310,11 @@ Dataset Group::write_bytes(const std::string& name, const void* values, hid_t me
   Dataset dataset(checked(H5Dcreate2(id(), name.c_str(), file_type, space.get(), H5P_DEFAULT, creation.get(),
                                      H5P_DEFAULT),
                           H5Dclose, where, "create the array"),
-                  where);
+                  where, collective_);
   if (slab.total == 0)
     return dataset;  // nothing has an address: a collective transfer of it fails in HDF5 1.10
   const Handle memory = select(space.get(), slab, columns, one_dimensional, where);
-  const Handle transfer = transfer_properties(ranks, where);
+  const Handle transfer = transfer_properties(collective_, where);
   check(H5Dwrite(dataset.id(), memory_type, memory.get(), space.get(), transfer.get(), values), where,
         "write");
   return dataset;
@@ -301,41 +323,57 @@ Dataset Group::write_bytes(const std::string& name, const void* values, hid_t me
 // ---- files ----
 
 namespace {
-Handle access_properties(const Ranks& ranks, const std::string& path) {
+
+Handle access_properties(std::optional<MPI_Comm> communicator, const std::string& path) {
   Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path, "prepare the file");
-  if (ranks.is_parallel()) {
-    check(H5Pset_fapl_mpio(access.get(), ranks.communicator(), MPI_INFO_NULL), path,
-          "prepare parallel access");
+  if (communicator) {
+    check(H5Pset_fapl_mpio(access.get(), *communicator, MPI_INFO_NULL), path, "prepare parallel access");
   }
   // An object that somebody forgot to close would otherwise keep the file open, and unflushed, in silence.
   check(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), path, "prepare the file");
   return access;
 }
+
+Handle root_group(const Handle& file, const std::string& path) {
+  return checked(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, path, "open the root group");
+}
+
+H5F_libver_t oldest_format(File::Compatibility compatibility) {
+  switch (compatibility) {
+    case File::Compatibility::compact:
+      return H5F_LIBVER_V18;
+    case File::Compatibility::vtk:
+      return H5F_LIBVER_EARLIEST;
+    default:
+      return H5F_LIBVER_V110;
+  }
+}
+
 }  // namespace
 
-File File::create(const std::filesystem::path& path, const Ranks& ranks, Compatibility compatibility,
-                  std::uint64_t user_block) {
+File File::create(const std::filesystem::path& path, Compatibility compatibility, std::uint64_t user_block,
+                  std::optional<MPI_Comm> communicator) {
   silence();
   const std::string text = path.string();
-  const Handle access = access_properties(ranks, text);
-  const H5F_libver_t low = compatibility == Compatibility::vtk ? H5F_LIBVER_EARLIEST : H5F_LIBVER_V110;
-  check(H5Pset_libver_bounds(access.get(), low, H5F_LIBVER_V110), text, "choose the format version");
+  const Handle access = access_properties(communicator, text);
+  check(H5Pset_libver_bounds(access.get(), oldest_format(compatibility), H5F_LIBVER_V110), text,
+        "choose the format version");
   const Handle creation = creation_properties(H5P_FILE_CREATE, text);
   check(H5Pset_userblock(creation.get(), user_block), text, "reserve the user block");
   Handle file = checked(H5Fcreate(text.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose, text,
                         "create the file");
-  Group root(checked(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, text, "open the root group"),
-             text + ":/");
+  Group root(root_group(file, text), text + ":/", communicator.has_value());
   return {std::move(file), std::move(root), text};
 }
 
-File File::open(const std::filesystem::path& path, const Ranks& ranks) {
+File File::open(const std::filesystem::path& path, Access access, std::optional<MPI_Comm> communicator) {
   silence();
   const std::string text = path.string();
-  const Handle access = access_properties(ranks, text);
-  Handle file = checked(H5Fopen(text.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose, text, "open the file");
-  Group root(checked(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, text, "open the root group"),
-             text + ":/");
+  const Handle properties = access_properties(communicator, text);
+  Handle file = checked(
+      H5Fopen(text.c_str(), access == Access::modify ? H5F_ACC_RDWR : H5F_ACC_RDONLY, properties.get()),
+      H5Fclose, text, "open the file");
+  Group root(root_group(file, text), text + ":/", communicator.has_value());
   return {std::move(file), std::move(root), text};
 }
 
@@ -343,4 +381,4 @@ void File::close() {
   if (!root.handle_.reset() || !handle.reset()) fail(path, "close the file");
 }
 
-}  // namespace whipple::io::hdf5
+}  // namespace whipple::hdf5
