@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
 #include "eos/root.hpp"
 #include "src/base/error.hpp"
@@ -14,75 +16,128 @@ namespace {
 
 /// Greatest thermal energy of the searches: far beyond any impact.
 constexpr double greatest_energy = 1e15;
+/// Least density of the searches, of the reference density.
+constexpr double least_density_ratio = 1e-12;
+/// Steps of ln(rho) along an isotherm: the first one, and the bounds of all.
+constexpr double first_step = 0.01, least_step = 0.002, greatest_step = 0.05;
+constexpr int root_digits = 51;
 
-/// Energy above `start` at which a rising function of the energy passes zero, from a first step of `scale`.
+/// A search that ends at a jump of the model has found no state.
+State checked(const State& state, double found, double asked, double scale, const char* quantity) {
+  if (std::abs(found - asked) <= 1e-7 * (std::abs(asked) + std::abs(scale))) return state;
+  throw StateError(
+      fmt::format("no state of {} {:.8g}: the model jumps over it at {:.6g} kg/m^3, {:.6g} J/kg ({:.8g})",
+                  quantity, asked, state.density, state.specific_internal_energy, found));
+}
+
+double stiffness(const State& s) { return s.density * s.sound_speed * s.sound_speed; }
+
+/// Energy above `start` at which a function of the energy that begins negative first passes zero, from a
+/// first step of `scale`. Steps double until the sign changes; one that leaves the model is halved.
 template <class Function>
 double rising_root(const Function& residual, double start, double scale, const char* what) {
-  double step = scale;
-  while (residual(start + step) < 0) {
-    step *= 2;
-    if (step > greatest_energy) {
-      throw StateError(fmt::format("no {}: not reached within {:.0e} J/kg", what, greatest_energy));
+  double inside = start, outside = std::numeric_limits<double>::infinity(), step = scale;
+  std::string bound;
+  for (;;) {
+    const double next = std::isinf(outside) ? start + step : 0.5 * (inside + outside);
+    if (step > greatest_energy || outside - inside < 1e-9 * (outside - start)) {
+      throw StateError(fmt::format("no {}: not reached up to {:.6g} J/kg{}{}", what, inside,
+                                   bound.empty() ? "" : "; beyond it, ", bound));
     }
+    double value = 0;
+    try {
+      value = residual(next);
+    } catch (const StateError& fault) {
+      outside = next;
+      bound = fault.what();
+      continue;
+    }
+    if (!(value < 0)) return find_root(residual, inside, next, what, root_digits);
+    inside = next;
+    step *= 2;
   }
-  return find_root(residual, start, start + step, what);
 }
 
 }  // namespace
 
-double density_at_pressure(const EquationOfState& eos, double pressure, double temperature) {
+State state_at_pressure_and_temperature(const EquationOfState& eos, double pressure, double temperature,
+                                        std::optional<double> from) {
   const auto at = [&](double density) { return eos.state_at_temperature(density, temperature); };
-  const auto residual = [&](double density) { return at(density).pressure - pressure; };
-  double density = eos.reference_density();
-  const bool compress = residual(density) < 0;
-  const double factor = compress ? 1.01 : 1 / 1.01;
-  for (;;) {
-    const double next = std::min(density * factor, eos.maximum_density());
-    const State state = at(next);
-    if ((state.pressure >= pressure) == compress)
-      return find_root(residual, density, next, "density at the pressure");
-    if (compress && next >= eos.maximum_density()) {
+  State here = at(from.value_or(eos.reference_density()));
+  if (here.pressure == pressure) return here;
+  const bool compress = here.pressure < pressure;
+  const double direction = compress ? 1 : -1;
+  for (double step = first_step;;) {
+    const double density = std::min(here.density * std::exp(direction * step), eos.maximum_density());
+    const State next = at(density);
+    if ((next.pressure - pressure) * direction >= 0) {
+      const State found = at(find_root([&](double rho) { return at(rho).pressure - pressure; }, here.density,
+                                       density, "density at the pressure", root_digits));
+      return checked(found, found.pressure, pressure, stiffness(found), "pressure (Pa)");
+    }
+    if (compress && density >= eos.maximum_density()) {
       throw StateError(
           fmt::format("{:.6g} Pa at {:.6g} K: beyond the greatest density of model {} ({:.6g} kg/m^3)",
                       pressure, temperature, eos.model(), eos.maximum_density()));
     }
-    if (!compress && ((state.isothermal_bulk_modulus < 0 && state.phase != "melting") ||
-                      next < 0.01 * eos.reference_density())) {
+    // Within one phase the pressure follows the density up to a spinodal. Partly molten matter may have a
+    // plateau.
+    const bool mixture = next.melted_fraction > 0 && next.melted_fraction < 1;
+    const bool turns = (next.pressure - here.pressure) * direction < 0 || next.isothermal_bulk_modulus < 0;
+    if ((turns && next.phase == here.phase && !mixture) ||
+        density < least_density_ratio * eos.reference_density()) {
       throw StateError(
-          fmt::format("no condensed state at {:.6g} Pa and {:.6g} K: the isotherm of model {} turns at "
-                      "{:.6g} kg/m^3, {:.6g} Pa",
-                      pressure, temperature, eos.model(), next, state.pressure));
+          fmt::format("no state at {:.6g} Pa and {:.6g} K on the branch of {:.6g} kg/m^3: the isotherm of "
+                      "model {} {} at {:.6g} kg/m^3, {:.6g} Pa",
+                      pressure, temperature, from.value_or(eos.reference_density()), eos.model(),
+                      turns ? "turns" : "has not reached it", next.density, next.pressure));
     }
-    density = next;
+    // Longer steps where the bulk modulus foretells the pressure, shorter ones towards a spinodal.
+    const double foretold = here.isothermal_bulk_modulus * step;
+    const bool smooth = std::abs(std::abs(next.pressure - here.pressure) - foretold) < 0.2 * foretold;
+    step = smooth ? std::min(1.5 * step, greatest_step) : std::max(0.5 * step, least_step);
+    here = next;
   }
+}
+
+double density_at_pressure(const EquationOfState& eos, double pressure, double temperature) {
+  return state_at_pressure_and_temperature(eos, pressure, temperature).density;
 }
 
 State state_at_pressure(const EquationOfState& eos, double density, double pressure) {
   // p rises with e wherever the Grueneisen parameter is positive.
-  const auto residual = [&](double e) { return eos.state(density, e).pressure - pressure; };
   const double coldest = eos.minimum_energy(density);
-  if (residual(coldest) > 0) {
+  const State cold = eos.state(density, coldest);
+  const double scale = std::abs(pressure) + stiffness(cold);
+  if (cold.pressure - pressure > 1e-12 * scale) {
     throw StateError(
         fmt::format("{:.6g} Pa at {:.6g} kg/m^3 lies below the coldest state of model {} ({:.6g} Pa)",
-                    pressure, density, eos.model(), residual(coldest) + pressure));
+                    pressure, density, eos.model(), cold.pressure));
   }
-  return eos.state(
+  if (cold.pressure >= pressure) return cold;
+  const auto residual = [&](double e) { return eos.state(density, e).pressure - pressure; };
+  const State found = eos.state(
       density, rising_root(residual, coldest, std::abs(pressure) / density + 1e3, "energy at the pressure"));
+  return checked(found, found.pressure, pressure, stiffness(found), "pressure (Pa)");
 }
 
 State state_at_entropy(const EquationOfState& eos, double density, double entropy) {
   // (ds/de)_rho = 1/T > 0.
-  const auto residual = [&](double e) { return eos.state(density, e).specific_entropy - entropy; };
-  const double coldest = eos.minimum_energy(density), least = residual(coldest);
-  if (std::isnan(least)) {
+  const double coldest = eos.minimum_energy(density);
+  const State cold = eos.state(density, coldest);
+  if (std::isnan(cold.specific_entropy)) {
     throw StateError(fmt::format("model {} knows no entropy at {:.6g} kg/m^3", eos.model(), density));
   }
-  if (least > 0) {
-    throw StateError(fmt::format(
-        "{:.6g} J/(kg K) at {:.6g} kg/m^3 lies below the coldest state of model {} ({:.6g} J/(kg K))",
-        entropy, density, eos.model(), least + entropy));
+  if (cold.specific_entropy >= entropy) {
+    if (cold.specific_entropy - entropy <= 1e-12 * (std::abs(entropy) + 1)) return cold;
+    throw StateError(
+        fmt::format("{:.6g} J/(kg K) at {:.6g} kg/m^3 lies below the coldest state of model {} ({:.6g} J/(kg "
+                    "K))",
+                    entropy, density, eos.model(), cold.specific_entropy));
   }
-  return eos.state(density, rising_root(residual, coldest, 1e3, "energy at the entropy"));
+  const auto residual = [&](double e) { return eos.state(density, e).specific_entropy - entropy; };
+  const State found = eos.state(density, rising_root(residual, coldest, 1e3, "energy at the entropy"));
+  return checked(found, found.specific_entropy, entropy, 1.0, "specific entropy (J/(kg K))");
 }
 
 }  // namespace whipple::eos

@@ -3,6 +3,8 @@ whipple_test(eos_gray_test SOURCES unit/eos_gray_test.cpp DEPENDS whipple_eos LA
 whipple_test(eos_mie_gruneisen_test SOURCES unit/eos_mie_gruneisen_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_identities_test SOURCES property/eos_identities_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_loci_test SOURCES verification/eos_loci_test.cpp DEPENDS whipple_eos LABELS fast)
+whipple_test(eos_shock_test SOURCES verification/eos_shock_test.cpp DEPENDS whipple_eos GTest::gmock LABELS fast)
+whipple_test(eos_inversions_test SOURCES property/eos_inversions_test.cpp DEPENDS whipple_material LABELS fast)
 whipple_test(eos_copper_test SOURCES validation/eos_copper_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_gray_metals_test SOURCES verification/eos_gray_metals_test.cpp DEPENDS whipple_eos LABELS fast)
 

@@ -206,18 +206,6 @@ void run_release(const Options& o, const Material& material) {
   fmt::print("\n");
 }
 
-/// Temperature at which the melted fraction at a pressure leaves `fraction`.
-double melting_edge(const EquationOfState& eos, double pressure, double coldest, double hottest,
-                    bool liquidus) {
-  while (hottest - coldest > 1e-7 * hottest) {
-    const double T = 0.5 * (coldest + hottest);
-    const double melted =
-        eos.state_at_temperature(eos::density_at_pressure(eos, pressure, T), T).melted_fraction;
-    ((liquidus ? melted >= 1 : melted > 0) ? hottest : coldest) = T;
-  }
-  return 0.5 * (coldest + hottest);
-}
-
 void run_melt(const Options& o, const Material& material) {
   const EquationOfState& eos = *material.eos;
   CurveTable table;
@@ -226,18 +214,9 @@ void run_melt(const Options& o, const Material& material) {
   const double first = quantity("--from", o.from, "Pa").value_or(0.0),
                last = quantity("--to", o.to, "Pa").value_or(100e9);
   for (const double pressure : spaced(first, last, o.points)) {
-    // Upper bound of the search: by steps, since a hot metal may have no condensed state at the pressure.
-    double hottest = eos.reference_temperature();
-    for (double melted = 0; melted < 1;) {
-      hottest *= 1.05;
-      if (hottest > 1e5)
-        throw InputError(fmt::format("model {} of {} does not melt", eos.model(), material.name));
-      melted =
-          eos.state_at_temperature(eos::density_at_pressure(eos, pressure, hottest), hottest).melted_fraction;
-    }
-    const double coldest = eos.reference_temperature();
-    table.rows.push_back({pressure, melting_edge(eos, pressure, coldest, hottest, false),
-                          melting_edge(eos, pressure, coldest, hottest, true)});
+    const auto melting = eos::melting_point(eos, pressure);
+    if (!melting) throw InputError(fmt::format("model {} of {} does not melt", eos.model(), material.name));
+    table.rows.push_back({pressure, melting->solidus.temperature, melting->liquidus.temperature});
   }
   write(table, o.output);
 }

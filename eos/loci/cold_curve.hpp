@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "eos/equation_of_state.hpp"
+
+namespace whipple::eos {
+
+/// The coldest state that the model describes at a density: a point of the cold curve.
+State cold_state(const EquationOfState& eos, double density);
+
+/// What the cold curve of condensed matter says: where it is at rest, how far it may be compressed and
+/// stretched.
+struct ColdCurve {
+  State at_rest;               ///< p = 0
+  State tension_limit;         ///< least pressure: the ideal strength in tension
+  State compression_limit;     ///< the greatest density to which p rises, at most the model's own limit
+  double cohesive_energy = 0;  ///< J/kg from rest to one millionth of the reference density; NaN if the model
+                               ///< does not go there
+};
+/// @throws StateError if the model has no cold state of zero pressure (a gas)
+ColdCurve cold_curve(const EquationOfState& eos);
+
+}  // namespace whipple::eos
