@@ -4,11 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <random>
 
 #include "eos/inversions.hpp"
 #include "src/base/error.hpp"
 #include "src/material/material_file.hpp"
+
+namespace whipple {
+
+/// As GoogleTest shows the parameter.
+void PrintTo(const LibraryMaterial& material, std::ostream* out) { *out << material.file.stem().string(); }
+
+}  // namespace whipple
 
 namespace whipple::eos::test {
 namespace {
