@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "eos/model_equation_of_state.hpp"
+#include "eos/models/debye_gruneisen.hpp"
 #include "eos/models/gray.hpp"
 #include "eos/models/mie_gruneisen.hpp"
 #include "src/base/error.hpp"
@@ -32,6 +33,7 @@ ModelEntry entry() {
 
 std::span<const ModelEntry> catalogue() {
   static const std::array entries = {
+      entry<DebyeGruneisen>(),
       entry<Gray>(),
       entry<MieGruneisen>(),
   };

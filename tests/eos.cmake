@@ -1,6 +1,7 @@
 # Tests of the equations of state.
 whipple_test(eos_gray_test SOURCES unit/eos_gray_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_mie_gruneisen_test SOURCES unit/eos_mie_gruneisen_test.cpp DEPENDS whipple_eos LABELS fast)
+whipple_test(eos_debye_test SOURCES unit/eos_debye_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_identities_test SOURCES property/eos_identities_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_loci_test SOURCES verification/eos_loci_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_shock_test SOURCES verification/eos_shock_test.cpp DEPENDS whipple_eos GTest::gmock LABELS fast)
@@ -31,7 +32,8 @@ set_tests_properties(eos_command.beyond_the_model_is_a_state_error PROPERTIES
 foreach(query state isotherm isentrope melt dome audit)
   add_test(NAME eos_command.${query} COMMAND whipple eos ${query} copper --points 5)
 endforeach()
+add_test(NAME eos_command.audit_of_debye_gruneisen COMMAND whipple eos audit copper_debye)
 foreach(query hugoniot_prints_shock_melting refuses_to_overwrite release_to_one_bar_vaporises_a_tenth
-        beyond_the_model_is_a_state_error state isotherm isentrope melt dome audit)
+        beyond_the_model_is_a_state_error audit_of_debye_gruneisen state isotherm isentrope melt dome audit)
   set_property(TEST eos_command.${query} PROPERTY LABELS fast)
 endforeach()

@@ -256,12 +256,19 @@ void run_audit(const Options& o, const Material& material) {
     eos::IdentityDefects defects;
   };
   std::map<std::string, Worst> phases;
+  int outside = 0;
   const int n = std::max(o.points, 3);
   for (const double log_ratio :
        spaced(std::log(1.001 * eos.reference_density() / eos.maximum_density()), std::log(30.0), n)) {
     const double density = eos.reference_density() / std::exp(log_ratio);
     for (const double log_temperature : spaced(std::log(200.0), std::log(3e4), n)) {
-      const State s = eos.state_at_temperature(density, std::exp(log_temperature));
+      State s;
+      try {
+        s = eos.state_at_temperature(density, std::exp(log_temperature));
+      } catch (const StateError&) {
+        ++outside;
+        continue;
+      }
       const eos::IdentityDefects d = eos::check_identities(eos, density, s.specific_internal_energy);
       Worst& w = phases[std::string(s.phase)];
       ++w.states;
@@ -276,7 +283,8 @@ void run_audit(const Options& o, const Material& material) {
   }
   CurveTable table;
   table.title =
-      fmt::format("Largest relative defects of the identities: {} ({})", material.name, eos.model());
+      fmt::format("Largest relative defects of the identities: {} ({}); {} states outside of the model",
+                  material.name, eos.model(), outside);
   table.columns = {{"phase", "", 1},  {"states", "", 1},    {"P", "", 1},  {"c2", "", 1},
                    {"Cv", "", 1},     {"Gamma", "", 1},     {"KT", "", 1}, {"S_of_E", "", 1},
                    {"S_of_V", "", 1}, {"round_trip", "", 1}};

@@ -48,6 +48,10 @@ void gray_liquid(benchmark::State& s) { evaluate(s, copper_eos(), {0.8, 3e6}); }
 void gray_hot_liquid(benchmark::State& s) { evaluate(s, copper_eos(), {1.1, 8e6}); }
 void gray_vapour(benchmark::State& s) { evaluate(s, copper_eos(), {50, 8e6}); }
 void gray_dome(benchmark::State& s) { evaluate(s, copper_eos(), {5, 3.5e6}); }
+void debye_gruneisen(benchmark::State& s) {
+  static const ModelEquationOfState<DebyeGruneisen> eos(test::debye_copper());
+  evaluate(s, eos, {0.9, 3e5});
+}
 void mie_gruneisen(benchmark::State& s) { evaluate(s, aluminium_eos(), {0.9, 3e5}); }
 BENCHMARK(gray_solid);
 BENCHMARK(gray_melting);
@@ -55,6 +59,7 @@ BENCHMARK(gray_liquid);
 BENCHMARK(gray_hot_liquid);
 BENCHMARK(gray_vapour);
 BENCHMARK(gray_dome);
+BENCHMARK(debye_gruneisen);
 BENCHMARK(mie_gruneisen);
 
 void build_gray(benchmark::State& bench) {

@@ -191,7 +191,6 @@ TEST(EosGray, AnharmonicAndElectronicCoefficientsAddUp) {
 }
 
 TEST(EosCatalogue, BuildsEveryModelFromNamedConstants) {
-  EXPECT_EQ(catalogue().size(), 2u);
   GrayConstants source = copper();
   const std::vector<BoundParameter> values = whipple::bind(gray_parameters(), source);
   const auto build = find_model("gray").declare([&](std::span<const BoundParameter> wanted) {
@@ -210,7 +209,7 @@ TEST(EosCatalogue, BuildsEveryModelFromNamedConstants) {
   EXPECT_NE(eos->constants().find("melting_gruneisen = 1.97"), std::string::npos) << eos->constants();
   EXPECT_EQ(eos->constants().find("nan"), std::string::npos) << eos->constants();
   for (const ModelEntry& entry : catalogue())
-    EXPECT_NE(entry.describe().find("hugoniot_slope"), std::string::npos);
+    EXPECT_NE(entry.describe().find("reference_"), std::string::npos) << entry.name;
   EXPECT_THROW(find_model("grey"), InputError);
 }
 
