@@ -9,6 +9,7 @@ whipple_test(md_hugoniot_test SOURCES unit/md_hugoniot_test.cpp DEPENDS whipple_
 whipple_test(md_campaign_test SOURCES unit/md_campaign_test.cpp DEPENDS whipple_md_protocols LABELS fast)
 whipple_test(md_potential_fuzz SOURCES fuzz/md_potential_fuzz.cpp DEPENDS whipple_md_lammps LABELS fast)
 whipple_test(md_copper_test SOURCES validation/md_copper_test.cpp DEPENDS whipple_md_protocols LABELS fast)
+whipple_test(md_static_test SOURCES validation/md_static_test.cpp DEPENDS whipple_md_protocols LABELS fast)
 # Programs under mpirun, started by the test itself.
 add_executable(md_guard_abort parallel/md_guard_abort.cpp)
 target_link_libraries(md_guard_abort PRIVATE whipple_md_lammps)

@@ -195,6 +195,19 @@ std::string_view unit_of(std::string_view quantity) {
       {"solid_specific_volume", "m^3/kg"},
       {"liquid_specific_volume", "m^3/kg"},
       {"latent_heat", "J/kg"},
+      {"c11", "Pa"},
+      {"c12", "Pa"},
+      {"c44", "Pa"},
+      {"bulk_modulus", "Pa"},
+      {"shear_modulus_voigt", "Pa"},
+      {"shear_modulus_reuss", "Pa"},
+      {"shear_modulus_hill", "Pa"},
+      {"fcc_pressure", "Pa"},
+      {"fcc_specific_internal_energy", "J/kg"},
+      {"bcc_pressure", "Pa"},
+      {"bcc_specific_internal_energy", "J/kg"},
+      {"hcp_pressure", "Pa"},
+      {"hcp_specific_internal_energy", "J/kg"},
   };
   const auto found = units.find(quantity);
   return found == units.end() ? std::string_view{} : found->second;

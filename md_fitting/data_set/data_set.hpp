@@ -23,8 +23,7 @@ struct Estimate {
 /// docs/theory/molecular_dynamics.md.
 struct PointRecord {
   std::string key;  ///< SHA-256 (hexadecimal) of everything the point depends on; its identity in the store
-  std::string
-      protocol;  ///< "lattice", "zero_pressure_volume", "isotherm", "isochore", "hugoniot", "coexistence"
+  std::string protocol;                           ///< "lattice", "isotherm", "hugoniot", ...
   std::string status;                             ///< "done" or "failed"
   std::string message;                            ///< why it failed; remarks of a point that is done
   std::map<std::string, double> conditions;       ///< SI

@@ -106,6 +106,17 @@ std::vector<std::vector<double>> Lammps::series(const std::string& fix, int colu
   });
 }
 
+std::vector<double> Lammps::gather(const std::string& name) {
+  return guarded([&] {
+    std::vector<double> values(3 * static_cast<std::size_t>(lammps_get_natoms(handle_)));
+    std::string copy = name;  // the interface takes no constant text
+    constexpr int floating_point = 1;
+    constexpr int components = 3;
+    lammps_gather_atoms(handle_, copy.data(), floating_point, components, values.data());
+    return values;
+  });
+}
+
 bool Lammps::has_style(const std::string& category, const std::string& name) const {
   return lammps_has_style(handle_, category.c_str(), name.c_str()) == 1;
 }

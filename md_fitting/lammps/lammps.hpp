@@ -40,6 +40,10 @@ class Lammps {
   /// @throws LammpsError if there is no such fix.
   std::vector<std::vector<double>> series(const std::string& fix, int columns);
 
+  /// A per-atom array of three components ("x", "v", "f"), atom by atom in the order of their numbers:
+  /// x1 y1 z1 x2 ... Collective.
+  std::vector<double> gather(const std::string& name);
+
   /// Whether LAMMPS was built with a style, e.g. has_style("pair", "eam/alloy").
   [[nodiscard]] bool has_style(const std::string& category, const std::string& name) const;
   [[nodiscard]] double atoms() const;

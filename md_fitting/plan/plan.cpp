@@ -62,7 +62,11 @@ const std::vector<Section>& sections() {
       section<&Plan::hugoniot>("hugoniot",
                                "states behind a shock from the first state of [zero_pressure_volume]"),
       section<&Plan::coexistence>("coexistence",
-                                  "melting temperatures from a crystal in contact with its melt")};
+                                  "melting temperatures from a crystal in contact with its melt"),
+      section<&Plan::cold_curve>("cold_curve",
+                                 "energy and pressure of the static crystal, and of fcc, bcc and hcp at the "
+                                 "same volume"),
+      section<&Plan::elastic>("elastic", "elastic constants of the static crystal")};
   return all;
 }
 

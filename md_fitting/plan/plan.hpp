@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "md_fitting/plan/coexistence.hpp"
+#include "md_fitting/plan/cold_curve.hpp"
+#include "md_fitting/plan/elastic.hpp"
 #include "md_fitting/plan/hugoniot.hpp"
 #include "md_fitting/plan/isochore.hpp"
 #include "md_fitting/plan/isotherm.hpp"
@@ -32,6 +34,8 @@ struct Plan {
   std::vector<IsochorePlan> isochores;
   std::optional<HugoniotPlan> hugoniot;
   std::optional<CoexistencePlan> coexistence;
+  std::optional<ColdCurvePlan> cold_curve;
+  std::optional<ElasticPlan> elastic;
 };
 
 /// Reads a plan. @throws InputError with all errors at once, each with file:line:column.

@@ -13,6 +13,8 @@ std::span<const Protocol> protocols() {
       Protocol{"isotherm", 1, add_isotherms},
       Protocol{"isochore", 1, add_isochores},
       Protocol{"hugoniot", 1, add_hugoniot},
+      Protocol{"cold_curve", 1, add_cold_curve},
+      Protocol{"elastic", 1, add_elastic},
   };
   return all;
 }

@@ -25,5 +25,7 @@ void add_coexistence(const Plan& plan, TaskList& list);
 void add_isotherms(const Plan& plan, TaskList& list);
 void add_isochores(const Plan& plan, TaskList& list);
 void add_hugoniot(const Plan& plan, TaskList& list);
+void add_cold_curve(const Plan& plan, TaskList& list);
+void add_elastic(const Plan& plan, TaskList& list);
 
 }  // namespace whipple::md

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "src/base/parameter_table.hpp"
+
+namespace whipple::md {
+
+/// Energy and pressure of static crystals.
+struct ColdCurvePlan {
+  std::vector<double> volume_ratio;
+};
+
+std::vector<BoundParameter> keys(ColdCurvePlan& plan);
+
+}  // namespace whipple::md

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/protocols/cold_curve.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "md_fitting/lammps/units.hpp"
+#include "md_fitting/protocols/catalogue.hpp"
+#include "md_fitting/protocols/crystal.hpp"
+#include "src/base/error.hpp"
+
+namespace whipple::md {
+namespace {
+
+constexpr std::int64_t cells = 3;
+
+/// The axial ratio at which the stress of an hcp crystal of given volume is isotropic, which is that of least
+/// energy. Atoms of hcp sit on sites that symmetry fixes, whatever the ratio.
+double relax_axial_ratio(Crystal& crystal, double volume_per_cell) {
+  Lammps& lammps = crystal.lammps();
+  lammps.command("variable anisotropy equal c_virial[3]-0.5*(c_virial[1]+c_virial[2])");
+  lammps.command(
+      "thermo_style custom step pe vol c_virial c_displacement[4] c_virial[1] c_virial[2] c_virial[3]");
+  const auto anisotropy = [&](double ratio) {
+    // The orthogonal cell a, sqrt(3) a, c holds four atoms.
+    const double a = std::cbrt(volume_per_cell / (std::sqrt(3.0) * ratio));
+    const double edge = a * static_cast<double>(cells);
+    lammps.command("change_box all x final 0 {:.17g} y final 0 {:.17g} z final 0 {:.17g} remap units box",
+                   edge, edge * std::sqrt(3.0), edge * ratio);
+    crystal.evaluate();
+    return lammps.variable("anisotropy");
+  };
+  const double ideal = std::sqrt(8.0 / 3.0);
+  double former = 1.002 * ideal;
+  double former_value = anisotropy(former);
+  double ratio = ideal;
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    const double value = anisotropy(ratio);
+    const double step = value == former_value ? 0.0 : -value * (ratio - former) / (value - former_value);
+    if (std::abs(step) < 1e-7) return ratio;
+    former = ratio;
+    former_value = value;
+    ratio += step;
+    if (!(std::abs(ratio / ideal - 1.0) < 0.2)) break;
+  }
+  throw StateError(fmt::format("hcp has no axial ratio of least energy near {:.3f} at {:.2f} A^3 per atom",
+                               ideal, volume_per_cell / 4.0));
+}
+
+}  // namespace
+
+ColdState measure_cold(const Potential& potential, const std::string& structure, double specific_volume,
+                       std::string& transcript) {
+  const double mass = potential.mass();
+  const double atomic = metal::volume_per_atom(specific_volume, mass);
+  const double a = structure == "fcc"   ? std::cbrt(4.0 * atomic)
+                   : structure == "bcc" ? std::cbrt(2.0 * atomic)
+                                        : std::cbrt(std::sqrt(2.0) * atomic);  // ideal hcp
+  Crystal crystal(potential, a, cells, cells, cells, structure);
+  ColdState state;
+  if (structure == "hcp") {
+    state.axial_ratio = relax_axial_ratio(crystal, 4.0 * atomic);
+  } else {
+    crystal.evaluate();
+  }
+  state.pressure = crystal.lammps().variable("virial") * metal::bar;
+  state.specific_internal_energy = metal::specific_energy(crystal.lammps().variable("energy"), mass);
+  transcript += crystal.lammps().transcript();
+  return state;
+}
+
+void add_cold_curve(const Plan& plan, TaskList& list) {
+  if (!plan.cold_curve) return;
+  for (const double ratio : plan.cold_curve->volume_ratio) {
+    list.require_range(ratio);
+    const double volume = ratio * list.potential().static_volume();
+    list.add({{{"specific_volume", volume}, {"temperature", 0.0}}, {}, {}},
+             [&potential = list.potential(), volume](std::int64_t, const PointRecord*) {
+               TaskResult result;
+               for (const std::string structure : {"fcc", "bcc", "hcp"}) {
+                 const bool own = structure == potential.tables().structure;
+                 ColdState state;
+                 try {
+                   state = measure_cold(potential, structure, volume, result.transcript);
+                 } catch (const StateError& error) {
+                   // A structure for comparison that does not exist at this volume is no reason to fail.
+                   if (own) throw;
+                   result.message = error.what();
+                   continue;
+                 }
+                 const std::string prefix = own ? "" : structure + "_";
+                 result.results[prefix + "pressure"] = {state.pressure, 0.0};
+                 result.results[prefix + "specific_internal_energy"] = {state.specific_internal_energy, 0.0};
+                 if (structure == "hcp") result.results["hcp_axial_ratio"] = {state.axial_ratio, 0.0};
+               }
+               return result;
+             });
+  }
+}
+
+}  // namespace whipple::md

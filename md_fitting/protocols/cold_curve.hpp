@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/lammps/potential.hpp"
+
+namespace whipple::md {
+
+/// A static crystal at one volume. Exact for the potential: no statistical error.
+struct ColdState {
+  double pressure = 0.0;                  ///< Pa; of hcp: at the axial ratio of least energy
+  double specific_internal_energy = 0.0;  ///< J/kg
+  double axial_ratio = 0.0;               ///< c/a of hcp at least energy; 0 for cubic crystals
+};
+
+/// @param structure fcc, bcc or hcp
+/// @param transcript the LAMMPS commands are added to it
+/// @throws StateError if an hcp crystal has no axial ratio of least energy near the ideal one.
+ColdState measure_cold(const Potential& potential, const std::string& structure, double specific_volume,
+                       std::string& transcript);
+
+}  // namespace whipple::md
