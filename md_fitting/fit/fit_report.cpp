@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "md_fitting/fit/element_defaults.hpp"
+#include "src/base/text_table.hpp"
 
 namespace whipple::fit {
 namespace {
@@ -33,24 +34,6 @@ const std::vector<Column>& columns() {
 }
 
 using Row = std::vector<std::string>;
-
-/// Columns of equal width, the first to the left, two blanks between.
-std::string aligned(const std::vector<Row>& rows) {
-  std::vector<std::size_t> widths;
-  for (const Row& row : rows) {
-    widths.resize(std::max(widths.size(), row.size()), 0);
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string text;
-  for (const Row& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      line += i == 0 ? fmt::format("{:<{}}", row[i], widths[i]) : fmt::format("  {:>{}}", row[i], widths[i]);
-    }
-    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
-  return text;
-}
 
 std::string cell(const Constant& constant, const Column& column) {
   const double value = constant.value / column.size;
@@ -99,7 +82,7 @@ std::string constants_table(std::span<const NamedFit> fits) {
     rows.push_back(published_cells(row));
     published = true;
   }
-  std::string text = aligned(rows);
+  std::string text = text_table(rows, "lr");
   text += "errors: one standard deviation from noise and model error, in brackets from the noise alone\n";
   text += "g: fitted rows the anharmonic coefficient of classical nuclei";
   if (published) {
@@ -129,7 +112,7 @@ std::string fit_details(const GrayFit& fit) {
     for (Eigen::Index k = 0; k <= i; ++k) row.push_back(fmt::format("{:.2f}", correlation(i, k)));
     rows.push_back(row);
   }
-  text += aligned(rows);
+  text += text_table(rows, "lr");
 
   text += "\nwindow of particle velocities (km/s), states, C (km/s), S: the first is the fit's own\n";
   for (const WindowResult& window : fit.windows) {

@@ -14,6 +14,7 @@
 #include "src/app/compare_data.hpp"
 #include "src/base/error.hpp"
 #include "src/base/files.hpp"
+#include "src/base/text_table.hpp"
 #include "src/base/units.hpp"
 #include "src/material/material_file.hpp"
 #include "src/process/paths.hpp"
@@ -102,19 +103,7 @@ void print_table(const std::vector<Row>& rows) {
          any ? figure(row.comparison.rms) : "-", any ? signed_figure(row.comparison.mean) : "-",
          any ? signed_figure(row.comparison.maximum) : "-", s.deviation});
   }
-  std::vector<std::size_t> widths(cells.front().size(), 0);
-  for (const auto& line : cells) {
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
-  }
-  for (const auto& line : cells) {
-    std::string text;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      const bool number = i == 3 || (i >= 5 && i <= 7);
-      text +=
-          number ? fmt::format("{:>{}}  ", line[i], widths[i]) : fmt::format("{:<{}}  ", line[i], widths[i]);
-    }
-    fmt::print("{}\n", text.substr(0, text.find_last_not_of(' ') + 1));
-  }
+  fmt::print("{}", text_table(cells, "lllrlrrrl"));
   fmt::print("deviations: material less experiment\n");
   for (const Row& row : rows) {
     if (row.comparison.out_of_range > 0) {

@@ -10,6 +10,7 @@
 
 #include "src/base/error.hpp"
 #include "src/base/files.hpp"
+#include "src/base/text_table.hpp"
 #include "src/process/scripts.hpp"
 
 namespace whipple::app {
@@ -106,15 +107,7 @@ void print(const CurveTable& table) {
       lines.back().push_back(nothing ? "0" : text(row[i], table.columns[i].size, 6));
     }
   }
-  std::vector<std::size_t> width(shown.size(), 0);
-  for (const auto& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) width[i] = std::max(width[i], line[i].size());
-  }
-  for (const auto& line : lines) {
-    std::string printed;
-    for (std::size_t i = 0; i < line.size(); ++i) printed += fmt::format("{:>{}}  ", line[i], width[i]);
-    fmt::print("{}\n", printed.substr(0, printed.find_last_not_of(' ') + 1));
-  }
+  fmt::print("{}", text_table(lines, "r"));
 }
 
 void require_writable(const CurveOutput& output) {

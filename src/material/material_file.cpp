@@ -9,8 +9,10 @@
 #include <map>
 #include <system_error>
 
+#include "eos/audit.hpp"
 #include "eos/catalogue.hpp"
 #include "src/base/error.hpp"
+#include "src/base/log.hpp"
 #include "src/base/text.hpp"
 #include "src/input/document.hpp"
 #include "src/material/failure/catalogue.hpp"
@@ -190,6 +192,21 @@ Material read_material(const fs::path& path, const fs::path& beside) {
   } catch (const InputError& fault) {
     throw InputError(fmt::format("{}: error: {}", file.string(), fault.what()));
   }
+}
+
+void require_usable(const Material& material) {
+  const eos::Audit audit = eos::audit(*material.eos, eos::AuditDepth::brief);
+  switch (audit.verdict()) {
+    case eos::Verdict::not_usable:
+      throw InputError(
+          fmt::format("{}: error: [eos] {}: {}", material.file.string(), audit.model, audit.summary()));
+    case eos::Verdict::reservations:
+      log::info("{}: equation of state {}", material.name, audit.summary());
+      break;
+    case eos::Verdict::sound:
+      break;
+  }
+  log::detail("{}: equation of state valid for {}", material.name, audit.range_text());
 }
 
 std::vector<LibraryMaterial> library_materials() {

@@ -27,6 +27,11 @@ std::filesystem::path find_material(const std::filesystem::path& path,
 /// installed executable, eos/materials of the source tree. Only those that exist.
 std::vector<std::filesystem::path> library_folders();
 
+/// Asks the brief audit of the equation of state (eos/audit.hpp) before anything is computed with a material;
+/// reservations are messages to the user.
+/// @throws InputError with the numbers and their limits if the equation of state is not usable
+void require_usable(const Material& material);
+
 struct LibraryMaterial {
   std::string name;  ///< of the material
   std::filesystem::path file;

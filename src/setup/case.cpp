@@ -182,6 +182,7 @@ void read_body(Case& setup, input::Table table, std::set<std::string>& names,
     if (!known) {
       try {
         known = std::make_shared<const Material>(read_material(body.material, table.folder()));
+        require_usable(*known);
       } catch (const InputError& error) {
         table.error_at("material", fmt::format("'{}.material':\n  {}", table.name(), error.what()));
       }
