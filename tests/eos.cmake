@@ -6,6 +6,7 @@ whipple_test(eos_identities_test SOURCES property/eos_identities_test.cpp DEPEND
 whipple_test(eos_loci_test SOURCES verification/eos_loci_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_shock_test SOURCES verification/eos_shock_test.cpp DEPENDS whipple_eos GTest::gmock LABELS fast)
 whipple_test(eos_inversions_test SOURCES property/eos_inversions_test.cpp DEPENDS whipple_material LABELS fast)
+whipple_test(eos_audit_test SOURCES property/eos_audit_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
 whipple_test(eos_copper_test SOURCES validation/eos_copper_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_gray_metals_test SOURCES verification/eos_gray_metals_test.cpp DEPENDS whipple_eos LABELS fast)
 
@@ -29,11 +30,29 @@ set_tests_properties(eos_command.release_to_one_bar_vaporises_a_tenth PROPERTIES
 add_test(NAME eos_command.beyond_the_model_is_a_state_error COMMAND whipple eos hugoniot copper --pressure "900 TPa")
 set_tests_properties(eos_command.beyond_the_model_is_a_state_error PROPERTIES
   PASS_REGULAR_EXPRESSION "beyond the greatest density of model gray")
-foreach(query state isotherm isentrope melt dome audit)
+foreach(query state isotherm isentrope melt dome)
   add_test(NAME eos_command.${query} COMMAND whipple eos ${query} copper --points 5)
 endforeach()
 add_test(NAME eos_command.audit_of_debye_gruneisen COMMAND whipple eos audit copper_debye)
-foreach(query hugoniot_prints_shock_melting refuses_to_overwrite release_to_one_bar_vaporises_a_tenth
+# The audit: the verdict, and exit code 2 for constants that are not usable (a heat capacity per mole).
+add_test(NAME eos_command.audit COMMAND whipple eos audit copper)
+set_tests_properties(eos_command.audit PROPERTIES
+  PASS_REGULAR_EXPRESSION "by shock 221\\.[78] .*critical point 851[0-9].*solid +[0-9]+ +[0-9.]+e-[01].*verdict: sound")
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/unusable.toml [=[
+name = "heat capacity in the wrong unit"
+source = "test"
+[eos]
+model = "mie_gruneisen"
+reference_density = "2785 kg/m^3"
+hugoniot_intercept = "5328 m/s"
+hugoniot_slope = 1.338
+gruneisen = 2.0
+heat_capacity = "863 kJ/(kg K)"
+]=])
+add_test(NAME eos_command.audit_refuses_unusable_constants
+  COMMAND sh -c "$<TARGET_FILE:whipple> eos audit unusable.toml; test $? -eq 2"
+  WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+foreach(query audit_refuses_unusable_constants hugoniot_prints_shock_melting refuses_to_overwrite release_to_one_bar_vaporises_a_tenth
         beyond_the_model_is_a_state_error audit_of_debye_gruneisen state isotherm isentrope melt dome audit)
   set_property(TEST eos_command.${query} PROPERTY LABELS fast)
 endforeach()

@@ -79,11 +79,13 @@ ColdCurve cold_curve(const EquationOfState& eos) {
     throw StateError(
         fmt::format("model {} has no state of zero pressure on its cold curve: it is a gas", eos.model()));
   }
+  curve.cohesive_energy = State::unknown;
+  if (curve.tension_limit.phase.empty()) return curve;
   try {
     curve.cohesive_energy = cold_state(eos, least_expansion * rho0).specific_internal_energy -
                             curve.at_rest.specific_internal_energy;
   } catch (const StateError&) {
-    curve.cohesive_energy = State::unknown;
+    // The model does not go there: unknown.
   }
   return curve;
 }

@@ -11,11 +11,12 @@ State cold_state(const EquationOfState& eos, double density);
 /// What the cold curve of condensed matter says: where it is at rest, how far it may be compressed and
 /// stretched.
 struct ColdCurve {
-  State at_rest;               ///< p = 0
-  State tension_limit;         ///< least pressure: the ideal strength in tension
-  State compression_limit;     ///< the greatest density to which p rises, at most the model's own limit
-  double cohesive_energy = 0;  ///< J/kg from rest to one millionth of the reference density; NaN if the model
-                               ///< does not go there
+  State at_rest;            ///< p = 0
+  State tension_limit;      ///< least pressure: the ideal strength in tension; without phase if there is none
+  State compression_limit;  ///< the greatest density to which p rises, at most the model's own limit
+  /// J/kg from rest to one millionth of the reference density; NaN if the model does not go there, or bears
+  /// any tension
+  double cohesive_energy = State::unknown;
 };
 /// @throws StateError if the model has no cold state of zero pressure (a gas)
 ColdCurve cold_curve(const EquationOfState& eos);

@@ -4,15 +4,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "eos/identities.hpp"
 #include "eos/inversions.hpp"
 #include "eos/loci.hpp"
+#include "src/app/eos_audit.hpp"
 #include "src/app/eos_table.hpp"
 #include "src/base/error.hpp"
 #include "src/base/units.hpp"
@@ -249,53 +248,6 @@ void run_dome(const Options& o, const Material& material) {
              critical.pressure * 1e-9, 1e-3 / critical.specific_volume);
 }
 
-void run_audit(const Options& o, const Material& material) {
-  const EquationOfState& eos = *material.eos;
-  struct Worst {
-    int states = 0;
-    eos::IdentityDefects defects;
-  };
-  std::map<std::string, Worst> phases;
-  int outside = 0;
-  const int n = std::max(o.points, 3);
-  for (const double log_ratio :
-       spaced(std::log(1.001 * eos.reference_density() / eos.maximum_density()), std::log(30.0), n)) {
-    const double density = eos.reference_density() / std::exp(log_ratio);
-    for (const double log_temperature : spaced(std::log(200.0), std::log(3e4), n)) {
-      State s;
-      try {
-        s = eos.state_at_temperature(density, std::exp(log_temperature));
-      } catch (const StateError&) {
-        ++outside;
-        continue;
-      }
-      const eos::IdentityDefects d = eos::check_identities(eos, density, s.specific_internal_energy);
-      Worst& w = phases[std::string(s.phase)];
-      ++w.states;
-      for (double eos::IdentityDefects::* defect :
-           {&eos::IdentityDefects::pressure, &eos::IdentityDefects::sound_speed,
-            &eos::IdentityDefects::heat_capacity, &eos::IdentityDefects::gruneisen,
-            &eos::IdentityDefects::bulk_modulus, &eos::IdentityDefects::entropy_energy,
-            &eos::IdentityDefects::entropy_volume, &eos::IdentityDefects::round_trip}) {
-        if (!std::isnan(d.*defect)) w.defects.*defect = std::fmax(w.defects.*defect, std::abs(d.*defect));
-      }
-    }
-  }
-  CurveTable table;
-  table.title =
-      fmt::format("Largest relative defects of the identities: {} ({}); {} states outside of the model",
-                  material.name, eos.model(), outside);
-  table.columns = {{"phase", "", 1},  {"states", "", 1},    {"P", "", 1},  {"c2", "", 1},
-                   {"Cv", "", 1},     {"Gamma", "", 1},     {"KT", "", 1}, {"S_of_E", "", 1},
-                   {"S_of_V", "", 1}, {"round_trip", "", 1}};
-  for (const auto& [phase, w] : phases) {
-    const eos::IdentityDefects& d = w.defects;
-    table.rows.push_back({phase, static_cast<double>(w.states), d.pressure, d.sound_speed, d.heat_capacity,
-                          d.gruneisen, d.bulk_modulus, d.entropy_energy, d.entropy_volume, d.round_trip});
-  }
-  write(table, o.output);
-}
-
 /// One subcommand: which quantities it takes and what it runs.
 struct Query {
   const char* name;
@@ -322,8 +274,6 @@ const Query queries[] = {
     {"melt", "Solidus and liquidus over pressure", "fo", "P_GPa", "liquidus_K", run_melt,
      "whipple eos melt copper --to '100 GPa'"},
     {"dome", "Liquid and vapour in equilibrium", "fo", "T_K", "P_MPa", run_dome, "whipple eos dome copper"},
-    {"audit", "Thermodynamic identities by finite differences, over the range of the model", "", "states",
-     "P", run_audit, "whipple eos audit copper --points 40"},
 };
 
 }  // namespace
@@ -363,6 +313,12 @@ void add_eos_command(CLI::App& app) {
       run(*o, read_material(o->material));
     });
   }
+  auto name = std::make_shared<std::string>();
+  CLI::App* audit = command->add_subcommand(
+      "audit", "Is the equation of state sound, and where: limits, stability, identities, verdict");
+  audit->add_option("material", *name, "Material file, or name of the library")->required();
+  audit->footer("Example:\n  whipple eos audit copper");
+  audit->callback([name] { print_audit(read_material(*name)); });
 }
 
 }  // namespace whipple::app

@@ -11,6 +11,7 @@
 #include "src/base/progress.hpp"
 #include "src/base/tensor.hpp"
 #include "src/base/text.hpp"
+#include "src/base/text_table.hpp"
 
 namespace whipple {
 namespace {
@@ -23,6 +24,14 @@ TEST(DidYouMean, FindsTheNearestWordWithoutRegardToCase) {
   EXPECT_EQ(did_you_mean("cell_sze", words), ", did you mean \"cell_size\"?");
   EXPECT_EQ(did_you_mean("COURANT", words), ", did you mean \"courant\"?");
   EXPECT_EQ(did_you_mean("schema", words), ", did you mean \"scheme\"?");
+}
+
+TEST(TextTable, AlignsColumnsByCharactersAndEndsLinesWithoutBlanks) {
+  EXPECT_EQ(text_table({{"name", "value", "unit"}, {"c", "3940", ""}, {"Grüneisen", "1.97"}}, "lrl"),
+            "name       value  unit\n"
+            "c           3940\n"
+            "Grüneisen   1.97\n");
+  EXPECT_EQ(text_table({}, "l"), "");
 }
 
 TEST(DidYouMean, IsSilentWhenNothingIsNear) {

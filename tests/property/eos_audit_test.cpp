@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The audit: every material of the library is usable, in milliseconds; constants that contradict matter are
+// found, each by its own check.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "eos/audit.hpp"
+#include "src/base/error.hpp"
+#include "src/material/material_file.hpp"
+#include "tests/unit/eos_support.hpp"
+
+namespace whipple::eos::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(EosAudit, LibraryIsUsableAndTheBriefFormIsQuick) {
+  for (const LibraryMaterial& entry : library_materials()) {
+    SCOPED_TRACE(entry.file.string());
+    const Material material = read_material(entry.file);
+    const auto start = std::chrono::steady_clock::now();
+    const Audit brief = audit(*material.eos, AuditDepth::brief);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    RecordProperty(entry.file.stem().string() + "_ms", std::to_string(1e3 * seconds));
+    EXPECT_NE(brief.verdict(), Verdict::not_usable) << brief.summary();
+    EXPECT_LT(seconds, 0.3);  // some 1 ms; busy machines
+    EXPECT_NO_THROW(require_usable(material));
+  }
+}
+
+TEST(EosAudit, CopperIsSoundAndItsFiguresAreThoseOfTheLoci) {
+  const GrayEos eos(copper());
+  const Audit a = audit(eos);
+  EXPECT_EQ(a.summary(), "sound");
+  EXPECT_TRUE(a.condensed);
+  ASSERT_TRUE(a.cold && a.melting && a.shock_melting && a.critical && a.boiling);
+  EXPECT_NEAR(a.melting->solidus.temperature, 1318.7, 1);
+  EXPECT_NEAR(a.shock_melting->onset.state.pressure * 1e-9, 221.8, 0.5);
+  EXPECT_NEAR(a.critical->temperature, 8511, 1);
+  EXPECT_NEAR(a.boiling->temperature, 2415, 1);
+  EXPECT_NEAR(a.range.greatest_density, eos.maximum_density(), 0.2 * eos.maximum_density());
+  EXPECT_EQ(a.range.least_density, a.cold->tension_limit.density);
+  EXPECT_GT(a.range.strongest_shock.state.pressure, 1e12);
+  bool solid = false, vapour = false;
+  for (const PhaseIdentities& phase : a.identities) {
+    if (phase.phase == "melting") continue;
+    EXPECT_LT(phase.largest.largest(), 1e-6) << phase.phase;
+    EXPECT_GT(phase.states, 5) << phase.phase;
+    solid = solid || phase.phase == "solid";
+    vapour = vapour || phase.phase == "vapour";
+  }
+  EXPECT_TRUE(solid && vapour);
+}
+
+Audit audit_of(const MieGruneisenConstants& c) { return audit(MieGruneisenEos(c)); }
+
+TEST(EosAudit, ConstantsInTheWrongUnitAreNotUsable) {
+  MieGruneisenConstants heat = aluminium_2024();
+  heat.heat_capacity *= 1000;  // kJ for J: Gamma^2 C_v T exceeds c^2
+  EXPECT_EQ(audit_of(heat).verdict(), Verdict::not_usable);
+  EXPECT_THAT(
+      audit_of(heat).summary(),
+      HasSubstr("not usable: reference state (2785 kg/m^3, 300 K): K_T = -2805 GPa is not positive (rho "
+                "c^2 = 79.06 GPa, Gamma^2 C_v T rho = 2884 GPa)"));
+  MieGruneisenConstants speed = aluminium_2024();
+  speed.hugoniot_intercept = 5.328;  // km/s for m/s
+  EXPECT_EQ(audit_of(speed).verdict(), Verdict::not_usable);
+  EXPECT_EQ(audit(MieGruneisenEos(speed), AuditDepth::brief).verdict(), Verdict::not_usable);
+}
+
+TEST(EosAudit, ASteepHugoniotIsCompressedTooLittle) {
+  MieGruneisenConstants steep = aluminium_2024();
+  steep.hugoniot_slope = 15;
+  EXPECT_EQ(audit_of(steep).verdict(), Verdict::reservations);
+  EXPECT_THAT(audit_of(steep).summary(),
+              HasSubstr("compression limit 2973.3 kg/m^3: 1.07 of the reference density"));
+  steep.hugoniot_slope = 60;
+  EXPECT_EQ(audit_of(steep).verdict(), Verdict::not_usable);
+  EXPECT_THAT(audit_of(steep).summary(), HasSubstr("less than 1.02"));
+}
+
+TEST(EosAudit, ALargeGruneisenParameterEndsTheHugoniot) {
+  MieGruneisenConstants c = aluminium_2024();
+  c.gruneisen = 8;
+  const Audit a = audit_of(c);
+  EXPECT_EQ(a.verdict(), Verdict::reservations);
+  EXPECT_THAT(a.summary(), HasSubstr("the Hugoniot ends at 14.8"));
+  EXPECT_THAT(a.range.end_of_shocks, HasSubstr("K_T = "));
+  // Up to there, not beyond: the range is where the states are stable.
+  const Hugoniot hugoniot{MieGruneisenEos(c)};
+  EXPECT_LT(a.range.strongest_shock.particle_velocity, 900);
+}
+
+TEST(EosAudit, MeltingAndBoilingPointsAreHeldAgainstTheReference) {
+  GrayConstants low = copper();
+  low.melting_temperature = 179;
+  EXPECT_THAT(audit(GrayEos(low), AuditDepth::brief).summary(),
+              HasSubstr("melts at 181.06 K, below the reference temperature of 300 K"));
+  GrayConstants refractory = copper();
+  refractory.melting_temperature = 10500;
+  refractory.vapour_attraction = 1800;
+  EXPECT_THAT(audit(GrayEos(refractory), AuditDepth::brief).summary(),
+              HasSubstr("at zero pressure: above 5000 K, as no known matter"));
+  GrayConstants volatile_metal = copper();
+  volatile_metal.vapour_attraction = 200;
+  EXPECT_THAT(audit(GrayEos(volatile_metal), AuditDepth::brief).summary(),
+              HasSubstr("at one atmosphere, below the melting point"));
+}
+
+TEST(EosAudit, ACriticalPointBeyondMatterIsNamed) {
+  GrayConstants c = copper();
+  c.vapour_attraction = 2000;
+  EXPECT_THAT(audit(GrayEos(c), AuditDepth::brief).summary(),
+              HasSubstr("critical temperature 26644 K: above 25000 K"));
+}
+
+/// A fluid whose pressure falls with density between two bounds: what an audit must not let pass.
+class Loop final : public EquationOfState {
+ public:
+  [[nodiscard]] std::string_view model() const override { return "loop"; }
+  [[nodiscard]] double reference_density() const override { return 1000; }
+  [[nodiscard]] double reference_temperature() const override { return 300; }
+  [[nodiscard]] double reference_energy() const override { return 3e5; }
+  [[nodiscard]] double maximum_density() const override { return 3000; }
+  [[nodiscard]] double minimum_energy(double) const override { return 1000; }
+  [[nodiscard]] double least_temperature() const override { return 1; }
+  RangeReport evaluate(const Batch&) const override { return {}; }
+  [[nodiscard]] State state(double density, double e) const override {
+    State s;
+    s.density = density;
+    s.specific_internal_energy = e;
+    s.temperature = e / 1000;
+    // K = rho dp/d(rho) = 2 GPa cos(...) turns negative at x = 1.25.
+    const double x = density / 1000;
+    s.pressure = 2e9 * std::sin(2 * 3.141592653589793 * (x - 1));
+    s.isothermal_bulk_modulus = x * 2e9 * 2 * 3.141592653589793 * std::cos(2 * 3.141592653589793 * (x - 1));
+    s.heat_capacity = 1000;
+    s.gruneisen = 0;
+    s.sound_speed = std::sqrt(std::max(s.isothermal_bulk_modulus / density, 100.0));
+    s.specific_entropy = 1000 * std::log(s.temperature);
+    s.phase = "liquid";
+    derive(s);
+    return s;
+  }
+  [[nodiscard]] State state_at_temperature(double density, double T) const override {
+    return state(density, 1000 * T);
+  }
+  [[nodiscard]] std::string constants() const override { return ""; }
+};
+
+TEST(EosAudit, APressureThatFallsWithDensityEndsTheRange) {
+  const Audit a = audit(Loop{});
+  EXPECT_EQ(a.verdict(), Verdict::reservations);
+  EXPECT_NEAR(a.range.greatest_density, 1250, 2);
+  EXPECT_THAT(a.summary(), HasSubstr("the pressure of the cold curve falls beyond 1250 kg/m^3"));
+  EXPECT_LT(a.range.strongest_shock.state.density, 1251);
+}
+
+}  // namespace
+}  // namespace whipple::eos::test
