@@ -26,50 +26,48 @@ double gibbs(const FluidPoint& p, double V, double T) { return p.energy - T * p.
 
 }  // namespace
 
-VapourDome::VapourDome(const Search& search) : search_(search) {
-  find_critical_point();
+VapourDome::VapourDome(const Search& search)
+    : search_(search), critical_(whipple::eos::critical_point(search)) {
   // V_l and V_v leave the critical point like sqrt(1 - T/T_c): rows uniform in that distance keep them
   // smooth.
   const double far = std::sqrt(1 - search_.least_reduced_temperature);
   rows_.reserve(search_.rows);
   for (int i = 0; i < search_.rows; ++i) {
     const double distance = far + (least_distance - far) * i / (search_.rows - 1);
-    rows_.push_back(maxwell(critical_.temperature * (1 - distance * distance)));
+    rows_.push_back(saturation_at(critical_.temperature * (1 - distance * distance)));
   }
 }
 
-void VapourDome::find_critical_point() {
-  // Largest (dP/dV)_T V^2 over the volumes: positive below T_c (a loop), zero at it.
-  double volume = 0;
-  const auto steepest = [&](double T) {
-    const auto slope = [&](double log_volume) {
-      const double V = std::exp(log_volume);
-      return V * V * search_.fluid(V, T).pressure_by_volume;
-    };
-    const double first = std::log(search_.loop_volume), last = std::log(100 * search_.loop_volume);
-    int best = 0;
-    double greatest = -INFINITY;
-    for (int i = 0; i <= scan_points; ++i) {
-      const double value = slope(first + (last - first) * i / scan_points);
-      if (value > greatest) {
-        greatest = value;
-        best = i;
-      }
-    }
-    const double step = (last - first) / scan_points;
-    const double centre = first + best * step;
-    const auto [log_volume, negative] = boost::math::tools::brent_find_minima(
-        [&](double x) { return -slope(x); }, std::max(first, centre - step), std::min(last, centre + step),
-        40);
-    volume = std::exp(log_volume);
-    return -negative;
+LoopPoint steepest_point(const VapourDome::Search& search, double T) {
+  const auto slope = [&](double log_volume) {
+    const double V = std::exp(log_volume);
+    return V * V * search.isotherm(V, T).pressure_by_volume;
   };
+  const double first = std::log(search.loop_volume), last = std::log(100 * search.loop_volume);
+  int best = 0;
+  double greatest = -INFINITY;
+  for (int i = 0; i <= scan_points; ++i) {
+    const double value = slope(first + (last - first) * i / scan_points);
+    if (value > greatest) {
+      greatest = value;
+      best = i;
+    }
+  }
+  const double step = (last - first) / scan_points;
+  const double centre = first + best * step;
+  const auto [log_volume, negative] = boost::math::tools::brent_find_minima(
+      [&](double x) { return -slope(x); }, std::max(first, centre - step), std::min(last, centre + step), 40);
+  return {std::exp(log_volume), -negative};
+}
+
+CriticalPoint critical_point(const VapourDome::Search& search) {
   // The first temperature without a loop, from below: hotter isotherms may fall again at the join of the
   // model.
-  const double lowest = search_.temperature_guess / 6, highest = 6 * search_.temperature_guess;
+  const auto steepness = [&](double T) { return steepest_point(search, T).steepness; };
+  const double lowest = search.temperature_guess / 6, highest = 6 * search.temperature_guess;
   double low = lowest, high = 0;
   for (double T = lowest; T <= highest; T *= 1.1) {
-    if (steepest(T) > 0) {
+    if (steepness(T) > 0) {
       low = T;
     } else {
       high = T;
@@ -82,44 +80,43 @@ void VapourDome::find_critical_point() {
         "covolume_ratio, or try a smaller join_volume_ratio",
         lowest, highest));
   }
-  const double T = find_root(steepest, low, high, "critical temperature", 40);
-  static_cast<void>(steepest(T));
-  const FluidPoint point = search_.fluid(volume, T);
-  critical_ = {T, point.pressure, volume, point.energy};
+  const double T = find_root(steepness, low, high, "critical temperature", 40);
+  const double volume = steepest_point(search, T).volume;
+  const FluidPoint point = search.fluid(volume, T);
+  return {T, point.pressure, volume, point.energy};
 }
 
-Saturation VapourDome::maxwell(double T) const {
-  const auto slope = [&](double V) { return search_.fluid(V, T).pressure_by_volume; };
-  const auto pressure = [&](double V) { return search_.fluid(V, T).pressure; };
-  // From the critical volume, which lies in the loop, outwards to the first volume where P falls again: the
+Saturation saturation(const VapourDome::Search& search, double T, double volume_in_loop) {
+  const auto slope = [&](double V) { return search.isotherm(V, T).pressure_by_volume; };
+  const auto pressure = [&](double V) { return search.isotherm(V, T).pressure; };
+  // From a volume in the loop outwards to the first volume where P falls again: the
   // spinodals of this loop, also if the model's join makes another one elsewhere.
   const auto spinodal = [&](double outer) {
-    double inside = critical_.specific_volume;
+    double inside = volume_in_loop;
     bool in_loop = slope(inside) >= 0;
     for (int i = 1; i <= scan_points; ++i) {
-      const double V = spaced(critical_.specific_volume, outer, i, scan_points);
+      const double V = spaced(volume_in_loop, outer, i, scan_points);
       const bool rises = slope(V) >= 0;
       if (in_loop && !rises) return find_root(slope, inside, V, "spinodal");
       in_loop = in_loop || rises;
       inside = V;
     }
     throw InputError(
-        fmt::format("no liquid-vapour loop at {:.0f} K, below the critical temperature of {:.0f} K; check "
-                    "the vapour constants "
-                    "(vapour_attraction, covolume_ratio, join_volume_ratio)",
-                    T, critical_.temperature));
+        fmt::format("no liquid-vapour loop at {:.0f} K; check the vapour constants (vapour_attraction, "
+                    "covolume_ratio, join_volume_ratio)",
+                    T));
   };
-  const double liquid_spinodal = spinodal(search_.dense_volume);
-  const double vapour_spinodal = spinodal(search_.dilute_volume);
+  const double liquid_spinodal = spinodal(search.dense_volume);
+  const double vapour_spinodal = spinodal(search.dilute_volume);
   const double highest = pressure(vapour_spinodal);
   const double spinodal_pressure = pressure(liquid_spinodal);
 
   const auto liquid_volume = [&](double p) {
-    return find_root([&](double V) { return pressure(V) - p; }, search_.dense_volume, liquid_spinodal,
+    return find_root([&](double V) { return pressure(V) - p; }, search.dense_volume, liquid_spinodal,
                      "volume of the saturated liquid");
   };
   const auto vapour_volume = [&](double p) {
-    const double ideal = 2 * search_.gas_constant * T / p;
+    const double ideal = 2 * search.gas_constant * T / p;
     return find_root([&](double V) { return pressure(V) / p - 1; }, vapour_spinodal,
                      std::max(ideal, 2 * vapour_spinodal), "volume of the saturated vapour");
   };
@@ -127,7 +124,7 @@ Saturation VapourDome::maxwell(double T) const {
   const auto difference = [&](double log_pressure) {
     const double p = std::exp(log_pressure);
     const double Vl = liquid_volume(p), Vv = vapour_volume(p);
-    return gibbs(search_.fluid(Vl, T), Vl, T) - gibbs(search_.fluid(Vv, T), Vv, T);
+    return gibbs(search.fluid(Vl, T), Vl, T) - gibbs(search.fluid(Vv, T), Vv, T);
   };
   const double upper = std::log(highest) - 1e-12;
   double lower = spinodal_pressure > 0 ? std::log(spinodal_pressure) + 1e-12 : upper - 1;
@@ -141,12 +138,16 @@ Saturation VapourDome::maxwell(double T) const {
   s.pressure = p;
   s.liquid_volume = liquid_volume(p);
   s.vapour_volume = vapour_volume(p);
-  const FluidPoint l = search_.fluid(s.liquid_volume, T), v = search_.fluid(s.vapour_volume, T);
+  const FluidPoint l = search.fluid(s.liquid_volume, T), v = search.fluid(s.vapour_volume, T);
   s.liquid_energy = l.energy;
   s.liquid_entropy = l.entropy;
   s.vapour_energy = v.energy;
   s.vapour_entropy = v.entropy;
   return s;
+}
+
+Saturation VapourDome::saturation_at(double temperature) const {
+  return saturation(search_, temperature, critical_.specific_volume);
 }
 
 double VapourDome::vaporised_fraction(double V, double E) const {
@@ -179,7 +180,7 @@ double VapourDome::vaporised_fraction(double V, double E) const {
 std::optional<Saturation> VapourDome::at_temperature(double temperature) const {
   if (!(temperature >= rows_.front().temperature && temperature <= rows_.back().temperature))
     return std::nullopt;
-  return maxwell(temperature);
+  return saturation_at(temperature);
 }
 
 std::optional<Saturation> VapourDome::at_pressure(double pressure) const {
@@ -187,9 +188,9 @@ std::optional<Saturation> VapourDome::at_pressure(double pressure) const {
   const auto above = std::partition_point(rows_.begin(), rows_.end(),
                                           [&](const Saturation& s) { return s.pressure < pressure; });
   if (above == rows_.begin()) return rows_.front();
-  const double T = find_root([&](double t) { return std::log(maxwell(t).pressure / pressure); },
+  const double T = find_root([&](double t) { return std::log(saturation_at(t).pressure / pressure); },
                              (above - 1)->temperature, above->temperature, "saturation temperature", 40);
-  return maxwell(T);
+  return saturation_at(T);
 }
 
 }  // namespace whipple::eos

@@ -12,6 +12,11 @@ struct FluidPoint {
   double pressure = 0;
   double energy = 0;
   double entropy = 0;
+};
+
+/// Its isotherm: pressure and slope.
+struct IsothermPoint {
+  double pressure = 0;
   double pressure_by_volume = 0;  ///< (dP/dV)_T
 };
 
@@ -37,7 +42,8 @@ class VapourDome {
  public:
   struct Search {
     std::function<FluidPoint(double V, double T)> fluid;
-    double dense_volume;       ///< denser than every saturated liquid
+    std::function<IsothermPoint(double V, double T)> isotherm;  ///< of the same surface, called most
+    double dense_volume;                                        ///< denser than every saturated liquid
     double loop_volume;        ///< the loop at the critical temperature lies above this volume
     double dilute_volume;      ///< thinner than the vapour's spinodal at the least temperature
     double gas_constant;       ///< R/M: P V -> R T/M for V -> infinity
@@ -63,12 +69,28 @@ class VapourDome {
   [[nodiscard]] const std::vector<Saturation>& rows() const { return rows_; }
 
  private:
-  void find_critical_point();
-  [[nodiscard]] Saturation maxwell(double temperature) const;
+  [[nodiscard]] Saturation saturation_at(double temperature) const;
 
   Search search_;
   CriticalPoint critical_;
   std::vector<Saturation> rows_;
 };
+
+// What the dome is made of, for whoever needs a part of it only.
+
+/// Where an isotherm rises most steeply: the volume of the greatest V^2 (dP/dV)_T beyond `loop_volume`, and
+/// that value (J/kg), which is positive below the critical temperature and zero at it.
+struct LoopPoint {
+  double volume = 0, steepness = 0;
+};
+LoopPoint steepest_point(const VapourDome::Search& search, double temperature);
+
+/// The first temperature, from below, at which the loop has vanished.
+/// @throws InputError if there is none within a factor of 6 of the guess
+CriticalPoint critical_point(const VapourDome::Search& search);
+
+/// Maxwell's construction at a temperature; the volume lies in the loop of the isotherm.
+/// @throws InputError without a loop, StateError if the saturation pressure is out of the search
+Saturation saturation(const VapourDome::Search& search, double temperature, double volume_in_loop);
 
 }  // namespace whipple::eos

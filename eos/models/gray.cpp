@@ -11,27 +11,6 @@
 #include "src/base/log.hpp"
 
 namespace whipple::eos {
-namespace {
-
-VapourDome make_dome(const GrayFreeEnergy& surface) {
-  const GrayConstants& c = surface.constants();
-  return VapourDome({.fluid =
-                         [&](double V, double T) {
-                           const GrayPoint p = surface.fluid(V, T);
-                           return FluidPoint{p.pressure, p.energy, p.entropy, p.pressure_by_volume};
-                         },
-                     .dense_volume = std::max(0.6 * c.reference_specific_volume, surface.least_volume()),
-                     // Away from V_J, where the kink of the join may make a loop of its own.
-                     .loop_volume = 1.15 * surface.join_volume(),
-                     .dilute_volume = 1e4 * c.reference_specific_volume,
-                     .gas_constant = surface.specific_gas_constant(),
-                     // Critical point of the fluid without the join (G30).
-                     .temperature_guess = 0.0943287 * c.vapour_attraction /
-                                          (surface.specific_gas_constant() * surface.covolume())});
-}
-
-}  // namespace
-
 /// One point: what a batch needs, and where it was found.
 struct Gray::Point {
   double V = 0, E = 0, T = 0, P = 0;
@@ -46,7 +25,7 @@ struct Gray::Point {
 
 Gray::Gray(const Constants& constants)
     : surface_(constants),
-      dome_(make_dome(surface_)),
+      dome_(surface_.dome_search()),
       least_squared_sound_speed_(std::pow(least_sound_speed_ratio * constants.hugoniot_intercept, 2)) {
   const double T = surface_.vapour_branch_temperature();
   const GrayBranch thin = surface_.vapour_branch(1e6 * surface_.join_volume(), false);

@@ -31,6 +31,8 @@ class Gray {
 
   /// @throws InputError naming the constants that contradict each other
   explicit Gray(const Constants& constants);
+  Gray(const Gray&) = delete;  // the dome refers to the free energy
+  Gray& operator=(const Gray&) = delete;
 
   [[nodiscard]] const Constants& constants() const { return surface_.constants(); }
   [[nodiscard]] const GrayFreeEnergy& free_energy() const { return surface_; }

@@ -60,8 +60,18 @@ ParameterTable<GrayConstants> gray_parameters() {
           .optional(),
       real("join_shape", &C::join_shape, "", range::positive(), "theta of the join function of the vapour")
           .optional(),
+      choice("vapour", &C::vapour, {"attraction", "critical", "boiling"},
+             "a_y: vapour_attraction as given, or solved for critical_temperature or boiling_temperature")
+          .optional(),
       real("vapour_attraction", &C::vapour_attraction, "J m^3/kg^2", range::positive(),
-           "a_y, van der Waals attraction of the vapour: R T_c V_b/0.0943 for a wanted T_c"),
+           "a_y, van der Waals attraction of the vapour")
+          .optional("required by vapour = \"attraction\""),
+      real("critical_temperature", &C::critical_temperature, "K", range::positive(),
+           "critical temperature of the model with vapour = \"critical\"")
+          .optional("required by vapour = \"critical\""),
+      real("boiling_temperature", &C::boiling_temperature, "K", range::positive(),
+           "boiling temperature at 101325 Pa of the model with vapour = \"boiling\"")
+          .optional("required by vapour = \"boiling\""),
       real("reference_temperature", &C::reference_temperature, "K", range::positive(), "T0").optional(),
       real("reference_energy", &C::reference_energy, "J/kg", range::any(), "E(V0, T0)").optional(),
   };
@@ -84,6 +94,14 @@ GrayConstants resolved(GrayConstants c) {
     throw InputError(fmt::format("gray: join_shape ({}) must exceed covolume_ratio/join_volume_ratio ({})",
                                  c.join_shape, c.covolume_ratio / c.join_volume_ratio));
   }
+  const auto require = [&](const char* vapour, const char* name, double value) {
+    if (c.vapour == vapour && !std::isfinite(value)) {
+      throw InputError(fmt::format("gray: vapour = \"{}\" needs {}, which is missing", vapour, name));
+    }
+  };
+  require("attraction", "vapour_attraction", c.vapour_attraction);
+  require("critical", "critical_temperature", c.critical_temperature);
+  require("boiling", "boiling_temperature", c.boiling_temperature);
   return c;
 }
 

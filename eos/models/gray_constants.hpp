@@ -16,6 +16,7 @@ struct GrayConstants {
   /// because melting entropy and heat-capacity slopes of the liquid were given with it.
   static constexpr double gas_constant = 8.314;
   static constexpr double same_as_solid = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double not_given = std::numeric_limits<double>::infinity();
 
   // Solid
   double molar_mass = 0;                    ///< kg/mol
@@ -41,7 +42,12 @@ struct GrayConstants {
   double join_volume_ratio = 1.3;  ///< V_J/V0
   double covolume_ratio = 0.5;     ///< V_b/V0
   double join_shape = 1.0;         ///< theta
-  double vapour_attraction = 0;    ///< a_y, J m^3/kg^2
+  /// Where a_y comes from: "attraction" (as given), "critical" (the complete model has its critical point at
+  /// `critical_temperature`) or "boiling" (it boils at `boiling_temperature` under 101325 Pa).
+  std::string vapour = "attraction";
+  double vapour_attraction = not_given;     ///< a_y, J m^3/kg^2
+  double critical_temperature = not_given;  ///< K
+  double boiling_temperature = not_given;   ///< K
   // Reference state
   double reference_temperature = 300.0;  ///< T0, K
   double reference_energy = 0.0;         ///< E_0H = E(V0, T0), J/kg
@@ -50,7 +56,8 @@ struct GrayConstants {
 /// Names, units, ranges and meanings of the constants.
 ParameterTable<GrayConstants> gray_parameters();
 
-/// Replaces the "same as the solid" defaults by their values.
+/// Replaces the "same as the solid" defaults by their values. (The attraction of the vapour presets needs
+/// the whole surface: GrayFreeEnergy.)
 /// @throws InputError if the constants contradict each other (both names in the message)
 GrayConstants resolved(GrayConstants constants);
 

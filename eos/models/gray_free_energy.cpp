@@ -53,6 +53,7 @@ GrayFreeEnergy::GrayFreeEnergy(const GrayConstants& constants) : constants_(reso
   tabulate_cold_curve();
   prepare_vapour();
   check_heat_capacity();
+  solve_vapour_attraction();
 }
 
 double GrayFreeEnergy::lattice_factor(double x) const {  // (G10)

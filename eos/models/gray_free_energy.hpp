@@ -6,10 +6,11 @@
 #include "eos/hermite_table.hpp"
 #include "eos/models/gray_constants.hpp"
 #include "eos/models/shock_curve.hpp"
+#include "eos/vapour_dome.hpp"
 
 /// Helmholtz free energy of GRAY in closed form, phase by phase (docs/theory/gray.md, sections 2 to 4). All
-/// arguments and results SI; V is the specific volume in m^3/kg, T in K. Cheap to construct (about a tenth of
-/// a millisecond), so that a fit may build one per trial set of constants.
+/// arguments and results SI; V is the specific volume in m^3/kg, T in K. Cheap to construct (a quarter
+/// of a millisecond with a given attraction), so that a fit may build one per trial set of constants.
 namespace whipple::eos {
 
 /// One branch of the free energy on the isochore V: in every phase of GRAY energy and pressure are quadratic
@@ -81,10 +82,11 @@ struct GrayPoint {
 
 class GrayFreeEnergy {
  public:
-  /// @throws InputError if the constants contradict each other or the heat capacity would not stay positive
+  /// @throws InputError if the constants contradict each other, the heat capacity would not stay positive, or
+  /// no attraction gives the wanted critical or boiling temperature
   explicit GrayFreeEnergy(const GrayConstants& constants);
 
-  /// Constants with the defaults resolved.
+  /// Constants with the defaults resolved and the attraction of the vapour solved.
   [[nodiscard]] const GrayConstants& constants() const { return constants_; }
   /// Least specific volume: the cold pressure turns over there, or the shock curve nears its pole (G29).
   [[nodiscard]] double least_volume() const { return least_volume_; }
@@ -108,6 +110,9 @@ class GrayFreeEnergy {
     return V > join_volume_ ? vapour(V, T) : liquid(V, T);
   }
 
+  /// The fluid surface as the search for its dome sees it. The object refers to this one.
+  [[nodiscard]] VapourDome::Search dome_search() const;
+
   // Building blocks of the evaluation.
   [[nodiscard]] GrayIsochore isochore(double V) const;
   [[nodiscard]] GrayBranch liquid_branch(
@@ -117,6 +122,8 @@ class GrayFreeEnergy {
   [[nodiscard]] GrayBandSlopes band_slopes(const GrayIsochore& isochore, const GrayBand& band) const;
   /// Branch of the vapour at V >= V_J: below (hot = false) or above T_G(V_J)  (G25)
   [[nodiscard]] GrayBranch vapour_branch(double V, bool hot) const;
+  /// Branch of fluid() at (V, T).
+  [[nodiscard]] GrayBranch fluid_branch(double V, double T) const;
   /// T_G(V_J): the vapour changes branch there at every volume.
   [[nodiscard]] double vapour_branch_temperature() const { return join_hot_temperature_; }
   /// Melting band at V_J.
@@ -137,6 +144,7 @@ class GrayFreeEnergy {
   [[nodiscard]] double lattice_factor(double x) const;  ///< h(x)  (G10)
   void tabulate_cold_curve();
   void prepare_vapour();
+  void solve_vapour_attraction();
   void check_heat_capacity() const;
   [[nodiscard]] double band_width(const GrayIsochore& isochore) const;
   [[nodiscard]] double band_width_slope(const GrayIsochore& isochore) const;

@@ -72,6 +72,13 @@ GrayBranch GrayFreeEnergy::vapour_branch(double V, bool hot) const {
   return v;
 }
 
+GrayBranch GrayFreeEnergy::fluid_branch(double V, double T) const {
+  if (V > join_volume_) return vapour_branch(V, T > join_hot_temperature_);
+  const GrayIsochore iso = isochore(V);
+  return T > constants_.hot_liquid_ratio * iso.melting_temperature ? hot_liquid_branch(iso)
+                                                                   : liquid_branch(iso);
+}
+
 double GrayFreeEnergy::join_difference_slope(double T) const {
   const GrayBranch& l = T > join_hot_temperature_ ? join_hot_ : join_cool_;
   return l.pressure_by_temperature(T) - gas_ * join_compressibility_ / join_volume_;

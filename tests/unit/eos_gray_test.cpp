@@ -181,6 +181,59 @@ TEST(EosGray, ConstantsThatContradictEachOtherAreRefusedByName) {
   EXPECT_THROW(Gray{c}, InputError);
 }
 
+TEST(EosGray, AttractionOfTheVapourIsSolvedForTheCriticalOrTheBoilingTemperature) {
+  for (GrayConstants c : {copper(), aluminium()}) {
+    c.vapour_attraction = GrayConstants::not_given;
+    c.vapour = "critical";
+    for (const double T : {6600.0, 7800.0, 10000.0}) {
+      c.critical_temperature = T;
+      EXPECT_NEAR(Gray(c).dome().critical_point().temperature, T, 1e-6 * T);
+    }
+    c.vapour = "boiling";
+    for (const double T : {2414.7, 2835.0}) {
+      c.boiling_temperature = T;
+      EXPECT_NEAR(Gray(c).dome().at_pressure(101325).value().temperature, T, 1e-6 * T);
+    }
+  }
+  // The presets find the attraction that gives the temperatures of copper with 620 J m^3/kg^2, and say so.
+  GrayConstants c = copper();
+  c.vapour = "boiling";
+  c.boiling_temperature = Gray(copper()).dome().at_pressure(101325).value().temperature;
+  c.vapour_attraction = GrayConstants::not_given;
+  const GrayEos eos(c);
+  EXPECT_NEAR(eos.underlying().constants().vapour_attraction, 620, 1e-3);
+  EXPECT_NE(eos.constants().find("\nvapour_attraction = \""), std::string::npos) << eos.constants();
+  EXPECT_NE(eos.constants().find("vapour = \"boiling\""), std::string::npos);
+}
+
+TEST(EosGray, VapourPresetWithoutItsTemperatureOrOutOfReachIsRefused) {
+  const auto refusal = [](const GrayConstants& c) {
+    try {
+      const GrayFreeEnergy f(c);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  GrayConstants c = copper();
+  for (const auto& [vapour, name] :
+       {std::pair("critical", "critical_temperature"), std::pair("boiling", "boiling_temperature"),
+        std::pair("attraction", "vapour_attraction")}) {
+    c.vapour = vapour;
+    c.vapour_attraction = GrayConstants::not_given;
+    EXPECT_NE(refusal(c).find(std::string("needs ") + name), std::string::npos) << refusal(c);
+  }
+  // The join alone binds copper: with any attraction it boils above 300 K and is a fluid with a loop at 2000
+  // K.
+  c.vapour = "critical";
+  c.critical_temperature = 2000;
+  EXPECT_NE(refusal(c).find("no vapour_attraction gives a critical_temperature of 2000 K"),
+            std::string::npos);
+  c.vapour = "boiling";
+  c.boiling_temperature = 300;
+  EXPECT_NE(refusal(c).find("no vapour_attraction gives a boiling_temperature of 300 K"), std::string::npos);
+}
+
 TEST(EosGray, AnharmonicAndElectronicCoefficientsAddUp) {
   GrayConstants a = copper(), b = copper();
   b.electronic_heat_coefficient = 7e-4;
