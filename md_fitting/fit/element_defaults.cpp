@@ -23,7 +23,11 @@ constexpr std::array copper_electronic = {
     NamedDefault{"electronic_heat_coefficient", "none", 0.0, "no electronic energy at all"},
 };
 
+constexpr std::string_view linear_hugoniot = "the simulated shocks are fitted by Us = C + S up";
+
 constexpr std::array copper_constants = {
+    NamedDefault{"hugoniot_quadratic", "linear", 0.0, linear_hugoniot},
+    NamedDefault{"hugoniot_cubic", "linear", 0.0, linear_hugoniot},
     NamedDefault{"electronic_gruneisen", "free electron gas", 2.0 / 3.0,
                  "P V = (2/3) E of a free electron gas; default of GRAY"},
     NamedDefault{"melting_entropy", "GRAY", 9.637, gray_universal},

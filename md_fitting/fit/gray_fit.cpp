@@ -364,7 +364,7 @@ GrayFit fit_gray(std::span<const md::PointRecord> points, const FitSettings& set
   }
   for (const BoundParameter& parameter : whipple::bind(eos::gray_parameters(), fit.gray)) {
     double* value = number(parameter);
-    if (value == nullptr || std::isnan(*value)) continue;  // words, and "same as the solid"
+    if (value == nullptr || !std::isfinite(*value)) continue;  // words, "same as the solid", not given
     *value = as_written(*value, parameter.info.unit);
     Constant constant;
     constant.name = parameter.info.name;
