@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <string_view>
 
+#include "src/app/materials_table.hpp"
 #include "src/base/log.hpp"
 #include "src/material/material_file.hpp"
 
@@ -12,15 +15,23 @@ namespace whipple::app {
 namespace {
 
 void print_materials() {
-  std::size_t width = 4;
   const std::vector<LibraryMaterial> materials = library_materials();
+  std::size_t width = 4;
   for (const LibraryMaterial& material : materials) {
-    width = std::max(width, material.file.filename().string().size());
+    width = std::max(width, material.file.stem().string().size());
   }
-  for (const LibraryMaterial& material : materials) {
-    fmt::print("{:<{}}  {}{}{}\n", material.file.filename().string(), width, material.name,
-               material.note.empty() ? "" : ": ", material.note);
-  }
+  const auto print_group = [&](std::string_view group, std::string_view title) {
+    bool first = true;
+    for (const LibraryMaterial& material : materials) {
+      if (material.group != group) continue;
+      if (first) fmt::print("{}\n", title);
+      first = false;
+      fmt::print("  {:<{}}  {}\n", material.file.stem().string(), width,
+                 material.note.empty() ? material.name : material.note);
+    }
+  };
+  for (const char* group : material_groups) print_group(group, group);
+  print_group("", "other");
   log::info("{} materials; a bare file name is looked up beside the case, then in:", materials.size());
   for (const std::filesystem::path& folder : library_folders()) log::info("  {}", folder.string());
 }
@@ -29,8 +40,17 @@ void print_materials() {
 
 void add_materials_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("materials", "List the material library");
-  command->footer("Example:\n  whipple materials");
-  command->callback(print_materials);
+  command->footer("Example:\n  whipple materials\n  whipple materials --markdown");
+  const auto markdown = std::make_shared<bool>(false);
+  command->add_flag("--markdown", *markdown,
+                    "Tables of what the equations of state say (docs/materials.md), in Markdown");
+  command->callback([markdown] {
+    if (*markdown) {
+      fmt::print("{}", library_as_markdown());
+    } else {
+      print_materials();
+    }
+  });
 }
 
 }  // namespace whipple::app

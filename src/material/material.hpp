@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,13 @@
 
 namespace whipple {
 
+/// Measured values that the models do not use, to be compared with (docs/materials.md); NaN: not known.
+struct Measured {
+  double melting_point = std::numeric_limits<double>::quiet_NaN();  ///< K, at 1 atm; of an alloy: solidus
+  double liquidus = std::numeric_limits<double>::quiet_NaN();       ///< K, at 1 atm, of an alloy
+  double boiling_point = std::numeric_limits<double>::quiet_NaN();  ///< K, at 1 atm
+};
+
 /// Equation of state + strength + failure: everything that a point of matter needs to know about itself.
 /// Immutable after `make_material`; shared by threads.
 struct Material {
@@ -22,6 +30,8 @@ struct Material {
   std::filesystem::path file;  ///< where it was read from; empty if it was built in memory
   std::string source;          ///< where its constants come from
   std::string note;
+  std::string group;  ///< where the library lists it: "metals", "explosives", ...; may be empty
+  Measured measured;
   std::shared_ptr<const eos::EquationOfState> eos;                 ///< never null
   std::shared_ptr<const strength::Strength> strength;              ///< never null
   std::vector<std::shared_ptr<const failure::Criterion>> failure;  ///< in the order of the file; may be empty

@@ -36,12 +36,33 @@ ParameterTable<Remarks> remarks_of_table() {
 
 struct Head : Remarks {
   std::string name;
+  std::string group;
 };
 
 ParameterTable<Head> head_of_file() {
   return {text("name", &Head::name, "name of the material"),
           text<Head>("source", &Head::source, "where the constants come from"),
-          text<Head>("note", &Head::note, "one line about the purpose or the limits").optional()};
+          text<Head>("note", &Head::note, "one line about the purpose or the limits").optional(),
+          choice("group", &Head::group, {material_groups.begin(), material_groups.end()},
+                 "where the library lists the material")
+              .optional()};
+}
+
+struct MeasuredTable : Measured {
+  std::string source;
+};
+
+ParameterTable<MeasuredTable> measured_values() {
+  return {
+      text("source", &MeasuredTable::source, "where the values come from"),
+      real<MeasuredTable>("melting_point", &MeasuredTable::melting_point, "K", range::positive(),
+                          "at 1 atm; of an alloy: solidus")
+          .optional(),
+      real<MeasuredTable>("liquidus", &MeasuredTable::liquidus, "K", range::positive(),
+                          "of an alloy, at 1 atm")
+          .optional(),
+      real<MeasuredTable>("boiling_point", &MeasuredTable::boiling_point, "K", range::positive(), "at 1 atm")
+          .optional()};
 }
 
 template <class Entry>
@@ -116,6 +137,37 @@ std::string describe_catalogue(std::span<const Entry> catalogue, const std::stri
                                fmt::join(known, ", ")));
 }
 
+/// A material file whose tables are read and checked, but whose parts are not built yet.
+struct Declared {
+  Head head;
+  MeasuredTable measured;
+  decltype(declare(eos::catalogue(), std::declval<input::Table>())) eos;
+  decltype(declare(strength::catalogue(), std::declval<input::Table>())) strength;
+  std::vector<decltype(declare(failure::catalogue(), std::declval<input::Table>()))> failure;
+  std::string eos_line, strength_line;
+};
+
+Declared declare_file(const fs::path& file) {
+  input::Document document = input::Document::from_file(file);
+  input::Table root = document.root();
+  Declared declared;
+  root.read(head_of_file(), declared.head);
+  for (const char* free : {"provenance", "covariance", "defaults"}) root.accept(free);
+  if (auto table = root.required_table("eos")) {
+    declared.eos = declare(eos::catalogue(), *table);
+    declared.eos_line = table->where();
+  }
+  if (auto table = root.optional_table("strength")) {
+    declared.strength = declare(strength::catalogue(), *table);
+    declared.strength_line = table->where();
+  }
+  for (input::Table& table : root.list("failure"))
+    declared.failure.push_back(declare(failure::catalogue(), table));
+  if (auto table = root.optional_table("measured")) table->read(measured_values(), declared.measured);
+  document.finish();
+  return declared;
+}
+
 }  // namespace
 
 std::vector<fs::path> library_folders() {
@@ -156,38 +208,20 @@ fs::path find_material(const fs::path& path, const fs::path& beside) {
 
 Material read_material(const fs::path& path, const fs::path& beside) {
   const fs::path file = find_material(path, beside);
-  input::Document document = input::Document::from_file(file);
-  input::Table root = document.root();
-  Head head;
-  root.read(head_of_file(), head);
-  for (const char* free : {"provenance", "covariance", "defaults"}) root.accept(free);
-
-  decltype(declare(eos::catalogue(), root)) eos_builder;
-  decltype(declare(strength::catalogue(), root)) strength_builder;
-  std::vector<decltype(declare(failure::catalogue(), root))> failure_builders;
-  std::string eos_line, strength_line;
-  if (auto table = root.required_table("eos")) {
-    eos_builder = declare(eos::catalogue(), *table);
-    eos_line = table->where();
-  }
-  if (auto table = root.optional_table("strength")) {
-    strength_builder = declare(strength::catalogue(), *table);
-    strength_line = table->where();
-  }
-  for (input::Table& table : root.list("failure"))
-    failure_builders.push_back(declare(failure::catalogue(), table));
-  document.finish();
-
-  std::shared_ptr<const eos::EquationOfState> eos = build(eos_builder, eos_line, "eos");
+  const Declared declared = declare_file(file);
+  std::shared_ptr<const eos::EquationOfState> eos = build(declared.eos, declared.eos_line, "eos");
   std::shared_ptr<const strength::Strength> strength;
-  if (strength_builder) strength = build(strength_builder, strength_line, "strength");
+  if (declared.strength) strength = build(declared.strength, declared.strength_line, "strength");
   std::vector<std::shared_ptr<const failure::Criterion>> failure;
-  for (const auto& builder : failure_builders) failure.push_back(builder());
+  for (const auto& builder : declared.failure) failure.push_back(builder());
   try {
-    Material material = make_material(head.name, std::move(eos), std::move(strength), std::move(failure));
+    Material material =
+        make_material(declared.head.name, std::move(eos), std::move(strength), std::move(failure));
     material.file = file;
-    material.source = head.source;
-    material.note = head.note;
+    material.source = declared.head.source;
+    material.note = declared.head.note;
+    material.group = declared.head.group;
+    material.measured = declared.measured;
     return material;
   } catch (const InputError& fault) {
     throw InputError(fmt::format("{}: error: {}", file.string(), fault.what()));
@@ -213,10 +247,10 @@ std::vector<LibraryMaterial> library_materials() {
   std::vector<LibraryMaterial> materials;
   for (const auto& [stem, file] : library_files()) {
     try {
-      const Material material = read_material(file);
-      materials.push_back({material.name, file, material.note});
+      const Head head = declare_file(file).head;
+      materials.push_back({head.name, file, head.note, head.group});
     } catch (const InputError& fault) {
-      materials.push_back({stem, file, fmt::format("cannot be read: {}", fault.what())});
+      materials.push_back({stem, file, fmt::format("cannot be read: {}", fault.what()), ""});
     }
   }
   return materials;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,8 +10,12 @@
 
 namespace whipple {
 
-/// Reads a material file (TOML: name, source, note, [eos], [strength], [[failure]]; the tables [provenance],
-/// [covariance] and [defaults] are kept free).
+/// Groups of the library, in the order in which it is listed.
+inline constexpr std::array<const char*, 6> material_groups = {
+    "metals", "explosives", "polymers", "rocks and ices", "liquids and gases", "verification"};
+
+/// Reads a material file (TOML: name, source, note, group, [eos], [strength], [[failure]], [measured]; the
+/// tables [provenance], [covariance] and [defaults] are kept free).
 /// @param path    a path, or a bare file name ("copper.toml", "copper") that is looked up in `beside`, then
 /// in the
 ///                library folders
@@ -35,10 +40,12 @@ void require_usable(const Material& material);
 struct LibraryMaterial {
   std::string name;  ///< of the material
   std::filesystem::path file;
-  std::string note;  ///< one line
+  std::string note;   ///< one line
+  std::string group;  ///< one of `material_groups`, or empty
 };
-/// All materials of the library, by file name; a file in an earlier folder hides one of the same name. A file
-/// that cannot be read is listed with the reason as its note.
+/// All materials of the library, by file name; a file in an earlier folder hides one of the same name. Their
+/// tables are checked, their models not built; a file that cannot be read is listed with the reason as its
+/// note.
 std::vector<LibraryMaterial> library_materials();
 
 /// Text of `whipple describe strength [NAME]` and `whipple describe failure [NAME]`: summaries of all models,

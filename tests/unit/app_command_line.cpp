@@ -169,9 +169,18 @@ TEST_F(CommandLine, TheInputReferenceIsUpToDate) {
 TEST_F(CommandLine, MaterialsListsTheLibrary) {
   const Result result = whipple("materials");
   EXPECT_EQ(result.code, 0);
-  EXPECT_THAT(result.out, HasSubstr("copper.toml"));
+  EXPECT_THAT(result.out, HasSubstr("metals\n  aluminium "));
+  EXPECT_THAT(result.out, HasSubstr("\n  copper_ofhc "));
   EXPECT_THAT(result.err, HasSubstr("eos/materials"));
   EXPECT_EQ(whipple("materials --quiet").err, "") << "--quiet leaves the result only";
+}
+
+TEST_F(CommandLine, TheTablesOfTheLibraryAreUpToDate) {
+  const Result result = whipple("materials --markdown --quiet");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_TRUE(text_of(WHIPPLE_SOURCE_DIR "/docs/materials.md").ends_with(result.out))
+      << "run: build/release/bin/whipple materials --markdown, and put its tables at the end of "
+         "docs/materials.md";
 }
 
 TEST_F(CommandLine, VersionNamesRevisionAndLibraries) {
