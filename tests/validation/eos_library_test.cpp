@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Materials of the library, as their files are, against measurements; docs/materials.md has the figures.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include "eos/inversions.hpp"
+#include "eos/loci.hpp"
+#include "src/material/material_file.hpp"
+#include "tests/unit/eos_support.hpp"
+
+namespace whipple::eos::test {
+namespace {
+
+const std::string data = WHIPPLE_SOURCE_DIR "/eos/data/";
+
+Material library(const std::string& name) {
+  return read_material(WHIPPLE_SOURCE_DIR "/eos/materials/" + name + ".toml");
+}
+
+/// Root of the mean square and mean of a series.
+struct Deviation {
+  double rms = 0, mean = 0;
+  int count = 0;
+  void add(double value) {
+    rms = std::sqrt((rms * rms * count + value * value) / (count + 1));
+    mean = (mean * count + value) / (count + 1);
+    ++count;
+  }
+};
+
+/// Midpoint of solidus and liquidus, K.
+double melting_temperature(const EquationOfState& eos, double pressure) {
+  const MeltingPoint melting = melting_point(eos, pressure).value();
+  return 0.5 * (melting.solidus.temperature + melting.liquidus.temperature);
+}
+
+/// p - p_measured in GPa on an isotherm of rows (volume, pressure in GPa); `rest` is the volume at p = 0.
+Deviation isotherm(const EquationOfState& eos, const std::string& file, double rest, double temperature) {
+  Deviation deviation;
+  const double rho0 = density_at_pressure(eos, 0.0, temperature);
+  for (const auto& row : read_csv(data + file)) {
+    const bool revised = row.size() == 3;  // classical scale, revised scale, volume
+    const double ratio = std::stod(row[revised ? 2 : 0]) / rest;
+    deviation.add(eos.state_at_temperature(rho0 / ratio, temperature).pressure * 1e-9 - std::stod(row[1]));
+  }
+  return deviation;
+}
+
+/// p/p_measured - 1 on a principal Hugoniot of rows (V/V0, p in GPa).
+Deviation hugoniot_in_volume(const EquationOfState& eos, const std::string& file) {
+  Deviation deviation;
+  const Hugoniot hugoniot(eos);
+  for (const auto& row : read_csv(data + file)) {
+    const ShockState s = hugoniot.at_density(eos.reference_density() / std::stod(row[0]));
+    deviation.add(s.state.pressure * 1e-9 / std::stod(row[1]) - 1);
+  }
+  return deviation;
+}
+
+TEST(LibraryCopper, HugoniotOfMarshTo366GPa) {
+  // LASL Shock Hugoniot Data (1980), 144 shocks.
+  const Material copper = library("copper");
+  const Hugoniot hugoniot(*copper.eos);
+  Deviation deviation;
+  for (const auto& row : read_csv(data + "cu_hugoniot_marsh1980.csv")) {
+    const double up = std::stod(row[2]) * 1e3, us = std::stod(row[1]) * 1e3;
+    if (up > 0) deviation.add(hugoniot.at_particle_velocity(up).shock_velocity / us - 1);
+  }
+  ASSERT_EQ(deviation.count, 144);
+  EXPECT_LT(deviation.rms, 0.013);
+}
+
+TEST(LibraryCopper, IsothermOfDewaeleTo153GPa) {
+  const Deviation deviation =
+      isotherm(*library("copper").eos, "cu_isotherm_298K_dewaele2004.csv", 11.808, 298);
+  ASSERT_EQ(deviation.count, 42);
+  EXPECT_LT(deviation.rms, 0.6);
+}
+
+TEST(LibraryCopper, MeltingLineOfBrandAndShockMelting) {
+  // Brand et al., High Press. Res. 26, 185 (2006), to 16 GPa; arXiv 2503.01939: onset and completion of
+  // melting on the Hugoniot with their errors.
+  const Material copper = library("copper");
+  const ShockMelting melting = shock_melting(*copper.eos).value();
+  int fits = 0, points = 0;
+  for (const auto& row : read_csv(data + "cu_melting.csv")) {
+    const double p = std::stod(row[0]), T = std::stod(row[2]);
+    if (row[4] == "fit") {
+      EXPECT_NEAR(melting_temperature(*copper.eos, p * 1e9) / T, 1.0, 0.045) << p << " GPa";
+      ++fits;
+    } else if (!row[1].empty()) {
+      const State& s = (points == 0 ? melting.onset : melting.completion).state;
+      EXPECT_NEAR(s.pressure * 1e-9, p, std::stod(row[1])) << points;
+      EXPECT_NEAR(s.temperature, T, std::stod(row[3])) << points;
+      ++points;
+    }
+  }
+  EXPECT_EQ(fits, 9);
+  EXPECT_EQ(points, 2);
+}
+
+TEST(LibraryCopper, ReleaseMeltingAndCriticalPoint) {
+  // Textbook values 140 and 184 GPa (McQueen); the model's equilibrium of the same constants: 136.6, 190.2.
+  const Material copper = library("copper");
+  const ReleaseThresholds thresholds = release_thresholds(*copper.eos, 0.0);
+  EXPECT_NEAR(thresholds.incipient_melting.value().state.pressure * 1e-9, 136.6, 1.5);
+  EXPECT_NEAR(thresholds.complete_melting.value().state.pressure * 1e-9, 190.2, 1.5);
+  const CriticalPoint& critical = copper.eos->vapour_dome()->critical_point();
+  EXPECT_NEAR(critical.temperature, 8511, 5);
+  EXPECT_NEAR(critical.pressure * 1e-9, 1.04, 0.01);
+  EXPECT_NEAR(1e-3 / critical.specific_volume, 2.60, 0.01);
+}
+
+TEST(LibraryAluminium, IsothermOfDewaeleTo153GPa) {
+  const Deviation deviation =
+      isotherm(*library("aluminium").eos, "al_isotherm_298K_dewaele2004.csv", 16.573, 298);
+  ASSERT_EQ(deviation.count, 40);
+  EXPECT_LT(deviation.rms, 0.7);
+}
+
+TEST(LibraryAluminium, HugoniotsOfMitchellAndNellisAndOfMcQueen) {
+  // Points digitised from figures: the scatter of the first is theirs. The second ones lie 4 to 9 % below the
+  // line that the same laboratory printed for 2024 aluminium, 5.328 km/s + 1.338 up.
+  const Deviation mitchell =
+      hugoniot_in_volume(*library("aluminium").eos, "al_hugoniot_mitchell_nellis1981.csv");
+  ASSERT_EQ(mitchell.count, 27);
+  EXPECT_LT(mitchell.rms, 0.045);
+  EXPECT_LT(std::abs(mitchell.mean), 0.01);
+  const Deviation mcqueen =
+      hugoniot_in_volume(*library("aluminium_2024_t4").eos, "al_hugoniot_mcqueen1970_2024.csv");
+  ASSERT_EQ(mcqueen.count, 28);
+  EXPECT_LT(mcqueen.rms, 0.06);
+}
+
+TEST(LibraryAluminium, MeltingLineOfBoehlerAndRossLiesAboveTheModel) {
+  // Diamond cell to 77 GPa and one shock point: Lindemann's law with Steinberg's constants rises too slowly.
+  const Material aluminium = library("aluminium");
+  Deviation deviation;
+  for (const auto& row : read_csv(data + "al_melting_boehler_ross1997.csv")) {
+    deviation.add(melting_temperature(*aluminium.eos, std::stod(row[0]) * 1e9) / std::stod(row[1]) - 1);
+  }
+  ASSERT_EQ(deviation.count, 8);
+  EXPECT_LT(deviation.rms, 0.14);
+  EXPECT_LT(deviation.mean, 0.0);
+}
+
+TEST(LibraryMetals, ShockVelocitiesOfOtherAuthors) {
+  // Published fits that Steinberg's constants do not come from, over the range that their source states.
+  std::map<std::string, std::pair<double, double>> fits;
+  std::ifstream file(data + "us_up_fits.csv");
+  for (std::string line; std::getline(file, line);) {
+    std::smatch found;
+    const std::regex row(R"(^("[^"]*"|[^",#][^,]*),([\d.]*),([\d.]+),([\d.]+),.*)");
+    if (std::regex_match(line, found, row)) {
+      fits[std::string(found[1]) + " " + std::string(found[2])] = {std::stod(found[3]), std::stod(found[4])};
+    }
+  }
+  struct Expected {
+    const char* material;
+    const char* fit;  ///< name and density as in the file
+    double lowest, highest, tolerance;
+  };
+  const Expected table[] = {
+      {"nickel", "\"Ni (OLS of Marsh 1980, 19 points)\" ", 0.3, 2.15, 0.015},
+      {"copper", "Cu 8.93", 0.3, 3, 0.01},
+      {"copper_ofhc", "Cu 8.93", 0.3, 3, 0.01},
+      {"aluminium", "Al 2.71", 0.3, 5, 0.01},
+      {"aluminium_6061_t6", "Al 6061-T6 (LSQ of 25 states of Marsh pp. 181-182) 2.703", 0.5, 4, 0.02},
+      {"lead", "Pb 11.35", 0.2, 2, 0.03},
+      {"tantalum", "Ta ", 0.3, 2.5, 0.03},
+      {"silver", "Ag 10.5", 0.7, 3, 0.02},
+      {"platinum", "Pt 21.43", 0.4, 2.4, 0.015},
+  };
+  for (const Expected& e : table) {
+    ASSERT_EQ(fits.count(e.fit), 1U) << e.fit;
+    const auto [C, S] = fits[e.fit];
+    const Material material = library(e.material);
+    const Hugoniot hugoniot(*material.eos);
+    for (int i = 0; i <= 10; ++i) {
+      const double up = e.lowest + (e.highest - e.lowest) * i / 10;
+      EXPECT_NEAR(hugoniot.at_particle_velocity(up * 1e3).shock_velocity * 1e-3 / (C + S * up), 1.0,
+                  e.tolerance)
+          << e.material << " at " << up << " km/s";
+    }
+  }
+}
+
+TEST(LibraryMetals, ConstantsAreThoseOfSteinbergsTable) {
+  // A slip of the pen in any of the files.
+  std::map<std::string, std::vector<std::string>> rows;
+  for (const auto& row : read_csv(data + "metals_steinberg1996.csv")) rows[row[0]] = row;
+  int compared = 0;
+  for (const LibraryMaterial& entry : library_materials()) {
+    std::ifstream file(entry.file);
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    std::smatch found;
+    if (!std::regex_search(text, found, std::regex(R"(model = "gray"[^]*SCG_([\w.-]+)\.xml)"))) continue;
+    SCOPED_TRACE(entry.file.stem().string());
+    ASSERT_EQ(rows.count(found[1]), 1U) << found[1];
+    const std::vector<std::string>& row = rows[found[1]];
+    std::map<std::string, double> constants;
+    std::istringstream lines(read_material(entry.file).eos->constants());
+    for (std::string line; std::getline(lines, line);) {
+      std::smatch pair;
+      if (std::regex_search(line, pair, std::regex(R"(^(\w+) = "?([-+.\deE]+))"))) {
+        constants[pair[1]] = std::stod(pair[2]);
+      }
+    }
+    const auto same = [&](const char* name, std::size_t column, double size) {
+      const double value = std::stod(row[column]) * size;
+      EXPECT_NEAR(constants.at(name), value, 1e-8 * std::abs(value)) << name;
+    };
+    EXPECT_NEAR(1e-3 / constants.at("reference_specific_volume"), std::stod(row[2]), 1e-7);
+    if (found[1] == "Tin") {
+      EXPECT_EQ(constants.at("hugoniot_intercept"), 2610);
+    } else {
+      same("hugoniot_intercept", 3, 1e3);
+    }
+    same("hugoniot_slope", 4, 1);
+    same("hugoniot_quadratic", 5, 1);
+    same("hugoniot_cubic", 6, 1);
+    same("gruneisen", 7, 1);
+    same("gruneisen_slope", 8, 1);
+    same("melting_temperature", 9, 1);
+    ++compared;
+  }
+  EXPECT_GE(compared, 30);
+}
+
+TEST(LibraryMetals, MeltAtZeroPressureNearTheMeasuredMeltingPoint) {
+  // Steinberg's T_m0 belongs to the density V0; the melting point follows from it and from the model.
+  std::map<std::string, double> deviation;
+  for (const LibraryMaterial& entry : library_materials()) {
+    const Material material = read_material(entry.file);
+    const bool pure = !std::isnan(material.measured.melting_point) && std::isnan(material.measured.liquidus);
+    if (material.eos->model() != "gray" || !pure) continue;
+    deviation[entry.file.stem().string()] =
+        melting_temperature(*material.eos, 0.0) / material.measured.melting_point - 1;
+  }
+  // Tin: 573 K instead of 505 K. The molecular-dynamics row of copper melts where its potential does.
+  const std::map<std::string, double> outliers = {{"tin", 0.14}, {"copper_md_liu2013", 0.105}};
+  EXPECT_GE(deviation.size(), 20U);
+  for (const auto& [name, value] : deviation) {
+    const auto known = outliers.find(name);
+    EXPECT_NEAR(value, 0.0, known == outliers.end() ? 0.08 : known->second) << name;
+  }
+}
+
+TEST(LibraryMetals, ReleaseMeltingOfTheClassicalTable) {
+  // Shock pressures for incipient and complete melting on release as reviews of impact quote them (after
+  // McQueen; the first publication was not at hand). The model: within 20 %.
+  struct Row {
+    const char* material;
+    double incipient, complete;
+  };
+  for (const Row& row :
+       {Row{"aluminium", 61, 85}, Row{"cadmium", 33, 43}, Row{"copper", 140, 184}, Row{"lead", 25, 35}}) {
+    const ReleaseThresholds release = release_thresholds(*library(row.material).eos, 1e5);
+    EXPECT_NEAR(release.incipient_melting.value().state.pressure * 1e-9 / row.incipient, 1.0, 0.2)
+        << row.material;
+    EXPECT_NEAR(release.complete_melting.value().state.pressure * 1e-9 / row.complete, 1.0, 0.2)
+        << row.material;
+  }
+}
+
+TEST(LibraryMetals, TantalumMeltsInTheShockNear300GPa) {
+  // Akin et al., J. Appl. Phys. (2019), doi:10.1063/1.5054332. With the electronic coefficient of low
+  // temperature (5.9 mJ/(mol K^2)) the onset would lie at 620 GPa.
+  const Material tantalum = library("tantalum");
+  EXPECT_NEAR(shock_melting(*tantalum.eos).value().onset.state.pressure * 1e-9, 300, 20);
+}
+
+}  // namespace
+}  // namespace whipple::eos::test
