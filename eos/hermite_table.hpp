@@ -27,21 +27,41 @@ class HermiteTable {
 
   /// Outside the grid the last polynomial continues.
   [[nodiscard]] double operator()(double x) const {
+    const Polynomial f = polynomial(x);
+    return f.c0 + f.t * (f.c1 + f.t * (f.c2 + f.t * (f.c3 + f.t * (f.c4 + f.t * f.c5))));
+  }
+
+  /// Value and exact derivatives of the interpolant.
+  [[nodiscard]] Node at(double x) const {
+    const Polynomial f = polynomial(x);
+    const double t = f.t;
+    return {f.c0 + t * (f.c1 + t * (f.c2 + t * (f.c3 + t * (f.c4 + t * f.c5)))),
+            inverse_step_ * (f.c1 + t * (2 * f.c2 + t * (3 * f.c3 + t * (4 * f.c4 + t * 5 * f.c5)))),
+            inverse_step_ * inverse_step_ * (2 * f.c2 + t * (6 * f.c3 + t * (12 * f.c4 + t * 20 * f.c5)))};
+  }
+
+ private:
+  /// c0 + c1 t + ... + c5 t^5 on the interval that holds x, t in units of the step.
+  struct Polynomial {
+    double t, c0, c1, c2, c3, c4, c5;
+  };
+  [[nodiscard]] Polynomial polynomial(double x) const {
     const double position = (x - begin_) * inverse_step_;
     const auto i =
         static_cast<std::size_t>(std::clamp(position, 0.0, static_cast<double>(nodes_.size() - 2)));
-    const double t = position - static_cast<double>(i);
     const Node &l = nodes_[i], &r = nodes_[i + 1];
     const double d0 = r.value - (l.value + l.slope + 0.5 * l.curvature);
     const double d1 = r.slope - (l.slope + l.curvature);
     const double d2 = r.curvature - l.curvature;
-    const double c3 = 10 * d0 - 4 * d1 + 0.5 * d2;
-    const double c4 = -15 * d0 + 7 * d1 - d2;
-    const double c5 = 6 * d0 - 3 * d1 + 0.5 * d2;
-    return l.value + t * (l.slope + t * (0.5 * l.curvature + t * (c3 + t * (c4 + t * c5))));
+    return {position - static_cast<double>(i),
+            l.value,
+            l.slope,
+            0.5 * l.curvature,
+            10 * d0 - 4 * d1 + 0.5 * d2,
+            -15 * d0 + 7 * d1 - d2,
+            6 * d0 - 3 * d1 + 0.5 * d2};
   }
 
- private:
   double begin_ = 0, inverse_step_ = 1;
   std::vector<Node> nodes_;
 };

@@ -19,6 +19,7 @@ struct Gray::Point {
   double gruneisen = 0;      ///< V (dP/dE)_V
   double heat_capacity = 0;  ///< infinite while melting isochorically
   Phase phase = Phase::solid;
+  bool tangent = false;     ///< melting on the equilibrium curve
   bool cold = false;        ///< T was held at the least temperature
   std::string_view broken;  ///< bound that the state broke; empty: none
 };
@@ -26,7 +27,13 @@ struct Gray::Point {
 Gray::Gray(const Constants& constants)
     : surface_(constants),
       dome_(surface_.dome_search()),
+      least_volume_(surface_.least_volume()),
       least_squared_sound_speed_(std::pow(least_sound_speed_ratio * constants.hugoniot_intercept, 2)) {
+  if (constants.melting == "equilibrium") {
+    melting_curve_.emplace(surface_);
+    // At the limit of the solid the liquid in equilibrium with it is the densest one that the curve knows.
+    least_volume_ = melting_curve_->hottest().liquid_volume;
+  }
   const double T = surface_.vapour_branch_temperature();
   const GrayBranch thin = surface_.vapour_branch(1e6 * surface_.join_volume(), false);
   if (thin.heat_capacity(T) <= 0) {
@@ -74,6 +81,44 @@ void fill_from_band(Point& p, const GrayBand& band, const GrayBandSlopes& d, dou
 
 }  // namespace
 
+namespace {
+
+/// State of solid and liquid in equilibrium: (dP/dV)_T = 0, hence c^2 = V^2 T P'^2/C_v.
+template <class Point>
+void fill_from_tangent(Point& p, const GrayMeltingCurve& curve) {
+  const GrayMeltingCurve::Mixture m = curve.mixture(p.V, p.T);
+  p.P = m.pressure;
+  p.squared_sound_speed =
+      p.V * p.V * p.T * m.pressure_by_temperature * m.pressure_by_temperature / m.heat_capacity;
+  p.heat_capacity = m.heat_capacity;
+  p.gruneisen = p.V * m.pressure_by_temperature / m.heat_capacity;
+  p.melted_fraction = curve.liquid_fraction(p.V, p.T);
+  p.tangent = true;
+}
+
+}  // namespace
+
+template <class Above>
+Gray::Edges Gray::melting_edges(const GrayIsochore& iso, const Above& above) const {
+  if (melting_curve_) {
+    const GrayMeltingCurve& curve = *melting_curve_;
+    Edges edges;
+    edges.tangent = true;
+    edges.T2 = curve.liquidus(iso.V);
+    edges.E2 = surface_.liquid_branch(iso).energy(edges.T2);
+    if (iso.V <= curve.coldest().solid_volume) {
+      edges.T1 = curve.solidus(iso.V);
+      edges.E1 = iso.solid.energy(edges.T1);
+      return edges;
+    }
+    // Beyond the solid of the last tie line: that is the lower edge, below it melting is isochoric.
+    edges.T1 = curve.coldest().temperature;
+    edges.E1 = curve.mixture(iso.V, edges.T1).energy;
+    if (above(edges)) return edges;
+  }
+  return {surface_.band(iso), false};
+}
+
 Gray::Point Gray::point(double V, double E) const {
   Point p;
   p.V = V;
@@ -86,7 +131,7 @@ Gray::Point Gray::point(double V, double E) const {
     p.broken = "specific internal energy must be finite";
     return p;
   }
-  if (V < surface_.least_volume()) {
+  if (V < least_volume_) {
     p.broken = "density above the compression limit of the cold curve";
     return p;
   }
@@ -102,7 +147,7 @@ Gray::Point Gray::point(double V, double E) const {
     // The band never begins below half the melting temperature (G32): most solid points need no more than
     // this.
     if (E > branch.energy(0.5 * iso.melting_temperature)) {
-      const GrayBand band = surface_.band(iso);
+      const Edges band = melting_edges(iso, [&](const Edges& edges) { return E > edges.E1; });
       if (E >= band.E2) {
         branch = surface_.liquid_branch(iso);
         p.phase = Phase::liquid;
@@ -112,8 +157,13 @@ Gray::Point Gray::point(double V, double E) const {
         }
         p.melted_fraction = 1.0;
       } else if (E > band.E1) {
-        const double nu = (E - band.E1) / (band.E2 - band.E1);
         p.phase = Phase::melting;
+        if (band.tangent) {
+          p.T = melting_curve_->temperature(V, E, band.T1, band.T2);
+          fill_from_tangent(p, *melting_curve_);
+          return p;
+        }
+        const double nu = (E - band.E1) / (band.E2 - band.E1);
         p.T = band.T1 + nu * (band.T2 - band.T1);
         fill_from_band(p, band, surface_.band_slopes(iso, band), nu);
         return p;
@@ -139,7 +189,7 @@ Gray::Point Gray::point_at_temperature(double V, double T) const {
   Point p;
   p.V = V;
   p.T = T;
-  if (!(V > 0) || !std::isfinite(V) || V < surface_.least_volume()) {
+  if (!(V > 0) || !std::isfinite(V) || V < least_volume_) {
     p.broken = "density must be positive and below the compression limit of the cold curve";
     return p;
   }
@@ -154,11 +204,16 @@ Gray::Point Gray::point_at_temperature(double V, double T) const {
     p.melted_fraction = fluid_melted_fraction(T);
   } else {
     const GrayIsochore iso = surface_.isochore(V);
-    const GrayBand band = surface_.band(iso);
+    const Edges band = melting_edges(iso, [&](const Edges& edges) { return T > edges.T1; });
     branch = iso.solid;
     if (T > band.T1 && T < band.T2) {
-      const double nu = (T - band.T1) / (band.T2 - band.T1);
       p.phase = Phase::melting;
+      if (band.tangent) {
+        p.E = melting_curve_->mixture(V, T).energy;
+        fill_from_tangent(p, *melting_curve_);
+        return p;
+      }
+      const double nu = (T - band.T1) / (band.T2 - band.T1);
       p.E = band.E1 + nu * (band.E2 - band.E1);
       fill_from_band(p, band, surface_.band_slopes(iso, band), nu);
       return p;
@@ -230,6 +285,11 @@ State Gray::full_state(const Point& p) const {
     const double tau = p.T / iso.melting_temperature;
     switch (p.phase) {
       case Phase::melting: {
+        if (p.tangent) {
+          s.specific_entropy = melting_curve_->mixture(p.V, p.T).entropy;
+          s.isothermal_bulk_modulus = 0.0;
+          break;
+        }
         // The isochore's mean of 1/T between the edges, scaled so that S meets both phases (G33).
         const GrayBand band = surface_.band(iso);
         const double S1 = surface_.solid_entropy(iso, band.T1);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "eos/equation_of_state.hpp"
 #include "eos/models/gray_free_energy.hpp"
+#include "eos/models/gray_melting_curve.hpp"
 #include "eos/vapour_dome.hpp"
 
 namespace whipple::eos {
@@ -18,6 +20,8 @@ namespace whipple::eos {
 ///  - energy below that of `least_temperature` on its isochore: T is held there, the point is counted, E is
 ///  kept;
 ///  - c^2 < `least_sound_speed_ratio`^2 C^2 (inside the van der Waals loop, where c^2 < 0): c is held there;
+///  - equilibrium melting is followed into tension until the liquid reaches V_J; isochores beyond the solid
+///  of that last tie line, with less energy than on it, melt isochorically (docs/theory/gray.md, section 3);
 ///  - density above `maximum_density()` or an energy beyond the model: results are NaN, the point is counted.
 class Gray {
  public:
@@ -37,11 +41,13 @@ class Gray {
   [[nodiscard]] const Constants& constants() const { return surface_.constants(); }
   [[nodiscard]] const GrayFreeEnergy& free_energy() const { return surface_; }
   [[nodiscard]] const VapourDome& dome() const { return dome_; }
+  /// Solid and liquid in equilibrium; none unless melting = "equilibrium".
+  [[nodiscard]] const std::optional<GrayMeltingCurve>& melting_curve() const { return melting_curve_; }
 
   [[nodiscard]] double reference_density() const { return 1.0 / constants().reference_specific_volume; }
   [[nodiscard]] double reference_temperature() const { return constants().reference_temperature; }
   [[nodiscard]] double reference_energy() const { return constants().reference_energy; }
-  [[nodiscard]] double maximum_density() const { return 1.0 / surface_.least_volume(); }
+  [[nodiscard]] double maximum_density() const { return 1.0 / least_volume_; }
 
   /// Energy of the coldest state at a density.
   /// @throws StateError above the compression limit
@@ -67,6 +73,13 @@ class Gray {
  private:
   enum class Phase { solid, melting, liquid, hot_liquid, vapour };
   struct Point;
+  /// Edges of the melting region on one isochore.
+  struct Edges : GrayBand {
+    bool tangent = false;  ///< equilibrium of two volumes between them, not (G31) or (G26); P1, P2 not set
+  };
+  /// @param above  whether the point lies above the edges' lower one, (T1, E1)
+  template <class Above>
+  [[nodiscard]] Edges melting_edges(const GrayIsochore& isochore, const Above& above) const;
   [[nodiscard]] Point point(double V, double E) const;
   [[nodiscard]] Point point_at_temperature(double V, double T) const;
   [[nodiscard]] State full_state(const Point& point) const;
@@ -75,6 +88,8 @@ class Gray {
 
   GrayFreeEnergy surface_;
   VapourDome dome_;
+  std::optional<GrayMeltingCurve> melting_curve_;
+  double least_volume_;
   double least_squared_sound_speed_;
 };
 

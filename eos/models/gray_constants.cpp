@@ -49,8 +49,8 @@ ParameterTable<GrayConstants> gray_parameters() {
       real("hot_liquid_ratio", &C::hot_liquid_ratio, "", {.lower = 2.0, .lower_open = true},
            "T_G/T_m: above T_G the heat capacity stays at 3R - alpha T_G/T_m")
           .optional(),
-      choice("melting", &C::melting, {"band", "isochoric"},
-             "symmetric temperature band of melting, or melting at one temperature of each isochore")
+      choice("melting", &C::melting, {"band", "isochoric", "equilibrium"},
+             "band of temperatures on an isochore, in closed form; one temperature; phases in equilibrium")
           .optional(),
       real("join_volume_ratio", &C::join_volume_ratio, "", range::open_between(1.0, 2.0),
            "V_J/V0, where the vapour is joined to the liquid; 1.2 to 1.4 is sound")

@@ -57,6 +57,7 @@ struct GrayIsochore {
 };
 
 /// Edges of the melting band on an isochore (G31), or both at T_m for isochoric melting (G26).
+/// Equilibrium melting is not a matter of one isochore: GrayMeltingCurve.
 struct GrayBand {
   double T1 = 0, T2 = 0;  ///< solid below T1, liquid above T2, K
   double E1 = 0, E2 = 0;  ///< energies of the edges

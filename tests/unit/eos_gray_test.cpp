@@ -33,7 +33,7 @@ TEST(EosGray, AgreesWithAnIndependentImplementationToNineDigits) {
 }
 
 TEST(EosGray, BatchEqualsSinglePoints) {
-  for (const char* melting : {"band", "isochoric"}) {
+  for (const char* melting : {"band", "isochoric", "equilibrium"}) {
     const GrayEos eos(copper(melting));
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(0, 1);

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "eos/hermite_table.hpp"
+#include "eos/models/gray_free_energy.hpp"
+
+namespace whipple::eos {
+
+/// Solid and liquid of GRAY in equilibrium: common tangent of their free energies on a grid of temperatures
+/// (G27), docs/theory/gray.md, section 3. From where the liquid reaches V_J, far in tension, to where the
+/// solid reaches the compression limit. SI per mass.
+///
+/// The pressure P(T) and the Gibbs energy g(T) of the coexisting phases make the free energy of every
+/// mixture, F(V, T) = g - P V, and all of its properties by differentiation: the mixture is thermodynamically
+/// exact, whatever the error of the interpolation.
+class GrayMeltingCurve {
+ public:
+  /// One phase or both of the tangent.
+  struct Tangent {
+    double temperature = 0, pressure = 0;
+    double solid_volume = 0, liquid_volume = 0;
+  };
+  /// The mixture at (V, T).
+  struct Mixture {
+    double pressure = 0, energy = 0, entropy = 0;
+    double heat_capacity = 0;            ///< at constant volume
+    double pressure_by_temperature = 0;  ///< dP/dT; (dP/dV)_T = 0
+  };
+
+  /// @throws InputError if the tangent does not exist on the isochore V0
+  explicit GrayMeltingCurve(const GrayFreeEnergy& surface);
+
+  [[nodiscard]] const Tangent& coldest() const { return coldest_; }
+  [[nodiscard]] const Tangent& hottest() const { return hottest_; }
+  /// @param temperature  from coldest() to hottest()
+  [[nodiscard]] Tangent at_temperature(double temperature) const;
+  /// @throws StateError out of the curve
+  [[nodiscard]] Tangent at_pressure(double pressure) const;
+
+  /// Temperature at which the solid of volume V begins to melt: V from the hottest liquid's volume to
+  /// coldest().solid_volume.
+  [[nodiscard]] double solidus(double V) const { return solidus_(V); }
+  /// Temperature at which the last solid melts on the isochore V, up to coldest().liquid_volume.
+  [[nodiscard]] double liquidus(double V) const { return liquidus_(V); }
+  [[nodiscard]] Mixture mixture(double V, double T) const;
+  /// Mass fraction of liquid (lever rule).
+  [[nodiscard]] double liquid_fraction(double V, double T) const;
+  /// Temperature of the mixture with energy E, from T1 to T2 (where it has less and more energy).
+  [[nodiscard]] double temperature(double V, double E, double T1, double T2) const;
+
+ private:
+  HermiteTable pressure_, gibbs_, solid_volume_, liquid_volume_;  ///< over T
+  HermiteTable solidus_, liquidus_;                               ///< over V
+  Tangent coldest_, hottest_;
+};
+
+}  // namespace whipple::eos
