@@ -11,6 +11,7 @@
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/debye_gruneisen.hpp"
 #include "eos/models/gray.hpp"
+#include "eos/models/gray_71.hpp"
 #include "eos/models/mie_gruneisen.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
@@ -35,6 +36,7 @@ std::span<const ModelEntry> catalogue() {
   static const std::array entries = {
       entry<DebyeGruneisen>(),
       entry<Gray>(),
+      entry<Gray71>(),
       entry<MieGruneisen>(),
   };
   return entries;

@@ -9,6 +9,7 @@ whipple_test(eos_shock_test SOURCES verification/eos_shock_test.cpp DEPENDS whip
 whipple_test(eos_inversions_test SOURCES property/eos_inversions_test.cpp DEPENDS whipple_material LABELS fast)
 whipple_test(eos_audit_test SOURCES property/eos_audit_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
 whipple_test(eos_copper_test SOURCES validation/eos_copper_test.cpp DEPENDS whipple_eos LABELS fast)
+whipple_test(eos_gray_71_test SOURCES unit/eos_gray_71_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_gray_melting_test SOURCES verification/eos_gray_melting_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_gray_metals_test SOURCES verification/eos_gray_metals_test.cpp DEPENDS whipple_eos LABELS fast)
 

@@ -8,6 +8,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
+#include "eos/models/gray_reference_pressure.hpp"
 #include "src/base/error.hpp"
 
 namespace whipple::eos {
@@ -18,20 +19,6 @@ constexpr int table_intervals = 512;
 constexpr double pole_margin = 0.03;
 constexpr double greatest_compression = 0.9;     ///< x; tenfold compression
 constexpr double checked_temperature = 30000.0;  ///< K: the heat capacity must be positive up to here
-
-/// (P1a V0/C^2)(x) of (G5) and its first two derivatives: x/y^2 of the shock curve times 1 - n/(2 (1 - x)),
-/// n = gamma x = gamma0 x - a x^2. S2 and S3 are fits of compression; in tension, where they may turn the
-/// pressure around at some per cent of strain, S1 alone continues the curve (two derivatives are continuous).
-ShockCurve::Value reference_pressure(double x, const ShockCurve& curve, double gamma0, double a) {
-  const ShockCurve::Value hugoniot = x < 0 ? ShockCurve{curve.slope}.pressure(x) : curve.pressure(x);
-  const double n = x * (gamma0 - a * x), n1 = gamma0 - 2 * a * x, n2 = -2 * a;
-  const double w = 1 / (1 - x);
-  const double f = 1 - 0.5 * n * w;
-  const double f1 = -0.5 * w * (n1 + n * w);
-  const double f2 = -0.5 * w * (n2 + 2 * w * (n1 + n * w));
-  return {hugoniot.value * f, hugoniot.slope * f + hugoniot.value * f1,
-          hugoniot.curvature * f + 2 * hugoniot.slope * f1 + hugoniot.value * f2};
-}
 
 }  // namespace
 
@@ -65,7 +52,7 @@ GrayFreeEnergy::Cold GrayFreeEnergy::cold_from_energy(double x, double energy) c
   // dE_c/dx = V0 P_c turns (G9) into P_c = P1a + P_CC + q (E_c - E_0H)/V0 with q = gamma/(1 - x).
   const GrayConstants& c = constants_;
   const double V0 = c.reference_specific_volume;
-  const auto [f, f1, f2] = reference_pressure(x, shock_curve_, c.gruneisen, c.gruneisen_slope);
+  const auto [f, f1, f2] = gray_reference_pressure(x, shock_curve_, c.gruneisen, c.gruneisen_slope);
   const double scale = c.hugoniot_intercept * c.hugoniot_intercept / V0;
   const double y = 1 - x, excess = c.gruneisen - c.gruneisen_slope;
   const double q = c.gruneisen_slope + excess / y, q1 = excess / (y * y), q2 = 2 * q1 / y;
@@ -80,7 +67,7 @@ void GrayFreeEnergy::tabulate_cold_curve() {
   const double V0 = c.reference_specific_volume;
   const double scale = c.hugoniot_intercept * c.hugoniot_intercept;  // V0 P1a = scale * f
   const auto integrand = [&](double x) {
-    const double f = reference_pressure(x, shock_curve_, c.gruneisen, c.gruneisen_slope).value;
+    const double f = gray_reference_pressure(x, shock_curve_, c.gruneisen, c.gruneisen_slope).value;
     return (scale * f + V0 * cold_offset_) / lattice_factor(x);
   };
   const auto integral = [&](double from, double to) {

@@ -44,6 +44,12 @@ struct GrayBranch {
   }
 };
 
+/// Vapour at V > V_J, joined to a liquid whose branch at V_J is given (G20 to G25): hard spheres and
+/// attraction relative to V_J, and F_E(V) D(T) with D = P_l(V_J, T) - P_HS(V_J, T) + a_y/V_J^2 = d0 + d1 T +
+/// d2 T^2.
+/// @param constants  with a finite attraction
+GrayBranch gray_vapour_branch(const GrayConstants& constants, const GrayBranch& liquid_at_join, double V);
+
 /// What the condensed phases share on the isochore V <= V_J.
 struct GrayIsochore {
   double V = 0;

@@ -40,6 +40,28 @@ Join join_function(double V, double covolume, double z_join, double theta) {
 
 }  // namespace
 
+GrayBranch gray_vapour_branch(const GrayConstants& c, const GrayBranch& l, double V) {
+  const double gas = GrayConstants::gas_constant / c.molar_mass, a = c.vapour_attraction;
+  const double join_volume = c.join_volume_ratio * c.reference_specific_volume;
+  const double covolume = c.covolume_ratio * c.reference_specific_volume;
+  const double z = covolume / V, z_join = covolume / join_volume;
+  const double d0 = l.p0 + a / (join_volume * join_volume);
+  const double d1 = l.p1 - gas * compressibility(z_join) / join_volume;
+  const double d2 = l.p2;
+  const Join join = join_function(V, covolume, z_join, c.join_shape);
+  GrayBranch v;
+  v.e0 = l.e0 - a * (1 / V - 1 / join_volume) + d0 * join.energy;
+  v.e1 = l.e1;
+  v.e2 = l.e2 - d2 * join.energy;
+  v.p0 = -a / (V * V) + d0 * join.pressure;
+  v.p1 = gas * compressibility(z) / V + d1 * join.pressure;
+  v.p2 = d2 * join.pressure;
+  v.q0 = 2 * a / (V * V * V) + d0 * join.pressure_by_volume;
+  v.q1 = -gas * (compressibility(z) + z * compressibility_slope(z)) / (V * V) + d1 * join.pressure_by_volume;
+  v.q2 = d2 * join.pressure_by_volume;
+  return v;
+}
+
 void GrayFreeEnergy::prepare_vapour() {
   join_ = isochore(join_volume_);
   join_band_ = band(join_);
@@ -53,23 +75,7 @@ GrayBranch GrayFreeEnergy::vapour_branch(double V, bool hot) const {
   // (G25): F = F_l(V_J, T) + hard spheres and attraction relative to V_J + D(T) F_E(V), with
   // D = P_l(V_J, T) - P_HS(V_J, T) + a_y/V_J^2 = d0 + d1 T + d2 T^2.
   const GrayBranch& l = hot ? join_hot_ : join_cool_;
-  const double a = constants_.vapour_attraction;
-  const double d0 = l.p0 + a / (join_volume_ * join_volume_);
-  const double d1 = l.p1 - gas_ * join_compressibility_ / join_volume_;
-  const double d2 = l.p2;
-  const double z = covolume_ / V;
-  const Join join = join_function(V, covolume_, covolume_ / join_volume_, constants_.join_shape);
-  GrayBranch v;
-  v.e0 = l.e0 - a * (1 / V - 1 / join_volume_) + d0 * join.energy;
-  v.e1 = l.e1;
-  v.e2 = l.e2 - d2 * join.energy;
-  v.p0 = -a / (V * V) + d0 * join.pressure;
-  v.p1 = gas_ * compressibility(z) / V + d1 * join.pressure;
-  v.p2 = d2 * join.pressure;
-  v.q0 = 2 * a / (V * V * V) + d0 * join.pressure_by_volume;
-  v.q1 = -gas_ * (compressibility(z) + z * compressibility_slope(z)) / (V * V) + d1 * join.pressure_by_volume;
-  v.q2 = d2 * join.pressure_by_volume;
-  return v;
+  return gray_vapour_branch(constants_, l, V);
 }
 
 GrayBranch GrayFreeEnergy::fluid_branch(double V, double T) const {

@@ -16,8 +16,10 @@ namespace {
 TEST(EosGray, AgreesWithAnIndependentImplementationToNineDigits) {
   const Gray gray(copper("isochoric"));
   const auto rows = read_csv(WHIPPLE_SOURCE_DIR "/tests/data/eos/gray_golden_cu.csv");
-  ASSERT_EQ(rows.size(), 93u);
+  int compared = 0;
   for (const auto& row : rows) {
+    if (row[0] != "C") continue;
+    ++compared;
     const double rho = 1 / (std::stod(row[2]) * 0.1118e-3);
     const double T = std::stod(row[3]), P = std::stod(row[4]) * 1e9, E = std::stod(row[5]) * 1e6;
     const State s = row[1] == "VT" ? gray.state_at_temperature(rho, T) : gray.state(rho, E);
@@ -30,6 +32,7 @@ TEST(EosGray, AgreesWithAnIndependentImplementationToNineDigits) {
       EXPECT_NEAR(s.melted_fraction, std::stod(row[7]), 2e-9) << where;
     }
   }
+  EXPECT_EQ(compared, 93);
 }
 
 TEST(EosGray, BatchEqualsSinglePoints) {
