@@ -7,8 +7,6 @@ whipple_test(test_io
 whipple_test(test_io_damage SOURCES fuzz/io_checkpoint_damage.cpp DEPENDS whipple_io GTest::gmock LABELS fast)
 
 # Written and read by several ranks.
-set(mpi_environment
-    "OMP_NUM_THREADS=1;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_mpi_yield_when_idle=1")
 add_executable(test_io_ranks parallel/io_ranks.cpp)
 target_link_libraries(test_io_ranks PRIVATE whipple_flags whipple_io GTest::gmock GTest::gtest)
 foreach(ranks 1 3)
@@ -23,7 +21,6 @@ add_executable(io_synthetic_cloud unit/io_synthetic_cloud.cpp)
 target_link_libraries(io_synthetic_cloud PRIVATE whipple_flags whipple_io)
 
 # The layout as h5py sees it, written by one and by three ranks.
-find_program(WHIPPLE_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
 if(WHIPPLE_PYTHON)
   foreach(ranks 1 3)
     set(cloud ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_${ranks})

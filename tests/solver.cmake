@@ -8,3 +8,19 @@ whipple_test(test_elastic STARTS_MPI SOURCES verification/solver_elastic_test.cp
 whipple_test(test_setup SOURCES unit/setup_case_test.cpp DEPENDS whipple_setup LABELS fast)
 whipple_test(test_debris_cloud STARTS_MPI SOURCES validation/solver_debris_cloud_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_solver_regression STARTS_MPI SOURCES regression/solver_regression_test.cpp DEPENDS whipple_solver LABELS fast)
+
+# Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
+add_executable(test_solver_ranks parallel/solver_ranks.cpp)
+target_link_libraries(test_solver_ranks PRIVATE whipple_flags whipple_solver GTest::gtest)
+foreach(ranks 1 2 4)
+  add_test(NAME test_solver_ranks.${ranks}
+           COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:test_solver_ranks>)
+  set_tests_properties(test_solver_ranks.${ranks} PROPERTIES LABELS fast TIMEOUT 300 PROCESSORS 2
+    ENVIRONMENT "${mpi_environment}")
+endforeach()
+if(WHIPPLE_PYTHON)
+  add_test(NAME solver_rank_killed
+           COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/parallel/solver_rank_killed.py $<TARGET_FILE:whipple>
+                   ${PROJECT_SOURCE_DIR}/cases/copper_disk_on_aluminium/case.toml ${CMAKE_CURRENT_BINARY_DIR}/rank_killed)
+  set_tests_properties(solver_rank_killed PROPERTIES LABELS fast TIMEOUT 300 PROCESSORS 2)
+endif()

@@ -2,7 +2,6 @@
 #include "src/app/md_command.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <memory>
 #include <string>
@@ -10,8 +9,7 @@
 
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
-#include "src/process/paths.hpp"
-#include "src/process/process.hpp"
+#include "src/process/mpirun.hpp"
 
 namespace whipple::app {
 namespace {
@@ -23,37 +21,19 @@ struct Options {
   bool retry_failed = false;
 };
 
-/// Ranks share no state but the queue of points: each runs one thread, a waiting one leaves its core to
-/// others.
-process::Environment mpi_environment() {
-  process::Environment environment = {{"OMP_NUM_THREADS", "1"},
-                                      {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
-                                      {"OMPI_MCA_mpi_yield_when_idle", "1"},
-                                      {"OMPI_MCA_hwloc_base_binding_policy", "none"}};
-  if (geteuid() == 0) {  // Open MPI refuses root, as in containers, unless both are set
-    environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT", "1");
-    environment.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
-  }
-  return environment;
-}
-
 int run_md(const Options& options) {
   if (!std::filesystem::exists(options.plan)) {
     throw InputError(fmt::format("{}: error: cannot open the file", options.plan));
   }
   const int ranks = options.ranks > 0 ? options.ranks : process::physical_cores();
-  std::vector<std::string> arguments = {"mpirun", "-np", std::to_string(ranks)};
   const log::Level level = log::level();
-  // The worker says itself what went wrong; mpirun would add a page on the exit code.
-  if (level != log::Level::verbose) arguments.emplace_back("--quiet");
-  arguments.push_back(process::find_executable("whipple-md").string());
-  arguments.push_back(options.plan);
-  if (!options.store.empty()) arguments.insert(arguments.end(), {"-o", options.store});
-  if (options.retry_failed) arguments.emplace_back("--retry-failed");
-  if (level == log::Level::quiet) arguments.emplace_back("--quiet");
-  if (level == log::Level::verbose) arguments.emplace_back("--verbose");
-  log::detail("{}", fmt::join(arguments, " "));
-  return process::run_process(arguments, mpi_environment());
+  std::vector<std::string> program = {"whipple-md", options.plan};
+  if (!options.store.empty()) program.insert(program.end(), {"-o", options.store});
+  if (options.retry_failed) program.emplace_back("--retry-failed");
+  if (level == log::Level::quiet) program.emplace_back("--quiet");
+  if (level == log::Level::verbose) program.emplace_back("--verbose");
+  // Ranks share no state but the queue of points: each runs one thread.
+  return process::mpirun(ranks, program, {{"OMP_NUM_THREADS", "1"}});
 }
 
 }  // namespace

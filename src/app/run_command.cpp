@@ -12,6 +12,9 @@
 #include "src/app/build_info.hpp"
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
+#include "src/base/units.hpp"
+#include "src/parallel/mpi.hpp"
+#include "src/process/mpirun.hpp"
 #include "src/solver/run.hpp"
 
 namespace whipple::app {
@@ -22,7 +25,9 @@ struct Arguments {
   std::string output;
   std::string restart;
   std::vector<std::string> set;
+  std::string wall_time;
   int threads = 0;
+  int ranks = 0;
   bool force = false;
 };
 
@@ -33,6 +38,7 @@ solver::RunOptions run_options(const Arguments& arguments) {
       .restart = !arguments.restart.empty(),
       .force = arguments.force,
       .threads = arguments.threads,
+      .wall_time = arguments.wall_time.empty() ? 0.0 : units::parse_quantity(arguments.wall_time, "s"),
       .program = fmt::format("whipple {} ({})", build_info().version, build_info().revision),
       .overrides = {}};
   if (options.restart) {
@@ -62,6 +68,38 @@ solver::RunOptions run_options(const Arguments& arguments) {
   return options;
 }
 
+/// The same command on MPI ranks of this machine.
+int run_on_ranks(const Arguments& arguments) {
+  std::vector<std::string> program = {"whipple", "run"};
+  if (!arguments.case_file.empty()) program.push_back(arguments.case_file);
+  const auto pass = [&](const char* option, const std::string& value) {
+    if (!value.empty()) program.insert(program.end(), {option, value});
+  };
+  pass("--output", arguments.output);
+  pass("--restart", arguments.restart);
+  pass("--wall-time", arguments.wall_time);
+  for (const std::string& entry : arguments.set) pass("--set", entry);
+  if (arguments.threads > 0) pass("--threads", std::to_string(arguments.threads));
+  if (arguments.force) program.emplace_back("--force");
+  if (log::level() == log::Level::quiet) program.emplace_back("--quiet");
+  if (log::level() == log::Level::verbose) program.emplace_back("--verbose");
+  return process::mpirun(arguments.ranks, program);
+}
+
+/// Runs the case on the ranks that this process belongs to.
+int run_here(const Arguments& arguments) {
+  try {
+    return solver::run(run_options(arguments));
+  } catch (const std::exception& error) {
+    log::record_error(error.what());  // also into log.txt, if the run directory is there
+    if (parallel::size(parallel::world()) > 1) {
+      parallel::end_all_ranks(parallel::world(), message_for_user("whipple", error),
+                              static_cast<int>(exit_code(error)));
+    }
+    throw;
+  }
+}
+
 void add_common(CLI::App& command, Arguments& arguments) {
   command.add_option("case", arguments.case_file, "The case (CASE.toml)");
   command
@@ -69,7 +107,8 @@ void add_common(CLI::App& command, Arguments& arguments) {
                   "Override a key of the case, e.g. domain.cell_size='0.3 mm' (repeatable)")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--threads", arguments.threads, "Threads (default: all cores)")
+  command
+      .add_option("--threads", arguments.threads, "Threads of each rank (default: its share of the cores)")
       ->check(CLI::Range(1, 4096));
 }
 
@@ -84,20 +123,23 @@ void add_run_command(CLI::App& app) {
   command->add_option("--restart", arguments->restart, "Go on from the latest checkpoint of a run directory")
       ->type_name("DIR");
   command->add_flag("--force", arguments->force, "Remove the outputs of an earlier run in the run directory");
+  command
+      ->add_option(
+          "--ranks", arguments->ranks,
+          "Start this command on so many MPI ranks of this machine (elsewhere: mpirun whipple run …)")
+      ->check(CLI::Range(1, 4096));
+  command
+      ->add_option("--wall-time", arguments->wall_time,
+                   "Write a checkpoint and end after this time, e.g. '2 hour'")
+      ->type_name("TIME");
   command->footer(
       "Example:\n  whipple run cases/copper_disk_on_aluminium/case.toml -o run/disk --set time.end='5 us'\n"
       "  whipple run --restart run/disk\n"
       "Signals: INT and TERM write a checkpoint and end the run, USR1 writes one and goes on.\n"
       "Exit codes: 0 done, 2 wrong input, 3 the physics left its range (state saved), 128 + signal when "
-      "stopped");
+      "stopped,\n  124 at the limit of wall time");
   command->callback([arguments] {
-    int code = 0;
-    try {
-      code = solver::run(run_options(*arguments));
-    } catch (const std::exception& error) {  // also into log.txt, if the run directory is there
-      log::record_error(error.what());
-      throw;
-    }
+    const int code = arguments->ranks > 0 ? run_on_ranks(*arguments) : run_here(*arguments);
     if (code != 0) throw CLI::RuntimeError(code);
   });
 }

@@ -34,9 +34,15 @@ class InternalError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-/// Runs `body` and turns the three kinds of errors into the exit codes above; prints the message to
-/// standard error in the form "program: error: message", or as it is if it names its place in a file
-/// ("case.toml:3:1: error: message").
+/// The code of the kind of an error; what is none of the three is a defect.
+ExitCode exit_code(const std::exception& error);
+
+/// What the user sees of an error: "program: error: message", or the message as it is if it names its place
+/// in a file ("case.toml:3:1: error: message").
+std::string message_for_user(const std::string& program, const std::exception& error);
+
+/// Runs `body` and turns the three kinds of errors into the exit codes above; prints the message for the
+/// user to standard error.
 /// @param program name printed before the message
 /// @param body    returns the exit code of the undisturbed case
 int run_guarded(const char* program, int (*body)(int, char**), int argc, char** argv);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -52,7 +53,8 @@ constexpr int node_index(int x, int y, int z) { return (x * block_edge + y) * bl
 constexpr int neighbour_index(int x, int y, int z) { return (x * 3 + y) * 3 + z; }
 
 /// The sparse background grid: the blocks where particles are, their nodes, and the list of particles in each
-/// block. Slots number the active blocks in the order of the forest's space-filling curve.
+/// block. Slots number the active blocks of a rank: its own in the order of the forest's space-filling curve,
+/// then those that it borrows from other ranks because its particles reach them.
 class BlockGrid {
  public:
   static constexpr std::int32_t no_slot = BlockTable::none;
@@ -60,20 +62,34 @@ class BlockGrid {
   /// Collective over `communicator`.
   BlockGrid(const Geometry& geometry, MPI_Comm communicator);
 
-  /// Finds the block of every particle, activates blocks where the stencil of a particle reaches beyond the
-  /// active ones, and lists the particles by block, in the order of their index. Active blocks beyond the
-  /// reach of all particles are dropped when the set is adapted; the set foresees the motion over `lookahead`
-  /// seconds so that it need not be adapted every step.
-  /// @throws StateError if a particle is outside of the domain and its outer layer (names the index)
-  void bin(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
-           Stencil stencil);
+  /// Finds the block of every particle and lists the particles by block, in the order of their index.
+  /// @returns false, on every rank, if the stencil of some particle reaches beyond the active blocks: then
+  /// `adapt` and `activate` must follow, and another `bin`. Collective.
+  bool bin(std::span<const Vector3> position, Stencil stencil);
+
+  /// Lets the forest follow the particles: finest leaves where stencils reach, now and along the motion over
+  /// `lookahead` seconds, so that it need not be adapted every step; and divides the blocks anew among the
+  /// ranks if their work has drifted apart. Collective.
+  /// @param weight  work of one particle of this rank, in any unit that all ranks share
+  /// @throws StateError on every rank if a particle is outside of the domain and its outer layer (names the
+  /// index)
+  void adapt(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
+             Stencil stencil, double weight = 1.0);
+  /// Rank that owns the block of each particle, which is where the particle must be before `activate`.
+  [[nodiscard]] std::vector<int> owners(std::span<const Vector3> position) const;
+  /// Activates the blocks that the particles of this rank reach, own ones and those that it borrows from
+  /// other ranks; drops the others. Collective.
+  void activate(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
+                Stencil stencil);
 
   /// Particles changed their order or number: the next `bin` looks every block up anew.
   void particles_reordered() { slot_of_particle_.clear(); }
 
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
-  [[nodiscard]] std::size_t slots() const { return coordinate_.size(); }
-  [[nodiscard]] const BlockCoordinate& coordinate(std::size_t slot) const { return coordinate_[slot]; }
+  [[nodiscard]] std::size_t slots() const { return blocks_.coordinate.size(); }
+  /// The first so many slots are blocks of this rank; the others are borrowed.
+  [[nodiscard]] std::size_t owned_slots() const { return blocks_.owned; }
+  [[nodiscard]] const BlockCoordinate& coordinate(std::size_t slot) const { return blocks_.coordinate[slot]; }
   /// Slots of the 27 blocks around a slot (see neighbour_index), `no_slot` where inactive.
   [[nodiscard]] const std::array<std::int32_t, 27>& neighbours(std::size_t slot) const {
     return neighbours_[slot];
@@ -94,6 +110,13 @@ class BlockGrid {
   /// Sets every node to zero.
   void clear();
 
+  /// Which registers of the nodes travel.
+  enum class Part { first, both };
+  /// Adds what this rank's particles brought to borrowed nodes to the nodes of their owners. Collective.
+  void sum_to_owners(Part part);
+  /// Replaces the borrowed nodes by those of their owners. Collective.
+  void borrow_from_owners(Part part);
+
   /// A node beyond a mirror plane and its image inside, as indices into all_nodes().
   struct MirrorPair {
     std::uint32_t outside;
@@ -104,6 +127,8 @@ class BlockGrid {
     bool no_slip = false;
     std::vector<MirrorPair> pairs;
     std::vector<std::uint32_t> on_plane;
+    /// Inner nodes that particles may reach from beyond the plane: the images of some rank's `outside` nodes.
+    std::vector<std::uint32_t> near;
   };
   /// Planes with the active nodes that they concern, in the order in which they are folded.
   [[nodiscard]] std::span<const MirrorPlane> mirror_planes() const { return planes_; }
@@ -115,17 +140,25 @@ class BlockGrid {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  [[nodiscard]] BlockCoordinate block_of(const Vector3& position, std::size_t index) const;
+  [[nodiscard]] std::optional<BlockCoordinate> block_of(const Vector3& position) const;
   bool locate(std::span<const Vector3> position, Stencil stencil);
-  void adapt(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
-             Stencil stencil);
+  [[nodiscard]] std::vector<WantedBlock> wanted_blocks(std::span<const Vector3> position,
+                                                       std::span<const Vector3> velocity, double lookahead,
+                                                       Stencil stencil, double weight) const;
   void list_particles(std::size_t n);
   void find_mirror_nodes();
+  /// Sends nodes of the slots `from` of every peer, and calls receive(slot, node in it, registers) for what
+  /// comes to its slots `to`.
+  template <class Receive>
+  void exchange_nodes(Part part, std::vector<std::uint32_t> BlockSet::Peer::* from,
+                      std::vector<std::uint32_t> BlockSet::Peer::* to, Receive&& receive);
 
+  MPI_Comm communicator_;
   Geometry geometry_;
   Forest forest_;
   BlockTable table_;
-  std::vector<BlockCoordinate> coordinate_;
+  std::vector<WantedBlock> wanted_;  // by the last adaptation
+  BlockSet blocks_;
   std::vector<std::array<std::int32_t, 27>> neighbours_;
   std::vector<std::uint32_t> existing_;  // bit per neighbour
   std::vector<Node> nodes_;
@@ -136,6 +169,7 @@ class BlockGrid {
   std::vector<MirrorPlane> planes_;
   std::vector<std::uint8_t> outside_;
   std::size_t adaptations_ = 0;
+  std::vector<std::vector<Lanes>> outgoing_, incoming_;  // one buffer per peer
 };
 
 }  // namespace whipple::grid

@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/parallel/mpi.hpp"
 
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <thread>
+
+#include "src/base/error.hpp"
+
 namespace whipple::parallel {
 namespace {
 
@@ -44,6 +52,97 @@ int size(MPI_Comm comm) {
   int value = 1;
   MPI_Comm_size(comm, &value);
   return value;
+}
+
+int ranks_on_machine(MPI_Comm comm) {
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  const int ranks = size(machine);
+  MPI_Comm_free(&machine);
+  return ranks;
+}
+
+void end_all_ranks(MPI_Comm comm, const std::string& message, int exit_code) {
+  if (rank(comm) != 0) std::this_thread::sleep_for(std::chrono::seconds(2));
+  std::fprintf(stderr, "%s\n", message.c_str());
+  std::fflush(nullptr);
+  MPI_Abort(comm, exit_code);
+  std::abort();  // not reached: MPI_Abort does not return
+}
+
+void maximum(MPI_Comm comm, std::span<double> values) {
+  if (size(comm) == 1) return;
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX, comm);
+}
+
+double maximum(MPI_Comm comm, double value) {
+  maximum(comm, std::span(&value, 1));
+  return value;
+}
+
+void sum(MPI_Comm comm, std::span<double> values) {
+  const auto ranks = static_cast<std::size_t>(size(comm));
+  if (ranks == 1) return;
+  // Gathered and added in the order of the ranks: MPI_SUM may choose another order from run to run.
+  std::vector<double> all(ranks * values.size());
+  const int n = static_cast<int>(values.size());
+  MPI_Allgather(values.data(), n, MPI_DOUBLE, all.data(), n, MPI_DOUBLE, comm);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = 0.0;
+    for (std::size_t r = 0; r < ranks; ++r) values[i] += all[r * values.size() + i];
+  }
+}
+
+bool any(MPI_Comm comm, bool value) { return maximum(comm, value ? 1.0 : 0.0) > 0.0; }
+
+void throw_together(MPI_Comm comm, const std::string& error) {
+  const int ranks = size(comm), own = rank(comm);
+  int first = error.empty() ? ranks : own;
+  if (ranks > 1) MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, comm);
+  if (first == ranks) return;
+  std::string text = error;
+  int length = static_cast<int>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT, first, comm);
+  text.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(text.data(), length, MPI_CHAR, first, comm);
+  throw StateError(text);
+}
+
+std::vector<std::vector<std::byte>> exchange_bytes(MPI_Comm comm,
+                                                   const std::vector<std::vector<std::byte>>& outgoing) {
+  const auto ranks = static_cast<std::size_t>(size(comm));
+  const auto own = static_cast<std::size_t>(rank(comm));
+  if (outgoing.size() != ranks) throw InternalError("exchange: one entry per rank is needed");
+  std::vector<std::vector<std::byte>> incoming(ranks);
+  incoming[own] = outgoing[own];
+  if (ranks == 1) return incoming;
+  std::vector<unsigned long> to(ranks), from(ranks);
+  for (std::size_t r = 0; r < ranks; ++r) to[r] = outgoing[r].size();
+  MPI_Alltoall(to.data(), 1, MPI_UNSIGNED_LONG, from.data(), 1, MPI_UNSIGNED_LONG, comm);
+  // MPI counts in int: longer messages go in pieces.
+  constexpr std::size_t piece = std::numeric_limits<int>::max() / 2;
+  constexpr int tag = 7;
+  std::vector<MPI_Request> requests;
+  const auto in_pieces = [&](std::size_t bytes, const auto& start) {
+    for (std::size_t at = 0; at < bytes; at += piece) {
+      start(at, static_cast<int>(std::min(piece, bytes - at)), &requests.emplace_back(MPI_REQUEST_NULL));
+    }
+  };
+  for (std::size_t r = 0; r < ranks; ++r) {
+    if (r == own) continue;
+    incoming[r].resize(from[r]);
+    in_pieces(from[r], [&](std::size_t at, int count, MPI_Request* request) {
+      MPI_Irecv(incoming[r].data() + at, count, MPI_BYTE, static_cast<int>(r), tag, comm, request);
+    });
+  }
+  for (std::size_t r = 0; r < ranks; ++r) {
+    if (r == own) continue;
+    in_pieces(to[r], [&](std::size_t at, int count, MPI_Request* request) {
+      MPI_Isend(outgoing[r].data() + at, count, MPI_BYTE, static_cast<int>(r), tag, comm, request);
+    });
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  return incoming;
 }
 
 }  // namespace whipple::parallel

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/particles/particles.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include "src/parallel/threads.hpp"
 
 namespace whipple {
@@ -12,6 +15,14 @@ void reorder(Particles& particles, std::span<const std::uint32_t> order) {
     parallel::for_each(order.size(), [&](std::size_t i) { sorted[i] = values[order[i]]; });
     values.swap(sorted);
   });
+}
+
+void sort_by_body(Particles& particles) {
+  if (std::ranges::is_sorted(particles.body)) return;
+  std::vector<std::uint32_t> order(particles.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t p) { return particles.body[p]; });
+  reorder(particles, order);
 }
 
 }  // namespace whipple

@@ -34,4 +34,7 @@ struct Particles : MaterialPoints {
 /// (removal). Two calls that give the same order give bitwise the same particles.
 void reorder(Particles& particles, std::span<const std::uint32_t> order);
 
+/// Brings the particles of each body together; within a body the order stays.
+void sort_by_body(Particles& particles);
+
 }  // namespace whipple

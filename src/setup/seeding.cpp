@@ -147,15 +147,27 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
   return faults;
 }
 
-Seeding seed(const Case& setup) {
+Seeding seed(const Case& setup, int rank, int ranks) {
   Seeding seeding;
   Particles& particles = seeding.particles;
+  std::size_t first_id = 0;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Body& body = setup.bodies[b];
     const Material& material = *setup.materials[b];
     const Lattice lattice = lattice_of(setup, body);
+    std::size_t total = 0;
+    for_each_point(setup, body, lattice, [&](const Vector3&) { ++total; });
+    const auto share_begin = [&](int r) {
+      return total * static_cast<std::size_t>(r) / static_cast<std::size_t>(ranks);
+    };
+    const std::size_t begin = share_begin(rank), behind = share_begin(rank + 1);
     std::vector<Vector3> points;
-    for_each_point(setup, body, lattice, [&](const Vector3& point) { points.push_back(point); });
+    points.reserve(behind - begin);
+    std::size_t index = 0;
+    for_each_point(setup, body, lattice, [&](const Vector3& point) {
+      if (index >= begin && index < behind) points.push_back(point);
+      ++index;
+    });
 
     BodySummary summary{.first = particles.size(), .count = points.size()};
     const std::size_t end = summary.first + summary.count;
@@ -169,7 +181,7 @@ Seeding seed(const Case& setup) {
     spin << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const std::size_t p = summary.first + i;
-      particles.id[p] = p;
+      particles.id[p] = first_id + begin + i;
       particles.body[p] = static_cast<std::uint32_t>(b);
       particles.mass[p] = mass;
       particles.position[p] = points[i];
@@ -177,7 +189,8 @@ Seeding seed(const Case& setup) {
       particles.affine_velocity[p] = spin;
     }
     initialise(material, particles, summary.first, end);
-    summary.mass = mass * static_cast<double>(summary.count);
+    summary.mass = mass * static_cast<double>(total);
+    first_id += total;
     summary.shape_mass = density * body.shape->volume();
     seeding.bodies.push_back(summary);
   }

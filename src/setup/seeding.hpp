@@ -22,7 +22,7 @@ std::vector<PlacementFault> placement_faults(const Case& setup);
 struct BodySummary {
   std::size_t first = 0;  ///< its particles are [first, first + count)
   std::size_t count = 0;
-  double mass = 0.0;        ///< kg, of the part inside the domain
+  double mass = 0.0;        ///< kg, of the part inside the domain (on all ranks)
   double shape_mass = 0.0;  ///< kg, of the whole shape at the initial density
 };
 
@@ -33,6 +33,7 @@ struct Seeding {
 
 /// Fills the bodies with particles on lattices that fit each body's bounding box, as near as possible to the
 /// wanted number per cell. Parts of a body beyond a symmetry plane or wall are left out (quarter models).
-Seeding seed(const Case& setup);
+/// Of `ranks` processes each makes an equal share of every body; ids are the same for any number of them.
+Seeding seed(const Case& setup, int rank = 0, int ranks = 1);
 
 }  // namespace whipple::setup

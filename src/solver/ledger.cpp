@@ -37,6 +37,15 @@ Totals totals_of(const Particles& particles, double cell_size) {
                                [&](std::size_t p) { return totals_of(particles, p, cell_size); });
 }
 
+void Ledger::add(const Ledger& step) {
+  outflow += step.outflow;
+  wall_impulse += step.wall_impulse;
+  work += step.work;
+  transfer_heat += step.transfer_heat;
+  clamped_to_cold_curve += step.clamped_to_cold_curve;
+  limited_volume_changes += step.limited_volume_changes;
+}
+
 double Ledger::energy_error(const Totals& now) const {
   const double scale = std::abs(initial.kinetic_energy) + std::abs(initial.affine_kinetic_energy) +
                        std::abs(initial.internal_energy);
@@ -63,6 +72,20 @@ std::vector<PhaseMasses> phase_masses(const Particles& particles, std::size_t bo
     if (particles.failed[p] != 0) of_body.failed += particles.mass[p];
   }
   return result;
+}
+
+void sum_over_ranks(MPI_Comm communicator, std::vector<PhaseMasses>& by_body) {
+  std::vector<double> numbers;
+  for (const PhaseMasses& body : by_body) {
+    numbers.insert(numbers.end(), body.mass.begin(), body.mass.end());
+    numbers.push_back(body.failed);
+  }
+  parallel::sum(communicator, numbers);
+  auto next = numbers.begin();
+  for (PhaseMasses& body : by_body) {
+    for (double& mass : body.mass) mass = *next++;
+    body.failed = *next++;
+  }
 }
 
 }  // namespace whipple::solver

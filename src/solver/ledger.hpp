@@ -2,9 +2,13 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
+#include <string>
+#include <type_traits>
 #include <vector>
 
+#include "src/parallel/mpi.hpp"
 #include "src/particles/particles.hpp"
 
 /// What is conserved, and where it went.
@@ -23,9 +27,23 @@ struct Totals {
   Totals& operator+=(const Totals& other);
 };
 
+/// Calls f(name, number) for every number of the sums: one list for checkpoints and sums over ranks.
+template <class T, class Function>
+  requires std::same_as<std::remove_const_t<T>, Totals>
+void for_each_number(T& totals, Function&& f) {
+  f("mass", totals.mass);
+  f("momentum_x", totals.momentum[0]);
+  f("momentum_y", totals.momentum[1]);
+  f("momentum_z", totals.momentum[2]);
+  f("momentum_scale", totals.momentum_scale);
+  f("kinetic_energy", totals.kinetic_energy);
+  f("affine_kinetic_energy", totals.affine_kinetic_energy);
+  f("internal_energy", totals.internal_energy);
+}
+
 /// Of one particle.
 Totals totals_of(const Particles& particles, std::size_t p, double cell_size);
-/// Of all particles; bitwise independent of the number of threads.
+/// Of all particles of this rank; bitwise independent of the number of threads.
 Totals totals_of(const Particles& particles, double cell_size);
 
 /// Books everything that enters and leaves, so that at every time
@@ -40,11 +58,39 @@ struct Ledger {
       0.0;  ///< evaluations below the cold curve (temperature clamped, energy kept)
   double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
 
+  /// Books what happened in a step (its `initial` is not used).
+  void add(const Ledger& step);
   /// Relative error of the total energy.
   [[nodiscard]] double energy_error(const Totals& now) const;
   /// Error of the momentum relative to the initial sum of m |v|.
   [[nodiscard]] double momentum_error(const Totals& now) const;
 };
+
+/// Calls f(name, number) for every number of the ledger.
+template <class L, class Function>
+  requires std::same_as<std::remove_const_t<L>, Ledger>
+void for_each_number(L& ledger, Function&& f) {
+  for_each_number(ledger.initial, [&](const std::string& name, auto& x) { f("initial_" + name, x); });
+  for_each_number(ledger.outflow, [&](const std::string& name, auto& x) { f("outflow_" + name, x); });
+  f("wall_impulse_x", ledger.wall_impulse[0]);
+  f("wall_impulse_y", ledger.wall_impulse[1]);
+  f("wall_impulse_z", ledger.wall_impulse[2]);
+  f("work", ledger.work);
+  f("transfer_heat", ledger.transfer_heat);
+  f("clamped_to_cold_curve", ledger.clamped_to_cold_curve);
+  f("limited_volume_changes", ledger.limited_volume_changes);
+}
+
+/// Replaces every number by its sum over all ranks. Collective.
+template <class... Parts>
+void sum_over_ranks(MPI_Comm communicator, Parts&... parts) {
+  if (parallel::size(communicator) == 1) return;
+  std::vector<double> numbers;
+  (for_each_number(parts, [&](const std::string&, double& x) { numbers.push_back(x); }), ...);
+  parallel::sum(communicator, numbers);
+  auto next = numbers.begin();
+  (for_each_number(parts, [&](const std::string&, double& x) { x = *next++; }), ...);
+}
 
 /// Masses by phase and other figures for the history.
 struct PhaseMasses {
@@ -52,7 +98,9 @@ struct PhaseMasses {
   double failed = 0.0;           ///< kg
   PhaseMasses& operator+=(const PhaseMasses& other);
 };
-/// One entry per body.
+/// Of the particles of this rank, one entry per body.
 std::vector<PhaseMasses> phase_masses(const Particles& particles, std::size_t bodies);
+/// Collective.
+void sum_over_ranks(MPI_Comm communicator, std::vector<PhaseMasses>& by_body);
 
 }  // namespace whipple::solver

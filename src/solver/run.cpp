@@ -31,18 +31,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
-/// The solver runs on one rank: blocks and particles are not exchanged between processes.
-void require_one_rank(MPI_Comm communicator) {
-  if (parallel::size(communicator) > 1) {
-    throw InputError(
-        fmt::format("the solver was started on {} MPI ranks; it runs on one, with threads (--threads N)",
-                    parallel::size(communicator)));
-  }
-}
+constexpr int out_of_time_code = 124;  // that of timeout(1)
 
-void set_threads(int threads) {
-  parallel::set_threads(threads > 0 ? threads
-                                    : static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+/// Threads of this rank: as asked, or its share of the machine.
+void set_threads(int threads, MPI_Comm communicator) {
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int share = std::max(1, cores / parallel::ranks_on_machine(communicator));
+  parallel::set_threads(threads > 0 ? threads : share);
 }
 
 /// Name of a run: the folder of its case, or the file if that is not called case.toml.
@@ -68,41 +63,50 @@ std::vector<std::string> material_copies(const setup::Case& setup) {
   return names;
 }
 
-std::string provenance(const setup::Case& setup, const std::string& program) {
+std::string provenance(const setup::Case& setup, const std::string& program, int ranks) {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   return fmt::format(
-      "\n[provenance]\nprogram = {}\ncase_file = {}\nmachine = {}\nthreads = {}\nstarted = {}\n",
-      whipple::quoted(program), whipple::quoted(setup.file.string()), whipple::quoted(host.data()),
+      "\n[provenance]\nprogram = {}\ncase_file = {}\nmachine = {}\nranks = {}\nthreads = {}\nstarted = {}\n",
+      whipple::quoted(program), whipple::quoted(setup.file.string()), whipple::quoted(host.data()), ranks,
       parallel::threads(),
       whipple::quoted(fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(
                                                               std::chrono::system_clock::now())))));
 }
 
-io::RunDirectory new_directory(const setup::Case& setup, const fs::path& path, const RunOptions& options) {
+io::RunDirectory new_directory(const setup::Case& setup, const fs::path& path, const RunOptions& options,
+                               const io::Ranks& ranks) {
   const std::string name = run_name(setup.file);
-  io::RunDirectory directory = io::RunDirectory::create(path, name, options.force);
-  const std::vector<std::string> copies = material_copies(setup);
-  fs::create_directories(directory.path() / "materials");
-  for (std::size_t b = 0; b < copies.size(); ++b) {
-    io::write_text_atomically(directory.path() / copies[b], io::read_text(setup.materials[b]->file));
-  }
-  directory.write_input(setup::to_toml(setup, copies) + provenance(setup, options.program));
-  return directory;
+  ranks.on_root([&] {
+    const io::RunDirectory directory = io::RunDirectory::create(path, name, options.force);
+    const std::vector<std::string> copies = material_copies(setup);
+    fs::create_directories(directory.path() / "materials");
+    for (std::size_t b = 0; b < copies.size(); ++b) {
+      io::write_text_atomically(directory.path() / copies[b], io::read_text(setup.materials[b]->file));
+    }
+    directory.write_input(setup::to_toml(setup, copies) + provenance(setup, options.program, ranks.count()));
+  });
+  return io::RunDirectory::open(path, name);
 }
 
+/// Figures of all ranks. Collective.
 std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
   const RunState& state = simulation.state();
   const Totals& t = simulation.totals();
   const Particles& particles = simulation.particles();
   const std::vector<setup::Body>& bodies = simulation.setup().bodies;
-  const std::vector<PhaseMasses> by_body = phase_masses(particles, bodies.size());
+  std::vector<PhaseMasses> by_body = phase_masses(particles, bodies.size());
+  sum_over_ranks(simulation.communicator(), by_body);
   PhaseMasses all;
   for (const PhaseMasses& body : by_body) all += body;
   const auto largest = [&](const std::vector<double>& values) {
     return parallel::maximum(values.size(), -std::numeric_limits<double>::infinity(),
                              [&](std::size_t p) { return values[p]; });
   };
+  std::array<double, 3> maxima = {
+      parallel::maximum(particles.size(), 0.0, [&](std::size_t p) { return particles.velocity[p].norm(); }),
+      largest(particles.pressure), largest(particles.temperature)};
+  parallel::maximum(simulation.communicator(), maxima);
   std::vector<io::HistoryValue> row = {
       {"step", "", static_cast<double>(state.step)},
       {"time", "s", state.time},
@@ -128,13 +132,12 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
       {"mass_liquid", "kg", all.mass[2]},
       {"mass_vapour", "kg", all.mass[3]},
       {"failed_mass", "kg", all.failed},
-      {"maximum_speed", "m/s",
-       parallel::maximum(particles.size(), 0.0, [&](std::size_t p) { return particles.velocity[p].norm(); })},
-      {"maximum_pressure", "Pa", largest(particles.pressure)},
-      {"maximum_temperature", "K", largest(particles.temperature)},
+      {"maximum_speed", "m/s", maxima[0]},
+      {"maximum_pressure", "Pa", maxima[1]},
+      {"maximum_temperature", "K", maxima[2]},
       {"below_cold_curve", "1", state.ledger.clamped_to_cold_curve},
       {"limited_volume_changes", "1", state.ledger.limited_volume_changes},
-      {"particles", "1", static_cast<double>(particles.size())},
+      {"particles", "1", static_cast<double>(simulation.particle_count())},
   };
   static constexpr std::array<const char*, 4> phases = {"mass_solid", "mass_melting", "mass_liquid",
                                                         "mass_vapour"};
@@ -152,10 +155,11 @@ std::string profile_as_json(Simulation& simulation, double wall_seconds) {
     stages.push_back({{"stage", stage.name}, {"seconds", stage.seconds}, {"calls", stage.calls}});
   }
   return nlohmann::json({{"wall_seconds", wall_seconds},
+                         {"ranks", parallel::size(simulation.communicator())},
                          {"threads", parallel::threads()},
                          {"steps", simulation.state().step},
-                         {"particles", simulation.particles().size()},
-                         {"bytes", simulation.bytes()},
+                         {"particles", simulation.particle_count()},
+                         {"bytes_of_first_rank", simulation.bytes()},
                          {"stages", stages}})
       .dump(2);
 }
@@ -178,24 +182,29 @@ io::ParticleSeries open_series(const setup::Case& setup, const io::RunDirectory&
 /// The loop of a run and everything that it writes.
 class Runner {
  public:
-  Runner(const setup::Case& setup, const io::RunDirectory& directory, MPI_Comm communicator)
+  Runner(const setup::Case& setup, const io::RunDirectory& directory, const RunOptions& options,
+         const io::Ranks& ranks)
       : directory_(directory),
-        communicator_(communicator),
-        simulation_(setup, communicator),
-        series_(open_series(setup, directory, directory.path(), communicator)),
-        history_(directory.history_file()) {
+        ranks_(ranks),
+        wall_time_(options.wall_time),
+        simulation_(setup, parallel::world()),
+        series_(open_series(setup, directory, directory.path(), parallel::world())) {
+    if (ranks_.is_root()) history_.emplace(directory.history_file());
     write_snapshot();
-    history_.append(history_row(simulation_));
+    append_history();
   }
 
   Runner(const setup::Case& setup, const io::RunDirectory& directory, io::Checkpoint checkpoint,
-         MPI_Comm communicator)
+         const RunOptions& options, const io::Ranks& ranks)
       : directory_(directory),
-        communicator_(communicator),
-        simulation_(setup, std::move(checkpoint.particles), from_checkpoint(checkpoint.values), communicator),
-        series_(open_series(setup, directory, directory.path(), communicator)),
-        history_(io::History::restart(directory.history_file(), simulation_.state().step)),
+        ranks_(ranks),
+        wall_time_(options.wall_time),
+        simulation_(setup, std::move(checkpoint.particles), from_checkpoint(checkpoint.values),
+                    parallel::world()),
+        series_(open_series(setup, directory, directory.path(), parallel::world())),
         snapshots_(checkpoint.values.integer("snapshots")) {
+    ranks_.on_root(
+        [&] { history_.emplace(io::History::restart(directory.history_file(), simulation_.state().step)); });
     series_.restart(simulation_.state().time);
     log::info("restarted from {} at step {}, t = {:.6g} s", checkpoint.path.string(),
               simulation_.state().step, simulation_.state().time);
@@ -205,39 +214,74 @@ class Runner {
     const setup::Case& setup = simulation_.setup();
     const double end = setup.time.end;
     const Signals signals;
-    std::optional<Progress> progress(std::in_place, "run", end);
-    progress->start_from(simulation_.state().time);
+    std::optional<Progress> progress;
+    if (ranks_.is_root()) {
+      progress.emplace("run", end);
+      progress->start_from(simulation_.state().time);
+    }
     const Clock::time_point begin = Clock::now();
     Clock::time_point last_checkpoint = begin;
-    int signal = 0;
-    while (simulation_.state().time < end && signal == 0) {
+    Requests requests;
+    while (simulation_.state().time < end && !requests.end()) {
       advance(end);
       const RunState& state = simulation_.state();
       const bool last = state.time >= end;
-      if (last || state.step % setup.output.history_every == 0) history_.append(history_row(simulation_));
+      if (last || state.step % setup.output.history_every == 0) append_history();
       const double next_snapshot = setup.output.snapshot_every * static_cast<double>(snapshots_);
       if (last || (setup.output.snapshot_every > 0.0 && state.time >= next_snapshot)) write_snapshot();
-      signal = signals.end_requested();
-      const double since = std::chrono::duration<double>(Clock::now() - last_checkpoint).count();
+      const double since = seconds_since(last_checkpoint);
       const bool due = setup.output.checkpoint_every > 0.0 && since >= setup.output.checkpoint_every;
-      if (last || due || signal != 0 || signals.checkpoint_requested()) {
+      requests = agree({.signal = signals.end_requested(),
+                        .checkpoint = due || signals.checkpoint_requested(),
+                        .out_of_time = wall_time_ > 0.0 && seconds_since(begin) >= wall_time_});
+      if (last || requests.checkpoint || requests.end()) {
         write_checkpoint(directory_.checkpoint_folder());
         last_checkpoint = Clock::now();
       }
-      progress->update(
-          state.time,
-          fmt::format("step {}, t = {:.3f} us, dt = {:.2f} ns, {} particles, dE/E = {:.1e}", state.step,
-                      1e6 * state.time, 1e9 * state.time_step, simulation_.particles().size(),
-                      state.ledger.energy_error(simulation_.totals())));
+      if (progress) {
+        progress->update(
+            state.time,
+            fmt::format("step {}, t = {:.3f} us, dt = {:.2f} ns, {} particles, dE/E = {:.1e}", state.step,
+                        1e6 * state.time, 1e9 * state.time_step, simulation_.particle_count(),
+                        state.ledger.energy_error(simulation_.totals())));
+      }
     }
     progress.reset();  // ends its line before the summary
-    const double wall = std::chrono::duration<double>(Clock::now() - begin).count();
-    io::write_text_atomically(directory_.profile_file(), profile_as_json(simulation_, wall));
-    report_end(signal, wall);
-    return signal == 0 || simulation_.state().time >= end ? 0 : 128 + signal;
+    const double wall = seconds_since(begin);
+    ranks_.on_root([&] {
+      io::write_text_atomically(directory_.profile_file(), profile_as_json(simulation_, wall));
+      report_end(requests, wall);
+    });
+    if (simulation_.state().time >= end) return 0;
+    return requests.signal != 0 ? 128 + requests.signal : out_of_time_code;
   }
 
  private:
+  /// What asks the loop for something, on any rank.
+  struct Requests {
+    int signal = 0;
+    bool checkpoint = false;
+    bool out_of_time = false;
+    [[nodiscard]] bool end() const { return signal != 0 || out_of_time; }
+  };
+
+  /// A signal may reach the ranks in different steps, and clocks differ: all do what one of them asks for.
+  [[nodiscard]] Requests agree(const Requests& own) const {
+    std::array<double, 3> numbers = {static_cast<double>(own.signal), own.checkpoint ? 1.0 : 0.0,
+                                     own.out_of_time ? 1.0 : 0.0};
+    parallel::maximum(simulation_.communicator(), numbers);
+    return {static_cast<int>(numbers[0]), numbers[1] > 0.0, numbers[2] > 0.0};
+  }
+
+  static double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
+  void append_history() {
+    const std::vector<io::HistoryValue> row = history_row(simulation_);
+    ranks_.on_root([&] { history_->append(row); });
+  }
+
   void advance(double end) {
     try {
       simulation_.advance(end);
@@ -252,7 +296,7 @@ class Runner {
     const fs::path folder = directory_.path() / "failed";
     try {
       write_checkpoint(folder);
-      open_series(simulation_.setup(), directory_, folder, communicator_)
+      open_series(simulation_.setup(), directory_, folder, simulation_.communicator())
           .write(simulation_.particles(), simulation_.state().time);
       return fmt::format("the state is saved in {}", folder.string());
     } catch (const InputError& error) {
@@ -273,15 +317,17 @@ class Runner {
     values.integers["snapshots"] = snapshots_;
     values.texts["run_name"] = directory_.name();
     const fs::path path = io::write_checkpoint(folder, simulation_.state().step, simulation_.particles(),
-                                               values, communicator_);
+                                               values, simulation_.communicator());
     log::detail("checkpoint {}", path.string());
   }
 
-  void report_end(int signal, double wall) {
+  void report_end(const Requests& requests, double wall) {
     const RunState& state = simulation_.state();
     const Totals& totals = simulation_.totals();
-    if (signal != 0 && state.time < simulation_.setup().time.end) {
-      log::info("stopped by signal {} at step {}, t = {:.6g} s; go on with: whipple run --restart {}", signal,
+    if (requests.end() && state.time < simulation_.setup().time.end) {
+      const std::string by =
+          requests.signal != 0 ? fmt::format("signal {}", requests.signal) : "the limit of wall time";
+      log::info("stopped by {} at step {}, t = {:.6g} s; go on with: whipple run --restart {}", by,
                 state.step, state.time, directory_.path().string());
     }
     log::info("{} steps to t = {:.6g} s in {}; energy error {:.2e}, momentum error {:.2e}, outflow {:.3g} kg",
@@ -296,11 +342,12 @@ class Runner {
   }
 
   io::RunDirectory directory_;
-  MPI_Comm communicator_;
+  io::Ranks ranks_;
+  double wall_time_;  // s, 0: no limit
   Simulation simulation_;
   io::ParticleSeries series_;
-  io::History history_;
-  std::int64_t snapshots_ = 0;  // multiple of the interval at which the next snapshot is due
+  std::optional<io::History> history_;  // on the root
+  std::int64_t snapshots_ = 0;          // multiple of the interval at which the next snapshot is due
 };
 
 fs::path output_directory(const RunOptions& options, const fs::path& case_file) {
@@ -310,39 +357,40 @@ fs::path output_directory(const RunOptions& options, const fs::path& case_file) 
 }  // namespace
 
 int run(const RunOptions& options) {
-  const MPI_Comm communicator = parallel::world();
-  require_one_rank(communicator);
-  set_threads(options.threads);
+  const io::Ranks ranks(parallel::world());
+  set_threads(options.threads, parallel::world());
+  if (!ranks.is_root()) log::set_level(log::Level::quiet);
   if (options.restart) {
     const fs::path input = options.output_directory / "run.toml";
     const setup::Case setup = setup::read_case(input, options.overrides);
     io::Checkpoint checkpoint =
-        io::read_latest_checkpoint(options.output_directory / "checkpoint", communicator);
+        io::read_latest_checkpoint(options.output_directory / "checkpoint", parallel::world());
     const io::RunDirectory directory =
         io::RunDirectory::open(options.output_directory, checkpoint.values.text("run_name"));
-    log::add_file(directory.log_file());
-    if (!options.overrides.empty()) {
+    if (ranks.is_root()) log::add_file(directory.log_file());
+    ranks.on_root([&] {
+      if (options.overrides.empty()) return;
       // The next restart goes on with the changed input; its materials are the copies in the run directory.
       std::vector<std::string> materials;
       for (const setup::Body& body : setup.bodies) materials.push_back(body.material);
-      directory.write_input(setup::to_toml(setup, materials) + provenance(setup, options.program));
-    }
-    Runner runner(setup, directory, std::move(checkpoint), communicator);
+      directory.write_input(setup::to_toml(setup, materials) +
+                            provenance(setup, options.program, ranks.count()));
+    });
+    Runner runner(setup, directory, std::move(checkpoint), options, ranks);
     return runner.run();
   }
   const setup::Case setup = setup::read_case(options.case_file, options.overrides);
   const io::RunDirectory directory =
-      new_directory(setup, output_directory(options, options.case_file), options);
-  log::add_file(directory.log_file());
+      new_directory(setup, output_directory(options, options.case_file), options, ranks);
+  if (ranks.is_root()) log::add_file(directory.log_file());
   log::info("{}: {}", setup.title.empty() ? directory.name() : setup.title, directory.path().string());
-  Runner runner(setup, directory, communicator);
+  Runner runner(setup, directory, options, ranks);
   return runner.run();
 }
 
 std::string check(const RunOptions& options) {
   const MPI_Comm communicator = parallel::world();
-  require_one_rank(communicator);
-  set_threads(options.threads);
+  set_threads(options.threads, communicator);
   const setup::Case setup = setup::read_case(options.case_file, options.overrides);
   Simulation simulation(setup, communicator);
   std::string text = fmt::format("{}\n{}\n\n", setup.file.string(), setup.title);
@@ -354,7 +402,7 @@ std::string check(const RunOptions& options) {
                         setup.bodies[b].name, setup.materials[b]->name, body.count, 1e3 * body.mass,
                         1e3 * body.shape_mass);
   }
-  const std::size_t particles = simulation.particles().size();
+  const std::size_t particles = simulation.particle_count();
   simulation.advance(setup.time.end);  // activates the blocks
   int measured_steps = 0;
   const Clock::time_point begin = Clock::now();

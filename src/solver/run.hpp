@@ -16,14 +16,15 @@ struct RunOptions {
   std::filesystem::path output_directory;  ///< empty: the name of the case's folder, or of its file, in ./run
   bool restart = false;                    ///< go on from the latest checkpoint in output_directory
   bool force = false;                      ///< remove the outputs of an earlier run in output_directory
-  int threads = 0;                         ///< 0: all cores
+  int threads = 0;                         ///< of each rank; 0: its share of the cores
+  double wall_time = 0.0;                  ///< s, then a checkpoint is written and the run ends; 0: no limit
   std::string program = "whipple";         ///< name and version, for provenance
   std::vector<std::pair<std::string, std::string>> overrides;  ///< --set
 };
 
 /// Runs a case from its file to its last snapshot (docs/output.md has what it writes). Collective.
 /// SIGINT and SIGTERM write a checkpoint and end the run, SIGUSR1 writes one and goes on.
-/// @returns 0, or 128 + number of the signal that ended the run
+/// @returns 0; 128 + number of the signal that ended the run; 124 at the limit of wall time
 /// @throws InputError before any work and before anything is written if the input is wrong;
 ///         StateError if the physics leaves its range: the state is saved in the folder failed/ of the run
 int run(const RunOptions& options);

@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 #include "src/base/error.hpp"
 #include "src/material/update.hpp"
+#include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
+#include "src/particles/migrate.hpp"
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/particles_to_grid.hpp"
 
@@ -28,42 +29,50 @@ transfer::Relaxation relaxation(const setup::TransferControl& control) {
 }
 
 /// Particles are sorted by body: the ranges follow from where the bodies change.
-std::vector<setup::BodySummary> body_ranges(const Particles& particles, std::size_t bodies) {
-  std::vector<setup::BodySummary> ranges(bodies);
+void find_bodies(const Particles& particles, std::vector<setup::BodySummary>& bodies) {
+  for (setup::BodySummary& body : bodies) body.first = body.count = 0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    setup::BodySummary& range = ranges[particles.body[p]];
-    if (range.count == 0) range.first = p;
-    ++range.count;
-    range.mass += particles.mass[p];
+    setup::BodySummary& body = bodies[particles.body[p]];
+    if (body.count++ == 0) body.first = p;
   }
-  return ranges;
 }
 
 }  // namespace
 
 Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
-    : setup_(setup), grid_(setup.geometry, communicator) {
-  setup::Seeding seeding = setup::seed(setup);
+    : setup_(setup), communicator_(communicator), grid_(setup.geometry, communicator) {
+  setup::Seeding seeding = setup::seed(setup, parallel::rank(communicator), parallel::size(communicator));
   particles_ = std::move(seeding.particles);
   bodies_ = std::move(seeding.bodies);
   if (!affine(setup_)) std::ranges::fill(particles_.affine_velocity, Matrix3::Zero().eval());
-  start();
+  velocity_gradient_.resize(particles_.size());
+  sum_over_ranks();
   state_.ledger.initial = totals_;
 }
 
 Simulation::Simulation(const setup::Case& setup, Particles particles, const RunState& state,
                        MPI_Comm communicator)
     : setup_(setup),
+      communicator_(communicator),
       particles_(std::move(particles)),
-      bodies_(body_ranges(particles_, setup.bodies.size())),
+      bodies_(setup.bodies.size()),
       grid_(setup.geometry, communicator),
       state_(state) {
-  start();
+  sort_by_body(particles_);  // checkpoints hold the particles of several ranks one after the other
+  find_bodies(particles_, bodies_);
+  velocity_gradient_.resize(particles_.size());
+  sum_over_ranks();
 }
 
-void Simulation::start() {
-  velocity_gradient_.resize(particles_.size());
+/// Totals of all ranks, and what the step did to them.
+void Simulation::sum_over_ranks() {
   totals_ = totals_of(particles_, setup_.domain.cell_size);
+  auto count = static_cast<double>(particles_.size());
+  solver::sum_over_ranks(communicator_, totals_, step_);
+  parallel::sum(communicator_, std::span(&count, 1));
+  particle_count_ = static_cast<std::size_t>(count);
+  state_.ledger.add(step_);
+  step_ = {};
 }
 
 template <class Function>
@@ -85,7 +94,7 @@ double Simulation::stable_time_step() const {
     return particles_.sound_speed[p] + particles_.velocity[p].cwiseAbs().maxCoeff();
   });
   const double dx = setup_.domain.cell_size;
-  double dt = setup_.time.courant * dx / speed;
+  double dt = setup_.time.courant * dx / parallel::maximum(communicator_, speed);
   if (state_.maximum_acceleration > 0.0) {
     dt = std::min(dt, std::sqrt(setup_.time.acceleration_limit * dx / state_.maximum_acceleration));
   }
@@ -95,7 +104,7 @@ double Simulation::stable_time_step() const {
 
 void Simulation::begin_step(double until) {
   profile_.time("time step", [&] {
-    if (particles_.size() == 0) throw StateError("all particles have left the domain");
+    if (particle_count_ == 0) throw StateError("all particles have left the domain");
     double dt = stable_time_step();
     if (!(dt > 0.0) || !std::isfinite(dt)) {
       throw StateError(
@@ -116,13 +125,27 @@ void Simulation::bin_particles() {
   profile_.time("bin particles", [&] {
     with_shape([&]<class Shape>(Shape) {
       const double lookahead = lookahead_steps * state_.time_step;
-      grid_.bin(particles_.position, particles_.velocity, lookahead, Shape::stencil);
+      if (!grid_.bin(particles_.position, Shape::stencil)) follow_particles(lookahead, Shape::stencil);
       if (state_.step % sort_every == 0) {
         sort_particles();
-        grid_.bin(particles_.position, particles_.velocity, lookahead, Shape::stencil);
+        if (!grid_.bin(particles_.position, Shape::stencil)) follow_particles(lookahead, Shape::stencil);
       }
     });
   });
+}
+
+/// Blocks where the particles are and will be; particles on the rank that owns their block.
+void Simulation::follow_particles(double lookahead, grid::Stencil stencil) {
+  grid_.adapt(particles_.position, particles_.velocity, lookahead, stencil);
+  const std::vector<int> owners = grid_.owners(particles_.position);
+  if (migrate(particles_, owners, communicator_)) {
+    velocity_gradient_.resize(particles_.size());
+    find_bodies(particles_, bodies_);
+  }
+  grid_.activate(particles_.position, particles_.velocity, lookahead, stencil);
+  if (!grid_.bin(particles_.position, stencil)) {
+    throw InternalError("adaptation left a particle without its blocks");
+  }
 }
 
 /// By body (so that a material is a range), then by block.
@@ -141,14 +164,12 @@ void Simulation::map_particles_to_grid() {
   });
 }
 
-transfer::GridBalance Simulation::advance_grid() {
-  return profile_.time("grid", [&] {
+void Simulation::advance_grid() {
+  profile_.time("grid", [&] {
     const transfer::GridBalance balance =
         grid_update_.advance(grid_, state_.time_step, relaxation(setup_.transfer));
-    state_.ledger.wall_impulse += balance.wall_impulse;
+    step_.wall_impulse += balance.wall_impulse;
     former_velocity_ = particles_.velocity;
-    work_identity_error_ = balance.kinetic_energy_after - balance.kinetic_energy_before;
-    return balance;
   });
 }
 
@@ -157,9 +178,8 @@ void Simulation::map_grid_to_particles() {
     with_shape([&]<class Shape>(Shape) {
       const transfer::TransferBalance balance = transfer::grid_to_particles<Shape>(
           particles_, grid_, state_.time_step, affine(setup_), velocity_gradient_);
-      state_.ledger.work += balance.work;
-      state_.ledger.transfer_heat += balance.heat;
-      work_identity_error_ = (work_identity_error_ + balance.work) / std::max(totals_.kinetic_energy, 1e-300);
+      step_.work += balance.work;
+      step_.transfer_heat += balance.heat;
     });
   });
 }
@@ -194,6 +214,7 @@ void Simulation::update_material(EnergyUpdate energy) {
                                   .cell_size = setup_.domain.cell_size,
                                   .linear_viscosity = setup_.viscosity.linear,
                                   .quadratic_viscosity = setup_.viscosity.quadratic};
+    std::string error;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const setup::BodySummary& body = bodies_[b];
       const Material& material = *setup_.materials[b];
@@ -210,18 +231,19 @@ void Simulation::update_material(EnergyUpdate energy) {
       });
       MaterialReport report;
       for (const MaterialReport& part : reports) report.merge(part);
-      state_.ledger.clamped_to_cold_curve += static_cast<double>(report.equation_of_state.below_cold_curve);
-      state_.ledger.limited_volume_changes += static_cast<double>(report.limited_volume_changes);
+      step_.clamped_to_cold_curve += static_cast<double>(report.equation_of_state.below_cold_curve);
+      step_.limited_volume_changes += static_cast<double>(report.limited_volume_changes);
+      if (!error.empty()) continue;
       if (report.undefined != 0) {
-        throw_state_error(report.first_undefined,
-                          "the state is not defined (NaN, or a volume that is not positive)");
-      }
-      if (report.equation_of_state.out_of_range != 0) {
-        throw_state_error(report.equation_of_state.first,
-                          fmt::format("the equation of state of {} is out of range: {}", material.name,
-                                      report.equation_of_state.bound));
+        error = describe_state(report.first_undefined,
+                               "the state is not defined (NaN, or a volume that is not positive)");
+      } else if (report.equation_of_state.out_of_range != 0) {
+        error = describe_state(report.equation_of_state.first,
+                               fmt::format("the equation of state of {} is out of range: {}", material.name,
+                                           report.equation_of_state.bound));
       }
     }
+    parallel::throw_together(communicator_, error);
   });
 }
 
@@ -255,7 +277,7 @@ void Simulation::reflect_and_remove() {
         // only.
         const Matrix3 image = boundary == grid::Boundary::no_slip ? Matrix3(-Matrix3::Identity()) : mirror;
         const Vector3 velocity = image * particles_.velocity[p];
-        state_.ledger.wall_impulse += particles_.mass[p] * (velocity - particles_.velocity[p]);
+        step_.wall_impulse += particles_.mass[p] * (velocity - particles_.velocity[p]);
         particles_.velocity[p] = velocity;
         particles_.affine_velocity[p] = image * particles_.affine_velocity[p] * mirror;
         particles_.deviatoric_stress[p] =
@@ -269,7 +291,7 @@ void Simulation::reflect_and_remove() {
     auto next = leaving.begin();
     for (std::uint32_t p = 0; p < particles_.size(); ++p) {
       if (next != leaving.end() && *next == p) {
-        state_.ledger.outflow += totals_of(particles_, p, setup_.domain.cell_size);
+        step_.outflow += totals_of(particles_, p, setup_.domain.cell_size);
         ++next;
       } else {
         staying.push_back(p);
@@ -278,7 +300,7 @@ void Simulation::reflect_and_remove() {
     for (std::size_t i = 0; i < staying.size(); ++i) former_velocity_[i] = former_velocity_[staying[i]];
     reorder(particles_, staying);
     velocity_gradient_.resize(particles_.size());
-    bodies_ = body_ranges(particles_, bodies_.size());
+    find_bodies(particles_, bodies_);
     grid_.particles_reordered();
   });
 }
@@ -286,10 +308,11 @@ void Simulation::reflect_and_remove() {
 void Simulation::end_step() {
   profile_.time("ledger", [&] {
     const double per_step = 1.0 / state_.time_step;
-    state_.maximum_acceleration = parallel::maximum(particles_.size(), 0.0, [&](std::size_t p) {
+    const double acceleration = parallel::maximum(particles_.size(), 0.0, [&](std::size_t p) {
       return per_step * (particles_.velocity[p] - former_velocity_[p]).norm();
     });
-    totals_ = totals_of(particles_, setup_.domain.cell_size);
+    state_.maximum_acceleration = parallel::maximum(communicator_, acceleration);
+    sum_over_ranks();
     ++state_.step;
     state_.time += state_.time_step;
     const double error = state_.ledger.energy_error(totals_);
@@ -303,17 +326,17 @@ void Simulation::end_step() {
   });
 }
 
-void Simulation::throw_state_error(std::size_t p, const std::string& reason) const {
+std::string Simulation::describe_state(std::size_t p, const std::string& reason) const {
   const Vector3& x = particles_.position[p];
   const Vector3& v = particles_.velocity[p];
-  throw StateError(
-      fmt::format("step {}, t = {} s, body \"{}\", particle {}: {}\n  position ({}, {}, {}) m, velocity ({}, "
-                  "{}, {}) m/s\n  density "
-                  "{} kg/m^3, specific internal energy {} J/kg, pressure {} Pa, temperature {} K, failed {}",
-                  state_.step + 1, state_.time + state_.time_step, setup_.bodies[particles_.body[p]].name,
-                  particles_.id[p], reason, x[0], x[1], x[2], v[0], v[1], v[2],
-                  particles_.mass[p] / particles_.volume[p], particles_.specific_internal_energy[p],
-                  particles_.pressure[p], particles_.temperature[p], particles_.failed[p]));
+  return fmt::format(
+      "step {}, t = {} s, body \"{}\", particle {}: {}\n  position ({}, {}, {}) m, velocity ({}, "
+      "{}, {}) m/s\n  density "
+      "{} kg/m^3, specific internal energy {} J/kg, pressure {} Pa, temperature {} K, failed {}",
+      state_.step + 1, state_.time + state_.time_step, setup_.bodies[particles_.body[p]].name,
+      particles_.id[p], reason, x[0], x[1], x[2], v[0], v[1], v[2], particles_.mass[p] / particles_.volume[p],
+      particles_.specific_internal_energy[p], particles_.pressure[p], particles_.temperature[p],
+      particles_.failed[p]);
 }
 
 std::size_t Simulation::bytes() const {

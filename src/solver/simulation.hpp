@@ -26,13 +26,15 @@ struct RunState {
   Ledger ledger;
 };
 
-/// One simulation in memory: particles, grid, materials, ledger. The schemes are functions of it
-/// (schemes.hpp).
+/// One simulation in memory: particles, grid, materials, ledger. The schemes are functions of it. Every rank
+/// holds the particles in its own blocks; whatever concerns the whole (time step, totals, ledger, errors) is
+/// the same on all ranks. Constructors and `advance` are collective.
 class Simulation {
  public:
   /// Seeds the bodies of the case.
   explicit Simulation(const setup::Case& setup, MPI_Comm communicator);
   /// Goes on from a checkpoint.
+  /// @param particles the share of this rank, any share
   Simulation(const setup::Case& setup, Particles particles, const RunState& state, MPI_Comm communicator);
 
   /// Advances one step of the case's scheme; not beyond `until` (s).
@@ -42,15 +44,19 @@ class Simulation {
   void advance(double until);
 
   [[nodiscard]] const setup::Case& setup() const { return setup_; }
+  /// The particles of this rank.
   [[nodiscard]] const Particles& particles() const { return particles_; }
+  /// Number of particles of all ranks.
+  [[nodiscard]] std::size_t particle_count() const { return particle_count_; }
   [[nodiscard]] const RunState& state() const { return state_; }
+  /// Sums over all ranks.
   [[nodiscard]] const Totals& totals() const { return totals_; }
   [[nodiscard]] const grid::BlockGrid& grid() const { return grid_; }
+  /// The bodies as seeded; `first` and `count` are those of this rank now.
   [[nodiscard]] const std::vector<setup::BodySummary>& bodies() const { return bodies_; }
+  [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
   [[nodiscard]] Profile& profile() { return profile_; }
-  /// Relative differences of the last step's work and transfer identities from the change of the grid's
-  /// kinetic energy.
-  [[nodiscard]] double work_identity_error() const { return work_identity_error_; }
+  /// Memory of this rank.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -65,7 +71,7 @@ class Simulation {
   void begin_step(double until);
   void bin_particles();
   void map_particles_to_grid();
-  transfer::GridBalance advance_grid();
+  void advance_grid();
   void map_grid_to_particles();
   void increment_particle_velocity();
   void map_momentum_to_grid();
@@ -76,22 +82,25 @@ class Simulation {
   void reflect_and_remove();
   void end_step();
 
-  void start();
+  void sum_over_ranks();
+  void follow_particles(double lookahead, grid::Stencil stencil);
   void sort_particles();
-  [[noreturn]] void throw_state_error(std::size_t particle, const std::string& reason) const;
+  [[nodiscard]] std::string describe_state(std::size_t particle, const std::string& reason) const;
 
   setup::Case setup_;
+  MPI_Comm communicator_;
   Particles particles_;
   std::vector<setup::BodySummary> bodies_;
   grid::BlockGrid grid_;
   transfer::GridUpdate grid_update_;
   RunState state_;
+  Ledger step_;  // what happened on this rank in the step under way
   Totals totals_;
+  std::size_t particle_count_ = 0;
   Profile profile_;
   std::vector<Matrix3> velocity_gradient_;
   std::vector<Vector3> displacement_;
   std::vector<Vector3> former_velocity_;
-  double work_identity_error_ = 0.0;
 };
 
 /// Symplectic scheme with exact energy (docs/theory/mpm.md, section 4).

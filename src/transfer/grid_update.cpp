@@ -80,10 +80,9 @@ void GridUpdate::remember_nodes_at_planes(const BlockGrid& grid) {
   at_planes_of_ = grid.adaptations();
   std::map<std::uint32_t, std::uint8_t> nodes;  // node -> is it only an image?
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
-    for (const auto& [outside, image] : plane.pairs) {
-      nodes[outside] = 0;
-      nodes.try_emplace(image, std::uint8_t{1});
-    }
+    for (const BlockGrid::MirrorPair& pair : plane.pairs) nodes[pair.outside] = 0;
+    // Another rank may be the one that folds onto them.
+    for (const std::uint32_t near : plane.near) nodes.try_emplace(near, std::uint8_t{1});
     for (const std::uint32_t on_plane : plane.on_plane) nodes[on_plane] = 0;
   }
   at_planes_.clear();
@@ -101,9 +100,10 @@ GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& re
   parallel::for_each(at_planes_.size(), [&](std::size_t i) { before_[i] = nodes[at_planes_[i]]; });
 
   fold(grid, true);
+  grid.sum_to_owners(BlockGrid::Part::both);
   const double rate = relaxation.kappa * dt / grid.geometry().cell_size;
-  std::vector<Energies> of_slot(grid.slots());
-  parallel::for_each(grid.slots(), [&](std::size_t slot) {
+  std::vector<Energies> of_slot(grid.owned_slots());
+  parallel::for_each(grid.owned_slots(), [&](std::size_t slot) {
     const std::size_t first = slot * grid::nodes_per_block;
     for (std::size_t i = first; i < first + grid::nodes_per_block; ++i) {
       Node& node = nodes[i];
@@ -123,6 +123,7 @@ GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& re
           Energies{0.5 * mass * sum3(node.first * node.first), 0.5 * mass * sum3(advanced * advanced)};
     }
   });
+  grid.borrow_from_owners(BlockGrid::Part::both);
   copy_back(grid);
 
   // Sums run in the order of the blocks, where empty blocks add zero: the same bits whatever blocks happen to
@@ -147,7 +148,8 @@ GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& re
 void GridUpdate::velocity_from_momentum(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
   fold(grid, false);
-  parallel::for_each(nodes.size(), [&](std::size_t i) {
+  grid.sum_to_owners(BlockGrid::Part::first);
+  parallel::for_each(grid.owned_slots() * grid::nodes_per_block, [&](std::size_t i) {
     Lanes& first = nodes[i].first;
     const double mass = first[0];
     if (mass < no_mass || grid.is_image(i)) {
@@ -156,6 +158,7 @@ void GridUpdate::velocity_from_momentum(BlockGrid& grid) {
       first = Lanes{first[1], first[2], first[3], 0.0} / mass;
     }
   });
+  grid.borrow_from_owners(BlockGrid::Part::first);
   copy_back(grid);
 }
 

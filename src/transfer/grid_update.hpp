@@ -18,7 +18,7 @@ struct Relaxation {
   double fixed = -1.0;
 };
 
-/// What a grid update knows of its own balance.
+/// What a grid update knows of its own balance: the part of this rank.
 struct GridBalance {
   double kinetic_energy_before = 0.0;  ///< J, of the nodes
   double kinetic_energy_after = 0.0;   ///< J
@@ -29,13 +29,13 @@ struct GridBalance {
 /// Mirror planes and the momentum equation on the nodes.
 class GridUpdate {
  public:
-  /// Folds the nodes beyond the mirror planes onto their images, solves m dv/dt = f (equation 3.4), and
-  /// copies the result back to the nodes beyond. Node layout changes from the first to the second form (see
-  /// grid::Node).
+  /// Folds the nodes beyond the mirror planes onto their images, adds up the parts of all ranks, solves
+  /// m dv/dt = f (equation 3.4), and copies the result back to the nodes beyond. Collective. Node layout
+  /// changes from the first to the second form (see grid::Node).
   GridBalance advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation);
 
   /// Second pass of MUSL: nodes hold mass and momentum of the updated particles in `first`; afterwards the
-  /// velocity.
+  /// velocity. Collective.
   void velocity_from_momentum(grid::BlockGrid& grid);
 
  private:

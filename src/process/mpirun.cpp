@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/process/mpirun.hpp"
+
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include "src/base/log.hpp"
+#include "src/process/paths.hpp"
+
+namespace whipple::process {
+
+int mpirun(int ranks, const std::vector<std::string>& program, const Environment& environment) {
+  std::vector<std::string> arguments = {"mpirun", "-np", std::to_string(ranks)};
+  // The program says itself what went wrong; mpirun would add a page on the exit code.
+  if (log::level() != log::Level::verbose) arguments.emplace_back("--quiet");
+  arguments.push_back(find_executable(program.front()).string());
+  arguments.insert(arguments.end(), program.begin() + 1, program.end());
+  Environment all = environment;
+  // A waiting rank leaves its core to others.
+  all.emplace_back("OMPI_MCA_rmaps_base_oversubscribe", "1");
+  all.emplace_back("OMPI_MCA_mpi_yield_when_idle", "1");
+  all.emplace_back("OMPI_MCA_hwloc_base_binding_policy", "none");
+  if (geteuid() == 0) {  // Open MPI refuses root, as in containers, unless both are set
+    all.emplace_back("OMPI_ALLOW_RUN_AS_ROOT", "1");
+    all.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
+  }
+  log::detail("{}", fmt::join(arguments, " "));
+  return run_process(arguments, all);
+}
+
+}  // namespace whipple::process

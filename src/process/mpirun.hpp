@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/process/process.hpp"
+
+namespace whipple::process {
+
+/// Runs a program of the project on MPI ranks of this machine, as `run_process` does.
+/// @param program      name of the executable ("whipple-md") and its arguments
+/// @param environment  variables for the ranks, besides those that let Open MPI run with more ranks than
+/// cores and as root
+/// @returns the exit code of mpirun
+int mpirun(int ranks, const std::vector<std::string>& program, const Environment& environment = {});
+
+}  // namespace whipple::process

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The solver on several ranks (run under mpiexec; every rank runs every test). Proves: all integrals of a
+// debris cloud agree with those of one rank to 1e-11, with both schemes, while shocks, spall, melting,
+// mirror planes and outflow cross the borders of the ranks; a checkpoint goes on with another number of
+// ranks; more ranks than blocks do no harm; an error on one rank ends the step on all of them.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "src/base/error.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/io/ranks.hpp"
+#include "src/parallel/mpi.hpp"
+#include "src/solver/checkpointing.hpp"
+#include "src/solver/simulation.hpp"
+
+namespace whipple::solver {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A copper disk through an aluminium plate, quarter model, in a domain so short that matter leaves it.
+const char* const debris_case = R"(
+[domain]
+lower = ["0 mm", "0 mm", "-6 mm"]
+upper = ["12 mm", "12 mm", "8 mm"]
+cell_size = "1.2 mm"
+boundary = { x_lower = "symmetry", y_lower = "symmetry" }
+[time]
+end = "2.5 us"
+[[body]]
+name = "disk"
+material = "copper.toml"
+velocity = ["0 m/s", "0 m/s", "5.55 km/s"]
+shape = { cylinder = { center = ["0 mm", "0 mm", "-1.725 mm"], radius = "5.59 mm", height = "3.45 mm" } }
+[[body]]
+name = "plate"
+material = "aluminium.toml"
+shape = { box = { lower = ["-10 mm", "-10 mm", "0 mm"], upper = ["10 mm", "10 mm", "2.87 mm"] } }
+)";
+
+class SolverRanks : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        fs::temp_directory_path() / ("whipple_solver_ranks_" + ranks_.broadcast(std::to_string(::getpid())));
+    ranks_.on_root([&] {
+      fs::create_directories(folder_);
+      std::ofstream(folder_ / "case.toml") << debris_case;
+    });
+  }
+  void TearDown() override {
+    MPI_Barrier(MPI_COMM_WORLD);
+    ranks_.on_root([&] { fs::remove_all(folder_); });
+  }
+  using Overrides = std::vector<std::pair<std::string, std::string>>;
+  [[nodiscard]] setup::Case read(const Overrides& overrides = {}) const {
+    return setup::read_case(folder_ / "case.toml", overrides);
+  }
+
+  io::Ranks ranks_{MPI_COMM_WORLD};
+  fs::path folder_;
+};
+
+void advance_to(Simulation& simulation, double time) {
+  while (simulation.state().time < time) simulation.advance(time);
+}
+
+/// Every number of two runs, relative to the largest of its kind.
+void expect_equal(const Simulation& a, const Simulation& b, double tolerance) {
+  EXPECT_EQ(a.state().step, b.state().step);
+  EXPECT_EQ(a.particle_count(), b.particle_count());
+  EXPECT_NEAR(a.state().time_step, b.state().time_step, tolerance * b.state().time_step);
+  const Totals& initial = b.state().ledger.initial;
+  const auto compare = [&](const Totals& x, const Totals& y, const char* what) {
+    EXPECT_NEAR(x.mass, y.mass, tolerance * initial.mass) << what;
+    EXPECT_NEAR(x.kinetic_energy, y.kinetic_energy, tolerance * initial.energy()) << what;
+    EXPECT_NEAR(x.affine_kinetic_energy, y.affine_kinetic_energy, tolerance * initial.energy()) << what;
+    EXPECT_NEAR(x.internal_energy, y.internal_energy, tolerance * initial.energy()) << what;
+    EXPECT_LE((x.momentum - y.momentum).norm(), tolerance * initial.momentum_scale) << what;
+  };
+  compare(a.totals(), b.totals(), "now");
+  compare(a.state().ledger.outflow, b.state().ledger.outflow, "outflow");
+  EXPECT_LE((a.state().ledger.wall_impulse - b.state().ledger.wall_impulse).norm(),
+            tolerance * initial.momentum_scale);
+  EXPECT_NEAR(a.state().ledger.transfer_heat, b.state().ledger.transfer_heat, tolerance * initial.energy());
+  EXPECT_LE(std::abs(a.state().ledger.energy_error(a.totals())), 1e-10);
+  EXPECT_LE(a.state().ledger.momentum_error(a.totals()), 1e-11);
+}
+
+TEST_F(SolverRanks, AgreeWithOneRank) {
+  Simulation together(read(), MPI_COMM_WORLD);
+  advance_to(together, 2.5e-6);
+  Simulation alone(read(), MPI_COMM_SELF);
+  advance_to(alone, 2.5e-6);
+  EXPECT_GT(alone.state().ledger.outflow.mass, 0.0);  // the case is meant to test it
+  expect_equal(together, alone, 1e-11);
+  EXPECT_EQ(together.particles().size() < together.particle_count(), ranks_.is_parallel());
+}
+
+TEST_F(SolverRanks, AgreeWithOneRankInMusl) {
+  const Overrides musl = {{"time.scheme", "musl"},
+                          {"transfer.shape_function", "linear"},
+                          {"transfer.particle_update", "flip"},
+                          {"time.courant", "0.3"},
+                          {"output.maximum_energy_error", "1"}};
+  Simulation together(read(musl), MPI_COMM_WORLD);
+  advance_to(together, 0.6e-6);
+  Simulation alone(read(musl), MPI_COMM_SELF);
+  advance_to(alone, 0.6e-6);
+  EXPECT_EQ(together.state().step, alone.state().step);
+  EXPECT_NEAR(together.totals().internal_energy, alone.totals().internal_energy,
+              1e-11 * alone.state().ledger.initial.energy());
+  EXPECT_LE((together.totals().momentum - alone.totals().momentum).norm(),
+            1e-11 * alone.state().ledger.initial.momentum_scale);
+}
+
+TEST_F(SolverRanks, GoOnFromACheckpointOfAnotherNumberOfRanks) {
+  Simulation alone(read(), MPI_COMM_SELF);
+  advance_to(alone, 0.5e-6);
+  Simulation together(read(), MPI_COMM_WORLD);
+  advance_to(together, 0.5e-6);
+  const fs::path of_all = io::write_checkpoint(folder_ / "all", together.state().step, together.particles(),
+                                               to_checkpoint(together.state()), MPI_COMM_WORLD);
+  ranks_.on_root([&] {
+    io::write_checkpoint(folder_ / "one", alone.state().step, alone.particles(), to_checkpoint(alone.state()),
+                         MPI_COMM_SELF);
+  });
+  advance_to(alone, 1e-6);
+
+  io::Checkpoint checkpoint = io::read_checkpoint(of_all, MPI_COMM_SELF);
+  Simulation from_all(read(), std::move(checkpoint.particles), from_checkpoint(checkpoint.values),
+                      MPI_COMM_SELF);
+  advance_to(from_all, 1e-6);
+  expect_equal(from_all, alone, 1e-11);
+
+  checkpoint = io::read_latest_checkpoint(folder_ / "one", MPI_COMM_WORLD);
+  Simulation from_one(read(), std::move(checkpoint.particles), from_checkpoint(checkpoint.values),
+                      MPI_COMM_WORLD);
+  advance_to(from_one, 1e-6);
+  expect_equal(from_one, alone, 1e-11);
+}
+
+TEST_F(SolverRanks, MoreRanksThanBlocksDoNoHarm) {
+  const Overrides tiny = {{"domain.cell_size", "12 mm"}, {"time.end", "20 us"}};
+  Simulation together(read(tiny), MPI_COMM_WORLD);
+  Simulation alone(read(tiny), MPI_COMM_SELF);
+  for (int step = 0; step < 3; ++step) {
+    together.advance(20e-6);
+    alone.advance(20e-6);
+  }
+  expect_equal(together, alone, 1e-11);
+}
+
+TEST_F(SolverRanks, AnErrorOfOneRankEndsTheStepOnAll) {
+  setup::Seeding seeding = setup::seed(read(), ranks_.rank(), ranks_.count());
+  RunState state;
+  state.ledger.initial = totals_of(seeding.particles, 1.2e-3);
+  sum_over_ranks(MPI_COMM_WORLD, state.ledger.initial);
+  if (ranks_.rank() == ranks_.count() - 1) {
+    seeding.particles.specific_internal_energy.back() = std::numeric_limits<double>::quiet_NaN();
+  }
+  Simulation simulation(read(), std::move(seeding.particles), state, MPI_COMM_WORLD);
+  try {
+    simulation.advance(1e-6);
+    ADD_FAILURE() << "no error";
+  } catch (const StateError& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(text, ranks_.broadcast(text));
+    EXPECT_NE(text.find("specific internal energy nan"), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace whipple::solver
+
+int main(int argc, char** argv) {
+  whipple::parallel::world();
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
