@@ -12,7 +12,14 @@
 #include "eos/models/debye_gruneisen.hpp"
 #include "eos/models/gray.hpp"
 #include "eos/models/gray_71.hpp"
+#include "eos/models/ideal_gas.hpp"
+#include "eos/models/jwl.hpp"
 #include "eos/models/mie_gruneisen.hpp"
+#include "eos/models/murnaghan.hpp"
+#include "eos/models/polynomial.hpp"
+#include "eos/models/stiffened_gas.hpp"
+#include "eos/models/tait.hpp"
+#include "eos/models/tillotson.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
 
@@ -34,10 +41,20 @@ ModelEntry entry() {
 
 std::span<const ModelEntry> catalogue() {
   static const std::array entries = {
-      entry<DebyeGruneisen>(),
+      // Condensed matter with its phases.
       entry<Gray>(),
       entry<Gray71>(),
+      entry<DebyeGruneisen>(),
+      entry<Tillotson>(),
+      // Condensed matter without phases.
       entry<MieGruneisen>(),
+      entry<Polynomial>(),
+      entry<Murnaghan>(),
+      // Liquids, gases, detonation products.
+      entry<Tait>(),
+      entry<StiffenedGas>(),
+      entry<IdealGas>(),
+      entry<Jwl>(),
   };
   return entries;
 }

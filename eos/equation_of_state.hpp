@@ -53,6 +53,9 @@ class EquationOfState {
   [[nodiscard]] virtual double reference_density() const = 0;
   [[nodiscard]] virtual double reference_temperature() const = 0;
   [[nodiscard]] virtual double reference_energy() const = 0;
+  /// Whether the model describes condensed matter, which has a state of zero pressure: bodies start there. A
+  /// gas has none: bodies start in its reference state.
+  [[nodiscard]] virtual bool condensed() const { return true; }
   /// Largest density that the model is valid for (kg/m^3).
   [[nodiscard]] virtual double maximum_density() const = 0;
   /// Least specific internal energy at a density (J/kg): that of the coldest state which the model describes.

@@ -43,6 +43,13 @@ class ModelEquationOfState final : public EquationOfState {
   [[nodiscard]] double reference_density() const override { return model_.reference_density(); }
   [[nodiscard]] double reference_temperature() const override { return model_.reference_temperature(); }
   [[nodiscard]] double reference_energy() const override { return model_.reference_energy(); }
+  [[nodiscard]] bool condensed() const override {
+    if constexpr (requires { model_.condensed(); }) {
+      return model_.condensed();
+    } else {
+      return true;
+    }
+  }
   [[nodiscard]] double maximum_density() const override { return model_.maximum_density(); }
   [[nodiscard]] double minimum_energy(double density) const override {
     return model_.minimum_energy(density);

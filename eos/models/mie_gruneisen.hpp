@@ -4,79 +4,82 @@
 #include <string>
 #include <string_view>
 
-#include "eos/equation_of_state.hpp"
-#include "eos/hermite_table.hpp"
-#include "src/base/parameter_table.hpp"
+#include "eos/constant_heat_capacity.hpp"
+#include "eos/models/gruneisen_solid.hpp"
+#include "eos/models/shock_curve.hpp"
 
 namespace whipple::eos {
 
 struct MieGruneisenConstants {
   double reference_density = 0;                    ///< rho0, kg/m^3
-  double hugoniot_intercept = 0;                   ///< c0 of Us = c0 + s up, m/s
-  double hugoniot_slope = 0;                       ///< s
+  double hugoniot_intercept = 0;                   ///< c0 of the shock Hugoniot, m/s
+  double hugoniot_slope = 0;                       ///< S1
+  double hugoniot_quadratic = 0;                   ///< S2
+  double hugoniot_cubic = 0;                       ///< S3
   double gruneisen = 0;                            ///< Gamma0, at rho0
-  std::string gruneisen_law = "constant_product";  ///< rho Gamma = rho0 Gamma0, or "constant"
+  std::string gruneisen_law = "constant_product";  ///< rho Gamma = rho0 Gamma0, "constant" or "linear"
+  double gruneisen_slope = 0;                      ///< b of rho Gamma = rho0 (Gamma0 + b mu)
   double heat_capacity = 0;                        ///< c_v, J/(kg K)
   double reference_temperature = 300.0;            ///< K
 };
 
-/// Mie-Grueneisen equation of state on a linear shock Hugoniot (docs/theory/equations_of_state.md, section
-/// 2):
-///   p = A(rho) + B(rho) e,  B = rho Gamma in every state, also in expansion;
-///   compression: A = p_H (1 - Gamma/2 (rho/rho0 - 1)), p_H = rho0 c0^2 eta/(1 - s eta)^2, eta = 1 -
-///   rho0/rho; expansion:   A = c0^2 (rho - rho0).
-/// With "constant_product", B = rho0 Gamma0 in compression and Gamma0 rho in expansion (Gamma frozen at
-/// Gamma0). Temperature from a constant heat capacity above the isentrope through the reference state. No
-/// phases.
-class MieGruneisen {
+/// Mie-Grueneisen equation of state on a shock Hugoniot (docs/theory/equations_of_state.md, section 2.2):
+///   p = A(rho) + rho Gamma e, A = p_H (1 - rho Gamma x/(2 rho0)) in compression, x = 1 - rho0/rho;
+///   A = c0^2 (rho - rho0), Gamma = Gamma0 in expansion.
+/// Hugoniot and the linear law of Gamma: Steinberg, UCRL-MA-106439 (1996). No phases.
+class MieGruneisenCurve {
  public:
   using Constants = MieGruneisenConstants;
   static constexpr std::string_view name = "mie_gruneisen";
-  static constexpr std::string_view summary = "Mie-Grueneisen on a linear shock Hugoniot; no phases";
-  static constexpr double least_temperature = 1.0;         ///< K
-  static constexpr double least_sound_speed_ratio = 0.01;  ///< of the Hugoniot intercept
+  static constexpr std::string_view summary = "Mie-Grueneisen on a shock Hugoniot; no phases";
   static ParameterTable<Constants> parameters();
 
   /// @throws InputError naming the constants that contradict each other
-  explicit MieGruneisen(const Constants& constants);
+  explicit MieGruneisenCurve(const Constants& constants);
 
   [[nodiscard]] const Constants& constants() const { return constants_; }
   [[nodiscard]] double reference_density() const { return constants_.reference_density; }
   [[nodiscard]] double reference_temperature() const { return constants_.reference_temperature; }
   [[nodiscard]] double reference_energy() const { return 0.0; }
-  [[nodiscard]] double maximum_density() const { return maximum_density_; }
+  [[nodiscard]] double reference_sound_speed() const { return constants_.hugoniot_intercept; }
+  [[nodiscard]] double heat_capacity() const { return constants_.heat_capacity; }
+  [[nodiscard]] bool condensed() const { return true; }
+  [[nodiscard]] double maximum_density() const { return solid_.maximum_density(); }
+  [[nodiscard]] std::string_view phase(double, double) const { return "solid"; }
 
-  /// Energy of the coldest state at a density.
-  /// @throws StateError above the compression limit
-  [[nodiscard]] double minimum_energy(double density) const {
-    return state_at_temperature(density, least_temperature).specific_internal_energy;
+  [[nodiscard]] LinearIsochore isochore(Lanes rho) const { return solid_.isochore(rho); }
+  [[nodiscard]] double log_isentrope_temperature(double rho) const {
+    return solid_.log_isentrope_temperature(rho);
   }
 
-  RangeReport evaluate(const Batch& batch) const;
-  [[nodiscard]] State state(double density, double specific_internal_energy) const;
-  [[nodiscard]] State state_at_temperature(double density, double temperature) const;
-
  private:
-  /// p = A + B e and its derivatives by density.
-  struct Coefficients {
-    double A, B, A_slope, B_slope;
+  /// A of compression: (M1), (M2).
+  struct Hugoniot {
+    ShockCurve curve;
+    double rho0, modulus;  ///< rho0 c0^2
+    GruneisenLaw law;
+
+    ReferencePressure operator()(const Compression& c) const {
+      const auto y = curve.denominator(c.x);
+      const Lanes inverse = 1.0 / y.value, square = modulus * inverse * inverse;
+      const Lanes pressure = c.x * square, slope = square - 2.0 * pressure * inverse * y.slope;  // by x
+      // rho Gamma/(2 rho0) and the factor of p_H; dx/drho = rho0/rho^2, dmu/drho = 1/rho0.
+      const Lanes half = 0.5 * law.constant + 0.5 * law.linear * c.mu, factor = 1.0 - half * c.x;
+      const Lanes x_slope = rho0 * c.volume * c.volume;
+      return {pressure * factor,
+              x_slope * (slope * factor - pressure * half) - 0.5 * law.linear / rho0 * pressure * c.x,
+              inverse};
+    }
   };
-  /// Energy and temperature on the isentrope through the reference state.
-  struct Isentrope {
-    double energy, temperature;
-  };
-  struct Point;
-  [[nodiscard]] Coefficients coefficients(double density) const;
-  [[nodiscard]] Isentrope isentrope(double density) const;
-  [[nodiscard]] Point point(double density, double energy) const;
-  [[nodiscard]] State full_state(const Point& point) const;
-  void find_limit();
-  void tabulate_isentrope();
+
+  static GruneisenLaw law(const Constants& constants);
+  static GruneisenSolid<Hugoniot> solid(const Constants& constants);
 
   Constants constants_;
-  bool constant_product_ = true;
-  double maximum_density_ = 0;
-  HermiteTable isentrope_energy_;  ///< over eta = 1 - rho0/rho, in compression
+  GruneisenSolid<Hugoniot> solid_;
 };
+
+using MieGruneisen = ConstantHeatCapacity<MieGruneisenCurve>;
+extern template class ConstantHeatCapacity<MieGruneisenCurve>;
 
 }  // namespace whipple::eos

@@ -13,24 +13,28 @@ struct ShockCurve {
   double quadratic = 0;  ///< S2
   double cubic = 0;      ///< S3
 
-  /// A function of x and its first two derivatives.
-  struct Value {
-    double value, slope, curvature;
+  /// A function of x and its first two derivatives, of a number or of Lanes.
+  template <class Number>
+  struct Derivatives {
+    Number value, slope, curvature;
   };
+  using Value = Derivatives<double>;
 
   /// y = 1 - S1 x - S2 x^2 - S3 x^3; the pole of the pressure is its first zero.
-  [[nodiscard]] Value denominator(double x) const {
-    return {1 - x * (slope + x * (quadratic + x * cubic)), -slope - x * (2 * quadratic + 3 * x * cubic),
-            -2 * quadratic - 6 * x * cubic};
+  template <class Number>
+  [[nodiscard]] Derivatives<Number> denominator(Number x) const {
+    return {1.0 - x * (slope + x * (quadratic + x * cubic)), -slope - x * (2.0 * quadratic + 3.0 * x * cubic),
+            -2.0 * quadratic - 6.0 * x * cubic};
   }
   /// p_H/(rho0 C^2) = x/y^2
-  [[nodiscard]] Value pressure(double x) const {
-    const Value y = denominator(x);
-    const double inverse = 1 / y.value, square = inverse * inverse, cube = square * inverse;
-    const double value = x * square;
-    const double first = square - 2 * x * cube * y.slope;
-    const double second =
-        -4 * cube * y.slope + 6 * x * square * square * y.slope * y.slope - 2 * x * cube * y.curvature;
+  template <class Number>
+  [[nodiscard]] Derivatives<Number> pressure(Number x) const {
+    const Derivatives<Number> y = denominator(x);
+    const Number inverse = 1.0 / y.value, square = inverse * inverse, cube = square * inverse;
+    const Number value = x * square;
+    const Number first = square - 2.0 * x * cube * y.slope;
+    const Number second =
+        -4.0 * cube * y.slope + 6.0 * x * square * square * y.slope * y.slope - 2.0 * x * cube * y.curvature;
     return {value, first, second};
   }
   /// Greatest x, at most `bound`, up to which y stays above `margin` (y = 1 at x = 0).

@@ -3,6 +3,8 @@
 
 #include <immintrin.h>
 
+#include <cstddef>
+
 #include "src/base/simd.hpp"
 
 /// Elementary functions of four doubles at once, by the vector mathematics library of glibc (libmvec, AVX2
@@ -19,7 +21,8 @@ __m256d _ZGVdN4vv_pow(__m256d, __m256d);
 }  // namespace libmvec
 
 inline Lanes exp(Lanes x) { return Lanes(libmvec::_ZGVdN4v_exp(__m256d(x))); }
-inline Lanes log(Lanes x) { return Lanes(libmvec::_ZGVdN4v_log(__m256d(x))); }
+/// Not `log`: that is the namespace of the messages (src/base/log.hpp).
+inline Lanes natural_log(Lanes x) { return Lanes(libmvec::_ZGVdN4v_log(__m256d(x))); }
 inline Lanes pow(Lanes x, Lanes y) { return Lanes(libmvec::_ZGVdN4vv_pow(__m256d(x), __m256d(y))); }
 inline Lanes sqrt(Lanes x) { return Lanes(_mm256_sqrt_pd(__m256d(x))); }
 /// Lane by lane the smaller and the greater; b where one is NaN.
@@ -28,5 +31,22 @@ inline Lanes maximum(Lanes a, Lanes b) { return Lanes(_mm256_max_pd(__m256d(a), 
 /// Four numbers from memory without alignment.
 inline Lanes load(const double* from) { return Lanes(_mm256_loadu_pd(from)); }
 inline void store(double* to, Lanes x) { _mm256_storeu_pd(to, __m256d(x)); }
+/// The first `count` numbers from memory, the other lanes hold `rest`; and back.
+inline Lanes load(const double* from, std::size_t count, double rest) {
+  if (count >= 4) return load(from);
+  Lanes x = broadcast(rest);
+  for (std::size_t i = 0; i < count; ++i) x[i] = from[i];
+  return x;
+}
+inline void store(double* to, Lanes x, std::size_t count) {
+  if (count >= 4) return store(to, x);
+  for (std::size_t i = 0; i < count; ++i) to[i] = x[i];
+}
+
+/// What a comparison of Lanes gives; `mask ? a : b` selects lane by lane.
+using LanesMask = decltype(Lanes{} < Lanes{});
+/// One bit per lane of a comparison.
+inline unsigned bits(LanesMask mask) { return static_cast<unsigned>(_mm256_movemask_pd(__m256d(mask))); }
+inline constexpr unsigned all_lanes = 15;
 
 }  // namespace whipple

@@ -48,7 +48,8 @@ eos::State initial_state(const Material& material, std::optional<double> density
                          std::optional<double> temperature) {
   const eos::EquationOfState& model = *material.eos;
   try {
-    if (!temperature && std::isnan(model.reference_temperature())) {  // a model without temperature
+    // A gas, which has no state of zero pressure, or a model without temperature.
+    if (!temperature && (std::isnan(model.reference_temperature()) || (!model.condensed() && !density))) {
       return model.state(density.value_or(model.reference_density()), model.reference_energy());
     }
     const double at = temperature.value_or(model.reference_temperature());

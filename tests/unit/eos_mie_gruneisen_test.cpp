@@ -44,7 +44,7 @@ TEST(EosMieGruneisen, ShockedStatesOfAluminiumHaveTheKnownFigures) {
 }
 
 TEST(EosMieGruneisen, ReleaseToZeroPressureLeavesTheKnownHeat) {
-  // Energy and density after shock and full release by an independent integration of (M1), (M2), (M4):
+  // Energy and density after shock and full release by an independent integration of (M1) to (M3):
   // classical Runge-Kutta of fourth order, steps of 1e-5 V0.
   const MieGruneisenEos eos(aluminium_2024());
   const double table[4][3] = {

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <immintrin.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "src/base/vector_math.hpp"
+
+namespace whipple::eos {
+
+/// A smooth function on [0, end] as cubics on equal intervals, for four arguments at once: each interval is
+/// one register of coefficients, so that four look-ups are four loads and a transposition. The cubic passes
+/// through the function at four Chebyshev-Lobatto points, both ends among them: continuous, error of order
+/// step^4.
+class CubicTable {
+ public:
+  CubicTable() = default;
+  /// Doubles the intervals until the cubics miss the function by less than `tolerance` (in units of the
+  /// function's value plus `scale`) at points between, or until there are `most_intervals`.
+  CubicTable(const std::function<double(double)>& function, double end, double scale,
+             double tolerance = 1e-13, int most_intervals = 4096);
+
+  /// Below 0 the first polynomial continues, beyond the end the last.
+  [[nodiscard]] Lanes operator()(Lanes x) const {
+    const Lanes position = x * inverse_step_;
+    const __m128i index =
+        _mm256_cvttpd_epi32(__m256d(minimum(maximum(position, broadcast(0.0)), broadcast(last_interval_))));
+    const Lanes t = position - Lanes(_mm256_cvtepi32_pd(index));
+    const Piece* first = pieces_.data();
+    const __m256d a = _mm256_load_pd(first[_mm_extract_epi32(index, 0)].data());
+    const __m256d b = _mm256_load_pd(first[_mm_extract_epi32(index, 1)].data());
+    const __m256d c = _mm256_load_pd(first[_mm_extract_epi32(index, 2)].data());
+    const __m256d d = _mm256_load_pd(first[_mm_extract_epi32(index, 3)].data());
+    const __m256d ab02 = _mm256_unpacklo_pd(a, b), ab13 = _mm256_unpackhi_pd(a, b);
+    const __m256d cd02 = _mm256_unpacklo_pd(c, d), cd13 = _mm256_unpackhi_pd(c, d);
+    const Lanes c0 = Lanes(_mm256_permute2f128_pd(ab02, cd02, 0x20));
+    const Lanes c1 = Lanes(_mm256_permute2f128_pd(ab13, cd13, 0x20));
+    const Lanes c2 = Lanes(_mm256_permute2f128_pd(ab02, cd02, 0x31));
+    const Lanes c3 = Lanes(_mm256_permute2f128_pd(ab13, cd13, 0x31));
+    return c0 + t * (c1 + t * (c2 + t * c3));
+  }
+  [[nodiscard]] std::size_t intervals() const { return pieces_.size(); }
+
+ private:
+  struct alignas(32) Piece : std::array<double, 4> {};
+  std::vector<Piece> pieces_;
+  double inverse_step_ = 1, last_interval_ = 0;
+};
+
+}  // namespace whipple::eos

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fmt/core.h>
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+
+#include "eos/constant_heat_capacity.hpp"
+#include "eos/cubic_table.hpp"
+#include "src/base/error.hpp"
+
+namespace whipple::eos {
+
+/// rho Gamma = rho0 (constant + linear mu + quadratic mu^2) in compression, mu = rho/rho0 - 1.
+struct GruneisenLaw {
+  double constant = 0, linear = 0, quadratic = 0;
+};
+
+/// The reference state of a condensed model.
+struct CondensedReference {
+  double density, temperature, energy, heat_capacity;
+};
+
+/// Where a reference pressure is asked for: x = 1 - rho0/rho, mu = rho/rho0 - 1, V = 1/rho.
+struct Compression {
+  Lanes x, mu, volume;
+};
+/// The pressure at e = 0 and its derivative by rho; `weight` is a factor with the poles of the cold energy.
+struct ReferencePressure {
+  Lanes value, slope, weight;
+};
+
+/// A solid with a reference pressure of its own in compression and a linear one in expansion
+/// (docs/theory/equations_of_state.md, section 2.2):
+///   compression: A(rho) of `Reference`, rho Gamma by the law;
+///   expansion:   A = p0 + K mu, Gamma = its value at rho0.
+/// The cold energy is tabulated in compression and a closed form in expansion.
+/// @tparam Reference  ReferencePressure operator()(const Compression&) const
+template <class Reference>
+class GruneisenSolid {
+ public:
+  /// @param pressure, bulk_modulus  p0 and K of the expansion: those of A at rho0
+  /// @param greatest_x              where the reference pressure ends at the latest
+  /// @throws InputError if A turns over at no compression to speak of
+  GruneisenSolid(std::string_view name, const Reference& reference, const GruneisenLaw& law,
+                 const CondensedReference& state, double pressure, double bulk_modulus, double greatest_x)
+      : reference_(reference), law_(law), state_(state) {
+    const double rho0 = state.density, G = law.constant;
+    A0_ = pressure - bulk_modulus;
+    A1_ = bulk_modulus;
+    inverse_volume_ = A0_ / ((1 + G) * rho0);
+    constant_ = G > 0 ? A1_ / (G * rho0) : 0;
+    power_ = state.energy + inverse_volume_ + constant_ - state.heat_capacity * state.temperature;
+    find_limit(name, greatest_x);
+    tabulate_cold_energy();
+  }
+
+  [[nodiscard]] double maximum_density() const { return maximum_density_; }
+
+  [[nodiscard]] LinearIsochore isochore(Lanes rho) const {
+    const LanesMask compressed = rho > state_.density;
+    const unsigned which = bits(compressed);
+    if (which == all_lanes) return dense(rho);
+    if (which == 0) return expanded(rho);
+    return LinearIsochore::select(compressed, dense(rho), expanded(rho));
+  }
+
+  /// ln(T_s/T0)
+  [[nodiscard]] double log_isentrope_temperature(double rho) const {
+    const double rho0 = state_.density, logarithm = std::log(rho / rho0);
+    if (rho <= rho0) return law_.constant * logarithm;
+    const double x = 1 - rho0 / rho;
+    return law_.constant * x + law_.linear * (logarithm - x) +
+           law_.quadratic * (rho / rho0 - 1 - 2 * logarithm + x);
+  }
+
+ private:
+  [[nodiscard]] Compression compression(Lanes rho) const {
+    const Lanes V = 1.0 / rho;
+    return {1.0 - state_.density * V, rho * (1 / state_.density) - 1.0, V};
+  }
+  [[nodiscard]] LinearIsochore dense(Lanes rho) const {
+    const Compression c = compression(rho);
+    const ReferencePressure A = reference_(c);
+    return {c.volume,
+            cold_energy_(c.x) * A.weight,
+            A.value,
+            A.slope,
+            state_.density * (law_.constant + c.mu * (law_.linear + c.mu * law_.quadratic)),
+            law_.linear + 2 * law_.quadratic * c.mu};
+  }
+  [[nodiscard]] LinearIsochore expanded(Lanes rho) const {
+    const double G = law_.constant;
+    const Lanes V = 1.0 / rho, r = rho * (1 / state_.density);
+    Lanes cold_energy = -inverse_volume_ * state_.density * V - constant_;
+    if (G > 0) {
+      cold_energy += power_ * pow(r, broadcast(G));
+    } else {
+      cold_energy += power_ + A1_ / state_.density * natural_log(r);
+    }
+    return {V, cold_energy, A0_ + A1_ * r, broadcast(A1_ / state_.density), G * rho, broadcast(G)};
+  }
+
+  void find_limit(std::string_view name, double greatest_x) {
+    const double rho0 = state_.density;
+    constexpr int steps = 4000;
+    for (int i = 1; i <= steps; ++i) {
+      const double rho = rho0 / (1 - greatest_x * i / steps);
+      if (reference_(compression(broadcast(rho))).slope[0] < 0) break;
+      maximum_density_ = rho;
+    }
+    if (maximum_density_ < 1.01 * rho0) {
+      throw InputError(
+          fmt::format("{}: the reference pressure turns over at {:.4g} kg/m^3, at no compression to speak "
+                      "of; check the constants of the curve and of the Grueneisen parameter",
+                      name, std::max(maximum_density_, rho0)));
+    }
+  }
+
+  /// e_c = e_s - c_v T_s on the isentrope through the reference state: de_s/dx = (A + B e_s)/rho0 with the
+  /// integrating factor T_s/T0  (E3).
+  void tabulate_cold_energy() {
+    const double rho0 = state_.density, last = 1 - rho0 / maximum_density_;
+    const auto density = [&](double x) { return rho0 / (1 - x); };
+    const auto factor = [&](double x) { return std::exp(log_isentrope_temperature(density(x))); };
+    const auto integrand = [&](double x) {
+      return reference_(compression(broadcast(density(x)))).value[0] / (rho0 * factor(x));
+    };
+    // The integral from 0 at the ends of fine intervals; between them one quadrature more.
+    constexpr int intervals = 512;
+    const double step = last / intervals;
+    using Gauss = boost::math::quadrature::gauss<double, 10>;
+    std::vector<double> integral{0};
+    for (int i = 0; i < intervals; ++i) {
+      integral.push_back(integral.back() + Gauss::integrate(integrand, i * step, (i + 1) * step));
+    }
+    const auto cold_energy = [&](double x) {
+      const int i = std::min(static_cast<int>(x / step), intervals - 1);
+      const double sum = integral[static_cast<std::size_t>(i)] +
+                         (x > i * step ? Gauss::integrate(integrand, i * step, x) : 0);
+      return factor(x) * (state_.energy + sum - state_.heat_capacity * state_.temperature) /
+             reference_(compression(broadcast(density(x)))).weight[0];
+    };
+    cold_energy_ = CubicTable(cold_energy, last, state_.heat_capacity * state_.temperature);
+  }
+
+  Reference reference_;
+  GruneisenLaw law_;
+  CondensedReference state_;
+  double A0_ = 0, A1_ = 0;                                ///< A = A0 + A1 rho/rho0 in expansion
+  double power_ = 0, inverse_volume_ = 0, constant_ = 0;  ///< (E4)
+  double maximum_density_ = 0;
+  CubicTable cold_energy_;  ///< e_c/weight over x, in compression
+};
+
+}  // namespace whipple::eos
