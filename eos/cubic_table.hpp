@@ -47,7 +47,7 @@ class CubicTable {
 
  private:
   struct alignas(32) Piece : std::array<double, 4> {};
-  std::vector<Piece> pieces_;
+  std::vector<Piece> pieces_ = std::vector<Piece>(1);  ///< empty table: zero
   double inverse_step_ = 1, last_interval_ = 0;
 };
 

@@ -42,7 +42,7 @@ class GruneisenSolid {
  public:
   /// @param pressure, bulk_modulus  p0 and K of the expansion: those of A at rho0
   /// @param greatest_x              where the reference pressure ends at the latest
-  /// @throws InputError if A turns over at no compression to speak of
+  /// @throws InputError if cold matter softens at no compression to speak of
   GruneisenSolid(std::string_view name, const Reference& reference, const GruneisenLaw& law,
                  const CondensedReference& state, double pressure, double bulk_modulus, double greatest_x)
       : reference_(reference), law_(law), state_(state) {
@@ -52,8 +52,7 @@ class GruneisenSolid {
     inverse_volume_ = A0_ / ((1 + G) * rho0);
     constant_ = G > 0 ? A1_ / (G * rho0) : 0;
     power_ = state.energy + inverse_volume_ + constant_ - state.heat_capacity * state.temperature;
-    find_limit(name, greatest_x);
-    tabulate_cold_energy();
+    tabulate_cold_energy(name, greatest_x);
   }
 
   [[nodiscard]] double maximum_density() const { return maximum_density_; }
@@ -102,47 +101,45 @@ class GruneisenSolid {
     return {V, cold_energy, A0_ + A1_ * r, broadcast(A1_ / state_.density), G * rho, broadcast(G)};
   }
 
-  void find_limit(std::string_view name, double greatest_x) {
-    const double rho0 = state_.density;
-    constexpr int steps = 4000;
-    for (int i = 1; i <= steps; ++i) {
-      const double rho = rho0 / (1 - greatest_x * i / steps);
-      if (reference_(compression(broadcast(rho))).slope[0] < 0) break;
-      maximum_density_ = rho;
-    }
-    if (maximum_density_ < 1.01 * rho0) {
-      throw InputError(
-          fmt::format("{}: the reference pressure turns over at {:.4g} kg/m^3, at no compression to speak "
-                      "of; check the constants of the curve and of the Grueneisen parameter",
-                      name, std::max(maximum_density_, rho0)));
-    }
-  }
-
   /// e_c = e_s - c_v T_s on the isentrope through the reference state: de_s/dx = (A + B e_s)/rho0 with the
-  /// integrating factor T_s/T0  (E3).
-  void tabulate_cold_energy() {
-    const double rho0 = state_.density, last = 1 - rho0 / maximum_density_;
+  /// integrating factor T_s/T0  (E3). The model ends where the coldest matter softens, c^2 = 0.
+  void tabulate_cold_energy(std::string_view name, double greatest_x) {
+    const double rho0 = state_.density, heat = state_.heat_capacity;
     const auto density = [&](double x) { return rho0 / (1 - x); };
     const auto factor = [&](double x) { return std::exp(log_isentrope_temperature(density(x))); };
     const auto integrand = [&](double x) {
       return reference_(compression(broadcast(density(x)))).value[0] / (rho0 * factor(x));
     };
-    // The integral from 0 at the ends of fine intervals; between them one quadrature more.
-    constexpr int intervals = 512;
-    const double step = last / intervals;
+    // The integral from 0 to the ends of fine intervals; between them one quadrature more.
     using Gauss = boost::math::quadrature::gauss<double, 10>;
+    constexpr int intervals = 2048;
+    const double step = greatest_x / intervals;
     std::vector<double> integral{0};
-    for (int i = 0; i < intervals; ++i) {
-      integral.push_back(integral.back() + Gauss::integrate(integrand, i * step, (i + 1) * step));
-    }
     const auto cold_energy = [&](double x) {
-      const int i = std::min(static_cast<int>(x / step), intervals - 1);
-      const double sum = integral[static_cast<std::size_t>(i)] +
-                         (x > i * step ? Gauss::integrate(integrand, i * step, x) : 0);
-      return factor(x) * (state_.energy + sum - state_.heat_capacity * state_.temperature) /
-             reference_(compression(broadcast(density(x)))).weight[0];
+      const int i = std::min(static_cast<int>(x / step), static_cast<int>(integral.size()) - 1);
+      const double rest = x > i * step ? Gauss::integrate(integrand, i * step, x) : 0;
+      return factor(x) *
+             (state_.energy + integral[static_cast<std::size_t>(i)] + rest - heat * state_.temperature);
     };
-    cold_energy_ = CubicTable(cold_energy, last, state_.heat_capacity * state_.temperature);
+    double last = 0;
+    for (int i = 1; i <= intervals; ++i) {
+      integral.push_back(integral.back() + Gauss::integrate(integrand, (i - 1) * step, i * step));
+      const Response r =
+          dense(broadcast(density(i * step))).response(broadcast(cold_energy(i * step) + heat));
+      const double V = 1 / density(i * step);
+      if (r.by_density[0] + r.pressure[0] * V * V * r.by_energy[0] < 0) break;
+      last = i * step;
+    }
+    maximum_density_ = density(last);
+    if (maximum_density_ < 1.01 * rho0) {
+      throw InputError(
+          fmt::format("{}: cold matter softens at {:.4g} kg/m^3, at no compression to speak of; check the "
+                      "constants of the curve and of the Grueneisen parameter",
+                      name, maximum_density_));
+    }
+    cold_energy_ = CubicTable(
+        [&](double x) { return cold_energy(x) / reference_(compression(broadcast(density(x)))).weight[0]; },
+        last, heat * state_.temperature);
   }
 
   Reference reference_;
