@@ -1,126 +1,89 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figure of one or more curves of `whipple eos`, with measurements as points.
+"""Figure of curves and measurements: plot_curves.py FIGURE.json OUTPUT (.png, .pdf or .svg), started by whipple eos.
 
-The curves are CSV files whose column names carry units (P_GPa, up_km_s, V_over_V0); '#' lines are comments, the first
-one is the label. Measurements (--overlay) are CSV files with the same column names; columns that a file lacks are
-derived where the definition allows it (V_over_V0 from an atomic volume with a row at P = 0).
-
-Example: plot_curves.py copper.csv aluminium.csv --x up_km_s --y us_km_s --overlay cu_hugoniot.csv --output fig.png
+FIGURE.json: title, axes x and y (label with unit, logarithmic), curves and points, each with label (what it is), material,
+numbers x and y (null: not known), colour (index of the palette; curves of one material share it) and style.
 """
-import argparse
-import csv
-import pathlib
+import json
+import re
 import sys
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.lines import Line2D
 
-LABELS = {
-    "rho": "density", "V_over_V0": r"$V/V_0$", "P": "pressure", "T": "temperature", "e": "specific internal energy",
-    "c": "sound speed", "s": "specific entropy", "cv": "heat capacity", "gamma": r"Grüneisen parameter",
-    "KT": "isothermal bulk modulus", "up": "particle velocity", "us": "shock velocity", "u": "Riemann velocity",
-    "melted": "melted fraction", "vaporised": "vaporised fraction", "solidus": "solidus", "liquidus": "liquidus",
-    "liquid": "density of the liquid", "vapour": "density of the vapour", "latent": "latent heat",
+# Colours that stay apart in print and for colour-blind readers (after Okabe and Ito).
+PALETTE = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#7a5195", "#e69f00", "#56b4e9", "#444444"]
+MARKERS = ["o", "s", "^", "D", "v", "P", "X", "<"]
+STYLES = {
+    "solid": {"linestyle": "-", "linewidth": 1.6},
+    "dashed": {"linestyle": (0, (5, 2)), "linewidth": 1.4},
+    "dotted": {"linestyle": (0, (1, 1.6)), "linewidth": 1.4},
+    "dashdot": {"linestyle": (0, (6, 2, 1, 2)), "linewidth": 1.3},
+    "thin": {"linestyle": "-", "linewidth": 0.7},
+    "marks": {"linestyle": "none", "marker": "|", "markersize": 13, "markeredgewidth": 1.6},
 }
-UNITS = {
-    "kg_m3": r"kg/m$^3$", "g_cm3": r"g/cm$^3$", "GPa": "GPa", "MPa": "MPa", "K": "K", "kJ_kg": "kJ/kg", "km_s": "km/s",
-    "J_kg_K": "J/(kg K)",
-}
+# Units and symbols as printed.
+TYPESET = [(r"m\^3", r"m$^3$"), (r"V/V0", r"$V/V_0$"), (r"1e-6/K", r"10$^{-6}$/K")]
 
 
-def axis_label(column):
-    """'P_GPa' -> 'pressure (GPa)'; unknown names stay as they are."""
-    if column in LABELS:
-        return LABELS[column]
-    name, _, unit = column.partition("_")
-    if unit in UNITS and name in LABELS:
-        return f"{LABELS[name]} ({UNITS[unit]})"
-    return column
+def typeset(text):
+    for pattern, replacement in TYPESET:
+        text = re.sub(pattern, replacement.replace("\\", "\\\\"), text)
+    return text
 
 
-def read(path):
-    """(first comment, {column: list of words})"""
-    comment, names, columns = "", None, {}
-    with open(path, newline="", encoding="utf-8") as file:
-        for row in csv.reader(file):
-            if not row:
-                continue
-            if row[0].startswith("#"):
-                comment = comment or ",".join(row)[1:].strip()
-            elif names is None:
-                names = row
-                columns = {name: [] for name in names}
-            else:
-                for name, word in zip(names, row):
-                    columns[name].append(word)
-    if names is None:
-        sys.exit(f"plot_curves.py: {path} holds no table")
-    if "P_GPa" not in columns and "P_revised_ruby_GPa" in columns:
-        columns["P_GPa"] = columns["P_revised_ruby_GPa"]
-    if "V_over_V0" not in columns and "atomic_volume_A3" in columns and "P_GPa" in columns:
-        rest = [float(v) for v, p in zip(columns["atomic_volume_A3"], columns["P_GPa"]) if float(p) == 0.0]
-        if rest:
-            columns["V_over_V0"] = [str(float(v) / rest[0]) for v in columns["atomic_volume_A3"]]
-    return comment, columns
+def numbers(values):
+    return np.array([np.nan if value is None else value for value in values], dtype=float)
 
 
-def pairs(path, columns, x, y):
-    for name in (x, y):
-        if name not in columns:
-            sys.exit(f"plot_curves.py: {path} has no column '{name}' (it has: {', '.join(columns)})")
-    points = []
-    for a, b in zip(columns[x], columns[y]):
-        try:
-            points.append((float(a), float(b)))
-        except ValueError:
-            continue  # an empty cell: not known there
-    return [p[0] for p in points], [p[1] for p in points]
+def legend_entries(curves):
+    """Materials by colour if there are several, then kinds of curves by style (grey if there are several materials)."""
+    materials = {curve["material"]: PALETTE[curve["colour"] % len(PALETTE)] for curve in curves}
+    kinds = {curve["label"]: (STYLES[curve["style"]], PALETTE[curve["colour"] % len(PALETTE)]) for curve in curves}
+    several = len(materials) > 1
+    entries = [Line2D([], [], color=colour, linewidth=3, label=name) for name, colour in materials.items() if several]
+    if len(kinds) > 1 or not several:
+        entries += [Line2D([], [], color="#555555" if several else colour, label=typeset(kind), **style)
+                    for kind, (style, colour) in kinds.items()]
+    return entries
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("curves", nargs="+", help="CSV files of whipple eos")
-    parser.add_argument("--x", required=True, help="column along the figure")
-    parser.add_argument("--y", required=True, help="column up the figure")
-    parser.add_argument("--overlay", nargs="*", default=[], help="CSV files of measurements")
-    parser.add_argument("--label", nargs="*", default=[], help="labels of the curves (default: their first comment)")
-    parser.add_argument("--title", default="")
-    parser.add_argument("--log", choices=["x", "y", "xy"], default="", help="logarithmic axes")
-    parser.add_argument("--output", required=True, help="FILE.png, FILE.pdf or FILE.svg")
-    arguments = parser.parse_args()
-
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    with open(sys.argv[1], encoding="utf-8") as file:
+        description = json.load(file)
     plt.rcParams.update({
-        "font.size": 10, "axes.linewidth": 0.8, "lines.linewidth": 1.6, "legend.frameon": False, "xtick.direction": "in",
-        "ytick.direction": "in", "xtick.top": True, "ytick.right": True, "savefig.dpi": 200, "mathtext.default": "regular",
+        "font.size": 10, "axes.linewidth": 0.8, "legend.frameon": False, "xtick.direction": "in",
+        "ytick.direction": "in", "xtick.top": True, "ytick.right": True, "xtick.minor.visible": True,
+        "ytick.minor.visible": True, "savefig.dpi": 250, "mathtext.default": "regular", "pdf.fonttype": 42,
+        "svg.fonttype": "none",
     })
-    figure, axes = plt.subplots(figsize=(5.6, 4.2), constrained_layout=True)
-    colours = ["#0b559f", "#c03a2b", "#3a7d34", "#7a4fa3", "#b8860b", "#444444"]
-    markers = ["o", "s", "^", "D", "v", "P"]
-    for i, path in enumerate(arguments.curves):
-        comment, columns = read(path)
-        label = arguments.label[i] if i < len(arguments.label) else comment
-        x, y = pairs(path, columns, arguments.x, arguments.y)
-        axes.plot(x, y, color=colours[i % len(colours)], label=label, zorder=3,
-                  marker="o" if len(x) == 1 else None)
-    for i, path in enumerate(arguments.overlay):
-        _, columns = read(path)
-        x, y = pairs(path, columns, arguments.x, arguments.y)
-        axes.plot(x, y, linestyle="none", marker=markers[i % len(markers)], markersize=4, markerfacecolor="white",
-                  markeredgecolor="#222222", markeredgewidth=0.8, label=pathlib.Path(path).stem, zorder=4)
-    axes.set_xlabel(axis_label(arguments.x))
-    axes.set_ylabel(axis_label(arguments.y))
-    if "x" in arguments.log:
-        axes.set_xscale("log")
-    if "y" in arguments.log:
-        axes.set_yscale("log")
-    if arguments.title:
-        axes.set_title(arguments.title)
+    figure, axes = plt.subplots(figsize=(6.0, 4.4), layout="constrained")
+    for curve in description["curves"]:
+        x, y = numbers(curve["x"]), numbers(curve["y"])
+        style = {"marker": "o" if len(x) == 1 else None, **STYLES[curve["style"]]}
+        axes.plot(x, y, color=PALETTE[curve["colour"] % len(PALETTE)], zorder=3, **style)
+    for i, points in enumerate(description["points"]):
+        axes.plot(numbers(points["x"]), numbers(points["y"]), linestyle="none", marker=MARKERS[i % len(MARKERS)],
+                  markersize=3.6, markerfacecolor="white", markeredgecolor="#333333", markeredgewidth=0.7,
+                  label=points["label"], zorder=2)
+    for name, set_label, set_scale in (("x", axes.set_xlabel, axes.set_xscale), ("y", axes.set_ylabel, axes.set_yscale)):
+        set_label(typeset(description[name]["label"]))
+        if description[name]["logarithmic"]:
+            set_scale("log")
+    if description["title"]:
+        axes.set_title(description["title"], fontsize=10)
     axes.grid(True, linewidth=0.3, color="#cccccc", zorder=0)
-    axes.legend(fontsize=8)
-    figure.savefig(arguments.output)
+    entries = legend_entries(description["curves"]) + axes.get_legend_handles_labels()[0]
+    if len(entries) > 1:
+        axes.legend(handles=entries, fontsize=8, handlelength=2.6)
+    figure.savefig(sys.argv[2])
 
 
 if __name__ == "__main__":

@@ -18,6 +18,10 @@ whipple_test(eos_gray_metals_test SOURCES verification/eos_gray_metals_test.cpp 
 add_executable(eos_benchmark benchmark/eos_benchmark.cpp)
 target_link_libraries(eos_benchmark PRIVATE whipple_eos benchmark::benchmark)
 
+whipple_test(eos_command_test SOURCES unit/eos_command_test.cpp DEPENDS GTest::gmock fmt::fmt LABELS fast)
+add_dependencies(eos_command_test whipple)
+target_compile_definitions(eos_command_test PRIVATE WHIPPLE_EXECUTABLE="$<TARGET_FILE:whipple>")
+
 # The command: figures of the library's copper through the executable, exit codes, files.
 set(eos_csv ${CMAKE_CURRENT_BINARY_DIR}/eos_hugoniot.csv)
 add_test(NAME eos_command.hugoniot_prints_shock_melting
@@ -35,7 +39,7 @@ set_tests_properties(eos_command.release_to_one_bar_vaporises_a_tenth PROPERTIES
 add_test(NAME eos_command.beyond_the_model_is_a_state_error COMMAND whipple eos hugoniot copper --pressure "900 TPa")
 set_tests_properties(eos_command.beyond_the_model_is_a_state_error PROPERTIES
   PASS_REGULAR_EXPRESSION "beyond the greatest density of model gray")
-foreach(query state isotherm isentrope melt dome)
+foreach(query isotherm isentrope dome)
   add_test(NAME eos_command.${query} COMMAND whipple eos ${query} copper --points 5)
 endforeach()
 add_test(NAME eos_command.audit_of_debye_gruneisen COMMAND whipple eos audit copper_debye)
@@ -58,6 +62,6 @@ add_test(NAME eos_command.audit_refuses_unusable_constants
   COMMAND sh -c "$<TARGET_FILE:whipple> eos audit unusable.toml; test $? -eq 2"
   WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
 foreach(query audit_refuses_unusable_constants hugoniot_prints_shock_melting refuses_to_overwrite release_to_one_bar_vaporises_a_tenth
-        beyond_the_model_is_a_state_error audit_of_debye_gruneisen state isotherm isentrope melt dome audit)
+        beyond_the_model_is_a_state_error audit_of_debye_gruneisen isotherm isentrope dome audit)
   set_property(TEST eos_command.${query} PROPERTY LABELS fast)
 endforeach()

@@ -23,13 +23,14 @@ class ShockScan {
 
   /// The weakest shock with the property; nothing if matter at rest has it, or no shock within the range.
   [[nodiscard]] std::optional<ShockState> weakest(const std::function<bool(const State&)>& holds) const {
-    double lower = std::max(hugoniot_.initial().pressure, 0.0), upper = std::max(first_pressure, 2 * lower);
+    double lower = std::max(hugoniot_.initial().pressure, 0.0);
+    double upper = std::min(std::max(first_pressure, 2 * lower), highest_);
     try {
       if (holds(hugoniot_.initial())) return std::nullopt;
       while (!holds(hugoniot_.at_pressure(upper).state)) {
+        if (upper >= highest_) return std::nullopt;
         lower = upper;
-        upper *= growth;
-        if (upper > highest_) return std::nullopt;
+        upper = std::min(growth * upper, highest_);
       }
     } catch (const StateError&) {
       return std::nullopt;  // the model ends before

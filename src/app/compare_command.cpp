@@ -17,7 +17,6 @@
 #include "src/base/text_table.hpp"
 #include "src/base/units.hpp"
 #include "src/material/material_file.hpp"
-#include "src/process/paths.hpp"
 #include "src/process/scripts.hpp"
 
 namespace whipple::app {
@@ -55,25 +54,6 @@ Style style(ExperimentKind kind) {
       return {"isotherm", "GPa", 1e9, "V/V0", "", 1.0, "P", "GPa", 1e9};
   }
   throw InternalError("unknown kind of experiment");
-}
-
-/// A path, or a bare file name of the experiments that come with the program.
-std::filesystem::path find_experiment(const std::string& name) {
-  std::filesystem::path path(name);
-  if (std::filesystem::exists(path)) return path;
-  if (!path.has_parent_path()) {
-    std::filesystem::path file = path;
-    if (!file.has_extension()) file += ".csv";
-    try {
-      return process::find_data(std::filesystem::path("eos/data") / file);
-    } catch (const InputError&) {
-      // Reported below, with the folders in the user's words.
-    }
-  }
-  throw InputError(
-      fmt::format("no experiment '{}': neither a file nor one of the data that come with the program "
-                  "(eos/data)",
-                  name));
 }
 
 struct Row {

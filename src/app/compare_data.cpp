@@ -2,6 +2,7 @@
 #include "src/app/compare_data.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,7 @@
 #include "eos/loci.hpp"
 #include "src/base/error.hpp"
 #include "src/base/units.hpp"
+#include "src/process/paths.hpp"
 
 namespace whipple::app {
 namespace {
@@ -25,15 +27,15 @@ constexpr double room_temperature = 298.0;  // K
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Endings of column names and their units.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> unit_endings = {
-    {{"_km_s", "km/s"},
-     {"_m_s", "m/s"},
-     {"_GPa", "GPa"},
-     {"_kbar", "kbar"},
-     {"_A3", "angstrom^3"},
-     {"_cm3_g", "cm^3/g"},
-     {"_g_cm3", "g/cm^3"},
-     {"_kg_m3", "kg/m^3"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> unit_endings = {{{"_km_s", "km/s"},
+                                                                                        {"_m_s", "m/s"},
+                                                                                        {"_GPa", "GPa"},
+                                                                                        {"_kbar", "kbar"},
+                                                                                        {"_A3", "angstrom^3"},
+                                                                                        {"_cm3_g", "cm^3/g"},
+                                                                                        {"_g_cm3", "g/cm^3"},
+                                                                                        {"_kg_m3", "kg/m^3"},
+                                                                                        {"_K", "K"}}};
 
 struct Csv {
   std::vector<std::string> comments;
@@ -105,9 +107,9 @@ std::optional<std::size_t> find_exact(const Csv& csv, std::string_view name) {
   return static_cast<std::size_t>(found - csv.names.begin());
 }
 
-/// The numbers of a column in SI.
+/// The numbers of a column in SI; empty cells, where they may be, are NaN.
 std::vector<double> column(const Csv& csv, std::size_t index, std::string_view si_unit,
-                           const std::filesystem::path& path) {
+                           const std::filesystem::path& path, bool may_be_empty = false) {
   units::Conversion conversion;
   for (const auto& [ending, unit] : unit_endings) {
     if (csv.names[index].ends_with(ending)) conversion = units::conversion(unit, si_unit);
@@ -115,6 +117,10 @@ std::vector<double> column(const Csv& csv, std::size_t index, std::string_view s
   std::vector<double> values;
   for (std::size_t row = 0; row < csv.rows.size(); ++row) {
     const std::string& cell = csv.rows[row][index];
+    if (cell.empty() && may_be_empty) {
+      values.push_back(nan);
+      continue;
+    }
     double value = 0.0;
     const auto [rest, status] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (status != std::errc() || rest != cell.data() + cell.size()) {
@@ -205,6 +211,68 @@ void set_points(Experiment& experiment, const std::vector<double>& abscissa,
 }
 
 }  // namespace
+
+std::filesystem::path find_experiment(const std::string& name) {
+  std::filesystem::path path(name);
+  if (std::filesystem::exists(path)) return path;
+  if (!path.has_parent_path()) {
+    std::filesystem::path file = path;
+    if (!file.has_extension()) file += ".csv";
+    try {
+      return process::find_data(std::filesystem::path("eos/data") / file);
+    } catch (const InputError&) {
+      // Reported below, with the folders in the user's words.
+    }
+  }
+  throw InputError(
+      fmt::format("no experiment '{}': neither a file nor one of the data that come with the program "
+                  "(eos/data)",
+                  name));
+}
+
+std::vector<double> measured_quantity(const std::filesystem::path& file, const std::string& wanted) {
+  const Csv csv = read_csv(file);
+  const auto by_row = [&](const auto& of_row) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < csv.rows.size(); ++i) values.push_back(of_row(i));
+    return values;
+  };
+  const auto shock_column = [&](const char* quantity, const char* unit) {
+    const auto found = find_column(csv, quantity);
+    return found ? column(csv, *found, unit, file, true) : std::vector<double>();
+  };
+  if (const auto exact = find_exact(csv, wanted); exact && wanted == "V_over_V0") {
+    return column(csv, *exact, "", file, true);
+  }
+  const std::vector<double> us = shock_column("us", "m/s"), up = shock_column("up", "m/s");
+  const bool shocks = !us.empty() && !up.empty();
+  if (wanted == "V_over_V0") {
+    if (shocks) return by_row([&](std::size_t i) { return 1 - up[i] / us[i]; });
+    if (const auto p = pressure_column(csv)) {
+      Experiment experiment;
+      experiment.file = file;
+      return volume_ratios(csv, column(csv, *p, "Pa", file, true), experiment);
+    }
+  } else if (wanted == "P_GPa") {
+    if (const auto p = pressure_column(csv)) return column(csv, *p, "Pa", file, true);
+    const std::vector<double> rho0 = shock_column("rho0", "kg/m^3");
+    if (shocks && !rho0.empty()) return by_row([&](std::size_t i) { return rho0[i] * us[i] * up[i]; });
+  } else if (wanted == "T_K") {
+    for (const char* name : {"T", "Tm"}) {
+      if (const auto found = find_column(csv, name)) return column(csv, *found, "K", file, true);
+    }
+  } else {
+    for (const auto& [ending, unit] : unit_endings) {
+      if (!wanted.ends_with(ending)) continue;
+      const std::string quantity = wanted.substr(0, wanted.size() - ending.size());
+      const char* si = unit == "km/s" ? "m/s" : unit == "kg/m^3" ? "kg/m^3" : nullptr;
+      const auto found = si == nullptr ? std::nullopt : find_column(csv, quantity);
+      if (found) return column(csv, *found, si, file, true);
+    }
+  }
+  throw InputError(fmt::format("{}: no column that gives {}; the columns are {}", file.string(), wanted,
+                               fmt::join(csv.names, ", ")));
+}
 
 Experiment read_experiment(const std::filesystem::path& file, std::optional<double> temperature) {
   const Csv csv = read_csv(file);

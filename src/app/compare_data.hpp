@@ -40,6 +40,17 @@ struct Experiment {
 /// @throws InputError with file and line
 Experiment read_experiment(const std::filesystem::path& file, std::optional<double> temperature = {});
 
+/// A path, or a bare file name of the experiments that come with the program (eos/data).
+/// @throws InputError if there is no such file
+std::filesystem::path find_experiment(const std::string& name);
+
+/// One quantity of every row of a CSV file, in SI, NaN for empty cells. Where the file lacks the column, what
+/// its definition gives: V/V0 from a volume or density with a row at P = 0 or from 1 - up/us, P from rho0 us
+/// up.
+/// @param column  name with unit as in the tables of `whipple eos` ("P_GPa"); the file may use another unit
+/// @throws InputError if the file has no such quantity
+std::vector<double> measured_quantity(const std::filesystem::path& file, const std::string& column);
+
 /// The equation of state on the points of an experiment.
 struct Comparison {
   std::vector<double> model;  ///< ordinate of the material; NaN outside its range

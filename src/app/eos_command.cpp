@@ -3,278 +3,207 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "eos/inversions.hpp"
-#include "eos/loci.hpp"
 #include "src/app/eos_audit.hpp"
-#include "src/app/eos_table.hpp"
+#include "src/app/eos_diagrams.hpp"
+#include "src/app/eos_figure.hpp"
+#include "src/app/eos_queries.hpp"
 #include "src/base/error.hpp"
-#include "src/base/units.hpp"
+#include "src/base/files.hpp"
 #include "src/material/material_file.hpp"
 
 namespace whipple::app {
 namespace {
 
-using eos::EquationOfState;
-using eos::Hugoniot;
-using eos::State;
-
-/// What the subcommands of `whipple eos` have in common; quantities as the user wrote them.
-struct Options {
-  std::string material;
-  std::string density, temperature, energy, pressure, particle_velocity;
-  std::string from, to;
-  int points = 21;
-  CurveOutput output;
+/// Where a table goes besides the terminal.
+struct Output {
+  std::string csv;
+  std::string plot;
+  std::string x, y;                  ///< columns of the figure
+  std::string logarithmic;           ///< "x", "y", "xy" or nothing
+  std::vector<std::string> overlay;  ///< measurements
+  bool force = false;
 };
 
-/// The quantity of an option, if it is given; errors name the option.
-std::optional<double> quantity(const char* option, const std::string& text, const char* unit) {
-  if (text.empty()) return std::nullopt;
-  try {
-    return units::parse_quantity(text, unit);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", option, error.what()));
-  }
-}
-
-bool is_in(const std::string& text, const char* unit) {
-  try {
-    static_cast<void>(units::parse_quantity(text, unit));
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
-/// The end of a curve: a pressure, or the other quantity that the curve may run over.
-struct End {
-  double value;
-  bool is_pressure;
+struct Request {
+  std::vector<std::string> materials;
+  EosOptions options;
+  Output output;
 };
 
-End end_of(const Options& o, double standard_pressure, const char* other_unit) {
-  if (o.to.empty()) return {standard_pressure, true};
-  if (is_in(o.to, "Pa")) return {units::parse_quantity(o.to, "Pa"), true};
-  if (is_in(o.to, other_unit)) return {units::parse_quantity(o.to, other_unit), false};
-  throw InputError(fmt::format("--to: '{}': expected a quantity in Pa or in {}", o.to, other_unit));
+Materials read_materials(const std::vector<std::string>& names) {
+  Materials materials;
+  for (const std::string& name : names) materials.push_back(read_material(name));
+  return materials;
 }
 
-std::vector<double> spaced(double from, double to, int points) {
-  std::vector<double> values;
-  for (int i = 0; i < points; ++i) values.push_back(points > 1 ? from + (to - from) * i / (points - 1) : to);
-  return values;
-}
-
-CurveTable table_of(const std::string& title, const Material& material, std::vector<Column> leading = {}) {
-  CurveTable table;
-  table.title = fmt::format("{}: {} ({})", title, material.name, material.eos->model());
-  table.columns = std::move(leading);
-  for (const Column& column : state_columns()) table.columns.push_back(column);
-  return table;
-}
-
-void add_row(CurveTable& table, const EquationOfState& eos, const State& state,
-             std::vector<Cell> leading = {}) {
-  for (const Cell& cell : state_cells(state, eos)) leading.push_back(cell);
-  table.rows.push_back(std::move(leading));
-}
-
-const std::vector<Column> shock_columns = {{"up_km_s", "km/s", 1e3}, {"us_km_s", "km/s", 1e3}};
-
-/// The state that two of density, temperature, energy and pressure name; without any, the reference state.
-State state_from(const Options& o, const EquationOfState& eos) {
-  const auto density = quantity("--density", o.density, "kg/m^3"),
-             temperature = quantity("--temperature", o.temperature, "K");
-  const auto energy = quantity("--energy", o.energy, "J/kg"),
-             pressure = quantity("--pressure", o.pressure, "Pa");
-  const int given = density.has_value() + temperature.has_value() + energy.has_value() + pressure.has_value();
-  if (given == 0) return eos.state(eos.reference_density(), eos.reference_energy());
-  if (given == 2 && density && temperature) return eos.state_at_temperature(*density, *temperature);
-  if (given == 2 && density && energy) return eos.state(*density, *energy);
-  if (given == 2 && density && pressure) return eos::state_at_pressure(eos, *density, *pressure);
-  if (given == 2 && pressure && temperature) {
-    return eos.state_at_temperature(eos::density_at_pressure(eos, *pressure, *temperature), *temperature);
-  }
-  throw InputError(
-      "a state is named by two quantities: --density with --temperature, --energy or --pressure, or "
-      "--pressure with "
-      "--temperature");
-}
-
-eos::ShockState shock_from(const Options& o, const Hugoniot& hugoniot) {
-  const auto density = quantity("--density", o.density, "kg/m^3"),
-             pressure = quantity("--pressure", o.pressure, "Pa");
-  const auto velocity = quantity("--particle-velocity", o.particle_velocity, "m/s");
-  if (density.has_value() + pressure.has_value() + velocity.has_value() != 1) {
-    throw InputError("a shock is named by one of --pressure, --particle-velocity and --density");
-  }
-  if (density) return hugoniot.at_density(*density);
-  return pressure ? hugoniot.at_pressure(*pressure) : hugoniot.at_particle_velocity(*velocity);
-}
-
-void run_state(const Options& o, const Material& material) {
-  CurveTable table = table_of("State", material);
-  add_row(table, *material.eos, state_from(o, *material.eos));
-  write(table, o.output);
-}
-
-void run_hugoniot(const Options& o, const Material& material) {
-  const EquationOfState& eos = *material.eos;
-  const Hugoniot hugoniot(eos);
-  CurveTable table = table_of("Principal Hugoniot", material, shock_columns);
-  const auto add = [&](const eos::ShockState& s) {
-    add_row(table, eos, s.state, {s.particle_velocity, s.shock_velocity});
-  };
-  if (!o.pressure.empty() || !o.particle_velocity.empty() || !o.density.empty()) {
-    add(shock_from(o, hugoniot));
-  } else {
-    const End end = end_of(o, 200e9, "m/s");
-    const double first = quantity("--from", o.from, end.is_pressure ? "Pa" : "m/s").value_or(0.0);
-    if (first < 0 || end.value < 0) throw InputError("--from, --to: a shock compresses: expected >= 0");
-    for (const double value : spaced(first, end.value, o.points)) {
-      add(end.is_pressure ? hugoniot.at_pressure(std::max(value, hugoniot.initial().pressure))
-                          : hugoniot.at_particle_velocity(value));
+/// One column of a table over another, a curve for each material.
+Figure figure_of(const CurveTable& table, const Output& output) {
+  const std::size_t x = column_index(table, output.x), y = column_index(table, output.y);
+  Figure figure;
+  figure.title = table.title;
+  figure.x = table.columns[x];
+  figure.y = table.columns[y];
+  figure.logarithmic_x = output.logarithmic.find('x') != std::string::npos;
+  figure.logarithmic_y = output.logarithmic.find('y') != std::string::npos;
+  for (const Series& series : table.series) {
+    FigureCurve curve;
+    curve.label = "equation of state";
+    curve.material = series.name;
+    curve.colour = static_cast<int>(figure.curves.size());
+    for (const CurveRow& row : series.rows) {
+      const double* a = std::get_if<double>(&row[x]);
+      const double* b = std::get_if<double>(&row[y]);
+      if (a == nullptr || b == nullptr) throw InputError("--x, --y: a column of words makes no curve");
+      curve.x.push_back(*a / figure.x.size);
+      curve.y.push_back(*b / figure.y.size);
     }
+    figure.curves.push_back(std::move(curve));
   }
-  write(table, o.output);
-  if (const auto melting = eos::shock_melting(eos)) {
-    fmt::print("shock melting: onset {:.2f} GPa, {:.0f} K; completion {:.2f} GPa, {:.0f} K\n",
-               melting->onset.state.pressure * 1e-9, melting->onset.state.temperature,
-               melting->completion.state.pressure * 1e-9, melting->completion.state.temperature);
-  }
+  add_measurements(figure, output.overlay);
+  return figure;
 }
 
-void run_isotherm(const Options& o, const Material& material) {
-  const EquationOfState& eos = *material.eos;
-  const double T = quantity("--temperature", o.temperature, "K").value_or(eos.reference_temperature());
-  CurveTable table = table_of(fmt::format("Isotherm at {} K", T), material);
-  const double first = quantity("--from", o.from, "Pa").value_or(0.0),
-               last = quantity("--to", o.to, "Pa").value_or(100e9);
-  for (const double pressure : spaced(first, last, o.points)) {
-    add_row(table, eos, eos.state_at_temperature(eos::density_at_pressure(eos, pressure, T), T));
+void write(const CurveTable& table, const Output& output) {
+  if (!output.csv.empty()) {
+    write_csv(table, output.csv);
+    fmt::print("written: {}\n", output.csv);
   }
-  write(table, o.output);
+  if (!output.plot.empty()) draw(figure_of(table, output), output.plot);
 }
 
-const Column riemann_column = {"u_km_s", "km/s", 1e3};
-
-void add_isentrope(CurveTable& table, const EquationOfState& eos, const State& start, double last_density,
-                   int points) {
-  std::vector<double> densities;
-  for (const double x : spaced(std::log(start.density), std::log(last_density), points))
-    densities.push_back(std::exp(x));
-  for (const eos::IsentropeState& s : eos::isentrope(eos, start, densities)) {
-    add_row(table, eos, s.state, {s.riemann_velocity});
-  }
-}
-
-void run_isentrope(const Options& o, const Material& material) {
-  const EquationOfState& eos = *material.eos;
-  const State start = state_from(o, eos);
-  const End end = end_of(o, 100e9, "kg/m^3");
-  const double last = end.is_pressure ? eos::release(eos, start, end.value).end.state.density : end.value;
-  CurveTable table = table_of("Isentrope", material, {riemann_column});
-  add_isentrope(table, eos, start, last, o.points);
-  write(table, o.output);
-}
-
-void run_release(const Options& o, const Material& material) {
-  const EquationOfState& eos = *material.eos;
-  const eos::ShockState shock = shock_from(o, Hugoniot(eos));
-  const eos::Release release = eos::release(eos, shock.state, quantity("--to", o.to, "Pa").value_or(0.0));
-  CurveTable table = table_of("Release of a shocked state", material, {riemann_column});
-  if (release.in_equilibrium) {
-    add_row(table, eos, shock.state, {0.0});
-    add_row(table, eos, release.end.state, {release.end.riemann_velocity});
-  } else {
-    add_isentrope(table, eos, shock.state, release.end.state.density, o.points);
-  }
-  write(table, o.output);
-  fmt::print("shock: up {:.4g} km/s, Us {:.4g} km/s", shock.particle_velocity * 1e-3,
-             shock.shock_velocity * 1e-3);
-  if (!release.in_equilibrium) {
-    fmt::print("; velocity of the released surface {:.5g} km/s",
-               (shock.particle_velocity - release.end.riemann_velocity) * 1e-3);
-  }
-  fmt::print("\n");
-}
-
-void run_melt(const Options& o, const Material& material) {
-  const EquationOfState& eos = *material.eos;
-  CurveTable table;
-  table.title = fmt::format("Melting curve: {} ({})", material.name, eos.model());
-  table.columns = {{"P_GPa", "GPa", 1e9}, {"solidus_K", "K", 1}, {"liquidus_K", "K", 1}};
-  const double first = quantity("--from", o.from, "Pa").value_or(0.0),
-               last = quantity("--to", o.to, "Pa").value_or(100e9);
-  for (const double pressure : spaced(first, last, o.points)) {
-    const auto melting = eos::melting_point(eos, pressure);
-    if (!melting) throw InputError(fmt::format("model {} of {} does not melt", eos.model(), material.name));
-    table.rows.push_back({pressure, melting->solidus.temperature, melting->liquidus.temperature});
-  }
-  write(table, o.output);
-}
-
-void run_dome(const Options& o, const Material& material) {
-  const EquationOfState& eos = *material.eos;
-  double lower = quantity("--from", o.from, "Pa").value_or(100.0);
-  const eos::VapourDome* dome = eos.vapour_dome();
-  if (dome == nullptr || !dome->at_pressure(lower)) {
-    throw InputError(fmt::format("model {} of {} has no liquid and vapour in equilibrium at {:.4g} Pa",
-                                 eos.model(), material.name, lower));
-  }
-  const double top = 0.999 * dome->critical_point().pressure;
-  const double last = std::min(top, quantity("--to", o.to, "Pa").value_or(top));
-  CurveTable table;
-  table.title = fmt::format("Liquid and vapour in equilibrium: {} ({})", material.name, eos.model());
-  table.columns = {{"P_MPa", "MPa", 1e6},
-                   {"T_K", "K", 1},
-                   {"liquid_kg_m3", "kg/m^3", 1},
-                   {"vapour_kg_m3", "kg/m^3", 1},
-                   {"latent_kJ_kg", "kJ/kg", 1e3}};
-  for (const double x : spaced(std::log(lower), std::log(last), o.points)) {
-    const auto s = dome->at_pressure(std::min(std::exp(x), last));
-    table.rows.push_back(
-        {s->pressure, s->temperature, 1 / s->liquid_volume, 1 / s->vapour_volume, s->latent_heat()});
-  }
-  write(table, o.output);
-  const eos::CriticalPoint& critical = dome->critical_point();
-  fmt::print("critical point: {:.5g} K, {:.4g} GPa, {:.4g} g/cm^3\n", critical.temperature,
-             critical.pressure * 1e-9, 1e-3 / critical.specific_volume);
-}
-
-/// One subcommand: which quantities it takes and what it runs.
+/// One subcommand: which quantities it takes and what it computes.
 struct Query {
   const char* name;
   const char* summary;
-  const char* quantities;  ///< of "dtepu" (density, temperature, energy, pressure, particle velocity), "f"
-                           ///< from, "o" to
-  const char* x;           ///< default columns of the figure
+  /// Of "dtepsu" (density, temperature, energy, pressure, entropy, particle velocity), "f" from, "o" to,
+  /// "i" initial density, "r" reflected, "v" impact velocity.
+  const char* quantities;
+  const char* x;  ///< default columns of the figure; null: a list without figure
   const char* y;
-  void (*run)(const Options&, const Material&);
+  CurveTable (*table)(const EosOptions&, const Materials&);
+  std::vector<std::string> (*remarks)(const EosOptions&, const Materials&);  ///< may be null
   const char* example;
 };
 
 const Query queries[] = {
-    {"state", "One state, from two quantities", "dtep", "rho_kg_m3", "P_GPa", run_state,
+    {"state", "One state, from two quantities", "dteps", nullptr, nullptr, state_table, nullptr,
      "whipple eos state copper --density '10 g/cm^3' --temperature '3000 K'"},
-    {"hugoniot", "Principal Hugoniot, or one shocked state", "dpufo", "up_km_s", "us_km_s", run_hugoniot,
-     "whipple eos hugoniot copper --to '300 GPa' --points 31 --csv hugoniot.csv --plot hugoniot.png"},
-    {"isotherm", "Pressure and density at constant temperature", "tfo", "V_over_V0", "P_GPa", run_isotherm,
-     "whipple eos isotherm copper --temperature '298 K' --to '150 GPa'"},
-    {"isentrope", "Isentrope from a state to a pressure or density", "dtepo", "V_over_V0", "P_GPa",
-     run_isentrope, "whipple eos isentrope copper --to '200 GPa'"},
-    {"release", "Release of a shocked state: residual temperature, melted and vaporised fraction", "dpuo",
-     "V_over_V0", "P_GPa", run_release, "whipple eos release copper --pressure '160 GPa' --to '0 Pa'"},
-    {"melt", "Solidus and liquidus over pressure", "fo", "P_GPa", "liquidus_K", run_melt,
-     "whipple eos melt copper --to '100 GPa'"},
-    {"dome", "Liquid and vapour in equilibrium", "fo", "T_K", "P_MPa", run_dome, "whipple eos dome copper"},
+    {"hugoniot", "Hugoniot: principal, porous or through a shocked state; a curve, or one shocked state",
+     "dpufoir", "up_km_s", "us_km_s", hugoniot_table, hugoniot_remarks,
+     "whipple eos hugoniot copper aluminium --to '300 GPa' --plot hugoniot.png --with "
+     "cu_hugoniot_marsh1980\n  "
+     "whipple eos hugoniot copper --initial-density '6 g/cm^3' --pressure '40 GPa'"},
+    {"isotherm", "Pressure and density at constant temperature", "tfo", "V_over_V0", "P_GPa", isotherm_table,
+     nullptr, "whipple eos isotherm copper --temperature '298 K' --to '150 GPa'"},
+    {"isentrope", "Isentrope from a state to a pressure or density", "dtepso", "V_over_V0", "P_GPa",
+     isentrope_table, nullptr, "whipple eos isentrope copper --to '200 GPa'"},
+    {"release", "Release of a shocked state: residual temperature, melted and vaporised fraction", "dpuoi",
+     "V_over_V0", "P_GPa", release_table, release_remarks,
+     "whipple eos release copper --pressure '160 GPa' --to '0 Pa'"},
+    {"melt", "Solidus and liquidus over pressure; shocks that melt and vaporise on release", "fo", "P_GPa",
+     "liquidus_K", melt_table, melt_remarks, "whipple eos melt copper --to '100 GPa'"},
+    {"dome", "Liquid and vapour in equilibrium", "fo", "T_K", "P_MPa", dome_table, dome_remarks,
+     "whipple eos dome copper"},
+    {"cold", "Cold curve over density: pressure, energy, limits", "fo", "V_over_V0", "P_GPa", cold_table,
+     cold_remarks, "whipple eos cold copper --from '7 g/cm^3' --to '16 g/cm^3'"},
+    {"match", "Impact of the first material on the second, and the shock's way into the others", "v", nullptr,
+     nullptr, match_table, match_remarks, "whipple eos match copper aluminium --velocity '5.55 km/s'"},
 };
+
+void add_quantities(CLI::App& sub, const std::string& takes, EosOptions& o) {
+  const auto option = [&](char key, const char* name, std::string& value, const char* help) {
+    if (takes.find(key) != std::string::npos) sub.add_option(name, value, help);
+  };
+  option('d', "--density", o.density, "e.g. '9.5 g/cm^3'");
+  option('t', "--temperature", o.temperature, "e.g. '300 K'");
+  option('e', "--energy", o.energy, "Specific internal energy, e.g. '1.2 MJ/kg'");
+  option('p', "--pressure", o.pressure, "e.g. '100 GPa'");
+  option('s', "--entropy", o.entropy, "Specific entropy, e.g. '500 J/(kg K)'");
+  option('u', "--particle-velocity", o.particle_velocity, "e.g. '2 km/s'");
+  option('i', "--initial-density", o.initial_density, "Of porous matter ahead of the shock, e.g. '6 g/cm^3'");
+  option('r', "--reflected", o.reflected, "From the state shocked to this pressure, e.g. '50 GPa'");
+  option('v', "--velocity", o.velocity, "Of the impactor, e.g. '5 km/s'");
+  option('f', "--from", o.from, "Begin of the curve, e.g. '10 GPa'");
+  option('o', "--to", o.to, "End of the curve, e.g. '150 GPa'");
+}
+
+void add_query(CLI::App& command, const Query& query) {
+  auto request = std::make_shared<Request>();
+  CLI::App* sub = command.add_subcommand(query.name, query.summary);
+  sub->add_option("materials", request->materials, "Material files, or names of the library")->required();
+  add_quantities(*sub, query.quantities, request->options);
+  sub->add_option("--csv", request->output.csv, "Write the table, units in the names of the columns");
+  if (query.x != nullptr) {
+    sub->add_option("--points", request->options.points, "Points of the curve")
+        ->check(CLI::Range(2, 100000))
+        ->capture_default_str();
+    sub->add_option("--plot", request->output.plot, "Figure, FILE.png, .pdf or .svg");
+    request->output.x = query.x;
+    request->output.y = query.y;
+    sub->add_option("--x", request->output.x, "Column along the figure")->capture_default_str();
+    sub->add_option("--y", request->output.y, "Column up the figure")->capture_default_str();
+    sub->add_option("--log", request->output.logarithmic, "Logarithmic axes")
+        ->check(CLI::IsMember({"x", "y", "xy"}));
+    sub->add_option("--with", request->output.overlay,
+                    "Measurements drawn as points: CSV files, or names of those that come with the program "
+                    "(eos/data)");
+  }
+  sub->add_flag("--force", request->output.force, "Overwrite existing files");
+  sub->footer(fmt::format("Example:\n  {}", query.example));
+  sub->callback([request, &query] {
+    const Output& output = request->output;
+    require_new_file(output.csv, output.force);
+    require_new_figure(output.plot, output.force);
+    const Materials materials = read_materials(request->materials);
+    const CurveTable table = query.table(request->options, materials);
+    (query.table == state_table ? print_list : print)(table);
+    write(table, output);
+    if (query.remarks == nullptr) return;
+    for (const std::string& remark : query.remarks(request->options, materials)) fmt::print("{}\n", remark);
+  });
+}
+
+void add_audit(CLI::App& command) {
+  auto name = std::make_shared<std::string>();
+  CLI::App* audit = command.add_subcommand(
+      "audit", "Is the equation of state sound, and where: limits, stability, identities, verdict");
+  audit->add_option("material", *name, "Material file, or name of the library")->required();
+  audit->footer("Example:\n  whipple eos audit copper");
+  audit->callback([name] { print_audit(read_material(*name)); });
+}
+
+void add_plot(CLI::App& command) {
+  struct Plot : Request {
+    std::string kind;
+    std::vector<std::string> releases;
+  };
+  auto plot = std::make_shared<Plot>();
+  CLI::App* sub =
+      command.add_subcommand("plot", "Diagrams of several loci, with phase boundaries and measurements");
+  sub->add_option("materials", plot->materials, "Material files, or names of the library")->required();
+  sub->add_option(
+         "--kind", plot->kind,
+         "us-up: Hugoniots and their melting range; p-v: Hugoniot, isotherm, cold curve; p-t: solidus, "
+         "liquidus, Hugoniot, isentrope, releases; p-rho: Hugoniot, releases, liquid and vapour")
+      ->required()
+      ->check(CLI::IsMember(diagram_kinds()));
+  sub->add_option("-o,--output", plot->output.plot, "FILE.png, .pdf or .svg")->required();
+  sub->add_option("--to", plot->options.to, "Greatest pressure (default 200 GPa)");
+  sub->add_option("--release", plot->releases, "Shock pressures to release from, e.g. '100 GPa' '150 GPa'");
+  sub->add_option("--with", plot->output.overlay, "Measurements, as for the curves");
+  sub->add_flag("--force", plot->output.force, "Overwrite existing files");
+  sub->footer("Example:\n  whipple eos plot copper --kind p-t --to '300 GPa' -o copper_p_t.png");
+  sub->callback([plot] {
+    require_new_figure(plot->output.plot, plot->output.force);
+    Figure figure = diagram(plot->kind, plot->options, plot->releases, read_materials(plot->materials));
+    add_measurements(figure, plot->output.overlay);
+    draw(figure, plot->output.plot);
+  });
+}
 
 }  // namespace
 
@@ -282,43 +211,9 @@ void add_eos_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("eos", "States and curves of a material's equation of state");
   command->require_subcommand(1);
   command->footer("Example:\n  whipple eos hugoniot copper --to '300 GPa' --plot hugoniot.png");
-  for (const Query& query : queries) {
-    auto o = std::make_shared<Options>();
-    CLI::App* sub = command->add_subcommand(query.name, query.summary);
-    const std::string takes = query.quantities;
-    const auto takes_any = [&](char key) { return takes.find(key) != std::string::npos; };
-    sub->add_option("material", o->material, "Material file, or name of the library")->required();
-    if (takes_any('d')) sub->add_option("--density", o->density, "e.g. '9.5 g/cm^3'");
-    if (takes_any('t')) sub->add_option("--temperature", o->temperature, "e.g. '300 K'");
-    if (takes_any('e')) sub->add_option("--energy", o->energy, "Specific internal energy, e.g. '1.2 MJ/kg'");
-    if (takes_any('p')) sub->add_option("--pressure", o->pressure, "e.g. '100 GPa'");
-    if (takes_any('u')) sub->add_option("--particle-velocity", o->particle_velocity, "e.g. '2 km/s'");
-    if (takes_any('f')) sub->add_option("--from", o->from, "Begin of the curve, e.g. '10 GPa'");
-    if (takes_any('o')) sub->add_option("--to", o->to, "End of the curve, e.g. '150 GPa'");
-    sub->add_option("--points", o->points, "Points of the curve")
-        ->check(CLI::Range(2, 100000))
-        ->capture_default_str();
-    sub->add_option("--csv", o->output.csv, "Write the table, units in the names of the columns");
-    sub->add_option("--plot", o->output.plot, "Figure, FILE.png");
-    o->output.x = query.x;
-    o->output.y = query.y;
-    sub->add_option("--x", o->output.x, "Column along the figure")->capture_default_str();
-    sub->add_option("--y", o->output.y, "Column up the figure")->capture_default_str();
-    sub->add_option("--with", o->output.overlay,
-                    "CSV files of measurements with the same column names, drawn as points");
-    sub->add_flag("--force", o->output.force, "Overwrite existing files");
-    sub->footer(fmt::format("Example:\n  {}", query.example));
-    sub->callback([o, run = query.run] {
-      require_writable(o->output);
-      run(*o, read_material(o->material));
-    });
-  }
-  auto name = std::make_shared<std::string>();
-  CLI::App* audit = command->add_subcommand(
-      "audit", "Is the equation of state sound, and where: limits, stability, identities, verdict");
-  audit->add_option("material", *name, "Material file, or name of the library")->required();
-  audit->footer("Example:\n  whipple eos audit copper");
-  audit->callback([name] { print_audit(read_material(*name)); });
+  for (const Query& query : queries) add_query(*command, query);
+  add_audit(*command);
+  add_plot(*command);
 }
 
 }  // namespace whipple::app

@@ -5,8 +5,8 @@
 
 namespace whipple::app {
 
-/// `whipple eos state|hugoniot|isotherm|isentrope|release|melt|dome|audit MATERIAL`: states and curves of a
-/// material's equation of state, as a table with units, CSV or figure.
+/// `whipple eos state|hugoniot|isotherm|isentrope|release|melt|dome|cold|match|audit|plot MATERIAL...`:
+/// states and curves of equations of state, as tables with units, CSV or figures.
 void add_eos_command(CLI::App& app);
 
 }  // namespace whipple::app

@@ -2,19 +2,19 @@
 #include "src/app/eos_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 
 #include "src/base/error.hpp"
-#include "src/base/files.hpp"
 #include "src/base/text_table.hpp"
-#include "src/process/scripts.hpp"
 
 namespace whipple::app {
 namespace {
+
+using Lines = std::vector<std::vector<std::string>>;
 
 bool known(const Cell& cell) {
   const double* number = std::get_if<double>(&cell);
@@ -27,39 +27,55 @@ std::string text(const Cell& cell, double size, int digits) {
   return std::isnan(value) ? "-" : fmt::format("{:.{}g}", value, digits);
 }
 
-void write_csv(const CurveTable& table, const std::filesystem::path& path) {
-  std::ofstream file(path);
-  file << "# " << table.title << '\n';
-  for (std::size_t i = 0; i < table.columns.size(); ++i) file << (i > 0 ? "," : "") << table.columns[i].name;
-  file << '\n';
-  for (const auto& row : table.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      file << (i > 0 ? "," : "") << (known(row[i]) ? text(row[i], table.columns[i].size, 10) : "");
+/// Round-off about zero (the pressure of a state at rest) prints as 0; the CSV keeps every digit.
+std::string printed(const Cell& cell, double size, double greatest) {
+  const double* number = std::get_if<double>(&cell);
+  const bool nothing = number != nullptr && std::abs(*number) < std::max(1e-11 * greatest, 1e-12 * size);
+  return nothing ? "0" : text(cell, size, 6);
+}
+
+/// Largest size of the numbers of a column; columns without known value are negative.
+double greatest(const CurveTable& table, std::size_t column) {
+  double result = -1;
+  for (const Series& series : table.series) {
+    for (const CurveRow& row : series.rows) {
+      if (!known(row[column])) continue;
+      const double* number = std::get_if<double>(&row[column]);
+      const bool finite = number != nullptr && std::isfinite(*number);
+      result = std::max(result, finite ? std::abs(*number) : 0.0);
     }
-    file << '\n';
   }
-  if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", path.string()));
+  return result;
+}
+
+std::string csv_word(const std::string& word) {
+  return word.find(',') == std::string::npos ? word : "\"" + word + "\"";
 }
 
 }  // namespace
 
 std::vector<Column> state_columns() {
-  return {{"rho_kg_m3", "kg/m^3", 1},
-          {"V_over_V0", "", 1},
-          {"P_GPa", "GPa", 1e9},
-          {"T_K", "K", 1},
-          {"e_kJ_kg", "kJ/kg", 1e3},
-          {"c_km_s", "km/s", 1e3},
-          {"s_J_kg_K", "J/(kg K)", 1},
-          {"cv_J_kg_K", "J/(kg K)", 1},
-          {"gamma", "", 1},
-          {"KT_GPa", "GPa", 1e9},
-          {"melted", "", 1},
-          {"vaporised", "", 1},
-          {"phase", "", 1}};
+  return {{"rho_kg_m3", "kg/m^3", 1, "density"},
+          {"V_over_V0", "", 1, "relative volume V/V0"},
+          {"P_GPa", "GPa", 1e9, "pressure"},
+          {"T_K", "K", 1, "temperature"},
+          {"e_kJ_kg", "kJ/kg", 1e3, "specific internal energy"},
+          {"c_km_s", "km/s", 1e3, "sound speed"},
+          {"s_J_kg_K", "J/(kg K)", 1, "specific entropy"},
+          {"cv_J_kg_K", "J/(kg K)", 1, "heat capacity at constant volume"},
+          {"gamma", "", 1, "Grüneisen parameter"},
+          {"KT_GPa", "GPa", 1e9, "isothermal bulk modulus"},
+          {"KS_GPa", "GPa", 1e9, "isentropic bulk modulus", false},
+          {"cp_J_kg_K", "J/(kg K)", 1, "heat capacity at constant pressure", false},
+          {"alpha_1e-6_K", "1e-6/K", 1e-6, "volume expansion at constant pressure", false},
+          {"F_kJ_kg", "kJ/kg", 1e3, "Helmholtz energy", false},
+          {"G_kJ_kg", "kJ/kg", 1e3, "Gibbs energy", false},
+          {"melted", "", 1, "mass fraction of liquid and vapour"},
+          {"vaporised", "", 1, "mass fraction of vapour"},
+          {"phase", "", 1, "phase"}};
 }
 
-std::vector<Cell> state_cells(const eos::State& s, const eos::EquationOfState& eos) {
+CurveRow state_cells(const eos::State& s, const eos::EquationOfState& eos) {
   return {s.density,
           eos.reference_density() / s.density,
           s.pressure,
@@ -70,69 +86,89 @@ std::vector<Cell> state_cells(const eos::State& s, const eos::EquationOfState& e
           s.heat_capacity,
           s.gruneisen,
           s.isothermal_bulk_modulus,
+          s.isentropic_bulk_modulus,
+          s.isobaric_heat_capacity,
+          s.thermal_expansion,
+          s.helmholtz_energy,
+          s.gibbs_energy,
           s.melted_fraction,
           s.vaporised_fraction,
           std::string(s.phase)};
 }
 
+std::size_t column_index(const CurveTable& table, const std::string& name) {
+  const auto found = std::ranges::find(table.columns, name, &Column::name);
+  if (found != table.columns.end()) return static_cast<std::size_t>(found - table.columns.begin());
+  std::vector<std::string> names;
+  for (const Column& column : table.columns) names.push_back(column.name);
+  throw InputError(fmt::format("no column '{}'; the columns are {}", name, fmt::join(names, ", ")));
+}
+
 void print(const CurveTable& table) {
   fmt::print("{}\n", table.title);
+  const bool several = table.series.size() > 1;
+  Lines lines(2);
+  if (several) lines = {{"material"}, {""}};
   std::vector<std::size_t> shown;
+  std::vector<double> sizes;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    if (std::ranges::any_of(table.rows, [&](const auto& row) { return known(row[i]); })) shown.push_back(i);
-  }
-  std::vector<std::vector<std::string>> lines(2);
-  for (const std::size_t i : shown) {
     const Column& column = table.columns[i];
+    sizes.push_back(greatest(table, i));
+    if (!column.in_curves || sizes.back() < 0) continue;
+    shown.push_back(i);
     // "P_GPa" prints as P over GPa; a name without unit stands alone.
-    const std::size_t end = column.unit.empty() ? column.name.size() : column.name.find('_');
-    lines[0].push_back(column.name.substr(0, end));
+    lines[0].push_back(
+        column.name.substr(0, column.unit.empty() ? column.name.size() : column.name.find('_')));
     lines[1].push_back(column.unit);
   }
-  // Round-off about zero (the pressure of a state at rest) prints as 0; the CSV keeps every digit.
-  std::vector<double> greatest(table.columns.size(), 0.0);
-  for (const auto& row : table.rows) {
-    for (const std::size_t i : shown) {
-      const double* number = std::get_if<double>(&row[i]);
-      if (number != nullptr && std::isfinite(*number)) greatest[i] = std::max(greatest[i], std::abs(*number));
+  for (const Series& series : table.series) {
+    for (const CurveRow& row : series.rows) {
+      lines.emplace_back();
+      if (several) lines.back().push_back(series.name);
+      for (const std::size_t i : shown)
+        lines.back().push_back(printed(row[i], table.columns[i].size, sizes[i]));
     }
   }
-  for (const auto& row : table.rows) {
-    lines.emplace_back();
-    for (const std::size_t i : shown) {
-      const double* number = std::get_if<double>(&row[i]);
-      const double size = table.columns[i].size;
-      const bool nothing =
-          number != nullptr && std::abs(*number) < std::max(1e-11 * greatest[i], 1e-12 * size);
-      lines.back().push_back(nothing ? "0" : text(row[i], table.columns[i].size, 6));
+  fmt::print("{}", text_table(lines, several ? "lr" : "r"));
+}
+
+void print_list(const CurveTable& table) {
+  fmt::print("{}\n", table.title);
+  Lines lines;
+  if (table.series.size() > 1) {
+    lines.push_back({""});
+    for (const Series& series : table.series) lines.back().push_back(series.name);
+  }
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const Column& column = table.columns[i];
+    const double size = greatest(table, i);
+    if (size < 0) continue;
+    lines.push_back({column.meaning.empty() ? column.name : column.meaning});
+    for (const Series& series : table.series) {
+      lines.back().push_back(printed(series.rows.front()[i], column.size, size));
+    }
+    lines.back().push_back(column.unit);
+  }
+  fmt::print("{}", text_table(lines, "l" + std::string(table.series.size(), 'r') + "l"));
+}
+
+void write_csv(const CurveTable& table, const std::filesystem::path& path) {
+  std::ofstream file(path);
+  const bool several = table.series.size() > 1;
+  file << "# " << table.title << '\n' << (several ? "material," : "");
+  for (std::size_t i = 0; i < table.columns.size(); ++i) file << (i > 0 ? "," : "") << table.columns[i].name;
+  file << '\n';
+  for (const Series& series : table.series) {
+    for (const CurveRow& row : series.rows) {
+      if (several) file << csv_word(series.name) << ',';
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        file << (i > 0 ? "," : "")
+             << (known(row[i]) ? csv_word(text(row[i], table.columns[i].size, 10)) : "");
+      }
+      file << '\n';
     }
   }
-  fmt::print("{}", text_table(lines, "r"));
-}
-
-void require_writable(const CurveOutput& output) {
-  require_new_file(output.csv, output.force);
-  require_new_figure(output.plot, output.force);
-}
-
-void write(const CurveTable& table, const CurveOutput& output) {
-  print(table);
-  if (!output.csv.empty()) {
-    write_csv(table, output.csv);
-    fmt::print("written: {}\n", output.csv);
-  }
-  if (output.plot.empty()) return;
-  const std::filesystem::path data = output.plot + ".csv.part";
-  write_csv(table, data);
-  std::vector<std::string> arguments = {data.string(), "--output", output.plot, "--x",
-                                        output.x,      "--y",      output.y};
-  if (!output.overlay.empty()) {
-    arguments.emplace_back("--overlay");
-    arguments.insert(arguments.end(), output.overlay.begin(), output.overlay.end());
-  }
-  process::draw_with("scripts/plot_curves.py", arguments);
-  std::filesystem::remove(data);
-  fmt::print("written: {}\n", output.plot);
+  if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", path.string()));
 }
 
 }  // namespace whipple::app

@@ -8,42 +8,47 @@
 
 #include "eos/equation_of_state.hpp"
 
-/// Tables of `whipple eos`: on the terminal, as CSV and as figure.
+/// Tables of `whipple eos`: on the terminal and as CSV.
 namespace whipple::app {
 
 struct Column {
-  std::string name;  ///< with its unit, as in the CSV files of experiments: "P_GPa"
-  std::string unit;  ///< as printed: "GPa"; empty: none
-  double size = 1;   ///< of the printed unit in SI
+  std::string name;          ///< with its unit, as in the CSV files of experiments: "P_GPa"
+  std::string unit;          ///< as printed: "GPa"; empty: none
+  double size = 1;           ///< of the printed unit in SI
+  std::string meaning = {};  ///< for the axes of figures and lists: "pressure"
+  bool in_curves = true;     ///< printed in the table of a curve; all columns go to the CSV
 };
 
 /// A number in SI, or a word.
 using Cell = std::variant<double, std::string>;
+using CurveRow = std::vector<Cell>;
+
+/// One curve of a table.
+struct Series {
+  std::string name;  ///< the material's
+  std::vector<CurveRow> rows;
+};
 
 struct CurveTable {
-  std::string title;  ///< first line of the CSV: what it is, of which material
+  std::string title;  ///< first line of the CSV: what it is
   std::vector<Column> columns;
-  std::vector<std::vector<Cell>> rows;
+  std::vector<Series> series;  ///< with more than one, the first column printed names it
 };
 
 /// Columns of a state and its cells; ratios to the reference density of the model.
 std::vector<Column> state_columns();
-std::vector<Cell> state_cells(const eos::State& state, const eos::EquationOfState& eos);
+CurveRow state_cells(const eos::State& state, const eos::EquationOfState& eos);
+
+/// Index of a column.
+/// @throws InputError with the names of the others
+std::size_t column_index(const CurveTable& table, const std::string& name);
 
 /// On standard output, numbers aligned; columns without any known value are left out.
 void print(const CurveTable& table);
+/// The first row of each series as a list, one quantity a line.
+void print_list(const CurveTable& table);
 
-/// Where a table goes besides the terminal.
-struct CurveOutput {
-  std::string csv;
-  std::string plot;
-  std::string x, y;                  ///< columns of the figure
-  std::vector<std::string> overlay;  ///< CSV files with the same column names
-  bool force = false;
-};
-/// @throws InputError if a file exists and may not be overwritten; called before anything is computed
-void require_writable(const CurveOutput& output);
-/// Prints the table, writes the CSV and draws the figure.
-void write(const CurveTable& table, const CurveOutput& output);
+/// @throws InputError if the file cannot be written
+void write_csv(const CurveTable& table, const std::filesystem::path& path);
 
 }  // namespace whipple::app

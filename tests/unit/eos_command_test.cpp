@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `whipple eos` as a user calls it: every subcommand, pairs of quantities, several materials, files,
+// refusals.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "tests/unit/md_temporary_folder.hpp"
+
+namespace whipple::app {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+
+class EosCommand : public ::testing::Test {
+ protected:
+  [[nodiscard]] int run(const std::string& arguments) const {
+    const int status = std::system(fmt::format("cd '{}' && '{}' eos {} > output.txt 2>&1",
+                                               folder.path().string(), WHIPPLE_EXECUTABLE, arguments)
+                                       .c_str());
+    return WEXITSTATUS(status);
+  }
+  [[nodiscard]] std::string read(const std::string& name) const {
+    std::ifstream file(folder.path() / name, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  [[nodiscard]] std::string output() const { return read("output.txt"); }
+
+  md::TemporaryFolder folder;
+};
+
+TEST_F(EosCommand, StateTakesEveryPairOfQuantities) {
+  ASSERT_EQ(run("state copper --density '10 g/cm^3' --temperature '1000 K' --csv state.csv"), 0) << output();
+  EXPECT_THAT(output(), ContainsRegex("pressure +[0-9.]+ +GPa"));
+  EXPECT_THAT(output(), ContainsRegex("Gibbs energy +[0-9.]+ +kJ/kg"));
+  EXPECT_THAT(output(), ContainsRegex("isentropic bulk modulus +[0-9.]+ +GPa"));
+  EXPECT_THAT(output(), ContainsRegex("volume expansion at constant pressure +[0-9.]+ +1e-6/K"));
+  // The numbers of the CSV, with all their digits, name the same state again.
+  std::istringstream lines(read("state.csv"));
+  std::string title, header, row, cell;
+  std::getline(lines, title);
+  std::getline(lines, header);
+  std::getline(lines, row);
+  EXPECT_EQ(header.substr(0, 43), "rho_kg_m3,V_over_V0,P_GPa,T_K,e_kJ_kg,c_km_");
+  std::vector<std::string> cells;
+  for (std::istringstream words(row); std::getline(words, cell, ',');) cells.push_back(cell);
+  const std::string density = "--density " + cells[0],
+                    pressure = fmt::format("--pressure '{} GPa'", cells[2]);
+  for (const std::string& pair : {density + fmt::format(" --energy '{} kJ/kg'", cells[4]),
+                                  density + " " + pressure, density + fmt::format(" --entropy {}", cells[6]),
+                                  pressure + fmt::format(" --temperature {}", cells[3])}) {
+    ASSERT_EQ(run("state copper " + pair), 0) << output();
+    EXPECT_THAT(output(), ContainsRegex("density +10000 +kg/m")) << pair;
+    EXPECT_THAT(output(), ContainsRegex("temperature +1000 +K")) << pair;
+  }
+  EXPECT_EQ(run("state copper --density 9000"), 2);
+  EXPECT_THAT(output(), HasSubstr("a state is named by two quantities"));
+  EXPECT_EQ(run("state copper --density 9000 --pressure '-90 GPa'"), 3);
+  EXPECT_THAT(output(), HasSubstr("below the coldest state of model gray"));
+}
+
+TEST_F(EosCommand, SeveralMaterialsShareATableAndACsv) {
+  ASSERT_EQ(run("hugoniot copper aluminium --to '100 GPa' --points 3 --csv two.csv"), 0) << output();
+  EXPECT_THAT(output(), ContainsRegex("aluminium 1100-O +[0-9.]+ +[0-9.]+ +[0-9.]+ +[0-9.]+ +100 "));
+  EXPECT_THAT(read("two.csv"), HasSubstr("material,up_km_s,us_km_s,rho_kg_m3"));
+  EXPECT_THAT(read("two.csv"), ContainsRegex("\ncopper,[0-9.]+,[0-9.]+,"));
+}
+
+TEST_F(EosCommand, PorousAndReflectedHugoniots) {
+  ASSERT_EQ(run("hugoniot copper --initial-density '6 g/cm^3' --pressure '40 GPa'"), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("Hugoniot from 6 g/cm^3"));
+  ASSERT_EQ(run("hugoniot copper --reflected '50 GPa' --to '100 GPa' --points 2"), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("off a rigid wall 128.90 GPa"));
+  EXPECT_EQ(run("hugoniot copper --initial-density '9.5 g/cm^3'"), 2);
+  EXPECT_THAT(output(), HasSubstr("above the reference density of 8944.54 kg/m^3"));
+}
+
+TEST_F(EosCommand, ACurveEndsWhereItsModelEnds) {
+  ASSERT_EQ(run("hugoniot aluminium --to '5000 GPa' --points 6"), 0) << output();
+  EXPECT_THAT(output(),
+              HasSubstr("the curve ends after 2 points: Hugoniot at the pressure: beyond the greatest "
+                        "density of model gray"));
+  EXPECT_EQ(run("hugoniot aluminium --pressure '5000 GPa'"), 3);
+}
+
+TEST_F(EosCommand, MeltColdDomeAndMatchPrintTheirFigures) {
+  ASSERT_EQ(run("melt copper --points 2"), 0) << output();
+  EXPECT_THAT(output(), ContainsRegex("0 +1318\\.7[0-9]* +1342\\.6"));
+  EXPECT_THAT(output(),
+              ContainsRegex("after release to 1 bar: melting begins 13[567]\\..*, is complete 1[89].*, "
+                            "vaporisation begins 30[123]\\."));
+  ASSERT_EQ(run("cold copper --points 3"), 0) << output();
+  EXPECT_THAT(output(), HasSubstr("limit in tension -19.7"));
+  ASSERT_EQ(run("match copper aluminium copper --velocity '5.55 km/s'"), 0) << output();
+  EXPECT_THAT(output(), ContainsRegex("copper \\(shocked\\) +3\\.759[0-9]* .*105\\.7"));
+  EXPECT_THAT(output(), HasSubstr("free surface of copper"));
+  EXPECT_EQ(run("match copper --velocity '5 km/s'"), 2);
+  EXPECT_THAT(output(), HasSubstr("two materials at least"));
+  EXPECT_EQ(run("melt aluminium_mie_gruneisen"), 3);
+  EXPECT_THAT(output(), HasSubstr("does not melt"));
+}
+
+TEST_F(EosCommand, FiguresAndDiagrams) {
+  for (const char* kind : {"p-t", "p-rho"}) {
+    ASSERT_EQ(run(fmt::format("plot copper --kind {0} -o {0}.png", kind)), 0) << output();
+    EXPECT_EQ(read(fmt::format("{}.png", kind)).substr(1, 3), "PNG") << kind;
+  }
+  EXPECT_EQ(run("plot copper --kind p-t -o p-t.png"), 2);
+  EXPECT_THAT(output(), HasSubstr("exists; --force overwrites it"));
+  ASSERT_EQ(run("plot copper aluminium --kind p-v -o two.pdf --with cu_hugoniot_marsh1980 "
+                "al_isotherm_298K_dewaele2004"),
+            0)
+      << output();
+  EXPECT_EQ(read("two.pdf").substr(0, 4), "%PDF");
+  ASSERT_EQ(run("plot aluminium --kind us-up --with cu_hugoniot_marsh1980 -o us-up.svg"), 0) << output();
+  EXPECT_THAT(read("us-up.svg"), HasSubstr("particle velocity (km/s)"));
+  ASSERT_EQ(run("melt copper --points 5 --plot melt.svg --with cu_melting --y solidus_K"), 2);
+  EXPECT_THAT(output(), HasSubstr("no column that gives solidus_K"));
+  EXPECT_EQ(run("plot copper --kind t-s -o a.png"), 2);
+  EXPECT_EQ(run("isotherm copper --plot a.png --y entropy"), 2);
+  EXPECT_THAT(output(), HasSubstr("no column 'entropy'; the columns are rho_kg_m3"));
+}
+
+}  // namespace
+}  // namespace whipple::app
