@@ -251,7 +251,8 @@ class Auditor {
     if (!full_) return;
     result_.shock_melting = shock_melting(eos_);
     double before = result_.melting->liquidus.temperature;
-    const double strongest = std::min(200 * GPa, 0.5 * result_.range.strongest_shock.state.pressure);
+    double strongest = std::min(200 * GPa, 0.5 * result_.range.strongest_shock.state.pressure);
+    if (result_.cold) strongest = std::min(strongest, 0.95 * result_.cold->compression_limit.pressure);
     for (int i = 1; i <= 10; ++i) {
       const double pressure = strongest * i / 10;
       const auto point = melting_point(eos_, pressure);

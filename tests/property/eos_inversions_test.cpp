@@ -115,8 +115,10 @@ TEST_P(Inversions, GiveBackTheState) {
         << pair << ": " << count.same << " the same, " << count.another << " another, " << count.refused
         << " refused of " << count.asked;
   };
-  mostly_the_same(entropy_density, "(s, rho)", 1.0);
-  mostly_the_same(pressure_density, "(p, rho)", 0.99);
+  // On an isochore of vapour whose heat capacity vanishes (docs/theory/gray.md, section 8) T jumps, and S and
+  // P with it: another state of the pair, or none.
+  mostly_the_same(entropy_density, "(s, rho)", 0.98);
+  mostly_the_same(pressure_density, "(p, rho)", 0.98);
   // A start 3 % away may lie beyond a spinodal, or where the isotherm has another branch.
   mostly_the_same(pressure_temperature, "(p, T)", 0.97);
 }
