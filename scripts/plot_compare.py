@@ -27,17 +27,23 @@ def main():
     with open(sys.argv[1], encoding="utf-8") as file:
         panels = json.load(file)
     plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False})
-    count = len(panels)
-    figure, axes = plt.subplots(2, count, figsize=(5.2 * count, 5.4), sharex="col", height_ratios=(3, 1.2),
-                                layout="constrained", squeeze=False)
-    for column, panel in enumerate(panels):
-        top, bottom = axes[0, column], axes[1, column]
+    columns = min(len(panels), 3)
+    rows = -(-len(panels) // columns)
+    figure, axes = plt.subplots(2 * rows, columns, figsize=(5.2 * columns, 5.4 * rows), sharex=False,
+                                height_ratios=(3, 1.2) * rows, layout="constrained", squeeze=False)
+    for unused in range(len(panels), rows * columns):
+        axes[2 * (unused // columns), unused % columns].set_axis_off()
+        axes[2 * (unused // columns) + 1, unused % columns].set_axis_off()
+    for i, panel in enumerate(panels):
+        top, bottom = axes[2 * (i // columns), i % columns], axes[2 * (i // columns) + 1, i % columns]
+        bottom.sharex(top)
+        top.tick_params(labelbottom=False)
         x = numbers(panel["x"])
         top.plot(x, numbers(panel["measured"]), "o", ms=4, mfc="none", mec="0.25", mew=0.8, label="experiment",
                  zorder=3)
         unit = panel["deviation_unit"].split()[0]
-        for i, material in enumerate(panel["materials"]):
-            colour = f"C{i}"
+        for k, material in enumerate(panel["materials"]):
+            colour = f"C{k}"
             top.plot(numbers(material["x"]), numbers(material["curve"]), color=colour, lw=1.3,
                      label=f"{material['name']} (rms {material['rms']:.2f} {unit})")
             bottom.plot(x, numbers(material["deviation"]), "o", ms=2.8, color=colour)

@@ -8,6 +8,7 @@ whipple_test(eos_constant_heat_test SOURCES property/eos_constant_heat_test.cpp 
 whipple_test(eos_loci_test SOURCES verification/eos_loci_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_models_test SOURCES verification/eos_models_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_shock_test SOURCES verification/eos_shock_test.cpp DEPENDS whipple_eos GTest::gmock LABELS fast)
+whipple_test(eos_gas_loci_test SOURCES verification/eos_gas_loci_test.cpp DEPENDS whipple_eos GTest::gmock LABELS fast)
 whipple_test(eos_inversions_test SOURCES property/eos_inversions_test.cpp DEPENDS whipple_material LABELS fast)
 whipple_test(eos_audit_test SOURCES property/eos_audit_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
 whipple_test(eos_copper_test SOURCES validation/eos_copper_test.cpp DEPENDS whipple_eos LABELS fast)
