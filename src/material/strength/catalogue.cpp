@@ -7,7 +7,11 @@
 
 #include "src/material/strength/johnson_cook.hpp"
 #include "src/material/strength/none.hpp"
+#include "src/material/strength/power_law.hpp"
+#include "src/material/strength/steinberg_guinan.hpp"
+#include "src/material/strength/voce.hpp"
 #include "src/material/strength/von_mises.hpp"
+#include "src/material/strength/zerilli_armstrong.hpp"
 
 namespace whipple::strength {
 namespace {
@@ -36,7 +40,13 @@ std::span<const ModelEntry> catalogue() {
   static const std::array entries = {
       entry<None>([](const None&) { return std::make_unique<const NoneModel>(); }),
       entry<VonMises>([](const VonMises& c) { return std::make_unique<const VonMisesModel>(c); }),
+      entry<PowerLaw>([](const PowerLaw& c) { return std::make_unique<const PowerLawModel>(c); }),
+      entry<Voce>([](const Voce& c) { return std::make_unique<const VoceModel>(c); }),
       entry<JohnsonCook>([](const JohnsonCook& c) { return std::make_unique<const JohnsonCookModel>(c); }),
+      entry<SteinbergGuinan>(
+          [](const SteinbergGuinan& c) { return std::make_unique<const SteinbergGuinanModel>(c); }),
+      entry<ZerilliArmstrong>(
+          [](const ZerilliArmstrong& c) { return std::make_unique<const ZerilliArmstrongModel>(c); }),
   };
   return entries;
 }

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/parameter_table.hpp"
+#include "src/material/strength/elastic_constants.hpp"
+#include "src/material/strength/radial_return.hpp"
+#include "src/material/strength/strength.hpp"
+
+namespace whipple::strength {
+
+/// Zerilli-Armstrong flow stress from thermally activated motion of dislocations, one formula for both
+/// crystal structures,
+///   Y = C0 + (C1 + C2 sqrt(ep)) exp[(-C3 + C4 ln rate) T] + C5 ep^n:
+/// C1 = C5 = 0 for face-centred, C2 = 0 for body-centred cubic metals. The rate is taken in 1/s and not below
+/// `least_rate`. Source: F. J. Zerilli, R. W. Armstrong, J. Appl. Phys. 61 (1987) 1816.
+struct ZerilliArmstrong : ElasticConstants {
+  double athermal_stress = 0.0;        ///< C0, Pa
+  double thermal_stress = 0.0;         ///< C1, Pa
+  double thermal_hardening = 0.0;      ///< C2, Pa
+  double thermal_coefficient = 0.0;    ///< C3, 1/K
+  double rate_coefficient = 0.0;       ///< C4, 1/K
+  double hardening_coefficient = 0.0;  ///< C5, Pa
+  double hardening_exponent = 0.5;     ///< n
+  double least_rate = 1e-3;            ///< 1/s
+
+  static ParameterTable<ZerilliArmstrong> parameters() {
+    using P = ZerilliArmstrong;
+    ParameterTable<P> table = ElasticConstants::parameters<P>();
+    table.push_back(real("athermal_stress", &P::athermal_stress, "Pa", range::non_negative(), "C0"));
+    table.push_back(
+        real("thermal_stress", &P::thermal_stress, "Pa", range::non_negative(), "C1 (body-centred cubic)")
+            .optional());
+    table.push_back(real("thermal_hardening", &P::thermal_hardening, "Pa", range::non_negative(),
+                         "C2 (face-centred cubic)")
+                        .optional());
+    table.push_back(real("thermal_coefficient", &P::thermal_coefficient, "1/K", range::positive(), "C3"));
+    table.push_back(real("rate_coefficient", &P::rate_coefficient, "1/K", range::non_negative(), "C4"));
+    table.push_back(real("hardening_coefficient", &P::hardening_coefficient, "Pa", range::non_negative(),
+                         "C5 (body-centred cubic)")
+                        .optional());
+    table.push_back(
+        real("hardening_exponent", &P::hardening_exponent, "", range::positive(), "n of C5 ep^n").optional());
+    table.push_back(real("least_rate", &P::least_rate, "1/s", range::positive(),
+                         "plastic strain rate below which the rate has no effect")
+                        .optional());
+    return table;
+  }
+  static constexpr const char* name = "zerilli_armstrong";
+  static constexpr const char* summary = "Zerilli-Armstrong: thermally activated flow of fcc and bcc metals";
+  static constexpr const char* theory =
+      "Y = C0 + (C1 + C2 sqrt(ep)) exp[(-C3 + C4 ln rate) T] + C5 ep^n, rate in 1/s,\n"
+      "times the solid fraction; shear modulus G times the solid fraction.\n"
+      "Source: Zerilli and Armstrong, J. Appl. Phys. 61 (1987) 1816.";
+
+  /// At plastic strain ep0 + x reached in dt, with its slope by x.
+  [[nodiscard]] FlowStress flow(double plastic_strain, double x, double dt, double temperature) const {
+    const double strain = plastic_strain + x, rate = x / dt;
+    const double T = std::isnan(temperature) ? 300.0 : temperature;
+    const bool fast = rate > least_rate;
+    const double thermal =
+        std::exp((-thermal_coefficient + rate_coefficient * std::log(fast ? rate : least_rate)) * T);
+    const double root = std::sqrt(strain),
+                 power = hardening_coefficient * std::pow(strain, hardening_exponent);
+    const double activated = thermal_stress + thermal_hardening * root;
+    FlowStress y{athermal_stress + activated * thermal + power, 0.0};
+    if (strain > 0.0) {
+      y.slope = 0.5 * thermal_hardening / root * thermal + hardening_exponent * power / strain;
+    }
+    if (fast) y.slope += activated * thermal * rate_coefficient * T / x;
+    return y;
+  }
+  [[nodiscard]] double increment(double trial, double plastic_strain, double temperature, double modulus,
+                                 double solid, double dt) const {
+    const double least = flow(plastic_strain, 0.0, dt, temperature).value;  // Y rises with strain and rate
+    return radial_return(trial, modulus, solid, least,
+                         [&](double x) { return flow(plastic_strain, x, dt, temperature); });
+  }
+};
+
+class ZerilliArmstrongModel final : public Strength {
+ public:
+  /// @throws InputError if the constants contradict one another
+  explicit ZerilliArmstrongModel(const ZerilliArmstrong& constants)
+      : constants_(constants), modulus_(constants.stiffness()) {
+    if (constants.athermal_stress + constants.thermal_stress <= 0.0) {
+      throw InputError("'athermal_stress' or 'thermal_stress' must be positive");
+    }
+  }
+
+  [[nodiscard]] std::string_view model() const override { return ZerilliArmstrong::name; }
+  void shear_modulus(const State&, std::span<double> modulus) const override {
+    std::ranges::fill(modulus, modulus_);
+  }
+  void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
+                         std::span<const double> solid_fraction, double dt,
+                         std::span<double> increment) const override {
+    for (std::size_t i = 0; i < trial.size(); ++i) {
+      increment[i] = constants_.increment(trial[i], state.plastic_strain[i], state.temperature[i], modulus[i],
+                                          solid_fraction[i], dt);
+    }
+  }
+  [[nodiscard]] double flow_stress(double plastic_strain, double rate, double temperature) const override {
+    constexpr double no_strain = 1e-12;
+    return constants_.flow(plastic_strain, no_strain, no_strain / std::max(rate, 1e-300), temperature).value;
+  }
+  [[nodiscard]] std::string constants() const override {
+    ZerilliArmstrong copy = constants_;
+    const auto bound = whipple::bind(ZerilliArmstrong::parameters(), copy);
+    return "model = \"zerilli_armstrong\"\n" + to_toml(bound);
+  }
+
+ private:
+  ZerilliArmstrong constants_;
+  double modulus_;
+};
+
+}  // namespace whipple::strength
