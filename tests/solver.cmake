@@ -5,7 +5,7 @@ whipple_test(test_run STARTS_MPI SOURCES parallel/solver_restart_test.cpp DEPEND
 whipple_test(test_planar_impact STARTS_MPI SOURCES verification/solver_planar_impact_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_taylor_bar STARTS_MPI SOURCES verification/solver_taylor_bar_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_elastic STARTS_MPI SOURCES verification/solver_elastic_test.cpp DEPENDS whipple_solver LABELS fast)
-whipple_test(test_setup SOURCES unit/setup_case_test.cpp DEPENDS whipple_setup LABELS fast)
+whipple_test(test_setup SOURCES unit/setup_case_test.cpp unit/setup_shape_test.cpp DEPENDS whipple_setup LABELS fast)
 whipple_test(test_debris_cloud STARTS_MPI SOURCES validation/solver_debris_cloud_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_solver_regression STARTS_MPI SOURCES regression/solver_regression_test.cpp DEPENDS whipple_solver LABELS fast)
 

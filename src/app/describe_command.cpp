@@ -18,7 +18,7 @@
 #include "src/material/material_file.hpp"
 #include "src/material/strength/catalogue.hpp"
 #include "src/setup/case.hpp"
-#include "src/setup/shape.hpp"
+#include "src/setup/shapes/shape.hpp"
 
 namespace whipple::app {
 namespace {

@@ -10,7 +10,7 @@
 #include "src/base/parameter_table.hpp"
 #include "src/grid/geometry.hpp"
 #include "src/material/material.hpp"
-#include "src/setup/shape.hpp"
+#include "src/setup/shapes/shape.hpp"
 
 namespace whipple::setup {
 
