@@ -49,6 +49,7 @@ class GruneisenSolid {
     const double rho0 = state.density, G = law.constant;
     A0_ = pressure - bulk_modulus;
     A1_ = bulk_modulus;
+    inverse_density_ = 1 / rho0;
     inverse_volume_ = A0_ / ((1 + G) * rho0);
     constant_ = G > 0 ? A1_ / (G * rho0) : 0;
     power_ = state.energy + inverse_volume_ + constant_ - state.heat_capacity * state.temperature;
@@ -77,7 +78,7 @@ class GruneisenSolid {
  private:
   [[nodiscard]] Compression compression(Lanes rho) const {
     const Lanes V = 1.0 / rho;
-    return {1.0 - state_.density * V, rho * (1 / state_.density) - 1.0, V};
+    return {1.0 - state_.density * V, rho * inverse_density_ - 1.0, V};
   }
   [[nodiscard]] LinearIsochore dense(Lanes rho) const {
     const Compression c = compression(rho);
@@ -91,14 +92,14 @@ class GruneisenSolid {
   }
   [[nodiscard]] LinearIsochore expanded(Lanes rho) const {
     const double G = law_.constant;
-    const Lanes V = 1.0 / rho, r = rho * (1 / state_.density);
+    const Lanes V = 1.0 / rho, r = rho * inverse_density_;
     Lanes cold_energy = -inverse_volume_ * state_.density * V - constant_;
     if (G > 0) {
       cold_energy += power_ * pow(r, broadcast(G));
     } else {
-      cold_energy += power_ + A1_ / state_.density * natural_log(r);
+      cold_energy += power_ + A1_ * inverse_density_ * natural_log(r);
     }
-    return {V, cold_energy, A0_ + A1_ * r, broadcast(A1_ / state_.density), G * rho, broadcast(G)};
+    return {V, cold_energy, A0_ + A1_ * r, broadcast(A1_ * inverse_density_), G * rho, broadcast(G)};
   }
 
   /// e_c = e_s - c_v T_s on the isentrope through the reference state: de_s/dx = (A + B e_s)/rho0 with the
@@ -146,6 +147,7 @@ class GruneisenSolid {
   GruneisenLaw law_;
   CondensedReference state_;
   double A0_ = 0, A1_ = 0;                                ///< A = A0 + A1 rho/rho0 in expansion
+  double inverse_density_ = 0;                            ///< 1/rho0
   double power_ = 0, inverse_volume_ = 0, constant_ = 0;  ///< (E4)
   double maximum_density_ = 0;
   CubicTable cold_energy_;  ///< e_c/weight over x, in compression

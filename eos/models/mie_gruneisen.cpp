@@ -44,10 +44,12 @@ GruneisenLaw MieGruneisenCurve::law(const Constants& k) {
 
 GruneisenSolid<MieGruneisenCurve::Hugoniot> MieGruneisenCurve::solid(const Constants& k) {
   const ShockCurve curve{k.hugoniot_slope, k.hugoniot_quadratic, k.hugoniot_cubic};
+  const GruneisenLaw gamma = law(k);
   const double modulus = k.reference_density * k.hugoniot_intercept * k.hugoniot_intercept;
   return {name,
-          {curve, k.reference_density, modulus, law(k)},
-          law(k),
+          {curve, k.reference_density, modulus, 0.5 * gamma.constant, 0.5 * gamma.linear,
+           0.5 * gamma.linear / k.reference_density},
+          gamma,
           {k.reference_density, k.reference_temperature, 0.0, k.heat_capacity},
           0.0,
           modulus,

@@ -57,18 +57,17 @@ class MieGruneisenCurve {
   struct Hugoniot {
     ShockCurve curve;
     double rho0, modulus;  ///< rho0 c0^2
-    GruneisenLaw law;
+    double half_constant, half_linear,
+        half_by_density;  ///< of rho Gamma/(2 rho0), its slope by mu and by rho
 
     ReferencePressure operator()(const Compression& c) const {
       const auto y = curve.denominator(c.x);
       const Lanes inverse = 1.0 / y.value, square = modulus * inverse * inverse;
       const Lanes pressure = c.x * square, slope = square - 2.0 * pressure * inverse * y.slope;  // by x
-      // rho Gamma/(2 rho0) and the factor of p_H; dx/drho = rho0/rho^2, dmu/drho = 1/rho0.
-      const Lanes half = 0.5 * law.constant + 0.5 * law.linear * c.mu, factor = 1.0 - half * c.x;
+      const Lanes half = half_constant + half_linear * c.mu, factor = 1.0 - half * c.x;
       const Lanes x_slope = rho0 * c.volume * c.volume;
       return {pressure * factor,
-              x_slope * (slope * factor - pressure * half) - 0.5 * law.linear / rho0 * pressure * c.x,
-              inverse};
+              x_slope * (slope * factor - pressure * half) - half_by_density * pressure * c.x, inverse};
     }
   };
 

@@ -50,11 +50,11 @@ class PolynomialCurve {
 
  private:
   struct Polynomial {
-    double rho0, C0, C1, C2, C3;
+    double inverse_rho0, C0, C1, C2, C3;
 
     ReferencePressure operator()(const Compression& c) const {
-      return {C0 + c.mu * (C1 + c.mu * (C2 + c.mu * C3)), (C1 + c.mu * (2 * C2 + 3 * C3 * c.mu)) * (1 / rho0),
-              (1.0 + c.mu) * (1.0 + c.mu)};
+      return {C0 + c.mu * (C1 + c.mu * (C2 + c.mu * C3)),
+              (C1 + c.mu * (2 * C2 + 3 * C3 * c.mu)) * inverse_rho0, (1.0 + c.mu) * (1.0 + c.mu)};
     }
   };
 
