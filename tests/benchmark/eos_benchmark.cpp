@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "tests/unit/eos_impact_constants.hpp"
 #include "tests/unit/eos_support.hpp"
 
 namespace {
@@ -61,6 +62,23 @@ BENCHMARK(gray_vapour);
 BENCHMARK(gray_dome);
 BENCHMARK(debye_gruneisen);
 BENCHMARK(mie_gruneisen);
+
+template <class M>
+void of(benchmark::State& s, const typename M::Constants& constants, Region region) {
+  evaluate(s, ModelEquationOfState<M>(constants), region);
+}
+void mie_gruneisen_expanded(benchmark::State& s) { of<MieGruneisen>(s, test::aluminium_2024(), {1.2, 1e6}); }
+void tillotson(benchmark::State& s) { of<Tillotson>(s, test::aluminium_tillotson(), {0.9, 1e6}); }
+void tillotson_vapour(benchmark::State& s) { of<Tillotson>(s, test::aluminium_tillotson(), {5, 2e7}); }
+void jwl(benchmark::State& s) { of<Jwl>(s, test::tnt(), {2, 2e6}); }
+void tait(benchmark::State& s) { of<Tait>(s, test::water_tait(), {0.9, 1e5}); }
+void ideal_gas(benchmark::State& s) { of<IdealGas>(s, test::air(), {2, 3e5}); }
+BENCHMARK(mie_gruneisen_expanded);
+BENCHMARK(tillotson);
+BENCHMARK(tillotson_vapour);
+BENCHMARK(jwl);
+BENCHMARK(tait);
+BENCHMARK(ideal_gas);
 
 void build_gray(benchmark::State& bench) {
   for (auto _ : bench) benchmark::DoNotOptimize(Gray(test::copper()));
