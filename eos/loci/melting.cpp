@@ -20,7 +20,14 @@ std::optional<MeltingPoint> melting_point(const EquationOfState& eos, double pre
   State last_solid = solid, last_mixed = solid;
   for (double T = std::max(solid.temperature, 0.05 * eos.reference_temperature());; T *= 1.05) {
     if (T > highest_temperature) return std::nullopt;
-    const State s = at(T);
+    State s;
+    try {
+      s = at(T);
+    } catch (const StateError&) {
+      // The condensed branch ends as a solid, or evaporates without a liquid.
+      if (melting.phase.empty() || melting.melted_fraction <= melting.vaporised_fraction) return std::nullopt;
+      throw;
+    }
     density = s.density;
     if (s.melted_fraction <= 0) last_solid = s;
     if (s.melted_fraction > 0 && melting.phase.empty()) melting = s;

@@ -18,7 +18,7 @@ struct MeltingPoint {
 /// (eos/inversions.hpp) to 1e-9 relative.
 /// @param highest_temperature  where the search ends, K
 /// @returns nothing if the model's state is not solid at its least temperature, or does not melt below the
-/// highest one
+/// highest one or before the condensed branch ends
 /// @throws StateError if there is no condensed state at the pressure
 std::optional<MeltingPoint> melting_point(const EquationOfState& eos, double pressure,
                                           double highest_temperature = 1e5);
