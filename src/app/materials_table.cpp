@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "eos/detonation.hpp"
 #include "eos/loci.hpp"
 #include "src/base/error.hpp"
 #include "src/material/material_file.hpp"
@@ -99,6 +100,36 @@ Row row_without_phases(const std::string& name, const Material& material) {
           material.source};
 }
 
+const Row head_of_explosives = {"material", "model",       "rho0 g/cm3", "D km/s",
+                                "p_CJ GPa", "rho_CJ/rho0", "T_CJ K",     "source"};
+
+Row row_of_explosive(const std::string& name, const Material& material) {
+  const eos::EquationOfState& eos = *material.eos;
+  const eos::ChapmanJouguet wave = eos::chapman_jouguet(eos);
+  return {name,
+          std::string(eos.model()),
+          cell(eos.reference_density() * 1e-3),
+          cell(wave.detonation_velocity * 1e-3),
+          cell(wave.state.pressure * 1e-9),
+          cell(wave.state.density / eos.reference_density()),
+          cell(wave.state.temperature),
+          material.source};
+}
+
+/// One table: its head and its rows.
+struct Table {
+  std::string title;
+  const Row& head;
+  Row (*row)(const std::string& name, const Material& material);
+  std::vector<Row> rows = {};
+};
+
+/// Metals with melting or boiling apart from those without.
+bool has_phases(const eos::EquationOfState& eos) {
+  return eos.vapour_dome() != nullptr ||
+         if_defined([&] { return eos::melting_point(eos, 0.0); }).value_or(std::nullopt);
+}
+
 std::string line(const Row& cells) { return fmt::format("| {} |\n", fmt::join(cells, " | ")); }
 
 }  // namespace
@@ -107,17 +138,22 @@ std::string library_as_markdown() {
   std::string text;
   const std::vector<LibraryMaterial> library = library_materials();
   for (const char* group : material_groups) {
-    const bool phases = std::string_view(group) == "metals";
-    std::string rows;
+    Table phases{group, head_with_phases, row_with_phases};
+    Table explosives{group, head_of_explosives, row_of_explosive};
+    Table plain{group, head_without_phases, row_without_phases};
     for (const LibraryMaterial& entry : library) {
       if (entry.group != group) continue;
       const Material material = read_material(entry.file);
-      const std::string name = entry.file.stem().string();
-      rows += line(phases ? row_with_phases(name, material) : row_without_phases(name, material));
+      Table& table = entry.group == "explosives" ? explosives : has_phases(*material.eos) ? phases : plain;
+      table.rows.push_back(table.row(entry.file.stem().string(), material));
     }
-    if (rows.empty()) continue;
-    const Row& head = phases ? head_with_phases : head_without_phases;
-    text += fmt::format("\n### {}\n\n{}{}{}", group, line(head), line(Row(head.size(), "---")), rows);
+    if (!phases.rows.empty()) plain.title += " without phases";
+    for (const Table& table : {phases, explosives, plain}) {
+      if (table.rows.empty()) continue;
+      text +=
+          fmt::format("\n### {}\n\n{}{}", table.title, line(table.head), line(Row(table.head.size(), "---")));
+      for (const Row& row : table.rows) text += line(row);
+    }
   }
   return text;
 }

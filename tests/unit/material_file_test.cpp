@@ -126,7 +126,7 @@ spall_strength = "1 furlong"
       text, HasSubstr(at + "7:1: error: unknown key 'eos.hugoniot_slpoe', did you mean \"hugoniot_slope\"?"));
   EXPECT_THAT(text, HasSubstr(at + "9:17: error: 'heat_capacity' is -3 J/(kg K), but must be > 0 J/(kg K)"));
   EXPECT_THAT(text, AllOf(HasSubstr("'model' is \"jonson_cook\", did you mean \"johnson_cook\"?"),
-                          HasSubstr("Accepted: none, von_mises, johnson_cook")));
+                          HasSubstr("Accepted: none, von_mises, ")));
   EXPECT_THAT(text, HasSubstr(at + "14:18: error: 'spall_strength' unit"));
   EXPECT_EQ(std::ranges::count(text, '\n'), 5);  // six errors
 }
@@ -191,7 +191,7 @@ TEST_F(MaterialFile, ConstantsWrittenToOutputReadBackToTheSameMaterial) {
   }
 }
 
-TEST(Library, EveryMaterialStartsAtZeroPressureAndStaysThereAtRest) {
+TEST(Library, EveryMaterialStartsInItsReferenceStateAndStaysThereAtRest) {
   const std::vector<LibraryMaterial> all = library_materials();
   ASSERT_GE(all.size(), 7U);
   for (const LibraryMaterial& entry : all) {
@@ -200,11 +200,15 @@ TEST(Library, EveryMaterialStartsAtZeroPressureAndStaysThereAtRest) {
     const Material material = read_material(entry.file);
     const double modulus =
         material.reference.density * material.reference.sound_speed * material.reference.sound_speed;
-    EXPECT_NEAR(material.reference.pressure, 0.0, 1e-10 * modulus);
+    // Gases and detonation products, which have no state of zero pressure, start in their reference state.
+    const double rest_pressure = material.eos->condensed() ? 0.0 : material.reference.pressure;
+    EXPECT_NEAR(material.reference.pressure, rest_pressure, 1e-10 * modulus);
     EXPECT_NEAR(material.reference.density, material.eos->reference_density(),
                 1e-6 * material.reference.density);
     const double room = material.eos->reference_temperature();
-    EXPECT_NEAR(room, 299.0, 1.0);  // 298 K or 300 K, as measured
+    if (material.eos->condensed()) {
+      EXPECT_NEAR(room, 299.0, 1.0);  // 298 K or 300 K, as measured
+    }
     EXPECT_NEAR(material.reference.temperature, room, 1e-9);
     MaterialPoints points;
     resize(points, 3);
@@ -217,9 +221,9 @@ TEST(Library, EveryMaterialStartsAtZeroPressureAndStaysThereAtRest) {
     EXPECT_TRUE(report.valid());
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_EQ(points.volume[i], before.volume[i]);
-      EXPECT_NEAR(points.pressure[i], 0.0, 1e-10 * modulus);
+      EXPECT_NEAR(points.pressure[i], rest_pressure, 1e-10 * modulus);
       EXPECT_NEAR(points.sound_speed[i], before.sound_speed[i], 1e-9 * before.sound_speed[i]);
-      EXPECT_NEAR(points.temperature[i], room, 1e-5);
+      EXPECT_NEAR(points.temperature[i], room, 1e-7 * room);
       EXPECT_EQ(points.failed[i], 0);
     }
   }
