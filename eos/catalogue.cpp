@@ -20,6 +20,10 @@
 #include "eos/models/stiffened_gas.hpp"
 #include "eos/models/tait.hpp"
 #include "eos/models/tillotson.hpp"
+#include "eos/modifiers/floor.hpp"
+#include "eos/modifiers/p_alpha.hpp"
+#include "eos/modifiers/scale.hpp"
+#include "eos/modifiers/shift.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
 
@@ -37,7 +41,31 @@ ModelEntry entry() {
           }};
 }
 
+template <class M>
+ModifierEntry modifier_entry() {
+  using Constants = typename M::Constants;
+  return {std::string(M::name), std::string(M::summary), [] { return describe_table(M::parameters()); },
+          [](const ParameterReader& read)
+              -> std::function<std::unique_ptr<EquationOfState>(ModifierEntry::Base)> {
+            Constants constants;
+            read(whipple::bind(M::parameters(), constants));
+            return [constants](ModifierEntry::Base base) {
+              return std::make_unique<M>(std::move(base), constants);
+            };
+          }};
+}
+
 }  // namespace
+
+std::span<const ModifierEntry> modifier_catalogue() {
+  static const std::array entries = {
+      modifier_entry<Shift>(),
+      modifier_entry<Scale>(),
+      modifier_entry<Floor>(),
+      modifier_entry<PAlpha>(),
+  };
+  return entries;
+}
 
 std::span<const ModelEntry> catalogue() {
   static const std::array entries = {

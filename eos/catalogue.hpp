@@ -29,6 +29,18 @@ struct ModelEntry {
 
 std::span<const ModelEntry> catalogue();
 
+/// What can be put around an equation of state (`[[eos.modifier]]` of a material file, applied in order).
+struct ModifierEntry {
+  using Base = std::shared_ptr<const EquationOfState>;
+  std::string name;
+  std::string summary;
+  std::function<std::string()> describe;
+  /// As that of a model; the builder takes the equation of state inside.
+  std::function<std::function<std::unique_ptr<EquationOfState>(Base)>(const ParameterReader&)> declare;
+};
+
+std::span<const ModifierEntry> modifier_catalogue();
+
 /// Entry by name.
 /// @throws InputError with the known names
 const ModelEntry& find_model(std::string_view name);

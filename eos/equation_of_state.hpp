@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,7 +14,8 @@
 
 namespace whipple::eos {
 
-/// Arrays of equal length, one entry per point (SI). `melted_fraction` and `vaporised_fraction` may be empty.
+/// Arrays of equal length, one entry per point (SI). `melted_fraction`, `vaporised_fraction` and `distension`
+/// may be empty.
 struct Batch {
   std::span<const double> density;                   ///< kg/m^3
   std::span<const double> specific_internal_energy;  ///< J/kg
@@ -22,6 +24,9 @@ struct Batch {
   std::span<double> sound_speed;                     ///< m/s, isentropic (bulk)
   std::span<double> melted_fraction;                 ///< mass fraction of liquid and vapour
   std::span<double> vaporised_fraction;              ///< mass fraction of vapour
+  /// Volume over that of the matter without its pores: the past of porous matter, in and out. Empty: never
+  /// compacted so far. Models without pores leave it alone.
+  std::span<double> distension = {};
 };
 
 /// What a batch met outside the model's range. Kernels count and keep the first; the caller throws.
@@ -30,7 +35,8 @@ struct RangeReport {
   std::size_t out_of_range = 0;  ///< points whose state is not defined (NaN, beyond the compression limit)
   std::size_t first = none;      ///< index of the first of them
   std::string_view bound = "";   ///< which bound it broke
-  std::size_t below_cold_curve = 0;  ///< points colder than the model's least temperature: clamped, counted
+  std::size_t below_cold_curve = 0;   ///< points colder than the model's least temperature: clamped, counted
+  std::size_t at_pressure_floor = 0;  ///< points held at the least pressure of a modifier: counted
 
   void merge(const RangeReport& other) {
     if (other.first != none && (first == none || other.first < first)) {
@@ -39,6 +45,7 @@ struct RangeReport {
     }
     out_of_range += other.out_of_range;
     below_cold_curve += other.below_cold_curve;
+    at_pressure_floor += other.at_pressure_floor;
   }
 };
 
@@ -75,6 +82,14 @@ class EquationOfState {
 
   /// The dome of liquid and vapour in equilibrium; null if the model has none.
   [[nodiscard]] virtual const VapourDome* vapour_dome() const { return nullptr; }
+
+  /// Distension of the matter that bodies start from; 1: no pores.
+  [[nodiscard]] virtual double initial_distension() const { return 1.0; }
+  /// The surface on which a state expands, if that is another one than the one it was loaded on (compacted
+  /// pores do not open again); null: the same.
+  [[nodiscard]] virtual std::unique_ptr<EquationOfState> unloading(const State& /*from*/) const {
+    return nullptr;
+  }
 
   /// All constants with units as TOML lines (provenance in output files).
   [[nodiscard]] virtual std::string constants() const = 0;

@@ -177,6 +177,31 @@ double VapourDome::vaporised_fraction(double V, double E) const {
   return std::clamp(x0 + (x1 - x0) * std::min(1.0, (E - e0) / (e1 - e0)), 0.0, 1.0);
 }
 
+VapourDome VapourDome::transformed(double factor, double energy) const {
+  VapourDome result = *this;
+  Search& search = result.search_;
+  search.fluid = [of = search_.fluid, factor, energy](double V, double T) {
+    const FluidPoint p = of(V / factor, T);
+    return FluidPoint{p.pressure, factor * p.energy + energy, factor * p.entropy};
+  };
+  search.isotherm = [of = search_.isotherm, factor](double V, double T) {
+    const IsothermPoint p = of(V / factor, T);
+    return IsothermPoint{p.pressure, p.pressure_by_volume / factor};
+  };
+  for (double* volume : {&search.dense_volume, &search.loop_volume, &search.dilute_volume,
+                         &search.gas_constant, &result.critical_.specific_volume}) {
+    *volume *= factor;
+  }
+  result.critical_.energy = factor * critical_.energy + energy;
+  for (Saturation& s : result.rows_) {
+    for (double* volume : {&s.liquid_volume, &s.vapour_volume, &s.liquid_entropy, &s.vapour_entropy}) {
+      *volume *= factor;
+    }
+    for (double* value : {&s.liquid_energy, &s.vapour_energy}) *value = factor * *value + energy;
+  }
+  return result;
+}
+
 std::optional<Saturation> VapourDome::at_temperature(double temperature) const {
   if (!(temperature >= rows_.front().temperature && temperature <= rows_.back().temperature))
     return std::nullopt;

@@ -54,6 +54,10 @@ class VapourDome {
   /// @throws InputError if the surface has no critical point within the search
   explicit VapourDome(const Search& search);
 
+  /// The dome of the surface whose volumes, energies and entropies are `factor` times as large, the energies
+  /// then `energy` more (J/kg).
+  [[nodiscard]] VapourDome transformed(double factor, double energy) const;
+
   [[nodiscard]] const CriticalPoint& critical_point() const { return critical_; }
   /// Equilibrium mass fraction of vapour at given volume and energy (lever rule at the temperature at which
   /// the mixture has both): 0 for V below the saturated liquid, 1 beyond the saturated vapour and for

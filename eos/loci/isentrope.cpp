@@ -78,7 +78,9 @@ class IsentropeIntegrator {
 
 std::vector<IsentropeState> isentrope(const EquationOfState& eos, const State& start,
                                       const std::vector<double>& densities) {
-  IsentropeIntegrator integrator(eos, start);
+  const bool expands = !densities.empty() && densities.back() < start.density;
+  const auto unloading = expands ? eos.unloading(start) : nullptr;  // crushed pores stay closed
+  IsentropeIntegrator integrator(unloading ? *unloading : eos, start);
   std::vector<IsentropeState> result;
   for (const double density : densities) {
     const double target = -std::log(density);
@@ -95,8 +97,9 @@ IsentropeState isentrope_at_pressure(const EquationOfState& eos, const State& st
   // Within the round-off of the pressure at this stiffness.
   const double stiffness = start.density * start.sound_speed * start.sound_speed;
   if (std::abs(pressure - start.pressure) <= 1e-12 * (std::abs(pressure) + stiffness)) return {start, 0.0};
-  IsentropeIntegrator integrator(eos, start);
   const double direction = pressure < start.pressure ? 1.0 : -1.0;
+  const auto unloading = direction > 0 ? eos.unloading(start) : nullptr;  // crushed pores stay closed
+  IsentropeIntegrator integrator(unloading ? *unloading : eos, start);
   double last_pressure = start.pressure;
   for (;;) {
     const IsentropeIntegrator before = integrator;
@@ -124,7 +127,8 @@ IsentropeState isentrope_at_pressure(const EquationOfState& eos, const State& st
 }
 
 Release release(const EquationOfState& eos, const State& start, double pressure) {
-  const VapourDome* dome = eos.vapour_dome();
+  const auto unloading = eos.unloading(start);
+  const VapourDome* dome = unloading ? unloading->vapour_dome() : eos.vapour_dome();
   const auto saturation = dome != nullptr ? dome->at_pressure(pressure) : std::nullopt;
   if (saturation && start.specific_entropy > saturation->liquid_entropy &&
       start.specific_entropy < saturation->vapour_entropy) {

@@ -77,6 +77,11 @@ const std::vector<Topic>& topics() {
          return describe_catalogue("equation of state", eos::catalogue(), name);
        },
        [] { return names_of(eos::catalogue()); }},
+      {"modifier", "Modifiers of equations of state (`[[eos.modifier]]` of a material file, in order)",
+       [](const std::string& name) {
+         return describe_catalogue("modifier", eos::modifier_catalogue(), name);
+       },
+       [] { return names_of(eos::modifier_catalogue()); }},
       {"strength", "Strength models (`[strength]` of a material file)", describe_strength,
        [] { return names_of(strength::catalogue()); }},
       {"failure", "Failure criteria (`[[failure]]` of a material file)", describe_failure,
@@ -149,7 +154,7 @@ void add_describe_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("describe", "Every key of the inputs: unit, range, default, meaning");
-  command->add_option("topic", options->topic, "One of case, shape, eos, strength, failure, md");
+  command->add_option("topic", options->topic, "One of case, shape, eos, modifier, strength, failure, md");
   command->add_option("name", options->name, "A model, criterion or shape");
   command->add_flag("--markdown", options->markdown, "Everything, as the page docs/input_reference.md");
   command->footer("Example:\n  whipple describe eos gray");

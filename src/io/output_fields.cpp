@@ -55,6 +55,8 @@ const auto table = std::to_array<OutputField>({
     {"failed", "", "0 intact, 1 failed in tension, 2 failed by plastic strain", false,
      [](const Source& s, std::size_t i) { return s.particles.failed[i]; }},
     {"void_fraction", "1", "opened void volume over total volume of a failed particle", false, void_fraction},
+    {"distension", "1", "volume over that of the matter without its pores", false,
+     [](const Source& s, std::size_t i) { return s.particles.distension[i]; }},
     {"failure_threshold_factor", "1", "scatter of the failure threshold", false,
      [](const Source& s, std::size_t i) { return s.particles.failure_threshold_factor[i]; }},
     {"stress", "Pa", "Cauchy stress xx yy zz xy yz zx, positive in tension, without artificial viscosity", false,

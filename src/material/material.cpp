@@ -84,6 +84,7 @@ void initialise(const Material& material, MaterialPoints& points, std::size_t be
     points.plastic_strain[i] = 0.0;
     points.melted_fraction[i] = state.melted_fraction;
     points.vaporised_fraction[i] = state.vaporised_fraction;
+    points.distension[i] = state.distension;
     points.failure_threshold_factor[i] = 1.0;
     points.failed[i] = failure::intact;
   }

@@ -145,6 +145,10 @@ struct Declared {
   decltype(declare(strength::catalogue(), std::declval<input::Table>())) strength;
   std::vector<decltype(declare(failure::catalogue(), std::declval<input::Table>()))> failure;
   std::string eos_line, strength_line;
+  /// Modifiers of the equation of state, each with its place in the file.
+  std::vector<
+      std::pair<decltype(declare(eos::modifier_catalogue(), std::declval<input::Table>())), std::string>>
+      modifiers;
 };
 
 Declared declare_file(const fs::path& file) {
@@ -156,6 +160,9 @@ Declared declare_file(const fs::path& file) {
   if (auto table = root.required_table("eos")) {
     declared.eos = declare(eos::catalogue(), *table);
     declared.eos_line = table->where();
+    for (input::Table& modifier : table->list("modifier")) {
+      declared.modifiers.emplace_back(declare(eos::modifier_catalogue(), modifier), modifier.where());
+    }
   }
   if (auto table = root.optional_table("strength")) {
     declared.strength = declare(strength::catalogue(), *table);
@@ -210,6 +217,9 @@ Material read_material(const fs::path& path, const fs::path& beside) {
   const fs::path file = find_material(path, beside);
   const Declared declared = declare_file(file);
   std::shared_ptr<const eos::EquationOfState> eos = build(declared.eos, declared.eos_line, "eos");
+  for (const auto& [builder, line] : declared.modifiers) {
+    eos = build([&] { return builder(eos); }, line, "eos.modifier");
+  }
   std::shared_ptr<const strength::Strength> strength;
   if (declared.strength) strength = build(declared.strength, declared.strength_line, "strength");
   std::vector<std::shared_ptr<const failure::Criterion>> failure;

@@ -26,6 +26,7 @@ struct Chunk {
   material::Kinematics motion;  // its deviator becomes the new one
   Lanes solid_modulus, increment;
   Lanes energy, bulk_sound_speed, melted, vaporised;
+  Lanes distension;  // of porous matter only
 
   template <class Array>
   auto view(Array& array) {
@@ -176,16 +177,25 @@ void prepare_energy(Step& step, Chunk& chunk) {
   }
 }
 
+bool porous(const Step& step) { return step.material.eos->initial_distension() > 1.0; }
+
 /// One call for the chunk; density, pressure and temperature become the new ones.
 eos::RangeReport evaluate(Step& step, Chunk& chunk) {
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const std::size_t i = chunk.index[k];
     chunk.density[k] = step.points.mass[i] / step.points.volume[i];
   }
-  eos::RangeReport range = step.material.eos->evaluate(
-      {chunk.view(chunk.density), chunk.view(chunk.energy), chunk.view(chunk.pressure),
-       chunk.view(chunk.temperature), chunk.view(chunk.bulk_sound_speed), chunk.view(chunk.melted),
-       chunk.view(chunk.vaporised)});
+  eos::Batch batch{chunk.view(chunk.density),          chunk.view(chunk.energy),
+                   chunk.view(chunk.pressure),         chunk.view(chunk.temperature),
+                   chunk.view(chunk.bulk_sound_speed), chunk.view(chunk.melted),
+                   chunk.view(chunk.vaporised)};
+  if (porous(step)) {  // always from the distension before the step, which `finish` replaces
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      chunk.distension[k] = step.points.distension[chunk.index[k]];
+    }
+    batch.distension = chunk.view(chunk.distension);
+  }
+  eos::RangeReport range = step.material.eos->evaluate(batch);
   if (range.first != eos::RangeReport::none) range.first = chunk.index[range.first];
   return range;
 }
@@ -275,6 +285,7 @@ double share_volume(double pressure, double modulus, double& volume, double& voi
 void finish(Step& step, Chunk& chunk) {
   MaterialPoints& points = step.points;
   const double least_sound_speed = least_sound_speed_ratio * step.material.reference.sound_speed;
+  const bool has_pores = porous(step);
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const std::size_t i = chunk.index[k];
     const bool intact = points.failed[i] == failure::intact;
@@ -300,6 +311,7 @@ void finish(Step& step, Chunk& chunk) {
     points.temperature[i] = chunk.temperature[k];
     points.melted_fraction[i] = chunk.melted[k];
     points.vaporised_fraction[i] = chunk.vaporised[k];
+    if (has_pores) points.distension[i] = chunk.distension[k];
     points.sound_speed[i] = std::sqrt(squared);
   }
 }

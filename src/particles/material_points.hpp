@@ -32,9 +32,10 @@ struct MaterialPoints {
   std::vector<SymmetricTensor> deviatoric_stress;  ///< Pa, positive in tension
   std::vector<double> temperature;                 ///< K
   std::vector<double> sound_speed;  ///< m/s, longitudinal (with shear stiffness), for time step and viscosity
-  std::vector<double> plastic_strain;            ///< equivalent plastic strain
-  std::vector<double> melted_fraction;           ///< mass fraction of liquid and vapour
-  std::vector<double> vaporised_fraction;        ///< mass fraction of vapour
+  std::vector<double> plastic_strain;      ///< equivalent plastic strain
+  std::vector<double> melted_fraction;     ///< mass fraction of liquid and vapour
+  std::vector<double> vaporised_fraction;  ///< mass fraction of vapour
+  std::vector<double> distension;          ///< volume over that of the matter without its pores (1: none)
   std::vector<double> failure_threshold_factor;  ///< scatter of the failure threshold (1: none)
   std::vector<std::uint8_t> failed;  ///< 0 intact, 1 tensile (spall), 2 plastic strain; see failure models
 
@@ -48,7 +49,7 @@ struct MaterialPoints {
         Field{"deviatoric_stress", "Pa", &P::deviatoric_stress}, Field{"temperature", "K", &P::temperature},
         Field{"sound_speed", "m/s", &P::sound_speed}, Field{"plastic_strain", "1", &P::plastic_strain},
         Field{"melted_fraction", "1", &P::melted_fraction},
-        Field{"vaporised_fraction", "1", &P::vaporised_fraction},
+        Field{"vaporised_fraction", "1", &P::vaporised_fraction}, Field{"distension", "1", &P::distension},
         Field{"failure_threshold_factor", "1", &P::failure_threshold_factor},
         Field{"failed", "1", &P::failed});
   }

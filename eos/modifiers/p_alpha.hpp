@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "eos/modifiers/modified.hpp"
+
+namespace whipple::eos {
+
+struct PAlphaConstants {
+  double distension = 0;                 ///< alpha0 = rho_s/rho of the matter at rest, > 1
+  double elastic_pressure = 0;           ///< p_e, Pa
+  std::string compaction = "quadratic";  ///< or "exponential"
+  double solid_pressure = 0;             ///< p_s, Pa (quadratic)
+  double compaction_rate = 0;            ///< 1/Pa (exponential)
+};
+
+/// Porous matter after Herrmann, J. Appl. Phys. 40, 2490 (1969), with the pressure of the matrix divided by
+/// the distension (Carroll and Holt, J. Appl. Phys. 43, 759, 1972): alpha = V/V_s,
+///   p(rho, e, alpha) = p_s(alpha rho, e)/alpha.
+/// The distension stays while p is below the crush curve and follows it in further loading, for good:
+///   "quadratic":    alpha = 1 + (alpha0 - 1) [(p_s - p)/(p_s - p_e)]^2,  p_e < p < p_s;
+///   "exponential":  alpha = 1 + (alpha0 - 1) exp[-rate (p - p_e)] (Boade, J. Appl. Phys. 39, 5693, 1968),
+///   ended at
+///                   1e-6 (alpha0 - 1).
+/// The energy is that of the matrix (pores have none). States without a past are on the virgin path: loaded
+/// once, from alpha0. Sound speed, Gamma, K_T and heat capacities are those of unloading (constant alpha);
+/// loading that crushes is slower. No vapour dome: it belongs to the matrix.
+class PAlpha final : public Modified {
+ public:
+  using Constants = PAlphaConstants;
+  static constexpr std::string_view name = "p_alpha";
+  static constexpr std::string_view summary =
+      "porous matter that is crushed for good (Herrmann's P-alpha model)";
+  static ParameterTable<Constants> parameters();
+
+  /// @throws InputError for constants that contradict each other, or a base that has pores already
+  PAlpha(std::shared_ptr<const EquationOfState> base, const Constants& constants);
+
+  [[nodiscard]] double reference_density() const override {
+    return base().reference_density() / constants_.distension;
+  }
+  [[nodiscard]] double minimum_energy(double density) const override {
+    return state_at_temperature(density, least_temperature()).specific_internal_energy;
+  }
+  [[nodiscard]] double initial_distension() const override { return constants_.distension; }
+  [[nodiscard]] const VapourDome* vapour_dome() const override { return nullptr; }
+  RangeReport evaluate(const Batch& batch) const override;
+  [[nodiscard]] State state(double density, double specific_internal_energy) const override;
+  [[nodiscard]] State state_at_temperature(double density, double temperature) const override;
+  [[nodiscard]] std::unique_ptr<EquationOfState> unloading(const State& from) const override;
+  [[nodiscard]] std::string constants() const override { return constants_with_table<PAlpha>(constants_); }
+
+  /// The crush curve and its inverse (Pa).
+  [[nodiscard]] double distension_at(double pressure) const;
+  [[nodiscard]] double crush_pressure(double distension) const;
+  /// Where the pores are closed (Pa).
+  [[nodiscard]] double closing_pressure() const { return closing_pressure_; }
+
+ private:
+  template <class MatrixPressure>
+  [[nodiscard]] double crushed(double density, double distension,
+                               const MatrixPressure& matrix_pressure) const;
+  template <class MatrixState>
+  [[nodiscard]] State virgin(double density, const MatrixState& matrix_state) const;
+
+  Constants constants_;
+  bool quadratic_ = true;
+  double closing_pressure_ = 0;
+};
+
+}  // namespace whipple::eos
