@@ -13,7 +13,7 @@ import numpy as np
 
 BUILT_IN_FILTERS = {"deflate", "shuffle", "fletcher32", "scaleoffset"}
 REALS = ("mass pressure temperature density internal_energy melted_fraction vaporised_fraction plastic_strain "
-         "void_fraction failure_threshold_factor von_mises_stress artificial_viscosity sound_speed volume").split()
+         "void_fraction distension failure_threshold_factor von_mises_stress artificial_viscosity sound_speed volume").split()
 POINT_DATA = {name: ("float32", 0) for name in REALS} | {
     "velocity": ("float32", 3), "stress": ("float32", 6), "phase": ("uint8", 0), "failed": ("uint8", 0),
     "body": ("uint16", 0), "material": ("uint16", 0), "id": ("uint64", 0),
