@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "src/base/vector_math.hpp"
+
 namespace whipple::eos {
 
 /// Quintic Hermite interpolation on a uniform grid from exact values and first and second derivatives: error
@@ -29,6 +31,39 @@ class HermiteTable {
   [[nodiscard]] double operator()(double x) const {
     const Polynomial f = polynomial(x);
     return f.c0 + f.t * (f.c1 + f.t * (f.c2 + f.t * (f.c3 + f.t * (f.c4 + f.t * f.c5))));
+  }
+
+  /// Four values at once; not bitwise those of single numbers.
+  [[nodiscard]] Lanes operator()(Lanes x) const {
+    const Lanes position = (x - begin_) * inverse_step_;
+    const double last = static_cast<double>(nodes_.size() - 2);
+    const __m128i cell =
+        _mm256_cvttpd_epi32(__m256d(minimum(maximum(position, broadcast(0.0)), broadcast(last))));
+    alignas(16) int index[4];
+    _mm_store_si128(reinterpret_cast<__m128i*>(index), cell);
+    // Two neighbouring nodes are six numbers in a row: f, f', f'' of the left one, then of the right one.
+    static_assert(sizeof(Node) == 3 * sizeof(double));
+    Lanes rows[4];
+    __m128d tails[4];
+    for (int i = 0; i < 4; ++i) {
+      const double* const node = &nodes_[static_cast<std::size_t>(index[i])].value;
+      rows[i] = load(node);
+      tails[i] = _mm_loadu_pd(node + 4);
+    }
+    const __m256d a = _mm256_unpacklo_pd(__m256d(rows[0]), __m256d(rows[1]));
+    const __m256d b = _mm256_unpackhi_pd(__m256d(rows[0]), __m256d(rows[1]));
+    const __m256d c = _mm256_unpacklo_pd(__m256d(rows[2]), __m256d(rows[3]));
+    const __m256d d = _mm256_unpackhi_pd(__m256d(rows[2]), __m256d(rows[3]));
+    const Lanes f = Lanes(_mm256_permute2f128_pd(a, c, 0x20)), f1 = Lanes(_mm256_permute2f128_pd(b, d, 0x20));
+    const Lanes f2 = Lanes(_mm256_permute2f128_pd(a, c, 0x31)), r = Lanes(_mm256_permute2f128_pd(b, d, 0x31));
+    const __m256d left = _mm256_set_m128d(tails[2], tails[0]), right = _mm256_set_m128d(tails[3], tails[1]);
+    const Lanes r1 = Lanes(_mm256_unpacklo_pd(left, right)), r2 = Lanes(_mm256_unpackhi_pd(left, right));
+    const Lanes t = position - Lanes(_mm256_cvtepi32_pd(cell));
+    const Lanes d0 = r - (f + f1 + 0.5 * f2), d1 = r1 - (f1 + f2), d2 = r2 - f2;
+    const Lanes c3 = 10.0 * d0 - 4.0 * d1 + 0.5 * d2;
+    const Lanes c4 = -15.0 * d0 + 7.0 * d1 - d2;
+    const Lanes c5 = 6.0 * d0 - 3.0 * d1 + 0.5 * d2;
+    return f + t * (f1 + t * (0.5 * f2 + t * (c3 + t * (c4 + t * c5))));
   }
 
   /// Value and exact derivatives of the interpolant.

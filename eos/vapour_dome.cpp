@@ -35,6 +35,9 @@ VapourDome::VapourDome(const Search& search)
   for (int i = 0; i < search_.rows; ++i) {
     const double distance = far + (least_distance - far) * i / (search_.rows - 1);
     rows_.push_back(saturation_at(critical_.temperature * (1 - distance * distance)));
+    const Saturation& row = rows_.back();
+    tie_lines_.push_back({row.liquid_volume, 1 / (row.vapour_volume - row.liquid_volume), row.liquid_energy,
+                          row.vapour_energy - row.liquid_energy});
   }
 }
 
@@ -153,26 +156,20 @@ Saturation VapourDome::saturation_at(double temperature) const {
 double VapourDome::vaporised_fraction(double V, double E) const {
   // Fraction that the volume asks for at a row, and the energy of that mixture; continued linearly out of the
   // dome.
-  const auto fraction = [&](const Saturation& s) {
-    return (V - s.liquid_volume) / (s.vapour_volume - s.liquid_volume);
+  const auto colder = [&](const TieLine& s) {
+    const double x = s.fraction(V);
+    return x >= 0 && x <= 1 && s.energy(x) < E;
   };
-  const auto energy = [&](const Saturation& s, double x) {
-    return s.liquid_energy + x * (s.vapour_energy - s.liquid_energy);
-  };
-  const auto colder = [&](const Saturation& s) {
-    const double x = fraction(s);
-    return x >= 0 && x <= 1 && energy(s, x) < E;
-  };
-  const Saturation& coldest = rows_.front();
+  const TieLine& coldest = tie_lines_.front();
   if (V <= coldest.liquid_volume) return 0.0;
   // The last row that lies in the dome at V with less energy than E.
-  const auto next = std::partition_point(rows_.begin(), rows_.end(), colder);
-  if (next == rows_.begin()) return std::clamp(fraction(coldest), 0.0, 1.0);
-  const Saturation& below = *(next - 1);
-  const double x0 = fraction(below);
-  if (next == rows_.end()) return std::clamp(x0, 0.0, 1.0);
-  const double x1 = fraction(*next);
-  const double e0 = energy(below, x0), e1 = energy(*next, x1);
+  const auto next = std::partition_point(tie_lines_.begin(), tie_lines_.end(), colder);
+  if (next == tie_lines_.begin()) return std::clamp(coldest.fraction(V), 0.0, 1.0);
+  const TieLine& below = *(next - 1);
+  const double x0 = below.fraction(V);
+  if (next == tie_lines_.end()) return std::clamp(x0, 0.0, 1.0);
+  const double x1 = next->fraction(V);
+  const double e0 = below.energy(x0), e1 = next->energy(x1);
   if (!(e1 > e0)) return std::clamp(x0, 0.0, 1.0);
   return std::clamp(x0 + (x1 - x0) * std::min(1.0, (E - e0) / (e1 - e0)), 0.0, 1.0);
 }

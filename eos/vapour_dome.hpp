@@ -78,6 +78,13 @@ class VapourDome {
   Search search_;
   CriticalPoint critical_;
   std::vector<Saturation> rows_;
+  /// What the lever rule needs of a row.
+  struct TieLine {
+    double liquid_volume, inverse_width, liquid_energy, energy_width;
+    [[nodiscard]] double fraction(double V) const { return (V - liquid_volume) * inverse_width; }
+    [[nodiscard]] double energy(double x) const { return liquid_energy + x * energy_width; }
+  };
+  std::vector<TieLine> tie_lines_;
 };
 
 // What the dome is made of, for whoever needs a part of it only.

@@ -5,23 +5,39 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
 
 namespace whipple::eos {
-/// One point: what a batch needs, and where it was found.
-struct Gray::Point {
-  double V = 0, E = 0, T = 0, P = 0;
-  double squared_sound_speed = 0;
-  double melted_fraction = 0;
-  double gruneisen = 0;      ///< V (dP/dE)_V
-  double heat_capacity = 0;  ///< infinite while melting isochorically
+namespace {
+
+/// What a batch needs, of one point or of four.
+template <class Number>
+struct Evaluated {
+  Number V{}, E{}, T{}, P{};
+  Number squared_sound_speed{};
+  Number melted_fraction{};
+  Number gruneisen{};      ///< V (dP/dE)_V
+  Number heat_capacity{};  ///< infinite while melting isochorically
+};
+
+}  // namespace
+
+struct Gray::Point : Evaluated<double> {
   Phase phase = Phase::solid;
   bool tangent = false;     ///< melting on the equilibrium curve
   bool cold = false;        ///< T was held at the least temperature
   std::string_view broken;  ///< bound that the state broke; empty: none
+};
+
+struct Gray::FourPoints : Evaluated<Lanes> {
+  std::array<Phase, 4> phase{};
+  std::array<bool, 4> tangent{};
+  unsigned cold = 0, broken = 0;  ///< bit i: point i
 };
 
 Gray::Gray(const Constants& constants)
@@ -57,8 +73,8 @@ double Gray::fluid_melted_fraction(double T) const {
 namespace {
 
 /// State on one branch, with T known.
-template <class Point>
-void fill_from_branch(Point& p, const GrayBranch& branch) {
+template <class Point, class Number>
+void fill_from_branch(Point& p, const BasicGrayBranch<Number>& branch) {
   p.P = branch.pressure(p.T);
   p.squared_sound_speed = branch.squared_sound_speed(p.V, p.T);
   p.heat_capacity = branch.heat_capacity(p.T);
@@ -67,12 +83,13 @@ void fill_from_branch(Point& p, const GrayBranch& branch) {
 
 /// State in the melting band at the liquid fraction nu: P, and c^2 = V^2 [P (dP/dE)_V - (dP/dV)_E]  (G28)
 /// from the closed forms of (G31).
-template <class Point>
-void fill_from_band(Point& p, const GrayBand& band, const GrayBandSlopes& d, double nu) {
-  const double dE = band.E2 - band.E1, dP = band.P2 - band.P1;
+template <class Point, class Number>
+void fill_from_band(Point& p, const BasicGrayBand<Number>& band, const BasicGrayBandSlopes<Number>& d,
+                    Number nu) {
+  const Number dE = band.E2 - band.E1, dP = band.P2 - band.P1;
   p.P = band.P1 + nu * dP;
-  const double nu_by_volume = -(d.E1 + nu * (d.E2 - d.E1)) / dE;  // at constant E
-  const double pressure_by_volume = d.P1 + nu * (d.P2 - d.P1) + dP * nu_by_volume;
+  const Number nu_by_volume = -(d.E1 + nu * (d.E2 - d.E1)) / dE;  // at constant E
+  const Number pressure_by_volume = d.P1 + nu * (d.P2 - d.P1) + dP * nu_by_volume;
   p.squared_sound_speed = p.V * p.V * (p.P * dP / dE - pressure_by_volume);
   p.gruneisen = p.V * dP / dE;
   p.heat_capacity = dE / (band.T2 - band.T1);
@@ -119,69 +136,158 @@ Gray::Edges Gray::melting_edges(const GrayIsochore& iso, const Above& above) con
   return {surface_.band(iso), false};
 }
 
-Gray::Point Gray::point(double V, double E) const {
+Gray::Point Gray::equilibrium_point(double V, double E) const {
   Point p;
   p.V = V;
   p.E = E;
-  if (!(V > 0) || !std::isfinite(V)) {
-    p.broken = "density must be positive and finite";
+  const GrayIsochore iso = surface_.isochore(V);
+  const Edges edges = melting_edges(iso, [&](const Edges& e) { return E > e.E1; });
+  GrayBranch branch = iso.solid;
+  if (E >= edges.E2) {
+    branch = surface_.liquid_branch(iso);
+    p.phase = Phase::liquid;
+    if (E > branch.energy(constants().hot_liquid_ratio * iso.melting_temperature)) {
+      branch = surface_.hot_liquid_branch(iso);
+      p.phase = Phase::hot_liquid;
+    }
+    p.melted_fraction = 1.0;
+  } else if (E > edges.E1) {
+    p.phase = Phase::melting;
+    if (edges.tangent) {
+      p.T = melting_curve_->temperature(V, E, edges);
+      fill_from_tangent(p, *melting_curve_);
+    } else {
+      p.T = edges.T1;
+      fill_from_band(p, edges, surface_.band_slopes(iso, edges), (E - edges.E1) / (edges.E2 - edges.E1));
+    }
     return p;
   }
-  if (!std::isfinite(E)) {
-    p.broken = "specific internal energy must be finite";
-    return p;
-  }
-  if (V < least_volume_) {
-    p.broken = "density above the compression limit of the cold curve";
-    return p;
-  }
-  GrayBranch branch;
-  if (V > surface_.join_volume()) {
-    p.phase = Phase::vapour;
-    const double T = surface_.vapour_branch_temperature();
-    branch = surface_.vapour_branch(V, false);
-    if (E > branch.energy(T)) branch = surface_.vapour_branch(V, true);
-  } else {
-    const GrayIsochore iso = surface_.isochore(V);
+  p.T = branch.temperature(E);
+  fill_from_branch(p, branch);
+  return p;
+}
+
+/// Four states at once, every branch that one of them needs for all of them. A single point takes the same
+/// way, so that it agrees with a batch bitwise. Points out of range are computed at the reference state.
+Gray::FourPoints Gray::four_points(Lanes V, Lanes E) const {
+  const GrayConstants& c = constants();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  FourPoints p;
+  const LanesMask valid = (V >= least_volume_) & (V < infinity) & (E < infinity) & (E > -infinity);
+  p.broken = ~bits(valid) & all_lanes;
+  V = select(valid, V, broadcast(c.reference_specific_volume));
+  E = select(valid, E, broadcast(c.reference_energy));
+  p.V = V;
+  p.E = E;
+  const double join_volume = surface_.join_volume();
+  const LanesMask thin = V > join_volume;
+  const LanesMask none = V < 0.0;
+  LanesMask warm = none, liquid = none, hot = none, melting = none;
+  BasicGrayBranch<Lanes> branch;
+  BasicGrayIsochore<Lanes> iso;
+  BasicGrayBand<Lanes> band;
+  if (bits(thin) != all_lanes) {
+    iso = surface_.isochore(select(thin, broadcast(join_volume), V));
     branch = iso.solid;
-    // The band never begins below half the melting temperature (G32): most solid points need no more than
-    // this.
-    if (E > branch.energy(0.5 * iso.melting_temperature)) {
-      const Edges band = melting_edges(iso, [&](const Edges& edges) { return E > edges.E1; });
-      if (E >= band.E2) {
-        branch = surface_.liquid_branch(iso);
-        p.phase = Phase::liquid;
-        if (E > branch.energy(constants().hot_liquid_ratio * iso.melting_temperature)) {
-          branch = surface_.hot_liquid_branch(iso);
-          p.phase = Phase::hot_liquid;
-        }
-        p.melted_fraction = 1.0;
-      } else if (E > band.E1) {
-        p.phase = Phase::melting;
-        if (band.tangent) {
-          p.T = melting_curve_->temperature(V, E, band.T1, band.T2);
-          fill_from_tangent(p, *melting_curve_);
-          return p;
-        }
-        const double nu = (E - band.E1) / (band.E2 - band.E1);
-        p.T = band.T1 + nu * (band.T2 - band.T1);
-        fill_from_band(p, band, surface_.band_slopes(iso, band), nu);
-        return p;
+    // No band begins below half the melting temperature (G32): most solid points need no more than this.
+    warm = (E > branch.energy(0.5 * iso.melting_temperature)) & ~thin;
+    if (any(warm) && !melting_curve_) {
+      band = surface_.band(iso);
+      liquid = warm & (E >= band.E2);
+      melting = warm & (E > band.E1) & ~liquid;
+      if (any(liquid)) {
+        const BasicGrayBranch<Lanes> cool = surface_.liquid_branch(iso);
+        branch = select_branch(liquid, cool, branch);
+        hot = liquid & (E > cool.energy(c.hot_liquid_ratio * iso.melting_temperature));
+        if (any(hot)) branch = select_branch(hot, surface_.hot_liquid_branch(iso), branch);
       }
     }
   }
-  if (E < branch.energy(least_temperature)) {
-    p.T = least_temperature;
-    p.cold = true;
-  } else {
-    p.T = branch.temperature(E);
-    if (!std::isfinite(p.T)) {
-      p.broken = "energy above that at which the heat capacity vanishes";
-      return p;
+  if (any(thin)) {
+    const Lanes expanded = select(thin, V, broadcast(2 * join_volume));
+    BasicGrayBranch<Lanes> vapour = surface_.vapour_branch(expanded, false);
+    const LanesMask above = E > vapour.energy(broadcast(surface_.vapour_branch_temperature()));
+    if (any(above & thin)) vapour = select_branch(above, surface_.vapour_branch(expanded, true), vapour);
+    branch = select_branch(thin, vapour, branch);
+  }
+  const LanesMask cold = E < branch.energy(broadcast(least_temperature));
+  p.T = select(cold, broadcast(least_temperature), branch.temperature(E));
+  p.cold = bits(cold & valid);
+  // NaN: above the energy at which the heat capacity vanishes.
+  p.broken |= ~bits(p.T == p.T) & all_lanes;
+  fill_from_branch(p, branch);
+  p.melted_fraction = select(liquid, broadcast(1.0), broadcast(0.0));
+  if (any(melting)) {
+    Evaluated<Lanes> mixed;
+    const Lanes nu = (E - band.E1) / (band.E2 - band.E1);
+    mixed.V = V;
+    mixed.T = band.T1 + nu * (band.T2 - band.T1);
+    fill_from_band(mixed, band, surface_.band_slopes(iso, band), nu);
+    p.T = select(melting, mixed.T, p.T);
+    p.P = select(melting, mixed.P, p.P);
+    p.squared_sound_speed = select(melting, mixed.squared_sound_speed, p.squared_sound_speed);
+    p.melted_fraction = select(melting, mixed.melted_fraction, p.melted_fraction);
+    p.gruneisen = select(melting, mixed.gruneisen, p.gruneisen);
+    p.heat_capacity = select(melting, mixed.heat_capacity, p.heat_capacity);
+  }
+  // What is left to single points: molten fraction of the vapour, equilibrium melting.
+  const unsigned thin_bits = bits(thin), melting_bits = bits(melting), liquid_bits = bits(liquid);
+  const unsigned hot_bits = bits(hot), warm_bits = melting_curve_ ? bits(warm) : 0;
+  if ((thin_bits | melting_bits | liquid_bits | warm_bits) == 0) return p;  // all solid
+  for (unsigned i = 0; i < 4; ++i) {
+    const unsigned bit = 1u << i;
+    if (thin_bits & bit) {
+      p.phase[i] = Phase::vapour;
+      p.melted_fraction[i] = fluid_melted_fraction(p.T[i]);
+    } else if (warm_bits & bit) {
+      const Point single = equilibrium_point(V[i], E[i]);
+      p.phase[i] = single.phase;
+      p.tangent[i] = single.tangent;
+      p.T[i] = single.T;
+      p.P[i] = single.P;
+      p.squared_sound_speed[i] = single.squared_sound_speed;
+      p.melted_fraction[i] = single.melted_fraction;
+      p.gruneisen[i] = single.gruneisen;
+      p.heat_capacity[i] = single.heat_capacity;
+    } else if (melting_bits & bit) {
+      p.phase[i] = Phase::melting;
+    } else if (liquid_bits & bit) {
+      p.phase[i] = hot_bits & bit ? Phase::hot_liquid : Phase::liquid;
     }
   }
-  fill_from_branch(p, branch);
-  if (p.phase == Phase::vapour) p.melted_fraction = fluid_melted_fraction(p.T);
+  return p;
+}
+
+namespace {
+
+/// Which bound a state broke that four_points() did not compute.
+std::string_view broken_bound(double V, double E, double least_volume) {
+  if (!(V > 0) || !std::isfinite(V)) return "density must be positive and finite";
+  if (!std::isfinite(E)) return "specific internal energy must be finite";
+  if (V < least_volume) return "density above the compression limit of the cold curve";
+  return "energy above that at which the heat capacity vanishes";
+}
+
+}  // namespace
+
+Gray::Point Gray::point(double V, double E) const {
+  const FourPoints four = four_points(broadcast(V), broadcast(E));
+  Point p;
+  p.V = V;
+  p.E = E;
+  if (four.broken & 1u) {
+    p.broken = broken_bound(V, E, least_volume_);
+    return p;
+  }
+  p.T = four.T[0];
+  p.P = four.P[0];
+  p.squared_sound_speed = four.squared_sound_speed[0];
+  p.melted_fraction = four.melted_fraction[0];
+  p.gruneisen = four.gruneisen[0];
+  p.heat_capacity = four.heat_capacity[0];
+  p.phase = four.phase[0];
+  p.tangent = four.tangent[0];
+  p.cold = four.cold & 1u;
   return p;
 }
 
@@ -234,28 +340,44 @@ RangeReport Gray::evaluate(const Batch& batch) const {
   RangeReport report;
   const bool melted = !batch.melted_fraction.empty(), vaporised = !batch.vaporised_fraction.empty();
   const double coldest_dome_volume = dome_.rows().front().liquid_volume;
-  for (std::size_t i = 0; i < batch.density.size(); ++i) {
-    const Point p = point(1.0 / batch.density[i], batch.specific_internal_energy[i]);
-    if (!p.broken.empty()) {
-      if (report.out_of_range++ == 0) {
-        report.first = i;
-        report.bound = p.broken;
+  const std::size_t size = batch.density.size();
+  for (std::size_t first = 0; first < size; first += 4) {
+    const std::size_t count = std::min<std::size_t>(4, size - first);
+    Lanes rho = broadcast(reference_density()), E = broadcast(reference_energy());
+    if (count == 4) {
+      rho = load(&batch.density[first]);
+      E = load(&batch.specific_internal_energy[first]);
+    } else {
+      for (std::size_t i = 0; i < count; ++i) {
+        rho[i] = batch.density[first + i];
+        E[i] = batch.specific_internal_energy[first + i];
       }
-      batch.pressure[i] = batch.temperature[i] = batch.sound_speed[i] = State::unknown;
-      if (melted) batch.melted_fraction[i] = State::unknown;
-      if (vaporised) batch.vaporised_fraction[i] = State::unknown;
-      continue;
     }
-    report.below_cold_curve += p.cold ? 1 : 0;
-    batch.pressure[i] = p.P;
-    batch.temperature[i] = p.T;
-    batch.sound_speed[i] = sound_speed(p.squared_sound_speed);
-    double vapour = 0;
-    if ((melted || vaporised) && p.V > coldest_dome_volume && p.phase != Phase::solid) {
-      vapour = dome_.vaporised_fraction(p.V, p.E);
+    const FourPoints p = four_points(1.0 / rho, E);
+    const Lanes c = whipple::sqrt(maximum(p.squared_sound_speed, broadcast(least_squared_sound_speed_)));
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t at = first + i;
+      if (p.broken >> i & 1u) {
+        if (report.out_of_range++ == 0) {
+          report.first = at;
+          report.bound = broken_bound(1.0 / rho[i], E[i], least_volume_);
+        }
+        batch.pressure[at] = batch.temperature[at] = batch.sound_speed[at] = State::unknown;
+        if (melted) batch.melted_fraction[at] = State::unknown;
+        if (vaporised) batch.vaporised_fraction[at] = State::unknown;
+        continue;
+      }
+      report.below_cold_curve += p.cold >> i & 1u;
+      batch.pressure[at] = p.P[i];
+      batch.temperature[at] = p.T[i];
+      batch.sound_speed[at] = c[i];
+      double vapour = 0;
+      if ((melted || vaporised) && p.V[i] > coldest_dome_volume && p.phase[i] != Phase::solid) {
+        vapour = dome_.vaporised_fraction(p.V[i], p.E[i]);
+      }
+      if (melted) batch.melted_fraction[at] = std::max(p.melted_fraction[i], vapour);
+      if (vaporised) batch.vaporised_fraction[at] = vapour;
     }
-    if (melted) batch.melted_fraction[i] = std::max(p.melted_fraction, vapour);
-    if (vaporised) batch.vaporised_fraction[i] = vapour;
   }
   return report;
 }

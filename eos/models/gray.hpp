@@ -73,6 +73,7 @@ class Gray {
  private:
   enum class Phase { solid, melting, liquid, hot_liquid, vapour };
   struct Point;
+  struct FourPoints;
   /// Edges of the melting region on one isochore.
   struct Edges : GrayBand {
     bool tangent = false;  ///< equilibrium of two volumes between them, not (G31) or (G26); P1, P2 not set
@@ -80,7 +81,10 @@ class Gray {
   /// @param above  whether the point lies above the edges' lower one, (T1, E1)
   template <class Above>
   [[nodiscard]] Edges melting_edges(const GrayIsochore& isochore, const Above& above) const;
+  [[nodiscard]] FourPoints four_points(Lanes V, Lanes E) const;
   [[nodiscard]] Point point(double V, double E) const;
+  /// With a melting curve, at half the melting temperature and above, V <= V_J.
+  [[nodiscard]] Point equilibrium_point(double V, double E) const;
   [[nodiscard]] Point point_at_temperature(double V, double T) const;
   [[nodiscard]] State full_state(const Point& point) const;
   [[nodiscard]] double sound_speed(double squared) const;

@@ -48,17 +48,20 @@ double GrayFreeEnergy::lattice_factor(double x) const {  // (G10)
   return std::exp(a * x - (constants_.gruneisen - a) * std::log1p(-x));
 }
 
-GrayFreeEnergy::Cold GrayFreeEnergy::cold_from_energy(double x, double energy) const {
+template <class Number>
+GrayFreeEnergy::Cold<Number> GrayFreeEnergy::cold_from_energy(Number x, Number energy) const {
   // dE_c/dx = V0 P_c turns (G9) into P_c = P1a + P_CC + q (E_c - E_0H)/V0 with q = gamma/(1 - x).
   const GrayConstants& c = constants_;
   const double V0 = c.reference_specific_volume;
   const auto [f, f1, f2] = gray_reference_pressure(x, shock_curve_, c.gruneisen, c.gruneisen_slope);
   const double scale = c.hugoniot_intercept * c.hugoniot_intercept / V0;
-  const double y = 1 - x, excess = c.gruneisen - c.gruneisen_slope;
-  const double q = c.gruneisen_slope + excess / y, q1 = excess / (y * y), q2 = 2 * q1 / y;
-  const double p = scale * f + cold_offset_ + q * energy / V0;
-  const double p1 = scale * f1 + q1 * energy / V0 + q * p;
-  const double p2 = scale * f2 + q2 * energy / V0 + 2 * q1 * p + q * p1;
+  const double excess = c.gruneisen - c.gruneisen_slope;
+  const Number inverse = 1 / (1 - x), density = energy * (1 / V0);
+  const Number q1 = excess * inverse * inverse, q2 = 2 * q1 * inverse,
+               q = c.gruneisen_slope + excess * inverse;
+  const Number p = scale * f + cold_offset_ + q * density;
+  const Number p1 = scale * f1 + q1 * density + q * p;
+  const Number p2 = scale * f2 + q2 * density + 2 * q1 * p + q * p1;
   return {energy, p, p1, p2};
 }
 
@@ -80,7 +83,7 @@ void GrayFreeEnergy::tabulate_cold_curve() {
   // Compression limit (G29): the first x at which the cold pressure stops rising.
   const double last = shock_curve_.limit(pole_margin, greatest_compression);
   constexpr int steps = 500;
-  double limit = last, sum = 0, previous_slope = cold_from_energy(0, energy(0, 0)).p1;
+  double limit = last, sum = 0, previous_slope = cold_from_energy(0.0, energy(0, 0)).p1;
   if (previous_slope <= 0) {
     throw InputError(
         "gray: the cold pressure does not rise with compression at V0; check hugoniot_intercept, gruneisen "
@@ -108,54 +111,57 @@ void GrayFreeEnergy::tabulate_cold_curve() {
   for (int i = origin; i > 0; --i) sums[i - 1] = sums[i] - integral(node(i - 1), node(i));
   std::vector<HermiteTable::Node> nodes;
   for (int i = 0; i <= table_intervals; ++i) {
-    const Cold cold = cold_from_energy(node(i), energy(node(i), sums[i]));
+    const Cold<double> cold = cold_from_energy(node(i), energy(node(i), sums[i]));
     nodes.push_back({cold.e, V0 * cold.p, V0 * cold.p1});
   }
   table_ = HermiteTable(begin, step, std::move(nodes));
 }
 
-GrayFreeEnergy::Cold GrayFreeEnergy::cold(double x) const { return cold_from_energy(x, table_(x)); }
-
-GrayIsochore GrayFreeEnergy::isochore(double V) const {
+template <class Number>
+BasicGrayIsochore<Number> GrayFreeEnergy::isochore(Number V) const {
+  using std::exp;
+  using whipple::exp;
   const GrayConstants& c = constants_;
   const double V0 = c.reference_specific_volume;
-  const double ratio = V / V0, x = 1 - ratio;
-  GrayIsochore result;
+  const Number ratio = V * (1 / V0), x = 1 - ratio, density = 1 / V;
+  BasicGrayIsochore<Number> result;
   result.V = V;
-  result.log_ratio = std::log(ratio);
-  result.gruneisen = c.gruneisen - c.gruneisen_slope * x;                                             // (G2)
-  result.heat_coefficient = heat_coefficient_ * std::exp(c.electronic_gruneisen * result.log_ratio);  // (G8)
+  result.log_ratio = natural_log(ratio);
+  result.gruneisen = c.gruneisen - c.gruneisen_slope * x;                                        // (G2)
+  result.heat_coefficient = heat_coefficient_ * exp(c.electronic_gruneisen * result.log_ratio);  // (G8)
   result.lindemann_exponent =
       2.0 / 3.0 - 2 * c.melting_gruneisen + 2 * c.melting_gruneisen_slope * x;  // (G12)
   result.melting_temperature =
-      c.melting_temperature * std::exp(2 * c.melting_gruneisen_slope * x -
-                                       2 * (c.melting_gruneisen - 1.0 / 3.0 - c.melting_gruneisen_slope) *
-                                           result.log_ratio);  // (G11)
+      c.melting_temperature *
+      exp(2 * c.melting_gruneisen_slope * x -
+          2 * (c.melting_gruneisen - 1.0 / 3.0 - c.melting_gruneisen_slope) * result.log_ratio);  // (G11)
 
-  const Cold cold_state = cold(x);
-  const double g = result.heat_coefficient, gamma = result.gruneisen, gamma_e = c.electronic_gruneisen;
-  result.cold_curvature = cold_state.p2 / (V0 * V0);
-  GrayBranch& s = result.solid;  // (G1), (G3) with (G8)
+  const Cold<Number> cold_state = cold_from_energy(x, table_(x));
+  const Number g = result.heat_coefficient, gamma = result.gruneisen;
+  const double gamma_e = c.electronic_gruneisen;
+  result.cold_curvature = cold_state.p2 * (1 / (V0 * V0));
+  BasicGrayBranch<Number>& s = result.solid;  // (G1), (G3) with (G8)
   s.e0 = c.reference_energy + cold_state.e;
-  s.e1 = lattice_;
-  s.e2 = g / 2;
+  s.e1 = Number{} + lattice_;
+  s.e2 = 0.5 * g;
   s.p0 = cold_state.p;
-  s.p1 = gamma * lattice_ / V;
-  s.p2 = gamma_e * g / (2 * V);
-  s.q0 = -cold_state.p1 / V0;
-  s.q1 = lattice_ * (c.gruneisen_slope / V0 - gamma / V) / V;
-  s.q2 = (gamma_e - 1) * s.p2 / V;
+  s.p1 = gamma * lattice_ * density;
+  s.p2 = 0.5 * gamma_e * g * density;
+  s.q0 = cold_state.p1 * (-1 / V0);
+  s.q1 = lattice_ * (c.gruneisen_slope / V0 - gamma * density) * density;
+  s.q2 = (gamma_e - 1) * s.p2 * density;
   return result;
 }
 
-GrayBranch GrayFreeEnergy::liquid_branch(const GrayIsochore& iso) const {
+template <class Number>
+BasicGrayBranch<Number> GrayFreeEnergy::liquid_branch(const BasicGrayIsochore<Number>& iso) const {
   // E_l - E_s = T_m (dS - alpha/2) - alpha T^2/(2 T_m) (G16), P_l - P_s = -(lambda/V)(E_l - E_s) (G18).
-  const double m = iso.lindemann_exponent / iso.V;
-  const double m1 =
-      -(2 * constants_.melting_gruneisen_slope / constants_.reference_specific_volume + m) / iso.V;
-  const double heat = iso.melting_temperature * (melting_entropy_ - liquid_slope_ / 2);
-  const double slope = liquid_slope_ / (2 * iso.melting_temperature);
-  GrayBranch l = iso.solid;
+  const Number density = 1 / iso.V, m = iso.lindemann_exponent * density;
+  const Number m1 =
+      -(2 * constants_.melting_gruneisen_slope / constants_.reference_specific_volume + m) * density;
+  const Number heat = iso.melting_temperature * (melting_entropy_ - liquid_slope_ / 2);
+  const Number slope = liquid_slope_ / (2 * iso.melting_temperature);
+  BasicGrayBranch<Number> l = iso.solid;
   l.e0 += heat;
   l.e2 -= slope;
   l.p0 -= m * heat;
@@ -165,15 +171,16 @@ GrayBranch GrayFreeEnergy::liquid_branch(const GrayIsochore& iso) const {
   return l;
 }
 
-GrayBranch GrayFreeEnergy::hot_liquid_branch(const GrayIsochore& iso) const {
+template <class Number>
+BasicGrayBranch<Number> GrayFreeEnergy::hot_liquid_branch(const BasicGrayIsochore<Number>& iso) const {
   // E_l - E_s = T_m [dS - alpha (1 - tau_G^2)/2] - tau_G alpha T (G17), pressure as above.
   const double tau = constants_.hot_liquid_ratio;
-  const double m = iso.lindemann_exponent / iso.V;
-  const double m1 =
-      -(2 * constants_.melting_gruneisen_slope / constants_.reference_specific_volume + m) / iso.V;
-  const double heat = iso.melting_temperature * (melting_entropy_ - liquid_slope_ * (1 - tau * tau) / 2);
+  const Number density = 1 / iso.V, m = iso.lindemann_exponent * density;
+  const Number m1 =
+      -(2 * constants_.melting_gruneisen_slope / constants_.reference_specific_volume + m) * density;
+  const Number heat = iso.melting_temperature * (melting_entropy_ - liquid_slope_ * (1 - tau * tau) / 2);
   const double slope = tau * liquid_slope_;
-  GrayBranch l = iso.solid;
+  BasicGrayBranch<Number> l = iso.solid;
   l.e0 += heat;
   l.e1 -= slope;
   l.p0 -= m * heat;
@@ -204,38 +211,49 @@ double GrayFreeEnergy::liquid_entropy_excess(double tau) const {
 // alone would reach below T = 0; where (G31) is meant to be used, k > 5, the bound changes it by less than
 // 0.04 %.
 namespace {
-double band_shape(double k) { return k > 0 ? 1 / std::sqrt(std::sqrt(1 + k * k * k * k)) : 1.0; }
+template <class Number>
+Number band_shape(Number k) {
+  using std::sqrt;
+  using whipple::sqrt;
+  const Number positive = maximum(k, Number{});
+  return 1 / sqrt(sqrt(1 + positive * positive * positive * positive));
+}
 }  // namespace
 
-double GrayFreeEnergy::band_width(const GrayIsochore& iso) const {
-  const double T = iso.melting_temperature, lambda = iso.lindemann_exponent;
+template <class Number>
+Number GrayFreeEnergy::band_width(const BasicGrayIsochore<Number>& iso) const {
+  const Number T = iso.melting_temperature, lambda = iso.lindemann_exponent;
   const double entropy = melting_entropy_ - liquid_slope_;
-  const double k = -iso.V * iso.V * iso.solid.pressure_by_volume(T) / (entropy * lambda * lambda * T);
+  const Number k = -iso.V * iso.V * iso.solid.pressure_by_volume(T) / (entropy * lambda * lambda * T);
   return T * band_shape(k);
 }
 
-double GrayFreeEnergy::band_width_slope(const GrayIsochore& iso) const {
+template <class Number>
+Number GrayFreeEnergy::band_width_slope(const BasicGrayIsochore<Number>& iso) const {
   const GrayConstants& c = constants_;
-  const GrayBranch& s = iso.solid;
-  const double V = iso.V, V0 = c.reference_specific_volume, T = iso.melting_temperature;
-  const double lambda = iso.lindemann_exponent, lambda1 = -2 * c.melting_gruneisen_slope / V0;
-  const double T1 = lambda * T / V;
-  const double Q = s.pressure_by_volume(T);
-  const double q1_slope = 2 * lattice_ * (iso.gruneisen / V - c.gruneisen_slope / V0) / (V * V);
-  const double q2_slope = (c.electronic_gruneisen - 2) * s.q2 / V;
-  const double Q1 = iso.cold_curvature + T * (q1_slope + T * q2_slope) + (s.q1 + 2 * s.q2 * T) * T1;
-  const double scale = (melting_entropy_ - liquid_slope_) * lambda * lambda * T;
-  const double k = -V * V * Q / scale;
-  const double k1 = -(2 * V * Q + V * V * Q1) / scale - k * (2 * lambda1 / lambda + lambda / V);
-  const double shape = band_shape(k);
-  const double shape1 = k > 0 ? -k * k * k * std::pow(shape, 5) : 0.0;
+  const BasicGrayBranch<Number>& s = iso.solid;
+  const double V0 = c.reference_specific_volume;
+  const Number V = iso.V, density = 1 / V, T = iso.melting_temperature, lambda = iso.lindemann_exponent;
+  const double lambda1 = -2 * c.melting_gruneisen_slope / V0;
+  const Number T1 = lambda * T * density;
+  const Number Q = s.pressure_by_volume(T);
+  const Number q1_slope =
+      2 * lattice_ * (iso.gruneisen * density - c.gruneisen_slope / V0) * (density * density);
+  const Number q2_slope = (c.electronic_gruneisen - 2) * s.q2 * density;
+  const Number Q1 = iso.cold_curvature + T * (q1_slope + T * q2_slope) + (s.q1 + 2 * s.q2 * T) * T1;
+  const Number scale = (melting_entropy_ - liquid_slope_) * lambda * lambda * T, inverse = 1 / scale;
+  const Number k = -V * V * Q * inverse;
+  const Number k1 = -(2 * V * Q + V * V * Q1) * inverse - k * (2 * lambda1 / lambda + lambda * density);
+  const Number shape = band_shape(k), squared = shape * shape, positive = maximum(k, Number{});
+  const Number shape1 = -positive * positive * positive * squared * squared * shape;
   return T1 * shape + T * shape1 * k1;
 }
 
-GrayBand GrayFreeEnergy::band(const GrayIsochore& iso) const {
-  const double half = isochoric_ ? 0.0 : band_width(iso) / 2;
-  const GrayBranch l = liquid_branch(iso);
-  GrayBand b;
+template <class Number>
+BasicGrayBand<Number> GrayFreeEnergy::band(const BasicGrayIsochore<Number>& iso) const {
+  const Number half = isochoric_ ? Number{} : 0.5 * band_width(iso);
+  const BasicGrayBranch<Number> l = liquid_branch(iso);
+  BasicGrayBand<Number> b;
   b.T1 = iso.melting_temperature - half;
   b.T2 = iso.melting_temperature + half;
   b.E1 = iso.solid.energy(b.T1);
@@ -245,11 +263,13 @@ GrayBand GrayFreeEnergy::band(const GrayIsochore& iso) const {
   return b;
 }
 
-GrayBandSlopes GrayFreeEnergy::band_slopes(const GrayIsochore& iso, const GrayBand& band) const {
-  const double half = isochoric_ ? 0.0 : band_width_slope(iso) / 2;
-  const double melting_slope = iso.lindemann_exponent * iso.melting_temperature / iso.V;
-  const GrayBranch l = liquid_branch(iso);
-  GrayBandSlopes d;
+template <class Number>
+BasicGrayBandSlopes<Number> GrayFreeEnergy::band_slopes(const BasicGrayIsochore<Number>& iso,
+                                                        const BasicGrayBand<Number>& band) const {
+  const Number half = isochoric_ ? Number{} : 0.5 * band_width_slope(iso);
+  const Number melting_slope = iso.lindemann_exponent * iso.melting_temperature / iso.V;
+  const BasicGrayBranch<Number> l = liquid_branch(iso);
+  BasicGrayBandSlopes<Number> d;
   d.T1 = melting_slope - half;
   d.T2 = melting_slope + half;
   d.E1 = iso.solid.energy_by_volume(band.T1) + iso.solid.heat_capacity(band.T1) * d.T1;
@@ -258,6 +278,19 @@ GrayBandSlopes GrayFreeEnergy::band_slopes(const GrayIsochore& iso, const GrayBa
   d.P2 = l.pressure_by_volume(band.T2) + l.pressure_by_temperature(band.T2) * d.T2;
   return d;
 }
+
+// The two kinds of number.
+template GrayIsochore GrayFreeEnergy::isochore(double) const;
+template BasicGrayIsochore<Lanes> GrayFreeEnergy::isochore(Lanes) const;
+template GrayBranch GrayFreeEnergy::liquid_branch(const GrayIsochore&) const;
+template BasicGrayBranch<Lanes> GrayFreeEnergy::liquid_branch(const BasicGrayIsochore<Lanes>&) const;
+template GrayBranch GrayFreeEnergy::hot_liquid_branch(const GrayIsochore&) const;
+template BasicGrayBranch<Lanes> GrayFreeEnergy::hot_liquid_branch(const BasicGrayIsochore<Lanes>&) const;
+template GrayBand GrayFreeEnergy::band(const GrayIsochore&) const;
+template BasicGrayBand<Lanes> GrayFreeEnergy::band(const BasicGrayIsochore<Lanes>&) const;
+template GrayBandSlopes GrayFreeEnergy::band_slopes(const GrayIsochore&, const GrayBand&) const;
+template BasicGrayBandSlopes<Lanes> GrayFreeEnergy::band_slopes(const BasicGrayIsochore<Lanes>&,
+                                                                const BasicGrayBand<Lanes>&) const;
 
 GrayPoint GrayFreeEnergy::solid(double V, double T) const {
   const GrayIsochore iso = isochore(V);

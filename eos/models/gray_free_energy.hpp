@@ -7,6 +7,7 @@
 #include "eos/models/gray_constants.hpp"
 #include "eos/models/shock_curve.hpp"
 #include "eos/vapour_dome.hpp"
+#include "src/base/vector_math.hpp"
 
 /// Helmholtz free energy of GRAY in closed form, phase by phase (docs/theory/gray.md, sections 2 to 4). All
 /// arguments and results SI; V is the specific volume in m^3/kg, T in K. Cheap to construct (a quarter
@@ -16,64 +17,85 @@ namespace whipple::eos {
 /// One branch of the free energy on the isochore V: in every phase of GRAY energy and pressure are quadratic
 /// in T,
 ///   E = e0 + e1 T + e2 T^2,  P = p0 + p1 T + p2 T^2,  (dP/dV)_T = q0 + q1 T + q2 T^2.
-struct GrayBranch {
-  double e0 = 0, e1 = 0, e2 = 0;
-  double p0 = 0, p1 = 0, p2 = 0;
-  double q0 = 0, q1 = 0, q2 = 0;
+/// @tparam Number  double, or Lanes for four points at once
+template <class Number>
+struct BasicGrayBranch {
+  Number e0{}, e1{}, e2{};
+  Number p0{}, p1{}, p2{};
+  Number q0{}, q1{}, q2{};
 
-  [[nodiscard]] double energy(double T) const { return e0 + T * (e1 + T * e2); }
-  [[nodiscard]] double heat_capacity(double T) const { return e1 + 2 * e2 * T; }
-  [[nodiscard]] double pressure(double T) const { return p0 + T * (p1 + T * p2); }
+  [[nodiscard]] Number energy(Number T) const { return e0 + T * (e1 + T * e2); }
+  [[nodiscard]] Number heat_capacity(Number T) const { return e1 + 2 * e2 * T; }
+  [[nodiscard]] Number pressure(Number T) const { return p0 + T * (p1 + T * p2); }
   /// (dP/dT)_V
-  [[nodiscard]] double pressure_by_temperature(double T) const { return p1 + 2 * p2 * T; }
+  [[nodiscard]] Number pressure_by_temperature(Number T) const { return p1 + 2 * p2 * T; }
   /// (dP/dV)_T
-  [[nodiscard]] double pressure_by_volume(double T) const { return q0 + T * (q1 + T * q2); }
+  [[nodiscard]] Number pressure_by_volume(Number T) const { return q0 + T * (q1 + T * q2); }
   /// (dE/dV)_T = T (dP/dT)_V - P
-  [[nodiscard]] double energy_by_volume(double T) const {
+  [[nodiscard]] Number energy_by_volume(Number T) const {
     return T * pressure_by_temperature(T) - pressure(T);
   }
   /// Root of energy(T) = E with positive heat capacity, without cancellation for e2 -> 0. NaN if E is above
   /// the energy at which the heat capacity vanishes (possible for negative e2 only).
-  [[nodiscard]] double temperature(double E) const {
-    return 2 * (E - e0) / (e1 + std::sqrt(e1 * e1 + 4 * e2 * (E - e0)));
+  [[nodiscard]] Number temperature(Number E) const {
+    using std::sqrt;
+    using whipple::sqrt;
+    return 2 * (E - e0) / (e1 + sqrt(e1 * e1 + 4 * e2 * (E - e0)));
   }
   /// c^2 = V^2 [T (dP/dT)_V^2/C_v - (dP/dV)_T]  (G28)
-  [[nodiscard]] double squared_sound_speed(double V, double T) const {
-    const double slope = pressure_by_temperature(T);
+  [[nodiscard]] Number squared_sound_speed(Number V, Number T) const {
+    const Number slope = pressure_by_temperature(T);
     return V * V * (T * slope * slope / heat_capacity(T) - pressure_by_volume(T));
   }
 };
+using GrayBranch = BasicGrayBranch<double>;
+
+/// Point by point a where the mask holds, else b.
+inline BasicGrayBranch<Lanes> select_branch(LanesMask mask, const BasicGrayBranch<Lanes>& a,
+                                            const BasicGrayBranch<Lanes>& b) {
+  return {select(mask, a.e0, b.e0), select(mask, a.e1, b.e1), select(mask, a.e2, b.e2),
+          select(mask, a.p0, b.p0), select(mask, a.p1, b.p1), select(mask, a.p2, b.p2),
+          select(mask, a.q0, b.q0), select(mask, a.q1, b.q1), select(mask, a.q2, b.q2)};
+}
 
 /// Vapour at V > V_J, joined to a liquid whose branch at V_J is given (G20 to G25): hard spheres and
 /// attraction relative to V_J, and F_E(V) D(T) with D = P_l(V_J, T) - P_HS(V_J, T) + a_y/V_J^2 = d0 + d1 T +
 /// d2 T^2.
 /// @param constants  with a finite attraction
-GrayBranch gray_vapour_branch(const GrayConstants& constants, const GrayBranch& liquid_at_join, double V);
+template <class Number>
+BasicGrayBranch<Number> gray_vapour_branch(const GrayConstants& constants, const GrayBranch& liquid_at_join,
+                                           Number V);
 
 /// What the condensed phases share on the isochore V <= V_J.
-struct GrayIsochore {
-  double V = 0;
-  double log_ratio = 0;            ///< ln(V/V0)
-  double gruneisen = 0;            ///< gamma(V)  (G2)
-  double heat_coefficient = 0;     ///< g_e(V), J/(kg K^2)  (G8)
-  double melting_temperature = 0;  ///< T_m(V)  (G11)
-  double lindemann_exponent = 0;   ///< lambda = d ln T_m/d ln V  (G12)
-  double cold_curvature = 0;       ///< d^2 P_c/dV^2
-  GrayBranch solid;
+template <class Number>
+struct BasicGrayIsochore {
+  Number V{};
+  Number log_ratio{};            ///< ln(V/V0)
+  Number gruneisen{};            ///< gamma(V)  (G2)
+  Number heat_coefficient{};     ///< g_e(V), J/(kg K^2)  (G8)
+  Number melting_temperature{};  ///< T_m(V)  (G11)
+  Number lindemann_exponent{};   ///< lambda = d ln T_m/d ln V  (G12)
+  Number cold_curvature{};       ///< d^2 P_c/dV^2
+  BasicGrayBranch<Number> solid;
 };
+using GrayIsochore = BasicGrayIsochore<double>;
 
 /// Edges of the melting band on an isochore (G31), or both at T_m for isochoric melting (G26).
 /// Equilibrium melting is not a matter of one isochore: GrayMeltingCurve.
-struct GrayBand {
-  double T1 = 0, T2 = 0;  ///< solid below T1, liquid above T2, K
-  double E1 = 0, E2 = 0;  ///< energies of the edges
-  double P1 = 0, P2 = 0;  ///< pressures of the edges
+template <class Number>
+struct BasicGrayBand {
+  Number T1{}, T2{};  ///< solid below T1, liquid above T2, K
+  Number E1{}, E2{};  ///< energies of the edges
+  Number P1{}, P2{};  ///< pressures of the edges
 };
+using GrayBand = BasicGrayBand<double>;
 
 /// Derivatives of the edges along V.
-struct GrayBandSlopes {
-  double T1 = 0, T2 = 0, E1 = 0, E2 = 0, P1 = 0, P2 = 0;
+template <class Number>
+struct BasicGrayBandSlopes {
+  Number T1{}, T2{}, E1{}, E2{}, P1{}, P2{};
 };
+using GrayBandSlopes = BasicGrayBandSlopes<double>;
 
 /// Quantities at (V, T) on one branch.
 struct GrayPoint {
@@ -121,14 +143,24 @@ class GrayFreeEnergy {
   [[nodiscard]] VapourDome::Search dome_search() const;
 
   // Building blocks of the evaluation.
-  [[nodiscard]] GrayIsochore isochore(double V) const;
-  [[nodiscard]] GrayBranch liquid_branch(
-      const GrayIsochore& isochore) const;  ///< T_m <= T <= T_G  (G16, G18)
-  [[nodiscard]] GrayBranch hot_liquid_branch(const GrayIsochore& isochore) const;  ///< T > T_G  (G17, G18)
-  [[nodiscard]] GrayBand band(const GrayIsochore& isochore) const;
-  [[nodiscard]] GrayBandSlopes band_slopes(const GrayIsochore& isochore, const GrayBand& band) const;
+  template <class Number>
+  [[nodiscard]] BasicGrayIsochore<Number> isochore(Number V) const;
+  /// T_m <= T <= T_G  (G16, G18)
+  template <class Number>
+  [[nodiscard]] BasicGrayBranch<Number> liquid_branch(const BasicGrayIsochore<Number>& isochore) const;
+  /// T > T_G  (G17, G18)
+  template <class Number>
+  [[nodiscard]] BasicGrayBranch<Number> hot_liquid_branch(const BasicGrayIsochore<Number>& isochore) const;
+  template <class Number>
+  [[nodiscard]] BasicGrayBand<Number> band(const BasicGrayIsochore<Number>& isochore) const;
+  template <class Number>
+  [[nodiscard]] BasicGrayBandSlopes<Number> band_slopes(const BasicGrayIsochore<Number>& isochore,
+                                                        const BasicGrayBand<Number>& band) const;
   /// Branch of the vapour at V >= V_J: below (hot = false) or above T_G(V_J)  (G25)
-  [[nodiscard]] GrayBranch vapour_branch(double V, bool hot) const;
+  template <class Number>
+  [[nodiscard]] BasicGrayBranch<Number> vapour_branch(Number V, bool hot) const {
+    return gray_vapour_branch(constants_, hot ? join_hot_ : join_cool_, V);
+  }
   /// Branch of fluid() at (V, T).
   [[nodiscard]] GrayBranch fluid_branch(double V, double T) const;
   /// T_G(V_J): the vapour changes branch there at every volume.
@@ -143,18 +175,21 @@ class GrayFreeEnergy {
 
  private:
   /// Cold curve and its derivatives along x = 1 - V/V0.
+  template <class Number>
   struct Cold {
-    double e, p, p1, p2;  ///< E_c - E_0H, P_c, dP_c/dx, d^2P_c/dx^2
+    Number e, p, p1, p2;  ///< E_c - E_0H, P_c, dP_c/dx, d^2P_c/dx^2
   };
-  [[nodiscard]] Cold cold(double x) const;
-  [[nodiscard]] Cold cold_from_energy(double x, double energy) const;
+  template <class Number>
+  [[nodiscard]] Cold<Number> cold_from_energy(Number x, Number energy) const;
   [[nodiscard]] double lattice_factor(double x) const;  ///< h(x)  (G10)
   void tabulate_cold_curve();
   void prepare_vapour();
   void solve_vapour_attraction();
   void check_heat_capacity() const;
-  [[nodiscard]] double band_width(const GrayIsochore& isochore) const;
-  [[nodiscard]] double band_width_slope(const GrayIsochore& isochore) const;
+  template <class Number>
+  [[nodiscard]] Number band_width(const BasicGrayIsochore<Number>& isochore) const;
+  template <class Number>
+  [[nodiscard]] Number band_width_slope(const BasicGrayIsochore<Number>& isochore) const;
   [[nodiscard]] double join_difference_slope(double T) const;  ///< dD/dT of (G25)
 
   GrayConstants constants_;

@@ -186,16 +186,16 @@ double GrayMeltingCurve::liquid_fraction(double V, double T) const {
   return std::clamp((V - Vs) / (Vl - Vs), 0.0, 1.0);
 }
 
-double GrayMeltingCurve::temperature(double V, double E, double T1, double T2) const {
+double GrayMeltingCurve::temperature(double V, double E, const GrayBand& edges) const {
   // The energy is nearly linear in T between the edges, and rises (C_v > 0): Newton's method, kept between.
-  const double E1 = mixture(V, T1).energy, E2 = mixture(V, T2).energy;
+  const double T1 = edges.T1, T2 = edges.T2, E1 = edges.E1, E2 = edges.E2;
   double T = std::clamp(T1 + (T2 - T1) * (E - E1) / (E2 - E1), T1, T2);
   for (int i = 0; i < 20; ++i) {
     const Mixture m = mixture(V, T);
     const double next = std::clamp(T - (m.energy - E) / m.heat_capacity, T1, T2);
     const double change = std::abs(next - T);
     T = next;
-    if (change < 1e-14 * T) break;
+    if (change < 1e-13 * T) break;
   }
   return T;
 }

@@ -45,8 +45,9 @@ class GrayMeltingCurve {
   [[nodiscard]] Mixture mixture(double V, double T) const;
   /// Mass fraction of liquid (lever rule).
   [[nodiscard]] double liquid_fraction(double V, double T) const;
-  /// Temperature of the mixture with energy E, from T1 to T2 (where it has less and more energy).
-  [[nodiscard]] double temperature(double V, double E, double T1, double T2) const;
+  /// Temperature of the mixture with energy E.
+  /// @param edges  of the isochore: temperatures and energies
+  [[nodiscard]] double temperature(double V, double E, const GrayBand& edges) const;
 
  private:
   HermiteTable pressure_, gibbs_, solid_volume_, liquid_volume_;  ///< over T

@@ -9,58 +9,67 @@ namespace whipple::eos {
 namespace {
 
 /// Compressibility of hard spheres, Carnahan and Starling, J. Chem. Phys. 51, 635 (1969).
-double compressibility(double z) {
-  const double y = 1 - z;
+template <class Number>
+Number compressibility(Number z) {
+  const Number y = 1 - z;
   return (1 + z * (1 + z * (1 - z))) / (y * y * y);
 }
 /// dZ/dz
-double compressibility_slope(double z) {
-  const double y = 1 - z;
+template <class Number>
+Number compressibility_slope(Number z) {
+  const Number y = 1 - z;
   return (1 + z * (2 - 3 * z)) / (y * y * y) + 3 * (1 + z * (1 + z * (1 - z))) / (y * y * y * y);
 }
 /// Integral of (Z - 1)/z from 0 to z: excess free energy of hard spheres over R T.
 double excess_free_energy(double z) { return z * (4 - 3 * z) / ((1 - z) * (1 - z)); }
 
 /// Join function F_P (G21), its derivative dF_P/dV and its integral F_E (G23).
+template <class Number>
 struct Join {
-  double pressure, pressure_by_volume, energy;
+  Number pressure, pressure_by_volume, energy;
 };
-Join join_function(double V, double covolume, double z_join, double theta) {
-  const double z = covolume / V;
-  const double root = z * (theta - z_join) / (z_join * (theta - z));
-  const double cube = root * root * root;
+template <class Number>
+Join<Number> join_function(Number V, double covolume, double z_join, double theta) {
+  const Number z = covolume / V;
+  const Number root = z * (theta - z_join) / (z_join * (theta - z));
+  const Number cube = root * root * root;
   // d ln(root)/dz = 1/z + 1/(theta - z) = theta/(z (theta - z)), dz/dV = -z/V
-  const double slope = -3 * cube * theta / ((theta - z) * V);
+  const Number slope = -3 * cube * theta / ((theta - z) * V);
   const double d = theta - z_join;
-  const double ratio = d / (theta - z);
-  const double energy = covolume / (2 * z_join * z_join * z_join) * d *
+  const Number ratio = d / (theta - z);
+  const Number energy = covolume / (2 * z_join * z_join * z_join) * d *
                         (ratio * ratio * (2 * z - theta) - (2 * z_join - theta));
   return {cube, slope, energy};
 }
 
 }  // namespace
 
-GrayBranch gray_vapour_branch(const GrayConstants& c, const GrayBranch& l, double V) {
+template <class Number>
+BasicGrayBranch<Number> gray_vapour_branch(const GrayConstants& c, const GrayBranch& l, Number V) {
   const double gas = GrayConstants::gas_constant / c.molar_mass, a = c.vapour_attraction;
   const double join_volume = c.join_volume_ratio * c.reference_specific_volume;
   const double covolume = c.covolume_ratio * c.reference_specific_volume;
-  const double z = covolume / V, z_join = covolume / join_volume;
+  const double z_join = covolume / join_volume;
+  const Number density = 1 / V, z = covolume * density;
   const double d0 = l.p0 + a / (join_volume * join_volume);
   const double d1 = l.p1 - gas * compressibility(z_join) / join_volume;
   const double d2 = l.p2;
-  const Join join = join_function(V, covolume, z_join, c.join_shape);
-  GrayBranch v;
-  v.e0 = l.e0 - a * (1 / V - 1 / join_volume) + d0 * join.energy;
-  v.e1 = l.e1;
+  const Join<Number> join = join_function(V, covolume, z_join, c.join_shape);
+  const Number Z = compressibility(z);
+  BasicGrayBranch<Number> v;
+  v.e0 = l.e0 - a * (density - 1 / join_volume) + d0 * join.energy;
+  v.e1 = Number{} + l.e1;
   v.e2 = l.e2 - d2 * join.energy;
-  v.p0 = -a / (V * V) + d0 * join.pressure;
-  v.p1 = gas * compressibility(z) / V + d1 * join.pressure;
+  v.p0 = -a * density * density + d0 * join.pressure;
+  v.p1 = gas * Z * density + d1 * join.pressure;
   v.p2 = d2 * join.pressure;
-  v.q0 = 2 * a / (V * V * V) + d0 * join.pressure_by_volume;
-  v.q1 = -gas * (compressibility(z) + z * compressibility_slope(z)) / (V * V) + d1 * join.pressure_by_volume;
+  v.q0 = 2 * a * density * density * density + d0 * join.pressure_by_volume;
+  v.q1 = -gas * (Z + z * compressibility_slope(z)) * density * density + d1 * join.pressure_by_volume;
   v.q2 = d2 * join.pressure_by_volume;
   return v;
 }
+template GrayBranch gray_vapour_branch(const GrayConstants&, const GrayBranch&, double);
+template BasicGrayBranch<Lanes> gray_vapour_branch(const GrayConstants&, const GrayBranch&, Lanes);
 
 void GrayFreeEnergy::prepare_vapour() {
   join_ = isochore(join_volume_);
@@ -69,13 +78,6 @@ void GrayFreeEnergy::prepare_vapour() {
   join_cool_ = liquid_branch(join_);
   join_hot_ = hot_liquid_branch(join_);
   join_compressibility_ = compressibility(covolume_ / join_volume_);
-}
-
-GrayBranch GrayFreeEnergy::vapour_branch(double V, bool hot) const {
-  // (G25): F = F_l(V_J, T) + hard spheres and attraction relative to V_J + D(T) F_E(V), with
-  // D = P_l(V_J, T) - P_HS(V_J, T) + a_y/V_J^2 = d0 + d1 T + d2 T^2.
-  const GrayBranch& l = hot ? join_hot_ : join_cool_;
-  return gray_vapour_branch(constants_, l, V);
 }
 
 GrayBranch GrayFreeEnergy::fluid_branch(double V, double T) const {
@@ -93,7 +95,7 @@ double GrayFreeEnergy::join_difference_slope(double T) const {
 double GrayFreeEnergy::vapour_entropy(double V, double T) const {
   // -dF/dT of (G25)
   const double z = covolume_ / V, z_join = covolume_ / join_volume_;
-  const Join join = join_function(V, covolume_, z_join, constants_.join_shape);
+  const Join<double> join = join_function(V, covolume_, z_join, constants_.join_shape);
   return solid_entropy(join_, T) + liquid_entropy_excess(T / join_.melting_temperature) -
          gas_ * (std::log(z / z_join) + excess_free_energy(z) - excess_free_energy(z_join)) -
          join_difference_slope(T) * join.energy;

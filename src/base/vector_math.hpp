@@ -3,6 +3,8 @@
 
 #include <immintrin.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "src/base/simd.hpp"
@@ -48,5 +50,14 @@ using LanesMask = decltype(Lanes{} < Lanes{});
 /// One bit per lane of a comparison.
 inline unsigned bits(LanesMask mask) { return static_cast<unsigned>(_mm256_movemask_pd(__m256d(mask))); }
 inline constexpr unsigned all_lanes = 15;
+inline bool any(LanesMask mask) { return bits(mask) != 0; }
+inline Lanes select(LanesMask mask, Lanes a, Lanes b) { return mask ? a : b; }
+
+// The same for one number: formulas written for either.
+inline double natural_log(double x) { return std::log(x); }
+inline double minimum(double a, double b) { return std::min(a, b); }
+inline double maximum(double a, double b) { return std::max(a, b); }
+inline bool any(bool mask) { return mask; }
+inline double select(bool mask, double a, double b) { return mask ? a : b; }
 
 }  // namespace whipple

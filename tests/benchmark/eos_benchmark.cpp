@@ -34,6 +34,27 @@ void evaluate(benchmark::State& bench, const EquationOfState& eos, Region region
       n * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
+/// Random states over the phases, one after the other in no order.
+void evaluate_spread(benchmark::State& bench, const EquationOfState& eos, double least_ratio,
+                     double greatest_ratio, double hottest) {
+  constexpr std::size_t n = 4096;
+  std::vector<double> rho(n), e(n), P(n), T(n), c(n), melted(n), vapour(n);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    rho[i] = eos.reference_density() / (least_ratio + (greatest_ratio - least_ratio) * uniform(random));
+    const double from = eos.state_at_temperature(rho[i], 300).specific_internal_energy;
+    const double to = eos.state_at_temperature(rho[i], hottest).specific_internal_energy;
+    e[i] = from + (to - from) * uniform(random);
+  }
+  for (auto _ : bench) {
+    benchmark::DoNotOptimize(eos.evaluate({rho, e, P, T, c, melted, vapour}));
+    benchmark::ClobberMemory();
+  }
+  bench.counters["ns/point"] = benchmark::Counter(
+      n * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
 const test::GrayEos& copper_eos() {
   static const test::GrayEos eos(test::copper());
   return eos;
@@ -48,6 +69,12 @@ void gray_melting(benchmark::State& s) { evaluate(s, copper_eos(), {0.8, 1.93e6}
 void gray_liquid(benchmark::State& s) { evaluate(s, copper_eos(), {0.8, 3e6}); }
 void gray_hot_liquid(benchmark::State& s) { evaluate(s, copper_eos(), {1.1, 8e6}); }
 void gray_vapour(benchmark::State& s) { evaluate(s, copper_eos(), {50, 8e6}); }
+void gray_solid_melt_liquid(benchmark::State& s) { evaluate_spread(s, copper_eos(), 0.6, 1.2, 8000); }
+void gray_all_phases(benchmark::State& s) { evaluate_spread(s, copper_eos(), 0.6, 3.0, 20000); }
+void gray_equilibrium_melting(benchmark::State& s) {
+  static const test::GrayEos eos(test::copper("equilibrium"));
+  evaluate(s, eos, {0.8, 1.93e6});
+}
 void gray_dome(benchmark::State& s) { evaluate(s, copper_eos(), {5, 3.5e6}); }
 void debye_gruneisen(benchmark::State& s) {
   static const ModelEquationOfState<DebyeGruneisen> eos(test::debye_copper());
@@ -60,6 +87,9 @@ BENCHMARK(gray_liquid);
 BENCHMARK(gray_hot_liquid);
 BENCHMARK(gray_vapour);
 BENCHMARK(gray_dome);
+BENCHMARK(gray_solid_melt_liquid);
+BENCHMARK(gray_all_phases);
+BENCHMARK(gray_equilibrium_melting);
 BENCHMARK(debye_gruneisen);
 BENCHMARK(mie_gruneisen);
 
