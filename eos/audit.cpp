@@ -18,6 +18,7 @@ namespace {
 // Bounds, each named in the message of its finding.
 constexpr double condensed_pressure = 0.1;         ///< of rho c^2: more at rest is a gas or a product
 constexpr double resting_pressure = 1e-3;          ///< of rho c^2
+constexpr double greatest_thermal_excess = 9;      ///< of rho c^2: how far below zero K_T may be at rest
 constexpr double least_compression = 1.02;         ///< compression limit that is of any use
 constexpr double modest_compression = 1.2;         ///< compression limit of shocks of impact
 constexpr double least_strength = 0.01;            ///< of rho c^2: strongest shock that is of any use
@@ -109,9 +110,16 @@ class Auditor {
       return false;
     }
     if (const std::string fault = instability(s); !fault.empty()) {
-      object(Verdict::not_usable, "reference state ({:.6g} kg/m^3, {:.4g} K): {}", density, s.temperature,
-             fault);
-      return false;
+      // With c^2 > 0 the flow is well posed where K_T is not positive (stiffened gases): only what is asked
+      // at constant temperature fails. Far below zero the heat capacity or the stiffness are in another unit.
+      const bool flows = s.isothermal_bulk_modulus > -greatest_thermal_excess * stiffness() &&
+                         s.isothermal_bulk_modulus <= 0 && s.heat_capacity > 0 && s.sound_speed > 0 &&
+                         squared_sound_speed(s) > 0;
+      object(flows ? Verdict::reservations : Verdict::not_usable,
+             "reference state ({:.6g} kg/m^3, {:.4g} K): {}{}", density, s.temperature, fault,
+             flows ? ": no temperature of this model can be trusted" : "");
+      if (!flows) return false;
+      thermal_ = false;
     }
     result_.condensed = std::abs(s.pressure) < condensed_pressure * stiffness();
     if (result_.condensed && std::abs(s.pressure) > resting_pressure * stiffness()) {
@@ -134,7 +142,7 @@ class Auditor {
   void check_cold_curve() {
     const double rho0 = eos_.reference_density();
     double& limit = result_.range.greatest_density;
-    if (result_.condensed) {
+    if (result_.condensed && thermal_) {
       result_.cold = cold_curve(eos_);
       const ColdCurve& cold = *result_.cold;
       if (!cold.tension_limit.phase.empty()) result_.range.least_density = cold.tension_limit.density;
@@ -145,7 +153,7 @@ class Auditor {
                cold.compression_limit.density, cold.compression_limit.pressure / GPa, limit);
         limit = cold.compression_limit.density;
       }
-      if (std::abs(cold.at_rest.density / rho0 - 1) > 0.1) {
+      if (std::abs(cold.at_rest.density / rho0 - 1) > 0.2) {
         object(Verdict::reservations,
                "cold matter is at rest at {:.5g} kg/m^3, {:+.0f} % from the reference density",
                cold.at_rest.density, 100 * (cold.at_rest.density / rho0 - 1));
@@ -176,7 +184,7 @@ class Auditor {
         return error.what();
       }
       const ShockState& before = range.strongest_shock;
-      const std::string fault = instability(s.state);
+      const std::string fault = thermal_ ? instability(s.state) : std::string();
       if (!fault.empty())
         return fmt::format("{} ({:.5g} kg/m^3, {:.4g} K)", fault, s.state.density, s.state.temperature);
       if (!(s.state.pressure > before.state.pressure)) return "the pressure does not rise with the velocity";

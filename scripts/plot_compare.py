@@ -27,7 +27,7 @@ def main():
     with open(sys.argv[1], encoding="utf-8") as file:
         panels = json.load(file)
     plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False})
-    columns = min(len(panels), 3)
+    columns = 2 if len(panels) == 4 else min(len(panels), 3)
     rows = -(-len(panels) // columns)
     figure, axes = plt.subplots(2 * rows, columns, figsize=(5.2 * columns, 5.4 * rows), sharex=False,
                                 height_ratios=(3, 1.2) * rows, layout="constrained", squeeze=False)

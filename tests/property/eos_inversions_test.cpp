@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// State -> pair of variables -> the same state, for every material of the library at random states; what
-// cannot be inverted is refused with the reason.
+// State -> pair of variables -> the same state, for every model and material of the library at random states;
+// what cannot be inverted is refused with the reason.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <ostream>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "eos/inversions.hpp"
 #include "src/base/error.hpp"
 #include "src/material/material_file.hpp"
-
-namespace whipple {
-
-/// As GoogleTest shows the parameter.
-void PrintTo(const LibraryMaterial& material, std::ostream* out) { *out << material.file.stem().string(); }
-
-}  // namespace whipple
+#include "tests/unit/eos_impact_constants.hpp"
 
 namespace whipple::eos::test {
 namespace {
+
+template <class M>
+std::function<std::shared_ptr<const EquationOfState>()> with(const typename M::Constants& constants) {
+  return [constants] { return std::make_shared<ModelEquationOfState<M>>(constants); };
+}
 
 struct Count {
   int asked = 0;
@@ -34,9 +37,29 @@ bool stable(const State& s) {
          std::isfinite(s.heat_capacity) && s.gruneisen > 0;
 }
 
-class Inversions : public ::testing::TestWithParam<LibraryMaterial> {
+/// A material of the library, or a model on published constants.
+struct Named {
+  std::string name;
+  std::function<std::shared_ptr<const EquationOfState>()> build;
+};
+/// As GoogleTest shows the parameter.
+void PrintTo(const Named& named, std::ostream* out) { *out << named.name; }
+
+std::vector<Named> equations_of_state() {
+  std::vector<Named> all = {
+      {"tillotson", with<Tillotson>(aluminium_tillotson())},    {"jwl", with<Jwl>(tnt())},
+      {"polynomial", with<Polynomial>(aluminium_polynomial())}, {"ideal_gas", with<IdealGas>(air())},
+      {"murnaghan", with<Murnaghan>(copper_murnaghan())},       {"tait", with<Tait>(water_tait())}};
+  for (const LibraryMaterial& entry : library_materials()) {
+    all.push_back(
+        {"library_" + entry.file.stem().string(), [file = entry.file] { return read_material(file).eos; }});
+  }
+  return all;
+}
+
+class Inversions : public ::testing::TestWithParam<Named> {
  protected:
-  Inversions() : material(read_material(GetParam().file)), eos(*material.eos) {}
+  Inversions() : owner(GetParam().build()), eos(*owner) {}
 
   /// Counts what the inversion of one state does; anything but the pair that was asked for is a failure.
   template <class Invert>
@@ -67,7 +90,7 @@ class Inversions : public ::testing::TestWithParam<LibraryMaterial> {
     }
   }
 
-  Material material;
+  std::shared_ptr<const EquationOfState> owner;
   const EquationOfState& eos;
 };
 
@@ -123,8 +146,8 @@ TEST_P(Inversions, GiveBackTheState) {
   mostly_the_same(pressure_temperature, "(p, T)", 0.97);
 }
 
-INSTANTIATE_TEST_SUITE_P(Library, Inversions, ::testing::ValuesIn(library_materials()),
-                         [](const auto& material) { return material.param.file.stem().string(); });
+INSTANTIATE_TEST_SUITE_P(Catalogue, Inversions, ::testing::ValuesIn(equations_of_state()),
+                         [](const auto& named) { return named.param.name; });
 
 }  // namespace
 }  // namespace whipple::eos::test
