@@ -170,6 +170,10 @@ double PointRecord::origin_number(std::string_view name) const {
   return value;
 }
 
+int PointRecord::segments() const {
+  return provenance.contains("segments") ? static_cast<int>(origin_number("segments")) : 1;
+}
+
 std::string PointRecord::label() const {
   std::string text = protocol;
   const char* joint = " at ";
@@ -195,6 +199,19 @@ std::string_view unit_of(std::string_view quantity) {
       {"solid_specific_volume", "m^3/kg"},
       {"liquid_specific_volume", "m^3/kg"},
       {"latent_heat", "J/kg"},
+      {"fusion_volume", "m^3/kg"},
+      {"specific_enthalpy", "J/kg"},
+      {"residual_temperature", "K"},
+      {"density", "kg/m^3"},
+      {"strain_rate", "1/s"},
+      {"spall_strength", "Pa"},
+      {"spall_temperature", "K"},
+      {"spall_specific_volume", "m^3/kg"},
+      {"liquid_density", "kg/m^3"},
+      {"vapour_density", "kg/m^3"},
+      {"vapour_pressure", "Pa"},
+      {"surface_energy", "J/m^2"},
+      {"interface_width", "m"},
       {"c11", "Pa"},
       {"c12", "Pa"},
       {"c44", "Pa"},
@@ -248,7 +265,9 @@ bool append_point(const std::filesystem::path& path, const PointRecord& point) {
   {
     const hdf5::Group points = file.root.open_group("points");
     if (points.has(point.key)) {
-      if (read_point(points, point.key).done()) return false;  // the copy is dropped by the next writer
+      const PointRecord present = read_point(points, point.key);
+      const bool better = !present.done() || (point.done() && point.segments() > present.segments());
+      if (!better) return false;  // the copy is dropped by the next writer
       points.remove(point.key);
     }
     write_point(points, point);

@@ -33,6 +33,8 @@ struct PointRecord {
   double wall_seconds = 0.0;
 
   [[nodiscard]] bool done() const { return status == "done"; }
+  /// Independent runs that were averaged into this point (provenance "segments"; 1 without it).
+  [[nodiscard]] int segments() const;
   /// A condition that the protocol must have.
   /// @throws InputError naming the point and the condition.
   [[nodiscard]] double condition(std::string_view name) const;
@@ -58,10 +60,12 @@ std::vector<PointRecord> read_store(const std::filesystem::path& path);
 /// The finished points of one protocol (status "done").
 std::vector<PointRecord> select(std::span<const PointRecord> points, std::string_view protocol);
 
-/// Adds one point, or replaces the failed point of the same key. The file is replaced as a whole (copy,
-/// change, sync, rename), so a reader or a crash sees the old or the new store, never half of one; a lock
-/// file beside it serialises writers. A missing store is made, with its folder.
-/// @returns false, and leaves the store as it is, if a finished point of the same key is there already.
+/// Adds one point, or replaces the failed point of the same key, or a finished one of fewer segments. The
+/// file is replaced as a whole (copy, change, sync, rename), so a reader or a crash sees the old or the new
+/// store, never half of one; a lock file beside it serialises writers. A missing store is made, with its
+/// folder.
+/// @returns false, and leaves the store as it is, if a finished point of the same key and as many segments is
+/// there.
 /// @throws InputError if the store cannot be written or is no store.
 bool append_point(const std::filesystem::path& path, const PointRecord& point);
 

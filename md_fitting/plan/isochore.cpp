@@ -9,7 +9,8 @@ std::vector<BoundParameter> keys(IsochorePlan& plan) {
            "V over the volume of the static crystal at zero pressure"),
       real_list("temperature", &IsochorePlan::temperature, "K", range::positive(),
                 "temperatures along the isochore")};
-  return with_size(bind(table, plan), plan.size);
+  return join_keys(with_size(bind(table, plan), plan.size),
+                   keys(plan.target, "Pa", "wanted standard error of the pressure"));
 }
 
 }  // namespace whipple::md

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "md_fitting/plan/run_size.hpp"
+#include "md_fitting/plan/target.hpp"
 
 namespace whipple::md {
 
@@ -12,6 +13,7 @@ struct IsochorePlan {
   double volume_ratio = 1.0;
   std::vector<double> temperature;
   RunSize size{};
+  Target target{};
 };
 
 std::vector<BoundParameter> keys(IsochorePlan& plan);

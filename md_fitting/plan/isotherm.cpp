@@ -9,7 +9,8 @@ std::vector<BoundParameter> keys(IsothermPlan& plan) {
           .optional(),
       real_list("volume_ratio", &IsothermPlan::volume_ratio, "", range::open_between(0.1, 3.0),
                 "V over the volume of the static crystal at zero pressure")};
-  return with_size(bind(table, plan), plan.size);
+  return join_keys(with_size(bind(table, plan), plan.size),
+                   keys(plan.target, "Pa", "wanted standard error of the pressure"));
 }
 
 }  // namespace whipple::md

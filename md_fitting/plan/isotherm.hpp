@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "md_fitting/plan/run_size.hpp"
+#include "md_fitting/plan/target.hpp"
 
 namespace whipple::md {
 
@@ -12,6 +13,7 @@ struct IsothermPlan {
   double temperature = 293.0;
   std::vector<double> volume_ratio;
   RunSize size{};
+  Target target{};
 };
 
 std::vector<BoundParameter> keys(IsothermPlan& plan);

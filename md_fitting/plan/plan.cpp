@@ -66,7 +66,13 @@ const std::vector<Section>& sections() {
       section<&Plan::cold_curve>("cold_curve",
                                  "energy and pressure of the static crystal, and of fcc, bcc and hcp at the "
                                  "same volume"),
-      section<&Plan::elastic>("elastic", "elastic constants of the static crystal")};
+      section<&Plan::elastic>("elastic", "elastic constants of the static crystal"),
+      section<&Plan::hugoniostat>("hugoniostat",
+                                  "states behind a shock of given pressure, by the Hugoniostat"),
+      section<&Plan::liquid>("liquid", "volume and enthalpy of the melt"),
+      section<&Plan::piston>("piston", "shocks that a piston drives through a crystal along [001]"),
+      section<&Plan::spall>("spall", "largest tension of a crystal that expands in all directions"),
+      section<&Plan::liquid_vapour>("liquid_vapour", "a film of melt and its vapour")};
   return all;
 }
 

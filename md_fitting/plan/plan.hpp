@@ -10,9 +10,14 @@
 #include "md_fitting/plan/coexistence.hpp"
 #include "md_fitting/plan/cold_curve.hpp"
 #include "md_fitting/plan/elastic.hpp"
+#include "md_fitting/plan/hugoniostat.hpp"
 #include "md_fitting/plan/hugoniot.hpp"
 #include "md_fitting/plan/isochore.hpp"
 #include "md_fitting/plan/isotherm.hpp"
+#include "md_fitting/plan/liquid.hpp"
+#include "md_fitting/plan/liquid_vapour.hpp"
+#include "md_fitting/plan/piston.hpp"
+#include "md_fitting/plan/spall.hpp"
 #include "md_fitting/plan/zero_pressure.hpp"
 #include "src/input/document.hpp"
 
@@ -36,6 +41,11 @@ struct Plan {
   std::optional<CoexistencePlan> coexistence;
   std::optional<ColdCurvePlan> cold_curve;
   std::optional<ElasticPlan> elastic;
+  std::optional<HugoniostatPlan> hugoniostat;
+  std::optional<LiquidPlan> liquid;
+  std::optional<PistonPlan> piston;
+  std::optional<SpallPlan> spall;
+  std::optional<LiquidVapourPlan> liquid_vapour;
 };
 
 /// Reads a plan. @throws InputError with all errors at once, each with file:line:column.

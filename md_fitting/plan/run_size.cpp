@@ -19,9 +19,13 @@ std::vector<BoundParameter> keys(RunSize& size) {
 }
 
 std::vector<BoundParameter> with_size(std::vector<BoundParameter> own, RunSize& size) {
-  const std::vector<BoundParameter> more = keys(size);
-  own.insert(own.end(), more.begin(), more.end());
-  return own;
+  return join_keys(std::move(own), keys(size));
+}
+
+std::vector<BoundParameter> join_keys(std::vector<BoundParameter> first,
+                                      const std::vector<BoundParameter>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
 }
 
 }  // namespace whipple::md

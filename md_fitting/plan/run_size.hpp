@@ -21,4 +21,8 @@ std::vector<BoundParameter> keys(RunSize& size);
 /// The keys of a section, `own` first, then those of its run.
 std::vector<BoundParameter> with_size(std::vector<BoundParameter> own, RunSize& size);
 
+/// One list after another.
+std::vector<BoundParameter> join_keys(std::vector<BoundParameter> first,
+                                      const std::vector<BoundParameter>& second);
+
 }  // namespace whipple::md

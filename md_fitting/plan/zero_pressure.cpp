@@ -8,7 +8,8 @@ std::vector<BoundParameter> keys(ZeroPressurePlan& plan) {
       real_list("temperature", &ZeroPressurePlan::temperature, "K", range::positive(),
                 "temperatures at zero pressure; the first is the state before the shock")
           .optional()};
-  return with_size(bind(table, plan), plan.size);
+  return join_keys(with_size(bind(table, plan), plan.size),
+                   keys(plan.target, "", "wanted relative standard error of the volume"));
 }
 
 void check(const ZeroPressurePlan& section, const Plan&, input::Table& table) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "md_fitting/plan/run_size.hpp"
+#include "md_fitting/plan/target.hpp"
 #include "src/input/document.hpp"
 
 namespace whipple::md {
@@ -15,6 +16,7 @@ struct Plan;
 struct ZeroPressurePlan {
   std::vector<double> temperature = {293.0};
   RunSize size{.cells = 5, .equilibration_steps = 3000, .steps = 27000};
+  Target target{};
 };
 
 std::vector<BoundParameter> keys(ZeroPressurePlan& plan);

@@ -67,20 +67,26 @@ std::optional<PointRecord> find_point(const std::filesystem::path& store, const 
   return std::nullopt;
 }
 
-/// What rank 0 finds in the store, told to all: 'd' done, 'f' failed, ' ' missing, one letter per task.
+/// What rank 0 finds in the store, told to all: 'd' done, 'c' done but to be continued, 'f' failed, ' '
+/// missing, one letter per task.
 std::string read_status(std::span<const Task> tasks, const std::filesystem::path& store,
                         MPI_Comm communicator, int rank) {
   std::string status(tasks.size(), ' ');
   std::string fault;
   if (rank == 0) {
     try {
-      std::map<std::string, char> found;
+      std::map<std::string, PointRecord> found;
       if (std::filesystem::exists(store)) {
-        for (const PointRecord& point : read_store(store)) found[point.key] = point.done() ? 'd' : 'f';
+        for (PointRecord& point : read_store(store)) found[point.key] = std::move(point);
       }
       for (std::size_t i = 0; i < tasks.size(); ++i) {
         const auto known = found.find(tasks[i].key);
-        if (known != found.end()) status[i] = known->second;
+        if (known == found.end()) continue;
+        if (!known->second.done()) {
+          status[i] = 'f';
+        } else {
+          status[i] = wants_more(known->second, tasks[i].precision) ? 'c' : 'd';
+        }
       }
     } catch (const InputError& error) {
       fault = error.what();
@@ -104,12 +110,12 @@ PointRecord unfinished(const Task& task) {
   return point;
 }
 
-/// Computes one task; what goes wrong in it becomes a failed point.
-PointRecord compute_point(const Task& task, const PointRecord* dependency) {
+/// Computes one task, or one more segment of it (> 0); what goes wrong in it becomes a failed point.
+PointRecord compute_point(const Task& task, const PointRecord* dependency, int segment) {
   PointRecord point = unfinished(task);
   const auto begin = std::chrono::steady_clock::now();
   try {
-    TaskResult result = task.compute(dependency);
+    TaskResult result = segment > 0 ? task.extend(dependency, segment) : task.compute(dependency);
     for (const auto& [name, estimate] : result.results) {
       if (!std::isfinite(estimate.value) || !std::isfinite(estimate.error)) {
         throw StateError(fmt::format("{} is not finite", name));
@@ -130,6 +136,22 @@ PointRecord compute_point(const Task& task, const PointRecord* dependency) {
     point.message = error.what();
   }
   point.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return point;
+}
+
+/// Continues a point until it is as exact as wanted, storing it after every segment. A segment that fails
+/// leaves what is there.
+PointRecord continue_point(const Task& task, const PointRecord* dependency, PointRecord point,
+                           const std::filesystem::path& store) {
+  while (wants_more(point, task.precision)) {
+    const PointRecord segment = compute_point(task, dependency, point.segments());
+    if (!segment.done()) {
+      log::warning("{} is not continued: {}", short_label(point), segment.message);
+      break;
+    }
+    point = join(point, segment);
+    if (!append_point(store, point)) break;  // another process went further
+  }
   return point;
 }
 
@@ -244,8 +266,8 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
         if (!task.dependency.empty()) {
           // Tasks that others need stand earlier in the queue: another rank is computing it, or it is in the
           // store.
-          const auto needed = place_of(task.dependency);
-          if (needed != queue.end() && !wait_for(*needed, shared)) break;
+          const auto place_of_it = place_of(task.dependency);
+          if (place_of_it != queue.end() && !wait_for(*place_of_it, shared)) break;
           dependency = find_point(store, task.dependency);
           if (!dependency || !dependency->done()) {
             ++counts[2];
@@ -256,9 +278,13 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
             continue;
           }
         }
-        const PointRecord point = compute_point(task, dependency ? &*dependency : nullptr);
-        if (!append_point(store, point))
+        const PointRecord* const needed = dependency ? &*dependency : nullptr;
+        std::optional<PointRecord> present;
+        if (status[index] == 'c') present = find_point(store, task.key);
+        PointRecord point = present ? *present : compute_point(task, needed, 0);
+        if (!present && !append_point(store, point))
           log::detail("{} was stored by another process meanwhile", point.label());
+        point = continue_point(task, needed, std::move(point), store);
         ++counts[point.done() ? 0 : 1];
         shared.add(SharedNumbers::of_task(index), 1);
         shared.add(SharedNumbers::finished, 1);

@@ -15,6 +15,11 @@ std::span<const Protocol> protocols() {
       Protocol{"hugoniot", 1, add_hugoniot},
       Protocol{"cold_curve", 1, add_cold_curve},
       Protocol{"elastic", 1, add_elastic},
+      Protocol{"hugoniostat", 1, add_hugoniostat},
+      Protocol{"liquid", 1, add_liquid},
+      Protocol{"piston", 1, add_piston},
+      Protocol{"spall", 1, add_spall},
+      Protocol{"liquid_vapour", 1, add_liquid_vapour},
   };
   return all;
 }

@@ -27,5 +27,10 @@ void add_isochores(const Plan& plan, TaskList& list);
 void add_hugoniot(const Plan& plan, TaskList& list);
 void add_cold_curve(const Plan& plan, TaskList& list);
 void add_elastic(const Plan& plan, TaskList& list);
+void add_hugoniostat(const Plan& plan, TaskList& list);
+void add_liquid(const Plan& plan, TaskList& list);
+void add_piston(const Plan& plan, TaskList& list);
+void add_spall(const Plan& plan, TaskList& list);
+void add_liquid_vapour(const Plan& plan, TaskList& list);
 
 }  // namespace whipple::md

@@ -12,7 +12,9 @@
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/crystal.hpp"
+#include "md_fitting/protocols/phase.hpp"
 #include "md_fitting/protocols/statistics.hpp"
+#include "md_fitting/protocols/structure.hpp"
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
 
@@ -22,11 +24,6 @@ namespace {
 constexpr double accepted_sigmas = 3.0;
 constexpr double least_accepted_share = 0.15;
 constexpr double largest_accepted_drift = 0.12;
-/// The melt is made at this multiple of the guessed melting temperature.
-constexpr double overheating = 2.5;
-/// Bond-orientational order q6 (Steinhardt, Nelson, Ronchetti, Phys. Rev. B 28 (1983) 784) of the twelve
-/// nearest neighbours above which an atom counts as crystal: hot fcc has 0.5, its melt 0.35.
-constexpr double crystal_order = 0.45;
 constexpr std::int64_t share_interval = 200;
 
 double mean(std::span<const double> values) {
@@ -122,39 +119,6 @@ class TwoPhaseCell {
   double melt_reading_ = 0.0;     // and in the melt (about 0.05)
 };
 
-struct Phase {
-  Estimate volume;    ///< A^3 per atom
-  Estimate enthalpy;  ///< eV per atom, without the kinetic part
-};
-
-/// Volume and enthalpy of one phase alone at constant pressure and temperature.
-Phase measure_phase(const Potential& potential, bool liquid, double pressure, double temperature,
-                    const RunSize& size, double dt, std::int64_t seed, std::string& transcript) {
-  const std::int64_t cells = std::max<std::int64_t>(4, 3 * size.cells / 4);
-  Crystal crystal(potential, 1.02 * potential.lattice_constant(), cells, cells, cells);
-  Lammps& lammps = crystal.lammps();
-  if (liquid) {
-    lammps.command("timestep {:.17g}", 0.5 * dt);
-    lammps.command("velocity all create {:.17g} {} mom yes rot no dist gaussian",
-                   2 * overheating * temperature, seed);
-    lammps.command("fix melt all nvt temp {0:.17g} {0:.17g} {1:.17g}", overheating * temperature, 50 * dt);
-    lammps.command("run 5000 post no");
-    lammps.command("unfix melt");
-    lammps.command("velocity all scale {:.17g}", temperature);
-  } else {
-    lammps.command("velocity all create {:.17g} {} mom yes rot no dist gaussian", 2 * temperature, seed);
-  }
-  lammps.command("timestep {:.17g}", dt);
-  lammps.command("fix whole all npt temp {0:.17g} {0:.17g} {1:.17g} iso {2:.17g} {2:.17g} {3:.17g}",
-                 temperature, 100 * dt, pressure / metal::bar, 1000 * dt);
-  lammps.command("run {} post no", size.equilibration_steps / 2);
-  auto series = crystal.sample({"volume", "energy"}, sampling_interval(size.steps), size.steps);
-  transcript += lammps.transcript();
-  const double work = pressure / metal::bar / metal::pressure_from_energy;  // eV/A^3
-  for (std::size_t i = 0; i < series[0].size(); ++i) series[1][i] += work * series[0][i];
-  return {block_average(series[0]), block_average(series[1])};
-}
-
 }  // namespace
 
 std::string refusal(const CoexistenceRun& run) {
@@ -229,9 +193,12 @@ CoexistenceResult measure_coexistence(const Potential& potential, double pressur
   if (temperature == 0.0) {
     throw StateError(fmt::format("no coexistence found at {} GPa: {}", 1e-9 * pressure, report));
   }
-  const Phase solid = measure_phase(potential, false, pressure, temperature, size, dt,
+  const RunSize phase_size{.cells = std::max<std::int64_t>(4, 3 * size.cells / 4),
+                           .equilibration_steps = size.equilibration_steps / 2,
+                           .steps = size.steps};
+  const Phase solid = measure_phase(potential, false, pressure, temperature, phase_size, dt,
                                     next_seed(seed, "solid"), result.transcript);
-  const Phase liquid = measure_phase(potential, true, pressure, temperature, size, dt,
+  const Phase liquid = measure_phase(potential, true, pressure, temperature, phase_size, dt,
                                      next_seed(seed, "liquid"), result.transcript);
   const double mass = potential.mass();
   const auto volume = [&](const Estimate& e) {
@@ -239,6 +206,9 @@ CoexistenceResult measure_coexistence(const Potential& potential, double pressur
   };
   result.solid_specific_volume = volume(solid.volume);
   result.liquid_specific_volume = volume(liquid.volume);
+  result.fusion_volume = {
+      result.liquid_specific_volume.value - result.solid_specific_volume.value,
+      std::hypot(result.liquid_specific_volume.error, result.solid_specific_volume.error)};
   result.latent_heat = {
       metal::specific_energy(liquid.enthalpy.value - solid.enthalpy.value, mass),
       metal::specific_energy(std::hypot(liquid.enthalpy.error, solid.enthalpy.error), mass)};
@@ -260,7 +230,8 @@ void add_coexistence(const Plan& plan, TaskList& list) {
                          {"solid_share", result.solid_share},
                          {"solid_specific_volume", result.solid_specific_volume},
                          {"liquid_specific_volume", result.liquid_specific_volume},
-                         {"latent_heat", result.latent_heat}},
+                         {"latent_heat", result.latent_heat},
+                         {"fusion_volume", result.fusion_volume}},
                         fmt::format("accepted at attempt {}", result.attempts),
                         result.transcript};
     });

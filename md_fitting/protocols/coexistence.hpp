@@ -16,6 +16,7 @@ struct CoexistenceResult {
   Estimate solid_specific_volume;   ///< m^3/kg, of the crystal alone at the melting point
   Estimate liquid_specific_volume;  ///< m^3/kg, of the melt alone at the melting point
   Estimate latent_heat;             ///< J/kg, enthalpy of the melt less that of the crystal
+  Estimate fusion_volume;           ///< m^3/kg, volume of the melt less that of the crystal
   int attempts = 0;
   std::string transcript;
 };

@@ -136,6 +136,7 @@ HugoniotState solve_hugoniot(StateSource& source, const ReferenceState& referenc
   }
   result.mean_square_displacement = last.state.mean_square_displacement;
   result.solid = last.state.solid;
+  result.crystal_share = last.state.crystal_share;
   result.runs = runs + 2;
   return result;
 }

@@ -28,6 +28,7 @@ struct HugoniotState {
   Estimate shock_velocity;            ///< m/s
   Estimate particle_velocity;         ///< m/s
   Estimate mean_square_displacement;  ///< m^2
+  double crystal_share = 1.0;
   bool solid = true;
   int runs = 0;
 };

@@ -11,6 +11,7 @@
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/statistics.hpp"
+#include "md_fitting/protocols/structure.hpp"
 
 namespace whipple::md {
 namespace {
@@ -48,6 +49,8 @@ State NvtStateSource::state(double specific_volume, double temperature, Effort e
   lammps.command("fix integrate all nvt temp {0:.17g} {0:.17g} {1:.17g}", temperature, 100.0 * dt);
   lammps.command("run {} post no", equilibration);
   auto series = crystal.sample({"energy", "virial", "displacement"}, sampling_interval(steps), steps);
+  State state;
+  if (!search) state.crystal_share = inherent_crystal_share(crystal, potential_);
   transcript_ += lammps.transcript();
 
   const std::vector<double>& displacement = series[2];
@@ -55,8 +58,8 @@ State NvtStateSource::state(double specific_volume, double temperature, Effort e
   const double last_displacement =
       std::accumulate(displacement.end() - tail, displacement.end(), 0.0) / static_cast<double>(tail);
   const double neighbour = potential_.tables().structure == "fcc" ? a * std::sqrt(0.5) : a * std::sqrt(0.75);
-  State state;
-  state.solid = std::sqrt(last_displacement) < melting_displacement * neighbour;
+  state.solid = std::sqrt(last_displacement) < melting_displacement * neighbour &&
+                state.crystal_share > solid_share_limit;
 
   // Equations 3 to 5: kinetic part of 3N degrees of freedom; the potential part of a crystal is carried by 3N
   // - 3.

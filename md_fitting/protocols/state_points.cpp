@@ -6,10 +6,13 @@
 namespace whipple::md {
 namespace {
 
-void add_state(TaskList& list, double ratio, double temperature, const RunSize& size) {
+void add_state(TaskList& list, double ratio, double temperature, const RunSize& size, const Target& target) {
   list.require_range(ratio);
   const double volume = ratio * list.potential().static_volume();
-  list.add({{{"specific_volume", volume}, {"temperature", temperature}}, size_settings(size), {}},
+  list.add({{{"specific_volume", volume}, {"temperature", temperature}},
+            size_settings(size),
+            {},
+            precision_of("pressure", false, target, size)},
            [&potential = list.potential(), size, volume, temperature](std::int64_t seed, const PointRecord*) {
              NvtStateSource source(potential, size, seed);
              const State state = source.state(volume, temperature, StateSource::Effort::final);
@@ -17,8 +20,9 @@ void add_state(TaskList& list, double ratio, double temperature, const RunSize& 
                                 {"specific_internal_energy", state.specific_internal_energy},
                                 {"error_correlation", {state.correlation, 0.0}},
                                 {"mean_square_displacement", state.mean_square_displacement},
+                                {"crystal_share", {state.crystal_share, 0.0}},
                                 {"solid", {state.solid ? 1.0 : 0.0, 0.0}}},
-                               melting_remark(state.solid),
+                               structure_remark(state.crystal_share, state.solid),
                                source.transcript()};
            });
 }
@@ -28,7 +32,7 @@ void add_state(TaskList& list, double ratio, double temperature, const RunSize& 
 void add_isotherms(const Plan& plan, TaskList& list) {
   for (const IsothermPlan& isotherm : plan.isotherms) {
     for (const double ratio : isotherm.volume_ratio) {
-      add_state(list, ratio, isotherm.temperature, isotherm.size);
+      add_state(list, ratio, isotherm.temperature, isotherm.size, isotherm.target);
     }
   }
 }
@@ -36,7 +40,7 @@ void add_isotherms(const Plan& plan, TaskList& list) {
 void add_isochores(const Plan& plan, TaskList& list) {
   for (const IsochorePlan& isochore : plan.isochores) {
     for (const double temperature : isochore.temperature) {
-      add_state(list, isochore.volume_ratio, temperature, isochore.size);
+      add_state(list, isochore.volume_ratio, temperature, isochore.size, isochore.target);
     }
   }
 }

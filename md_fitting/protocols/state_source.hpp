@@ -11,7 +11,8 @@ struct State {
   Estimate specific_internal_energy;  ///< J/kg
   Estimate mean_square_displacement;  ///< m^2, from the lattice sites
   double correlation = 0.0;           ///< of the errors of pressure and energy, -1 ... 1
-  bool solid = true;
+  double crystal_share = 1.0;         ///< of the atoms, in the nearest minimum of the energy
+  bool solid = true;                  ///< by displacement and by structure
 };
 
 /// Anything that knows the state at a volume and a temperature: molecular dynamics, or in tests a formula.

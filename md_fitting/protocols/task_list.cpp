@@ -73,6 +73,10 @@ std::string TaskList::add(const PointRequest& request, Compute compute) {
   task.key = sha256(identity(task));
   const std::int64_t seed = seed_from(task.key);
   task.provenance["seed"] = std::to_string(seed);
+  task.precision = request.precision;
+  task.extend = [key = task.key, compute](const PointRecord* dependency, int segment) {
+    return compute(seed_from(sha256(fmt::format("{} {}", key, segment))), dependency);
+  };
   task.compute = [seed, compute = std::move(compute)](const PointRecord* dependency) {
     return compute(seed, dependency);
   };
@@ -99,6 +103,21 @@ std::map<std::string, std::string> size_settings(const RunSize& size) {
           {"time_step", size.time_step > 0.0 ? fmt::format("{} s", size.time_step) : "automatic"}};
 }
 
-std::string melting_remark(bool solid) { return solid ? "" : "the crystal melted"; }
+Precision precision_of(const std::string& quantity, bool relative, const Target& target,
+                       const RunSize& size) {
+  constexpr std::int64_t usual_segments = 20;
+  return {quantity, target.error, relative,
+          target.most_steps > 0 ? std::max<std::int64_t>(1, target.most_steps / size.steps) : usual_segments};
+}
+
+std::string structure_remark(double crystal_share, bool solid) {
+  constexpr double whole =
+      0.9;  // a cavity or a stacking fault takes more than a tenth of a few hundred atoms
+  if (!solid) return fmt::format("the crystal melted (share of crystal {:.2f})", crystal_share);
+  if (crystal_share < whole) {
+    return fmt::format("the crystal has defects or a cavity (share of crystal {:.2f})", crystal_share);
+  }
+  return {};
+}
 
 }  // namespace whipple::md

@@ -17,6 +17,7 @@ struct PointRequest {
   std::map<std::string, double> conditions;     ///< SI; units by `unit_of`
   std::map<std::string, std::string> settings;  ///< sizes, steps and choices on which the numbers depend
   std::string dependency;                       ///< key of the point that is needed first; empty: none
+  Precision precision{};                        ///< no part of the key
 };
 
 /// Collects the tasks of a plan: each protocol adds its own.
@@ -58,7 +59,11 @@ class TaskList {
 /// The settings of a run as they enter the key of a point.
 std::map<std::string, std::string> size_settings(const RunSize& size);
 
-/// The remark of a point whose crystal did not survive; empty for a crystal.
-std::string melting_remark(bool solid);
+/// What a section's target means for points whose segments have the steps of `size`.
+Precision precision_of(const std::string& quantity, bool relative, const Target& target, const RunSize& size);
+
+/// The remark of a point whose crystal did not survive, or holds defects or a cavity; empty for a crystal.
+/// @param crystal_share of the atoms, in the nearest minimum of the energy
+std::string structure_remark(double crystal_share, bool solid);
 
 }  // namespace whipple::md

@@ -10,6 +10,7 @@
 #include "md_fitting/data_set/data_set.hpp"
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/plan/plan.hpp"
+#include "md_fitting/protocols/refinement.hpp"
 
 namespace whipple::md {
 
@@ -27,8 +28,11 @@ struct Task {
   std::map<std::string, double> conditions;
   std::map<std::string, std::string> provenance;
   std::string dependency;  ///< key of the point that must be finished before; empty: none
+  Precision precision{};   ///< whether one segment is enough
   /// @param dependency the finished point of that key; null if there is none
   std::function<TaskResult(const PointRecord* dependency)> compute;
+  /// One more independent run; only with a precision. @param segment 1, 2, ...
+  std::function<TaskResult(const PointRecord* dependency, int segment)> extend;
 };
 
 /// All points of a plan, those that others depend on first. The key of each is the hash of everything that

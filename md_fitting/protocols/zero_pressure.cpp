@@ -10,6 +10,7 @@
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/nvt_state.hpp"
 #include "md_fitting/protocols/statistics.hpp"
+#include "md_fitting/protocols/structure.hpp"
 #include "src/base/error.hpp"
 
 namespace whipple::md {
@@ -37,6 +38,11 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
         fmt::format("the crystal melted at {} K and zero pressure: atoms moved {:.2f} A from their sites",
                     temperature, std::sqrt(series[2].back())));
   }
+  const double share = inherent_crystal_share(crystal, potential);
+  if (share < solid_share_limit) {
+    throw StateError(fmt::format("the crystal melted at {} K and zero pressure: share of crystal {:.2f}",
+                                 temperature, share));
+  }
   const double n = crystal.atoms();
   const double modes = n / (n - 1.0);
   const double kinetic_energy = 1.5 * metal::boltzmann * temperature;
@@ -53,7 +59,10 @@ void add_zero_pressure(const Plan& plan, TaskList& list) {
   if (!plan.zero_pressure) return;
   const RunSize size = plan.zero_pressure->size;
   for (const double temperature : plan.zero_pressure->temperature) {
-    list.add({{{"temperature", temperature}, {"pressure", 0.0}}, size_settings(size), {}},
+    list.add({{{"temperature", temperature}, {"pressure", 0.0}},
+              size_settings(size),
+              {},
+              precision_of("specific_volume", true, plan.zero_pressure->target, size)},
              [&potential = list.potential(), size, temperature](std::int64_t seed, const PointRecord*) {
                const ZeroPressureResult result = measure_zero_pressure(potential, temperature, size, seed);
                return TaskResult{{{"specific_volume", result.specific_volume},

@@ -64,9 +64,10 @@ first_guess = ["1300 K"]
 
 TEST(Plan, DescriptionNamesEveryKey) {
   const std::string text = describe_plan();
-  for (const char* key : {"element", "potential", "seed", "[zero_pressure_volume]", "[[isotherm]]",
-                          "[[isochore]]", "[hugoniot]", "[coexistence]", "[cold_curve]", "[elastic]",
-                          "volume_ratio", "first_guess", "equilibration_steps"}) {
+  for (const char* key :
+       {"element", "potential", "seed", "[zero_pressure_volume]", "[[isotherm]]", "[[isochore]]",
+        "[hugoniot]", "[coexistence]", "[cold_curve]", "[hugoniostat]", "[piston]", "[liquid]", "[spall]",
+        "[liquid_vapour]", "[elastic]", "volume_ratio", "first_guess", "equilibration_steps"}) {
     EXPECT_NE(text.find(key), std::string::npos) << key << "\n" << text;
   }
 }

@@ -100,12 +100,18 @@ TEST(Copper, HugoniotState) {
   EXPECT_LT(state.temperature.error, 0.03 * state.temperature.value);
 }
 
-// Far above the melting temperature the crystal must be flagged as melted.
+// Far above the melting temperature the crystal must be flagged as melted, by its structure too: in the
+// nearest minimum of the energy a melt stays disordered, while a crystal of 1000 K loses all traces of its
+// heat.
 TEST(Copper, MeltingGuard) {
   const Potential potential = Potential::load("copper_universal_3", "Cu");
   NvtStateSource source(potential, {.cells = 3, .equilibration_steps = 2000, .steps = 3000}, 5);
-  EXPECT_FALSE(source.state(1.15 * potential.static_volume(), 4000.0, StateSource::Effort::final).solid);
-  EXPECT_TRUE(source.state(potential.static_volume(), 1000.0, StateSource::Effort::final).solid);
+  const State melt = source.state(1.15 * potential.static_volume(), 4000.0, StateSource::Effort::final);
+  EXPECT_FALSE(melt.solid);
+  EXPECT_LT(melt.crystal_share, 0.35);
+  const State crystal = source.state(potential.static_volume(), 1000.0, StateSource::Effort::final);
+  EXPECT_TRUE(crystal.solid);
+  EXPECT_GT(crystal.crystal_share, 0.98);
 }
 
 Plan small_plan() {

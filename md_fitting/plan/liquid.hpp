@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "md_fitting/plan/run_size.hpp"
+#include "md_fitting/plan/target.hpp"
+#include "src/input/document.hpp"
+
+namespace whipple::md {
+
+struct Plan;
+
+/// Density and enthalpy of the melt.
+struct LiquidPlan {
+  std::vector<double> temperature;
+  std::vector<double> pressure = {0.0};
+  RunSize size{.cells = 6, .equilibration_steps = 4000, .steps = 15000};
+  Target target{};
+};
+
+std::vector<BoundParameter> keys(LiquidPlan& plan);
+void check(const LiquidPlan& section, const Plan& plan, input::Table& table);
+
+}  // namespace whipple::md

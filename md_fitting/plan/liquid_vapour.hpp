@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "md_fitting/plan/run_size.hpp"
+#include "src/input/document.hpp"
+
+namespace whipple::md {
+
+struct Plan;
+
+/// A film of melt in equilibrium with its vapour.
+struct LiquidVapourPlan {
+  std::vector<double> temperature;
+  double gap = 2.0;
+  RunSize size{.cells = 5, .equilibration_steps = 20000, .steps = 60000};
+};
+
+std::vector<BoundParameter> keys(LiquidVapourPlan& plan);
+void check(const LiquidVapourPlan& section, const Plan& plan, input::Table& table);
+
+}  // namespace whipple::md

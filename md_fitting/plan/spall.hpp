@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "md_fitting/plan/run_size.hpp"
+#include "src/input/document.hpp"
+
+namespace whipple::md {
+
+struct Plan;
+
+/// Tensile strength of a crystal that is stretched in all directions at once.
+struct SpallPlan {
+  std::vector<double> temperature = {293.0};
+  double strain_rate = 1e10;
+  std::int64_t replicas = 4;
+  double largest_strain = 0.5;
+  RunSize size{.cells = 6, .equilibration_steps = 2000};
+};
+
+std::vector<BoundParameter> keys(SpallPlan& plan);
+void check(const SpallPlan& section, const Plan& plan, input::Table& table);
+
+}  // namespace whipple::md

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/protocols/hugoniot_guess.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "md_fitting/lammps/units.hpp"
+#include "src/base/error.hpp"
+
+namespace whipple::md {
+
+HugoniotGuess guess_hugoniot(const Potential& potential, const ReferenceState& reference, double volume) {
+  const double mass = potential.mass();
+  const int atoms = potential.tables().atoms_per_cell();
+  const auto cold_energy = [&](double v) {
+    return metal::specific_energy(
+        potential.tables().crystal_energy(std::cbrt(metal::volume_per_atom(v, mass) * atoms)), mass);
+  };
+  const double dv = 1e-3 * volume;
+  const double cold_pressure = -(cold_energy(volume + dv) - cold_energy(volume - dv)) / (2 * dv);
+  const double heat = 3.0 * metal::specific_energy(metal::boltzmann, mass);
+  const double half = 0.5 * (reference.specific_volume.value - volume);
+  const double gruneisen = 2.0 * volume / reference.specific_volume.value;
+  const double t = (half * cold_pressure - cold_energy(volume) + reference.specific_internal_energy.value) /
+                   (heat * (1.0 - gruneisen * half / volume));
+  const double temperature = std::fmax(t, 100.0);
+  return {volume, temperature, cold_pressure + gruneisen * heat * temperature / volume};
+}
+
+HugoniotGuess guess_hugoniot_at_pressure(const Potential& potential, const ReferenceState& reference,
+                                         double pressure) {
+  double larger = reference.specific_volume.value;
+  double smaller = 0.3 * larger;
+  if (guess_hugoniot(potential, reference, smaller).pressure < pressure) {
+    throw StateError(fmt::format("no shock of {:.4g} GPa found down to V/V0 = 0.3", 1e-9 * pressure));
+  }
+  while (larger - smaller > 1e-5 * larger) {
+    const double middle = 0.5 * (larger + smaller);
+    (guess_hugoniot(potential, reference, middle).pressure < pressure ? larger : smaller) = middle;
+  }
+  return guess_hugoniot(potential, reference, smaller);
+}
+
+}  // namespace whipple::md

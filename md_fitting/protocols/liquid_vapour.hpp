@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/lammps/potential.hpp"
+#include "md_fitting/plan/liquid_vapour.hpp"
+
+namespace whipple::md {
+
+struct LiquidVapourResult {
+  Estimate liquid_density;   ///< kg/m^3, of the melt inside the film
+  Estimate vapour_density;   ///< kg/m^3, of the vapour outside
+  Estimate vapour_pressure;  ///< Pa, the stress normal to the film
+  Estimate surface_energy;   ///< J/m^2
+  double width = 0.0;        ///< m, over which the density falls from 90 to 10 %
+  std::string transcript;
+};
+
+/// A film of melt between its own vapour, at constant volume and temperature.
+/// @throws StateError if film and vapour do not separate (too hot), or if the vapour holds too few atoms (too
+/// cold).
+LiquidVapourResult measure_liquid_vapour(const Potential& potential, double temperature,
+                                         const LiquidVapourPlan& section, std::int64_t seed);
+
+/// Centre of a group of places in a period: the mean of their directions on a circle.
+/// @returns 0 ... period
+double circular_mean(std::span<const double> places, double period);
+
+/// The two plateaus of a density profile and what lies between, in the coordinate of the profile.
+struct Interface {
+  double place = 0.0;  ///< where the density is half way
+  double width = 0.0;  ///< from 90 to 10 %
+};
+/// @param profile density over the distance from the centre of the film, in equal steps
+/// @throws StateError if the profile has no two plateaus.
+Interface find_interface(std::span<const double> profile, double step);
+
+}  // namespace whipple::md

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/protocols/refinement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "src/base/error.hpp"
+
+namespace whipple::md {
+namespace {
+
+constexpr double agreement = 2.0;
+
+const std::set<std::string>& flags() {
+  static const std::set<std::string> names = {"solid", "liquid"};
+  return names;
+}
+
+double weighted_error(double n, double first, double m, double second) {
+  return std::hypot(n * first, m * second) / (n + m);
+}
+
+}  // namespace
+
+bool wants_more(const PointRecord& point, const Precision& precision) {
+  if (!point.done() || precision.quantity.empty() || !(precision.target_error > 0.0)) return false;
+  if (point.segments() >= precision.segments) return false;
+  const Estimate estimate = point.result(precision.quantity);
+  const double scale = precision.relative ? std::abs(estimate.value) : 1.0;
+  return estimate.error > precision.target_error * scale;
+}
+
+PointRecord join(const PointRecord& point, const PointRecord& segment) {
+  if (point.key != segment.key) throw InternalError("segments of different points cannot be joined");
+  PointRecord joined = point;
+  const auto n = static_cast<double>(point.segments());
+  const auto m = static_cast<double>(segment.segments());
+  for (auto& [name, estimate] : joined.results) {
+    const auto found = segment.results.find(name);
+    if (found == segment.results.end()) continue;
+    const Estimate& other = found->second;
+    if (flags().contains(name)) {
+      estimate.value = std::min(estimate.value, other.value);
+      continue;
+    }
+    const double difference = std::abs(estimate.value - other.value);
+    const double sigma = std::hypot(estimate.error, other.error);
+    estimate.value = (n * estimate.value + m * other.value) / (n + m);
+    estimate.error = weighted_error(n, estimate.error, m, other.error);
+    if (sigma > 0.0 && difference > agreement * sigma) estimate.error *= difference / (agreement * sigma);
+  }
+  // The correlation is that of the joint covariance.
+  if (joined.results.contains("error_correlation")) {
+    const auto covariance = [](const PointRecord& part) {
+      return part.result("error_correlation").value * part.result("pressure").error *
+             part.result("specific_internal_energy").error;
+    };
+    const double pressure =
+        weighted_error(n, point.result("pressure").error, m, segment.result("pressure").error);
+    const double energy = weighted_error(n, point.result("specific_internal_energy").error, m,
+                                         segment.result("specific_internal_energy").error);
+    const double sum = (n * n * covariance(point) + m * m * covariance(segment)) / ((n + m) * (n + m));
+    if (pressure * energy > 0.0) {
+      joined.results["error_correlation"].value = std::clamp(sum / (pressure * energy), -1.0, 1.0);
+    }
+  }
+  if (!segment.message.empty() && joined.message.find(segment.message) == std::string::npos) {
+    joined.message += (joined.message.empty() ? "" : "; ") + segment.message;
+  }
+  joined.wall_seconds += segment.wall_seconds;
+  joined.provenance["segments"] = std::to_string(point.segments() + segment.segments());
+  const auto commands = segment.provenance.find("lammps_commands");
+  if (commands != segment.provenance.end()) joined.provenance["lammps_commands"] += commands->second;
+  return joined;
+}
+
+}  // namespace whipple::md

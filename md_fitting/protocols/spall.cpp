@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/protocols/spall.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "md_fitting/data_set/hash.hpp"
+#include "md_fitting/lammps/units.hpp"
+#include "md_fitting/protocols/catalogue.hpp"
+#include "md_fitting/protocols/crystal.hpp"
+#include "md_fitting/protocols/structure.hpp"
+#include "src/base/error.hpp"
+
+namespace whipple::md {
+namespace {
+
+/// A run has failed when its tension has fallen below this share of the largest.
+constexpr double failed_share = 0.5;
+/// The tension is averaged over this volume strain: far less than what the failure takes.
+constexpr double window_strain = 0.004;
+constexpr double part_strain = 0.02;
+constexpr std::int64_t interval = 5;
+
+struct Run {
+  double strength = 0.0;     // bar
+  double temperature = 0.0;  // K
+  double volume = 0.0;       // A^3 per atom
+  double initial_volume = 0.0;
+};
+
+double mean(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+Run stretch(const Potential& potential, double temperature, const SpallPlan& section, std::int64_t seed,
+            std::string& transcript) {
+  const std::int64_t cells = section.size.cells;
+  // Half of the usual step: the failure is sudden and hot.
+  const double dt =
+      (section.size.time_step > 0.0 ? 1.0 : 0.5) * time_step(potential, 1.0, temperature, section.size);
+  Crystal crystal(potential, potential.lattice_constant(), cells, cells, cells);
+  Lammps& lammps = crystal.lammps();
+  lammps.command("timestep {:.17g}", dt);
+  lammps.command("velocity all create {:.17g} {} mom yes rot no dist gaussian", 2.0 * temperature, seed);
+  lammps.command("fix rest all npt temp {0:.17g} {0:.17g} {1:.17g} iso 0.0 0.0 {2:.17g}", temperature,
+                 100 * dt, 1000 * dt);
+  lammps.command("run {} post no", section.size.equilibration_steps);
+  lammps.command("unfix rest");
+  if (crystal_share(crystal, potential) < 0.25) {
+    throw StateError(fmt::format("the crystal melted at {} K and zero pressure", temperature));
+  }
+  Run run;
+  run.initial_volume = lammps.variable("volume");
+
+  // Every edge grows at one constant rate and every atom moves with its place from the beginning: a uniform
+  // expansion without a force that drives it. Temperature and pressure are those of the motion relative to
+  // it.
+  const double rate = section.strain_rate * metal::picosecond / 3.0;  // 1/ps, of each edge
+  for (const char axis : {'x', 'y', 'z'}) {
+    lammps.command("variable flow_{0} atom {1:.17g}*({0}-0.5*({0}lo+{0}hi))", axis, rate);
+  }
+  lammps.command("velocity all set v_flow_x v_flow_y v_flow_z sum yes units box");
+  lammps.command("fix move all nve");
+  lammps.command("fix stretch all deform 1 x erate {0:.17g} y erate {0:.17g} z erate {0:.17g} remap v", rate);
+  lammps.command("compute relative all temp/deform");
+  lammps.command("compute relative_pressure all pressure relative");
+  lammps.command("variable tension equal -c_relative_pressure");
+  lammps.command("variable relative_temperature equal c_relative");
+  lammps.command("thermo_style custom step pe vol c_virial c_displacement[4] c_relative c_relative_pressure");
+  lammps.command("thermo_modify norm no");
+
+  const double strain_per_step = section.strain_rate * metal::picosecond * dt;
+  const auto steps = std::max<std::int64_t>(interval, std::llround(part_strain / strain_per_step));
+  const auto window = static_cast<std::size_t>(
+      std::max(8.0, window_strain / (strain_per_step * static_cast<double>(interval))));
+  std::array<std::vector<double>, 3> history;
+  double strain = 0.0;
+  while (strain < section.largest_strain) {
+    const auto part = crystal.sample({"tension", "relative_temperature", "volume"}, interval, steps);
+    // The first sample of a part is the last of the one before.
+    for (std::size_t k = 0; k < 3; ++k)
+      history[k].insert(history[k].end(), part[k].begin() + 1, part[k].end());
+    strain = history[2].back() / run.initial_volume - 1.0;
+    const std::span<const double> tension(history[0]);
+    if (tension.size() < 2 * window) continue;
+    const Peak peak = largest_mean(tension, window);
+    if (!(peak.value > 0.0) || mean(tension.last(window)) > failed_share * peak.value) continue;
+    run.strength = peak.value;
+    run.temperature = mean(std::span<const double>(history[1]).subspan(peak.first, window));
+    run.volume = mean(std::span<const double>(history[2]).subspan(peak.first, window));
+    transcript += lammps.transcript();
+    return run;
+  }
+  throw StateError(fmt::format("no failure up to a volume strain of {:.3g}; the tension is {:.4g} GPa",
+                               strain, 1e-9 * metal::bar * history[0].back()));
+}
+
+/// Mean over the runs with its standard error.
+template <class Get>
+Estimate average(const std::vector<Run>& runs, const Get& get) {
+  const auto n = static_cast<double>(runs.size());
+  double sum = 0.0, squares = 0.0;
+  for (const Run& run : runs) sum += get(run);
+  const double mean = sum / n;
+  for (const Run& run : runs) squares += std::pow(get(run) - mean, 2);
+  return {mean, std::sqrt(squares / (n * (n - 1.0)))};
+}
+
+}  // namespace
+
+Peak largest_mean(std::span<const double> series, std::size_t window) {
+  if (window == 0 || series.size() < window) throw InternalError("the window is longer than the series");
+  double sum = std::accumulate(series.begin(), series.begin() + static_cast<std::ptrdiff_t>(window), 0.0);
+  Peak peak{sum, 0};
+  for (std::size_t i = window; i < series.size(); ++i) {
+    sum += series[i] - series[i - window];
+    if (sum > peak.value) peak = {sum, i + 1 - window};
+  }
+  peak.value /= static_cast<double>(window);
+  return peak;
+}
+
+SpallResult measure_spall(const Potential& potential, double temperature, const SpallPlan& section,
+                          std::int64_t seed) {
+  SpallResult result;
+  std::vector<Run> runs;
+  for (std::int64_t i = 0; i < section.replicas; ++i) {
+    runs.push_back(stretch(potential, temperature, section, seed_from(sha256(fmt::format("{} {}", seed, i))),
+                           result.transcript));
+  }
+  const double mass = potential.mass();
+  result.strength = average(runs, [](const Run& run) { return metal::bar * run.strength; });
+  result.temperature = average(runs, [](const Run& run) { return run.temperature; });
+  result.specific_volume =
+      average(runs, [&](const Run& run) { return metal::specific_volume(run.volume, mass); });
+  result.initial_specific_volume =
+      average(runs, [&](const Run& run) { return metal::specific_volume(run.initial_volume, mass); }).value;
+  return result;
+}
+
+void add_spall(const Plan& plan, TaskList& list) {
+  if (!plan.spall) return;
+  const SpallPlan section = *plan.spall;
+  for (const double temperature : section.temperature) {
+    PointRequest request{{{"temperature", temperature}, {"strain_rate", section.strain_rate}},
+                         size_settings(section.size),
+                         {}};
+    request.settings["replicas"] = std::to_string(section.replicas);
+    request.settings["largest_strain"] = fmt::format("{}", section.largest_strain);
+    request.settings.erase("steps");  // a run ends with the failure
+    list.add(request,
+             [&potential = list.potential(), section, temperature](std::int64_t seed, const PointRecord*) {
+               const SpallResult result = measure_spall(potential, temperature, section, seed);
+               return TaskResult{{{"spall_strength", result.strength},
+                                  {"spall_temperature", result.temperature},
+                                  {"spall_specific_volume", result.specific_volume},
+                                  {"specific_volume", {result.initial_specific_volume, 0.0}}},
+                                 "",
+                                 result.transcript};
+             });
+  }
+}
+
+}  // namespace whipple::md

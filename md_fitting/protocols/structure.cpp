@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/protocols/structure.hpp"
+
+#include <cmath>
+
+namespace whipple::md {
+
+double crystal_share(Crystal& crystal, const Potential& potential) {
+  Lammps& lammps = crystal.lammps();
+  const double a = std::cbrt(lammps.variable("volume") * potential.tables().atoms_per_cell());
+  // Between the first and second shell of fcc (0.71 and 1 a), the second and third of bcc (1 and 1.41 a).
+  const bool fcc = potential.tables().structure == "fcc";
+  lammps.command("compute order all orientorder/atom degrees 1 6 nnn {} cutoff {:.17g}", fcc ? 12 : 14,
+                 (fcc ? 0.85 : 1.2) * a);
+  lammps.command("variable is_crystal atom c_order[1]>{}", crystal_order);
+  lammps.command("compute share all reduce ave v_is_crystal");
+  lammps.command("variable share equal c_share");
+  lammps.command("thermo_style custom step pe vol c_virial c_displacement[4] c_share");
+  crystal.evaluate();
+  const double share = lammps.variable("share");
+  lammps.command("thermo_style custom step temp pe vol c_virial c_displacement[4]");
+  lammps.command("thermo_modify norm no");
+  lammps.command("variable share delete");
+  lammps.command("uncompute share");
+  lammps.command("variable is_crystal delete");
+  lammps.command("uncompute order");
+  return share;
+}
+
+double inherent_crystal_share(Crystal& crystal, const Potential& potential) {
+  crystal.lammps().command("min_style cg");
+  crystal.lammps().command("minimize 1e-7 0.0 200 1000");
+  return crystal_share(crystal, potential);
+}
+
+}  // namespace whipple::md
