@@ -9,6 +9,7 @@
 
 #include "md_fitting/plan/plan.hpp"
 #include "md_fitting/protocols/campaign.hpp"
+#include "md_fitting/protocols/critical_point.hpp"
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
 #include "src/base/progress.hpp"
@@ -57,6 +58,20 @@ void report(const CampaignSummary& summary, const std::string& store) {
   }
 }
 
+/// The critical point, once a plan has enough points for it.
+void report_critical_point(const std::filesystem::path& store) {
+  const std::vector<Saturation> points = saturations(read_store(store));
+  if (points.size() < 3) return;
+  try {
+    const CriticalPoint point = estimate_critical_point(points);
+    log::info("critical point estimated from {} temperatures: {:.0f} +- {:.0f} K, {:.0f} +- {:.0f} kg/m^3",
+              points.size(), point.temperature.value, point.temperature.error, point.density.value,
+              point.density.error);
+  } catch (const StateError& error) {
+    log::warning("no critical point estimated: {}", error.what());
+  }
+}
+
 int run_plan(const Options& options) {
   int rank = 0;
   int ranks = 1;
@@ -85,7 +100,10 @@ int run_plan(const Options& options) {
         potential.lattice_constant());
   }
   const CampaignSummary summary = run_campaign(tasks, options.store, MPI_COMM_WORLD, options.retry_failed);
-  if (rank == 0) report(summary, options.store);
+  if (rank == 0) {
+    report(summary, options.store);
+    if (plan.liquid_vapour) report_critical_point(options.store);
+  }
   const bool complete = summary.failed + summary.blocked + summary.left == 0;
   return static_cast<int>(complete ? ExitCode::success : ExitCode::state);
 }

@@ -12,6 +12,7 @@ whipple_test(md_copper_test SOURCES validation/md_copper_test.cpp DEPENDS whippl
 whipple_test(md_static_test SOURCES validation/md_static_test.cpp DEPENDS whipple_md_protocols LABELS fast)
 whipple_test(md_analysis_test SOURCES unit/md_analysis_test.cpp DEPENDS whipple_md_protocols LABELS fast)
 whipple_test(md_refinement_test SOURCES unit/md_refinement_test.cpp DEPENDS whipple_md_protocols LABELS fast)
+whipple_test(md_critical_point_test SOURCES unit/md_critical_point_test.cpp DEPENDS whipple_md_protocols LABELS fast)
 whipple_test(md_shock_test SOURCES validation/md_shock_test.cpp DEPENDS whipple_md_protocols LABELS long)
 # Programs under mpirun, started by the test itself.
 add_executable(md_guard_abort parallel/md_guard_abort.cpp)

@@ -203,6 +203,7 @@ std::string_view unit_of(std::string_view quantity) {
       {"specific_enthalpy", "J/kg"},
       {"residual_temperature", "K"},
       {"density", "kg/m^3"},
+      {"thermal_expansion", "1/K"},
       {"strain_rate", "1/s"},
       {"spall_strength", "Pa"},
       {"spall_temperature", "K"},

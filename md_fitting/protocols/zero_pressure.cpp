@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <vector>
 
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/protocols/catalogue.hpp"
@@ -45,6 +46,7 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
   }
   const double n = crystal.atoms();
   const double modes = n / (n - 1.0);
+  const Estimate expansion = thermal_expansion(series[1], series[0], n, temperature);
   const double kinetic_energy = 1.5 * metal::boltzmann * temperature;
   for (double& energy : series[0]) energy = cold_energy + modes * (energy - cold_energy) + kinetic_energy;
   for (double& volume : series[1]) volume = cold_volume + modes * (volume - cold_volume);
@@ -52,7 +54,20 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
   const Estimate volume = block_average(series[1]);
   return {{metal::specific_volume(volume.value, mass), metal::specific_volume(volume.error, mass)},
           {metal::specific_energy(energy.value, mass), metal::specific_energy(energy.error, mass)},
+          {modes * expansion.value, modes * expansion.error},
           lammps.transcript()};
+}
+
+Estimate thermal_expansion(std::span<const double> volume, std::span<const double> energy, double atoms,
+                           double temperature) {
+  const double mean_volume = block_average(volume).value;
+  const double mean_energy = block_average(energy).value;
+  std::vector<double> product(volume.size());
+  const double scale = atoms / (metal::boltzmann * temperature * temperature * mean_volume);
+  for (std::size_t i = 0; i < product.size(); ++i) {
+    product[i] = scale * (volume[i] - mean_volume) * (energy[i] - mean_energy);
+  }
+  return block_average(product);
 }
 
 void add_zero_pressure(const Plan& plan, TaskList& list) {
@@ -66,7 +81,8 @@ void add_zero_pressure(const Plan& plan, TaskList& list) {
              [&potential = list.potential(), size, temperature](std::int64_t seed, const PointRecord*) {
                const ZeroPressureResult result = measure_zero_pressure(potential, temperature, size, seed);
                return TaskResult{{{"specific_volume", result.specific_volume},
-                                  {"specific_internal_energy", result.specific_internal_energy}},
+                                  {"specific_internal_energy", result.specific_internal_energy},
+                                  {"thermal_expansion", result.thermal_expansion}},
                                  "",
                                  result.transcript};
              });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "md_fitting/data_set/data_set.hpp"
@@ -13,8 +14,15 @@ namespace whipple::md {
 struct ZeroPressureResult {
   Estimate specific_volume;           ///< m^3/kg
   Estimate specific_internal_energy;  ///< J/kg
+  Estimate thermal_expansion;         ///< 1/K, (1/V) dV/dT at constant pressure, from fluctuations
   std::string transcript;
 };
+
+/// (1/V) dV/dT from the joint fluctuations of volume and potential energy at zero pressure and constant
+/// temperature, <dV dU>/(k T^2 V) (Allen, Tildesley, Computer Simulation of Liquids, 2nd ed., section 2.5).
+/// @param volume,energy per atom, A^3 and eV
+Estimate thermal_expansion(std::span<const double> volume, std::span<const double> energy, double atoms,
+                           double temperature);
 
 /// Volume and energy of the crystal at a temperature and zero pressure, at constant pressure and temperature
 /// (Nose-Hoover thermostat and barostat, isotropic). Thermal expansion and thermal energy are scaled by N/(N

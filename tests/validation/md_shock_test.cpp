@@ -14,6 +14,7 @@
 #include "md_fitting/protocols/phase.hpp"
 #include "md_fitting/protocols/piston.hpp"
 #include "md_fitting/protocols/spall.hpp"
+#include "md_fitting/protocols/zero_pressure.hpp"
 #include "src/base/error.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
 
@@ -95,6 +96,19 @@ TEST(Spall, LiesBelowTheStrengthOfTheStaticCrystal) {
   // The crystal does not fail within two per cent.
   section.largest_strain = 0.05;
   EXPECT_THROW(measure_spall(universal(), 293.0, section, 3), StateError);
+}
+
+// Thermal expansion from the fluctuations at one temperature against the volumes of two other temperatures.
+TEST(ZeroPressure, ExpansionFromFluctuationsIsTheSlopeOfTheVolume) {
+  const RunSize size{.cells = 4, .equilibration_steps = 1000, .steps = 12000};
+  const ZeroPressureResult cold = measure_zero_pressure(universal(), 300.0, size, 3);
+  const ZeroPressureResult middle = measure_zero_pressure(universal(), 450.0, size, 4);
+  const ZeroPressureResult hot = measure_zero_pressure(universal(), 600.0, size, 5);
+  const double slope =
+      (hot.specific_volume.value - cold.specific_volume.value) / 300.0 / middle.specific_volume.value;
+  EXPECT_NEAR(middle.thermal_expansion.value, slope, 4.0 * middle.thermal_expansion.error);
+  EXPECT_LT(middle.thermal_expansion.error, 0.25 * slope);
+  EXPECT_NEAR(slope, 5.3e-5, 0.6e-5);  // copper at 450 K: 5.3e-5 1/K (17.6e-6 1/K in length)
 }
 
 // A melt is a melt by its structure, and no crystal is: the same measurement on a crystal of the same
