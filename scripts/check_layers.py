@@ -18,15 +18,16 @@ MAY_USE = {
     "src/process": ["src/base"],
     "src/hdf5": ["src/base"],
     "eos": ["src/base"],
+    "eos/files": ["src/base", "src/hdf5", "eos"],
     "src/particles": ["src/base", "src/parallel"],
     "src/grid": ["src/base", "src/parallel"],
-    "src/material": ["src/base", "src/input", "eos", "src/particles"],
+    "src/material": ["src/base", "src/input", "eos", "eos/files", "src/particles"],
     "src/transfer": ["src/base", "src/parallel", "src/particles", "src/grid"],
     "src/fem": ["src/base", "src/parallel", "src/particles", "src/material"],
     "src/contact": ["src/base", "src/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
     "src/afemp": ["src/base", "src/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
     "src/io": ["src/base", "src/parallel", "src/hdf5", "src/particles"],
-    "src/setup": ["src/base", "src/input", "src/parallel", "eos", "src/particles", "src/grid", "src/material",
+    "src/setup": ["src/base", "src/input", "src/parallel", "eos", "eos/files", "src/particles", "src/grid", "src/material",
                   "src/io"],
     "src/solver": ["src/base", "src/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
                    "src/fem", "src/contact", "src/afemp", "src/io", "src/setup"],
@@ -38,14 +39,14 @@ MAY_USE = {
     # The program whipple-md.
     "md_fitting": ["src/base", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],
     # The program whipple: it starts the other two, so of their side it knows the plan's keys only.
-    "src/app": ["src/base", "src/input", "src/parallel", "src/process", "eos", "src/particles", "src/grid", "src/material",
+    "src/app": ["src/base", "src/input", "src/parallel", "src/process", "eos", "eos/files", "src/particles", "src/grid", "src/material",
                 "src/transfer", "src/io", "src/setup", "src/solver", "md_fitting/plan"],
 }
 
 # CMake library -> module, where the name is not the last part of the folder.
 LIBRARY_OF = {"whipple_md_data_set": "md_fitting/data_set", "whipple_md_plan": "md_fitting/plan",
               "whipple_md_lammps": "md_fitting/lammps", "whipple_md_protocols": "md_fitting/protocols",
-              "whipple_fit": "md_fitting/fit", "whipple_eos": "eos"}
+              "whipple_fit": "md_fitting/fit", "whipple_eos": "eos", "whipple_eos_files": "eos/files"}
 
 VERSION_QUERY = "src/app/version_command.cpp"  # asks the libraries for their version, nothing else
 

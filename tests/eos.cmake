@@ -16,6 +16,8 @@ whipple_test(eos_copper_test SOURCES validation/eos_copper_test.cpp DEPENDS whip
 whipple_test(eos_gray_71_test SOURCES unit/eos_gray_71_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_gray_melting_test SOURCES verification/eos_gray_melting_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_gray_metals_test SOURCES verification/eos_gray_metals_test.cpp DEPENDS whipple_eos LABELS fast)
+whipple_test(eos_table_test SOURCES unit/eos_table_test.cpp DEPENDS whipple_eos GTest::gmock LABELS fast)
+whipple_test(eos_table_file_test SOURCES unit/eos_table_file_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
 
 add_executable(eos_benchmark benchmark/eos_benchmark.cpp)
 target_link_libraries(eos_benchmark PRIVATE whipple_eos benchmark::benchmark)
@@ -65,5 +67,24 @@ add_test(NAME eos_command.audit_refuses_unusable_constants
   WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
 foreach(query audit_refuses_unusable_constants hugoniot_prints_shock_melting refuses_to_overwrite release_to_one_bar_vaporises_a_tenth
         beyond_the_model_is_a_state_error audit_of_debye_gruneisen isotherm isentrope dome audit)
+  set_property(TEST eos_command.${query} PROPERTY LABELS fast)
+endforeach()
+
+# Tables: written, verified, used as the model of a material; damaged and existing files.
+set(eos_table_file ${CMAKE_CURRENT_BINARY_DIR}/copper.eos.h5)
+add_test(NAME eos_command.table
+  COMMAND whipple eos table copper --error 1e-3 -o ${eos_table_file} --force)
+set_tests_properties(eos_command.table PROPERTIES
+  PASS_REGULAR_EXPRESSION "requested 0.001 in T and p.*solid +[0-9]+.*wrote .*copper.eos.h5" FIXTURES_SETUP eos_table_file)
+add_test(NAME eos_command.table_refuses_to_overwrite COMMAND whipple eos table copper -o ${eos_table_file})
+set_tests_properties(eos_command.table_refuses_to_overwrite PROPERTIES
+  PASS_REGULAR_EXPRESSION "exists; --force overwrites it" FIXTURES_REQUIRED eos_table_file)
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/copper_tabulated.toml
+  "name = \"Copper\"\nsource = \"test\"\n[eos]\nmodel = \"table\"\nfile = \"copper.eos.h5\"\n")
+add_test(NAME eos_command.hugoniot_of_a_table
+  COMMAND whipple eos hugoniot ${CMAKE_CURRENT_BINARY_DIR}/copper_tabulated.toml --to "300 GPa" --points 7)
+set_tests_properties(eos_command.hugoniot_of_a_table PROPERTIES
+  PASS_REGULAR_EXPRESSION "onset 22[0-9]\\.[0-9]* GPa.*completion 28[0-9]\\.[0-9]* GPa" FIXTURES_REQUIRED eos_table_file)
+foreach(query table table_refuses_to_overwrite hugoniot_of_a_table)
   set_property(TEST eos_command.${query} PROPERTY LABELS fast)
 endforeach()

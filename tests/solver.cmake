@@ -7,6 +7,7 @@ whipple_test(test_taylor_bar STARTS_MPI SOURCES verification/solver_taylor_bar_t
 whipple_test(test_elastic STARTS_MPI SOURCES verification/solver_elastic_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_setup SOURCES unit/setup_case_test.cpp unit/setup_shape_test.cpp DEPENDS whipple_setup LABELS fast)
 whipple_test(test_debris_cloud STARTS_MPI SOURCES validation/solver_debris_cloud_test.cpp DEPENDS whipple_solver LABELS fast)
+whipple_test(test_solver_table STARTS_MPI SOURCES validation/solver_table_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_solver_regression STARTS_MPI SOURCES regression/solver_regression_test.cpp DEPENDS whipple_solver LABELS fast)
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.

@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
-#include "md_fitting/data_set/hash.hpp"
 #include "md_fitting/fit/element_defaults.hpp"
 #include "src/base/error.hpp"
+#include "src/base/hash.hpp"
 #include "src/base/text.hpp"
 #include "src/base/units.hpp"
 
@@ -141,7 +141,7 @@ std::string defaults_table(const GrayFit& fit) {
 StoreOrigin store_origin(const std::filesystem::path& store, std::span<const md::PointRecord> points) {
   StoreOrigin origin;
   origin.name = store.filename().string();
-  origin.sha256 = md::sha256_of_file(store);
+  origin.sha256 = whipple::sha256_of_file(store);
   std::map<std::string, std::set<std::string>> values;
   int finished = 0;
   for (const md::PointRecord& point : points) {

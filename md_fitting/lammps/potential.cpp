@@ -12,10 +12,10 @@
 #include <iterator>
 #include <vector>
 
-#include "md_fitting/data_set/hash.hpp"
 #include "md_fitting/lammps/eam_files.hpp"
 #include "md_fitting/lammps/units.hpp"
 #include "src/base/error.hpp"
+#include "src/base/hash.hpp"
 #include "src/base/text.hpp"
 
 namespace whipple::md {

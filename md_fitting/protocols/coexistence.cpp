@@ -8,7 +8,6 @@
 #include <numeric>
 #include <span>
 
-#include "md_fitting/data_set/hash.hpp"
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/crystal.hpp"
@@ -16,6 +15,7 @@
 #include "md_fitting/protocols/statistics.hpp"
 #include "md_fitting/protocols/structure.hpp"
 #include "src/base/error.hpp"
+#include "src/base/hash.hpp"
 #include "src/base/log.hpp"
 
 namespace whipple::md {

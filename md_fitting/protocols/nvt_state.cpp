@@ -7,11 +7,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "md_fitting/data_set/hash.hpp"
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/statistics.hpp"
 #include "md_fitting/protocols/structure.hpp"
+#include "src/base/hash.hpp"
 
 namespace whipple::md {
 namespace {

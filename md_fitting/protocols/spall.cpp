@@ -9,12 +9,12 @@
 #include <numeric>
 #include <vector>
 
-#include "md_fitting/data_set/hash.hpp"
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/structure.hpp"
 #include "src/base/error.hpp"
+#include "src/base/hash.hpp"
 
 namespace whipple::md {
 namespace {

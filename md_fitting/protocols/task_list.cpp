@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "md_fitting/data_set/hash.hpp"
 #include "src/base/error.hpp"
+#include "src/base/hash.hpp"
 
 namespace whipple::md {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "eos/catalogue.hpp"
+#include "eos/files/models.hpp"
 #include "md_fitting/plan/plan.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
@@ -74,9 +74,10 @@ const std::vector<Topic>& topics() {
        [] { return names_of(setup::shape_catalogue()); }},
       {"eos", "Equations of state (`[eos]` of a material file)",
        [](const std::string& name) {
-         return describe_catalogue("equation of state", eos::catalogue(), name);
+         return describe_catalogue("equation of state", std::span<const eos::ModelEntry>(eos::all_models()),
+                                   name);
        },
-       [] { return names_of(eos::catalogue()); }},
+       [] { return names_of(std::span<const eos::ModelEntry>(eos::all_models())); }},
       {"modifier", "Modifiers of equations of state (`[[eos.modifier]]` of a material file, in order)",
        [](const std::string& name) {
          return describe_catalogue("modifier", eos::modifier_catalogue(), name);

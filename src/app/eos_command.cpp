@@ -11,6 +11,7 @@
 #include "src/app/eos_diagrams.hpp"
 #include "src/app/eos_figure.hpp"
 #include "src/app/eos_queries.hpp"
+#include "src/app/eos_tabulate.hpp"
 #include "src/base/error.hpp"
 #include "src/base/files.hpp"
 #include "src/material/material_file.hpp"
@@ -214,6 +215,7 @@ void add_eos_command(CLI::App& app) {
   for (const Query& query : queries) add_query(*command, query);
   add_audit(*command);
   add_plot(*command);
+  add_eos_tabulate(*command);
 }
 
 }  // namespace whipple::app

@@ -27,8 +27,9 @@ struct Measured {
 /// Immutable after `make_material`; shared by threads.
 struct Material {
   std::string name;
-  std::filesystem::path file;  ///< where it was read from; empty if it was built in memory
-  std::string source;          ///< where its constants come from
+  std::filesystem::path file;                     ///< where it was read from; empty if it was built in memory
+  std::vector<std::filesystem::path> companions;  ///< files that it reads, relative to its own folder
+  std::string source;                             ///< where its constants come from
   std::string note;
   std::string group;  ///< where the library lists it: "metals", "explosives", ...; may be empty
   Measured measured;

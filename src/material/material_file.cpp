@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "eos/audit.hpp"
-#include "eos/catalogue.hpp"
+#include "eos/files/models.hpp"
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
 #include "src/base/text.hpp"
@@ -141,7 +141,8 @@ std::string describe_catalogue(std::span<const Entry> catalogue, const std::stri
 struct Declared {
   Head head;
   MeasuredTable measured;
-  decltype(declare(eos::catalogue(), std::declval<input::Table>())) eos;
+  std::vector<fs::path> companions;
+  decltype(declare(std::span<const eos::ModelEntry>(), std::declval<input::Table>())) eos;
   decltype(declare(strength::catalogue(), std::declval<input::Table>())) strength;
   std::vector<decltype(declare(failure::catalogue(), std::declval<input::Table>()))> failure;
   std::string eos_line, strength_line;
@@ -158,7 +159,8 @@ Declared declare_file(const fs::path& file) {
   root.read(head_of_file(), declared.head);
   for (const char* free : {"provenance", "covariance", "defaults"}) root.accept(free);
   if (auto table = root.required_table("eos")) {
-    declared.eos = declare(eos::catalogue(), *table);
+    const std::vector<eos::ModelEntry> models = eos::all_models(file.parent_path(), &declared.companions);
+    declared.eos = declare(std::span(models), *table);
     declared.eos_line = table->where();
     for (input::Table& modifier : table->list("modifier")) {
       declared.modifiers.emplace_back(declare(eos::modifier_catalogue(), modifier), modifier.where());
@@ -228,6 +230,7 @@ Material read_material(const fs::path& path, const fs::path& beside) {
     Material material =
         make_material(declared.head.name, std::move(eos), std::move(strength), std::move(failure));
     material.file = file;
+    material.companions = declared.companions;
     material.source = declared.head.source;
     material.note = declared.head.note;
     material.group = declared.head.group;

@@ -101,6 +101,12 @@ ParameterTable<Discretization> Discretization::parameters() {
 ParameterTable<Body> Body::parameters() {
   return {text("name", &Body::name, "name of the body in output files"),
           text("material", &Body::material, "material file: a path, or a name in the library"),
+          choice("equation_of_state", &Body::equation_of_state, {"model", "table"},
+                 "how it is evaluated: by the model itself, or by a table of it, faster for costly models")
+              .optional(),
+          real("table_error", &Body::table_error, "", range::between(1e-8, 0.05),
+               "of the table: relative error of temperature and pressure")
+              .optional(),
           vector("velocity", &Body::velocity, "m/s", range::any(), "initial velocity").optional(),
           vector("angular_velocity", &Body::angular_velocity, "rad/s", range::any(),
                  "initial rotation about the centre of the body's bounding box")

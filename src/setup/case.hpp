@@ -65,6 +65,8 @@ struct Discretization {
 struct Body {
   std::string name;
   std::string material;  ///< file as written in the case
+  std::string equation_of_state = "model";
+  double table_error = 1e-4;
   Vector3 velocity = Vector3::Zero();
   Vector3 angular_velocity = Vector3::Zero();
   Discretization discretization;

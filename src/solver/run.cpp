@@ -22,6 +22,7 @@
 #include "src/io/run_directory.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
+#include "src/setup/tables.hpp"
 #include "src/solver/checkpointing.hpp"
 #include "src/solver/signals.hpp"
 
@@ -83,6 +84,12 @@ io::RunDirectory new_directory(const setup::Case& setup, const fs::path& path, c
     fs::create_directories(directory.path() / "materials");
     for (std::size_t b = 0; b < copies.size(); ++b) {
       io::write_text_atomically(directory.path() / copies[b], io::read_text(setup.materials[b]->file));
+      for (const fs::path& companion : setup.materials[b]->companions) {
+        const fs::path copy = (directory.path() / copies[b]).parent_path() / companion;
+        fs::create_directories(copy.parent_path());
+        fs::copy_file(setup.materials[b]->file.parent_path() / companion, copy,
+                      fs::copy_options::overwrite_existing);
+      }
     }
     directory.write_input(setup::to_toml(setup, copies) + provenance(setup, options.program, ranks.count()));
   });
@@ -362,7 +369,8 @@ int run(const RunOptions& options) {
   if (!ranks.is_root()) log::set_level(log::Level::quiet);
   if (options.restart) {
     const fs::path input = options.output_directory / "run.toml";
-    const setup::Case setup = setup::read_case(input, options.overrides);
+    setup::Case setup = setup::read_case(input, options.overrides);
+    setup::tabulate_materials(setup, ranks);
     io::Checkpoint checkpoint =
         io::read_latest_checkpoint(options.output_directory / "checkpoint", parallel::world());
     const io::RunDirectory directory =
@@ -379,7 +387,8 @@ int run(const RunOptions& options) {
     Runner runner(setup, directory, std::move(checkpoint), options, ranks);
     return runner.run();
   }
-  const setup::Case setup = setup::read_case(options.case_file, options.overrides);
+  setup::Case setup = setup::read_case(options.case_file, options.overrides);
+  setup::tabulate_materials(setup, ranks);
   const io::RunDirectory directory =
       new_directory(setup, output_directory(options, options.case_file), options, ranks);
   if (ranks.is_root()) log::add_file(directory.log_file());

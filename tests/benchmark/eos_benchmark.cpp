@@ -2,9 +2,11 @@
 // Nanoseconds per point of a batch call, by phase. Compare ratios on one machine, never times of two.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <random>
 #include <vector>
 
+#include "eos/table/builder.hpp"
 #include "tests/unit/eos_impact_constants.hpp"
 #include "tests/unit/eos_support.hpp"
 
@@ -64,6 +66,11 @@ const test::MieGruneisenEos& aluminium_eos() {
   return eos;
 }
 
+const Table& copper_table() {
+  static const Table table(tabulate(copper_eos(), {}));
+  return table;
+}
+
 void gray_solid(benchmark::State& s) { evaluate(s, copper_eos(), {0.9, 3e5}); }
 void gray_melting(benchmark::State& s) { evaluate(s, copper_eos(), {0.8, 1.93e6}); }
 void gray_liquid(benchmark::State& s) { evaluate(s, copper_eos(), {0.8, 3e6}); }
@@ -109,6 +116,38 @@ BENCHMARK(tillotson_vapour);
 BENCHMARK(jwl);
 BENCHMARK(tait);
 BENCHMARK(ideal_gas);
+/// States over all phases and the whole range of the table, in random order.
+void spread(benchmark::State& bench, const EquationOfState& eos, bool with_fractions) {
+  constexpr std::size_t n = 4096;
+  const Table& table = copper_table();
+  std::vector<double> rho(n), e(n), P(n), T(n), c(n), melted(with_fractions ? n : 0),
+      vapour(with_fractions ? n : 0);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    rho[i] =
+        table.minimum_density() * std::pow(table.maximum_density() / table.minimum_density(), share(random));
+    const double w = table.data().thermal_energy, base = table.minimum_energy(rho[i]) - w;
+    e[i] = base + w * std::pow((table.maximum_energy(rho[i]) - base) / w, 0.999 * share(random));
+  }
+  for (auto _ : bench) {
+    benchmark::DoNotOptimize(eos.evaluate({rho, e, P, T, c, melted, vapour}));
+    benchmark::ClobberMemory();
+  }
+  bench.counters["ns/point"] = benchmark::Counter(
+      n * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  bench.counters["kB"] = static_cast<double>(table.data().size()) * 1e-3;
+}
+void table_spread(benchmark::State& s) { spread(s, copper_table(), false); }
+void table_spread_fractions(benchmark::State& s) { spread(s, copper_table(), true); }
+void gray_spread_fractions(benchmark::State& s) { spread(s, copper_eos(), true); }
+void build_table(benchmark::State& bench) {
+  for (auto _ : bench) benchmark::DoNotOptimize(tabulate(copper_eos(), {}));
+}
+BENCHMARK(table_spread);
+BENCHMARK(table_spread_fractions);
+BENCHMARK(gray_spread_fractions);
+BENCHMARK(build_table)->Unit(benchmark::kMillisecond);
 
 void build_gray(benchmark::State& bench) {
   for (auto _ : bench) benchmark::DoNotOptimize(Gray(test::copper()));

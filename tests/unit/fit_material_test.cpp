@@ -140,7 +140,7 @@ TEST_F(FitMaterial, SaysOfEveryConstantWhereItComesFrom) {
   EXPECT_THAT(material, HasSubstr("vapour_attraction = \"\\\"critical\\\""));
   EXPECT_THAT(material, HasSubstr("[covariance]"));
   EXPECT_THAT(material, HasSubstr("store = \"copper.md.h5\""));
-  EXPECT_THAT(material, HasSubstr(md::sha256_of_file(file)));
+  EXPECT_THAT(material, HasSubstr(whipple::sha256_of_file(file)));
   EXPECT_THAT(material, HasSubstr("lammps_version = \"none\""));
   EXPECT_THAT(material, HasSubstr("[provenance.finished_points]\ncoexistence = 4\nhugoniot = 9"));
 }

@@ -14,7 +14,7 @@
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/gray.hpp"
 #include "md_fitting/data_set/data_set.hpp"
-#include "md_fitting/data_set/hash.hpp"
+#include "src/base/hash.hpp"
 
 /// Points as molecular dynamics would give them, from a GRAY model with known constants and noise of known
 /// size.
@@ -102,7 +102,7 @@ class SyntheticStore {
                         {"potential", "synthetic"},
                         {"molar_mass", fmt::format("{}", constants_.molar_mass)},
                         {"lammps_version", "none"}};
-    point.key = md::sha256(fmt::format("{}", points.size()));
+    point.key = whipple::sha256(fmt::format("{}", points.size()));
     points.push_back(point);
   }
 

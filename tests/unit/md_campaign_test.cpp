@@ -4,10 +4,10 @@
 
 #include <map>
 
-#include "md_fitting/data_set/hash.hpp"
 #include "md_fitting/protocols/campaign.hpp"
 #include "md_fitting/protocols/coexistence.hpp"
 #include "src/base/error.hpp"
+#include "src/base/hash.hpp"
 #include "src/base/log.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
 #include "tests/unit/md_temporary_folder.hpp"

@@ -10,8 +10,8 @@
 #include <fstream>
 
 #include "md_fitting/data_set/data_set.hpp"
-#include "md_fitting/data_set/hash.hpp"
 #include "src/base/error.hpp"
+#include "src/base/hash.hpp"
 #include "tests/unit/md_temporary_folder.hpp"
 
 namespace whipple::md {

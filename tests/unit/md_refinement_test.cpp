@@ -7,10 +7,10 @@
 #include <map>
 #include <random>
 
-#include "md_fitting/data_set/hash.hpp"
 #include "md_fitting/protocols/campaign.hpp"
 #include "md_fitting/protocols/refinement.hpp"
 #include "src/base/error.hpp"
+#include "src/base/hash.hpp"
 #include "src/base/log.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
 #include "tests/unit/md_temporary_folder.hpp"

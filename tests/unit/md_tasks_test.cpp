@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <set>
 
-#include "md_fitting/data_set/hash.hpp"
 #include "md_fitting/protocols/catalogue.hpp"
+#include "src/base/hash.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
 
 namespace whipple::md {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "md_fitting/data_set/hash.hpp"
+#include "src/base/hash.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 
 #include "src/base/error.hpp"
 
-namespace whipple::md {
+namespace whipple {
 namespace {
 
 // FIPS PUB 180-4, section 4.2.2: first 32 bits of the fractional parts of the cube roots of the first 64
@@ -84,4 +84,4 @@ std::int64_t seed_from(std::string_view hexadecimal) {
   return static_cast<std::int64_t>(number % 899999999U) + 1;
 }
 
-}  // namespace whipple::md
+}  // namespace whipple

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <immintrin.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "eos/table/table.hpp"
+#include "src/base/vector_math.hpp"
+
+/// The innermost functions of a table, shared by its evaluation and by its construction.
+namespace whipple::eos::table {
+
+/// A quintic polynomial, its first and half of its second derivative; coefficient(i) belongs to t^i.
+template <class Number, class Coefficient>
+inline void horner(const Coefficient& coefficient, Number t, Number& value, Number& slope,
+                   Number& half_curvature) {
+  const Number c5 = coefficient(5), v4 = c5 * t + coefficient(4);
+  const Number s3 = c5 * t + v4, v3 = v4 * t + coefficient(3);
+  const Number h2 = c5 * t + s3, s2 = s3 * t + v3, v2 = v3 * t + coefficient(2);
+  const Number h1 = h2 * t + s2, s1 = s2 * t + v2, v1 = v2 * t + coefficient(1);
+  half_curvature = h1 * t + s1;
+  slope = s1 * t + v1;
+  value = v1 * t + coefficient(0);
+}
+
+/// The piece, of n equal ones, that holds a position from 0 to 1, and where in it.
+struct Piece {
+  std::uint32_t index;
+  double local;
+};
+inline Piece piece(double position, std::uint32_t n) {
+  const double scaled = position * n;  // the order of the arguments below turns NaN into 0
+  const auto index =
+      static_cast<std::uint32_t>(static_cast<std::int32_t>(std::min(std::max(0.0, scaled), n - 1.0)));
+  return {index, scaled - index};
+}
+
+/// Value and derivatives by x = ln rho of the four curves of a strip.
+struct Curves {
+  Lanes value, slope, curvature;
+};
+
+/// @param tx  place in the strip, from 0 to 1
+inline Curves curves(const TableData& data, const TableData::Strip& strip, double tx) {
+  const Piece at = piece(tx, strip.intervals);
+  const TableData::Interval& c = data.intervals[strip.first_interval + at.index];
+  Curves result;
+  horner([&](std::size_t i) { return c[i]; }, broadcast(at.local), result.value, result.slope,
+         result.curvature);
+  const double scale = strip.intervals * strip.inverse_length;
+  result.slope *= scale;
+  result.curvature *= 2 * scale * scale;
+  return result;
+}
+
+/// The edges of the regions, from the bottom to the top of a strip, with their derivatives by x.
+struct Edges {
+  alignas(32) std::array<double, 8> value, slope, curvature;
+};
+
+inline void edges(const TableData::Strip& strip, double x, double bottom, const Curves& curves,
+                  Edges& result) {
+  const auto last = strip.region_count;
+  _mm256_store_pd(result.value.data(), __m256d(curves.value));
+  _mm256_store_pd(result.slope.data(), __m256d(curves.slope));
+  _mm256_store_pd(result.curvature.data(), __m256d(curves.curvature));
+  result.value[0] = bottom;
+  result.slope[0] = result.curvature[0] = 0;
+  result.value[last] = strip.top + strip.top_slope * (x - strip.begin);
+  result.slope[last] = strip.top_slope;
+  result.curvature[last] = 0;
+}
+
+/// Derivatives of S by two coordinates. Number is double or Lanes.
+template <class Number>
+struct Polynomial {
+  Number x, y, xx, xy, yy;
+};
+
+/// Derivatives of S by the coordinates of a cell, each from 0 to 1.
+inline Polynomial<double> polynomial(const double* cell, double tx, double ty) {
+  std::array<double, 6> a0{}, a1{}, a2{};
+  for (std::size_t i = 0; i < 6; ++i)
+    horner([&](std::size_t j) { return cell[6 * j + i]; }, tx, a0[i], a1[i], a2[i]);
+  Polynomial<double> s{};
+  double value = 0, half = 0;
+  horner([&](std::size_t i) { return a0[i]; }, ty, value, s.y, half);
+  s.yy = 2 * half;
+  horner([&](std::size_t i) { return a1[i]; }, ty, s.x, s.xy, half);
+  horner([&](std::size_t i) { return 2 * a2[i]; }, ty, s.xx, value, half);
+  return s;
+}
+
+/// The same for four points at once, in two steps. First, point by point: the sums over the powers of x,
+/// their first and half of their second derivatives, for each power of y.
+using AlongX =
+    std::array<double, 20>;  ///< powers 0 to 3 of the value, slope, curvature; powers 4 and 5; two idle
+
+inline void along_x(const double* cell, double tx, AlongX& sums) {
+  using Pair [[gnu::vector_size(16)]] = double;
+  Lanes a0, a1, a2;
+  Pair b0, b1, b2;
+  horner([&](std::size_t j) { return Lanes(_mm256_loadu_pd(cell + 6 * j)); }, broadcast(tx), a0, a1, a2);
+  horner([&](std::size_t j) { return Pair(_mm_loadu_pd(cell + 6 * j + 4)); }, Pair{tx, tx}, b0, b1, b2);
+  _mm256_storeu_pd(&sums[0], __m256d(a0));
+  _mm256_storeu_pd(&sums[4], __m256d(a1));
+  _mm256_storeu_pd(&sums[8], __m256d(a2));
+  _mm_storeu_pd(&sums[12], __m128d(b0));
+  _mm_storeu_pd(&sums[14], __m128d(b1));
+  _mm_storeu_pd(&sums[16], __m128d(b2));
+}
+
+/// Four numbers of four points: by number.
+inline std::array<Lanes, 4> transposed(const AlongX* sums, std::size_t first) {
+  const auto row = [&](std::size_t point) { return _mm256_loadu_pd(&sums[point][first]); };
+  const __m256d r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
+  const __m256d a = _mm256_unpacklo_pd(r0, r1), b = _mm256_unpackhi_pd(r0, r1);
+  const __m256d c = _mm256_unpacklo_pd(r2, r3), d = _mm256_unpackhi_pd(r2, r3);
+  return {Lanes(_mm256_permute2f128_pd(a, c, 0x20)), Lanes(_mm256_permute2f128_pd(b, d, 0x20)),
+          Lanes(_mm256_permute2f128_pd(a, c, 0x31)), Lanes(_mm256_permute2f128_pd(b, d, 0x31))};
+}
+
+/// Second step: the sums over the powers of y.
+inline Polynomial<Lanes> along_y(const AlongX* sums, Lanes ty) {
+  const auto v = transposed(sums, 0), s = transposed(sums, 4), h = transposed(sums, 8);
+  const auto vs = transposed(sums, 12), hs = transposed(sums, 16);
+  Polynomial<Lanes> result;
+  Lanes value, half;
+  horner([&](std::size_t i) { return i < 4 ? v[i] : vs[i - 4]; }, ty, value, result.y, half);
+  result.yy = 2.0 * half;
+  horner([&](std::size_t i) { return i < 4 ? s[i] : vs[i - 2]; }, ty, result.x, result.xy, half);
+  horner([&](std::size_t i) { return i < 4 ? h[i] : hs[i - 4]; }, ty, result.xx, value, half);
+  result.xx *= 2.0;
+  return result;
+}
+
+/// Pieces of four positions, each among its own number of pieces; NaN lies in the first.
+struct Pieces {
+  __m128i index;
+  Lanes local;
+};
+inline Pieces pieces(Lanes position, Lanes n) {
+  const Lanes scaled = position * n;
+  const __m128i index = _mm256_cvttpd_epi32(__m256d(minimum(maximum(scaled, Lanes{}), n - 1.0)));
+  return {index, scaled - Lanes(_mm256_cvtepi32_pd(index))};
+}
+
+/// Value of S in a cell.
+inline double polynomial_value(const double* cell, double tx, double ty) {
+  double value = 0;
+  for (int j = 5; j >= 0; --j) {
+    double row = 0;
+    for (int i = 5; i >= 0; --i) row = row * ty + cell[6 * j + i];
+    value = value * tx + row;
+  }
+  return value;
+}
+
+/// Where a point lies in its region: y = (z - z_k)/(z_(k+1) - z_k), the lower edge z_k and the width, with
+/// derivatives by x; e_0 too. Number is double or Lanes.
+template <class Number>
+struct Place {
+  Number y, inverse_width, inverse_thermal;  ///< 1/(e - e_0)
+  Number base_slope, base_curvature;
+  Number low_slope, low_curvature, width_slope, width_curvature;
+};
+
+/// Derivatives of the entropy by x = ln rho and e.
+template <class Number>
+struct Slopes {
+  Number x, e, xx, xe, ee;
+};
+
+/// Chain rule from (x, y) to (x, e), with z = ln(e - e_0) and y w = z - z_k.
+template <class Number>
+inline Slopes<Number> slopes(const Polynomial<Number>& s, const Place<Number>& p) {
+  const Number g = p.inverse_thermal, u = p.inverse_width, y = p.y;
+  const Number e1 = p.base_slope, e2 = p.base_curvature, w1 = p.width_slope, w2 = p.width_curvature;
+  const Number z_e = g, z_x = -e1 * g, z_ee = -g * g, z_xe = e1 * g * g, z_xx = -g * (e2 + e1 * e1 * g);
+  const Number y_e = z_e * u, y_x = (z_x - p.low_slope - y * w1) * u;
+  const Number y_ee = z_ee * u, y_xe = (z_xe - y_e * w1) * u;
+  const Number y_xx = (z_xx - p.low_curvature - 2.0 * y_x * w1 - y * w2) * u;
+  return {s.x + s.y * y_x, s.y * y_e, s.xx + y_x * (2.0 * s.xy + s.yy * y_x) + s.y * y_xx,
+          y_e * (s.xy + s.yy * y_x) + s.y * y_xe, s.yy * y_e * y_e + s.y * y_ee};
+}
+
+/// Temperature, pressure and c^2.
+template <class Number>
+struct Thermal {
+  Number temperature, pressure, squared_sound_speed;
+};
+
+template <class Number>
+inline Thermal<Number> thermal(Number rho, const Slopes<Number>& s) {
+  const Number T = 1.0 / s.e, v = 1.0 / rho;
+  const Number p = -rho * T * s.x;
+  const Number p_e = -T * (rho * s.xe + p * s.ee);
+  const Number p_rho = p * v - T * (s.xx + p * v * s.xe);
+  return {T, p, p_rho + p * p_e * (v * v)};
+}
+
+/// Edges closer than this in z are taken as this far apart.
+constexpr double least_width = 1e-9;
+
+}  // namespace whipple::eos::table

@@ -1,0 +1,471 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eos/table/strip.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "eos/table/hermite_fit.hpp"
+#include "eos/table/kernel.hpp"
+#include "src/base/error.hpp"
+
+namespace whipple::eos::table {
+namespace {
+
+constexpr std::size_t greatest_curve_intervals = 32;
+constexpr std::uint32_t greatest_nx = 8, greatest_ny = 32;
+constexpr std::uint32_t greatest_fraction_nx = 64, greatest_fraction_ny = 128;
+/// Share of a region that a cut parts from it, where the resolution falls short.
+constexpr double cut_share = 0.1;
+/// A strip is not halved below this length of ln rho: what remains is reported by the verification.
+constexpr double least_length = 0.01;
+constexpr double edge_tolerance = 4e-13;  ///< of z
+/// Within one phase, a jump of the heat capacity by more than this share is an edge as well.
+constexpr double least_jump = 2e-3;
+/// Phase fractions are sampled this far inside of their region.
+constexpr double inset = 1e-6;
+
+class StripFit {
+ public:
+  StripFit(const Sampler& sampler, const StripTask& task, const TableData& constants, double error)
+      : sampler_(sampler), task_(task), constants_(constants), error_(error) {
+    bottom_ = std::log(constants.thermal_energy);
+    may_split_ = !task.last_attempt && task.end - task.begin > least_length;
+  }
+
+  FittedStrip run() {
+    FittedStrip& f = result_;
+    isochore_phases_ = sampler_.isochore(0.5 * (task_.first_sample + task_.last_sample)).phases;
+    f.phases = isochore_phases_;
+    for (const Cut& cut : task_.cuts)
+      f.phases.insert(f.phases.begin() + static_cast<std::ptrdiff_t>(cut.region), f.phases[cut.region]);
+    if (f.phases.size() > TableData::greatest_regions) {
+      std::string names;
+      for (const std::string_view phase : f.phases) names += fmt::format(" {};", phase);
+      throw InputError(
+          fmt::format("table: more than {} phases on one isochore:{}", TableData::greatest_regions, names));
+    }
+    f.strip.begin = task_.begin;
+    f.strip.end = task_.end;
+    f.strip.inverse_length = 1 / (task_.end - task_.begin);
+    f.strip.region_count = static_cast<std::uint32_t>(f.phases.size());
+    const double first_top = sampler_.isochore(task_.first_sample).top;
+    const double last_top = sampler_.isochore(task_.last_sample).top;
+    f.strip.top = first_top;
+    f.strip.top_slope = (last_top - first_top) / (task_.end - task_.begin);
+    if (!fit_curves()) return {};
+    for (std::size_t k = 0; k < f.phases.size(); ++k) {
+      if (!fit_region(k)) return without_convergence();
+      fit_fractions(k);
+    }
+    f.converged = true;
+    return std::move(f);
+  }
+
+ private:
+  [[nodiscard]] double x_at(double t) const {
+    return std::clamp(task_.begin + t * (task_.end - task_.begin), task_.first_sample, task_.last_sample);
+  }
+
+  [[nodiscard]] FittedStrip without_convergence() const {
+    FittedStrip none;
+    none.cut = result_.cut;
+    return none;
+  }
+
+  // ---- curves
+
+  /// Edges of the phases, and the cuts.
+  [[nodiscard]] std::vector<double> inner_edges(const Isochore& isochore) const {
+    std::vector<double> all = {bottom_};
+    all.insert(all.end(), isochore.edges.begin(), isochore.edges.end());
+    all.push_back(isochore.top);
+    for (const Cut& cut : task_.cuts) {
+      const double low = all[cut.region], high = all[cut.region + 1];
+      all.insert(all.begin() + static_cast<std::ptrdiff_t>(cut.region) + 1, low + cut.share * (high - low));
+    }
+    return {all.begin() + 1, all.end() - 1};
+  }
+
+  [[nodiscard]] std::vector<TableData::Interval> curve_intervals(std::size_t cells) const {
+    const std::size_t samples = HermiteFit::sample_intervals(cells);
+    std::vector<std::array<double, 4>> values;
+    for (std::size_t i = 0; i <= samples; ++i) {
+      const Isochore isochore =
+          sampler_.isochore(x_at(static_cast<double>(i) / static_cast<double>(samples)));
+      // Where a region ends at the rim of a segment, it is missing on the rim itself: the strip is halved.
+      if (isochore.phases != isochore_phases_) return {};
+      std::array<double, 4> row = {isochore.base_energy, 1e300, 1e300, 1e300};
+      std::ranges::copy(inner_edges(isochore), row.begin() + 1);
+      values.push_back(row);
+    }
+    std::vector<TableData::Interval> intervals(cells);
+    const HermiteFit fit(cells);
+    std::vector<double> coefficients(6 * cells);
+    for (std::size_t curve = 0; curve < 4; ++curve) {
+      const bool present = curve < result_.phases.size();
+      if (present) fit(values[0].data() + curve, 4, coefficients.data(), 1);
+      for (std::size_t i = 0; i < cells; ++i) {
+        for (std::size_t j = 0; j < 6; ++j)
+          intervals[i][j][curve] = present ? coefficients[6 * i + j] : (j == 0 ? 1e300 : 0.0);
+      }
+    }
+    return intervals;
+  }
+
+  /// Doubles the intervals until slopes of the curves change by little.
+  bool fit_curves() {
+    TableData coarse, fine;
+    coarse.intervals = curve_intervals(1);
+    if (coarse.intervals.empty()) return !may_split_ && coarsest_curves();
+    for (std::size_t n = 1;; n *= 2) {
+      fine.intervals = curve_intervals(2 * n);
+      if (fine.intervals.empty()) return !may_split_ && coarsest_curves();
+      TableData::Strip a = result_.strip, b = a;
+      a.intervals = static_cast<std::uint32_t>(n);
+      b.intervals = static_cast<std::uint32_t>(2 * n);
+      double worst = 0;
+      for (std::size_t i = 0; i < 8 * n; ++i) {
+        const double tx = (static_cast<double>(i) + 0.5) / static_cast<double>(8 * n);
+        const double x = a.begin + (a.end - a.begin) * tx;
+        const Curves ca = curves(coarse, a, tx), cb = curves(fine, b, tx);
+        // de_0/dx is -p V of the cold curve: on the scale of a pressure of rho c^2/100.
+        const State s = sampler_.state(x, cb.value[0] + 2 * constants_.thermal_energy);
+        const double scale = pressure_scale(cb.slope[0], 1.0, s.sound_speed * s.sound_speed,
+                                            soft_square(sampler_.reference_sound_speed()));
+        worst = std::max(worst, std::abs(ca.slope[0] - cb.slope[0]) / (0.02 * error_ * scale));
+        worst = std::max(worst, std::abs(ca.curvature[0] - cb.curvature[0]) /
+                                    (error_ * (std::abs(cb.curvature[0]) + s.sound_speed * s.sound_speed)));
+        for (std::size_t k = 1; k < result_.phases.size(); ++k)
+          worst = std::max(worst, std::abs(ca.value[k] - cb.value[k]) / (0.02 * error_));
+      }
+      if (worst < 1 || (!may_split_ && 2 * n >= greatest_curve_intervals)) {
+        result_.strip.intervals = static_cast<std::uint32_t>(n);
+        result_.intervals = std::move(coarse.intervals);
+        data_.intervals = result_.intervals;
+        return true;
+      }
+      if (2 * n >= greatest_curve_intervals) return false;
+      coarse.intervals = std::move(fine.intervals);
+    }
+  }
+
+  /// Last resort for a strip too thin to be halved that holds the end of a region: the curves of its densest
+  /// state with the phases of the strip, held constant.
+  bool coarsest_curves() {
+    const Isochore isochore = sampler_.isochore(0.5 * (task_.first_sample + task_.last_sample));
+    const double low = sampler_.base_energy(task_.first_sample),
+                 high = sampler_.base_energy(task_.last_sample);
+    TableData::Interval interval{};
+    interval[0] = Lanes{low, 1e300, 1e300, 1e300};
+    interval[1][0] = high - low;
+    const std::vector<double> inner = inner_edges(isochore);
+    for (std::size_t k = 0; k < inner.size(); ++k) interval[0][k + 1] = inner[k];
+    result_.intervals = data_.intervals = {interval};
+    result_.strip.intervals = 1;
+    return true;
+  }
+
+  // ---- entropy
+
+  struct Patch {
+    std::uint32_t nx, ny;
+    std::vector<double> cells;
+  };
+
+  [[nodiscard]] Edges edges_at(double x, Curves& base) const {
+    Edges result;
+    base = curves(data_, result_.strip, (x - task_.begin) / (task_.end - task_.begin));
+    edges(result_.strip, x, bottom_, base, result);
+    return result;
+  }
+
+  [[nodiscard]] Patch fit_patch(std::size_t region, std::uint32_t nx, std::uint32_t ny) const {
+    const std::size_t mx = HermiteFit::sample_intervals(nx), my = HermiteFit::sample_intervals(ny);
+    std::vector<double> samples((mx + 1) * (my + 1));
+    for (std::size_t i = 0; i <= mx; ++i) {
+      const double x = x_at(static_cast<double>(i) / static_cast<double>(mx));
+      Curves base;
+      const Edges edge = edges_at(x, base);
+      const double low = edge.value[region], width = edge.value[region + 1] - low;
+      for (std::size_t j = 0; j <= my; ++j) {
+        const double z = low + width * static_cast<double>(j) / static_cast<double>(my);
+        samples[i * (my + 1) + j] = sampler_.state(x, base.value[0] + std::exp(z)).specific_entropy;
+      }
+    }
+    // Along x for every energy, then along y for every coefficient.
+    const HermiteFit along_x(nx), along_y(ny);
+    std::vector<double> rows(6 * nx * (my + 1));
+    for (std::size_t j = 0; j <= my; ++j) along_x(samples.data() + j, my + 1, rows.data() + j, my + 1);
+    Patch patch{nx, ny, std::vector<double>(std::size_t{nx} * ny * TableData::cell_size)};
+    std::vector<double> column(6 * ny);
+    for (std::size_t i = 0; i < nx; ++i) {
+      for (std::size_t power = 0; power < 6; ++power) {
+        along_y(rows.data() + (6 * i + power) * (my + 1), 1, column.data(), 1);
+        for (std::size_t j = 0; j < ny; ++j) {
+          std::copy_n(column.begin() + static_cast<std::ptrdiff_t>(6 * j), 6,
+                      patch.cells.begin() +
+                          static_cast<std::ptrdiff_t>((i * ny + j) * TableData::cell_size + 6 * power));
+        }
+      }
+    }
+    return patch;
+  }
+
+  [[nodiscard]] Thermal<double> evaluate(const Patch& patch, std::size_t region, double tx, double y,
+                                         const Curves& base, const Edges& edge, double rho) const {
+    const double px = tx * patch.nx, py = y * patch.ny;
+    const auto i = static_cast<std::size_t>(std::clamp(px, 0.0, patch.nx - 1.0));
+    const auto j = static_cast<std::size_t>(std::clamp(py, 0.0, patch.ny - 1.0));
+    Polynomial<double> s = polynomial(patch.cells.data() + (i * patch.ny + j) * TableData::cell_size,
+                                      px - static_cast<double>(i), py - static_cast<double>(j));
+    const double by_x = patch.nx / (task_.end - task_.begin), by_y = patch.ny;
+    s = {s.x * by_x, s.y * by_y, s.xx * by_x * by_x, s.xy * by_x * by_y, s.yy * by_y * by_y};
+    const double width = std::max(edge.value[region + 1] - edge.value[region], least_width);
+    const double z = edge.value[region] + y * width;
+    return thermal<double>(
+        rho,
+        slopes<double>(s, {y, 1 / width, std::exp(-z), base.slope[0], base.curvature[0], edge.slope[region],
+                           edge.curvature[region], edge.slope[region + 1] - edge.slope[region],
+                           edge.curvature[region + 1] - edge.curvature[region]}));
+  }
+
+  /// Greatest difference of two patches over the tolerance, and where in y it lies.
+  struct Difference {
+    double worst = 0, y = 0;
+  };
+  [[nodiscard]] Difference difference(const Patch& a, const Patch& b, std::size_t region) const {
+    const std::size_t mx = 3 * std::size_t{std::min(a.nx, b.nx)}, my = 3 * std::size_t{std::min(a.ny, b.ny)};
+    const double least = constants_.least_sound_speed, soft = soft_square(sampler_.reference_sound_speed());
+    Difference result;
+    for (std::size_t i = 0; i < mx; ++i) {
+      const double tx = (static_cast<double>(i) + 0.5) / static_cast<double>(mx);
+      const double x = x_at(tx), rho = std::exp(x);
+      Curves base;
+      const Edges edge = edges_at(x, base);
+      for (std::size_t j = 0; j < my; ++j) {
+        const double y = (static_cast<double>(j) + 0.5) / static_cast<double>(my);
+        const auto sa = evaluate(a, region, tx, y, base, edge, rho),
+                   sb = evaluate(b, region, tx, y, base, edge, rho);
+        const double ca = std::max(sa.squared_sound_speed, least * least);
+        const double cb = std::max(sb.squared_sound_speed, least * least);
+        const double miss = std::max(
+            {std::abs(sa.temperature / sb.temperature - 1) / error_,
+             std::abs(sa.pressure - sb.pressure) / (error_ * pressure_scale(sb.pressure, rho, cb, soft)),
+             std::abs(ca - cb) / (20 * error_ * (cb + soft))});
+        if (!(miss <= result.worst)) result = {miss, y};
+      }
+    }
+    return result;
+  }
+
+  bool fit_region(std::size_t region) {
+    constexpr double safety = 0.35;
+    std::uint32_t nx = 1, ny = 1;
+    Patch present = fit_patch(region, nx, ny);
+    for (;;) {
+      const bool wider = nx < greatest_nx, higher = ny < greatest_ny;
+      const Patch fine_x = fit_patch(region, 2 * nx, ny), fine_y = fit_patch(region, nx, 2 * ny);
+      const Difference along_y = difference(present, fine_y, region);
+      const double by_x = difference(present, fine_x, region).worst, by_y = along_y.worst;
+      if (by_x < safety && by_y < safety) break;
+      if (by_y >= safety && !higher && may_split_ && result_.phases.size() < TableData::greatest_regions) {
+        result_.cut = Cut{region, along_y.y > 0.5 ? 1 - cut_share : cut_share};
+        return false;
+      }
+      if (by_x >= safety && !wider && may_split_) return false;
+      if (by_y >= safety && !higher && may_split_) return false;
+      const bool double_x = by_x >= safety && wider && by_x >= 0.1 * by_y;
+      const bool double_y = by_y >= safety && higher && by_y >= 0.1 * by_x;
+      if (!double_x && !double_y) break;
+      if (double_x) nx *= 2;
+      if (double_y) ny *= 2;
+      present = double_x && double_y ? fit_patch(region, nx, ny) : double_x ? fine_x : fine_y;
+    }
+    TableData::Region& r = result_.strip.regions[region];
+    r.first_cell = static_cast<std::uint32_t>(result_.cells.size() / TableData::cell_size);
+    r.nx = nx;
+    r.ny = ny;
+    result_.cells.insert(result_.cells.end(), present.cells.begin(), present.cells.end());
+    return true;
+  }
+
+  // ---- phase fractions
+
+  [[nodiscard]] std::array<double, 2> fractions_at(std::size_t region, double tx, double y) const {
+    const double x = x_at(tx);
+    Curves base;
+    const Edges edge = edges_at(x, base);
+    const double z =
+        edge.value[region] + std::clamp(y, inset, 1 - inset) * (edge.value[region + 1] - edge.value[region]);
+    const State s = sampler_.state(x, base.value[0] + std::exp(z));
+    return {s.melted_fraction, s.vaporised_fraction};
+  }
+
+  struct FractionPatch {
+    std::uint32_t nx, ny;
+    std::vector<std::array<double, 2>> corners;
+    double mean = 0, worst = 0;
+  };
+
+  [[nodiscard]] FractionPatch fit_fraction_patch(std::size_t region, std::uint32_t nx,
+                                                 std::uint32_t ny) const {
+    FractionPatch patch{nx, ny, {}};
+    for (std::uint32_t i = 0; i <= nx; ++i) {
+      for (std::uint32_t j = 0; j <= ny; ++j)
+        patch.corners.push_back(
+            fractions_at(region, static_cast<double>(i) / nx, static_cast<double>(j) / ny));
+    }
+    for (std::uint32_t i = 0; i < nx; ++i) {
+      for (std::uint32_t j = 0; j < ny; ++j) {
+        // Not the centre: saddles would hide there.
+        const auto exact = fractions_at(region, (i + 0.4) / nx, (j + 0.45) / ny);
+        const std::size_t corner = i * (ny + 1) + j;
+        for (std::size_t k = 0; k < 2; ++k) {
+          const double low = patch.corners[corner][k] * 0.55 + patch.corners[corner + 1][k] * 0.45;
+          const double high =
+              patch.corners[corner + ny + 1][k] * 0.55 + patch.corners[corner + ny + 2][k] * 0.45;
+          const double miss = std::abs(0.6 * low + 0.4 * high - exact[k]);
+          patch.mean += miss / (2.0 * nx * ny);
+          patch.worst = std::max(patch.worst, miss);
+        }
+      }
+    }
+    return patch;
+  }
+
+  void fit_fractions(std::size_t region) {
+    FractionPatch present = fit_fraction_patch(region, 2, 2);
+    if (present.worst == 0.0) present = fit_fraction_patch(region, 4, 8);
+    if (present.worst == 0.0) {
+      present = fit_fraction_patch(region, 1, 1);
+    } else {
+      while (present.mean > 3 * error_) {
+        FractionPatch wide, high;
+        wide.mean = high.mean = INFINITY;
+        if (present.nx < greatest_fraction_nx) wide = fit_fraction_patch(region, 2 * present.nx, present.ny);
+        if (present.ny < greatest_fraction_ny) high = fit_fraction_patch(region, present.nx, 2 * present.ny);
+        if (std::isinf(wide.mean) && std::isinf(high.mean)) break;
+        present = wide.mean < high.mean ? std::move(wide) : std::move(high);
+      }
+    }
+    TableData::Region& r = result_.strip.regions[region];
+    r.first_fraction = static_cast<std::uint32_t>(result_.fractions.size());
+    r.fraction_nx = present.nx;
+    r.fraction_ny = present.ny;
+    for (const auto& corner : present.corners) {
+      result_.fractions.push_back({static_cast<std::uint16_t>(std::lround(65535 * corner[0])),
+                                   static_cast<std::uint16_t>(std::lround(65535 * corner[1]))});
+    }
+  }
+
+  const Sampler& sampler_;
+  const StripTask& task_;
+  const TableData& constants_;
+  double error_;
+  double bottom_ = 0;
+  bool may_split_ = false;
+  std::vector<std::string_view> isochore_phases_;  ///< before cuts
+  TableData data_;  ///< holds the intervals of the strip for the kernel's functions
+  FittedStrip result_;
+};
+
+}  // namespace
+
+Sampler::Sampler(const EquationOfState& eos, double thermal_energy, const TableRequest& request, int scan)
+    : eos_(eos),
+      reference_sound_speed_(eos.state(eos.reference_density(), eos.reference_energy()).sound_speed),
+      thermal_energy_(thermal_energy),
+      least_temperature_(request.least_temperature),
+      greatest_temperature_(request.greatest_temperature),
+      scan_(scan) {}
+
+double Sampler::base_energy(double x) const {
+  return eos_.state_at_temperature(std::exp(x), least_temperature_).specific_internal_energy -
+         thermal_energy_;
+}
+
+State Sampler::state(double x, double e) const { return eos_.state(std::exp(x), e); }
+
+Sampler::Probe Sampler::probe(double x, double base, double z) const {
+  const State s = state(x, base + std::exp(z));
+  return {z, s.phase, s.heat_capacity, s.sound_speed};
+}
+
+void Sampler::find_edges(double x, double base, const Probe& low, const Probe& high, Isochore& result) const {
+  if (low.phase == high.phase) return;
+  const double z = 0.5 * (low.z + high.z);
+  if (high.z - low.z < edge_tolerance) {
+    result.edges.push_back(z);
+    result.phases.push_back(high.phase);
+    return;
+  }
+  const Probe middle = probe(x, base, z);
+  find_edges(x, base, low, middle, result);
+  find_edges(x, base, middle, high, result);
+}
+
+void Sampler::find_jump(double x, double base, Probe low, Probe high, Isochore& result) const {
+  while (high.z - low.z >= edge_tolerance) {
+    const Probe middle = probe(x, base, 0.5 * (low.z + high.z));
+    const bool lower = std::abs(middle.heat_capacity - low.heat_capacity) >
+                       std::abs(high.heat_capacity - middle.heat_capacity);
+    (lower ? high : low) = middle;
+  }
+  if (std::abs(high.heat_capacity - low.heat_capacity) < least_jump * low.heat_capacity) return;
+  result.edges.push_back(0.5 * (low.z + high.z));
+  result.phases.push_back(high.phase);
+}
+
+Isochore Sampler::isochore(double x) const {
+  Isochore result;
+  result.base_energy = base_energy(x);
+  const double bottom = std::log(thermal_energy_);
+  result.top =
+      std::log(eos_.state_at_temperature(std::exp(x), greatest_temperature_).specific_internal_energy -
+               result.base_energy);
+  std::vector<Probe> probes;
+  for (int i = 0; i <= scan_; ++i)
+    probes.push_back(probe(x, result.base_energy, bottom + (result.top - bottom) * i / scan_));
+  result.phases.push_back(probes[0].phase);
+  result.least_sound_speed = std::ranges::min(probes, {}, &Probe::sound_speed).sound_speed;
+  for (std::size_t i = 1; i < probes.size(); ++i) {
+    const Probe &low = probes[i - 1], &high = probes[i];
+    find_edges(x, result.base_energy, low, high, result);
+    const bool alone = i < 2 || i + 1 >= probes.size() || probes[i - 2].phase != probes[i + 1].phase;
+    if (alone || low.phase != high.phase) continue;
+    // Where the heat capacity is smooth, its differences follow those beside them.
+    const double before = low.heat_capacity - probes[i - 2].heat_capacity,
+                 after = probes[i + 1].heat_capacity - high.heat_capacity;
+    const double excess = high.heat_capacity - low.heat_capacity - 0.5 * (before + after);
+    if (std::abs(excess) > 0.25 * least_jump * low.heat_capacity)
+      find_jump(x, result.base_energy, low, high, result);
+  }
+  return result;
+}
+
+FittedStrip fit_strip(const Sampler& sampler, const StripTask& task, const TableData& constants,
+                      double error) {
+  return StripFit(sampler, task, constants, error).run();
+}
+
+void append(TableData& data, const FittedStrip& fitted) {
+  TableData::Strip strip = fitted.strip;
+  strip.first_interval = static_cast<std::uint32_t>(data.intervals.size());
+  for (std::size_t k = 0; k < strip.region_count; ++k) {
+    TableData::Region& r = strip.regions[k];
+    r.first_cell += static_cast<std::uint32_t>(data.cells.size() / TableData::cell_size);
+    r.first_fraction += static_cast<std::uint32_t>(data.fractions.size());
+    const auto name = std::ranges::find(data.phases, fitted.phases[k]);
+    r.phase = static_cast<std::uint32_t>(name - data.phases.begin());
+    if (name == data.phases.end()) data.phases.emplace_back(fitted.phases[k]);
+  }
+  data.strips.push_back(strip);
+  data.intervals.insert(data.intervals.end(), fitted.intervals.begin(), fitted.intervals.end());
+  data.cells.insert(data.cells.end(), fitted.cells.begin(), fitted.cells.end());
+  data.fractions.insert(data.fractions.end(), fitted.fractions.begin(), fitted.fractions.end());
+}
+
+}  // namespace whipple::eos::table

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "eos/table/builder.hpp"
+
+/// Construction of a table, strip by strip (docs/theory/equations_of_state.md, section "Tables").
+namespace whipple::eos::table {
+
+/// What errors are measured by: p passes through zero, c^2 through zero in the loop of a metastable fluid.
+inline double soft_square(double reference_sound_speed) {
+  return 0.01 * reference_sound_speed * reference_sound_speed;
+}
+inline double pressure_scale(double pressure, double rho, double squared_sound_speed, double soft) {
+  return std::abs(pressure) + 0.01 * rho * (squared_sound_speed + soft);
+}
+
+/// The phases that an isochore crosses, coldest first, and the edges between them.
+struct Isochore {
+  std::vector<std::string_view> phases;
+  std::vector<double> edges;  ///< z, one less than phases
+  double base_energy = 0;     ///< e_0
+  double top = 0;             ///< z of the greatest temperature
+  double least_sound_speed = 0;
+};
+
+/// States of the model by the coordinates of the table.
+class Sampler {
+ public:
+  Sampler(const EquationOfState& eos, double thermal_energy, const TableRequest& request, int scan);
+  [[nodiscard]] double reference_sound_speed() const { return reference_sound_speed_; }
+  [[nodiscard]] double base_energy(double x) const;
+  [[nodiscard]] Isochore isochore(double x) const;
+  [[nodiscard]] State state(double x, double e) const;
+
+ private:
+  struct Probe {
+    double z;
+    std::string_view phase;
+    double heat_capacity, sound_speed;
+  };
+  [[nodiscard]] Probe probe(double x, double base, double z) const;
+  /// Adds the edges between two probes of different phases.
+  void find_edges(double x, double base, const Probe& low, const Probe& high, Isochore& result) const;
+  /// Adds the jump of the heat capacity between two probes of one phase, if there is one.
+  void find_jump(double x, double base, Probe low, Probe high, Isochore& result) const;
+
+  const EquationOfState& eos_;
+  double reference_sound_speed_, thermal_energy_, least_temperature_, greatest_temperature_;
+  int scan_;
+};
+
+/// Divides a region, counted after the cuts before it, at a share of its height in z: resolution where a
+/// phase needs more of it.
+struct Cut {
+  std::size_t region;
+  double share;
+};
+
+/// Densities to be fitted; the samples stay between `first_sample` and `last_sample`, on this side of a
+/// density at which the phases change.
+struct StripTask {
+  double begin, end, first_sample, last_sample;
+  std::vector<Cut> cuts = {};
+  bool last_attempt = false;  ///< what does not converge stands, and shows in the verification
+};
+
+struct FittedStrip {
+  bool converged = false;  ///< otherwise: to be cut once more, or else to be halved
+  std::optional<Cut> cut;
+  TableData::Strip strip;  ///< its indices count from the vectors below
+  std::vector<TableData::Interval> intervals;
+  std::vector<double> cells;
+  std::vector<std::array<std::uint16_t, 2>> fractions;
+  std::vector<std::string_view> phases;
+};
+
+FittedStrip fit_strip(const Sampler& sampler, const StripTask& task, const TableData& constants,
+                      double error);
+
+/// Adds a fitted strip at the end of a table.
+void append(TableData& data, const FittedStrip& fitted);
+
+}  // namespace whipple::eos::table

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Tables of equations of state: the identities hold by construction, the error requested is the error found
+// where the model is consistent with itself, and nothing is evaluated outside of the range in silence.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "eos/identities.hpp"
+#include "eos/loci/hugoniot.hpp"
+#include "eos/table/builder.hpp"
+#include "src/base/error.hpp"
+#include "tests/unit/eos_support.hpp"
+
+namespace whipple::eos {
+namespace {
+
+const test::GrayEos& copper() {
+  static const test::GrayEos eos(test::copper());
+  return eos;
+}
+const Table& copper_table() {
+  static const Table table(tabulate(copper(), {}));
+  return table;
+}
+
+/// One point through the batch function.
+struct Point {
+  double pressure, temperature, sound_speed, melted, vaporised;
+  RangeReport report;
+};
+Point evaluate(const EquationOfState& eos, double rho, double e) {
+  Point p{};
+  p.report = eos.evaluate({{&rho, 1},
+                           {&e, 1},
+                           {&p.pressure, 1},
+                           {&p.temperature, 1},
+                           {&p.sound_speed, 1},
+                           {&p.melted, 1},
+                           {&p.vaporised, 1}});
+  return p;
+}
+
+TEST(EosTable, reaches_the_requested_error_where_the_model_is_consistent) {
+  const auto errors = verify(copper_table(), copper(), 200000);
+  for (const char* phase : {"solid", "liquid", "hot liquid"}) {
+    const TableError& e = errors.at(phase);
+    EXPECT_GT(e.states, 1000U) << phase;
+    EXPECT_LT(e.temperature, 1e-4) << phase;
+    EXPECT_LT(e.pressure, 1e-4) << phase;
+    EXPECT_LT(e.mean_sound_speed, 1e-4) << phase;
+    EXPECT_LT(e.fraction, 1e-4) << phase;
+  }
+  // Vapour: the heat capacity of the model almost vanishes at T_G(V_J), where it jumps.
+  EXPECT_LT(errors.at("vapour").temperature, 1e-3);
+  EXPECT_LT(errors.at("vapour").pressure, 5e-3);
+  EXPECT_LT(errors.at("vapour").mean_sound_speed, 1e-4);
+  EXPECT_LT(errors.at("vapour").mean_fraction, 1e-3);
+  // Melting band: dE = T dS - P dV holds in the model to 5e-3 only (docs/theory/gray.md); the table is exact.
+  EXPECT_LT(errors.at("melting").temperature, 0.01);
+  EXPECT_LT(errors.at("melting").mean_fraction, 1e-3);
+}
+
+TEST(EosTable, a_smaller_request_makes_a_smaller_error) {
+  const Table coarse(tabulate(copper(), {.error = 1e-2}));
+  const auto loose = verify(coarse, copper(), 50000), tight = verify(copper_table(), copper(), 50000);
+  for (const char* phase : {"solid", "liquid"})
+    EXPECT_GT(loose.at(phase).pressure, 4 * tight.at(phase).pressure) << phase;
+  EXPECT_LT(coarse.data().cells.size(), copper_table().data().cells.size());
+  EXPECT_LT(copper_table().data().size(), 1000000U);  // stays in a second-level cache
+}
+
+TEST(EosTable, identities_hold_in_every_phase) {
+  const Table& table = copper_table();
+  struct Probe {
+    double rho, T;
+    const char* phase;
+  };
+  for (const Probe& probe : {Probe{9000, 400, "solid"},
+                             {12000, 5600, "liquid"},
+                             {9500, 2150, "melting"},
+                             {8000, 14000, "hot liquid"},
+                             {1500, 9000, "vapour"},
+                             {20, 4000, "vapour"}}) {
+    SCOPED_TRACE(probe.phase);
+    const State s = table.state_at_temperature(probe.rho, probe.T);
+    EXPECT_EQ(s.phase, probe.phase);
+    EXPECT_NEAR(s.temperature / probe.T, 1, 1e-9);
+    // The differences straddle cells, where the third derivatives of s jump.
+    const IdentityDefects d = check_identities(table, probe.rho, s.specific_internal_energy, 1e-4);
+    EXPECT_LT(std::abs(d.entropy_energy), 1e-7);
+    EXPECT_LT(std::abs(d.entropy_volume), 1e-7);
+    EXPECT_LT(std::abs(d.sound_speed), 1e-4);
+    EXPECT_LT(std::abs(d.heat_capacity), 1e-4);
+    EXPECT_LT(std::abs(d.gruneisen), 1e-4);
+    EXPECT_LT(std::abs(d.pressure), 1e-4);
+  }
+}
+
+TEST(EosTable, batch_and_state_agree) {
+  for (const double rho : {0.1, 10.0, 500.0, 3000.0, 7500.0, 8940.0, 15000.0, 25000.0}) {
+    for (const double T : {60.0, 300.0, 2000.0, 8000.0, 40000.0}) {
+      const State s = copper_table().state_at_temperature(rho, T);
+      const Point p = evaluate(copper_table(), rho, s.specific_internal_energy);
+      EXPECT_EQ(p.report.out_of_range + p.report.below_cold_curve, 0U);
+      EXPECT_NEAR(p.temperature, s.temperature, 1e-9 * s.temperature);
+      EXPECT_NEAR(p.pressure, s.pressure, 1e-9 * (std::abs(s.pressure) + rho * 1e5));
+      EXPECT_NEAR(p.sound_speed, s.sound_speed, 1e-6 * s.sound_speed);
+      EXPECT_NEAR(p.melted, s.melted_fraction, 1e-9);
+      EXPECT_NEAR(p.vaporised, s.vaporised_fraction, 1e-9);
+    }
+  }
+}
+
+TEST(EosTable, hugoniot_is_that_of_the_model) {
+  const Hugoniot exact(copper()), tabulated(copper_table());
+  for (const double up : {500.0, 1500.0, 3000.0, 5000.0}) {
+    const double us = exact.at_particle_velocity(up).shock_velocity;
+    EXPECT_NEAR(tabulated.at_particle_velocity(up).shock_velocity / us, 1, 1e-3) << up;
+  }
+}
+
+TEST(EosTable, the_range_is_reported) {
+  const Table& table = copper_table();
+  const double rho = 8940, coldest = table.minimum_energy(rho);
+  const Point cold = evaluate(table, rho, coldest - 1e5), rim = evaluate(table, rho, coldest);
+  EXPECT_EQ(cold.report.below_cold_curve, 1U);
+  EXPECT_EQ(cold.report.out_of_range, 0U);
+  EXPECT_DOUBLE_EQ(cold.pressure, rim.pressure);
+  EXPECT_NEAR(cold.temperature, 50, 0.01);
+
+  for (const auto& [density, energy, bound] :
+       {std::tuple{2 * table.maximum_density(), 1e5, "density outside the table"},
+        {0.5 * table.minimum_density(), 5e6, "density outside the table"},
+        {rho, 2 * table.maximum_energy(rho), "energy above the table"},
+        {std::nan(""), 1e5, "must be finite"},
+        {-1.0, 1e5, "must be finite"},
+        {rho, std::nan(""), "must be finite"}}) {
+    const Point p = evaluate(table, density, energy);
+    EXPECT_EQ(p.report.out_of_range, 1U) << bound;
+    EXPECT_THAT(std::string(p.report.bound), ::testing::HasSubstr(bound));
+    for (const double value : {p.pressure, p.temperature, p.sound_speed, p.melted, p.vaporised})
+      EXPECT_TRUE(std::isnan(value)) << bound;
+  }
+  EXPECT_THROW((void)table.state(2 * table.maximum_density(), 1e5), StateError);
+  EXPECT_THROW((void)table.state(rho, 2 * table.maximum_energy(rho)), StateError);
+  EXPECT_THROW((void)table.state_at_temperature(rho, 10), StateError);
+  EXPECT_THROW((void)table.state_at_temperature(rho, 1e6), StateError);
+}
+
+TEST(EosTable, other_models) {
+  const test::MieGruneisenEos aluminium(test::aluminium_2024());
+  const Table table(tabulate(aluminium, {.minimum_density = 1500}));
+  const auto errors = verify(table, aluminium, 50000);
+  EXPECT_LT(errors.at("solid").temperature, 1e-3);
+  EXPECT_LT(errors.at("solid").pressure, 1e-3);
+}
+
+TEST(EosTable, refuses_what_it_cannot_hold) {
+  EXPECT_THROW(tabulate(copper(), {.error = 0}), InputError);
+  EXPECT_THROW(tabulate(copper(), {.maximum_density = 1e6}), InputError);
+  EXPECT_THROW(tabulate(copper(), {.least_temperature = 0.1}), InputError);
+  EXPECT_THROW(tabulate(copper(), {.least_temperature = 500, .greatest_temperature = 400}), InputError);
+}
+
+}  // namespace
+}  // namespace whipple::eos
