@@ -18,6 +18,7 @@ whipple_test(eos_gray_melting_test SOURCES verification/eos_gray_melting_test.cp
 whipple_test(eos_gray_metals_test SOURCES verification/eos_gray_metals_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_table_test SOURCES unit/eos_table_test.cpp DEPENDS whipple_eos GTest::gmock LABELS fast)
 whipple_test(eos_table_file_test SOURCES unit/eos_table_file_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
+whipple_test(eos_sesame_test SOURCES unit/eos_sesame_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
 
 add_executable(eos_benchmark benchmark/eos_benchmark.cpp)
 target_link_libraries(eos_benchmark PRIVATE whipple_eos benchmark::benchmark)
@@ -86,5 +87,24 @@ add_test(NAME eos_command.hugoniot_of_a_table
 set_tests_properties(eos_command.hugoniot_of_a_table PROPERTIES
   PASS_REGULAR_EXPRESSION "onset 22[0-9]\\.[0-9]* GPa.*completion 28[0-9]\\.[0-9]* GPa" FIXTURES_REQUIRED eos_table_file)
 foreach(query table table_refuses_to_overwrite hugoniot_of_a_table)
+  set_property(TEST eos_command.${query} PROPERTY LABELS fast)
+endforeach()
+
+# SESAME files: written, used as the model of a material, never overwritten unasked.
+set(eos_sesame_file ${CMAKE_CURRENT_BINARY_DIR}/copper.ses)
+add_test(NAME eos_command.sesame
+  COMMAND whipple eos table copper --sesame ${eos_sesame_file} --number 90029 --atomic-number 29 --atomic-mass "63.546 g/mol" --force)
+set_tests_properties(eos_command.sesame PROPERTIES
+  PASS_REGULAR_EXPRESSION "SESAME material 90029: copper .*with Helmholtz energy, table 401 of.*wrote .*copper.ses" FIXTURES_SETUP eos_sesame_file)
+add_test(NAME eos_command.sesame_refuses_to_overwrite COMMAND whipple eos table copper --sesame ${eos_sesame_file})
+set_tests_properties(eos_command.sesame_refuses_to_overwrite PROPERTIES
+  PASS_REGULAR_EXPRESSION "exists; --force overwrites it" FIXTURES_REQUIRED eos_sesame_file)
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/copper_sesame.toml
+  "name = \"Copper\"\nsource = \"test\"\n[eos]\nmodel = \"sesame\"\nfile = \"copper.ses\"\nmaterial = 90029\n")
+add_test(NAME eos_command.hugoniot_of_a_sesame_table
+  COMMAND whipple eos hugoniot ${CMAKE_CURRENT_BINARY_DIR}/copper_sesame.toml --to "200 GPa" --points 5)
+set_tests_properties(eos_command.hugoniot_of_a_sesame_table PROPERTIES
+  PASS_REGULAR_EXPRESSION "2\\.77[0-9]* +8\\.0[56][0-9]* +136[34][0-9.]+ +0\\.65[0-9]* +200 " FIXTURES_REQUIRED eos_sesame_file)
+foreach(query sesame sesame_refuses_to_overwrite hugoniot_of_a_sesame_table)
   set_property(TEST eos_command.${query} PROPERTY LABELS fast)
 endforeach()

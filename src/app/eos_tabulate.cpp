@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "eos/files/sesame.hpp"
 #include "eos/files/table_file.hpp"
 #include "src/base/files.hpp"
 #include "src/base/progress.hpp"
@@ -25,14 +26,16 @@ struct Options {
   std::string material, file;
   double error = 1e-4;
   std::vector<std::string> densities, temperatures;
+  std::string sesame_file, atomic_mass;
+  int number = 1;
+  double atomic_number = 0;
   bool force = false;
 };
 
-void run(const Options& o) {
-  require_new_file(o.file, o.force);
-  const Material material = read_material(o.material);
-  eos::TableRequest request;
-  request.error = o.error;
+/// A request with the range that the user asked for.
+template <class Request>
+Request ranged(const Options& o) {
+  Request request;
   if (!o.densities.empty()) {
     request.minimum_density = units::parse_quantity(o.densities[0], "kg/m^3");
     request.maximum_density = units::parse_quantity(o.densities[1], "kg/m^3");
@@ -41,6 +44,39 @@ void run(const Options& o) {
     request.least_temperature = units::parse_quantity(o.temperatures[0], "K");
     request.greatest_temperature = units::parse_quantity(o.temperatures[1], "K");
   }
+  return request;
+}
+
+void write_sesame(const Options& o) {
+  require_new_file(o.sesame_file, o.force);
+  const Material material = read_material(o.material);
+  eos::SesameMaterial table = eos::sesame_of(*material.eos, ranged<eos::SesameRequest>(o));
+  table.number = o.number;
+  table.atomic_number = o.atomic_number;
+  if (!o.atomic_mass.empty()) table.atomic_mass = units::parse_quantity(o.atomic_mass, "kg/mol");
+  table.comment = fmt::format("material. {} /source. whipple, model {} /refs. {} /", material.name,
+                              material.eos->model(), material.source);
+  eos::write_sesame(o.sesame_file, {&table, 1});
+  const eos::SesameGrid& grid = table.total;
+  fmt::print(
+      "SESAME material {}: {} (model {}), {} densities from {:.6g} to {:.6g} kg/m^3, {} temperatures from "
+      "{:.6g} to {:.6g} K\n",
+      table.number, material.name, material.eos->model(), grid.density.size(), grid.density.front(),
+      grid.density.back(), grid.temperature.size(), grid.temperature.front(), grid.temperature.back());
+  fmt::print(
+      "{}, {}\nwrote {}\n",
+      grid.helmholtz.empty() ? "no Helmholtz energy (the model has no entropy)" : "with Helmholtz energy",
+      table.vaporisation.temperature.empty()
+          ? "no table 401 (the model has no dome)"
+          : fmt::format("table 401 of {} temperatures", table.vaporisation.temperature.size()),
+      o.sesame_file);
+}
+
+void write_table(const Options& o) {
+  require_new_file(o.file, o.force);
+  const Material material = read_material(o.material);
+  auto request = ranged<eos::TableRequest>(o);
+  request.error = o.error;
   const eos::ForEach for_each = [](std::size_t n, const std::function<void(std::size_t)>& body) {
     parallel::for_each_uneven(n, body);
   };
@@ -82,19 +118,37 @@ void add_eos_tabulate(CLI::App& eos_command) {
   CLI::App* command = eos_command.add_subcommand(
       "table", "Write the equation of state as a table, a file that materials and runs can use");
   command->add_option("material", o->material, "Material file, or name of the library")->required();
-  command->add_option("-o,--output", o->file, "NAME.eos.h5")->required();
+  CLI::Option_group* output = command->add_option_group("output", "Which file is written: one of");
+  CLI::Option* table = output->add_option("-o,--output", o->file, "NAME.eos.h5");
+  CLI::Option* sesame = output->add_option("--sesame", o->sesame_file, "SESAME file in ASCII layout");
+  output->require_option(1);
   command->add_option("--error", o->error, "Relative error of temperature and pressure")
       ->check(CLI::Range(1e-8, 0.05))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(table);
+  command->add_option("--number", o->number, "Number of the material in the SESAME file")
+      ->check(CLI::Range(1, 999999))
+      ->capture_default_str()
+      ->needs(sesame);
+  command->add_option("--atomic-number", o->atomic_number, "Mean atomic number for table 201; 0: not known")
+      ->check(CLI::Range(0.0, 120.0))
+      ->needs(sesame);
+  command->add_option("--atomic-mass", o->atomic_mass, "Mean atomic mass for table 201, e.g. '63.546 g/mol'")
+      ->needs(sesame);
   command
-      ->add_option("--density-range", o->densities,
-                   "Two densities; default: 1e-5 of the reference density to the greatest of the model")
+      ->add_option(
+          "--density-range", o->densities,
+          "Two densities; default: 1e-5 of the reference density to the greatest of the model; with --sesame "
+          "1e-4 to 10 times the reference density")
       ->expected(2);
   command->add_option("--temperature-range", o->temperatures, "Two temperatures; default: '50 K' '50000 K'")
       ->expected(2);
   command->add_flag("--force", o->force, "Overwrite an existing file");
-  command->footer("Example:\n  whipple eos table copper --error 1e-4 -o copper.eos.h5");
-  command->callback([o] { run(*o); });
+  command->footer(
+      "Examples:\n  whipple eos table copper --error 1e-4 -o copper.eos.h5\n"
+      "  whipple eos table copper --sesame copper.ses --number 90029 --atomic-number 29 --atomic-mass "
+      "'63.546 g/mol'");
+  command->callback([o] { o->sesame_file.empty() ? write_table(*o) : write_sesame(*o); });
 }
 
 }  // namespace whipple::app

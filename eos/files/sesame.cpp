@@ -1,0 +1,438 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eos/files/sesame.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <system_error>
+#include <vector>
+
+#include "src/base/error.hpp"
+
+namespace whipple::eos {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Units of the files (Lyon and Johnson, LA-UR-92-3407).
+constexpr double Mg_m3 = 1e3, GPa = 1e9, MJ_kg = 1e6, g_mol = 1e-3, K = 1;
+
+constexpr std::size_t words_per_line = 5, comment_width = 80;
+/// Columns of a word: E15.8, or E22.15 in files of double precision.
+constexpr std::size_t word_width = 15, long_word_width = 22;
+constexpr std::size_t most_words = 999999;  ///< six columns of the header
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(' ');
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+std::optional<int> integer_in(std::string_view line, std::size_t first, std::size_t count) {
+  if (line.size() <= first) return std::nullopt;
+  const std::string_view word = trimmed(line.substr(first, count));
+  int value = 0;
+  const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (word.empty() || fault != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+/// A Fortran number: the E may be a D, or be missing before the sign of three digits of exponent.
+std::optional<double> real_of(std::string_view word) {
+  std::string text(trimmed(word));
+  std::ranges::replace(text, 'D', 'E');
+  std::ranges::replace(text, 'd', 'E');
+  if (const std::size_t sign = text.find_last_of("+-");
+      sign != std::string::npos && sign > 0 && text[sign - 1] != 'E' && text[sign - 1] != 'e') {
+    text.insert(sign, 1, 'E');
+  }
+  if (!text.empty() && text.front() == '+') text.erase(0, 1);
+  double value = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || fault != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+struct Header {
+  int material = 0, table = 0;
+  std::size_t words = 0;
+  int created = 0, changed = 0;
+};
+
+/// The numbers of one table with the lines that they stand in.
+struct Words {
+  std::vector<double> values;
+  std::size_t first_line = 0;
+  [[nodiscard]] std::size_t line(std::size_t word) const { return first_line + word / words_per_line; }
+};
+
+class Reader {
+ public:
+  explicit Reader(const fs::path& path) : path_(path), file_(path) {
+    if (!file_) throw InputError(fmt::format("{}: does not exist or cannot be read", path.string()));
+  }
+
+  /// The header of the next table; none at the record that ends the file.
+  std::optional<Header> header() {
+    if (!next())
+      refuse(line_ + 1, "the file ends without its last record: expected ' 2', or the header of a table");
+    const std::optional<int> flag = integer_in(text_, 0, 2);
+    if (flag == 2) return std::nullopt;
+    const auto material = integer_in(text_, 2, 6), table = integer_in(text_, 8, 6),
+               words = integer_in(text_, 14, 6);
+    if ((flag != 0 && flag != 1) || !material || !table || !words || *words < 1) {
+      refuse(line_,
+             fmt::format("expected the header of a table: 0 or 1, material, table and number of words in "
+                         "columns 1-2, 3-8, 9-14 and 15-20; found '{}'",
+                         text_.substr(0, 40)));
+    }
+    return Header{*material, *table, static_cast<std::size_t>(*words), integer_in(text_, 24, 9).value_or(0),
+                  integer_in(text_, 33, 9).value_or(0)};
+  }
+
+  std::string comment(const Header& header) {
+    std::string text;
+    for_each_line(header, comment_width, [&](std::size_t count) {
+      text_.resize(count, ' ');
+      text += text_;
+    });
+    text.resize(text.find_last_not_of(' ') + 1);
+    return text;
+  }
+
+  Words words(const Header& header) {
+    Words words;
+    words.first_line = line_ + 1;
+    for_each_line(header, words_per_line, [&](std::size_t count) {
+      if (words.values.empty())
+        width_ = text_.size() >= words_per_line * long_word_width ? long_word_width : word_width;
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::string_view word = text_.size() > i * width_
+                                          ? std::string_view(text_).substr(i * width_, width_)
+                                          : std::string_view();
+        const std::optional<double> value = real_of(word);
+        if (!value) {
+          refuse(line_, fmt::format("table {} of material {}: expected a number in columns {}-{}, found '{}'",
+                                    header.table, header.material, i * width_ + 1, (i + 1) * width_, word));
+        }
+        words.values.push_back(*value);
+      }
+    });
+    return words;
+  }
+
+  void skip(const Header& header) {
+    // The tables 101 to 199 are text.
+    for_each_line(header, header.table < 200 ? comment_width : words_per_line, [](std::size_t) {});
+  }
+
+  [[noreturn]] void refuse(std::size_t line, const std::string& what) const {
+    throw InputError(fmt::format("{}:{}: {}", path_.string(), line, what));
+  }
+
+ private:
+  bool next() {
+    if (!std::getline(file_, text_)) return false;
+    ++line_;
+    if (!text_.empty() && text_.back() == '\r') text_.pop_back();
+    return true;
+  }
+
+  /// Calls visit(number of entries in it) with each line of a table in `text_`.
+  template <class Visit>
+  void for_each_line(const Header& header, std::size_t per_line, Visit&& visit) {
+    for (std::size_t left = header.words; left > 0;) {
+      if (!next()) {
+        refuse(line_, fmt::format("the file ends in table {} of material {}: expected {} more of {} words",
+                                  header.table, header.material, left, header.words));
+      }
+      const std::size_t count = std::min(per_line, left);
+      visit(count);
+      left -= count;
+    }
+  }
+
+  fs::path path_;
+  std::ifstream file_;
+  std::string text_;
+  std::size_t line_ = 0, width_ = word_width;
+};
+
+/// Takes a table apart: a count, then columns.
+class Parts {
+ public:
+  Parts(const Reader& reader, const Header& header, const Words& words)
+      : reader_(reader), header_(header), words_(words) {}
+
+  std::size_t count(const char* what, std::size_t least) {
+    const double value = words_.values[at_];
+    if (!(value >= static_cast<double>(least) && value <= static_cast<double>(most_words)) ||
+        value != std::floor(value)) {
+      refuse(
+          fmt::format("expected the number of {}, an integer of at least {}, found {}", what, least, value));
+    }
+    ++at_;
+    return static_cast<std::size_t>(value);
+  }
+
+  std::vector<double> column(std::size_t count, double unit) {
+    const auto first = words_.values.begin() + static_cast<std::ptrdiff_t>(at_);
+    std::vector<double> values(first, first + static_cast<std::ptrdiff_t>(count));
+    for (double& value : values) value *= unit;
+    at_ += count;
+    return values;
+  }
+
+  /// A column that rises strictly from zero or more.
+  std::vector<double> axis(const char* what, std::size_t count, double unit) {
+    const std::size_t first = at_;
+    const std::vector<double> values = column(count, unit);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i > 0 ? values[i] > values[i - 1] : values[i] >= 0) continue;
+      at_ = first + i;
+      refuse(fmt::format("{} {} is {}, expected {}: the grid must rise from zero or more", what, i + 1,
+                         words_.values[at_],
+                         i > 0 ? fmt::format("more than {}", words_.values[at_ - 1]) : "at least 0"));
+    }
+    return values;
+  }
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    reader_.refuse(words_.line(at_),
+                   fmt::format("table {} of material {}: {}", header_.table, header_.material, what));
+  }
+
+ private:
+  const Reader& reader_;
+  const Header& header_;
+  const Words& words_;
+  std::size_t at_ = 0;
+};
+
+SesameGrid grid_of(const Reader& reader, const Header& header, const Words& words) {
+  Parts parts(reader, header, words);
+  if (header.words < 2) parts.refuse("expected the numbers of densities and temperatures");
+  const std::size_t nr = parts.count("densities", 2), nt = parts.count("temperatures", 2);
+  const std::size_t axes = 2 + nr + nt, states = nr * nt;
+  if (header.words != axes + 2 * states && header.words != axes + 3 * states) {
+    parts.refuse(
+        fmt::format("{} densities and {} temperatures: expected {} words (p, e), or {} (p, e, Helmholtz "
+                    "energy), the header says {}",
+                    nr, nt, axes + 2 * states, axes + 3 * states, header.words));
+  }
+  SesameGrid grid;
+  grid.density = parts.axis("density", nr, Mg_m3);
+  grid.temperature = parts.axis("temperature", nt, K);
+  grid.pressure = parts.column(states, GPa);
+  grid.energy = parts.column(states, MJ_kg);
+  if (header.words == axes + 3 * states) grid.helmholtz = parts.column(states, MJ_kg);
+  return grid;
+}
+
+SesameVaporisation vaporisation_of(const Reader& reader, const Header& header, const Words& words) {
+  Parts parts(reader, header, words);
+  const std::size_t n = parts.count("temperatures", 1);
+  if (header.words != 1 + 6 * n && header.words != 1 + 8 * n) {
+    parts.refuse(
+        fmt::format("{} temperatures: expected {} words, or {} with Helmholtz energies, the header says {}",
+                    n, 1 + 6 * n, 1 + 8 * n, header.words));
+  }
+  SesameVaporisation v;
+  v.pressure = parts.column(n, GPa);
+  v.temperature = parts.axis("temperature", n, K);
+  v.vapour_density = parts.column(n, Mg_m3);
+  v.liquid_density = parts.column(n, Mg_m3);
+  v.vapour_energy = parts.column(n, MJ_kg);
+  v.liquid_energy = parts.column(n, MJ_kg);
+  if (header.words == 1 + 8 * n) {
+    v.vapour_helmholtz = parts.column(n, MJ_kg);
+    v.liquid_helmholtz = parts.column(n, MJ_kg);
+  }
+  return v;
+}
+
+class Writer {
+ public:
+  explicit Writer(const fs::path& path) : path_(path) {}
+
+  void header(const SesameMaterial& material, int table, std::size_t words) {
+    if (words > most_words) {
+      throw InputError(
+          fmt::format("{}: table {} has {} words, a SESAME file holds {} at most: take fewer grid points",
+                      path_.string(), table, words, most_words));
+    }
+    fmt::format_to(std::back_inserter(text_), "{:2d}{:6d}{:6d}{:6d}   r{:9d}{:9d}{:4d}{:34d}\n",
+                   text_.empty() ? 0 : 1, material.number, table, words, material.created, material.changed,
+                   1, 1);
+  }
+
+  void comment(const SesameMaterial& material) {
+    std::string text = material.comment;
+    std::ranges::replace(text, '\n', ' ');
+    text.resize(std::max<std::size_t>(1, (text.size() + comment_width - 1) / comment_width) * comment_width,
+                ' ');
+    header(material, 101, text.size());
+    for (std::size_t at = 0; at < text.size(); at += comment_width)
+      text_ += text.substr(at, comment_width) + '\n';
+  }
+
+  void add(double value, double unit) { words_.push_back(value / unit); }
+  void add(const std::vector<double>& values, double unit) {
+    for (const double value : values) add(value, unit);
+  }
+
+  void table(const SesameMaterial& material, int number) {
+    header(material, number, words_.size());
+    for (std::size_t at = 0; at < words_.size(); at += words_per_line) {
+      const std::size_t count = std::min(words_per_line, words_.size() - at);
+      std::string line;
+      for (std::size_t i = 0; i < count; ++i) line += word(material, number, words_[at + i]);
+      // One flag per word of the line: 1 where there is one.
+      line.resize(words_per_line * word_width, ' ');
+      text_ += line + std::string(count, '1') + std::string(words_per_line - count, '0') + '\n';
+    }
+    words_.clear();
+  }
+
+  void finish() {
+    text_ += fmt::format(" 2{:>78}\n", 2);
+    const fs::path partial = fmt::format("{}.{}.partial", path_.string(), ::getpid());
+    std::ofstream file(partial);
+    file << text_;
+    file.close();
+    std::error_code fault;
+    if (file) fs::rename(partial, path_, fault);
+    if (!file || fault) throw InputError(fmt::format("{}: cannot write the file", path_.string()));
+  }
+
+ private:
+  [[nodiscard]] std::string word(const SesameMaterial& material, int table, double value) const {
+    if (!std::isfinite(value)) {
+      throw InputError(fmt::format("{}: table {} of material {} would hold a number that is not finite",
+                                   path_.string(), table, material.number));
+    }
+    std::string text = fmt::format("{:15.8E}", value);
+    // Fortran drops the E before three digits of exponent.
+    constexpr std::size_t usual_exponent = 4;
+    if (const std::size_t e = text.find('E'); text.size() - e > usual_exponent) text.erase(e, 1);
+    return fmt::format("{:>{}}", text, word_width);
+  }
+
+  fs::path path_;
+  std::string text_;
+  std::vector<double> words_;
+};
+
+}  // namespace
+
+SesameMaterial read_sesame(const fs::path& path, std::optional<int> number) {
+  Reader reader(path);
+  std::vector<int> found;
+  SesameMaterial result;
+  bool with_constants = false;
+  while (const std::optional<Header> header = reader.header()) {
+    if (std::ranges::find(found, header->material) == found.end()) found.push_back(header->material);
+    if (header->material != number.value_or(found.front())) {
+      reader.skip(*header);
+      continue;
+    }
+    result.number = header->material;
+    switch (header->table) {
+      case 101:
+        result.comment = reader.comment(*header);
+        result.created = header->created;
+        result.changed = header->changed;
+        break;
+      case 201: {
+        const Words words = reader.words(*header);
+        if (header->words != 5) {
+          reader.refuse(words.first_line,
+                        fmt::format("table 201 of material {}: expected 5 words, the header says {}",
+                                    header->material, header->words));
+        }
+        result.atomic_number = words.values[0];
+        result.atomic_mass = words.values[1] * g_mol;
+        result.reference_density = words.values[2] * Mg_m3;
+        result.bulk_modulus = words.values[3] * GPa;
+        result.exchange_coefficient = words.values[4];
+        if (!(result.reference_density > 0)) {
+          reader.refuse(words.first_line,
+                        fmt::format("table 201 of material {}: expected a positive reference density, "
+                                    "found {}",
+                                    header->material, words.values[2]));
+        }
+        with_constants = true;
+        break;
+      }
+      case 301:
+        result.total = grid_of(reader, *header, reader.words(*header));
+        break;
+      case 401:
+        result.vaporisation = vaporisation_of(reader, *header, reader.words(*header));
+        break;
+      default:
+        reader.skip(*header);
+    }
+  }
+  const std::string name = path.string();
+  if (!number && found.size() > 1) {
+    throw InputError(
+        fmt::format("{}: holds the materials {}: expected the number of one", name, fmt::join(found, ", ")));
+  }
+  if (result.number == 0) {
+    throw InputError(fmt::format("{}: holds no material {}; it holds {}", name, number.value_or(0),
+                                 found.empty() ? "none" : fmt::format("{}", fmt::join(found, ", "))));
+  }
+  if (!with_constants || result.total.density.empty()) {
+    throw InputError(
+        fmt::format("{}: material {} has no table {}", name, result.number, with_constants ? 301 : 201));
+  }
+  return result;
+}
+
+void write_sesame(const fs::path& path, std::span<const SesameMaterial> materials) {
+  Writer writer(path);
+  for (const SesameMaterial& m : materials) {
+    if (m.number < 1 || m.number > 999999) {
+      throw InputError(fmt::format("{}: material number {}: expected 1 to 999999", path.string(), m.number));
+    }
+    writer.comment(m);
+    writer.add(m.atomic_number, 1);
+    writer.add(m.atomic_mass, g_mol);
+    writer.add(m.reference_density, Mg_m3);
+    writer.add(m.bulk_modulus, GPa);
+    writer.add(m.exchange_coefficient, 1);
+    writer.table(m, 201);
+
+    writer.add(static_cast<double>(m.total.density.size()), 1);
+    writer.add(static_cast<double>(m.total.temperature.size()), 1);
+    writer.add(m.total.density, Mg_m3);
+    writer.add(m.total.temperature, K);
+    writer.add(m.total.pressure, GPa);
+    writer.add(m.total.energy, MJ_kg);
+    writer.add(m.total.helmholtz, MJ_kg);
+    writer.table(m, 301);
+
+    const SesameVaporisation& v = m.vaporisation;
+    if (v.temperature.empty()) continue;
+    writer.add(static_cast<double>(v.temperature.size()), 1);
+    writer.add(v.pressure, GPa);
+    writer.add(v.temperature, K);
+    writer.add(v.vapour_density, Mg_m3);
+    writer.add(v.liquid_density, Mg_m3);
+    writer.add(v.vapour_energy, MJ_kg);
+    writer.add(v.liquid_energy, MJ_kg);
+    writer.add(v.vapour_helmholtz, MJ_kg);
+    writer.add(v.liquid_helmholtz, MJ_kg);
+    writer.table(m, 401);
+  }
+  writer.finish();
+}
+
+}  // namespace whipple::eos

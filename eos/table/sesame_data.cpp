@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eos/table/sesame_data.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/error.hpp"
+
+namespace whipple::eos {
+namespace {
+
+constexpr double thin_ratio = 1.25, middle_ratio = 1.01, dense_ratio = 1.05, temperature_ratio = 1.05;
+constexpr double default_thinness = 1e-4;     ///< least density over the reference density
+constexpr double default_compression = 10;    ///< greatest over the reference density
+constexpr double coldest_saturation = 100.0;  ///< Pa: colder rows of the dome are left out
+
+/// Adds the points of a geometric sequence after the last one up to `end`, which is the last.
+void extend(std::vector<double>& points, double end, double greatest_ratio) {
+  const double begin = points.back();
+  if (!(end > begin)) return;
+  const int steps = static_cast<int>(std::ceil(std::log(end / begin) / std::log(greatest_ratio)));
+  for (int i = 1; i < steps; ++i)
+    points.push_back(begin * std::pow(end / begin, static_cast<double>(i) / steps));
+  points.push_back(end);
+}
+
+/// The reference point lies on the grid if it lies inside.
+std::vector<double> axis(double begin, double end, const std::vector<std::pair<double, double>>& pieces) {
+  std::vector<double> points = {begin};
+  for (const auto& [to, ratio] : pieces) extend(points, std::min(to, end), ratio);
+  return points;
+}
+
+SesameVaporisation vaporisation_of(const VapourDome& dome) {
+  SesameVaporisation v;
+  const auto helmholtz = [](const Saturation& s, double energy, double entropy) {
+    return energy - s.temperature * entropy;
+  };
+  for (const Saturation& s : dome.rows()) {
+    if (s.pressure < coldest_saturation) continue;
+    v.pressure.push_back(s.pressure);
+    v.temperature.push_back(s.temperature);
+    v.vapour_density.push_back(1 / s.vapour_volume);
+    v.liquid_density.push_back(1 / s.liquid_volume);
+    v.vapour_energy.push_back(s.vapour_energy);
+    v.liquid_energy.push_back(s.liquid_energy);
+    v.vapour_helmholtz.push_back(helmholtz(s, s.vapour_energy, s.vapour_entropy));
+    v.liquid_helmholtz.push_back(helmholtz(s, s.liquid_energy, s.liquid_entropy));
+  }
+  return v;
+}
+
+}  // namespace
+
+SesameMaterial sesame_of(const EquationOfState& eos, const SesameRequest& request) {
+  if (eos.initial_distension() != 1.0) {
+    throw InputError("SESAME table: porous matter has a past that no table of density and temperature knows");
+  }
+  const double rho0 = eos.reference_density(), T0 = eos.reference_temperature();
+  const double thinnest = request.minimum_density > 0 ? request.minimum_density : default_thinness * rho0;
+  const double densest = request.maximum_density > 0
+                             ? request.maximum_density
+                             : std::min(eos.maximum_density(), default_compression * rho0);
+  const double coldest = request.least_temperature, hottest = request.greatest_temperature;
+  if (!(thinnest > 0 && thinnest < densest) || !(coldest > 0 && coldest < hottest)) {
+    throw InputError(
+        fmt::format("SESAME table: densities {:.6g} to {:.6g} kg/m^3, temperatures {:.6g} to "
+                    "{:.6g} K: expected positive values that rise",
+                    thinnest, densest, coldest, hottest));
+  }
+  SesameMaterial result;
+  result.reference_density = rho0;
+  const State reference = eos.state_at_temperature(rho0, T0);
+  result.bulk_modulus = std::isfinite(reference.isothermal_bulk_modulus) ? reference.isothermal_bulk_modulus
+                                                                         : reference.isentropic_bulk_modulus;
+  SesameGrid& grid = result.total;
+  grid.density = axis(
+      thinnest, densest,
+      {{0.5 * rho0, thin_ratio}, {rho0, middle_ratio}, {2 * rho0, middle_ratio}, {densest, dense_ratio}});
+  grid.temperature = axis(coldest, hottest, {{T0, temperature_ratio}, {hottest, temperature_ratio}});
+  const bool complete = std::isfinite(reference.helmholtz_energy);
+  for (const double T : grid.temperature) {
+    for (const double rho : grid.density) {
+      const State s = eos.state_at_temperature(rho, T);
+      grid.pressure.push_back(s.pressure);
+      grid.energy.push_back(s.specific_internal_energy);
+      if (complete) grid.helmholtz.push_back(s.helmholtz_energy);
+    }
+  }
+  if (eos.vapour_dome() != nullptr) result.vaporisation = vaporisation_of(*eos.vapour_dome());
+  return result;
+}
+
+}  // namespace whipple::eos
