@@ -79,7 +79,7 @@ TEST(VonMises, YieldConditionHoldsAfterTheReturnBelowOnAndAboveThePlateau) {
     for (const double trial : {100e6, 200e6, 400e6, 4e9}) {
       for (const double solid : {1.0, 0.3}) {
         const double modulus = solid * constants.shear_modulus;
-        const double x = constants.increment(trial, strain, modulus, solid);
+        const double x = constants.increment(trial, strain, 300.0, modulus, solid, 1e-8);
         const double flow = solid * constants.flow_stress(strain + x);
         if (x > 0.0) {
           EXPECT_NEAR(trial - 3.0 * modulus * x, flow, 1e-12 * trial);

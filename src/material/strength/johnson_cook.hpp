@@ -6,7 +6,7 @@
 
 #include "src/base/parameter_table.hpp"
 #include "src/material/strength/elastic_constants.hpp"
-#include "src/material/strength/strength.hpp"
+#include "src/material/strength/flow_law_model.hpp"
 
 namespace whipple::strength {
 
@@ -54,6 +54,12 @@ struct JohnsonCook : ElasticConstants {
       "step with its hardening and rate.\n"
       "Source: Johnson and Cook, Proc. 7th Int. Symp. Ballistics (1983) 541-547.";
 
+  /// @throws InputError if the constants contradict one another
+  void require_consistent() const {
+    if (melting_temperature <= reference_temperature) {
+      throw InputError("'melting_temperature' must be above 'reference_temperature'");
+    }
+  }
   /// 1 - T*^m; an equation of state without temperature (NaN) does not soften.
   [[nodiscard]] double thermal_factor(double temperature) const {
     const double homologous =
@@ -109,40 +115,6 @@ struct JohnsonCook : ElasticConstants {
   }
 };
 
-class JohnsonCookModel final : public Strength {
- public:
-  /// @throws InputError if the constants contradict one another
-  explicit JohnsonCookModel(const JohnsonCook& constants)
-      : constants_(constants), modulus_(constants.stiffness()) {
-    if (constants.melting_temperature <= constants.reference_temperature) {
-      throw InputError("'melting_temperature' must be above 'reference_temperature'");
-    }
-  }
-
-  [[nodiscard]] std::string_view model() const override { return JohnsonCook::name; }
-  void shear_modulus(const State&, std::span<double> modulus) const override {
-    std::ranges::fill(modulus, modulus_);
-  }
-  void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
-                         std::span<const double> solid_fraction, double dt,
-                         std::span<double> increment) const override {
-    for (std::size_t i = 0; i < trial.size(); ++i) {
-      increment[i] = constants_.increment(trial[i], state.plastic_strain[i], state.temperature[i], modulus[i],
-                                          solid_fraction[i], dt);
-    }
-  }
-  [[nodiscard]] double flow_stress(double plastic_strain, double rate, double temperature) const override {
-    return constants_.flow_stress(plastic_strain, rate, temperature);
-  }
-  [[nodiscard]] std::string constants() const override {
-    JohnsonCook copy = constants_;
-    const auto bound = whipple::bind(JohnsonCook::parameters(), copy);
-    return "model = \"johnson_cook\"\n" + to_toml(bound);
-  }
-
- private:
-  JohnsonCook constants_;
-  double modulus_;
-};
+using JohnsonCookModel = FlowLawModel<JohnsonCook>;
 
 }  // namespace whipple::strength

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "src/base/parameter_table.hpp"
 #include "src/material/strength/elastic_constants.hpp"
+#include "src/material/strength/flow_law_model.hpp"
 #include "src/material/strength/radial_return.hpp"
-#include "src/material/strength/strength.hpp"
 
 namespace whipple::strength {
 
@@ -40,39 +38,17 @@ struct PowerLaw : ElasticConstants {
     const double power = hardening_coefficient * std::pow(strain, hardening_exponent);
     return {yield_stress + power, hardening_exponent * power / strain};
   }
+  [[nodiscard]] double flow_stress(double strain, double /*rate*/, double /*temperature*/) const {
+    return flow(strain).value;
+  }
+  [[nodiscard]] double increment(double trial, double strain, double /*temperature*/, double modulus,
+                                 double solid, double /*dt*/) const {
+    return radial_return(trial, modulus, solid, flow(strain).value,
+                         [&](double x) { return flow(strain + x); });
+  }
+  void require_consistent() const {}  // the ranges of the constants say it all
 };
 
-class PowerLawModel final : public Strength {
- public:
-  /// @throws InputError if the elastic constants contradict one another
-  explicit PowerLawModel(const PowerLaw& constants)
-      : constants_(constants), modulus_(constants.stiffness()) {}
-
-  [[nodiscard]] std::string_view model() const override { return PowerLaw::name; }
-  void shear_modulus(const State&, std::span<double> modulus) const override {
-    std::ranges::fill(modulus, modulus_);
-  }
-  void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
-                         std::span<const double> solid_fraction, double,
-                         std::span<double> increment) const override {
-    for (std::size_t i = 0; i < trial.size(); ++i) {
-      const double strain = state.plastic_strain[i];
-      increment[i] = radial_return(trial[i], modulus[i], solid_fraction[i], constants_.flow(strain).value,
-                                   [&](double x) { return constants_.flow(strain + x); });
-    }
-  }
-  [[nodiscard]] double flow_stress(double plastic_strain, double, double) const override {
-    return constants_.flow(plastic_strain).value;
-  }
-  [[nodiscard]] std::string constants() const override {
-    PowerLaw copy = constants_;
-    const auto bound = whipple::bind(PowerLaw::parameters(), copy);
-    return fmt::format("model = \"{}\"\n{}", PowerLaw::name, to_toml(bound));
-  }
-
- private:
-  PowerLaw constants_;
-  double modulus_;
-};
+using PowerLawModel = FlowLawModel<PowerLaw>;
 
 }  // namespace whipple::strength

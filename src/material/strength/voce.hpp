@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "src/base/parameter_table.hpp"
 #include "src/material/strength/elastic_constants.hpp"
+#include "src/material/strength/flow_law_model.hpp"
 #include "src/material/strength/radial_return.hpp"
-#include "src/material/strength/strength.hpp"
 
 namespace whipple::strength {
 
@@ -44,38 +42,17 @@ struct Voce : ElasticConstants {
     return {yield_stress + first_saturation - first + second_saturation - second,
             first_rate * first + second_rate * second};
   }
+  [[nodiscard]] double flow_stress(double strain, double /*rate*/, double /*temperature*/) const {
+    return flow(strain).value;
+  }
+  [[nodiscard]] double increment(double trial, double strain, double /*temperature*/, double modulus,
+                                 double solid, double /*dt*/) const {
+    return radial_return(trial, modulus, solid, flow(strain).value,
+                         [&](double x) { return flow(strain + x); });
+  }
+  void require_consistent() const {}  // the ranges of the constants say it all
 };
 
-class VoceModel final : public Strength {
- public:
-  /// @throws InputError if the elastic constants contradict one another
-  explicit VoceModel(const Voce& constants) : constants_(constants), modulus_(constants.stiffness()) {}
-
-  [[nodiscard]] std::string_view model() const override { return Voce::name; }
-  void shear_modulus(const State&, std::span<double> modulus) const override {
-    std::ranges::fill(modulus, modulus_);
-  }
-  void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
-                         std::span<const double> solid_fraction, double,
-                         std::span<double> increment) const override {
-    for (std::size_t i = 0; i < trial.size(); ++i) {
-      const double strain = state.plastic_strain[i];
-      increment[i] = radial_return(trial[i], modulus[i], solid_fraction[i], constants_.flow(strain).value,
-                                   [&](double x) { return constants_.flow(strain + x); });
-    }
-  }
-  [[nodiscard]] double flow_stress(double plastic_strain, double, double) const override {
-    return constants_.flow(plastic_strain).value;
-  }
-  [[nodiscard]] std::string constants() const override {
-    Voce copy = constants_;
-    const auto bound = whipple::bind(Voce::parameters(), copy);
-    return fmt::format("model = \"{}\"\n{}", Voce::name, to_toml(bound));
-  }
-
- private:
-  Voce constants_;
-  double modulus_;
-};
+using VoceModel = FlowLawModel<Voce>;
 
 }  // namespace whipple::strength

@@ -6,7 +6,7 @@
 
 #include "src/base/parameter_table.hpp"
 #include "src/material/strength/elastic_constants.hpp"
-#include "src/material/strength/strength.hpp"
+#include "src/material/strength/flow_law_model.hpp"
 
 namespace whipple::strength {
 
@@ -37,12 +37,20 @@ struct VonMises : ElasticConstants {
       "Y = min(A + B ep, Y_max), times the solid fraction; shear modulus G times the solid fraction.\n"
       "Source: Wilkins, UCRL-7322 (1963); Simo and Hughes, Computational Inelasticity (1998), box 3.1.";
 
-  [[nodiscard]] double flow_stress(double plastic_strain) const {
+  /// @throws InputError if the constants contradict one another
+  void require_consistent() const {
+    if (maximum_flow_stress < yield_stress) {
+      throw InputError("'maximum_flow_stress' is less than 'yield_stress'");
+    }
+  }
+  [[nodiscard]] double flow_stress(double plastic_strain, double /*rate*/ = 0.0,
+                                   double /*temperature*/ = 0.0) const {
     return std::min(yield_stress + hardening_modulus * plastic_strain, maximum_flow_stress);
   }
 
   /// Increment of the equivalent plastic strain from the equivalent trial stress.
-  [[nodiscard]] double increment(double trial, double plastic_strain, double modulus, double solid) const {
+  [[nodiscard]] double increment(double trial, double plastic_strain, double /*temperature*/, double modulus,
+                                 double solid, double /*dt*/) const {
     const double yield = solid * flow_stress(plastic_strain);
     if (trial <= yield) return 0.0;
     const double hardening = (trial - yield) / (3.0 * modulus + solid * hardening_modulus);
@@ -51,38 +59,6 @@ struct VonMises : ElasticConstants {
   }
 };
 
-class VonMisesModel final : public Strength {
- public:
-  /// @throws InputError if the constants contradict one another
-  explicit VonMisesModel(const VonMises& constants) : constants_(constants), modulus_(constants.stiffness()) {
-    if (constants.maximum_flow_stress < constants.yield_stress) {
-      throw InputError("'maximum_flow_stress' is less than 'yield_stress'");
-    }
-  }
-
-  [[nodiscard]] std::string_view model() const override { return VonMises::name; }
-  void shear_modulus(const State&, std::span<double> modulus) const override {
-    std::ranges::fill(modulus, modulus_);
-  }
-  void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
-                         std::span<const double> solid_fraction, double,
-                         std::span<double> increment) const override {
-    for (std::size_t i = 0; i < trial.size(); ++i) {
-      increment[i] = constants_.increment(trial[i], state.plastic_strain[i], modulus[i], solid_fraction[i]);
-    }
-  }
-  [[nodiscard]] double flow_stress(double plastic_strain, double, double) const override {
-    return constants_.flow_stress(plastic_strain);
-  }
-  [[nodiscard]] std::string constants() const override {
-    VonMises copy = constants_;
-    const auto bound = whipple::bind(VonMises::parameters(), copy);
-    return "model = \"von_mises\"\n" + to_toml(bound);
-  }
-
- private:
-  VonMises constants_;
-  double modulus_;
-};
+using VonMisesModel = FlowLawModel<VonMises>;
 
 }  // namespace whipple::strength

@@ -6,8 +6,8 @@
 
 #include "src/base/parameter_table.hpp"
 #include "src/material/strength/elastic_constants.hpp"
+#include "src/material/strength/flow_law_model.hpp"
 #include "src/material/strength/radial_return.hpp"
-#include "src/material/strength/strength.hpp"
 
 namespace whipple::strength {
 
@@ -55,6 +55,12 @@ struct ZerilliArmstrong : ElasticConstants {
       "times the solid fraction; shear modulus G times the solid fraction.\n"
       "Source: Zerilli and Armstrong, J. Appl. Phys. 61 (1987) 1816.";
 
+  /// @throws InputError if the constants contradict one another
+  void require_consistent() const {
+    if (athermal_stress + thermal_stress <= 0.0) {
+      throw InputError("'athermal_stress' or 'thermal_stress' must be positive");
+    }
+  }
   /// At plastic strain ep0 + x reached in dt, with its slope by x.
   [[nodiscard]] FlowStress flow(double plastic_strain, double x, double dt, double temperature) const {
     const double strain = plastic_strain + x, rate = x / dt;
@@ -72,6 +78,10 @@ struct ZerilliArmstrong : ElasticConstants {
     if (fast) y.slope += activated * thermal * rate_coefficient * T / x;
     return y;
   }
+  [[nodiscard]] double flow_stress(double plastic_strain, double rate, double temperature) const {
+    constexpr double no_strain = 1e-12;
+    return flow(plastic_strain, no_strain, no_strain / std::max(rate, 1e-300), temperature).value;
+  }
   [[nodiscard]] double increment(double trial, double plastic_strain, double temperature, double modulus,
                                  double solid, double dt) const {
     const double least = flow(plastic_strain, 0.0, dt, temperature).value;  // Y rises with strain and rate
@@ -80,41 +90,6 @@ struct ZerilliArmstrong : ElasticConstants {
   }
 };
 
-class ZerilliArmstrongModel final : public Strength {
- public:
-  /// @throws InputError if the constants contradict one another
-  explicit ZerilliArmstrongModel(const ZerilliArmstrong& constants)
-      : constants_(constants), modulus_(constants.stiffness()) {
-    if (constants.athermal_stress + constants.thermal_stress <= 0.0) {
-      throw InputError("'athermal_stress' or 'thermal_stress' must be positive");
-    }
-  }
-
-  [[nodiscard]] std::string_view model() const override { return ZerilliArmstrong::name; }
-  void shear_modulus(const State&, std::span<double> modulus) const override {
-    std::ranges::fill(modulus, modulus_);
-  }
-  void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
-                         std::span<const double> solid_fraction, double dt,
-                         std::span<double> increment) const override {
-    for (std::size_t i = 0; i < trial.size(); ++i) {
-      increment[i] = constants_.increment(trial[i], state.plastic_strain[i], state.temperature[i], modulus[i],
-                                          solid_fraction[i], dt);
-    }
-  }
-  [[nodiscard]] double flow_stress(double plastic_strain, double rate, double temperature) const override {
-    constexpr double no_strain = 1e-12;
-    return constants_.flow(plastic_strain, no_strain, no_strain / std::max(rate, 1e-300), temperature).value;
-  }
-  [[nodiscard]] std::string constants() const override {
-    ZerilliArmstrong copy = constants_;
-    const auto bound = whipple::bind(ZerilliArmstrong::parameters(), copy);
-    return "model = \"zerilli_armstrong\"\n" + to_toml(bound);
-  }
-
- private:
-  ZerilliArmstrong constants_;
-  double modulus_;
-};
+using ZerilliArmstrongModel = FlowLawModel<ZerilliArmstrong>;
 
 }  // namespace whipple::strength

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "src/base/parameter_table.hpp"
+#include "src/material/strength/strength.hpp"
+
+namespace whipple::strength {
+
+/// The run-time face of a flow law with a constant shear modulus. A law is a plain struct of constants that
+/// derives from ElasticConstants, with
+///   flow_stress(plastic_strain, rate, temperature)                                Pa, of the solid
+///   increment(trial, plastic_strain, temperature, modulus, solid_fraction, dt)    see Strength
+///   require_consistent()                                                          throws InputError
+template <class Law>
+class FlowLawModel final : public Strength {
+ public:
+  /// @throws InputError if the constants contradict one another
+  explicit FlowLawModel(const Law& law) : law_(law), modulus_(law.stiffness()) { law.require_consistent(); }
+
+  [[nodiscard]] std::string_view model() const override { return Law::name; }
+  void shear_modulus(const State&, std::span<double> modulus) const override {
+    std::ranges::fill(modulus, modulus_);
+  }
+  void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
+                         std::span<const double> solid_fraction, double dt,
+                         std::span<double> increment) const override {
+    for (std::size_t i = 0; i < trial.size(); ++i) {
+      increment[i] = law_.increment(trial[i], state.plastic_strain[i], state.temperature[i], modulus[i],
+                                    solid_fraction[i], dt);
+    }
+  }
+  [[nodiscard]] double flow_stress(double plastic_strain, double rate, double temperature) const override {
+    return law_.flow_stress(plastic_strain, rate, temperature);
+  }
+  [[nodiscard]] std::string constants() const override {
+    Law copy = law_;
+    return fmt::format("model = \"{}\"\n{}", Law::name, to_toml(whipple::bind(Law::parameters(), copy)));
+  }
+
+ private:
+  Law law_;
+  double modulus_;
+};
+
+}  // namespace whipple::strength
