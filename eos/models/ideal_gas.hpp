@@ -14,8 +14,8 @@ struct IdealGasConstants {
   double reference_temperature = 300.0;  ///< K
 };
 
-/// Ideal gas of constant heat capacity (docs/theory/equations_of_state.md, section 2.4): p = (gamma - 1) rho e,
-/// e = c_v T, s = c_v ln(T/T0) - (gamma - 1) c_v ln(rho/rho0).
+/// Ideal gas of constant heat capacity (docs/theory/equations_of_state.md, section 2.4): p = (gamma - 1) rho
+/// e, e = c_v T, s = c_v ln(T/T0) - (gamma - 1) c_v ln(rho/rho0).
 class IdealGasCurve {
  public:
   using Constants = IdealGasConstants;

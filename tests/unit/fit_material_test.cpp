@@ -134,7 +134,7 @@ TEST_F(FitMaterial, SaysOfEveryConstantWhereItComesFrom) {
     given += is_given;
   }
   EXPECT_EQ(fitted, 7);
-  EXPECT_EQ(given, 2);  // molar mass, reference temperature
+  EXPECT_EQ(given, 2);      // molar mass, reference temperature
   EXPECT_EQ(defaults, 12);  // S2 and S3 of the shock curve among them
   EXPECT_THAT(material, HasSubstr("electronic_heat_coefficient = \"\\\"measured\\\": calorimetry"));
   EXPECT_THAT(material, HasSubstr("vapour_attraction = \"\\\"critical\\\""));
