@@ -48,6 +48,17 @@ std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vec
   return slope;
 }
 
+/// The same for positive values, cut so that the cubic stays positive: its Bernstein coefficients are y_i,
+/// y_i + h m_i/3, y_(i+1) - h m_(i+1)/3 and y_(i+1).
+std::vector<double> positive_slopes(const std::vector<double>& x, const std::vector<double>& y) {
+  std::vector<double> slope = slopes_of(x, y);
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    if (i > 0) slope[i] = std::min(slope[i], 3 * y[i] / (x[i] - x[i - 1]));
+    if (i + 1 < y.size()) slope[i] = std::max(slope[i], -3 * y[i] / (x[i + 1] - x[i]));
+  }
+  return slope;
+}
+
 }  // namespace
 
 Sesame::Sesame(const SesameMaterial& material, double reference_temperature, std::string origin)
@@ -85,9 +96,8 @@ Sesame::Sesame(const SesameMaterial& material, double reference_temperature, std
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(j * nr);
     return std::vector<double>(first, first + static_cast<std::ptrdiff_t>(nr));
   };
-  // Slopes of the energy: those of the coldest row, which has a minimum, plus those of the steps between
-  // rows. A monotone cubic through positive steps is positive, so that e rises with T between the densities
-  // as well.
+  // Slopes of the energy: those of the coldest row plus those of the steps between rows. The cubics of the
+  // steps are positive, so that e rises with T between the densities as well.
   energies_.resize(nr * nt);
   pressures_.resize(nr * nt);
   std::vector<double> slopes;
@@ -98,7 +108,7 @@ Sesame::Sesame(const SesameMaterial& material, double reference_temperature, std
     } else {
       std::vector<double> step = row_of(grid.energy, j - 1);
       for (std::size_t i = 0; i < nr; ++i) step[i] = energies[i] - step[i];
-      const std::vector<double> more = monotone_slopes(density_, step);
+      const std::vector<double> more = positive_slopes(density_, step);
       for (std::size_t i = 0; i < nr; ++i) slopes[i] += more[i];
     }
     add_row(energies_, j, energies, slopes);

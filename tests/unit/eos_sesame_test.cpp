@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "eos/files/sesame.hpp"
-#include "eos/inversions.hpp"
+#include "eos/identities.hpp"
 #include "eos/loci.hpp"
 #include "eos/table/sesame.hpp"
 #include "src/base/error.hpp"
@@ -245,6 +245,20 @@ TEST_F(SesameModel, has_the_isotherm_of_its_model) {
     EXPECT_NEAR(b.specific_internal_energy, a.specific_internal_energy,
                 1e-5 * std::abs(a.specific_internal_energy) + 10)
         << x;
+  }
+}
+
+/// p, e and F are interpolated apart; in compressed solid and liquid they fit together all the same.
+TEST_F(SesameModel, keeps_the_identities_in_compression) {
+  for (const double rho : {10000.0, 12000.0, 15000.0}) {
+    for (const double T : {150.0, 310.0, 1000.0, 2000.0, 5000.0, 9000.0, 12000.0}) {
+      const State s = table_->state_at_temperature(rho, T);
+      const IdentityDefects defects = check_identities(*table_, rho, s.specific_internal_energy);
+      EXPECT_LT(std::abs(defects.pressure), 2e-3) << rho << ' ' << T;
+      EXPECT_LT(std::abs(defects.sound_speed), 2e-3) << rho << ' ' << T;
+      EXPECT_LT(std::abs(defects.entropy_energy), 1e-4) << rho << ' ' << T;
+      EXPECT_LT(std::abs(defects.entropy_volume), 1e-4) << rho << ' ' << T;
+    }
   }
 }
 
