@@ -93,7 +93,7 @@ endforeach()
 # SESAME files: written, used as the model of a material, never overwritten unasked.
 set(eos_sesame_file ${CMAKE_CURRENT_BINARY_DIR}/copper.ses)
 add_test(NAME eos_command.sesame
-  COMMAND whipple eos table copper --sesame ${eos_sesame_file} --number 90029 --atomic-number 29 --atomic-mass "63.546 g/mol" --force)
+  COMMAND whipple eos table copper --sesame ${eos_sesame_file} --number 90029 --atomic-number 29 --atomic-mass "63.546 g/mol" --force --verbose)
 set_tests_properties(eos_command.sesame PROPERTIES
   PASS_REGULAR_EXPRESSION "SESAME material 90029: copper .*with Helmholtz energy, table 401 of.*wrote .*copper.ses" FIXTURES_SETUP eos_sesame_file)
 add_test(NAME eos_command.sesame_refuses_to_overwrite COMMAND whipple eos table copper --sesame ${eos_sesame_file})
@@ -105,6 +105,9 @@ add_test(NAME eos_command.hugoniot_of_a_sesame_table
   COMMAND whipple eos hugoniot ${CMAKE_CURRENT_BINARY_DIR}/copper_sesame.toml --to "200 GPa" --points 5)
 set_tests_properties(eos_command.hugoniot_of_a_sesame_table PROPERTIES
   PASS_REGULAR_EXPRESSION "2\\.77[0-9]* +8\\.0[56][0-9]* +136[34][0-9.]+ +0\\.65[0-9]* +200 " FIXTURES_REQUIRED eos_sesame_file)
-foreach(query sesame sesame_refuses_to_overwrite hugoniot_of_a_sesame_table)
+add_test(NAME eos_command.table_needs_one_file
+  COMMAND sh -c "$<TARGET_FILE:whipple> eos table copper -q 2>&1 | grep 'expected --output NAME.eos.h5 or --sesame FILE' && $<TARGET_FILE:whipple> eos table copper -o none.eos.h5 --sesame none.ses; test $? -eq 2 && test ! -e none.ses"
+  WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+foreach(query sesame sesame_refuses_to_overwrite hugoniot_of_a_sesame_table table_needs_one_file)
   set_property(TEST eos_command.${query} PROPERTY LABELS fast)
 endforeach()

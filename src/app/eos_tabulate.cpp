@@ -10,6 +10,7 @@
 
 #include "eos/files/sesame.hpp"
 #include "eos/files/table_file.hpp"
+#include "src/base/error.hpp"
 #include "src/base/files.hpp"
 #include "src/base/progress.hpp"
 #include "src/base/text_table.hpp"
@@ -118,10 +119,10 @@ void add_eos_tabulate(CLI::App& eos_command) {
   CLI::App* command = eos_command.add_subcommand(
       "table", "Write the equation of state as a table, a file that materials and runs can use");
   command->add_option("material", o->material, "Material file, or name of the library")->required();
-  CLI::Option_group* output = command->add_option_group("output", "Which file is written: one of");
-  CLI::Option* table = output->add_option("-o,--output", o->file, "NAME.eos.h5");
-  CLI::Option* sesame = output->add_option("--sesame", o->sesame_file, "SESAME file in ASCII layout");
-  output->require_option(1);
+  CLI::Option* table = command->add_option("-o,--output", o->file, "NAME.eos.h5");
+  CLI::Option* sesame =
+      command->add_option("--sesame", o->sesame_file, "SESAME file in ASCII layout, instead of NAME.eos.h5")
+          ->excludes(table);
   command->add_option("--error", o->error, "Relative error of temperature and pressure")
       ->check(CLI::Range(1e-8, 0.05))
       ->capture_default_str()
@@ -148,7 +149,11 @@ void add_eos_tabulate(CLI::App& eos_command) {
       "Examples:\n  whipple eos table copper --error 1e-4 -o copper.eos.h5\n"
       "  whipple eos table copper --sesame copper.ses --number 90029 --atomic-number 29 --atomic-mass "
       "'63.546 g/mol'");
-  command->callback([o] { o->sesame_file.empty() ? write_table(*o) : write_sesame(*o); });
+  command->callback([o] {
+    if (o->file.empty() && o->sesame_file.empty())
+      throw InputError("the file to write is missing: expected --output NAME.eos.h5 or --sesame FILE");
+    o->sesame_file.empty() ? write_table(*o) : write_sesame(*o);
+  });
 }
 
 }  // namespace whipple::app
