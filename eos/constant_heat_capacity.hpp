@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <concepts>
@@ -121,12 +122,21 @@ class ConstantHeatCapacity {
     return state_at_temperature(density, least_temperature).specific_internal_energy;
   }
 
-  // Not to be inlined or cloned: a single point must run through the very instructions of a batch.
-  [[gnu::noipa]] RangeReport evaluate(const Batch& batch) const;
+  RangeReport evaluate(const Batch& batch) const;
   [[nodiscard]] State state(double density, double specific_internal_energy) const;
   [[nodiscard]] State state_at_temperature(double density, double temperature) const;
 
  private:
+  static constexpr std::size_t width = 4;  ///< points of a group
+  static constexpr std::size_t block = 8;  ///< groups that pass together
+
+  /// `n` points, a multiple of `width`; leaves the bound of the report empty. `melted` and `vaporised` may be
+  /// null. Not to be inlined or cloned: a single point must run through the very instructions of a batch.
+  [[gnu::noipa]] RangeReport evaluate_whole(const double* __restrict densities,
+                                            const double* __restrict energies, double* __restrict p,
+                                            double* __restrict T, double* __restrict c,
+                                            double* __restrict melted, double* __restrict vaporised,
+                                            std::size_t n) const;
   /// Why a point is out of range; empty: it is not.
   [[nodiscard]] std::string_view broken_bound(double density, double energy) const {
     if (!(density > 0) || !std::isfinite(density)) return "density must be positive and finite";
@@ -146,7 +156,43 @@ class ConstantHeatCapacity {
 
 template <Curve C>
 RangeReport ConstantHeatCapacity<C>::evaluate(const Batch& batch) const {
-  constexpr std::size_t width = 4;
+  const std::size_t n = batch.density.size(), whole = n / width * width, rest = n - whole;
+  const bool melted = !batch.melted_fraction.empty(), vaporised = !batch.vaporised_fraction.empty();
+  RangeReport report = evaluate_whole(
+      batch.density.data(), batch.specific_internal_energy.data(), batch.pressure.data(),
+      batch.temperature.data(), batch.sound_speed.data(), melted ? batch.melted_fraction.data() : nullptr,
+      vaporised ? batch.vaporised_fraction.data() : nullptr, whole);
+  if (rest > 0) {
+    // The last points, with the reference state beside them.
+    using Group = std::array<double, width>;
+    Group density, energy, p, T, c, melt, vapour;
+    density.fill(reference_density());
+    energy.fill(reference_energy());
+    const auto from = static_cast<std::ptrdiff_t>(whole);
+    std::copy_n(batch.density.begin() + from, rest, density.begin());
+    std::copy_n(batch.specific_internal_energy.begin() + from, rest, energy.begin());
+    RangeReport last = evaluate_whole(density.data(), energy.data(), p.data(), T.data(), c.data(),
+                                      melt.data(), vapour.data(), width);
+    if (last.first != RangeReport::none) last.first += whole;
+    report.merge(last);
+    std::copy_n(p.begin(), rest, batch.pressure.begin() + from);
+    std::copy_n(T.begin(), rest, batch.temperature.begin() + from);
+    std::copy_n(c.begin(), rest, batch.sound_speed.begin() + from);
+    if (melted) std::copy_n(melt.begin(), rest, batch.melted_fraction.begin() + from);
+    if (vaporised) std::copy_n(vapour.begin(), rest, batch.vaporised_fraction.begin() + from);
+  }
+  if (report.first != RangeReport::none) {
+    report.bound = broken_bound(batch.density[report.first], batch.specific_internal_energy[report.first]);
+  }
+  return report;
+}
+
+template <Curve C>
+RangeReport ConstantHeatCapacity<C>::evaluate_whole(const double* __restrict densities,
+                                                    const double* __restrict energies, double* __restrict p,
+                                                    double* __restrict T, double* __restrict c,
+                                                    double* __restrict melted, double* __restrict vaporised,
+                                                    std::size_t n) const {
   constexpr double largest = std::numeric_limits<double>::max();
   const double greatest_density = maximum_density();
   const double reference_rho = reference_density(), reference_e = reference_energy();
@@ -154,55 +200,66 @@ RangeReport ConstantHeatCapacity<C>::evaluate(const Batch& batch) const {
   const Lanes least_squared =
       broadcast(std::pow(least_sound_speed_ratio * curve_.reference_sound_speed(), 2));
   const Lanes unknown = broadcast(State::unknown);
-  const bool melted = !batch.melted_fraction.empty(), vaporised = !batch.vaporised_fraction.empty();
-  const std::size_t n = batch.density.size();
-  RangeReport report;
-  for (std::size_t i = 0; i < n; i += width) {
-    const std::size_t count = std::min(width, n - i);
-    const Lanes given_density = load(&batch.density[i], count, reference_rho);
-    const Lanes given_energy = load(&batch.specific_internal_energy[i], count, reference_e);
-    const LanesMask valid = (given_density > 0.0) & (given_density <= greatest_density) &
-                            (given_energy >= -largest) & (given_energy <= largest);
-    const Lanes density = valid ? given_density : broadcast(reference_rho);
-    const Lanes energy = valid ? given_energy : broadcast(reference_e);
-
-    const auto isochore = curve_.isochore(density);
-    const Lanes coldest = isochore.cold_energy + heat * least_temperature;
-    const Lanes held = maximum(energy, coldest);
-    const Response r = isochore.response(held);
-    const Lanes V = isochore.specific_volume;
-    const Lanes squared = r.by_density + r.pressure * V * V * r.by_energy;
-    Lanes pressure = r.pressure;
-    Lanes temperature = maximum((held - isochore.cold_energy) * inverse_heat, broadcast(least_temperature));
-    Lanes sound_speed = sqrt(maximum(squared, least_squared));
-
-    report.below_cold_curve += static_cast<std::size_t>(std::popcount(bits(energy < coldest)));
-    const unsigned broken = bits(valid) ^ all_lanes;
-    if (broken != 0) [[unlikely]] {
-      pressure = valid ? pressure : unknown;
-      temperature = valid ? temperature : unknown;
-      sound_speed = valid ? sound_speed : unknown;
-      if (report.out_of_range == 0) {
-        report.first = i + static_cast<std::size_t>(std::countr_zero(broken));
-        report.bound =
-            broken_bound(batch.density[report.first], batch.specific_internal_energy[report.first]);
-      }
-      report.out_of_range += static_cast<std::size_t>(std::popcount(broken));
+  // In registers: counters in memory would be read and written for every group.
+  LanesMask below = {};
+  std::size_t out_of_range = 0, first = RangeReport::none;
+  // In two passes over a few groups: one after the other is a chain of divisions, a look-up and a root too
+  // long for the processor to begin the next group meanwhile.
+  using Isochore = decltype(curve_.isochore(Lanes{}));
+  std::array<Isochore, block> isochores;
+  std::array<LanesMask, block> valids;
+  std::array<Lanes, block> given;
+  for (std::size_t start = 0; start < n; start += block * width) {
+    const std::size_t groups = std::min(block, (n - start) / width);
+    for (std::size_t g = 0; g < groups; ++g) {
+      const Lanes given_density = load(densities + start + g * width),
+                  given_energy = load(energies + start + g * width);
+      const LanesMask valid = (given_density > 0.0) & (given_density <= greatest_density) &
+                              (given_energy >= -largest) & (given_energy <= largest);
+      given[g] = valid ? given_energy : broadcast(reference_e);
+      valids[g] = valid;
+      isochores[g] = curve_.isochore(valid ? given_density : broadcast(reference_rho));
     }
-    store(&batch.pressure[i], pressure, count);
-    store(&batch.temperature[i], temperature, count);
-    store(&batch.sound_speed[i], sound_speed, count);
-    if (melted || vaporised) {
+    for (std::size_t g = 0; g < groups; ++g) {
+      const std::size_t i = start + g * width;
+      const Isochore& isochore = isochores[g];
+      const LanesMask valid = valids[g];
+      const Lanes energy = given[g];
+      const Lanes coldest = isochore.cold_energy + heat * least_temperature;
+      const Lanes held = maximum(energy, coldest);
+      const Response r = isochore.response(held);
+      const Lanes V = isochore.specific_volume;
+      const Lanes squared = r.by_density + r.pressure * V * V * r.by_energy;
+      Lanes pressure = r.pressure;
+      Lanes temperature = maximum((held - isochore.cold_energy) * inverse_heat, broadcast(least_temperature));
+      Lanes sound_speed = sqrt(maximum(squared, least_squared));
+
+      below -= energy < coldest;  // true is -1
+      const unsigned broken = bits(valid) ^ all_lanes;
+      if (broken != 0) [[unlikely]] {
+        pressure = valid ? pressure : unknown;
+        temperature = valid ? temperature : unknown;
+        sound_speed = valid ? sound_speed : unknown;
+        if (out_of_range == 0) first = i + static_cast<std::size_t>(std::countr_zero(broken));
+        out_of_range += static_cast<std::size_t>(std::popcount(broken));
+      }
+      store(p + i, pressure);
+      store(T + i, temperature);
+      store(c + i, sound_speed);
+      if (melted == nullptr && vaporised == nullptr) continue;
       Lanes fraction = {};
       if constexpr (requires { isochore.vaporised_fraction(held); }) {
         fraction = isochore.vaporised_fraction(held);
       }
-      if (broken != 0) [[unlikely]]
-        fraction = valid ? fraction : unknown;
-      if (melted) store(&batch.melted_fraction[i], fraction, count);
-      if (vaporised) store(&batch.vaporised_fraction[i], fraction, count);
+      fraction = valid ? fraction : unknown;
+      if (melted != nullptr) store(melted + i, fraction);
+      if (vaporised != nullptr) store(vaporised + i, fraction);
     }
   }
+  RangeReport report;
+  report.out_of_range = out_of_range;
+  report.first = first;
+  report.below_cold_curve = static_cast<std::size_t>(below[0] + below[1] + below[2] + below[3]);
   return report;
 }
 

@@ -22,13 +22,14 @@ struct CondensedReference {
   double density, temperature, energy, heat_capacity;
 };
 
-/// Where a reference pressure is asked for: x = 1 - rho0/rho, mu = rho/rho0 - 1, V = 1/rho.
+/// Where a reference pressure is asked for: r = rho/rho0, mu = r - 1.
 struct Compression {
-  Lanes x, mu, volume;
+  Lanes r, mu;
 };
 /// The pressure at e = 0 and its derivative by rho; `weight` is a factor with the poles of the cold energy.
+/// 1/r too: a curve with a division of its own makes both in one.
 struct ReferencePressure {
-  Lanes value, slope, weight;
+  Lanes value, slope, weight, inverse_r;
 };
 
 /// A solid with a reference pressure of its own in compression and a linear one in expansion
@@ -50,6 +51,10 @@ class GruneisenSolid {
     A0_ = pressure - bulk_modulus;
     A1_ = bulk_modulus;
     inverse_density_ = 1 / rho0;
+    B0_ = rho0 * law.constant;
+    B1_ = rho0 * law.linear;
+    B2_ = rho0 * law.quadratic;
+    twice_quadratic_ = 2 * law.quadratic;
     inverse_volume_ = A0_ / ((1 + G) * rho0);
     constant_ = G > 0 ? A1_ / (G * rho0) : 0;
     power_ = state.energy + inverse_volume_ + constant_ - state.heat_capacity * state.temperature;
@@ -61,9 +66,11 @@ class GruneisenSolid {
   [[nodiscard]] LinearIsochore isochore(Lanes rho) const {
     const LanesMask compressed = rho > state_.density;
     const unsigned which = bits(compressed);
-    if (which == all_lanes) return dense(rho);
     if (which == 0) return expanded(rho);
-    return LinearIsochore::select(compressed, dense(rho), expanded(rho));
+    const LinearIsochore result = dense(rho);
+    if (which == all_lanes) [[likely]]
+      return result;
+    return LinearIsochore::select(compressed, result, expanded(rho));
   }
 
   /// ln(T_s/T0)
@@ -77,20 +84,18 @@ class GruneisenSolid {
 
  private:
   [[nodiscard]] Compression compression(Lanes rho) const {
-    const Lanes V = 1.0 / rho;
-    return {1.0 - state_.density * V, rho * inverse_density_ - 1.0, V};
+    const Lanes r = rho * inverse_density_;
+    return {r, r - 1.0};
   }
   [[nodiscard]] LinearIsochore dense(Lanes rho) const {
     const Compression c = compression(rho);
     const ReferencePressure A = reference_(c);
-    return {c.volume,
-            cold_energy_(c.x) * A.weight,
-            A.value,
-            A.slope,
-            state_.density * (law_.constant + c.mu * (law_.linear + c.mu * law_.quadratic)),
-            law_.linear + 2 * law_.quadratic * c.mu};
+    // rho Gamma and its slope; x = 1 - rho0/rho
+    return {A.inverse_r * inverse_density_,  cold_energy_(c.mu * A.inverse_r) * A.weight, A.value, A.slope,
+            B0_ + c.mu * (B1_ + c.mu * B2_), law_.linear + twice_quadratic_ * c.mu};
   }
-  [[nodiscard]] LinearIsochore expanded(Lanes rho) const {
+  // Of its own: the registers of the compressed side need not survive the call of pow.
+  [[nodiscard, gnu::noinline, gnu::pure]] LinearIsochore expanded(Lanes rho) const {
     const double G = law_.constant;
     const Lanes V = 1.0 / rho, r = rho * inverse_density_;
     Lanes cold_energy = -inverse_volume_ * state_.density * V - constant_;
@@ -146,7 +151,9 @@ class GruneisenSolid {
   Reference reference_;
   GruneisenLaw law_;
   CondensedReference state_;
-  double A0_ = 0, A1_ = 0;                                ///< A = A0 + A1 rho/rho0 in expansion
+  double A0_ = 0, A1_ = 0;  ///< A = A0 + A1 rho/rho0 in expansion
+  double B0_ = 0, B1_ = 0, B2_ = 0,
+         twice_quadratic_ = 0;                            ///< rho Gamma = B0 + B1 mu + B2 mu^2 in compression
   double inverse_density_ = 0;                            ///< 1/rho0
   double power_ = 0, inverse_volume_ = 0, constant_ = 0;  ///< (E4)
   double maximum_density_ = 0;

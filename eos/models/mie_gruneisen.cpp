@@ -47,8 +47,7 @@ GruneisenSolid<MieGruneisenCurve::Hugoniot> MieGruneisenCurve::solid(const Const
   const GruneisenLaw gamma = law(k);
   const double modulus = k.reference_density * k.hugoniot_intercept * k.hugoniot_intercept;
   return {name,
-          {curve, k.reference_density, modulus, 0.5 * gamma.constant, 0.5 * gamma.linear,
-           0.5 * gamma.linear / k.reference_density},
+          {curve, gamma, k.reference_density, k.hugoniot_intercept},
           gamma,
           {k.reference_density, k.reference_temperature, 0.0, k.heat_capacity},
           0.0,

@@ -53,21 +53,34 @@ class MieGruneisenCurve {
   }
 
  private:
-  /// A of compression: (M1), (M2).
+  /// A of compression, (M1) and (M2), with few operations. With r = rho/rho0 = 1 + mu, x = mu/r,
+  ///   N = r^3 (1 - S1 x - S2 x^2 - S3 x^3),  M = mu [r - mu rho Gamma/(2 rho0)]
+  /// are cubics in mu, A = rho0 c0^2 (r^2/N)^2 M and d ln A/dmu = M'/M + 4/r - 2 N'/N; 1/r and 1/N come from
+  /// one division.
   struct Hugoniot {
-    ShockCurve curve;
-    double rho0, modulus;  ///< rho0 c0^2
-    double half_constant, half_linear,
-        half_by_density;  ///< of rho Gamma/(2 rho0), its slope by mu and by rho
+    double modulus, inverse_density;  ///< rho0 c0^2, 1/rho0
+    double N1, N2, N3;                ///< N = 1 + N1 mu + N2 mu^2 + N3 mu^3
+    double M2, M3;                    ///< M = mu + M2 mu^2 + M3 mu^3
+    double twice_N2 = 2 * N2, thrice_N3 = 3 * N3, twice_M2 = 2 * M2, thrice_M3 = 3 * M3;
+
+    Hugoniot(const ShockCurve& curve, const GruneisenLaw& gamma, double rho0, double c0)
+        : modulus(rho0 * c0 * c0),
+          inverse_density(1 / rho0),
+          N1(3 - curve.slope),
+          N2(3 - 2 * curve.slope - curve.quadratic),
+          N3(1 - curve.slope - curve.quadratic - curve.cubic),
+          M2(1 - 0.5 * gamma.constant),
+          M3(-0.5 * gamma.linear) {}
 
     ReferencePressure operator()(const Compression& c) const {
-      const auto y = curve.denominator(c.x);
-      const Lanes inverse = 1.0 / y.value, square = modulus * inverse * inverse;
-      const Lanes pressure = c.x * square, slope = square - 2.0 * pressure * inverse * y.slope;  // by x
-      const Lanes half = half_constant + half_linear * c.mu, factor = 1.0 - half * c.x;
-      const Lanes x_slope = rho0 * c.volume * c.volume;
-      return {pressure * factor,
-              x_slope * (slope * factor - pressure * half) - half_by_density * pressure * c.x, inverse};
+      const Lanes r = c.r, mu = c.mu;
+      const Lanes N = 1.0 + mu * (N1 + mu * (N2 + mu * N3)), N_slope = N1 + mu * (twice_N2 + mu * thrice_N3);
+      const Lanes M = mu * (1.0 + mu * (M2 + mu * M3)), M_slope = 1.0 + mu * (twice_M2 + mu * thrice_M3);
+      const Lanes common = 1.0 / (r * N), inverse_r = N * common, inverse_N = r * common;
+      const Lanes q = r * r * inverse_N, scale = modulus * q * q;
+      return {scale * M,
+              inverse_density * scale * (M_slope + M * (4.0 * inverse_r - 2.0 * (N_slope * inverse_N))),
+              q * r, inverse_r};
     }
   };
 

@@ -54,7 +54,7 @@ class PolynomialCurve {
 
     ReferencePressure operator()(const Compression& c) const {
       return {C0 + c.mu * (C1 + c.mu * (C2 + c.mu * C3)),
-              (C1 + c.mu * (2 * C2 + 3 * C3 * c.mu)) * inverse_rho0, (1.0 + c.mu) * (1.0 + c.mu)};
+              (C1 + c.mu * (2 * C2 + 3 * C3 * c.mu)) * inverse_rho0, c.r * c.r, 1.0 / c.r};
     }
   };
 

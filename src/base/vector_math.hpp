@@ -16,9 +16,9 @@ namespace whipple {
 
 namespace libmvec {
 extern "C" {
-__m256d _ZGVdN4v_exp(__m256d);
-__m256d _ZGVdN4v_log(__m256d);
-__m256d _ZGVdN4vv_pow(__m256d, __m256d);
+[[gnu::const]] __m256d _ZGVdN4v_exp(__m256d);
+[[gnu::const]] __m256d _ZGVdN4v_log(__m256d);
+[[gnu::const]] __m256d _ZGVdN4vv_pow(__m256d, __m256d);
 }
 }  // namespace libmvec
 
