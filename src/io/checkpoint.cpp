@@ -62,6 +62,10 @@ void write_particles(const hdf5::Group& group, const Particles& particles, const
     const auto& values = particles.*(field.values);
     using Value = typename std::decay_t<decltype(values)>::value_type;
     using Number = typename Numbers<Value>::Type;
+    if (field.optional) {  // in use on some rank: on all, those without particles included
+      const std::vector<std::uint64_t> used = ranks.gather(values.size());
+      if (std::ranges::all_of(used, [](std::uint64_t size) { return size == 0; })) return;
+    }
     if (values.size() != n) throw InternalError(fmt::format("field {} has another length", field.name));
     hdf5::Storage storage = checksummed;
     storage.columns = Numbers<Value>::columns;
@@ -71,14 +75,14 @@ void write_particles(const hdf5::Group& group, const Particles& particles, const
   });
 }
 
-/// The fields of the file must be those of the program: one that is missing has no value, one that is unknown
-/// would be lost.
+/// The fields of the file must be those of the program: one that is missing has no value (optional ones were
+/// not in use), one that is unknown would be lost.
 void require_fields(const hdf5::Group& group) {
   const std::vector<std::string> found = group.names();
   std::set<std::string> unknown(found.begin(), found.end());
   std::vector<std::string> missing;
   for_each_field<Particles>([&](const auto& field) {
-    if (unknown.erase(field.name) == 0) missing.emplace_back(field.name);
+    if (unknown.erase(field.name) == 0 && !field.optional) missing.emplace_back(field.name);
   });
   if (missing.empty() && unknown.empty()) return;
   std::string message = group.name() + ": was written by another version of the program:";
@@ -96,8 +100,13 @@ void read_particles(const hdf5::Group& group, Particles& particles, const Ranks&
   const std::uint64_t first = total * rank / count;
   const hdf5::Slab slab{first, total * (rank + 1) / count - first, total};
   resize(particles, slab.count);
+  const std::vector<std::string> found = group.names();
   for_each_field<Particles>([&](const auto& field) {
     auto& values = particles.*(field.values);
+    if (field.optional) {
+      if (std::ranges::find(found, field.name) == found.end()) return;
+      values.resize(slab.count);
+    }
     using Value = typename std::decay_t<decltype(values)>::value_type;
     using Number = typename Numbers<Value>::Type;
     const hdf5::Dataset array = group.open_dataset(field.name);

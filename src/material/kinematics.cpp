@@ -43,6 +43,58 @@ inline Matrix multiply(const Matrix& a, const Matrix& b) {
           a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
 }
 
+/// Strain and rotation of the step: sym m is the strain increment (eq. 2, 3).
+inline Matrix midpoint_displacement_gradient(const Matrix& l, double dt) {
+  const Matrix half = identity_plus(0.5 * dt, l);
+  // The bound acts only where the half step nearly inverts the point; its volume change is limited anyway.
+  const double scale = dt / std::max(determinant(half), 0.1);
+  const Matrix product = multiply(l, adjugate(half));
+  return {scale * product.xx, scale * product.xy, scale * product.xz, scale * product.yx, scale * product.yy,
+          scale * product.yz, scale * product.zx, scale * product.zy, scale * product.zz};
+}
+
+/// R = I + (W + W^2/2) / (1 + |w|^2/4), w the axial vector of W: closed form of (I - W/2)^-1 (I + W/2)
+/// (eq. 4).
+inline Matrix rotation(const Matrix& m) {
+  const double wx = 0.5 * (m.zy - m.yz), wy = 0.5 * (m.xz - m.zx), wz = 0.5 * (m.yx - m.xy);
+  const double square = wx * wx + wy * wy + wz * wz;
+  const double a = 1.0 / (1.0 + 0.25 * square), b = 0.5 * a;
+  return {1.0 + b * (wx * wx - square), b * wx * wy - a * wz,         b * wx * wz + a * wy,
+          b * wx * wy + a * wz,         1.0 + b * (wy * wy - square), b * wy * wz - a * wx,
+          b * wx * wz - a * wy,         b * wy * wz + a * wx,         1.0 + b * (wz * wz - square)};
+}
+
+/// The six components of a symmetric tensor.
+struct Symmetric {
+  double xx, yy, zz, xy, yz, zx;
+};
+
+inline Symmetric load(const SymmetricLanes& lanes, std::size_t k) {
+  return {lanes[0][k], lanes[1][k], lanes[2][k], lanes[3][k], lanes[4][k], lanes[5][k]};
+}
+
+inline void store(const Symmetric& s, SymmetricLanes& lanes, std::size_t k) {
+  lanes[0][k] = s.xx;
+  lanes[1][k] = s.yy;
+  lanes[2][k] = s.zz;
+  lanes[3][k] = s.xy;
+  lanes[4][k] = s.yz;
+  lanes[5][k] = s.zx;
+}
+
+/// R s R^T
+inline Symmetric turned(const Symmetric& s, const Matrix& r) {
+  const Matrix t = multiply(r, {s.xx, s.xy, s.zx, s.xy, s.yy, s.yz, s.zx, s.yz, s.zz});
+  return {t.xx * r.xx + t.xy * r.xy + t.xz * r.xz, t.yx * r.yx + t.yy * r.yy + t.yz * r.yz,
+          t.zx * r.zx + t.zy * r.zy + t.zz * r.zz, t.xx * r.yx + t.xy * r.yy + t.xz * r.yz,
+          t.yx * r.zx + t.yy * r.zy + t.yz * r.zz, t.zx * r.xx + t.zy * r.xy + t.zz * r.xz};
+}
+
+/// sym m
+inline Symmetric symmetric(const Matrix& m) {
+  return {m.xx, m.yy, m.zz, 0.5 * (m.xy + m.yx), 0.5 * (m.yz + m.zy), 0.5 * (m.zx + m.xz)};
+}
+
 }  // namespace
 
 void volume_change(std::size_t size, double dt, Kinematics& step) {
@@ -55,50 +107,31 @@ void volume_change(std::size_t size, double dt, Kinematics& step) {
 
 void elastic_trial(std::size_t size, double dt, Kinematics& step) {
   for (std::size_t k = 0; k < size; ++k) {
-    const Matrix l = load(step.gradient, k);
-    const Matrix half = identity_plus(0.5 * dt, l);
-    // The bound acts only where the half step nearly inverts the point; its volume change is limited anyway.
-    const double scale = dt / std::max(determinant(half), 0.1);
-    const Matrix product = multiply(l, adjugate(half));
-    const Matrix m = {scale * product.xx, scale * product.xy, scale * product.xz,
-                      scale * product.yx, scale * product.yy, scale * product.yz,
-                      scale * product.zx, scale * product.zy, scale * product.zz};
-    const double exy = 0.5 * (m.xy + m.yx), eyz = 0.5 * (m.yz + m.zy), ezx = 0.5 * (m.zx + m.xz);
-
-    // R = I + (W + W^2/2) / (1 + |w|^2/4), w the axial vector of W: closed form of (I - W/2)^-1 (I + W/2).
-    const double wx = 0.5 * (m.zy - m.yz), wy = 0.5 * (m.xz - m.zx), wz = 0.5 * (m.yx - m.xy);
-    const double square = wx * wx + wy * wy + wz * wz;
-    const double a = 1.0 / (1.0 + 0.25 * square), b = 0.5 * a;
-    const Matrix r = {
-        1.0 + b * (wx * wx - square), b * wx * wy - a * wz,         b * wx * wz + a * wy,
-        b * wx * wy + a * wz,         1.0 + b * (wy * wy - square), b * wy * wz - a * wx,
-        b * wx * wz - a * wy,         b * wy * wz + a * wx,         1.0 + b * (wz * wz - square)};
-    const double sxx = step.deviator[0][k], syy = step.deviator[1][k], szz = step.deviator[2][k];
-    const double sxy = step.deviator[3][k], syz = step.deviator[4][k], szx = step.deviator[5][k];
-    const Matrix t = multiply(r, {sxx, sxy, szx, sxy, syy, syz, szx, syz, szz});
-
-    const double twice = 2.0 * step.modulus[k], mean = (m.xx + m.yy + m.zz) / 3.0;
-    const double xx = t.xx * r.xx + t.xy * r.xy + t.xz * r.xz + twice * (m.xx - mean);
-    const double yy = t.yx * r.yx + t.yy * r.yy + t.yz * r.yz + twice * (m.yy - mean);
-    const double zz = t.zx * r.zx + t.zy * r.zy + t.zz * r.zz + twice * (m.zz - mean);
-    const double xy = t.xx * r.yx + t.xy * r.yy + t.xz * r.yz + twice * exy;
-    const double yz = t.yx * r.zx + t.yy * r.zy + t.yz * r.zz + twice * eyz;
-    const double zx = t.zx * r.xx + t.zy * r.xy + t.zz * r.xz + twice * ezx;
-
-    step.deviator[0][k] = xx;
-    step.deviator[1][k] = yy;
-    step.deviator[2][k] = zz;
-    step.deviator[3][k] = xy;
-    step.deviator[4][k] = yz;
-    step.deviator[5][k] = zx;
-    step.strain[0][k] = m.xx;
-    step.strain[1][k] = m.yy;
-    step.strain[2][k] = m.zz;
-    step.strain[3][k] = exy;
-    step.strain[4][k] = eyz;
-    step.strain[5][k] = ezx;
-    const double norm = xx * xx + yy * yy + zz * zz + 2.0 * (xy * xy + yz * yz + zx * zx);
+    const Matrix m = midpoint_displacement_gradient(load(step.gradient, k), dt);
+    const Symmetric e = symmetric(m);
+    const Symmetric t = turned(load(step.deviator, k), rotation(m));
+    const double twice = 2.0 * step.modulus[k], mean = (e.xx + e.yy + e.zz) / 3.0;
+    const Symmetric s = {t.xx + twice * (e.xx - mean), t.yy + twice * (e.yy - mean),
+                         t.zz + twice * (e.zz - mean), t.xy + twice * e.xy,
+                         t.yz + twice * e.yz,          t.zx + twice * e.zx};
+    store(s, step.deviator, k);
+    store(e, step.strain, k);
+    const double norm =
+        s.xx * s.xx + s.yy * s.yy + s.zz * s.zz + 2.0 * (s.xy * s.xy + s.yz * s.yz + s.zx * s.zx);
     step.trial[k] = std::sqrt(1.5 * norm);
+  }
+}
+
+void turn(std::size_t size, double dt, const MatrixLanes& gradient, SymmetricLanes& tensor) {
+  for (std::size_t k = 0; k < size; ++k) {
+    const Matrix m = midpoint_displacement_gradient(load(gradient, k), dt);
+    store(turned(load(tensor, k), rotation(m)), tensor, k);
+  }
+}
+
+void strain_increment(std::size_t size, double dt, const MatrixLanes& gradient, SymmetricLanes& strain) {
+  for (std::size_t k = 0; k < size; ++k) {
+    store(symmetric(midpoint_displacement_gradient(load(gradient, k), dt)), strain, k);
   }
 }
 

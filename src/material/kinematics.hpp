@@ -39,4 +39,10 @@ void volume_change(std::size_t size, double dt, Kinematics& step);
 /// Strain increment, rotation and elastic trial (eq. 2 to 5). @param size a multiple of `lane_count`
 void elastic_trial(std::size_t size, double dt, Kinematics& step);
 
+/// Turns tensors with the matter (eq. 4). @param size a multiple of `lane_count`
+void turn(std::size_t size, double dt, const MatrixLanes& gradient, SymmetricLanes& tensor);
+
+/// Strain increment alone (eq. 2, 3), for matter without elastic deviator. @param size as above
+void strain_increment(std::size_t size, double dt, const MatrixLanes& gradient, SymmetricLanes& strain);
+
 }  // namespace whipple::material

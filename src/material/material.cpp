@@ -30,6 +30,43 @@ eos::State state_of_zero_pressure(const eos::EquationOfState& model, double temp
       fmt::format("no condensed state of zero pressure at {} K: give a density as well", temperature));
 }
 
+/// @throws InputError if parts do not go together
+void require_parts_agree(const Material& material) {
+  std::string with_past;
+  for (const auto& criterion : material.failure) {
+    if (criterion->accumulates()) {
+      if (!with_past.empty()) {
+        throw InputError(
+            fmt::format("failure models \"{}\" and \"{}\" both accumulate damage: one of them may", with_past,
+                        criterion->model()));
+      }
+      with_past = criterion->model();
+    }
+    if (!criterion->grows_voids()) continue;
+    if (!material.strength->carries_deviator()) {
+      throw InputError(
+          fmt::format("failure model \"{}\" needs a strength model with a flow stress, not \"{}\"",
+                      criterion->model(), material.strength->model()));
+    }
+    if (material.strength->kinematic_modulus() > 0.0) {
+      throw InputError(
+          fmt::format("failure model \"{}\" goes with isotropic hardening only: 'kinematic_modulus' "
+                      "must be 0",
+                      criterion->model()));
+    }
+    if (material.eos->initial_distension() > 1.0 && criterion->initial_porosity() > 0.0) {
+      throw InputError(
+          fmt::format("failure model \"{}\": the equation of state has pores already; "
+                      "'initial_porosity' must be 0",
+                      criterion->model()));
+    }
+  }
+}
+
+double initial_porosity(const Material& material) {
+  return material.void_growth == nullptr ? 0.0 : material.void_growth->initial_porosity();
+}
+
 }  // namespace
 
 Material make_material(std::string name, std::shared_ptr<const eos::EquationOfState> eos,
@@ -40,6 +77,12 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
   material.eos = std::move(eos);
   material.strength = strength ? std::move(strength) : std::make_shared<const strength::NoneModel>();
   material.failure = std::move(failure);
+  require_parts_agree(material);
+  for (const auto& criterion : material.failure) {
+    material.softens |= criterion->softens();
+    material.needs_strain |= criterion->needs_strain();
+    if (criterion->grows_voids()) material.void_growth = criterion.get();
+  }
   material.reference = initial_state(material);
   return material;
 }
@@ -61,6 +104,16 @@ eos::State initial_state(const Material& material, std::optional<double> density
   }
 }
 
+double body_density(const Material& material, const eos::State& state) {
+  return state.density * (1.0 - initial_porosity(material));
+}
+
+void use_fields(const Material& material, MaterialPoints& points) {
+  const std::size_t n = points.mass.size();
+  if (material.strength->kinematic_modulus() > 0.0) points.back_stress.resize(n);
+  if (material.needs_strain) points.strain.resize(n);
+}
+
 void initialise(const Material& material, MaterialPoints& points, std::size_t begin, std::size_t end,
                 std::optional<double> density, std::optional<double> temperature) {
   const eos::State state =
@@ -72,9 +125,11 @@ void initialise(const Material& material, MaterialPoints& points, std::size_t be
   const double solid = 1.0 - state.melted_fraction;
   const double sound =
       std::sqrt(state.sound_speed * state.sound_speed + 4.0 / 3.0 * solid * modulus[0] / state.density);
+  const double porosity = initial_porosity(material);
+  use_fields(material, points);
   for (std::size_t i = begin; i < end; ++i) {
     points.volume[i] = points.mass[i] / state.density;
-    points.void_volume[i] = 0.0;
+    points.void_volume[i] = points.volume[i] * porosity / (1.0 - porosity);
     points.specific_internal_energy[i] = state.specific_internal_energy;
     points.pressure[i] = state.pressure;
     points.artificial_viscosity[i] = 0.0;
@@ -86,7 +141,10 @@ void initialise(const Material& material, MaterialPoints& points, std::size_t be
     points.vaporised_fraction[i] = state.vaporised_fraction;
     points.distension[i] = state.distension;
     points.failure_threshold_factor[i] = 1.0;
+    points.damage[i] = 0.0;
     points.failed[i] = failure::intact;
+    if (!points.back_stress.empty()) points.back_stress[i] = {};
+    if (!points.strain.empty()) points.strain[i] = {};
   }
 }
 

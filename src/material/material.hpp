@@ -36,6 +36,9 @@ struct Material {
   std::shared_ptr<const eos::EquationOfState> eos;                 ///< never null
   std::shared_ptr<const strength::Strength> strength;              ///< never null
   std::vector<std::shared_ptr<const failure::Criterion>> failure;  ///< in the order of the file; may be empty
+  bool softens = false;       ///< some criterion takes stress away before it fails (eq. 18, 19)
+  bool needs_strain = false;  ///< some criterion asks for the strain
+  const failure::Criterion* void_growth = nullptr;  ///< the one of `failure` that grows voids; null: none
   eos::State reference;  ///< the state that bodies start from: p = 0 at the reference temperature
 
   /// The material as a material file with every default written out (provenance in output files).
@@ -43,7 +46,8 @@ struct Material {
 };
 
 /// Puts the parts together and computes the reference state. A null strength means none.
-/// @throws InputError if the equation of state has no state of zero pressure near its reference density
+/// @throws InputError if the equation of state has no state of zero pressure near its reference density, or
+/// if parts do not go together
 Material make_material(std::string name, std::shared_ptr<const eos::EquationOfState> eos,
                        std::shared_ptr<const strength::Strength> strength = nullptr,
                        std::vector<std::shared_ptr<const failure::Criterion>> failure = {});
@@ -55,9 +59,15 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
 eos::State initial_state(const Material& material, std::optional<double> density = {},
                          std::optional<double> temperature = {});
 
+/// Density of a body that starts from a state: with the voids of its failure model.
+double body_density(const Material& material, const eos::State& state);
+
+/// Brings the optional fields that the material needs into use.
+void use_fields(const Material& material, MaterialPoints& points);
+
 /// Sets every field of the points [begin, end) but mass to the initial state, intact and without scatter,
 /// without deviatoric stress: volume = mass / density, specific internal energy of the equation of state,
-/// sound speed longitudinal.
+/// sound speed longitudinal; brings the optional fields that the material needs into use.
 /// @throws as `initial_state`
 void initialise(const Material& material, MaterialPoints& points, std::size_t begin, std::size_t end,
                 std::optional<double> density = {}, std::optional<double> temperature = {});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -29,9 +30,8 @@ struct MaterialReport {
   std::size_t undefined = 0;  ///< points with a volume that is not positive, or NaN in gradient or energy
   std::size_t first_undefined = none;  ///< index of the first of them
   std::size_t limited_volume_changes =
-      0;                           ///< steps with J outside [1/2, 2]: limited, counted (time step too large)
-  std::size_t failed_tensile = 0;  ///< points that failed in this step
-  std::size_t failed_plastic = 0;
+      0;  ///< steps with J outside [1/2, 2]: limited, counted (time step too large)
+  std::array<std::size_t, failure::code_count> failed{};  ///< points that failed in this step, by code
 
   /// Nothing that ends a run: `undefined` and `equation_of_state.out_of_range` are 0.
   [[nodiscard]] bool valid() const { return undefined == 0 && equation_of_state.out_of_range == 0; }

@@ -16,16 +16,19 @@ struct Field {
   const char* name;
   const char* unit;
   std::vector<Value> Points::* values;
+  bool optional = false;  ///< empty unless some material of the run needs it
 };
 template <class Points, class Value>
 Field(const char*, const char*, std::vector<Value> Points::*) -> Field<Points, Value>;
+template <class Points, class Value>
+Field(const char*, const char*, std::vector<Value> Points::*, bool) -> Field<Points, Value>;
 
 /// State of matter at points, one array per field (SI): what MPM particles and Gauss points of finite
 /// elements share, so that `update_material` is one code path.
 struct MaterialPoints {
   std::vector<double> mass;                      ///< kg, constant
   std::vector<double> volume;                    ///< m^3 of matter: density = mass / volume enters the EOS
-  std::vector<double> void_volume;               ///< m^3 of opened void of failed points (0: none)
+  std::vector<double> void_volume;               ///< m^3 of voids and open cracks (0: none)
   std::vector<double> specific_internal_energy;  ///< J/kg
   std::vector<double> pressure;              ///< Pa, positive in compression, without artificial viscosity
   std::vector<double> artificial_viscosity;  ///< Pa, >= 0
@@ -37,7 +40,10 @@ struct MaterialPoints {
   std::vector<double> vaporised_fraction;  ///< mass fraction of vapour
   std::vector<double> distension;          ///< volume over that of the matter without its pores (1: none)
   std::vector<double> failure_threshold_factor;  ///< scatter of the failure threshold (1: none)
-  std::vector<std::uint8_t> failed;  ///< 0 intact, 1 tensile (spall), 2 plastic strain; see failure models
+  std::vector<double> damage;                    ///< of criteria with a past, 0 to 1 (failed)
+  std::vector<std::uint8_t> failed;  ///< 0 intact, else what made it fail: src/material/failure/criterion.hpp
+  std::vector<SymmetricTensor> back_stress;  ///< Pa, centre of the yield surface; optional
+  std::vector<SymmetricTensor> strain;       ///< logarithmic strain, turned with the matter; optional
 
   static constexpr auto fields() {
     using P = MaterialPoints;
@@ -51,7 +57,8 @@ struct MaterialPoints {
         Field{"melted_fraction", "1", &P::melted_fraction},
         Field{"vaporised_fraction", "1", &P::vaporised_fraction}, Field{"distension", "1", &P::distension},
         Field{"failure_threshold_factor", "1", &P::failure_threshold_factor},
-        Field{"failed", "1", &P::failed});
+        Field{"damage", "1", &P::damage}, Field{"failed", "1", &P::failed},
+        Field{"back_stress", "Pa", &P::back_stress, true}, Field{"strain", "1", &P::strain, true});
   }
 };
 
@@ -61,9 +68,13 @@ void for_each_field(Function&& f) {
   std::apply([&](const auto&... field) { (f(field), ...); }, Points::fields());
 }
 
+/// Optional fields that are not in use stay empty.
 template <class Points>
 void resize(Points& points, std::size_t n) {
-  for_each_field<Points>([&](const auto& field) { (points.*(field.values)).resize(n); });
+  for_each_field<Points>([&](const auto& field) {
+    auto& values = points.*(field.values);
+    if (!field.optional || !values.empty()) values.resize(n);
+  });
 }
 
 }  // namespace whipple

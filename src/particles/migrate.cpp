@@ -17,11 +17,13 @@ bool migrate(Particles& particles, std::span<const int> destination, MPI_Comm co
   }
   if (!parallel::any(communicator, staying.size() != particles.size())) return false;
 
+  const std::size_t before = particles.size();
   for_each_field<Particles>([&](const auto& field) {
     auto& values = particles.*(field.values);
     using Value = typename std::decay_t<decltype(values)>::value_type;
+    const bool in_use = values.size() == before;  // else an optional field that is empty on all ranks
     std::vector<std::vector<std::byte>> outgoing(leaving.size());
-    for (std::size_t r = 0; r < leaving.size(); ++r) {
+    for (std::size_t r = 0; in_use && r < leaving.size(); ++r) {
       outgoing[r].resize(leaving[r].size() * sizeof(Value));
       std::byte* to = outgoing[r].data();
       for (const std::uint32_t p : leaving[r]) {
@@ -32,7 +34,9 @@ bool migrate(Particles& particles, std::span<const int> destination, MPI_Comm co
     const auto incoming = parallel::exchange_bytes(communicator, outgoing);
     std::remove_reference_t<decltype(values)> now;
     now.reserve(staying.size());
-    for (const std::uint32_t p : staying) now.push_back(values[p]);
+    if (in_use) {
+      for (const std::uint32_t p : staying) now.push_back(values[p]);
+    }
     for (const std::vector<std::byte>& bytes : incoming) {
       const std::size_t first = now.size();
       now.resize(first + bytes.size() / sizeof(Value));

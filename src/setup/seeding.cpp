@@ -172,7 +172,7 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     BodySummary summary{.first = particles.size(), .count = points.size()};
     const std::size_t end = summary.first + summary.count;
     resize(particles, end);
-    const double density = initial_state(material).density;
+    const double density = body_density(material, material.reference);
     const double mass = density * lattice.spacing.prod();
     const Shape::Bounds bounds = body.shape->bounds();
     const Vector3 center = 0.5 * (bounds.lower + bounds.upper);

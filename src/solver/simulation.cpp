@@ -280,8 +280,10 @@ void Simulation::reflect_and_remove() {
         step_.wall_impulse += particles_.mass[p] * (velocity - particles_.velocity[p]);
         particles_.velocity[p] = velocity;
         particles_.affine_velocity[p] = image * particles_.affine_velocity[p] * mirror;
-        particles_.deviatoric_stress[p] =
-            SymmetricTensor::from(mirror * particles_.deviatoric_stress[p].matrix() * mirror);
+        for (auto* tensors : {&particles_.deviatoric_stress, &particles_.back_stress, &particles_.strain}) {
+          if (tensors->empty()) continue;  // optional, not in use
+          (*tensors)[p] = SymmetricTensor::from(mirror * (*tensors)[p].matrix() * mirror);
+        }
       }
       if (leaves) leaving.push_back(static_cast<std::uint32_t>(p));
     }

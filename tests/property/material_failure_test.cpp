@@ -13,10 +13,12 @@ namespace {
 using namespace material_test;
 
 std::shared_ptr<const failure::Criterion> spall(double strength) {
-  return std::make_shared<failure::TensilePressureCriterion>(failure::TensilePressure{strength});
+  return std::make_shared<failure::CriterionModel<failure::TensilePressure>>(
+      failure::TensilePressure{{}, strength});
 }
 std::shared_ptr<const failure::Criterion> ductile(double strain) {
-  return std::make_shared<failure::PlasticStrainCriterion>(failure::PlasticStrain{strain});
+  return std::make_shared<failure::CriterionModel<failure::PlasticStrain>>(
+      failure::PlasticStrain{{}, strain});
 }
 
 constexpr double dt = 1e-8;
@@ -181,7 +183,7 @@ TEST(PlasticStrain, FailsWithItsOwnCodeAndKeepsTheEquationOfState) {
     report.merge(step_with_work(material, points, gradient, settings));
   }
   EXPECT_EQ(points.failed[0], failure::plastic);
-  EXPECT_EQ(report.failed_plastic, 1U);
+  EXPECT_EQ(report.failed[failure::plastic], 1U);
   EXPECT_NEAR(points.plastic_strain[0], 0.1, 0.007);
   for (int n = 0; n < 10; ++n) step_with_work(material, points, dilation(0.999), settings);
   const LinearInEnergy eos;

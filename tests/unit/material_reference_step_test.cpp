@@ -194,7 +194,8 @@ TEST(ReferenceStep, CutOffPressureOfAFailingPointTakesItsWorkBack) {
   const strength::VonMises constants = taylor_copper();
   const LinearInEnergy eos;
   const Material material =
-      with(constants, {std::make_shared<failure::TensilePressureCriterion>(failure::TensilePressure{1e9})});
+      with(constants, {std::make_shared<failure::CriterionModel<failure::TensilePressure>>(
+                          failure::TensilePressure{{}, 1e9})});
   MaterialPoints points = points_of(material, 1);
   ScalarPoint expected = scalar_point(points, 0);
   const UpdateSettings settings{.time_step = 1e-8, .cell_size = 1e-3};

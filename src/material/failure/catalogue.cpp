@@ -5,35 +5,41 @@
 
 #include <array>
 
+#include "src/material/failure/grady_kipp.hpp"
+#include "src/material/failure/gurson.hpp"
+#include "src/material/failure/johnson_cook_damage.hpp"
 #include "src/material/failure/plastic_strain.hpp"
+#include "src/material/failure/principal_strain.hpp"
+#include "src/material/failure/principal_stress.hpp"
 #include "src/material/failure/tensile_pressure.hpp"
 
 namespace whipple::failure {
 namespace {
 
-/// `Constants` has name, summary, theory and parameters(); the criterion is made from them.
-template <class Constants, class Model>
+/// `Law` has name, summary, theory and parameters(); the criterion is made from it.
+template <class Law>
 ModelEntry entry() {
   const auto describe = [] {
-    return fmt::format("{}: {}\n{}\n{}", Constants::name, Constants::summary, Constants::theory,
-                       describe_table(Constants::parameters()));
+    return fmt::format("{}: {}\n{}\n{}", Law::name, Law::summary, Law::theory,
+                       describe_table(Law::parameters()));
   };
   const auto declare =
       [](const ParameterReader& reader) -> std::function<std::unique_ptr<const Criterion>()> {
-    Constants constants;
-    const auto bound = whipple::bind(Constants::parameters(), constants);
+    Law law;
+    const auto bound = whipple::bind(Law::parameters(), law);
     reader(bound);
-    return [constants] { return std::make_unique<const Model>(constants); };
+    return [law] { return std::make_unique<const CriterionModel<Law>>(law); };
   };
-  return {Constants::name, Constants::summary, describe, declare};
+  return {Law::name, Law::summary, describe, declare};
 }
 
 }  // namespace
 
 std::span<const ModelEntry> catalogue() {
   static const std::array entries = {
-      entry<TensilePressure, TensilePressureCriterion>(),
-      entry<PlasticStrain, PlasticStrainCriterion>(),
+      entry<TensilePressure>(),   entry<PlasticStrain>(),     entry<PrincipalStress>(),
+      entry<PrincipalStrain>(),   entry<JohnsonCookDamage>(), entry<GradyKipp>(),
+      entry<Gurson>(),
   };
   return entries;
 }

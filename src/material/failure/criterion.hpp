@@ -1,22 +1,75 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "src/base/parameter_table.hpp"
+#include "src/base/tensor.hpp"
+
 namespace whipple::failure {
 
-/// Values of `MaterialPoints::failed`.
-enum Code : std::uint8_t { intact = 0, tensile = 1, plastic = 2 };
+/// Values of `MaterialPoints::failed`: what made the point fail.
+enum Code : std::uint8_t {
+  intact = 0,
+  tensile = 1,           ///< tensile pressure
+  plastic = 2,           ///< plastic strain
+  principal_stress = 3,  ///< greatest principal stress
+  principal_strain = 4,  ///< greatest principal strain
+  fractured = 5,         ///< ductile fracture by accumulated damage
+  fragmented = 6,        ///< brittle fragmentation
+  void_growth = 7,       ///< growth and coalescence of voids
+};
+constexpr std::size_t code_count = 8;
+
+/// Components xx, yy, zz, xy, yz, zx of a symmetric tensor, one entry per point.
+template <class Number>
+struct Components {
+  std::array<std::span<Number>, 6> lane;
+
+  [[nodiscard]] SymmetricTensor operator[](std::size_t i) const {
+    return {lane[0][i], lane[1][i], lane[2][i], lane[3][i], lane[4][i], lane[5][i]};
+  }
+};
 
 /// State of a chunk of points after the equation of state (SI), one entry per point.
 struct State {
-  std::span<const double> pressure;          ///< Pa, positive in compression, of the equation of state
-  std::span<const double> plastic_strain;    ///< equivalent plastic strain
-  std::span<const double> melted_fraction;   ///< mass fraction of liquid and vapour
+  double time_step;                           ///< s
+  std::span<const double> pressure;           ///< Pa, positive in compression, of the equation of state
+  std::span<const double> temperature;        ///< K
+  std::span<const double> density;            ///< kg/m^3, of the matter
+  std::span<const double> bulk_modulus;       ///< Pa, rho c^2
+  std::span<const double> shear_modulus;      ///< Pa, of the solid
+  std::span<const double> volume;             ///< m^3, of matter and void
+  std::span<const double> plastic_strain;     ///< equivalent plastic strain
+  std::span<const double> plastic_increment;  ///< its increment in this step
+  std::span<const double> melted_fraction;    ///< mass fraction of liquid and vapour
+  std::span<const double> threshold_factor;   ///< scatter of the failure threshold (1: none)
+  Components<const double> deviator;          ///< Pa, positive in tension
+  Components<const double> strain;            ///< logarithmic strain; empty unless some criterion needs it
+};
+
+/// A chunk of points between the equation of state and the criteria, for models in which voids grow while the
+/// matter still bears stress (SI). Volume and stress are those of the matter between the voids.
+struct PorousState {
+  double time_step;                          ///< s
+  std::span<const double> bulk_modulus;      ///< Pa, rho c^2
+  std::span<const double> shear_modulus;     ///< Pa, with melting
+  std::span<const double> flow_stress;       ///< Pa, of the matter between the voids, with melting
+  std::span<const double> trial;             ///< Pa, equivalent trial stress of the deviator
   std::span<const double> threshold_factor;  ///< scatter of the failure threshold (1: none)
+  std::span<double> equivalent;              ///< Pa, equivalent stress: out
+  std::span<double> pressure;                ///< Pa, in and out
+  std::span<double> plastic_increment;       ///< in: of matter without voids; out
+  std::span<double> plastic_strain;          ///< in: with that increment; out
+  std::span<double> volume;                  ///< m^3, of the matter, in and out
+  std::span<double> void_volume;             ///< m^3, in and out
 };
 
 /// A failure criterion; one virtual call per chunk. A failed point stays failed.
@@ -24,10 +77,68 @@ class Criterion {
  public:
   virtual ~Criterion() = default;
   [[nodiscard]] virtual std::string_view model() const = 0;
-  /// Sets the code of the points that are intact and break the criterion.
-  virtual void mark(const State& state, std::span<std::uint8_t> failed) const = 0;
+  /// Advances the damage of the points and sets the code of those that are intact and break the criterion.
+  /// @param damage  `MaterialPoints::damage`; only criteria that accumulate change it
+  virtual void mark(const State& state, std::span<double> damage, std::span<std::uint8_t> failed) const = 0;
+  /// Lets voids grow and relaxes the stress to the yield surface of the porous matter; sets damage and code.
+  virtual void grow_voids(const PorousState& /*state*/, std::span<double> /*damage*/,
+                          std::span<std::uint8_t> /*failed*/) const {}
+  /// Does `grow_voids` do anything?
+  [[nodiscard]] virtual bool grows_voids() const { return false; }
+  /// Volume fraction of the voids at the start.
+  [[nodiscard]] virtual double initial_porosity() const { return 0.0; }
+  /// Does it keep its past in `MaterialPoints::damage`? One criterion of a material may.
+  [[nodiscard]] virtual bool accumulates() const { return false; }
+  /// Does the damage take stress away before it is complete (docs/theory/material.md, eq. 18, 19)?
+  [[nodiscard]] virtual bool softens() const { return false; }
+  /// Does it ask for `State::strain`?
+  [[nodiscard]] virtual bool needs_strain() const { return false; }
   /// All constants with units as TOML lines (provenance in output files).
   [[nodiscard]] virtual std::string constants() const = 0;
+};
+
+/// The run-time face of a criterion. A law is a plain struct of constants with
+///   name, summary, theory, parameters()                        for the catalogue
+///   accumulates, softens, needs_strain                         static constexpr bool, see Criterion
+///   mark(state, damage, failed), or grow_voids(state, damage, failed) with initial_porosity, see Criterion
+///   require_consistent()                                       throws InputError
+template <class Law>
+class CriterionModel final : public Criterion {
+ public:
+  /// @throws InputError if the constants contradict one another
+  explicit CriterionModel(const Law& law) : law_(law) { law_.require_consistent(); }
+  [[nodiscard]] std::string_view model() const override { return Law::name; }
+  void mark(const State& state, std::span<double> damage, std::span<std::uint8_t> failed) const override {
+    if constexpr (!porous) law_.mark(state, damage, failed);
+  }
+  void grow_voids(const PorousState& state, std::span<double> damage,
+                  std::span<std::uint8_t> failed) const override {
+    if constexpr (porous) law_.grow_voids(state, damage, failed);
+  }
+  [[nodiscard]] bool grows_voids() const override { return porous; }
+  [[nodiscard]] double initial_porosity() const override {
+    if constexpr (porous) return law_.initial_porosity;
+    return 0.0;
+  }
+  [[nodiscard]] bool accumulates() const override { return Law::accumulates; }
+  [[nodiscard]] bool softens() const override { return Law::softens; }
+  [[nodiscard]] bool needs_strain() const override { return Law::needs_strain; }
+  [[nodiscard]] std::string constants() const override {
+    Law copy = law_;
+    return fmt::format("model = \"{}\"\n{}", Law::name, to_toml(whipple::bind(Law::parameters(), copy)));
+  }
+
+ private:
+  static constexpr bool porous = requires(const Law& law) { law.initial_porosity; };
+  Law law_;
+};
+
+/// What a law is unless it says otherwise: a threshold of the present state.
+struct Threshold {
+  static constexpr bool accumulates = false;
+  static constexpr bool softens = false;
+  static constexpr bool needs_strain = false;
+  void require_consistent() const {}  // the ranges of the constants say it all
 };
 
 }  // namespace whipple::failure

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "src/base/parameter_table.hpp"
 #include "src/material/failure/criterion.hpp"
 
 namespace whipple::failure {
@@ -10,7 +9,7 @@ namespace whipple::failure {
 /// scatter k of the threshold. It does not depend on pressure or rate; the limit is a value for the loading
 /// path at hand. Source: the failure strain of public debris-cloud inputs (MPM3D-F90,
 /// Data/LeadHypervelocityImpact.mpm: 3.0).
-struct PlasticStrain {
+struct PlasticStrain : Threshold {
   double failure_strain = 0.0;  ///< ep_f
 
   static ParameterTable<PlasticStrain> parameters() {
@@ -21,26 +20,13 @@ struct PlasticStrain {
   static constexpr const char* summary = "ductile failure: equivalent plastic strain beyond a limit";
   static constexpr const char* theory =
       "Fails (code 2) where the equivalent plastic strain exceeds failure_strain * scatter factor.";
-};
 
-class PlasticStrainCriterion final : public Criterion {
- public:
-  explicit PlasticStrainCriterion(const PlasticStrain& constants) : constants_(constants) {}
-  [[nodiscard]] std::string_view model() const override { return PlasticStrain::name; }
-  void mark(const State& state, std::span<std::uint8_t> failed) const override {
+  void mark(const State& state, std::span<double> /*damage*/, std::span<std::uint8_t> failed) const {
     for (std::size_t i = 0; i < failed.size(); ++i) {
-      const double limit = constants_.failure_strain * state.threshold_factor[i];
+      const double limit = failure_strain * state.threshold_factor[i];
       if (failed[i] == intact && state.plastic_strain[i] > limit) failed[i] = plastic;
     }
   }
-  [[nodiscard]] std::string constants() const override {
-    PlasticStrain copy = constants_;
-    const auto bound = whipple::bind(PlasticStrain::parameters(), copy);
-    return "model = \"plastic_strain\"\n" + to_toml(bound);
-  }
-
- private:
-  PlasticStrain constants_;
 };
 
 }  // namespace whipple::failure

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "src/base/parameter_table.hpp"
 #include "src/material/failure/criterion.hpp"
 
 namespace whipple::failure {
@@ -11,7 +10,7 @@ namespace whipple::failure {
 /// soon as its pressure is negative: it parts into drops and becomes free liquid. Source: D. R. Curran, L.
 /// Seaman, D. A. Shockey, Dynamic failure of solids, Phys. Rep. 147 (1987) 253-388, of which the constant
 /// spall strength is the simplest form; the linear loss with melting is this project's choice.
-struct TensilePressure {
+struct TensilePressure : Threshold {
   double spall_strength = 0.0;  ///< p_cut, Pa
 
   static ParameterTable<TensilePressure> parameters() {
@@ -25,27 +24,13 @@ struct TensilePressure {
       "p < 0.\n"
       "Source: Curran, Seaman and Shockey, Phys. Rep. 147 (1987) 253 (constant spall strength; linear loss "
       "with melting: own choice).";
-};
 
-class TensilePressureCriterion final : public Criterion {
- public:
-  explicit TensilePressureCriterion(const TensilePressure& constants) : constants_(constants) {}
-  [[nodiscard]] std::string_view model() const override { return TensilePressure::name; }
-  void mark(const State& state, std::span<std::uint8_t> failed) const override {
+  void mark(const State& state, std::span<double> /*damage*/, std::span<std::uint8_t> failed) const {
     for (std::size_t i = 0; i < failed.size(); ++i) {
-      const double strength =
-          constants_.spall_strength * (1.0 - state.melted_fraction[i]) * state.threshold_factor[i];
+      const double strength = spall_strength * (1.0 - state.melted_fraction[i]) * state.threshold_factor[i];
       if (failed[i] == intact && state.pressure[i] < -strength) failed[i] = tensile;
     }
   }
-  [[nodiscard]] std::string constants() const override {
-    TensilePressure copy = constants_;
-    const auto bound = whipple::bind(TensilePressure::parameters(), copy);
-    return "model = \"tensile_pressure\"\n" + to_toml(bound);
-  }
-
- private:
-  TensilePressure constants_;
 };
 
 }  // namespace whipple::failure

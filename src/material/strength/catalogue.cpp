@@ -5,10 +5,12 @@
 
 #include <array>
 
+#include "src/material/strength/elastic.hpp"
 #include "src/material/strength/johnson_cook.hpp"
 #include "src/material/strength/none.hpp"
 #include "src/material/strength/power_law.hpp"
 #include "src/material/strength/steinberg_guinan.hpp"
+#include "src/material/strength/viscous_fluid.hpp"
 #include "src/material/strength/voce.hpp"
 #include "src/material/strength/von_mises.hpp"
 #include "src/material/strength/zerilli_armstrong.hpp"
@@ -39,6 +41,8 @@ ModelEntry entry(Build build) {
 std::span<const ModelEntry> catalogue() {
   static const std::array entries = {
       entry<None>([](const None&) { return std::make_unique<const NoneModel>(); }),
+      entry<ViscousFluid>([](const ViscousFluid& c) { return std::make_unique<const ViscousFluidModel>(c); }),
+      entry<Elastic>([](const Elastic& c) { return std::make_unique<const ElasticModel>(c); }),
       entry<VonMises>([](const VonMises& c) { return std::make_unique<const VonMisesModel>(c); }),
       entry<PowerLaw>([](const PowerLaw& c) { return std::make_unique<const PowerLawModel>(c); }),
       entry<Voce>([](const Voce& c) { return std::make_unique<const VoceModel>(c); }),

@@ -15,18 +15,21 @@ struct ElasticConstants {
   double youngs_modulus = 0.0;  ///< Pa; 0: not given
   double poisson_ratio = 0.0;
 
-  /// The rows of these constants in the table of a model that derives from this struct.
+  /// The table of a model that derives from this struct: the rows of these constants, then its own.
   template <class Owner>
-  static ParameterTable<Owner> parameters() {
-    return {real<Owner>("shear_modulus", &Owner::shear_modulus, "Pa", range::non_negative(),
-                        "shear modulus G (0: from Young's modulus and Poisson's ratio)")
-                .optional(),
-            real<Owner>("youngs_modulus", &Owner::youngs_modulus, "Pa", range::non_negative(),
-                        "Young's modulus E (0: G is given)")
-                .optional(),
-            real<Owner>("poisson_ratio", &Owner::poisson_ratio, "",
-                        Range{.lower = -1.0, .upper = 0.5, .lower_open = true}, "Poisson's ratio nu")
-                .optional()};
+  static ParameterTable<Owner> parameters(const ParameterTable<Owner>& own) {
+    ParameterTable<Owner> table = {
+        real<Owner>("shear_modulus", &Owner::shear_modulus, "Pa", range::non_negative(),
+                    "shear modulus G (0: from Young's modulus and Poisson's ratio)")
+            .optional(),
+        real<Owner>("youngs_modulus", &Owner::youngs_modulus, "Pa", range::non_negative(),
+                    "Young's modulus E (0: G is given)")
+            .optional(),
+        real<Owner>("poisson_ratio", &Owner::poisson_ratio, "",
+                    Range{.lower = -1.0, .upper = 0.5, .lower_open = true}, "Poisson's ratio nu")
+            .optional()};
+    table.insert(table.end(), own.begin(), own.end());
+    return table;
   }
 
   /// @throws InputError unless exactly one of G and E is positive

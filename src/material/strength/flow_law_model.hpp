@@ -15,6 +15,7 @@ namespace whipple::strength {
 ///   flow_stress(plastic_strain, rate, temperature)                                Pa, of the solid
 ///   increment(trial, plastic_strain, temperature, modulus, solid_fraction, dt)    see Strength
 ///   require_consistent()                                                          throws InputError
+/// and, if it hardens kinematically, kinematic_modulus                             Pa
 template <class Law>
 class FlowLawModel final : public Strength {
  public:
@@ -33,8 +34,15 @@ class FlowLawModel final : public Strength {
                                     solid_fraction[i], dt);
     }
   }
-  [[nodiscard]] double flow_stress(double plastic_strain, double rate, double temperature) const override {
-    return law_.flow_stress(plastic_strain, rate, temperature);
+  void flow_stress(const State& state, std::span<const double> rate,
+                   std::span<double> stress) const override {
+    for (std::size_t i = 0; i < stress.size(); ++i) {
+      stress[i] = law_.flow_stress(state.plastic_strain[i], rate[i], state.temperature[i]);
+    }
+  }
+  [[nodiscard]] double kinematic_modulus() const override {
+    if constexpr (requires { law_.kinematic_modulus; }) return law_.kinematic_modulus;
+    return 0.0;
   }
   [[nodiscard]] std::string constants() const override {
     Law copy = law_;

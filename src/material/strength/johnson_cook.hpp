@@ -28,21 +28,19 @@ struct JohnsonCook : ElasticConstants {
 
   static ParameterTable<JohnsonCook> parameters() {
     using P = JohnsonCook;
-    ParameterTable<P> table = ElasticConstants::parameters<P>();
-    table.push_back(real("yield_stress", &P::yield_stress, "Pa", range::positive(), "A"));
-    table.push_back(
-        real("hardening_coefficient", &P::hardening_coefficient, "Pa", range::non_negative(), "B"));
-    table.push_back(real("hardening_exponent", &P::hardening_exponent, "", range::positive(), "n"));
-    table.push_back(real("rate_coefficient", &P::rate_coefficient, "", range::non_negative(), "C"));
-    table.push_back(real("reference_rate", &P::reference_rate, "1/s", range::positive(),
-                         "plastic strain rate at and below which the rate factor is 1")
-                        .optional());
-    table.push_back(real("thermal_exponent", &P::thermal_exponent, "", range::positive(), "m"));
-    table.push_back(real("reference_temperature", &P::reference_temperature, "K", range::positive(),
-                         "T_r: no softening at and below it"));
-    table.push_back(real("melting_temperature", &P::melting_temperature, "K", range::positive(),
-                         "T_m: no strength at and above it"));
-    return table;
+    return ElasticConstants::parameters<P>(
+        {real("yield_stress", &P::yield_stress, "Pa", range::positive(), "A"),
+         real("hardening_coefficient", &P::hardening_coefficient, "Pa", range::non_negative(), "B"),
+         real("hardening_exponent", &P::hardening_exponent, "", range::positive(), "n"),
+         real("rate_coefficient", &P::rate_coefficient, "", range::non_negative(), "C"),
+         real("reference_rate", &P::reference_rate, "1/s", range::positive(),
+              "plastic strain rate at and below which the rate factor is 1")
+             .optional(),
+         real("thermal_exponent", &P::thermal_exponent, "", range::positive(), "m"),
+         real("reference_temperature", &P::reference_temperature, "K", range::positive(),
+              "T_r: no softening at and below it"),
+         real("melting_temperature", &P::melting_temperature, "K", range::positive(),
+              "T_m: no strength at and above it")});
   }
   static constexpr const char* name = "johnson_cook";
   static constexpr const char* summary = "Johnson-Cook: hardening, strain rate and thermal softening";

@@ -27,7 +27,9 @@ class NoneModel final : public Strength {
                          std::span<const double>, double, std::span<double> increment) const override {
     std::ranges::fill(increment, 0.0);
   }
-  [[nodiscard]] double flow_stress(double, double, double) const override { return 0.0; }
+  void flow_stress(const State&, std::span<const double>, std::span<double> stress) const override {
+    std::ranges::fill(stress, 0.0);
+  }
   [[nodiscard]] std::string constants() const override { return "model = \"none\"\n"; }
 };
 

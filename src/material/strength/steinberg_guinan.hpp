@@ -100,10 +100,10 @@ class SteinbergGuinanModel final : public Strength {
                                           solid_fraction[i]);
     }
   }
-  /// At the reference density and no pressure.
-  [[nodiscard]] double flow_stress(double plastic_strain, double, double temperature) const override {
-    return constants_.hardening(plastic_strain).value *
-           constants_.stiffness_ratio(constants_.reference_density, 0.0, temperature);
+  void flow_stress(const State& state, std::span<const double>, std::span<double> stress) const override {
+    for (std::size_t i = 0; i < stress.size(); ++i) {
+      stress[i] = constants_.hardening(state.plastic_strain[i]).value * ratio(state, i);
+    }
   }
   [[nodiscard]] std::string constants() const override {
     SteinbergGuinan copy = constants_;

@@ -31,6 +31,13 @@ class Strength {
   /// False for matter without deviatoric stress: the update skips strain and return altogether.
   [[nodiscard]] virtual bool carries_deviator() const { return true; }
 
+  /// Slope H of the back stress over the plastic strain in uniaxial tension (Pa), linear kinematic hardening;
+  /// 0: none (docs/theory/material.md, eq. 16).
+  [[nodiscard]] virtual double kinematic_modulus() const { return 0.0; }
+
+  /// Viscosity of a fluid without deviatoric strength (Pa s): s = 2 eta dev D; 0: none.
+  [[nodiscard]] virtual double viscosity() const { return 0.0; }
+
   /// Shear modulus of the solid (Pa); the loss by melting is applied by the caller.
   virtual void shear_modulus(const State& state, std::span<double> modulus) const = 0;
 
@@ -44,8 +51,9 @@ class Strength {
                                  std::span<const double> modulus, std::span<const double> solid_fraction,
                                  double dt, std::span<double> increment) const = 0;
 
-  /// Flow stress of the solid (Pa) at equivalent plastic strain, its rate (1/s) and temperature (K).
-  [[nodiscard]] virtual double flow_stress(double plastic_strain, double rate, double temperature) const = 0;
+  /// Flow stress of the solid (Pa) at rates of the equivalent plastic strain (1/s).
+  virtual void flow_stress(const State& state, std::span<const double> rate,
+                           std::span<double> stress) const = 0;
 
   /// All constants with units as TOML lines (provenance in output files).
   [[nodiscard]] virtual std::string constants() const = 0;

@@ -4,38 +4,38 @@
 #include <algorithm>
 #include <limits>
 
-#include "src/base/parameter_table.hpp"
-#include "src/material/strength/elastic_constants.hpp"
-#include "src/material/strength/flow_law_model.hpp"
+#include "src/base/error.hpp"
+#include "src/material/strength/hardening_law.hpp"
 
 namespace whipple::strength {
 
-/// Linear isotropic hardening: Y(ep) = min(A + B ep, Y_max), independent of rate and temperature.
+/// Linear hardening: Y(ep) = min(A + B ep, Y_max), independent of rate and temperature.
 /// The return is closed: x = (q - w Y(ep)) / (3 G + w B), or (q - w Y_max) / (3 G) on the plateau.
 /// Source: M. L. Wilkins, Calculation of elastic-plastic flow, UCRL-7322 (1963); radial return with
 /// hardening: J. C. Simo, T. J. R. Hughes, Computational Inelasticity (Springer 1998), box 3.1.
-struct VonMises : ElasticConstants {
-  double yield_stress = 0.0;                                             ///< A, Pa
+struct VonMises : HardeningLaw<VonMises> {
   double hardening_modulus = 0.0;                                        ///< B, Pa
   double maximum_flow_stress = std::numeric_limits<double>::infinity();  ///< Y_max, Pa
 
   static ParameterTable<VonMises> parameters() {
-    ParameterTable<VonMises> table = ElasticConstants::parameters<VonMises>();
-    table.push_back(
-        real("yield_stress", &VonMises::yield_stress, "Pa", range::positive(), "initial yield stress A"));
-    table.push_back(real("hardening_modulus", &VonMises::hardening_modulus, "Pa", range::non_negative(),
-                         "slope B of the flow stress over equivalent plastic strain")
-                        .optional());
-    table.push_back(real("maximum_flow_stress", &VonMises::maximum_flow_stress, "Pa", range::positive(),
-                         "upper bound Y_max of the flow stress")
-                        .optional());
-    return table;
+    using P = VonMises;
+    return HardeningLaw::parameters(
+        {real("hardening_modulus", &P::hardening_modulus, "Pa", range::non_negative(),
+              "slope B of the flow stress over equivalent plastic strain")
+             .optional(),
+         real("maximum_flow_stress", &P::maximum_flow_stress, "Pa", range::positive(),
+              "upper bound Y_max of the flow stress")
+             .optional()});
   }
   static constexpr const char* name = "von_mises";
-  static constexpr const char* summary = "von Mises plasticity with linear isotropic hardening";
+  static constexpr const char* summary = "von Mises plasticity with linear hardening";
   static constexpr const char* theory =
-      "Y = min(A + B ep, Y_max), times the solid fraction; shear modulus G times the solid fraction.\n"
-      "Source: Wilkins, UCRL-7322 (1963); Simo and Hughes, Computational Inelasticity (1998), box 3.1.";
+      "sqrt(3/2 (s - a):(s - a)) = Y = min(A + B ep, Y_max), back stress da = 2/3 H d(plastic strain); Y, H "
+      "and\n"
+      "shear modulus G times the solid fraction.\n"
+      "Source: Wilkins, UCRL-7322 (1963); Simo and Hughes, Computational Inelasticity (1998), box 3.1; "
+      "Prager,\n"
+      "Proc. Inst. Mech. Eng. 169 (1955) 41.";
 
   /// @throws InputError if the constants contradict one another
   void require_consistent() const {
@@ -43,15 +43,16 @@ struct VonMises : ElasticConstants {
       throw InputError("'maximum_flow_stress' is less than 'yield_stress'");
     }
   }
-  [[nodiscard]] double flow_stress(double plastic_strain, double /*rate*/ = 0.0,
-                                   double /*temperature*/ = 0.0) const {
-    return std::min(yield_stress + hardening_modulus * plastic_strain, maximum_flow_stress);
+  [[nodiscard]] FlowStress flow(double strain) const {
+    const double hardened = yield_stress + hardening_modulus * strain;
+    return hardened < maximum_flow_stress ? FlowStress{hardened, hardening_modulus}
+                                          : FlowStress{maximum_flow_stress, 0.0};
   }
 
   /// Increment of the equivalent plastic strain from the equivalent trial stress.
   [[nodiscard]] double increment(double trial, double plastic_strain, double /*temperature*/, double modulus,
                                  double solid, double /*dt*/) const {
-    const double yield = solid * flow_stress(plastic_strain);
+    const double yield = solid * flow(plastic_strain).value;
     if (trial <= yield) return 0.0;
     const double hardening = (trial - yield) / (3.0 * modulus + solid * hardening_modulus);
     const double plateau = (trial - solid * maximum_flow_stress) / (3.0 * modulus);

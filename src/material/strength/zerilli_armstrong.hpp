@@ -28,25 +28,22 @@ struct ZerilliArmstrong : ElasticConstants {
 
   static ParameterTable<ZerilliArmstrong> parameters() {
     using P = ZerilliArmstrong;
-    ParameterTable<P> table = ElasticConstants::parameters<P>();
-    table.push_back(real("athermal_stress", &P::athermal_stress, "Pa", range::non_negative(), "C0"));
-    table.push_back(
-        real("thermal_stress", &P::thermal_stress, "Pa", range::non_negative(), "C1 (body-centred cubic)")
-            .optional());
-    table.push_back(real("thermal_hardening", &P::thermal_hardening, "Pa", range::non_negative(),
-                         "C2 (face-centred cubic)")
-                        .optional());
-    table.push_back(real("thermal_coefficient", &P::thermal_coefficient, "1/K", range::positive(), "C3"));
-    table.push_back(real("rate_coefficient", &P::rate_coefficient, "1/K", range::non_negative(), "C4"));
-    table.push_back(real("hardening_coefficient", &P::hardening_coefficient, "Pa", range::non_negative(),
-                         "C5 (body-centred cubic)")
-                        .optional());
-    table.push_back(
-        real("hardening_exponent", &P::hardening_exponent, "", range::positive(), "n of C5 ep^n").optional());
-    table.push_back(real("least_rate", &P::least_rate, "1/s", range::positive(),
-                         "plastic strain rate below which the rate has no effect")
-                        .optional());
-    return table;
+    return ElasticConstants::parameters<P>(
+        {real("athermal_stress", &P::athermal_stress, "Pa", range::non_negative(), "C0"),
+         real("thermal_stress", &P::thermal_stress, "Pa", range::non_negative(), "C1 (body-centred cubic)")
+             .optional(),
+         real("thermal_hardening", &P::thermal_hardening, "Pa", range::non_negative(),
+              "C2 (face-centred cubic)")
+             .optional(),
+         real("thermal_coefficient", &P::thermal_coefficient, "1/K", range::positive(), "C3"),
+         real("rate_coefficient", &P::rate_coefficient, "1/K", range::non_negative(), "C4"),
+         real("hardening_coefficient", &P::hardening_coefficient, "Pa", range::non_negative(),
+              "C5 (body-centred cubic)")
+             .optional(),
+         real("hardening_exponent", &P::hardening_exponent, "", range::positive(), "n of C5 ep^n").optional(),
+         real("least_rate", &P::least_rate, "1/s", range::positive(),
+              "plastic strain rate below which the rate has no effect")
+             .optional()});
   }
   static constexpr const char* name = "zerilli_armstrong";
   static constexpr const char* summary = "Zerilli-Armstrong: thermally activated flow of fcc and bcc metals";
