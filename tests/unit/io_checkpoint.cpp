@@ -37,16 +37,18 @@ CheckpointValues some_values() {
 
 TEST_F(CheckpointFile, round_trip_is_bitwise) {
   for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{1000}, std::size_t{70'000}}) {
-    const Particles particles = random_bits(n, 1);
-    const fs::path path = write_checkpoint(folder_, 12, particles, some_values(), MPI_COMM_SELF);
-    EXPECT_EQ(path, folder_ / "checkpoint.00000012.h5");
-    const Checkpoint read = read_checkpoint(path, MPI_COMM_SELF);
-    EXPECT_EQ(differing_fields(read.particles, particles), "") << n << " particles";
-    EXPECT_EQ(read.values.reals, some_values().reals);
-    EXPECT_TRUE(std::signbit(read.values.real("minus_zero")));
-    EXPECT_EQ(read.values.integers, some_values().integers);
-    EXPECT_EQ(read.values.texts, some_values().texts);
-    EXPECT_EQ(read.values.arrays, some_values().arrays);
+    for (const unsigned seed : {1U, 2U}) {  // with and without the optional fields
+      const Particles particles = random_bits(n, seed);
+      const fs::path path = write_checkpoint(folder_, 12, particles, some_values(), MPI_COMM_SELF);
+      EXPECT_EQ(path, folder_ / "checkpoint.00000012.h5");
+      const Checkpoint read = read_checkpoint(path, MPI_COMM_SELF);
+      EXPECT_EQ(differing_fields(read.particles, particles), "") << n << " particles";
+      EXPECT_EQ(read.values.reals, some_values().reals);
+      EXPECT_TRUE(std::signbit(read.values.real("minus_zero")));
+      EXPECT_EQ(read.values.integers, some_values().integers);
+      EXPECT_EQ(read.values.texts, some_values().texts);
+      EXPECT_EQ(read.values.arrays, some_values().arrays);
+    }
   }
 }
 

@@ -12,15 +12,18 @@
 namespace whipple::io {
 
 /// Particles whose every field holds random bits, NaN and denormal numbers included: nothing may change on
-/// the way through a file. Bodies stay small so that tables by body can be given.
+/// the way through a file. Optional fields are in use for odd seeds. Bodies stay small so that tables by body
+/// can be given.
 inline Particles random_bits(std::size_t n, unsigned seed) {
   std::mt19937_64 random(seed);
   Particles particles;
   resize(particles, n);
   for_each_field<Particles>([&](const auto& field) {
     auto& values = particles.*(field.values);
+    if (field.optional && seed % 2 == 1) values.resize(n);
     auto* bytes = reinterpret_cast<unsigned char*>(values.data());
-    for (std::size_t i = 0; i < n * sizeof(values[0]); ++i) bytes[i] = static_cast<unsigned char>(random());
+    for (std::size_t i = 0; i < values.size() * sizeof(values[0]); ++i)
+      bytes[i] = static_cast<unsigned char>(random());
   });
   for (std::uint32_t& body : particles.body) body %= 3;
   return particles;
