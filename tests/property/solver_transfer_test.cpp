@@ -220,8 +220,9 @@ TEST(MirrorPlane, EqualsATransferOfRealImages) {
   resize(full, 2 * half.size());
   for (std::size_t p = 0; p < half.size(); ++p) {
     const std::size_t image = half.size() + p;
-    for_each_field<Particles>(
-        [&](const auto& field) { (full.*(field.values))[image] = (half.*(field.values))[p]; });
+    for_each_field<Particles>([&](const auto& field) {
+      if (!field.optional) (full.*(field.values))[image] = (half.*(field.values))[p];
+    });
     const Matrix3 mirror = Vector3(-1, 1, 1).asDiagonal();
     full.position[image][0] = -4 - half.position[p][0];
     full.velocity[image] = mirror * half.velocity[p];
@@ -272,8 +273,9 @@ TEST(MirrorPlane, EqualsRealImagesBetweenPlanesOneCellApart) {
     const Matrix3 mirror = Vector3(1, mirrored ? -1 : 1, 1).asDiagonal();
     for (std::size_t p = 0; p < thin.size(); ++p) {
       const std::size_t image = static_cast<std::size_t>(copy) * thin.size() + p;
-      for_each_field<Particles>(
-          [&](const auto& field) { (full.*(field.values))[image] = (thin.*(field.values))[p]; });
+      for_each_field<Particles>([&](const auto& field) {
+        if (!field.optional) (full.*(field.values))[image] = (thin.*(field.values))[p];
+      });
       const double depth = thin.position[p][1] + 1;
       full.position[image][1] = -1 + shift * dx + (mirrored ? dx - depth : depth);
       full.velocity[image] = mirror * thin.velocity[p];

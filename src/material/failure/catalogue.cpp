@@ -37,9 +37,8 @@ ModelEntry entry() {
 
 std::span<const ModelEntry> catalogue() {
   static const std::array entries = {
-      entry<TensilePressure>(),   entry<PlasticStrain>(),     entry<PrincipalStress>(),
-      entry<PrincipalStrain>(),   entry<JohnsonCookDamage>(), entry<GradyKipp>(),
-      entry<Gurson>(),
+      entry<TensilePressure>(),   entry<PlasticStrain>(), entry<PrincipalStress>(), entry<PrincipalStrain>(),
+      entry<JohnsonCookDamage>(), entry<GradyKipp>(),     entry<Gurson>(),
   };
   return entries;
 }
