@@ -4,8 +4,9 @@
 
 usage: report.py RUN_DIR [--output DIR] [--figure TITLE=FILE.png]... [--times N]
 
-Reads run.toml, history.csv and the snapshots of RUN.particles.hdf.series (docs/output.md); columns and fields that
-the run did not write are left out. A quarter or half model is reported as the full problem (masses, momentum and
+Reads run.toml, history.csv, the snapshots of RUN.particles.hdf.series and analysis.h5 in the folder of the report, which
+`whipple analyse` makes (`whipple report` calls both; docs/output.md). Columns and fields that the run did not write are
+left out. A quarter or half model is reported as the full problem (masses, momentum and
 energies times 4 or 2), with the figures of the model beside it where both matter.
 Exit code 2 if the folder is not that of a run.
 """
@@ -30,7 +31,11 @@ except ImportError as missing:
 # Clamps are counted by the solver and shown if there were any.
 COUNTED = (("below_cold_curve", "points clamped to the cold curve"),
            ("limited_volume_changes", "limited changes of volume"))
-CURVE_SNAPSHOTS = 60  # front and radius are taken from at most so many snapshots
+# Columns of the table of bodies: heading and factor.
+BODY_COLUMNS = {"mass": ("mass (g)", 1e3), "axial_momentum": ("axial momentum (kg m/s)", 1),
+                "mean_axial_velocity": ("mean axial velocity (m/s)", 1), "kinetic_energy": ("kinetic energy (J)", 1),
+                "internal_energy": ("internal energy (J)", 1), "mean_temperature": ("mean temperature (K)", 1),
+                **{f"{p}_fraction": (f"{p} (%)", 100) for p in (*PHASES, "failed")}}
 
 
 def number(value, digits=4):
@@ -117,28 +122,37 @@ class Report:
             self.page.image(self.output / path.name, title)
 
     def cloud(self):
-        run = self.run
+        run, path = self.run, self.output / "analysis.h5"
         if not run.entries:
             self.page.note("The run has no snapshots: no pictures and no measures of the cloud.")
             return
-        pictures = set(run.spread(self.picture_times))
-        shown, extents, geo = [], [], None
-        curve = run.spread(CURVE_SNAPSHOTS)
-        for i in sorted(pictures | set(curve)):
-            snapshot = Snapshot(*run.entries[i])
-            if len(snapshot) and geo is None:
-                geo = report_metrics.geometry(run, snapshot)
-            if geo is not None and i in curve:
-                extents.append(report_metrics.extent(snapshot, geo))
-            if i in pictures:
-                shown.append(snapshot)
-        if geo is None:
+        analysis = report_metrics.Analysis(path)
+        shown = [Snapshot(*run.entries[i]) for i in run.spread(self.picture_times)]
+        if not any(len(snapshot) for snapshot in shown):
             self.page.note("The snapshots hold no particles: no pictures and no measures of the cloud.")
             return
         self.page.heading("Debris cloud")
-        for name, caption, figure in report_pictures.cloud_figures(run, geo, shown):
+        for name, caption, figure in report_pictures.cloud_figures(run, analysis.geometry, shown):
             self.add_figure(name, caption, figure)
-        columns = report_metrics.with_speeds(extents, report_metrics.domain_reach(run, geo))
+        self.add_figure("radiograph.png", f"Transmission along the line of sight through the complete problem, blurred "
+                        f"over a spot of {1e3 * analysis.spot:.3g} mm: what a flash radiograph shows, without the response "
+                        f"of a film.", report_pictures.radiograph_figure(analysis))
+        self.extent(analysis)
+        self.add_figure("surfaces.png", "Depth of the crater on the axis and diameter at the original surface; diameter "
+                        "within which less than half of a plate is left.", report_curves.surface_figure(analysis))
+        fragments = report_curves.fragment_figure(analysis)
+        if fragments is not None:
+            self.page.heading("Fragments of the debris")
+        self.add_figure("fragments.png", "Number of fragments of at least a mass (connected particles of condensed "
+                        "matter; fragments cut by symmetry planes are completed).", fragments)
+        self.add_figure("witness.png", "Loads on the witness plate if the debris flies on freely.",
+                        report_curves.witness_figure(analysis))
+        self.final_table(shown[-1].time, analysis)
+
+    def extent(self, analysis):
+        columns = analysis.series
+        if not np.isfinite(columns["mean_velocity"]).any():
+            return
         self.page.heading("Front, rear and radius of the cloud")
         for name, what in (("front", "front"), ("radius", "side")):
             gone = ~np.isfinite(columns[name]) & np.isfinite(columns["mean_velocity"])
@@ -149,43 +163,41 @@ class Report:
         self.add_figure("extent.png", "Position and speed of the debris. " + "; ".join(
             f"{name}: {text}" for name, text in report_metrics.DEFINITIONS
             if name in ("front, rear", "radius", "radial speed")) + ".", report_curves.extent_figure(columns))
-        self.final_table(shown[-1], geo, columns)
 
-    def final_table(self, last, geo, columns):
-        run = self.run
-        self.page.heading(f"Cloud at {1e6 * last.time:.4g} µs")
-        names = run.body_names(last)
-        rows = report_metrics.table(run, last, geo)
-        residual = next((m["mean_axial_velocity"] for body, part, m in rows
-                         if body == names[geo.projectile] and part == "whole"), float("nan"))
-        final = report_metrics.final_values(columns)
-        self.page.tiles([
+    def final_table(self, time, analysis):
+        run, geo, final = self.run, analysis.geometry, analysis.quantity
+        self.page.heading(f"Cloud at {1e6 * time:.4g} µs")
+        residual = final(f"mean_velocity.{geo.projectile}")
+        tiles = [
             ("impact speed", f"{number(1e-3 * geo.impact_speed)} km/s"),
-            (f"residual velocity of {names[geo.projectile]}", f"{number(1e-3 * residual)} km/s"),
-            ("front speed", f"{number(1e-3 * final['front_speed'])} km/s"),
-            ("rear speed", f"{number(1e-3 * final['rear_speed'])} km/s"),
-            ("radial speed", f"{number(1e-3 * final['radial_speed'])} km/s"),
-            ("length", f"{number(1e3 * (final['front'] - final['rear']))} mm"),
-            ("diameter", f"{number(2e3 * final['radius'])} mm"),
-        ])
+            (f"residual velocity of {geo.projectile}", f"{number(1e-3 * residual)} km/s"),
+            ("front speed", f"{number(1e-3 * final('front_speed'))} km/s"),
+            ("rear speed", f"{number(1e-3 * final('rear_speed'))} km/s"),
+            ("radial speed", f"{number(1e-3 * final('radial_speed'))} km/s"),
+            ("half angle", f"{number(math.degrees(final('half_angle')))}°"),
+            ("length", f"{number(1e3 * (final('front') - final('rear')))} mm"),
+            ("diameter", f"{number(2e3 * final('radius'))} mm"),
+            ("fragments of the debris", number(final("debris_fragments"), 6)),
+        ]
+        tiles += [(f"hole of {name.split('.')[1]}", f"{number(1e3 * value)} mm")
+                  for name, value in analysis.final.items() if name.startswith("hole_diameter.") and value > 0]
+        self.page.tiles(tiles)
+        carried = [column for column in analysis.tables["bodies"] if column in BODY_COLUMNS]
         head = ["body", "part"] + (["mass of model (g)"] if run.multiplicity > 1 else []) + [
-            "mass (g)", "axial momentum (kg m/s)", "mean axial velocity (m/s)", "kinetic energy (J)",
-            "internal energy (J)", "mean temperature (K)"] + [f"{p} (%)" for p in PHASES] + ["failed (%)"]
+            BODY_COLUMNS[column][0] for column in carried]
         lines, strong = [], []
-        for body, part, m in rows:
+        for body, part, m in analysis.bodies:
             if part == "whole":
                 strong.append(len(lines))
-            percent = [number(100 * m[f"{p}_fraction"]) if f"{p}_fraction" in m else "–" for p in (*PHASES, "failed")]
             model = [number(1e3 * m["mass"] / run.multiplicity)] if run.multiplicity > 1 else []
-            lines.append([body if part == "whole" else "", part, *model, number(1e3 * m["mass"]),
-                          number(m["axial_momentum"]), number(m["mean_axial_velocity"]), number(m["kinetic_energy"]),
-                          number(m.get("internal_energy")), number(m.get("mean_temperature")), *percent])
+            lines.append([body if part == "whole" else "", part, *model,
+                          *(number(BODY_COLUMNS[column][1] * m[column]) for column in carried)])
         self.page.table(head, lines, strong=strong, text_columns=(0, 1))
         self.page.definitions(report_metrics.DEFINITIONS)
         self.metrics |= {
-            "time": last.time, "axis": report_metrics.axis_name(geo), "impact_speed": geo.impact_speed,
-            "projectile": names[geo.projectile], "residual_velocity": residual, "cloud": final,
-            "bodies": [{"body": body, "part": part, **m} for body, part, m in rows]}
+            "time": time, "axis": geo.axis_name(), "impact_speed": geo.impact_speed, "projectile": geo.projectile,
+            "residual_velocity": residual, "cloud": analysis.final,
+            "bodies": [{"body": body, "part": part, **m} for body, part, m in analysis.bodies]}
 
     def curves(self):
         run = self.run

@@ -4,7 +4,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from report_data import PHASES
-from report_metrics import BEYOND
 from report_pictures import PHASE_COLOURS, legend_below
 
 MICRO = 1e6
@@ -99,7 +98,7 @@ def step_figure(run):
 
 
 def extent_figure(columns):
-    """Position and speed of front, rear and radius of the debris; `columns` of report_metrics.with_speeds."""
+    """Position and speed of front, rear and radius of the debris; `columns`: the series of the analysis."""
     figure, (left, right) = new_figure(2)
     time = MICRO * columns["time"]
     for name, label, colour, outer in (("front", "front", "#c0392b", "foremost"), ("rear", "rear", "#2c6fbb", None),
@@ -112,8 +111,62 @@ def extent_figure(columns):
     for name, label, colour in (("front_speed", "front", "#c0392b"), ("rear_speed", "rear", "#2c6fbb"),
                                 ("expansion_speed", "expansion of the radius", "#3a8f5c"),
                                 ("mean_velocity", "mean axial velocity", "#555b66"),
-                                ("radial_speed", f"radial speed exceeded by {100 * BEYOND:.1f} %", "#b07aa1")):
+                                ("radial_speed", "radial speed exceeded by 0.1 %", "#b07aa1")):
         right.plot(time, 1e-3 * columns[name], "o-", color=colour, label=label, markersize=3, linewidth=1.6)
     right.set_ylabel("speed (km/s)")
+    legend_above(right)
+    return figure
+
+
+def fragment_figure(analysis):
+    """Number of debris fragments over their mass, with the power law fitted to it."""
+    table = analysis.tables["fragment_distribution"]
+    if not table or len(table["mass"]) < 2:
+        return None
+    figure, (ax,) = new_figure(1)
+    ax.step(1e6 * table["mass"], table["number"], where="pre", color="#2c6fbb", linewidth=1.6, label="debris fragments")
+    exponent = analysis.quantity("fragment_exponent")
+    if np.isfinite(exponent):
+        mass, number = table["mass"], table["number"]
+        middle = len(mass) // 2
+        ax.plot(1e6 * mass, number[middle] * (mass / mass[middle]) ** -exponent, "--", color="#c0392b", linewidth=1.2,
+                label=f"power law, exponent {exponent:.3g} ± {analysis.quantity('fragment_exponent_error'):.2g}")
+    ax.set(xscale="log", yscale="log", xlabel="mass m of a fragment (mg)", ylabel="fragments of at least m")
+    ax.set_ylim(0.7, 1.5 * table["number"].max())
+    legend_above(ax)
+    return figure
+
+
+def surface_figure(analysis):
+    """Crater and holes over time."""
+    series = analysis.series
+    shown = [(name, label) for name, label in (("crater_depth", "crater, depth"), ("crater_diameter", "crater, diameter"))
+             if name in series and np.isfinite(series[name]).any()]
+    shown += [(name, f"{name.split('.')[1]}, hole") for name in series
+              if name.startswith("hole_diameter.") and np.nanmax(series[name], initial=0.0) > 0]
+    if not shown:
+        return None
+    figure, (ax,) = new_figure(1)
+    for name, label in shown:
+        ax.plot(MICRO * series["time"], 1e3 * series[name], "o-", markersize=3, linewidth=1.6, label=label)
+    ax.set_ylabel("length (mm)")
+    legend_above(ax)
+    return figure
+
+
+def witness_figure(analysis):
+    """Loads on the witness plate by distance from the axis and over time."""
+    if "witness_rings" not in analysis.tables:
+        return None
+    rings, flux = analysis.tables["witness_rings"], analysis.tables["witness_flux"]
+    figure, (left, right) = new_figure(2)
+    for ax, table, x, scale, suffix in ((left, rings, "radius", 1e3, "_per_area"), (right, flux, "time", MICRO, "_flux")):
+        for name in ("mass", "momentum", "energy"):
+            values = table[name + suffix]
+            ax.plot(scale * table[x], values / max(values.max(), 1e-300), linewidth=1.6,
+                    label=f"{name}, highest {values.max():.3g}")
+    left.set(xlabel="distance from the axis (mm)", ylabel="per area over the highest (SI)")
+    right.set_ylabel("per time over the highest (SI)")
+    legend_above(left)
     legend_above(right)
     return figure

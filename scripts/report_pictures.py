@@ -4,7 +4,7 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 import PIL.Image
-from matplotlib.colors import LogNorm, Normalize
+from matplotlib.colors import Normalize
 from matplotlib.patches import Patch
 
 from report_data import PHASES
@@ -218,36 +218,33 @@ def cloud_figures(run, geo, snapshots):
                "of the mass beyond.",
                panels(view, images, times, "Section, by temperature",
                       bar=(plt.cm.ScalarMappable(norm, "inferno"), "temperature (K)")))
-    yield ("cloud_radiograph.png", "Mass per area along the line of sight, through the complete problem: what a "
-           "flash radiograph shows, without the response of a film; blurred over about two particles.", radiograph(view, snapshots, times))
 
 
-def blurred(grid):
-    """Binomial blur over five bins in each direction: hides the lattice of the particles."""
-    weights = (1 / 16, 4 / 16, 6 / 16, 4 / 16, 1 / 16)
-    for axis in (0, 1):
-        padded = np.pad(grid, [(2, 2) if a == axis else (0, 0) for a in (0, 1)])
-        n = grid.shape[axis]
-        grid = sum(w * padded.take(range(i, i + n), axis=axis) for i, w in enumerate(weights))
-    return grid
-
-
-def radiograph(view, snapshots, times):
-    size = np.median(np.concatenate([2 * radii(s) for s in snapshots] or [np.zeros(1)]))
-    size = max(3 * view.pixel, size if np.isfinite(size) else 0.0)  # of a bin: that of a particle, or three pixels
-    bins = (max(int(view.shape[0] * view.pixel / size), 1), max(int(view.shape[1] * view.pixel / size), 1))
-    area = (view.limits[1] - view.limits[0]) * (view.limits[3] - view.limits[2]) / (bins[0] * bins[1])
-    maps = []
-    for s in snapshots:
-        axial, up, _ = view.coordinates(s)
-        mass = s.mass * view.depth_copies
-        if view.mirrored:
-            axial, up, mass = np.concatenate([axial, axial]), np.concatenate([up, -up]), np.concatenate([mass, mass])
-        limits = [view.limits[2:], view.limits[:2]]
-        grid, _, _ = np.histogram2d(up, axial, bins=bins, range=limits, weights=mass)
-        maps.append(0.1 * blurred(grid) / area)  # kg/m^2 to g/cm^2
-    highest = max(m.max() for m in maps)
-    norm = LogNorm(max(highest, 1e-12) * 1e-3, max(highest, 1e-12))
-    images = [matplotlib.colormaps["gray_r"](norm(np.maximum(m, 1e-300)), bytes=True)[:, :, :3] for m in maps]
-    return panels(view, images, times, "Areal density (radiograph)", interpolation="bilinear",
-                  bar=(plt.cm.ScalarMappable(norm, "gray_r"), "areal density (g/cm²)"))
+def radiograph_figure(analysis):
+    """Areal density as grey, the transmission of the absorbers that the analysis was told."""
+    pictures = analysis.pictures
+    left, right, below, above = pictures[0].extent
+    aspect = (above - below) / (right - left)
+    columns = min(2 if aspect < 0.75 else 3, len(pictures))
+    rows = -(-len(pictures) // columns)
+    width = {1: 8.0, 2: 11.0, 3: 13.0}[columns]
+    figure, axes = plt.subplots(rows, columns, figsize=(width, rows * ((width - 0.9) / columns * aspect + 0.35) + 1.1),
+                                squeeze=False, sharex=True, sharey=True, layout="constrained")
+    for ax in axes.flat[len(pictures):]:
+        ax.set_visible(False)
+    # Contrast of the last picture: the first ones hold the unshocked bodies in full thickness.
+    darkest = max(min(float(np.quantile(pictures[-1].transmission, 0.002)), 0.9), 1e-3)
+    norm = Normalize(darkest, 1.0)
+    for ax, picture in zip(axes.flat, pictures):
+        ax.imshow(picture.transmission, origin="lower", extent=[1e3 * v for v in picture.extent], cmap="gray", norm=norm,
+                  interpolation="bilinear", aspect="equal")
+        ax.set_title(f"t = {1e6 * picture.time:.4g} µs", fontsize=10, loc="left")
+        ax.tick_params(colors="#444", labelsize=8)
+    for ax in axes[-1, :]:
+        ax.set_xlabel("along the axis of flight (mm)", fontsize=9)
+    for ax in axes[:, 0]:
+        ax.set_ylabel("across (mm)", fontsize=9)
+    figure.suptitle("Synthetic radiograph", fontsize=12, fontweight="bold")
+    figure.colorbar(plt.cm.ScalarMappable(norm, "gray"), ax=axes, location="bottom", shrink=0.6, aspect=45, pad=0.03,
+                    label="transmission")
+    return figure

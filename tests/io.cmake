@@ -34,7 +34,8 @@ if(WHIPPLE_PYTHON)
       FIXTURES_REQUIRED synthetic_cloud_${ranks})
   endforeach()
   add_test(NAME io_report COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/io_report.py
-           ${PROJECT_SOURCE_DIR}/scripts/report.py ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_1)
+           ${PROJECT_SOURCE_DIR}/scripts/report.py ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_1
+           $<TARGET_FILE:whipple>)
   set_tests_properties(io_report PROPERTIES LABELS fast TIMEOUT 300 FIXTURES_REQUIRED synthetic_cloud_1)
 endif()
 

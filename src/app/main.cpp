@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include "src/app/analyse_command.hpp"
 #include "src/app/bench_command.hpp"
 #include "src/app/build_info.hpp"
 #include "src/app/command_line.hpp"
@@ -32,6 +33,7 @@ int whipple_main(int argc, char** argv) {
   add_md_command(app);
   add_fit_command(app);
   add_compare_command(app);
+  add_analyse_command(app);
   add_report_command(app);
   add_eos_command(app);
   add_describe_command(app);

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "src/analysis/run.hpp"
+#include "src/app/analyse_command.hpp"
 #include "src/base/error.hpp"
 #include "src/process/scripts.hpp"
 
@@ -18,6 +20,7 @@ struct Options {
   std::string run;
   std::string output;
   std::vector<std::string> figures;
+  AnalysisWords analysis;
   int times = 6;
 };
 
@@ -26,8 +29,11 @@ int run_report(const Options& options) {
     throw InputError(
         fmt::format("{}: error: is not a folder; expected the output of whipple run", options.run));
   }
-  std::vector<std::string> arguments = {options.run, "--times", std::to_string(options.times)};
-  if (!options.output.empty()) arguments.insert(arguments.end(), {"--output", options.output});
+  const std::filesystem::path output = options.output.empty() ? options.run + "/report" : options.output;
+  // A run that has not come to its first snapshot has its input and history to show.
+  if (!analysis::read_run(options.run).snapshots.empty()) run_analysis(options.run, options.analysis, output);
+  std::vector<std::string> arguments = {options.run, "--times", std::to_string(options.times), "--output",
+                                        output.string()};
   for (const std::string& figure : options.figures) arguments.insert(arguments.end(), {"--figure", figure});
   return process::run_script("scripts/report.py", arguments);
 }
@@ -36,13 +42,14 @@ int run_report(const Options& options) {
 
 void add_report_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("report", "Figures and tables of a run, as one HTML page");
+  CLI::App* command = app.add_subcommand("report", "Measures, figures and tables of a run, as one HTML page");
   command->add_option("run", options->run, "The run directory")->required();
   command->add_option("-o,--output", options->output,
                       "Folder of the page (default: report/ in the run directory)");
   command->add_option("--figure", options->figures, "A figure to show before the pictures (repeatable)")
       ->type_name("TITLE=FILE.png")
       ->allow_extra_args(false);
+  add_analysis_options(*command, options->analysis);
   command->add_option("--times", options->times, "Pictures at so many times")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

@@ -240,6 +240,10 @@ const std::filesystem::path& Document::path() const { return state_->path; }
 
 void Document::finish() {
   report_unknown(*state_, state_->root, "");
+  finish_partly_read();
+}
+
+void Document::finish_partly_read() {
   if (state_->errors.empty()) return;
   std::ranges::stable_sort(state_->errors, {}, [](const auto& entry) { return entry.first; });
   std::string all;

@@ -36,6 +36,8 @@ class Document {
 
   /// Reports every key that no reader asked for, then throws the collected errors, if any, as one InputError.
   void finish();
+  /// The same for a reader that takes a few keys out of a larger document: other keys are no errors.
+  void finish_partly_read();
 
   struct State;
 

@@ -58,7 +58,7 @@ class CommandLine : public ::testing::Test {
 };
 
 TEST_F(CommandLine, EverySubcommandHasHelpWithAnExample) {
-  for (const char* command : {"run", "check", "eos", "md", "fit", "compare", "report", "describe",
+  for (const char* command : {"run", "check", "eos", "md", "fit", "compare", "analyse", "report", "describe",
                               "materials", "units", "bench", "version"}) {
     const Result result = whipple(std::string(command) + " --help");
     EXPECT_EQ(result.code, 0) << command;
@@ -121,8 +121,8 @@ TEST_F(CommandLine, AWrongQuantityOfALocusNamesItsOption) {
 }
 
 TEST_F(CommandLine, MissingFilesAreNamedOnStandardError) {
-  for (const char* arguments :
-       {"run nowhere.toml", "check nowhere.toml", "md nowhere.toml", "report nowhere.toml"}) {
+  for (const char* arguments : {"run nowhere.toml", "check nowhere.toml", "md nowhere.toml",
+                                "analyse nowhere.toml", "report nowhere.toml"}) {
     const Result result = whipple(arguments);
     EXPECT_EQ(result.code, 2) << arguments;
     EXPECT_EQ(result.out, "") << arguments;

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The report of a made-up run whose masses, momenta and speeds are known, and of folders that are none.
 
-usage: io_report.py PATH_OF_REPORT_PY RUN_DIR
+usage: io_report.py PATH_OF_REPORT_PY RUN_DIR WHIPPLE
 """
 import contextlib
 import csv
@@ -21,6 +21,7 @@ import numpy as np
 
 REPORT = pathlib.Path(sys.argv[1]).resolve()
 CLOUD = pathlib.Path(sys.argv[2]).resolve()
+WHIPPLE = pathlib.Path(sys.argv[3]).resolve()
 sys.path.insert(0, str(REPORT.parent))
 
 
@@ -40,6 +41,12 @@ def run(*arguments):
     with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
         code = report.main([str(argument) for argument in arguments])
     return types.SimpleNamespace(returncode=code, stdout=output.getvalue(), stderr=errors.getvalue())
+
+
+def analyse(folder, output):
+    done = subprocess.run([WHIPPLE, "analyse", folder, "--output", output, "--witness", "200 mm"], capture_output=True,
+                          text=True)
+    require(done.returncode == 0, done.stderr)
 
 
 class Checker(html.parser.HTMLParser):
@@ -69,6 +76,7 @@ def report_of_the_cloud(work):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     plt.figure().savefig(figure)
+    analyse(CLOUD, work / "report")
     result = run(CLOUD, "--output", work / "report", "--figure", f"Hugoniot of <copper>={figure}", "--times", 3)
     require(result.returncode == 0, result.stderr)
     text = (work / "report" / "report.html").read_text()
@@ -77,7 +85,7 @@ def report_of_the_cloud(work):
     require(not checker.open, f"elements left open: {checker.open}")
     require(not checker.foreign, f"not self-contained: {checker.foreign}")
     pictures = list((work / "report").glob("*.png"))
-    require(checker.images == len(pictures) == 10, f"{checker.images} images, {len(pictures)} files")
+    require(checker.images == len(pictures) == 13, f"{checker.images} images, {len(pictures)} files")
     for word in ("Synthetic cloud", "Hugoniot of &lt;copper&gt;", "copper_gray_md.toml", "full problem",
                  "residual velocity of disk"):
         require(word in text, f"{word!r} is not in the page")
@@ -90,7 +98,7 @@ def report_of_the_cloud(work):
     require(metrics["multiplicity"] == 4, "a quarter model stands for four")
     near(metrics["impact_speed"], 5550.0, 1e-12, "impact speed")
     require(metrics["projectile"] == "disk" and metrics["axis"] == "z", "projectile and axis")
-    whole = table["all bodies", "whole"]
+    whole = table["all", "whole"]
     near(whole["mass"], 4 * last["mass"], 1e-6, "mass")
     near(whole["axial_momentum"], 4 * last["momentum_z"], 1e-6, "axial momentum")
     near(whole["kinetic_energy"], 4 * last["kinetic_energy"], 1e-6, "kinetic energy")
@@ -101,7 +109,7 @@ def report_of_the_cloud(work):
             expected = 4 * last[f"mass_{phase}.{body}"] / mass
             require(abs(table[body, "whole"][f"{phase}_fraction"] - expected) < 1e-6, f"{phase} of {body}")
     parts = sum(table[body, "debris"]["mass"] for body in ("disk", "plate"))
-    near(table["all bodies", "debris"]["mass"], parts, 1e-9, "debris of all bodies")
+    near(table["all", "debris"]["mass"], parts, 1e-9, "debris of all bodies")
 
     # Every particle flies freely, hence the residual velocity is that of the launch.
     index = json.loads(next(CLOUD.glob("*.series")).read_text())["files"]
@@ -111,38 +119,22 @@ def report_of_the_cloud(work):
         mass, velocity = data["mass"][:].astype(float), data["velocity"][:].astype(float)
     near(metrics["residual_velocity"], np.average(velocity[disk, 2], weights=mass[disk]), 1e-6, "residual velocity")
 
-
-def speeds_of_a_known_cloud():
-    """Speeds uniform over [1, 3] km/s along x, a tenth of it outward: front, rear and radius are quantiles."""
-    import report_metrics
-    n = 20001
-    u = np.linspace(0.0, 1.0, n)
-    speed = 1000 + 2000 * u
-    velocity = np.stack([-speed, 0.1 * speed * np.cos(7 * u), 0.1 * speed * np.sin(7 * u)], axis=1)
-
-    def at(time):
-        position = np.array([5.0, 1.0, -2.0]) + time * velocity
-        return types.SimpleNamespace(time=time, position=position, velocity=velocity, mass=np.full(n, 1e-9))
-    geo = report_metrics.Geometry(axis=0, sign=-1.0, up=1, depth=2, centre=np.array([5.0, 1.0, -2.0]),
-                                  impact_speed=3000.0, projectile=0)
-    columns = report_metrics.with_speeds([report_metrics.extent(at(t), geo) for t in np.linspace(0, 1e-5, 7)])
-    final = report_metrics.final_values(columns)
-    near(final["front_speed"], 2998.0, 1e-3, "front speed")
-    near(final["rear_speed"], 1002.0, 1e-3, "rear speed")
-    near(final["expansion_speed"], 299.8, 1e-3, "expansion speed")
-    near(final["radial_speed"], 299.8, 1e-3, "radial speed")
-    near(final["mean_velocity"], 2000.0, 1e-6, "mean velocity")
-    near(final["foremost"], 0.03, 1e-6, "foremost particle")
-    require(report_metrics.axis_name(geo) == "-x", "name of the axis")
-
-    # A border at 20 mm: the front is followed until the foremost particle is there, and its speed is unchanged.
-    cut = report_metrics.with_speeds([report_metrics.extent(at(t), geo) for t in np.linspace(0, 1e-5, 7)],
-                                     reach=(0.0199, np.inf))
-    require(np.isfinite(cut["front"]).tolist() == [True] * 4 + [False] * 3, f"front {cut['front']}")
-    require(np.isfinite(cut["radius"]).all(), "radius")
-    final = report_metrics.final_values(cut)
-    near(final["front_speed"], 2998.0, 1e-3, "front speed before the border")
-    require(np.isnan(final["front"]), "the front at the end is unknown")
+    # Front and half angle by the definitions, computed here once more.
+    with h5py.File(CLOUD / index[-1]["name"]) as file:
+        data = file["VTKHDF/PointData"]
+        place, velocity = file["VTKHDF/Points"][:].astype(float), data["velocity"][:].astype(float)
+        mass = data["mass"][:].astype(float)
+    debris = velocity[:, 2] > 0.05 * 5550
+    order = np.argsort(place[debris, 2])
+    share = np.cumsum(mass[debris][order]) / mass[debris].sum()
+    front = place[debris, 2][order][np.searchsorted(share, 0.999)]
+    near(metrics["cloud"]["front"], front, 1e-6, "front")
+    outward = place[debris, :2] / np.linalg.norm(place[debris, :2], axis=1)[:, None]
+    angle = np.arctan2(abs((outward * velocity[debris, :2]).sum(axis=1)), velocity[debris, 2])
+    order = np.argsort(angle)
+    energy = np.cumsum((mass[debris] * (velocity[debris]**2).sum(axis=1))[order])
+    near(metrics["cloud"]["half_angle"], angle[order][np.searchsorted(energy, 0.95 * energy[-1])], 1e-6, "half angle")
+    near(metrics["cloud"]["witness_mass"], table["all", "debris"]["mass"], 1e-9, "mass on the witness plate")
 
 
 def spheres_hide_what_is_behind():
@@ -163,12 +155,14 @@ def incomplete_runs_give_reports(work):
         return folder
     folder = copy("no_history")
     (folder / "history.csv").unlink()
+    analyse(folder, folder / "report")
     result = run(folder, "--times", 1)
     require(result.returncode == 0 and "no history.csv" in (folder / "report/report.html").read_text(), result.stderr)
 
     folder = copy("cut_history")
     text = (folder / "history.csv").read_text()
     (folder / "history.csv").write_text(text[:len(text) // 2])
+    analyse(folder, folder / "report")
     require(run(folder, "--times", 1).returncode == 0, "a history cut in a row")
 
     folder = copy("few_fields")
@@ -178,6 +172,7 @@ def incomplete_runs_give_reports(work):
                 del file["VTKHDF/PointData"][name]
     toml = (folder / "run.toml").read_text()
     (folder / "run.toml").write_text(toml.replace('"symmetry"', '"outflow"'))
+    analyse(folder, folder / "report")
     result = run(folder, "--times", 1)
     require(result.returncode == 0, result.stderr)
     metrics = json.loads((folder / "report/metrics.json").read_text())
@@ -195,6 +190,7 @@ def incomplete_runs_give_reports(work):
                 vtk["PointData"].create_dataset(name, shape, kind)
             del vtk["Points"]
             vtk.create_dataset("Points", (0, 3), "float32")
+    analyse(folder, folder / "report")
     result = run(folder)
     require(result.returncode == 0 and "no particles" in (folder / "report/report.html").read_text(), result.stderr)
 
@@ -217,7 +213,7 @@ def other_folders_are_refused(work):
     (folder / "x.particles.hdf.series").write_text("{")
     refused(folder, "is not the index of a series")
     (folder / "x.particles.hdf.series").write_text('{"files": [{"name": "x.particles.000000.hdf", "time": 0}]}')
-    refused(folder, "x.particles.000000.hdf")
+    refused(folder, "analysis.h5")
     (folder / "x.particles.hdf.series").unlink()
     (folder / "history.csv").write_text("step,time [s]\n0,zero\n")
     refused(folder, "history.csv")
@@ -225,7 +221,6 @@ def other_folders_are_refused(work):
 
 with tempfile.TemporaryDirectory() as temporary:
     base = pathlib.Path(temporary)
-    speeds_of_a_known_cloud()
     spheres_hide_what_is_behind()
     report_of_the_cloud(base)
     incomplete_runs_give_reports(base)

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "src/analysis/run.hpp"
+
+namespace whipple::analysis {
+
+struct Options {
+  double link = 0.0;              ///< linking length of fragments, m; 0: the cell size
+  std::optional<double> witness;  ///< axial coordinate of a witness plate, m
+  double diameter_at = 0.0;       ///< of bars: distance from the wall, m; 0: not asked for
+  std::string peak_decay;         ///< body whose peak pressure is followed; empty: none
+  double pixel = 0.0;             ///< of radiographs, m; 0: half the cell size
+  double spot = 1e-3;             ///< blur of radiographs, full width at half maximum, m
+  int radiographs = 6;            ///< at so many times, evenly spread over the snapshots
+  /// Mass attenuation coefficients by body, m^2/kg; bodies without one take that of aluminium at 150 keV
+  /// (Hubbell and Seltzer, NISTIR 5632 (1995)).
+  std::map<std::string, double> attenuation;
+};
+
+/// Measures a run and writes into `folder`: quantities.csv (final values), series.csv (a row per snapshot),
+/// bodies.csv, fragments.csv, fragment_distribution.csv, profile.csv, peak_pressure.csv and witness_*.csv
+/// where asked for, and analysis.h5 with all of them and the radiographs (docs/output.md).
+/// @throws InputError if the run has no snapshots, a body of the options is not in it, or the output cannot
+/// be written
+void analyse(const Run& run, const Options& options, const std::filesystem::path& folder);
+
+}  // namespace whipple::analysis

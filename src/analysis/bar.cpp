@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/analysis/bar.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "src/analysis/surfaces.hpp"
+
+namespace whipple::analysis {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Diameters of circles with the cross-sections of the layers of thickness `size` above `lower`.
+std::vector<double> diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body, double size,
+                              double lower, double upper, bool wall_at_upper) {
+  double radius = 0.0;
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    if (snapshot.body[i] == body) radius = std::max(radius, frame.radius(snapshot.position[i]));
+  }
+  const auto mine = [&](std::size_t i) { return snapshot.body[i] == body; };
+  const RingField field(snapshot, frame, size, lower, upper, radius + 2.0 * size, mine, wall_at_upper);
+  std::vector<double> result(field.layers());
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    result[k] = 2.0 * std::sqrt(field.cross_section(k) / std::numbers::pi);
+  }
+  return result;
+}
+
+}  // namespace
+
+Table diameter_profile(const Snapshot& snapshot, const Frame& frame, const Run& run) {
+  Table table{.name = "profile",
+              .meaning = "diameter of the circle with the cross-section of the body, along the axis",
+              .label = "body",
+              .labels = {},
+              .columns = {}};
+  for (std::size_t b = 0; b < run.bodies.size(); ++b) {
+    const Extent extent = axial_extent(snapshot, frame, b, run.bodies[b].spacing);
+    if (!(extent.length() > 0.0) || !std::isfinite(extent.length())) continue;
+    const std::vector<double> d =
+        diameters(snapshot, frame, b, run.cell_size, extent.lower, extent.upper, false);
+    for (std::size_t k = 0; k < d.size(); ++k) {
+      table.append({{"axial", "m", "axial coordinate of the middle of the layer",
+                     extent.lower + (static_cast<double>(k) + 0.5) * run.cell_size},
+                    {"diameter", "m", "of the circle of the same cross-section", d[k]}},
+                   run.bodies[b].name);
+    }
+  }
+  return table;
+}
+
+Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,
+                        const BodyInput& input, double cell_size, double diameter_at) {
+  if (!frame.wall) return {};
+  // Axial coordinates grow towards the wall: the bar lies below it.
+  const double wall = *frame.wall;
+  const Extent extent = axial_extent(snapshot, frame, body, input.spacing);
+  if (!std::isfinite(extent.length())) return {};  // nothing of it is left
+  const double size = cell_size;
+  const double lower = wall - std::ceil((wall - extent.lower) / size + 1.0) * size;
+  const std::vector<double> d = diameters(snapshot, frame, body, size, lower, wall, true);
+  const auto name = [&](const char* measure) { return fmt::format("{}.{}", measure, input.name); };
+  const std::size_t n = d.size();
+  Quantities row = {
+      {name("length"), "m", "from the wall to the far end", wall - extent.lower},
+      {name("foot_diameter"), "m", "at the wall, continued from the two layers of a cell above it",
+       n < 2 ? nan : 1.5 * d[n - 1] - 0.5 * d[n - 2]}};
+  if (diameter_at > 0.0) {
+    const double x = diameter_at / size - 0.5;  // in layers from the wall
+    const double k = std::clamp(std::floor(x), 0.0, static_cast<double>(n) - 2.0);
+    const auto at = static_cast<std::size_t>(k);
+    row.push_back({name("diameter_at"), "m", "at the distance from the wall that was asked for",
+                   d[n - 1 - at] + (x - k) * (d[n - 2 - at] - d[n - 1 - at])});
+  }
+  const auto foot_mean = [&](const char* field, const char* unit, const char* measure) {
+    const std::vector<double>* values = snapshot.scalar(field);
+    if (values == nullptr) return;
+    double mass = 0.0, total = 0.0;
+    for (std::size_t i = 0; i < snapshot.size(); ++i) {
+      const bool foot = wall - frame.axial(snapshot.position[i]) < input.spacing &&
+                        frame.radius(snapshot.position[i]) < 2.0 * input.spacing;
+      if (snapshot.body[i] != body || !foot) continue;
+      mass += snapshot.mass[i];
+      total += snapshot.mass[i] * (*values)[i];
+    }
+    row.push_back({name(measure), unit, "mean within a particle spacing of the wall, two of the axis",
+                   mass > 0.0 ? total / mass : nan});
+  };
+  foot_mean("temperature", "K", "foot_temperature");
+  foot_mean("plastic_strain", "1", "foot_plastic_strain");
+  return row;
+}
+
+Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Frame& frame, std::size_t body,
+                          const BodyInput& input) {
+  std::vector<std::pair<double, double>> matter;  // axial coordinate, mass
+  double total = 0.0;
+  for (std::size_t i = 0; i < last.size(); ++i) {
+    if (last.body[i] != body) continue;
+    matter.emplace_back(frame.axial(last.position[i]), last.mass[i]);
+    total += last.mass[i];
+  }
+  if (matter.size() < 2) return {};
+  std::sort(matter.begin(), matter.end());
+  double below = 0.0, below_gap = 0.0, gap = 0.0;
+  for (std::size_t i = 0; i + 1 < matter.size(); ++i) {
+    below += matter[i].second;
+    if (matter[i + 1].first - matter[i].first > gap) {
+      gap = matter[i + 1].first - matter[i].first;
+      below_gap = below;
+    }
+  }
+  const double length = axial_extent(first, frame, body, input.spacing).length();
+  return {
+      {fmt::format("spall_thickness.{}", input.name), "m",
+       "initial thickness of the matter ahead of the largest gap along the axis",
+       length * (total - below_gap) / total},
+      {fmt::format("largest_gap.{}", input.name), "m", "largest gap between particles along the axis", gap}};
+}
+
+double pullback(const std::vector<double>& velocity) {
+  const auto highest = std::ranges::max_element(velocity);
+  if (highest == velocity.end()) return nan;
+  double least = *highest;
+  for (auto v = highest; v != velocity.end(); ++v) {
+    least = std::min(least, *v);
+    if (least < 0.98 * *highest && *v > least + 0.01 * *highest) return *highest - least;
+  }
+  return nan;
+}
+
+}  // namespace whipple::analysis

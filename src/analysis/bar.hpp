@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "src/analysis/frame.hpp"
+#include "src/analysis/table.hpp"
+
+/// Bodies along their axis: lengths and diameters, as measured on Taylor bars and residual rods.
+namespace whipple::analysis {
+
+/// Diameter of the circle with the cross-section of the body, along the axis.
+Table diameter_profile(const Snapshot& snapshot, const Frame& frame, const Run& run);
+
+/// Of a body against a wall: length, diameter and state at the foot.
+/// @param diameter_at distance from the wall at which the diameter is asked for; 0: not
+Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,
+                        const BodyInput& input, double cell_size, double diameter_at);
+
+/// Spall of a body in planar impact, from the largest gap along the axis at the last snapshot.
+Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Frame& frame, std::size_t body,
+                          const BodyInput& input);
+
+/// Fall of a velocity from its greatest value to the following minimum (pull-back); NaN if it does not rise
+/// again by 1 % of the greatest value.
+double pullback(const std::vector<double>& velocity);
+
+}  // namespace whipple::analysis

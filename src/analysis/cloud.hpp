@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "src/analysis/frame.hpp"
+#include "src/analysis/table.hpp"
+
+/// Where the debris cloud is, how fast it grows and what it carries. Definitions: docs/theory/analysis.md.
+namespace whipple::analysis {
+
+/// Share of the mass that may lie beyond "the front": single particles do not make a cloud.
+constexpr double beyond = 1e-3;
+/// A particle is debris (forward) or ejecta (backward) if its axial speed exceeds this share of the impact
+/// speed.
+constexpr double moving = 0.05;
+
+/// Particles of the debris.
+std::vector<std::uint32_t> debris(const Snapshot& snapshot, const Frame& frame);
+
+/// Position, size and speeds of the debris; masses of the phases in all of the matter and in the debris.
+/// @param target initial extent of the first target: the length of the cloud begins at its rear face
+Quantities cloud_measures(const Snapshot& snapshot, const Frame& frame, const Extent& target);
+
+/// What the bodies carry: rows "BODY PART" with the parts whole, debris, ejecta and the four phases, then the
+/// same of all bodies. Full problem: sums are multiplied by `frame.copies()`.
+Table body_table(const Snapshot& snapshot, const Frame& frame, const std::vector<BodyInput>& bodies);
+
+/// Of one body: mean axial velocity, velocity of its forward surface, shares of the phases.
+Quantities body_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,
+                         const BodyInput& input);
+
+/// Adds the speeds of front, rear and radius as slopes of the columns of `series` over time (central
+/// differences).
+void add_speeds(Table& series);
+
+/// Slope of y over x by least squares over the last third of the finite entries (at least three); NaN if
+/// there are fewer than two.
+double final_slope(const std::vector<double>& x, const std::vector<double>& y);
+
+}  // namespace whipple::analysis

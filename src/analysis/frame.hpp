@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "src/analysis/run.hpp"
+
+namespace whipple::analysis {
+
+/// A plane x_axis = position.
+struct Plane {
+  int axis = 0;
+  double position = 0.0;
+};
+
+/// Where the impact is: the frame in which everything is measured.
+struct Frame {
+  int axis = 2;                      ///< of the flight: the direction in which the bodies approach each other
+  double sign = 1.0;                 ///< +1: the projectile flies up along the axis
+  Vector3 centre = Vector3::Zero();  ///< a point of the axis; its axial coordinate is 0
+  std::vector<Plane> planes;         ///< mirror planes that cut the model out of the full problem
+  std::optional<double> wall;        ///< axial coordinate of a mirror plane that a body flies against
+  std::size_t projectile = 0;        ///< the fastest body
+  double impact_speed = 0.0;  ///< difference of the axial speeds of the fastest and the slowest body, m/s
+  std::array<int, 2> transverse = {
+      0, 1};  ///< upward in pictures (normal to a mirror plane if there is one), sight
+
+  /// How many models make the full problem: 4 for a quarter model.
+  [[nodiscard]] double copies() const { return static_cast<double>(1U << planes.size()); }
+  /// Component or coordinate along the flight.
+  [[nodiscard]] double axial(const Vector3& v) const { return sign * v[axis]; }
+  /// Distance from the axis.
+  [[nodiscard]] double radius(const Vector3& position) const;
+  /// Component of the velocity away from the axis; its magnitude across the axis on the axis itself.
+  [[nodiscard]] double radial_speed(const Vector3& position, const Vector3& velocity) const;
+  /// Whether the model ends at a mirror plane in this direction.
+  [[nodiscard]] bool mirrored(int direction) const;
+};
+
+/// From the velocities of the input, and the place of the projectile in the first snapshot.
+Frame find_frame(const Run& run, const Snapshot& first);
+
+/// Extent of the particles of a body along the axis, half a particle beyond their centres.
+struct Extent {
+  double lower = 0.0, upper = 0.0;
+  [[nodiscard]] double length() const { return upper - lower; }
+};
+Extent axial_extent(const Snapshot& snapshot, const Frame& frame, std::size_t body, double spacing);
+
+/// The value below which `share` of the weight lies; NaN without weight. Sorts its argument.
+double weighted_quantile(std::vector<std::pair<double, double>>& value_and_weight, double share);
+
+}  // namespace whipple::analysis

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/analysis/peaks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/base/error.hpp"
+
+namespace whipple::analysis {
+
+PeakDecay::PeakDecay(const Snapshot& first, const Frame& frame, std::size_t body, double radius,
+                     double face) {
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first.body[i] != body || frame.radius(first.position[i]) > radius) continue;
+    id_.push_back(first.id[i]);
+    depth_.push_back(frame.axial(first.position[i]) - face);
+  }
+  peak_.assign(id_.size(), 0.0);
+}
+
+void PeakDecay::add(const Snapshot& snapshot) {
+  const std::vector<double>* pressure = snapshot.scalar("pressure");
+  if (pressure == nullptr)
+    throw InputError("error: the peak pressure needs the field pressure in the snapshots");
+  double highest = 0.0, depth = 0.0;
+  for (std::size_t k = 0; k < id_.size(); ++k) {
+    const auto found = std::ranges::lower_bound(snapshot.id, id_[k]);
+    if (found == snapshot.id.end() || *found != id_[k]) continue;  // has left the domain
+    const double p = (*pressure)[static_cast<std::size_t>(found - snapshot.id.begin())];
+    peak_[k] = std::max(peak_[k], p);
+    if (p > highest) {
+      highest = p;
+      depth = depth_[k];
+    }
+  }
+  if (highest > 0.0) front_.emplace_back(depth, highest);
+}
+
+Table PeakDecay::profile(double layer) const {
+  Table table{.name = "peak_pressure",
+              .meaning = "highest pressure of the matter that began near the axis, by initial depth",
+              .label = {},
+              .labels = {},
+              .columns = {}};
+  std::vector<std::pair<double, double>> sums;  // peak, count
+  for (std::size_t k = 0; k < id_.size(); ++k) {
+    const auto bin = static_cast<std::size_t>(std::max(depth_[k], 0.0) / layer);
+    if (bin >= sums.size()) sums.resize(bin + 1);
+    sums[bin].first += peak_[k];
+    sums[bin].second += 1.0;
+  }
+  for (std::size_t bin = 0; bin < sums.size(); ++bin) {
+    if (sums[bin].second == 0.0) continue;
+    table.append(
+        {{"depth", "m", "initial depth, middle of the layer", (static_cast<double>(bin) + 0.5) * layer},
+         {"peak_pressure", "Pa", "mean of the particles of the layer", sums[bin].first / sums[bin].second}});
+  }
+  return table;
+}
+
+Quantities PeakDecay::measures(double diameter) const {
+  double contact = 0.0, count = 0.0;
+  for (std::size_t k = 0; k < id_.size(); ++k) {
+    if (depth_[k] > 0.3 * diameter) continue;
+    contact += peak_[k];
+    count += 1.0;
+  }
+  // ln P = a - n ln(depth / diameter) over the front between 2 and 5 diameters.
+  double n = 0, x_mean = 0, y_mean = 0, xx = 0, xy = 0;
+  const auto each = [&](auto&& body) {
+    for (const auto& [depth, pressure] : front_) {
+      if (depth >= 2.0 * diameter && depth <= 5.0 * diameter)
+        body(std::log(depth / diameter), std::log(pressure));
+    }
+  };
+  each([&](double x, double y) {
+    n += 1.0;
+    x_mean += x;
+    y_mean += y;
+  });
+  x_mean /= n;
+  y_mean /= n;
+  each([&](double x, double y) {
+    xx += (x - x_mean) * (x - x_mean);
+    xy += (x - x_mean) * (y - y_mean);
+  });
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const double slope = n > 2.0 ? xy / xx : nan;
+  return {
+      {"peak_pressure_contact", "Pa", "mean peak over depths of 0 to 0.6 radii of the projectile",
+       count > 0.0 ? contact / count : nan},
+      {"peak_pressure_exponent", "1", "n of P ~ depth^-n over 2 to 5 diameters of the projectile", -slope},
+      {"peak_pressure_4_diameters", "Pa", "peak at 4 diameters of the projectile, from the same fit",
+       std::exp(y_mean + slope * (std::log(4.0) - x_mean))}};
+}
+
+}  // namespace whipple::analysis

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/analysis/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "src/base/error.hpp"
+#include "src/base/parameter_table.hpp"
+#include "src/hdf5/hdf5.hpp"
+#include "src/input/document.hpp"
+#include "src/parallel/threads.hpp"
+
+namespace whipple::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Input {
+  std::string title;
+  Vector3 lower = Vector3::Zero(), upper = Vector3::Zero();
+  double cell_size = 0.0;
+};
+
+struct Words {
+  std::string x_lower, x_upper, y_lower, y_upper, z_lower, z_upper;
+};
+
+struct BodyKeys {
+  std::string name;
+  Vector3 velocity = Vector3::Zero();
+  std::int64_t per_cell = 8;
+};
+
+void read_domain(input::Table domain, Run& run) {
+  Input input;
+  domain.read(ParameterTable<Input>{vector("lower", &Input::lower, "m", range::any(), "lower corner"),
+                                    vector("upper", &Input::upper, "m", range::any(), "upper corner"),
+                                    real("cell_size", &Input::cell_size, "m", range::positive(),
+                                         "edge of the cells")},
+              input);
+  run.cell_size = input.cell_size;
+  run.lower = input.lower;
+  run.upper = input.upper;
+  Words words;
+  if (auto boundary = domain.optional_table("boundary")) {
+    const auto face = [](const char* name, std::string Words::* member) {
+      return text(name, member, "kind of the face").optional();
+    };
+    boundary->read(ParameterTable<Words>{face("x_lower", &Words::x_lower), face("x_upper", &Words::x_upper),
+                                         face("y_lower", &Words::y_lower), face("y_upper", &Words::y_upper),
+                                         face("z_lower", &Words::z_lower), face("z_upper", &Words::z_upper)},
+                   words);
+  }
+  const std::array<const std::string*, 6> kinds = {&words.x_lower, &words.x_upper, &words.y_lower,
+                                                   &words.y_upper, &words.z_lower, &words.z_upper};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<Eigen::Index>(a);
+    if (*kinds[2 * a + 1] == "symmetry") run.mirror_planes[a] = input.upper[axis];
+    if (*kinds[2 * a] == "symmetry") run.mirror_planes[a] = input.lower[axis];
+  }
+}
+
+void read_bodies(input::Table root, Run& run) {
+  for (input::Table table : root.list("body")) {
+    BodyKeys body;
+    table.read(
+        ParameterTable<BodyKeys>{
+            text("name", &BodyKeys::name, "name of the body"),
+            vector("velocity", &BodyKeys::velocity, "m/s", range::any(), "initial velocity").optional()},
+        body);
+    if (auto discretization = table.optional_table("discretization")) {
+      discretization->read(ParameterTable<BodyKeys>{integer("per_cell", &BodyKeys::per_cell,
+                                                            range::between(1, 1000), "particles per cell")
+                                                        .optional()},
+                           body);
+    }
+    run.bodies.push_back(
+        {body.name, body.velocity, run.cell_size / std::cbrt(static_cast<double>(body.per_cell))});
+  }
+}
+
+std::vector<SnapshotEntry> read_index(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename().string().ends_with(".particles.hdf.series")) found.push_back(entry.path());
+  }
+  if (found.empty()) return {};  // the run has not come to its first snapshot
+  if (found.size() > 1) {
+    throw InputError(fmt::format("{}: error: has {} files *.particles.hdf.series, expected one",
+                                 folder.string(), found.size()));
+  }
+  std::vector<SnapshotEntry> entries;
+  try {
+    std::ifstream stream(found.front());
+    const nlohmann::json index = nlohmann::json::parse(stream);
+    for (const nlohmann::json& file : index.at("files")) {
+      entries.push_back({folder / file.at("name").get<std::string>(), file.at("time").get<double>()});
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(
+        fmt::format("{}: error: is not the index of a series: {}", found.front().string(), error.what()));
+  }
+  return entries;
+}
+
+/// Values in the order of the particle numbers.
+template <class Value>
+std::vector<Value> sorted(const std::vector<Value>& values, const std::vector<std::uint32_t>& order) {
+  std::vector<Value> result(order.size());
+  parallel::for_each(order.size(), [&](std::size_t i) { result[i] = values[order[i]]; });
+  return result;
+}
+
+std::vector<Vector3> as_vectors(const std::vector<float>& flat, const std::vector<std::uint32_t>& order) {
+  std::vector<Vector3> result(order.size());
+  parallel::for_each(order.size(), [&](std::size_t i) {
+    result[i] = Eigen::Map<const Eigen::Vector3f>(flat.data() + 3 * order[i]).cast<double>();
+  });
+  return result;
+}
+
+std::vector<double> as_reals(const hdf5::Group& data, const std::string& name,
+                             const std::vector<std::uint32_t>& order) {
+  const auto widen = [&](const auto& values) {
+    return sorted(std::vector<double>(values.begin(), values.end()), order);
+  };
+  const hdf5::Dataset set = data.open_dataset(name);
+  if (name == "phase" || name == "failed") return widen(set.read_all<std::uint8_t>());
+  if (name == "material") return widen(set.read_all<std::uint16_t>());
+  return widen(set.read_all<float>());
+}
+
+}  // namespace
+
+Run read_run(const fs::path& folder) {
+  if (!fs::is_regular_file(folder / "run.toml")) {
+    throw InputError(
+        fmt::format("{}: error: is not the folder of a run: it holds no run.toml", folder.string()));
+  }
+  Run run;
+  run.folder = folder;
+  input::Document document = input::Document::from_file(folder / "run.toml");
+  input::Table root = document.root();
+  Input input;
+  root.read(ParameterTable<Input>{text("title", &Input::title, "title").optional()}, input);
+  run.title = input.title;
+  if (auto domain = root.required_table("domain")) read_domain(*domain, run);
+  read_bodies(root, run);
+  document.finish_partly_read();
+  if (run.bodies.empty()) throw InputError(fmt::format("{}: error: run.toml has no bodies", folder.string()));
+  run.snapshots = read_index(folder);
+  return run;
+}
+
+const std::vector<double>* Snapshot::scalar(const std::string& name) const {
+  const auto found = scalars.find(name);
+  return found == scalars.end() ? nullptr : &found->second;
+}
+
+std::vector<double> Snapshot::volumes() const {
+  const std::vector<double>* density = scalar("density");
+  const std::vector<double>* voids = scalar("void_fraction");
+  std::vector<double> volume(size(), 0.0);
+  if (density == nullptr) return volume;
+  parallel::for_each(size(), [&](std::size_t i) {
+    const double solid = voids != nullptr ? std::max(1.0 - (*voids)[i], 1e-6) : 1.0;
+    volume[i] = mass[i] / ((*density)[i] * solid);
+  });
+  return volume;
+}
+
+Snapshot read_snapshot(const SnapshotEntry& entry) {
+  const hdf5::File file = hdf5::File::open(entry.file);
+  const hdf5::Group vtk = file.root.open_group("VTKHDF");
+  const hdf5::Group data = vtk.open_group("PointData");
+  Snapshot snapshot;
+  snapshot.time = entry.time;
+  const std::vector<std::uint64_t> id = data.open_dataset("id").read_all<std::uint64_t>();
+  std::vector<std::uint32_t> order(id.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
+  snapshot.id = sorted(id, order);
+  snapshot.position = as_vectors(vtk.open_dataset("Points").read_all<float>(), order);
+  snapshot.velocity = as_vectors(data.open_dataset("velocity").read_all<float>(), order);
+  snapshot.mass = as_reals(data, "mass", order);
+  snapshot.body = sorted(data.open_dataset("body").read_all<std::uint16_t>(), order);
+  for (const std::string& name : data.names()) {
+    if (name == "id" || name == "mass" || name == "body") continue;
+    if (data.open_dataset(name).shape().size() == 1) snapshot.scalars[name] = as_reals(data, name, order);
+  }
+  return snapshot;
+}
+
+}  // namespace whipple::analysis

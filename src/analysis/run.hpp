@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/base/tensor.hpp"
+
+/// Measures of a finished or running run, from run.toml and the snapshots alone (docs/theory/analysis.md).
+/// SI.
+namespace whipple::analysis {
+
+/// What the input says of a body.
+struct BodyInput {
+  std::string name;
+  Vector3 velocity = Vector3::Zero();  ///< initial, m/s
+  double spacing = 0.0;                ///< initial distance of the particles, m
+};
+
+struct SnapshotEntry {
+  std::filesystem::path file;
+  double time = 0.0;  ///< s
+};
+
+/// The folder of a run.
+struct Run {
+  std::filesystem::path folder;
+  std::string title;
+  double cell_size = 0.0;
+  Vector3 lower = Vector3::Zero(), upper = Vector3::Zero();  ///< corners of the domain
+  /// Position of the mirror plane normal to each axis, if there is one (the lower one of two).
+  std::array<std::optional<double>, 3> mirror_planes;
+  std::vector<BodyInput> bodies;
+  std::vector<SnapshotEntry> snapshots;
+};
+
+/// Reads run.toml and the index of the snapshots.
+/// @throws InputError if the folder is not that of a run
+Run read_run(const std::filesystem::path& folder);
+
+/// The particles at one time, in the order of their numbers: results do not depend on ranks and threads that
+/// wrote them.
+struct Snapshot {
+  double time = 0.0;
+  std::vector<Vector3> position, velocity;
+  std::vector<double> mass;
+  std::vector<std::uint16_t> body;
+  std::vector<std::uint64_t> id;
+  std::map<std::string, std::vector<double>> scalars;  ///< the other fields of one number, as far as written
+
+  [[nodiscard]] std::size_t size() const { return mass.size(); }
+  /// A field of one number, nullptr if it was not written.
+  [[nodiscard]] const std::vector<double>* scalar(const std::string& name) const;
+  /// Volume (m^3) of a particle with its voids; 0 if the density was not written.
+  [[nodiscard]] std::vector<double> volumes() const;
+};
+
+/// @throws InputError if the file is not that of a snapshot
+Snapshot read_snapshot(const SnapshotEntry& entry);
+
+}  // namespace whipple::analysis

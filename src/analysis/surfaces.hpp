@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+
+#include "src/analysis/frame.hpp"
+#include "src/analysis/table.hpp"
+
+/// Surfaces of dense matter from particles: craters, holes, profiles (docs/theory/analysis.md).
+namespace whipple::analysis {
+
+/// Share of the volume that matter fills in rings about the axis: the particles' volumes spread linearly over
+/// the two nearest bins in either direction. The centre of bin (ring, layer) is at radius (ring + 1/2) size
+/// and axial coordinate lower + (layer + 1/2) size.
+class RingField {
+ public:
+  /// @param size edge of the bins, m
+  /// @param chosen which particles count
+  /// @param wall_at_upper the upper end is a mirror plane: what spreads beyond it comes back
+  RingField(const Snapshot& snapshot, const Frame& frame, double size, double lower, double upper,
+            double radius, const std::function<bool(std::size_t)>& chosen, bool wall_at_upper = false);
+
+  [[nodiscard]] std::size_t rings() const { return rings_; }
+  [[nodiscard]] std::size_t layers() const { return layers_; }
+  [[nodiscard]] double size() const { return size_; }
+  [[nodiscard]] double layer_coordinate(std::size_t layer) const {
+    return lower_ + (static_cast<double>(layer) + 0.5) * size_;
+  }
+  [[nodiscard]] double fraction(std::size_t ring, std::size_t layer) const {
+    return volume_[layer * rings_ + ring] / (ring_area(ring) * size_);
+  }
+  [[nodiscard]] double ring_area(std::size_t ring) const;
+  /// Cross-section of the matter in a layer, m^2.
+  [[nodiscard]] double cross_section(std::size_t layer) const;
+  /// Thickness of the matter along the axis in a ring, m.
+  [[nodiscard]] double thickness(std::size_t ring) const;
+
+ private:
+  double size_, lower_;
+  std::size_t rings_, layers_;
+  std::vector<double> volume_;  // of the full problem, layer by layer
+};
+
+/// First crossing of 1/2 upwards along a sequence at (k + 1/2) size, with at least two entries above it
+/// behind; linear between the centres. NaN if there is none, 0 if the sequence begins in matter.
+double first_surface(const std::vector<double>& fractions, double size);
+
+struct Crater {
+  double depth = 0.0;   ///< of the floor on the axis below the original surface, m; NaN: no floor
+  double radius = 0.0;  ///< in the plane of the original surface, m
+};
+
+/// Crater in a body whose original face is at the axial coordinate `face`.
+Crater measure_crater(const Snapshot& snapshot, const Frame& frame, double face, double rear,
+                      double cell_size);
+
+struct Hole {
+  double diameter = 0.0;      ///< within which less than half of the plate is left in the line of flight, m
+  double left_on_axis = 1.0;  ///< share of the plate's thickness left on the axis
+  /// Nothing of the plate is left on the axis (less than a tenth of its thickness).
+  [[nodiscard]] bool perforated() const { return left_on_axis < 0.1; }
+};
+
+/// Hole in a plate: its matter slower than debris (see cloud.hpp), projected along the axis.
+Hole measure_hole(const Snapshot& snapshot, const Frame& frame, std::size_t body, double thickness,
+                  double cell_size);
+
+}  // namespace whipple::analysis

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/app/analyse_command.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "src/analysis/analyse.hpp"
+#include "src/base/error.hpp"
+#include "src/base/log.hpp"
+#include "src/base/units.hpp"
+
+namespace whipple::app {
+namespace {
+
+struct Options {
+  std::string run;
+  std::string output;
+  AnalysisWords words;
+};
+
+/// A length > 0; 0 for an empty text.
+double length(const std::string& text, const char* option) {
+  if (text.empty()) return 0.0;
+  const double value = units::parse_quantity(text, "m");
+  if (!(value > 0.0)) throw InputError(fmt::format("error: {} is {}, expected a length > 0", option, text));
+  return value;
+}
+
+}  // namespace
+
+void add_analysis_options(CLI::App& command, AnalysisWords& words) {
+  command.add_option("--link", words.link, "Linking length of fragments (default: the cell size)")
+      ->type_name("LENGTH");
+  command.add_option("--witness", words.witness, "Axial coordinate of a witness plate, e.g. '200 mm'")
+      ->type_name("LENGTH");
+  command
+      .add_option("--diameter-at", words.diameter_at,
+                  "Of a bar against a wall: diameter at this distance from it")
+      ->type_name("LENGTH");
+  command
+      .add_option("--peak-decay", words.peak_decay, "Follow the peak pressure in this body below the impact")
+      ->type_name("BODY");
+  command.add_option("--pixel", words.pixel, "Of the radiographs (default: half the cell size)")
+      ->type_name("LENGTH");
+  command.add_option("--spot", words.spot, "Blur of the radiographs, full width at half maximum")
+      ->type_name("LENGTH")
+      ->capture_default_str();
+  command
+      .add_option(
+          "--attenuation", words.attenuation,
+          "Mass attenuation coefficient of a body, e.g. plate='0.138 cm^2/g' (repeatable; default: that)")
+      ->type_name("BODY=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--radiographs", words.radiographs, "Radiographs at so many times")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+}
+
+void run_analysis(const std::filesystem::path& run, const AnalysisWords& words,
+                  const std::filesystem::path& output) {
+  analysis::Options options;
+  options.link = length(words.link, "--link");
+  options.pixel = length(words.pixel, "--pixel");
+  options.spot = units::parse_quantity(words.spot, "m");
+  if (!(options.spot >= 0.0)) throw InputError("error: --spot is negative");
+  options.diameter_at = length(words.diameter_at, "--diameter-at");
+  options.peak_decay = words.peak_decay;
+  options.radiographs = words.radiographs;
+  if (!words.witness.empty()) options.witness = units::parse_quantity(words.witness, "m");
+  for (const std::string& word : words.attenuation) {
+    const std::size_t equal = word.find('=');
+    if (equal == std::string::npos || equal == 0) {
+      throw InputError(fmt::format("error: --attenuation is \"{}\", expected BODY='0.2 cm^2/g'", word));
+    }
+    const double value = units::parse_quantity(word.substr(equal + 1), "m^2/kg");
+    if (!(value >= 0.0)) throw InputError(fmt::format("error: --attenuation of \"{}\" is negative", word));
+    options.attenuation[word.substr(0, equal)] = value;
+  }
+  analysis::analyse(analysis::read_run(run), options, output);
+}
+
+void add_analyse_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "analyse", "Measures of a run: cloud, fragments, crater, hole, radiographs, witness plate");
+  command->add_option("run", options->run, "The run directory")->required();
+  command->add_option("-o,--output", options->output,
+                      "Folder of the tables (default: report/ in the run directory)");
+  add_analysis_options(*command, options->words);
+  command->footer(
+      "Example:\n  whipple analyse run/disk --witness '200 mm'\n"
+      "Writes quantities.csv, series.csv, bodies.csv, fragments.csv and more, and analysis.h5 with all of "
+      "it");
+  command->callback([options] {
+    const std::filesystem::path output =
+        std::filesystem::path(options->output.empty() ? options->run + "/report" : options->output);
+    run_analysis(options->run, options->words, output);
+    log::info("wrote {}", output.string());
+  });
+}
+
+}  // namespace whipple::app

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Measures of made-up particle sets whose answers are known exactly.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include "src/analysis/bar.hpp"
+#include "src/analysis/cloud.hpp"
+#include "src/analysis/fragments.hpp"
+#include "src/analysis/peaks.hpp"
+#include "src/analysis/radiograph.hpp"
+#include "src/analysis/surfaces.hpp"
+#include "src/analysis/witness.hpp"
+#include "src/parallel/threads.hpp"
+
+namespace whipple::analysis {
+namespace {
+
+constexpr double density = 2700.0;
+constexpr double pi = std::numbers::pi;
+
+/// Particles of one spacing; fields are filled as they are added.
+struct Maker {
+  Snapshot snapshot;
+  double spacing;
+
+  explicit Maker(double distance) : spacing(distance) {
+    for (const char* name : {"density", "phase", "temperature", "melted_fraction"})
+      snapshot.scalars[name] = {};
+  }
+  void add(const Vector3& position, const Vector3& velocity, std::uint16_t body = 0, double phase = 0.0,
+           double temperature = 300.0) {
+    snapshot.id.push_back(snapshot.id.size());
+    snapshot.position.push_back(position);
+    snapshot.velocity.push_back(velocity);
+    snapshot.mass.push_back(density * spacing * spacing * spacing);
+    snapshot.body.push_back(body);
+    snapshot.scalars["density"].push_back(density);
+    snapshot.scalars["phase"].push_back(phase);
+    snapshot.scalars["temperature"].push_back(temperature);
+    snapshot.scalars["melted_fraction"].push_back(phase > 0.0 ? 1.0 : 0.0);
+  }
+  /// All lattice points (i + 1/2) spacing inside.
+  void fill(const Vector3& lower, const Vector3& upper, const std::function<bool(const Vector3&)>& inside,
+            const Vector3& velocity, std::uint16_t body = 0, double phase = 0.0) {
+    const auto first = [&](double x) { return static_cast<long>(std::floor(x / spacing)); };
+    for (long i = first(lower.x()); i <= first(upper.x()); ++i) {
+      for (long j = first(lower.y()); j <= first(upper.y()); ++j) {
+        for (long k = first(lower.z()); k <= first(upper.z()); ++k) {
+          const Vector3 p =
+              spacing * (Vector3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) +
+                         Vector3::Constant(0.5));
+          if ((p.array() < lower.array()).any() || (p.array() > upper.array()).any() || !inside(p)) continue;
+          add(p, velocity, body, phase);
+        }
+      }
+    }
+  }
+};
+
+/// A quarter model that flies up along z.
+Frame quarter(double impact_speed = 6000.0) {
+  Frame frame;
+  frame.planes = {{0, 0.0}, {1, 0.0}};
+  frame.impact_speed = impact_speed;
+  return frame;
+}
+
+double value(const Quantities& row, const std::string& name) {
+  const auto found = std::ranges::find(row, name, &Quantity::name);
+  if (found == row.end()) ADD_FAILURE() << "no quantity " << name;
+  return found == row.end() ? 0.0 : found->value;
+}
+
+TEST(Fragments, TwoSpheresOfAWholeModel) {
+  Maker maker(0.5e-3);
+  const auto sphere = [](const Vector3& centre, double radius) {
+    return [=](const Vector3& p) { return (p - centre).norm() < radius; };
+  };
+  const Vector3 a(0, 0, 0), b(9e-3, 0, 0), fast(100, 0, 3000), slow(-100, 50, 2000);
+  const Vector3 box = Vector3::Constant(20e-3);
+  maker.fill(-box, box, sphere(a, 4e-3), fast, 0);
+  const std::size_t in_first = maker.snapshot.size();
+  maker.fill(-box, box, sphere(b, 3e-3), slow, 1);
+  maker.add(Vector3(0, 0, 15e-3), fast, 0, 3.0);  // vapour is no fragment
+  Frame frame;
+  frame.impact_speed = 6000.0;
+  // Nominal gap 2 mm, between the outermost lattice points 2.5 mm: linked at 3 mm, apart at 1 mm.
+  EXPECT_EQ(find_fragments(maker.snapshot, frame, 3e-3).size(), 1U);
+  const std::vector<Fragment> found = find_fragments(maker.snapshot, frame, 1e-3);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].particles, in_first);
+  EXPECT_EQ(found[1].particles, maker.snapshot.size() - 1 - in_first);
+  const double particle = density * std::pow(0.5e-3, 3);
+  EXPECT_NEAR(found[0].mass, static_cast<double>(in_first) * particle, 1e-12 * found[0].mass);
+  EXPECT_LT((found[0].velocity - fast).norm(), 1e-9);
+  EXPECT_LT((found[1].velocity - slow).norm(), 1e-9);
+  EXPECT_LT(found[0].position.norm(), 1e-12);
+  EXPECT_LT((found[1].position - b).norm(), 1e-12);
+  EXPECT_NEAR(found[0].temperature, 300.0, 1e-9);
+  EXPECT_EQ(found[1].body, 1);
+  EXPECT_TRUE(found[0].debris);
+  EXPECT_NEAR(found[0].volume, found[0].mass / density, 1e-12 * found[0].volume);
+}
+
+TEST(Fragments, OneOnTheMirrorPlanesIsWholeOneApartHasCopies) {
+  Maker maker(0.5e-3);
+  const auto everything = [](const Vector3&) { return true; };
+  const Vector3 velocity(10, 20, 1000);
+  maker.fill(Vector3::Zero(), Vector3::Constant(2e-3), everything, velocity);          // on both planes
+  maker.fill({5e-3, 0, 0}, {7e-3, 2e-3, 2e-3}, everything, velocity);                  // on y = 0
+  maker.fill(Vector3::Constant(5e-3), Vector3::Constant(6e-3), everything, velocity);  // on none
+  const std::vector<Fragment> found = find_fragments(maker.snapshot, quarter(), 1e-3);
+  ASSERT_EQ(found.size(), 3U);
+  const double particle = density * std::pow(0.5e-3, 3);
+  EXPECT_NEAR(found[0].mass, 4 * 64 * particle, 1e-15);
+  EXPECT_EQ(found[0].copies, 1.0);
+  EXPECT_LT((found[0].velocity - Vector3(0, 0, 1000)).norm(), 1e-9);
+  EXPECT_NEAR(found[1].mass, 2 * 64 * particle, 1e-15);
+  EXPECT_EQ(found[1].copies, 2.0);
+  EXPECT_LT((found[1].velocity - Vector3(10, 0, 1000)).norm(), 1e-9);
+  EXPECT_NEAR(found[2].mass, 8 * particle, 1e-15);
+  EXPECT_EQ(found[2].copies, 4.0);
+}
+
+TEST(Fragments, ComponentsOfRandomPointsAgreeWithTheDefinitionOnAnyThreads) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> coordinate(0.0, 1.0);
+  std::vector<Vector3> points(3000);
+  for (Vector3& p : points) p = {coordinate(random), coordinate(random), coordinate(random)};
+  constexpr double distance = 0.055;
+  // Every label by sweeps over all pairs until nothing changes.
+  std::vector<std::uint32_t> expected(points.size());
+  std::iota(expected.begin(), expected.end(), 0U);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if ((points[i] - points[j]).norm() >= distance || expected[i] == expected[j]) continue;
+        expected[i] = expected[j] = std::min(expected[i], expected[j]);
+        changed = true;
+      }
+    }
+  }
+  const std::size_t components = std::set(expected.begin(), expected.end()).size();
+  EXPECT_GT(components, 50U);
+  EXPECT_LT(components, 2900U);
+  const int threads = parallel::threads();
+  for (const int n : {1, 2, 4}) {
+    parallel::set_threads(n);
+    EXPECT_EQ(connected_components(points, distance), expected) << n << " threads";
+  }
+  parallel::set_threads(threads);
+}
+
+TEST(Fragments, ExponentOfAPowerLaw) {
+  // Quantiles of N(m) = (m / m0)^-b: m_i = m0 ((i + 1/2) / n)^(-1/b).
+  constexpr double b = 1.06, least = 2e-6;
+  std::vector<std::pair<double, double>> masses;
+  for (int i = 0; i < 4000; ++i) masses.emplace_back(least * std::pow((i + 0.5) / 4000, -1.0 / b), 2.0);
+  masses.emplace_back(0.5 * least, 1.0);  // below the range
+  const Exponent found = distribution_exponent(masses, least);
+  EXPECT_NEAR(found.value, b, 1e-3);
+  EXPECT_EQ(found.count, 8000.0);
+  EXPECT_NEAR(found.error, b / std::sqrt(8000.0), 1e-4);
+}
+
+TEST(Cloud, KnownSpeeds) {
+  // Axial speeds uniform over 1 to 3 km/s, a tenth of it outward, from one point: everything is a quantile.
+  Maker maker(1e-3);
+  const int n = 20001;
+  for (int i = 0; i < n; ++i) {
+    const double u = static_cast<double>(i) / (n - 1), speed = 1000 + 2000 * u;
+    const Vector3 v(0.1 * speed * std::cos(7 * u), 0.1 * speed * std::sin(7 * u), speed);
+    maker.add(1e-5 * v, v);
+  }
+  Frame frame;
+  frame.impact_speed = 3000;
+  const Quantities row = cloud_measures(maker.snapshot, frame, {.lower = -2e-3, .upper = 2e-3});
+  EXPECT_NEAR(value(row, "front"), 0.02998, 1e-6);
+  EXPECT_NEAR(value(row, "rear"), 0.01002, 1e-6);
+  EXPECT_NEAR(value(row, "radius"), 0.002998, 1e-7);
+  EXPECT_NEAR(value(row, "radial_speed"), 299.8, 0.01);
+  EXPECT_NEAR(value(row, "mean_velocity"), 2000, 1e-6);
+  EXPECT_NEAR(value(row, "half_angle"), std::atan(0.1), 1e-9);
+  EXPECT_NEAR(value(row, "cloud_length_over_width"), (0.02998 - 0.002) / (2 * 0.002998), 1e-3);
+  // Beyond 3 mm lies everything: 10 to 30 mm, uniformly.
+  EXPECT_NEAR(value(row, "axial_50"), 0.02, 1e-6);
+  EXPECT_NEAR(value(row, "axial_90"), 0.028, 1e-6);
+  EXPECT_NEAR(value(row, "radius_99"), 0.00298, 1e-6);
+  EXPECT_NEAR(value(row, "mass_behind"), n * density * 1e-9, 1e-9);
+}
+
+TEST(Cloud, BodiesPartsAndPhases) {
+  Maker maker(1e-3);
+  maker.add(Vector3::Zero(), {0, 0, 4000}, 0, 0.0);   // debris
+  maker.add(Vector3::Zero(), {0, 0, -2000}, 1, 2.0);  // liquid ejecta
+  maker.add(Vector3::Zero(), {0, 0, 0}, 1, 0.0);      // rests
+  const std::vector<BodyInput> bodies = {{"disk", {0, 0, 6000}, 1e-3}, {"plate", {0, 0, 0}, 1e-3}};
+  const Table table = body_table(maker.snapshot, quarter(), bodies);
+  const auto row = [&](const std::string& label) {
+    return static_cast<std::size_t>(std::ranges::find(table.labels, label) - table.labels.begin());
+  };
+  const double m = density * 1e-9;
+  EXPECT_EQ(table.rows(), 21U);  // three groups of seven
+  EXPECT_DOUBLE_EQ(table["mass"][row("disk whole")], 4 * m);
+  EXPECT_DOUBLE_EQ(table["mass"][row("plate ejecta")], 4 * m);
+  EXPECT_DOUBLE_EQ(table["axial_momentum"][row("all whole")], 4 * m * 2000);
+  EXPECT_DOUBLE_EQ(table["kinetic_energy"][row("plate liquid")], 4 * 0.5 * m * 4e6);
+  EXPECT_DOUBLE_EQ(table["liquid_fraction"][row("plate whole")], 0.5);
+  EXPECT_DOUBLE_EQ(table["mass"][row("disk ejecta")], 0.0);
+}
+
+TEST(Surfaces, CraterOfAParaboloid) {
+  // Block of 30 mm with a crater z = depth (1 - r^2 / R^2), a lip above the surface and loose matter inside.
+  constexpr double depth = 13.1e-3, radius = 12.4e-3, cell = 1e-3;
+  Maker maker(0.5 * cell);
+  maker.fill(
+      {0, 0, -3e-3}, {30e-3, 30e-3, 30e-3},
+      [&](const Vector3& p) {
+        const double r = std::hypot(p.x(), p.y());
+        const bool lip = p.z() < 0 && r > radius && r < radius + 3e-3;
+        return lip || (p.z() > 0 && p.z() > depth * (1 - r * r / (radius * radius)));
+      },
+      Vector3::Zero(), 1);
+  for (int i = 0; i < 50; ++i) maker.add({1e-4 * i, 1e-4 * i, 2e-3 + 1e-4 * i}, {0, 0, -500}, 0);
+  const Crater crater = measure_crater(maker.snapshot, quarter(), 0.0, 30e-3, cell);
+  EXPECT_NEAR(crater.depth, depth, 0.25 * cell);
+  EXPECT_NEAR(crater.radius, radius, 0.25 * cell);
+}
+
+TEST(Surfaces, NoCraterBeforeTheImpact) {
+  Maker maker(0.5e-3);
+  maker.fill({0, 0, 0}, {20e-3, 20e-3, 20e-3}, [](const Vector3&) { return true; }, Vector3::Zero());
+  const Crater crater = measure_crater(maker.snapshot, quarter(), 0.0, 20e-3, 1e-3);
+  EXPECT_EQ(crater.depth, 0.0);
+  EXPECT_EQ(crater.radius, 0.0);
+}
+
+TEST(Surfaces, HoleInAPlateThinnerThanTheCell) {
+  constexpr double hole_radius = 8.3e-3, cell = 1e-3, thickness = 0.5e-3;
+  Maker maker(0.25e-3);
+  maker.fill(
+      {0, 0, 0}, {25e-3, 25e-3, thickness},
+      [&](const Vector3& p) { return std::hypot(p.x(), p.y()) > hole_radius; }, Vector3::Zero(), 1);
+  maker.fill(
+      {0, 0, 40e-3}, {4e-3, 4e-3, 44e-3}, [](const Vector3&) { return true; }, {0, 0, 3000}, 1);  // plug
+  const Hole hole = measure_hole(maker.snapshot, quarter(), 1, thickness, cell);
+  EXPECT_NEAR(hole.diameter, 2 * hole_radius, 0.3 * cell);
+  EXPECT_TRUE(hole.perforated());
+  Maker whole(0.25e-3);
+  whole.fill({0, 0, 0}, {25e-3, 25e-3, thickness}, [](const Vector3&) { return true; }, Vector3::Zero(), 1);
+  const Hole none = measure_hole(whole.snapshot, quarter(), 1, thickness, cell);
+  EXPECT_EQ(none.diameter, 0.0);
+  EXPECT_FALSE(none.perforated());
+  EXPECT_NEAR(none.left_on_axis, 1.0, 0.1);
+}
+
+TEST(Bar, LengthAndDiametersOfAConeOnACylinder) {
+  // Against the wall z = 0, flying down: foot of 12 mm at the wall that narrows by 0.4 mm per mm to 8 mm.
+  constexpr double cell = 0.5e-3;
+  Maker maker(0.5 * cell);
+  const auto radius_at = [](double z) { return std::max(4e-3, 6e-3 - 0.2 * z); };
+  maker.fill({0, 0, 0}, {8e-3, 8e-3, 20e-3},
+             [&](const Vector3& p) { return std::hypot(p.x(), p.y()) < radius_at(p.z()); }, {0, 0, -200});
+  Frame frame = quarter(200);
+  frame.sign = -1.0;
+  frame.wall = 0.0;
+  const Quantities row =
+      bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.5 * cell}, cell, 5e-3);
+  EXPECT_NEAR(value(row, "length.bar"), 20e-3, 1e-9);
+  EXPECT_NEAR(value(row, "foot_diameter.bar"), 12e-3, 0.06e-3);
+  EXPECT_NEAR(value(row, "diameter_at.bar"), 10e-3, 0.06e-3);
+  EXPECT_DOUBLE_EQ(value(row, "foot_temperature.bar"), 300.0);
+}
+
+TEST(Bar, SpallLayerAndPullback) {
+  Maker start(0.1e-3), end(0.1e-3);
+  for (int i = 0; i < 40; ++i) {
+    const double z = (i + 0.5) * 0.1e-3;
+    start.add({0, 0, z}, Vector3::Zero());
+    end.add({0, 0, z + (i < 26 ? 1e-3 : 1.7e-3)}, Vector3::Zero());  // 1.4 mm flies ahead
+  }
+  const Quantities row =
+      spall_measures(start.snapshot, end.snapshot, quarter(), 0, {"target", Vector3::Zero(), 0.1e-3});
+  EXPECT_NEAR(value(row, "spall_thickness.target"), 1.4e-3, 1e-9);
+  EXPECT_NEAR(value(row, "largest_gap.target"), 0.8e-3, 1e-9);
+  EXPECT_DOUBLE_EQ(pullback({0, 100, 480, 500, 500, 430, 345, 350, 410, 300}), 155.0);
+  EXPECT_TRUE(std::isnan(pullback({0, 100, 500, 499, 498})));
+}
+
+TEST(Radiograph, ArealDensityOfASlabAndTheMassOfAll) {
+  // Slab of 4 mm in the line of sight (y), quarter model cut at x = 0 and y = 0: 2 mm of it are in the model.
+  Maker maker(0.25e-3);
+  maker.fill({0, 0, 0}, {10e-3, 2e-3, 20e-3}, [](const Vector3&) { return true; }, Vector3::Zero());
+  const Frame frame = quarter();
+  PictureLimits limits;
+  limits.include(maker.snapshot, frame);
+  const double attenuation = 0.05;
+  const Radiograph picture = take_radiograph(maker.snapshot, frame, limits,
+                                             {.pixel = 0.5e-3, .spot = 1e-3, .attenuation = {attenuation}});
+  const double total =
+      std::accumulate(picture.areal_density[0].begin(), picture.areal_density[0].end(), 0.0) * 0.25e-6;
+  EXPECT_NEAR(total, density * 20e-3 * 4e-3 * 20e-3, 1e-6 * total);
+  const auto row = static_cast<std::size_t>((0.0 - picture.lower_up) / picture.pixel);
+  const auto column = static_cast<std::size_t>((10e-3 - picture.lower_axial) / picture.pixel);
+  const double middle = picture.areal_density[0][row * picture.columns + column];
+  EXPECT_NEAR(middle, density * 4e-3, 1e-3 * middle);
+  EXPECT_NEAR(picture.transmission[row * picture.columns + column], std::exp(-attenuation * middle), 1e-12);
+  EXPECT_EQ(picture.transmission[0], 1.0);
+}
+
+TEST(Radiograph, AParticleOfVapourFillsItsVolume) {
+  Maker maker(1e-3);
+  maker.add(Vector3(0.3e-3, 0.1e-3, 0.2e-3), Vector3::Zero());
+  maker.snapshot.scalars["density"][0] = density / 64;  // a cube of 4 mm
+  Frame frame;
+  PictureLimits limits{.lower_axial = -3e-3, .upper_axial = 3e-3, .lower_up = -3e-3, .upper_up = 3e-3};
+  const Radiograph picture =
+      take_radiograph(maker.snapshot, frame, limits, {.pixel = 0.25e-3, .spot = 0.0, .attenuation = {1.0}});
+  const double m = density * 1e-9;
+  const std::vector<double>& image = picture.areal_density[0];
+  EXPECT_NEAR(std::accumulate(image.begin(), image.end(), 0.0) * 0.25e-3 * 0.25e-3, m, 1e-9 * m);
+  EXPECT_NEAR(*std::ranges::max_element(image), m / (4e-3 * 4e-3), 1e-9 * m / 16e-6);
+}
+
+TEST(Radiograph, BlurOfALineHasTheWidthOfTheSpot) {
+  // A thin rod across the picture: after the blur it is a Gaussian of the given full width at half maximum.
+  Maker maker(0.1e-3);
+  for (int i = -200; i < 200; ++i) maker.add({1e-4 * (i + 0.5), 0, 0}, Vector3::Zero());
+  Frame frame;  // a whole model
+  PictureLimits limits;
+  limits.include(maker.snapshot, frame);
+  const Radiograph picture =
+      take_radiograph(maker.snapshot, frame, limits, {.pixel = 0.1e-3, .spot = 2e-3, .attenuation = {1.0}});
+  const std::size_t row = picture.rows / 2;
+  double sum = 0, moment = 0, mean = 0;
+  for (std::size_t c = 0; c < picture.columns; ++c) {
+    const double x = (static_cast<double>(c) + 0.5) * picture.pixel + picture.lower_axial;
+    const double s = picture.areal_density[0][row * picture.columns + c];
+    sum += s;
+    mean += s * x;
+    moment += s * x * x;
+  }
+  EXPECT_NEAR(mean / sum, 0.0, 1e-6);
+  // The pixels themselves add a little to the variance.
+  EXPECT_NEAR(std::sqrt(moment / sum) * 2.3548, 2e-3, 0.02e-3);
+}
+
+TEST(Witness, FreeFlightToARingAtAKnownTime) {
+  Maker maker(1e-3);
+  const double m = density * 1e-9;
+  maker.add({1e-3, 0, 10e-3}, {500, 0, 2000});   // 90 mm in 45 us, lands at 1 + 22.5 mm
+  maker.add({0, 2e-3, 110e-3}, {0, 100, 1000});  // beyond: was there 10 us before, at 1 mm
+  maker.add({0, 0, 0}, {0, 0, 10});              // no debris
+  maker.snapshot.time = 20e-6;
+  const Witness witness = witness_plate(maker.snapshot, quarter(), {.position = 100e-3, .ring = 2e-3});
+  EXPECT_DOUBLE_EQ(value(witness.totals, "witness_mass"), 4 * 2 * m);
+  EXPECT_DOUBLE_EQ(value(witness.totals, "witness_momentum"), 4 * m * 3000);
+  EXPECT_NEAR(value(witness.totals, "witness_first"), 10e-6, 1e-15);
+  EXPECT_NEAR(value(witness.totals, "witness_last"), 65e-6, 1e-15);
+  ASSERT_EQ(witness.rings.rows(), 12U);
+  EXPECT_NEAR(witness.rings["mass_per_area"][0], 4 * m / (pi * 4e-6), 1e-9);
+  EXPECT_NEAR(witness.rings["energy_per_area"][11] * pi * (24e-3 * 24e-3 - 22e-3 * 22e-3),
+              4 * 0.5 * m * (500.0 * 500 + 2000.0 * 2000), 1e-9);
+  const std::vector<double>& flux = witness.flux["mass_flux"];
+  EXPECT_NEAR(std::accumulate(flux.begin(), flux.end(), 0.0) * 1.1e-6, 8 * m, 1e-12);
+}
+
+TEST(PeakDecay, PowerLawFront) {
+  // A front that passes with P = 40 GPa (depth / 10 mm)^-1.3: every snapshot holds the peak of one layer.
+  Maker maker(1e-3);
+  for (int k = 0; k < 60; ++k) maker.add({0.5e-3, 0.5e-3, (k + 0.5) * 1e-3}, Vector3::Zero(), 1);
+  PeakDecay peaks(maker.snapshot, quarter(), 1, 1e-3, 0.0);
+  for (int k = 0; k < 60; ++k) {
+    std::vector<double>& pressure = maker.snapshot.scalars["pressure"];
+    pressure.assign(60, 1e8);
+    pressure[static_cast<std::size_t>(k)] = 40e9 * std::pow((k + 0.5) / 10.0, -1.3);
+    peaks.add(maker.snapshot);
+  }
+  const Quantities row = peaks.measures(10e-3);
+  EXPECT_NEAR(value(row, "peak_pressure_exponent"), 1.3, 1e-9);
+  EXPECT_NEAR(value(row, "peak_pressure_4_diameters"), 40e9 * std::pow(4.0, -1.3), 1.0);
+  const Table profile = peaks.profile(1e-3);
+  ASSERT_EQ(profile.rows(), 60U);
+  EXPECT_NEAR(profile["peak_pressure"][20], 40e9 * std::pow(2.05, -1.3), 1.0);
+}
+
+}  // namespace
+}  // namespace whipple::analysis
