@@ -23,18 +23,11 @@ void PeakDecay::add(const Snapshot& snapshot) {
   const std::vector<double>* pressure = snapshot.scalar("pressure");
   if (pressure == nullptr)
     throw InputError("error: the peak pressure needs the field pressure in the snapshots");
-  double highest = 0.0, depth = 0.0;
   for (std::size_t k = 0; k < id_.size(); ++k) {
     const auto found = std::ranges::lower_bound(snapshot.id, id_[k]);
     if (found == snapshot.id.end() || *found != id_[k]) continue;  // has left the domain
-    const double p = (*pressure)[static_cast<std::size_t>(found - snapshot.id.begin())];
-    peak_[k] = std::max(peak_[k], p);
-    if (p > highest) {
-      highest = p;
-      depth = depth_[k];
-    }
+    peak_[k] = std::max(peak_[k], (*pressure)[static_cast<std::size_t>(found - snapshot.id.begin())]);
   }
-  if (highest > 0.0) front_.emplace_back(depth, highest);
 }
 
 Table PeakDecay::profile(double layer) const {
@@ -66,12 +59,12 @@ Quantities PeakDecay::measures(double diameter) const {
     contact += peak_[k];
     count += 1.0;
   }
-  // ln P = a - n ln(depth / diameter) over the front between 2 and 5 diameters.
+  // ln P = a - n ln(depth / diameter) between 2 and 5 diameters.
   double n = 0, x_mean = 0, y_mean = 0, xx = 0, xy = 0;
   const auto each = [&](auto&& body) {
-    for (const auto& [depth, pressure] : front_) {
-      if (depth >= 2.0 * diameter && depth <= 5.0 * diameter)
-        body(std::log(depth / diameter), std::log(pressure));
+    for (std::size_t k = 0; k < id_.size(); ++k) {
+      const double depth = depth_[k] / diameter;
+      if (depth >= 2.0 && depth <= 5.0 && peak_[k] > 0.0) body(std::log(depth), std::log(peak_[k]));
     }
   };
   each([&](double x, double y) {

@@ -20,15 +20,12 @@ class PeakDecay {
   [[nodiscard]] Table profile(double layer) const;
 
   /// Mean peak over depths of 0 to 0.6 radii, peak at 4 diameters, exponent n of P ~ depth^-n over 2 to 5
-  /// diameters of the projectile (least squares of the logarithms of the shock front).
+  /// diameters of the projectile (least squares of the logarithms over the particles).
   [[nodiscard]] Quantities measures(double diameter) const;
 
  private:
   std::vector<std::uint64_t> id_;
   std::vector<double> depth_, peak_;
-  /// Highest pressure in each snapshot and the initial depth of the particle that has it: the front of the
-  /// shock, without the loss between two snapshots.
-  std::vector<std::pair<double, double>> front_;
 };
 
 }  // namespace whipple::analysis

@@ -111,8 +111,8 @@ Radiograph take_radiograph(const Snapshot& snapshot, const Frame& frame, const P
     const double x = (frame.axial(offset) - picture.lower_axial) / options.pixel;
     const double up = offset[frame.transverse[0]], amount = per_area * snapshot.mass[i];
     // A particle of vapour or of spray fills its volume, voids included.
-    const double width = std::clamp(std::cbrt(volumes[i]) / options.pixel, 1.0, widest);
-    deposit(image, picture.rows, picture.columns, x, (up - picture.lower_up) / options.pixel, width, amount);
+    const double edge = std::clamp(std::cbrt(volumes[i]) / options.pixel, 1.0, widest);
+    deposit(image, picture.rows, picture.columns, x, (up - picture.lower_up) / options.pixel, edge, amount);
     if (reflect)
       deposit(image, picture.rows, picture.columns, x, (-up - picture.lower_up) / options.pixel, width,
               amount);
