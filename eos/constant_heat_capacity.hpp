@@ -10,6 +10,7 @@
 #include <concepts>
 #include <limits>
 #include <string_view>
+#include <variant>
 
 #include "eos/equation_of_state.hpp"
 #include "src/base/error.hpp"
@@ -23,26 +24,27 @@ namespace whipple::eos {
 /// Compression limit rho/rho0 of condensed models that have no limit of their own.
 inline constexpr double greatest_compression_ratio = 10;
 
-/// p(rho, e) and its partial derivatives, of four points.
+/// p(rho, e), its partial derivatives and c^2, of four points.
 struct Response {
-  Lanes pressure, by_density, by_energy;
+  Lanes pressure, by_density, by_energy, squared_sound_speed;
 };
 
 /// Four densities of a model whose pressure is linear in the energy, p = A + B e with B = rho Gamma.
 struct LinearIsochore {
-  Lanes specific_volume;  ///< 1/rho
-  Lanes cold_energy;      ///< e_c
-  Lanes A, A_slope;       ///< and its derivative by rho
-  Lanes B, B_slope;       ///< and its derivative by rho
+  Lanes work;         ///< B/rho^2: what a pressure adds to c^2
+  Lanes cold_energy;  ///< e_c
+  Lanes A, A_slope;   ///< and its derivative by rho
+  Lanes B, B_slope;   ///< and its derivative by rho
 
   [[nodiscard]] Response response(Lanes energy) const {
-    return {A + B * energy, A_slope + B_slope * energy, B};
+    const Lanes pressure = A + B * energy, by_density = A_slope + B_slope * energy;
+    return {pressure, by_density, B, by_density + pressure * work};
   }
   /// p = p_r + rho Gamma (e - e_r) with Gamma constant and a curve that does its own work, de_r = p_r/rho^2
   /// drho.
   [[nodiscard]] static LinearIsochore on_curve(Lanes density, Lanes specific_volume, double gruneisen,
                                                Lanes pressure, Lanes slope, Lanes energy, Lanes cold_energy) {
-    return {specific_volume,
+    return {gruneisen * specific_volume,
             cold_energy,
             pressure - gruneisen * density * energy,
             slope - gruneisen * (energy + pressure * specific_volume),
@@ -52,12 +54,9 @@ struct LinearIsochore {
   /// Lane by lane one of two.
   [[nodiscard]] static LinearIsochore select(LanesMask first, const LinearIsochore& a,
                                              const LinearIsochore& b) {
-    return {first ? a.specific_volume : b.specific_volume,
-            first ? a.cold_energy : b.cold_energy,
-            first ? a.A : b.A,
-            first ? a.A_slope : b.A_slope,
-            first ? a.B : b.B,
-            first ? a.B_slope : b.B_slope};
+    return {first ? a.work : b.work, first ? a.cold_energy : b.cold_energy,
+            first ? a.A : b.A,       first ? a.A_slope : b.A_slope,
+            first ? a.B : b.B,       first ? a.B_slope : b.B_slope};
   }
 };
 
@@ -69,7 +68,6 @@ concept Curve = requires(const C& curve, Lanes lanes, double number) {
   { C::name } -> std::convertible_to<std::string_view>;
   { C::summary } -> std::convertible_to<std::string_view>;
   { curve.constants() } -> std::same_as<const typename C::Constants&>;
-  { curve.isochore(lanes).specific_volume } -> std::convertible_to<Lanes>;
   { curve.isochore(lanes).cold_energy } -> std::convertible_to<Lanes>;
   { curve.isochore(lanes).response(lanes) } -> std::same_as<Response>;
   // ln(T_s/T0) on the isentrope through the reference state; NaN: the model has no entropy.
@@ -128,7 +126,16 @@ class ConstantHeatCapacity {
 
  private:
   static constexpr std::size_t width = 4;  ///< points of a group
-  static constexpr std::size_t block = 8;  ///< groups that pass together
+  static constexpr std::size_t block = 8;  ///< groups that pass through one step together
+  /// The curve looks its points up in a table: first where they lie, then what is there.
+  static constexpr bool tabulated = requires { typename C::Places; };
+  static auto no_places() {
+    if constexpr (tabulated) {
+      return typename C::Places{};
+    } else {
+      return std::monostate{};
+    }
+  }
 
   /// `n` points, a multiple of `width`; leaves the bound of the report empty. `melted` and `vaporised` may be
   /// null. Not to be inlined or cloned: a single point must run through the very instructions of a batch.
@@ -195,71 +202,77 @@ RangeReport ConstantHeatCapacity<C>::evaluate_whole(const double* __restrict den
                                                     std::size_t n) const {
   constexpr double largest = std::numeric_limits<double>::max();
   const double greatest_density = maximum_density();
+  double least_density = std::numeric_limits<double>::denorm_min();
+  if constexpr (tabulated) least_density = curve_.least_usual_density();
   const double reference_rho = reference_density(), reference_e = reference_energy();
   const double heat = curve_.heat_capacity(), inverse_heat = 1 / heat;
   const Lanes least_squared =
       broadcast(std::pow(least_sound_speed_ratio * curve_.reference_sound_speed(), 2));
-  const Lanes unknown = broadcast(State::unknown);
-  // In registers: counters in memory would be read and written for every group.
-  LanesMask below = {};
-  std::size_t out_of_range = 0, first = RangeReport::none;
-  // In two passes over a few groups: one after the other is a chain of divisions, a look-up and a root too
-  // long for the processor to begin the next group meanwhile.
-  using Isochore = decltype(curve_.isochore(Lanes{}));
-  std::array<Isochore, block> isochores;
-  std::array<LanesMask, block> valids;
-  std::array<Lanes, block> given;
+  std::size_t below = 0, out_of_range = 0, first = RangeReport::none;
+  std::array<decltype(no_places()), block> places;
   for (std::size_t start = 0; start < n; start += block * width) {
     const std::size_t groups = std::min(block, (n - start) / width);
-    for (std::size_t g = 0; g < groups; ++g) {
-      const Lanes given_density = load(densities + start + g * width),
-                  given_energy = load(energies + start + g * width);
-      const LanesMask valid = (given_density > 0.0) & (given_density <= greatest_density) &
-                              (given_energy >= -largest) & (given_energy <= largest);
-      given[g] = valid ? given_energy : broadcast(reference_e);
-      valids[g] = valid;
-      isochores[g] = curve_.isochore(valid ? given_density : broadcast(reference_rho));
+    if constexpr (tabulated) {
+      for (std::size_t g = 0; g < groups; ++g) curve_.find(load(densities + start + g * width), places[g]);
     }
     for (std::size_t g = 0; g < groups; ++g) {
       const std::size_t i = start + g * width;
-      const Isochore& isochore = isochores[g];
-      const LanesMask valid = valids[g];
-      const Lanes energy = given[g];
-      const Lanes coldest = isochore.cold_energy + heat * least_temperature;
-      const Lanes held = maximum(energy, coldest);
-      const Response r = isochore.response(held);
-      const Lanes V = isochore.specific_volume;
-      const Lanes squared = r.by_density + r.pressure * V * V * r.by_energy;
-      Lanes pressure = r.pressure;
-      Lanes temperature = maximum((held - isochore.cold_energy) * inverse_heat, broadcast(least_temperature));
-      Lanes sound_speed = sqrt(maximum(squared, least_squared));
-
-      below -= energy < coldest;  // true is -1
-      const unsigned broken = bits(valid) ^ all_lanes;
-      if (broken != 0) [[unlikely]] {
-        pressure = valid ? pressure : unknown;
-        temperature = valid ? temperature : unknown;
-        sound_speed = valid ? sound_speed : unknown;
-        if (out_of_range == 0) first = i + static_cast<std::size_t>(std::countr_zero(broken));
-        out_of_range += static_cast<std::size_t>(std::popcount(broken));
+      Lanes density = load(densities + i), energy = load(energies + i);
+      unsigned in_range = all_lanes;
+      decltype(curve_.isochore(density)) isochore;
+      // One test for the usual group, which NaN fails too; another one for its energies.
+      if (bits((density >= least_density) & (density <= greatest_density)) == all_lanes) [[likely]] {
+        if constexpr (tabulated) {
+          isochore = curve_.usual_isochore(density, places[g]);
+        } else {
+          isochore = curve_.isochore(density);
+        }
+      } else {
+        const LanesMask valid = (density > 0.0) & (density <= greatest_density);
+        in_range = bits(valid);
+        density = valid ? density : broadcast(reference_rho);
+        energy = valid ? energy : broadcast(reference_e);
+        isochore = curve_.isochore(density);
       }
-      store(p + i, pressure);
+      Lanes temperature = (energy - isochore.cold_energy) * inverse_heat;
+      if (bits((temperature >= least_temperature) & (energy <= largest)) != all_lanes) [[unlikely]] {
+        const LanesMask valid = absolute(energy) <= largest;
+        in_range &= bits(valid);
+        energy = valid ? energy : broadcast(reference_e);
+        const Lanes coldest = isochore.cold_energy + heat * least_temperature;
+        below += static_cast<std::size_t>(std::popcount(bits(energy < coldest)));
+        energy = maximum(energy, coldest);
+        temperature = maximum((energy - isochore.cold_energy) * inverse_heat, broadcast(least_temperature));
+      }
+      const Response r = isochore.response(energy);
+      store(p + i, r.pressure);
       store(T + i, temperature);
-      store(c + i, sound_speed);
-      if (melted == nullptr && vaporised == nullptr) continue;
+      store(c + i, r.squared_sound_speed);
       Lanes fraction = {};
-      if constexpr (requires { isochore.vaporised_fraction(held); }) {
-        fraction = isochore.vaporised_fraction(held);
+      if constexpr (requires { isochore.vaporised_fraction(energy); }) {
+        fraction = isochore.vaporised_fraction(energy);
       }
-      fraction = valid ? fraction : unknown;
       if (melted != nullptr) store(melted + i, fraction);
       if (vaporised != nullptr) store(vaporised + i, fraction);
+      if (in_range != all_lanes) [[unlikely]] {
+        for (std::size_t k = 0; k < width; ++k) {
+          if ((in_range >> k & 1) != 0) continue;
+          if (out_of_range++ == 0) first = i + k;
+          for (double* const result : {p, T, c, melted, vaporised})
+            if (result != nullptr) result[i + k] = State::unknown;
+        }
+      }
+    }
+    // The floor comes first: a NaN in the second operand stays.
+    for (std::size_t g = 0; g < groups; ++g) {
+      double* const at = c + start + g * width;
+      store(at, sqrt(maximum(least_squared, load(at))));
     }
   }
   RangeReport report;
   report.out_of_range = out_of_range;
   report.first = first;
-  report.below_cold_curve = static_cast<std::size_t>(below[0] + below[1] + below[2] + below[3]);
+  report.below_cold_curve = below;
   return report;
 }
 

@@ -31,16 +31,10 @@ class CubicTable {
         _mm256_cvttpd_epi32(__m256d(minimum(maximum(position, broadcast(0.0)), broadcast(last_interval_))));
     const Lanes t = position - Lanes(_mm256_cvtepi32_pd(index));
     const Piece* first = pieces_.data();
-    const __m256d a = _mm256_load_pd(first[static_cast<unsigned>(_mm_extract_epi32(index, 0))].data());
-    const __m256d b = _mm256_load_pd(first[static_cast<unsigned>(_mm_extract_epi32(index, 1))].data());
-    const __m256d c = _mm256_load_pd(first[static_cast<unsigned>(_mm_extract_epi32(index, 2))].data());
-    const __m256d d = _mm256_load_pd(first[static_cast<unsigned>(_mm_extract_epi32(index, 3))].data());
-    const __m256d ab02 = _mm256_unpacklo_pd(a, b), ab13 = _mm256_unpackhi_pd(a, b);
-    const __m256d cd02 = _mm256_unpacklo_pd(c, d), cd13 = _mm256_unpackhi_pd(c, d);
-    const Lanes c0 = Lanes(_mm256_permute2f128_pd(ab02, cd02, 0x20));
-    const Lanes c1 = Lanes(_mm256_permute2f128_pd(ab13, cd13, 0x20));
-    const Lanes c2 = Lanes(_mm256_permute2f128_pd(ab02, cd02, 0x31));
-    const Lanes c3 = Lanes(_mm256_permute2f128_pd(ab13, cd13, 0x31));
+    const auto piece = [&](int i) { return load(first[static_cast<unsigned>(i)].data()); };
+    const auto [c0, c1, c2, c3] =
+        transposed({piece(_mm_extract_epi32(index, 0)), piece(_mm_extract_epi32(index, 1)),
+                    piece(_mm_extract_epi32(index, 2)), piece(_mm_extract_epi32(index, 3))});
     return c0 + t * (c1 + t * (c2 + t * c3));
   }
   [[nodiscard]] std::size_t intervals() const { return pieces_.size(); }

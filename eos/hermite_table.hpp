@@ -43,19 +43,14 @@ class HermiteTable {
     _mm_store_si128(reinterpret_cast<__m128i*>(index), cell);
     // Two neighbouring nodes are six numbers in a row: f, f', f'' of the left one, then of the right one.
     static_assert(sizeof(Node) == 3 * sizeof(double));
-    Lanes rows[4];
+    std::array<Lanes, 4> rows;
     __m128d tails[4];
-    for (int i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < 4; ++i) {
       const double* const node = &nodes_[static_cast<std::size_t>(index[i])].value;
       rows[i] = load(node);
       tails[i] = _mm_loadu_pd(node + 4);
     }
-    const __m256d a = _mm256_unpacklo_pd(__m256d(rows[0]), __m256d(rows[1]));
-    const __m256d b = _mm256_unpackhi_pd(__m256d(rows[0]), __m256d(rows[1]));
-    const __m256d c = _mm256_unpacklo_pd(__m256d(rows[2]), __m256d(rows[3]));
-    const __m256d d = _mm256_unpackhi_pd(__m256d(rows[2]), __m256d(rows[3]));
-    const Lanes f = Lanes(_mm256_permute2f128_pd(a, c, 0x20)), f1 = Lanes(_mm256_permute2f128_pd(b, d, 0x20));
-    const Lanes f2 = Lanes(_mm256_permute2f128_pd(a, c, 0x31)), r = Lanes(_mm256_permute2f128_pd(b, d, 0x31));
+    const auto [f, f1, f2, r] = transposed(rows);
     const __m256d left = _mm256_set_m128d(tails[2], tails[0]), right = _mm256_set_m128d(tails[3], tails[1]);
     const Lanes r1 = Lanes(_mm256_unpacklo_pd(left, right)), r2 = Lanes(_mm256_unpackhi_pd(left, right));
     const Lanes t = position - Lanes(_mm256_cvtepi32_pd(cell));

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "eos/constant_heat_capacity.hpp"
-#include "eos/cubic_table.hpp"
+#include "eos/fourfold_table.hpp"
 #include "src/base/error.hpp"
 
 namespace whipple::eos {
@@ -22,22 +22,28 @@ struct CondensedReference {
   double density, temperature, energy, heat_capacity;
 };
 
-/// Where a reference pressure is asked for: r = rho/rho0, mu = r - 1.
-struct Compression {
-  Lanes r, mu;
-};
-/// The pressure at e = 0 and its derivative by rho; `weight` is a factor with the poles of the cold energy.
-/// 1/r too: a curve with a division of its own makes both in one.
+/// The pressure at e = 0 and its derivative by mu.
 struct ReferencePressure {
-  Lanes value, slope, weight, inverse_r;
+  double value, slope;
+};
+
+/// Four densities of a GruneisenSolid: p = A + B e, c^2 = C + D e.
+struct TabulatedIsochore {
+  Lanes density, cold_energy, A, B, C, D;
+
+  [[nodiscard]] Response response(Lanes energy) const {
+    const Lanes pressure = A + B * energy, squared = C + D * energy;
+    return {pressure, squared - pressure * B / (density * density), B, squared};
+  }
 };
 
 /// A solid with a reference pressure of its own in compression and a linear one in expansion
 /// (docs/theory/equations_of_state.md, section 2.2):
 ///   compression: A(rho) of `Reference`, rho Gamma by the law;
 ///   expansion:   A = p0 + K mu, Gamma = its value at rho0.
-/// The cold energy is tabulated in compression and a closed form in expansion.
-/// @tparam Reference  ReferencePressure operator()(const Compression&) const
+/// A batch reads A, C, D of c^2 = C + D e, and e_c from one table; matter thinner than that is computed from
+/// closed forms.
+/// @tparam Reference  ReferencePressure operator()(double mu) const, mu = rho/rho0 - 1
 template <class Reference>
 class GruneisenSolid {
  public:
@@ -51,26 +57,45 @@ class GruneisenSolid {
     A0_ = pressure - bulk_modulus;
     A1_ = bulk_modulus;
     inverse_density_ = 1 / rho0;
-    B0_ = rho0 * law.constant;
-    B1_ = rho0 * law.linear;
-    B2_ = rho0 * law.quadratic;
-    twice_quadratic_ = 2 * law.quadratic;
     inverse_volume_ = A0_ / ((1 + G) * rho0);
     constant_ = G > 0 ? A1_ / (G * rho0) : 0;
     power_ = state.energy + inverse_volume_ + constant_ - state.heat_capacity * state.temperature;
-    tabulate_cold_energy(name, greatest_x);
+    B0_ = broadcast(rho0 * G);
+    expanded_slope_ = broadcast(G);
+    linear_ = broadcast(law.linear);
+    quadratic_ = broadcast(law.quadratic / rho0);
+    least_density_ = least_tabulated * rho0;
+    tabulate(name, greatest_x);
   }
 
   [[nodiscard]] double maximum_density() const { return maximum_density_; }
 
-  [[nodiscard]] LinearIsochore isochore(Lanes rho) const {
-    const LanesMask compressed = rho > state_.density;
-    const unsigned which = bits(compressed);
-    if (which == 0) return expanded(rho);
-    const LinearIsochore result = dense(rho);
-    if (which == all_lanes) [[likely]]
-      return result;
-    return LinearIsochore::select(compressed, result, expanded(rho));
+  /// Least density of the table.
+  [[nodiscard]] double least_usual_density() const { return least_density_; }
+  using Places = FourfoldTable::Places;
+  /// Places of densities within the table, and what is there.
+  void find(Lanes rho, Places& places) const { table_.find(rho, places); }
+  [[nodiscard]] TabulatedIsochore usual_isochore(Lanes rho, const Places& places) const {
+    const auto [A, C, D, cold_energy] = table_(places);
+    const Lanes distance = rho - state_.density, compressed = linear_ + quadratic_ * distance;
+    return {rho, cold_energy, A, B0_ + distance * select_negative(distance, expanded_slope_, compressed), C,
+            D};
+  }
+  [[nodiscard]] TabulatedIsochore isochore(Lanes rho) const {
+    const Lanes inside = maximum(rho, broadcast(least_density_));
+    Places places;
+    find(inside, places);
+    TabulatedIsochore result = usual_isochore(inside, places);
+    const LanesMask thin = rho < least_density_;
+    if (bits(thin) == 0) return result;
+    const TabulatedIsochore closed = expanded(rho);
+    result.density = rho;
+    result.cold_energy = thin ? closed.cold_energy : result.cold_energy;
+    result.A = thin ? closed.A : result.A;
+    result.B = thin ? closed.B : result.B;
+    result.C = thin ? closed.C : result.C;
+    result.D = thin ? closed.D : result.D;
+    return result;
   }
 
   /// ln(T_s/T0)
@@ -83,39 +108,35 @@ class GruneisenSolid {
   }
 
  private:
-  [[nodiscard]] Compression compression(Lanes rho) const {
-    const Lanes r = rho * inverse_density_;
-    return {r, r - 1.0};
+  static constexpr double least_tabulated = 0.375;  ///< of rho0
+
+  /// A, C and D of compression.
+  [[nodiscard]] std::array<double, 3> compressed(double rho) const {
+    const double rho0 = state_.density, mu = (rho - rho0) / rho0;
+    const ReferencePressure A = reference_(mu);
+    const double B = rho0 * (law_.constant + mu * (law_.linear + mu * law_.quadratic)),
+                 work = B / (rho * rho);
+    return {A.value, A.slope / rho0 + A.value * work, law_.linear + 2 * law_.quadratic * mu + B * work};
   }
-  [[nodiscard]] LinearIsochore dense(Lanes rho) const {
-    const Compression c = compression(rho);
-    const ReferencePressure A = reference_(c);
-    // rho Gamma and its slope; x = 1 - rho0/rho
-    return {A.inverse_r * inverse_density_,  cold_energy_(c.mu * A.inverse_r) * A.weight, A.value, A.slope,
-            B0_ + c.mu * (B1_ + c.mu * B2_), law_.linear + twice_quadratic_ * c.mu};
-  }
-  // Of its own: the registers of the compressed side need not survive the call of pow.
-  [[nodiscard, gnu::noinline, gnu::pure]] LinearIsochore expanded(Lanes rho) const {
+  [[nodiscard, gnu::noinline, gnu::pure]] TabulatedIsochore expanded(Lanes rho) const {
     const double G = law_.constant;
-    const Lanes V = 1.0 / rho, r = rho * inverse_density_;
+    const Lanes V = 1.0 / rho, r = rho * inverse_density_, A = A0_ + A1_ * r, work = G * V;
     Lanes cold_energy = -inverse_volume_ * state_.density * V - constant_;
     if (G > 0) {
       cold_energy += power_ * pow(r, broadcast(G));
     } else {
       cold_energy += power_ + A1_ * inverse_density_ * natural_log(r);
     }
-    return {V, cold_energy, A0_ + A1_ * r, broadcast(A1_ * inverse_density_), G * rho, broadcast(G)};
+    return {rho, cold_energy, A, G * rho, A1_ * inverse_density_ + A * work, broadcast(G * (1 + G))};
   }
 
   /// e_c = e_s - c_v T_s on the isentrope through the reference state: de_s/dx = (A + B e_s)/rho0 with the
   /// integrating factor T_s/T0  (E3). The model ends where the coldest matter softens, c^2 = 0.
-  void tabulate_cold_energy(std::string_view name, double greatest_x) {
+  void tabulate(std::string_view name, double greatest_x) {
     const double rho0 = state_.density, heat = state_.heat_capacity;
-    const auto density = [&](double x) { return rho0 / (1 - x); };
-    const auto factor = [&](double x) { return std::exp(log_isentrope_temperature(density(x))); };
-    const auto integrand = [&](double x) {
-      return reference_(compression(broadcast(density(x)))).value[0] / (rho0 * factor(x));
-    };
+    const auto mu = [](double x) { return x / (1 - x); };
+    const auto factor = [&](double x) { return std::exp(log_isentrope_temperature(rho0 / (1 - x))); };
+    const auto integrand = [&](double x) { return reference_(mu(x)).value / (rho0 * factor(x)); };
     // The integral from 0 to the ends of fine intervals; between them one quadrature more.
     using Gauss = boost::math::quadrature::gauss<double, 10>;
     constexpr int intervals = 2048;
@@ -130,34 +151,40 @@ class GruneisenSolid {
     double last = 0;
     for (int i = 1; i <= intervals; ++i) {
       integral.push_back(integral.back() + Gauss::integrate(integrand, (i - 1) * step, i * step));
-      const Response r =
-          dense(broadcast(density(i * step))).response(broadcast(cold_energy(i * step) + heat));
-      const double V = 1 / density(i * step);
-      if (r.by_density[0] + r.pressure[0] * V * V * r.by_energy[0] < 0) break;
-      last = i * step;
+      const double x = i * step;
+      const auto [A, C, D] = compressed(rho0 / (1 - x));
+      if (C + D * (cold_energy(x) + heat) < 0) break;
+      last = x;
     }
-    maximum_density_ = density(last);
+    maximum_density_ = rho0 / (1 - last);
     if (maximum_density_ < 1.01 * rho0) {
       throw InputError(
           fmt::format("{}: cold matter softens at {:.4g} kg/m^3, at no compression to speak of; check the "
                       "constants of the curve and of the Grueneisen parameter",
                       name, maximum_density_));
     }
-    cold_energy_ = CubicTable(
-        [&](double x) { return cold_energy(x) / reference_(compression(broadcast(density(x)))).weight[0]; },
-        last, heat * state_.temperature);
+    const double thermal = heat * state_.temperature;
+    table_ = FourfoldTable(
+        [&](double rho) {
+          const TabulatedIsochore i = expanded(broadcast(rho));
+          return FourfoldTable::Values{i.A[0], i.C[0], i.D[0], i.cold_energy[0]};
+        },
+        [&](double rho) {
+          const auto [A, C, D] = compressed(rho);
+          return FourfoldTable::Values{A, C, D, cold_energy(1 - rho0 / rho)};
+        },
+        least_density_, rho0, maximum_density_, {A1_ + rho0 * thermal, A1_ / rho0 + thermal, 1, thermal});
   }
 
   Reference reference_;
   GruneisenLaw law_;
   CondensedReference state_;
-  double A0_ = 0, A1_ = 0;  ///< A = A0 + A1 rho/rho0 in expansion
-  double B0_ = 0, B1_ = 0, B2_ = 0,
-         twice_quadratic_ = 0;                            ///< rho Gamma = B0 + B1 mu + B2 mu^2 in compression
-  double inverse_density_ = 0;                            ///< 1/rho0
-  double power_ = 0, inverse_volume_ = 0, constant_ = 0;  ///< (E4)
-  double maximum_density_ = 0;
-  CubicTable cold_energy_;  ///< e_c/weight over x, in compression
+  double A0_ = 0, A1_ = 0;                                  ///< A = A0 + A1 rho/rho0 in expansion
+  Lanes B0_{}, expanded_slope_{}, linear_{}, quadratic_{};  ///< of B over rho - rho0
+  double inverse_density_ = 0;                              ///< 1/rho0
+  double power_ = 0, inverse_volume_ = 0, constant_ = 0;    ///< (E4)
+  double maximum_density_ = 0, least_density_ = 0;
+  FourfoldTable table_;  ///< A, C, D, e_c over rho - rho0
 };
 
 }  // namespace whipple::eos

@@ -40,7 +40,7 @@ class IdealGasCurve {
 
   [[nodiscard]] LinearIsochore isochore(Lanes rho) const {
     const double G = constants_.heat_capacity_ratio - 1;
-    return {1.0 / rho, Lanes{}, Lanes{}, Lanes{}, G * rho, broadcast(G)};
+    return {G / rho, Lanes{}, Lanes{}, Lanes{}, G * rho, broadcast(G)};
   }
   /// ln(T_s/T0)
   [[nodiscard]] double log_isentrope_temperature(double rho) const;

@@ -54,8 +54,7 @@ JwlCurve::JwlCurve(const Constants& constants) : constants_(constants) {
                     constants_.detonation_energy, explosive.cold_energy[0] * reference_density()));
   }
   const Response r = explosive.response(broadcast(reference_energy()));
-  reference_sound_speed_ = std::sqrt(r.by_density[0] + r.pressure[0] * r.by_energy[0] /
-                                                           (reference_density() * reference_density()));
+  reference_sound_speed_ = std::sqrt(r.squared_sound_speed[0]);
   check_detonation();
 }
 
@@ -65,7 +64,7 @@ void JwlCurve::check_detonation() const {
     State s;
     s.density = density;
     s.pressure = r.pressure[0];
-    s.sound_speed = std::sqrt(r.by_density[0] + s.pressure * r.by_energy[0] / (density * density));
+    s.sound_speed = std::sqrt(r.squared_sound_speed[0]);
     return s;
   };
   const auto compare = [](const char* what, double given, double found, double tolerance, const char* unit) {

@@ -47,7 +47,7 @@ GruneisenSolid<MieGruneisenCurve::Hugoniot> MieGruneisenCurve::solid(const Const
   const GruneisenLaw gamma = law(k);
   const double modulus = k.reference_density * k.hugoniot_intercept * k.hugoniot_intercept;
   return {name,
-          {curve, gamma, k.reference_density, k.hugoniot_intercept},
+          {curve, gamma, modulus},
           gamma,
           {k.reference_density, k.reference_temperature, 0.0, k.heat_capacity},
           0.0,

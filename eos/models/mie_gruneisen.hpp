@@ -47,40 +47,32 @@ class MieGruneisenCurve {
   [[nodiscard]] double maximum_density() const { return solid_.maximum_density(); }
   [[nodiscard]] std::string_view phase(double, double) const { return "solid"; }
 
-  [[nodiscard]] LinearIsochore isochore(Lanes rho) const { return solid_.isochore(rho); }
+  [[nodiscard]] TabulatedIsochore isochore(Lanes rho) const { return solid_.isochore(rho); }
+  using Places = FourfoldTable::Places;
+  void find(Lanes rho, Places& places) const { solid_.find(rho, places); }
+  [[nodiscard]] TabulatedIsochore usual_isochore(Lanes rho, const Places& places) const {
+    return solid_.usual_isochore(rho, places);
+  }
+  [[nodiscard]] double least_usual_density() const { return solid_.least_usual_density(); }
   [[nodiscard]] double log_isentrope_temperature(double rho) const {
     return solid_.log_isentrope_temperature(rho);
   }
 
  private:
-  /// A of compression, (M1) and (M2), with few operations. With r = rho/rho0 = 1 + mu, x = mu/r,
-  ///   N = r^3 (1 - S1 x - S2 x^2 - S3 x^3),  M = mu [r - mu rho Gamma/(2 rho0)]
-  /// are cubics in mu, A = rho0 c0^2 (r^2/N)^2 M and d ln A/dmu = M'/M + 4/r - 2 N'/N; 1/r and 1/N come from
-  /// one division.
+  /// A of compression, (M1) and (M2).
   struct Hugoniot {
-    double modulus, inverse_density;  ///< rho0 c0^2, 1/rho0
-    double N1, N2, N3;                ///< N = 1 + N1 mu + N2 mu^2 + N3 mu^3
-    double M2, M3;                    ///< M = mu + M2 mu^2 + M3 mu^3
-    double twice_N2 = 2 * N2, thrice_N3 = 3 * N3, twice_M2 = 2 * M2, thrice_M3 = 3 * M3;
+    ShockCurve curve;
+    GruneisenLaw gamma;
+    double modulus;  ///< rho0 c0^2
 
-    Hugoniot(const ShockCurve& curve, const GruneisenLaw& gamma, double rho0, double c0)
-        : modulus(rho0 * c0 * c0),
-          inverse_density(1 / rho0),
-          N1(3 - curve.slope),
-          N2(3 - 2 * curve.slope - curve.quadratic),
-          N3(1 - curve.slope - curve.quadratic - curve.cubic),
-          M2(1 - 0.5 * gamma.constant),
-          M3(-0.5 * gamma.linear) {}
-
-    ReferencePressure operator()(const Compression& c) const {
-      const Lanes r = c.r, mu = c.mu;
-      const Lanes N = 1.0 + mu * (N1 + mu * (N2 + mu * N3)), N_slope = N1 + mu * (twice_N2 + mu * thrice_N3);
-      const Lanes M = mu * (1.0 + mu * (M2 + mu * M3)), M_slope = 1.0 + mu * (twice_M2 + mu * thrice_M3);
-      const Lanes common = 1.0 / (r * N), inverse_r = N * common, inverse_N = r * common;
-      const Lanes q = r * r * inverse_N, scale = modulus * q * q;
-      return {scale * M,
-              inverse_density * scale * (M_slope + M * (4.0 * inverse_r - 2.0 * (N_slope * inverse_N))),
-              q * r, inverse_r};
+    ReferencePressure operator()(double mu) const {
+      const double r = 1 + mu, x = mu / r;
+      const auto p = curve.pressure(x);
+      // 1 - rho Gamma x/(2 rho0), its derivative by mu; dx/dmu = 1/r^2
+      const double by_density = gamma.constant + gamma.linear * mu;
+      const double thermal = 1 - 0.5 * by_density * x;
+      const double thermal_slope = -0.5 * (gamma.linear * x + by_density / (r * r));
+      return {modulus * p.value * thermal, modulus * (p.slope / (r * r) * thermal + p.value * thermal_slope)};
     }
   };
 

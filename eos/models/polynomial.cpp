@@ -27,7 +27,7 @@ ParameterTable<PolynomialConstants> PolynomialCurve::parameters() {
 
 GruneisenSolid<PolynomialCurve::Polynomial> PolynomialCurve::solid(const Constants& k) {
   return {name,
-          {1 / k.reference_density, k.C0, k.C1, k.C2, k.C3},
+          {k.C0, k.C1, k.C2, k.C3},
           {k.C4, k.C5, k.C6},
           {k.reference_density, k.reference_temperature, k.reference_energy, k.heat_capacity},
           k.C0,

@@ -43,18 +43,23 @@ class PolynomialCurve {
   [[nodiscard]] double maximum_density() const { return solid_.maximum_density(); }
   [[nodiscard]] std::string_view phase(double, double) const { return "condensed"; }
 
-  [[nodiscard]] LinearIsochore isochore(Lanes rho) const { return solid_.isochore(rho); }
+  [[nodiscard]] TabulatedIsochore isochore(Lanes rho) const { return solid_.isochore(rho); }
+  using Places = FourfoldTable::Places;
+  void find(Lanes rho, Places& places) const { solid_.find(rho, places); }
+  [[nodiscard]] TabulatedIsochore usual_isochore(Lanes rho, const Places& places) const {
+    return solid_.usual_isochore(rho, places);
+  }
+  [[nodiscard]] double least_usual_density() const { return solid_.least_usual_density(); }
   [[nodiscard]] double log_isentrope_temperature(double rho) const {
     return solid_.log_isentrope_temperature(rho);
   }
 
  private:
   struct Polynomial {
-    double inverse_rho0, C0, C1, C2, C3;
+    double C0, C1, C2, C3;
 
-    ReferencePressure operator()(const Compression& c) const {
-      return {C0 + c.mu * (C1 + c.mu * (C2 + c.mu * C3)),
-              (C1 + c.mu * (2 * C2 + 3 * C3 * c.mu)) * inverse_rho0, c.r * c.r, 1.0 / c.r};
+    ReferencePressure operator()(double mu) const {
+      return {C0 + mu * (C1 + mu * (C2 + mu * C3)), C1 + mu * (2 * C2 + 3 * C3 * mu)};
     }
   };
 

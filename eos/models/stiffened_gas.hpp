@@ -47,7 +47,7 @@ class StiffenedGasCurve {
     // e_c = q + p_inf/rho + e_x (rho/rho0)^(gamma-1)
     Lanes cold_energy = zero_ + constants_.stiffness_pressure * V;
     if (excess_ != 0) cold_energy += excess_ * pow(rho * (1 / constants_.reference_density), broadcast(G));
-    return {V,
+    return {G * V,
             cold_energy,
             -zero_ * B - constants_.heat_capacity_ratio * constants_.stiffness_pressure,
             broadcast(-zero_ * G),

@@ -86,7 +86,9 @@ inline Response TillotsonCurve::Isochore::response(Lanes energy) const {
   Response s{
       (c.thermal_a + b) * density * energy + mu * (c.bulk_modulus + mu * c.quadratic_modulus),
       (c.thermal_a + b_by_density) * energy + modulus_slope * (c.bulk_modulus + 2 * c.quadratic_modulus * mu),
-      density * (c.thermal_a + b * w)};
+      density * (c.thermal_a + b * w),
+      {}};
+  s.squared_sound_speed = s.by_density + s.pressure * specific_volume * specific_volume * s.by_energy;
   const LanesMask hot = expanded & (energy > c.incipient_vaporisation_energy);
   if (bits(hot) == 0) return s;
   // (T2), the vapour: q = rho0/rho - 1.
@@ -105,11 +107,15 @@ inline Response TillotsonCurve::Isochore::response(Lanes energy) const {
   const double latent = c.complete_vaporisation_energy - c.incipient_vaporisation_energy;
   const Lanes share = minimum((energy - c.incipient_vaporisation_energy) * (1 / latent), broadcast(1.0));
   const Lanes share_slope = energy < c.complete_vaporisation_energy ? broadcast(1 / latent) : Lanes{};
-  const Response mixture{
-      s.pressure + share * (pressure - s.pressure), s.by_density + share * (by_density - s.by_density),
-      s.by_energy + share * (by_energy - s.by_energy) + share_slope * (pressure - s.pressure)};
-  return {hot ? mixture.pressure : s.pressure, hot ? mixture.by_density : s.by_density,
-          hot ? mixture.by_energy : s.by_energy};
+  const Lanes mixed_pressure = s.pressure + share * (pressure - s.pressure);
+  const Lanes mixed_by_density = s.by_density + share * (by_density - s.by_density);
+  const Lanes mixed_by_energy =
+      s.by_energy + share * (by_energy - s.by_energy) + share_slope * (pressure - s.pressure);
+  s.pressure = hot ? mixed_pressure : s.pressure;
+  s.by_density = hot ? mixed_by_density : s.by_density;
+  s.by_energy = hot ? mixed_by_energy : s.by_energy;
+  s.squared_sound_speed = s.by_density + s.pressure * specific_volume * specific_volume * s.by_energy;
+  return s;
 }
 
 inline Lanes TillotsonCurve::Isochore::vaporised_fraction(Lanes energy) const {

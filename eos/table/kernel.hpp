@@ -116,12 +116,8 @@ inline void along_x(const double* cell, double tx, AlongX& sums) {
 
 /// Four numbers of four points: by number.
 inline std::array<Lanes, 4> transposed(const AlongX* sums, std::size_t first) {
-  const auto row = [&](std::size_t point) { return _mm256_loadu_pd(&sums[point][first]); };
-  const __m256d r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
-  const __m256d a = _mm256_unpacklo_pd(r0, r1), b = _mm256_unpackhi_pd(r0, r1);
-  const __m256d c = _mm256_unpacklo_pd(r2, r3), d = _mm256_unpackhi_pd(r2, r3);
-  return {Lanes(_mm256_permute2f128_pd(a, c, 0x20)), Lanes(_mm256_permute2f128_pd(b, d, 0x20)),
-          Lanes(_mm256_permute2f128_pd(a, c, 0x31)), Lanes(_mm256_permute2f128_pd(b, d, 0x31))};
+  const auto row = [&](std::size_t point) { return load(&sums[point][first]); };
+  return whipple::transposed({row(0), row(1), row(2), row(3)});
 }
 
 /// Second step: the sums over the powers of y.

@@ -4,6 +4,7 @@
 #include <immintrin.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -30,6 +31,7 @@ inline Lanes sqrt(Lanes x) { return Lanes(_mm256_sqrt_pd(__m256d(x))); }
 /// Lane by lane the smaller and the greater; b where one is NaN.
 inline Lanes minimum(Lanes a, Lanes b) { return Lanes(_mm256_min_pd(__m256d(a), __m256d(b))); }
 inline Lanes maximum(Lanes a, Lanes b) { return Lanes(_mm256_max_pd(__m256d(a), __m256d(b))); }
+inline Lanes absolute(Lanes x) { return Lanes(_mm256_andnot_pd(_mm256_set1_pd(-0.0), __m256d(x))); }
 /// Four numbers from memory without alignment.
 inline Lanes load(const double* from) { return Lanes(_mm256_loadu_pd(from)); }
 inline void store(double* to, Lanes x) { _mm256_storeu_pd(to, __m256d(x)); }
@@ -45,6 +47,15 @@ inline void store(double* to, Lanes x, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) to[i] = x[i];
 }
 
+/// Rows to columns.
+inline std::array<Lanes, 4> transposed(const std::array<Lanes, 4>& rows) {
+  const __m256d r0 = __m256d(rows[0]), r1 = __m256d(rows[1]), r2 = __m256d(rows[2]), r3 = __m256d(rows[3]);
+  const __m256d a = _mm256_unpacklo_pd(r0, r1), b = _mm256_unpackhi_pd(r0, r1);
+  const __m256d c = _mm256_unpacklo_pd(r2, r3), d = _mm256_unpackhi_pd(r2, r3);
+  return {Lanes(_mm256_permute2f128_pd(a, c, 0x20)), Lanes(_mm256_permute2f128_pd(b, d, 0x20)),
+          Lanes(_mm256_permute2f128_pd(a, c, 0x31)), Lanes(_mm256_permute2f128_pd(b, d, 0x31))};
+}
+
 /// What a comparison of Lanes gives; `mask ? a : b` selects lane by lane.
 using LanesMask = decltype(Lanes{} < Lanes{});
 /// One bit per lane of a comparison.
@@ -52,6 +63,11 @@ inline unsigned bits(LanesMask mask) { return static_cast<unsigned>(_mm256_movem
 inline constexpr unsigned all_lanes = 15;
 inline bool any(LanesMask mask) { return bits(mask) != 0; }
 inline Lanes select(LanesMask mask, Lanes a, Lanes b) { return mask ? a : b; }
+
+/// Lane by lane a where the sign of x is negative, else b: without a comparison.
+inline Lanes select_negative(Lanes x, Lanes a, Lanes b) {
+  return Lanes(_mm256_blendv_pd(__m256d(b), __m256d(a), __m256d(x)));
+}
 
 // The same for one number: formulas written for either.
 inline double natural_log(double x) { return std::log(x); }

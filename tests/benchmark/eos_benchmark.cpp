@@ -87,6 +87,7 @@ void debye_gruneisen(benchmark::State& s) {
   static const ModelEquationOfState<DebyeGruneisen> eos(test::debye_copper());
   evaluate(s, eos, {0.9, 3e5});
 }
+void mie_gruneisen_spread(benchmark::State& s) { evaluate_spread(s, aluminium_eos(), 0.5, 2.0, 8000); }
 void mie_gruneisen(benchmark::State& s) { evaluate(s, aluminium_eos(), {0.9, 3e5}); }
 BENCHMARK(gray_solid);
 BENCHMARK(gray_melting);
@@ -99,6 +100,7 @@ BENCHMARK(gray_all_phases);
 BENCHMARK(gray_equilibrium_melting);
 BENCHMARK(debye_gruneisen);
 BENCHMARK(mie_gruneisen);
+BENCHMARK(mie_gruneisen_spread);
 
 template <class M>
 void of(benchmark::State& s, const typename M::Constants& constants, Region region) {
