@@ -17,6 +17,10 @@ whipple_test(eos_gray_71_test SOURCES unit/eos_gray_71_test.cpp DEPENDS whipple_
 whipple_test(eos_gray_melting_test SOURCES verification/eos_gray_melting_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_gray_metals_test SOURCES verification/eos_gray_metals_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_table_test SOURCES unit/eos_table_test.cpp DEPENDS whipple_eos GTest::gmock LABELS fast)
+whipple_test(eos_table_error_test SOURCES verification/eos_table_error_test.cpp DEPENDS whipple_eos LABELS fast)
+add_test(NAME eos_table_error_test.at_a_million_states COMMAND eos_table_error_test --gtest_filter=-*Isochoric*)
+set_tests_properties(eos_table_error_test.at_a_million_states PROPERTIES
+  ENVIRONMENT "WHIPPLE_TABLE_STATES=1000000;OMP_NUM_THREADS=1" LABELS long)
 whipple_test(eos_table_file_test SOURCES unit/eos_table_file_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
 whipple_test(eos_sesame_test SOURCES unit/eos_sesame_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eos/loci/melting.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "eos/inversions.hpp"
@@ -23,10 +25,14 @@ std::optional<MeltingPoint> melting_point(const EquationOfState& eos, double pre
     State s;
     try {
       s = at(T);
-    } catch (const StateError&) {
+    } catch (const StateError& error) {
       // The condensed branch ends as a solid, or evaporates without a liquid.
       if (melting.phase.empty() || melting.melted_fraction <= melting.vaporised_fraction) return std::nullopt;
-      throw;
+      throw StateError(fmt::format(
+          "melting at {:.4g} Pa begins at {:.5g} K, but at {:.5g} K, melted to {:.3g}, the condensed "
+          "branch has no state left: {}",
+          pressure, last_solid.temperature, last_mixed.temperature, last_mixed.melted_fraction,
+          error.what()));
     }
     density = s.density;
     if (s.melted_fraction <= 0) last_solid = s;

@@ -182,7 +182,7 @@ Gray::FourPoints Gray::four_points(Lanes V, Lanes E) const {
   const double join_volume = surface_.join_volume();
   const LanesMask thin = V > join_volume;
   const LanesMask none = V < 0.0;
-  LanesMask warm = none, liquid = none, hot = none, melting = none;
+  LanesMask warm = none, liquid = none, hot = none, melting = none, hot_vapour = none;
   BasicGrayBranch<Lanes> branch;
   BasicGrayIsochore<Lanes> iso;
   BasicGrayBand<Lanes> band;
@@ -206,8 +206,8 @@ Gray::FourPoints Gray::four_points(Lanes V, Lanes E) const {
   if (any(thin)) {
     const Lanes expanded = select(thin, V, broadcast(2 * join_volume));
     BasicGrayBranch<Lanes> vapour = surface_.vapour_branch(expanded, false);
-    const LanesMask above = E > vapour.energy(broadcast(surface_.vapour_branch_temperature()));
-    if (any(above & thin)) vapour = select_branch(above, surface_.vapour_branch(expanded, true), vapour);
+    hot_vapour = thin & (E > vapour.energy(broadcast(surface_.vapour_branch_temperature())));
+    if (any(hot_vapour)) vapour = select_branch(hot_vapour, surface_.vapour_branch(expanded, true), vapour);
     branch = select_branch(thin, vapour, branch);
   }
   const LanesMask cold = E < branch.energy(broadcast(least_temperature));
@@ -232,12 +232,12 @@ Gray::FourPoints Gray::four_points(Lanes V, Lanes E) const {
   }
   // What is left to single points: molten fraction of the vapour, equilibrium melting.
   const unsigned thin_bits = bits(thin), melting_bits = bits(melting), liquid_bits = bits(liquid);
-  const unsigned hot_bits = bits(hot), warm_bits = melting_curve_ ? bits(warm) : 0;
+  const unsigned hot_bits = bits(hot | hot_vapour), warm_bits = melting_curve_ ? bits(warm) : 0;
   if ((thin_bits | melting_bits | liquid_bits | warm_bits) == 0) return p;  // all solid
   for (unsigned i = 0; i < 4; ++i) {
     const unsigned bit = 1u << i;
     if (thin_bits & bit) {
-      p.phase[i] = Phase::vapour;
+      p.phase[i] = hot_bits & bit ? Phase::hot_vapour : Phase::vapour;
       p.melted_fraction[i] = fluid_melted_fraction(p.T[i]);
     } else if (warm_bits & bit) {
       const Point single = equilibrium_point(V[i], E[i]);
@@ -305,8 +305,9 @@ Gray::Point Gray::point_at_temperature(double V, double T) const {
   }
   GrayBranch branch;
   if (V > surface_.join_volume()) {
-    p.phase = Phase::vapour;
-    branch = surface_.vapour_branch(V, T > surface_.vapour_branch_temperature());
+    const bool hot = T > surface_.vapour_branch_temperature();
+    p.phase = hot ? Phase::hot_vapour : Phase::vapour;
+    branch = surface_.vapour_branch(V, hot);
     p.melted_fraction = fluid_melted_fraction(T);
   } else {
     const GrayIsochore iso = surface_.isochore(V);
@@ -397,7 +398,7 @@ State Gray::full_state(const Point& p) const {
   s.sound_speed = sound_speed(p.squared_sound_speed);
   s.heat_capacity = p.heat_capacity;
   s.gruneisen = p.gruneisen;
-  if (p.phase == Phase::vapour) {
+  if (p.V > surface_.join_volume()) {
     s.isothermal_bulk_modulus =
         -p.V *
         surface_.vapour_branch(p.V, p.T > surface_.vapour_branch_temperature()).pressure_by_volume(p.T);
@@ -439,7 +440,8 @@ State Gray::full_state(const Point& p) const {
       }
     }
   }
-  static constexpr std::string_view names[] = {"solid", "melting", "liquid", "hot liquid", "vapour"};
+  static constexpr std::string_view names[] = {"solid",      "melting", "liquid",
+                                               "hot liquid", "vapour",  "hot vapour"};
   s.phase = names[static_cast<int>(p.phase)];
   s.vaporised_fraction = p.phase == Phase::solid ? 0.0 : dome_.vaporised_fraction(p.V, p.E);
   s.melted_fraction = std::max(p.melted_fraction, s.vaporised_fraction);

@@ -71,7 +71,7 @@ class Gray {
   [[nodiscard]] double gamma(double V) const { return surface_.gamma(V); }
 
  private:
-  enum class Phase { solid, melting, liquid, hot_liquid, vapour };
+  enum class Phase { solid, melting, liquid, hot_liquid, vapour, hot_vapour };
   struct Point;
   struct FourPoints;
   /// Edges of the melting region on one isochore.

@@ -102,7 +102,7 @@ TEST(EosGray, PressureEnergyAndEntropyAreContinuousAtEveryJoint) {
       const State l = gray.state_at_temperature(1 / (VJ * (1 - 1e-10)), T);
       const State v = gray.state_at_temperature(1 / (VJ * (1 + 1e-10)), T);
       EXPECT_NE(l.phase, v.phase);
-      EXPECT_EQ(v.phase, "vapour");
+      EXPECT_EQ(v.phase, T > 6354 ? "hot vapour" : "vapour");
       EXPECT_NEAR(l.pressure, v.pressure, 1e3) << T;
       EXPECT_NEAR(l.specific_internal_energy, v.specific_internal_energy, 1.0) << T;
       EXPECT_NEAR(l.specific_entropy, v.specific_entropy, 1e-6) << T;
