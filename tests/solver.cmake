@@ -5,6 +5,12 @@ whipple_test(test_run STARTS_MPI SOURCES parallel/solver_restart_test.cpp DEPEND
 whipple_test(test_planar_impact STARTS_MPI SOURCES verification/solver_planar_impact_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_taylor_bar STARTS_MPI SOURCES verification/solver_taylor_bar_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_elastic STARTS_MPI SOURCES verification/solver_elastic_test.cpp DEPENDS whipple_solver LABELS fast)
+whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.cpp DEPENDS whipple_solver LABELS long)
+whipple_test(test_orders STARTS_MPI SOURCES verification/solver_orders_test.cpp DEPENDS whipple_solver LABELS fast)
+# Writes docs/orders_of_convergence.md; a program of its own, as it takes minutes.
+add_executable(orders_of_convergence EXCLUDE_FROM_ALL verification/solver_orders.cpp)
+target_link_libraries(orders_of_convergence PRIVATE whipple_flags whipple_solver)
+whipple_test(test_methods STARTS_MPI SOURCES verification/solver_methods_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_setup SOURCES unit/setup_case_test.cpp unit/setup_shape_test.cpp DEPENDS whipple_setup LABELS fast)
 whipple_test(test_debris_cloud STARTS_MPI SOURCES validation/solver_debris_cloud_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_solver_table STARTS_MPI SOURCES validation/solver_table_test.cpp DEPENDS whipple_solver LABELS fast)

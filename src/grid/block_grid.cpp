@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -41,12 +42,13 @@ constexpr std::array<std::uint32_t, 64> masks = neighbour_masks();
 constexpr std::int32_t mirror_reach = 2;
 
 /// Neighbours that the nodes of a stencil fall into when the particle is at `local` (cells from the block's
-/// lower corner), with `ahead` cells of motion before it.
-std::uint32_t touched_neighbours(const Vector3& local, const Vector3& ahead, Stencil stencil) {
+/// lower corner), with `ahead` cells of motion before it, and `around` it on either side.
+std::uint32_t touched_neighbours(const Vector3& local, const Vector3& ahead, Stencil stencil,
+                                 double around = 0.0) {
   unsigned reach = 0;
   for (int a = 0; a < 3; ++a) {
-    const double first = std::floor(local[a] + std::min(ahead[a], 0.0) - stencil.shift);
-    const double last = std::floor(local[a] + std::max(ahead[a], 0.0) - stencil.shift) + stencil.count - 1;
+    const double first = std::floor(local[a] + std::min(ahead[a], -around) - stencil.shift);
+    const double last = std::floor(local[a] + std::max(ahead[a], around) - stencil.shift) + stencil.count - 1;
     const AxisReach axis = (first < 0 ? 1U : 0U) | (last >= block_edge ? 2U : 0U);
     reach |= axis << (2 * a);
   }
@@ -60,16 +62,18 @@ BlockCoordinate shifted(const BlockCoordinate& block, int neighbour) {
 }  // namespace
 
 BlockGrid::BlockGrid(const Geometry& geometry, MPI_Comm communicator)
-    : communicator_(communicator), geometry_(geometry), forest_(geometry, communicator) {
+    : communicator_(communicator),
+      geometry_(geometry),
+      origin_(geometry.lower),
+      forest_(geometry, communicator) {
   for (int face = 0; face < 6; ++face) {
     const Boundary boundary = geometry.boundary[static_cast<std::size_t>(face)];
     if (boundary == Boundary::outflow) continue;
-    planes_.push_back({.axis = face / 2,
-                       .no_slip = boundary == Boundary::no_slip,
-                       .pairs = {},
-                       .on_plane = {},
-                       .near = {}});
+    planes_.push_back(
+        {.face = face, .axis = face / 2, .kind = boundary, .pairs = {}, .on_plane = {}, .near = {}});
   }
+  std::ranges::stable_sort(planes_, {},
+                           [](const MirrorPlane& plane) { return plane.kind == Boundary::separating; });
 }
 
 /// Nothing for a position beyond the outer layer, or NaN.
@@ -87,6 +91,7 @@ std::optional<BlockCoordinate> BlockGrid::block_of(const Vector3& position) cons
 bool BlockGrid::bin(std::span<const Vector3> position, Stencil stencil) {
   const bool complete = slot_of_particle_.size() == position.size() && locate(position, stencil);
   if (parallel::any(communicator_, !complete)) return false;
+  released_.clear();
   list_particles(position.size());
   return true;
 }
@@ -147,7 +152,7 @@ std::vector<WantedBlock> BlockGrid::wanted_blocks(std::span<const Vector3> posit
     Vector3 local = geometry_.in_cells(position[p]);
     for (std::size_t a = 0; a < 3; ++a) local[static_cast<Eigen::Index>(a)] -= (*block)[a] * block_edge;
     const Vector3 ahead = (velocity[p] * (lookahead / geometry_.cell_size)).cwiseMax(-2.0).cwiseMin(2.0);
-    wanted_mask[static_cast<std::size_t>(i)] |= touched_neighbours(local, ahead, stencil);
+    wanted_mask[static_cast<std::size_t>(i)] |= touched_neighbours(local, ahead, stencil, foresight_);
   }
   parallel::throw_together(communicator_, error);
 
@@ -221,14 +226,98 @@ void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vect
   find_mirror_nodes();
 }
 
+void BlockGrid::shift(const Vector3& cells) {
+  geometry_.lower = origin_ + geometry_.cell_size * cells;
+  foresight_ = 1.0;  // from half a cell on one side to half a cell on the other
+}
+
+namespace {
+
+/// Cell of a position given in cells from the lower corner of a block.
+std::array<int, 3> cell_of(const Vector3& local) {
+  std::array<int, 3> cell{};
+  for (std::size_t a = 0; a < 3; ++a) cell[a] = static_cast<int>(std::floor(local[static_cast<int>(a)]));
+  return cell;
+}
+
+}  // namespace
+
+Vector3 BlockGrid::local_position(std::size_t slot, const Vector3& position) const {
+  Vector3 local = geometry_.in_cells(position);
+  for (std::size_t a = 0; a < 3; ++a) {
+    local[static_cast<int>(a)] -= blocks_.coordinate[slot][a] * block_edge;
+  }
+  return local;
+}
+
+void BlockGrid::count_cells(std::span<const Vector3> position) {
+  cell_count_.assign(slots() * nodes_per_block, 0);
+  for (std::size_t s = 0; s < slots(); ++s) {
+    for (const std::uint32_t p : particles_in(s)) {
+      const std::array<int, 3> cell = cell_of(local_position(s, position[p]));
+      ++cell_count_[s * nodes_per_block + static_cast<std::size_t>(node_index(cell[0], cell[1], cell[2]))];
+    }
+  }
+  // Other ranks may have particles, unseen here, in blocks that they borrow and in blocks of their own.
+  unshared_.assign(slots(), 1);
+  for (std::size_t s = blocks_.owned; s < slots(); ++s) unshared_[s] = 0;
+  for (const BlockSet::Peer& peer : blocks_.peers) {
+    for (const std::uint32_t s : peer.lent) unshared_[s] = 0;
+  }
+}
+
+bool BlockGrid::is_alone(std::uint32_t particle, const Vector3& position) const {
+  constexpr int ring = 2;
+  const Vector3 in_cells = geometry_.in_cells(position);
+  for (const MirrorPlane& plane : planes_) {
+    const double depth = plane.face % 2 == 0
+                             ? in_cells[plane.axis]
+                             : geometry_.cells[static_cast<std::size_t>(plane.axis)] - in_cells[plane.axis];
+    if (depth < ring) return false;
+  }
+  const auto slot = static_cast<std::size_t>(slot_of_particle_[particle]);
+  const std::array<int, 3> cell = cell_of(local_position(slot, position));
+  int count = 0;
+  for (int x = cell[0] - ring; x <= cell[0] + ring; ++x) {
+    for (int y = cell[1] - ring; y <= cell[1] + ring; ++y) {
+      for (int z = cell[2] - ring; z <= cell[2] + ring; ++z) {
+        const auto block = [](int c) { return c < 0 ? 0 : c < block_edge ? 1 : 2; };
+        const std::int32_t owner =
+            neighbours_[slot][static_cast<std::size_t>(neighbour_index(block(x), block(y), block(z)))];
+        if (owner == no_slot) {
+          if (is_shared()) return false;
+          continue;
+        }
+        const auto of = static_cast<std::size_t>(owner);
+        if (unshared_[of] == 0) return false;
+        const auto inside = [](int c) { return (c + block_edge) % block_edge; };
+        count += cell_count_[of * nodes_per_block +
+                             static_cast<std::size_t>(node_index(inside(x), inside(y), inside(z)))];
+        if (count > 1) return false;
+      }
+    }
+  }
+  return true;
+}
+
+void BlockGrid::release(std::span<const std::uint32_t> particles) {
+  if (particles.empty()) return;
+  released_.assign(slot_of_particle_.size(), 0);
+  for (const std::uint32_t p : particles) released_[p] = 1;
+  list_particles(slot_of_particle_.size());
+}
+
 /// Counting sort by slot; stable, so that the particles of a block keep the order of their indices.
 void BlockGrid::list_particles(std::size_t n) {
   begin_.assign(slots() + 1, 0);
-  for (std::size_t p = 0; p < n; ++p) ++begin_[static_cast<std::size_t>(slot_of_particle_[p]) + 1];
+  for (std::size_t p = 0; p < n; ++p) {
+    if (is_listed(p)) ++begin_[static_cast<std::size_t>(slot_of_particle_[p]) + 1];
+  }
   for (std::size_t s = 0; s < slots(); ++s) begin_[s + 1] += begin_[s];
-  particles_.resize(n);
+  particles_.resize(begin_.back());
   std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
   for (std::size_t p = 0; p < n; ++p) {
+    if (!is_listed(p)) continue;
     particles_[next[static_cast<std::size_t>(slot_of_particle_[p])]++] = static_cast<std::uint32_t>(p);
   }
   for (auto& colour : colours_) colour.clear();
@@ -280,6 +369,8 @@ void BlockGrid::exchange_nodes(Part part, std::vector<std::uint32_t> BlockSet::P
   }
 }
 
+bool BlockGrid::is_shared() const { return parallel::size(communicator_) > 1; }
+
 void BlockGrid::sum_to_owners(Part part) {
   exchange_nodes(part, &BlockSet::Peer::borrowed, &BlockSet::Peer::lent, [part](Node& node, const Lanes* in) {
     node.first += in[0];
@@ -304,16 +395,13 @@ void BlockGrid::clear() {
 void BlockGrid::find_mirror_nodes() {
   if (planes_.empty()) return;
   outside_.assign(nodes_.size(), 0);
-  std::size_t plane = 0;
-  for (int face = 0; face < 6; ++face) {
-    if (geometry_.boundary[static_cast<std::size_t>(face)] == Boundary::outflow) continue;
-    MirrorPlane& mirror = planes_[plane++];
+  for (MirrorPlane& mirror : planes_) {
     mirror.pairs.clear();
     mirror.on_plane.clear();
     mirror.near.clear();
     const auto axis = static_cast<std::size_t>(mirror.axis);
-    const std::int32_t at = face % 2 == 0 ? 0 : geometry_.cells[axis];
-    const std::int32_t outward = face % 2 == 0 ? -1 : 1;
+    const std::int32_t at = mirror.face % 2 == 0 ? 0 : geometry_.cells[axis];
+    const std::int32_t outward = mirror.face % 2 == 0 ? -1 : 1;
     for (std::size_t s = 0; s < slots(); ++s) {
       for (int i = 0; i < nodes_per_block; ++i) {
         const std::array<int, 3> inside_block = {i / 16, i / 4 % 4, i % 4};
@@ -323,24 +411,33 @@ void BlockGrid::find_mirror_nodes() {
         const std::int32_t inside = (at - along) * outward;
         if (inside > 0 && inside <= mirror_reach) mirror.near.push_back(index);
         if (inside >= 0) continue;
-        outside_[index] = 1;
-        std::array<std::int32_t, 3> image{};
+        if (mirror.kind != Boundary::separating) outside_[index] = 1;
+        std::array<std::int32_t, 3> place{};
         for (std::size_t a = 0; a < 3; ++a)
-          image[a] = blocks_.coordinate[s][a] * block_edge + inside_block[a];
-        image[axis] = 2 * at - image[axis];
-        BlockCoordinate block{};
-        for (std::size_t a = 0; a < 3; ++a)
-          block[a] = (image[a] + block_edge) / block_edge - 1;  // floor for >= -4
-        if (image[axis] < -block_edge) continue;
-        const std::int32_t slot = table_.find(block);
-        if (slot == no_slot)
-          continue;  // no particle reaches so far beyond the plane: its stencil is symmetric
-        const int node = node_index(image[0] - block[0] * block_edge, image[1] - block[1] * block_edge,
-                                    image[2] - block[2] * block_edge);
-        mirror.pairs.push_back({index, static_cast<std::uint32_t>(slot * nodes_per_block + node)});
+          place[a] = blocks_.coordinate[s][a] * block_edge + inside_block[a];
+        place[axis] = at;
+        const std::uint32_t foot = active_node(place);
+        place[axis] = 2 * at - along;
+        const std::uint32_t image = active_node(place);
+        // Without an active image no particle reaches so far beyond the plane: its stencil is symmetric.
+        if (image != no_node) mirror.pairs.push_back({index, image, foot});
       }
     }
   }
+}
+
+/// Index of the node at a place of the grid, `no_node` if its block is not active.
+std::uint32_t BlockGrid::active_node(const std::array<std::int32_t, 3>& place) const {
+  BlockCoordinate block{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (place[a] < -block_edge) return no_node;
+    block[a] = (place[a] + block_edge) / block_edge - 1;  // floor for >= -4
+  }
+  const std::int32_t slot = table_.find(block);
+  if (slot == no_slot) return no_node;
+  return static_cast<std::uint32_t>(slot * nodes_per_block + node_index(place[0] - block[0] * block_edge,
+                                                                        place[1] - block[1] * block_edge,
+                                                                        place[2] - block[2] * block_edge));
 }
 
 std::size_t BlockGrid::bytes() const {

@@ -82,6 +82,19 @@ class BlockGrid {
   void activate(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
                 Stencil stencil);
 
+  /// Moves the nodes away from where the geometry has them, by at most half a cell along each axis; before
+  /// `bin`. Axes with mirror planes must not be moved.
+  void shift(const Vector3& cells);
+
+  /// Counts the particles of this rank in every cell, after `bin`.
+  void count_cells(std::span<const Vector3> position);
+  /// Is a particle of this rank farther than two cells from every other one, from mirror planes, and from
+  /// blocks that other ranks share? After `count_cells`.
+  [[nodiscard]] bool is_alone(std::uint32_t particle, const Vector3& position) const;
+  /// Takes particles (ascending) off the lists of their blocks until the next `bin`: the transfers do not see
+  /// them.
+  void release(std::span<const std::uint32_t> particles);
+
   /// Particles changed their order or number: the next `bin` looks every block up anew.
   void particles_reordered() { slot_of_particle_.clear(); }
 
@@ -110,6 +123,8 @@ class BlockGrid {
   /// Sets every node to zero.
   void clear();
 
+  /// Are there blocks that several ranks work with?
+  [[nodiscard]] bool is_shared() const;
   /// Which registers of the nodes travel.
   enum class Part { first, both };
   /// Adds what this rank's particles brought to borrowed nodes to the nodes of their owners. Collective.
@@ -117,22 +132,27 @@ class BlockGrid {
   /// Replaces the borrowed nodes by those of their owners. Collective.
   void borrow_from_owners(Part part);
 
-  /// A node beyond a mirror plane and its image inside, as indices into all_nodes().
+  /// A node beyond a mirror plane, its image inside, and the node between them on the plane (`no_node` if its
+  /// block is not active), as indices into all_nodes().
   struct MirrorPair {
     std::uint32_t outside;
     std::uint32_t image;
+    std::uint32_t foot;
   };
+  static constexpr std::uint32_t no_node = static_cast<std::uint32_t>(-1);
   struct MirrorPlane {
+    int face = 0;  ///< in the order of Geometry::boundary
     int axis = 0;
-    bool no_slip = false;
+    Boundary kind = Boundary::symmetry;
     std::vector<MirrorPair> pairs;
     std::vector<std::uint32_t> on_plane;
     /// Inner nodes that particles may reach from beyond the plane: the images of some rank's `outside` nodes.
     std::vector<std::uint32_t> near;
   };
-  /// Planes with the active nodes that they concern, in the order in which they are folded.
+  /// Planes with the active nodes that they concern, in the order in which they are folded: separating walls
+  /// last.
   [[nodiscard]] std::span<const MirrorPlane> mirror_planes() const { return planes_; }
-  /// Is a node on the inner side of every mirror plane (nodes outside are images of others)?
+  /// Is a node an image in any case: beyond a plane that is no separating wall?
   [[nodiscard]] bool is_image(std::size_t node) const { return !outside_.empty() && outside_[node] != 0; }
 
   [[nodiscard]] std::size_t forest_leaves() const { return forest_.leaves(); }
@@ -141,12 +161,17 @@ class BlockGrid {
 
  private:
   [[nodiscard]] std::optional<BlockCoordinate> block_of(const Vector3& position) const;
+  [[nodiscard]] Vector3 local_position(std::size_t slot, const Vector3& position) const;
   bool locate(std::span<const Vector3> position, Stencil stencil);
   [[nodiscard]] std::vector<WantedBlock> wanted_blocks(std::span<const Vector3> position,
                                                        std::span<const Vector3> velocity, double lookahead,
                                                        Stencil stencil, double weight) const;
   void list_particles(std::size_t n);
+  [[nodiscard]] bool is_listed(std::size_t particle) const {
+    return released_.empty() || released_[particle] == 0;
+  }
   void find_mirror_nodes();
+  [[nodiscard]] std::uint32_t active_node(const std::array<std::int32_t, 3>& place) const;
   /// Sends nodes of the slots `from` of every peer, and calls receive(slot, node in it, registers) for what
   /// comes to its slots `to`.
   template <class Receive>
@@ -154,7 +179,9 @@ class BlockGrid {
                       std::vector<std::uint32_t> BlockSet::Peer::* to, Receive&& receive);
 
   MPI_Comm communicator_;
-  Geometry geometry_;
+  Geometry geometry_;       // with the shift
+  Vector3 origin_;          // its lower corner without
+  double foresight_ = 0.0;  // cells that shifts may move a stencil by
   Forest forest_;
   BlockTable table_;
   std::vector<WantedBlock> wanted_;  // by the last adaptation
@@ -163,6 +190,9 @@ class BlockGrid {
   std::vector<std::uint32_t> existing_;  // bit per neighbour
   std::vector<Node> nodes_;
   std::vector<std::int32_t> slot_of_particle_;
+  std::vector<std::uint16_t> cell_count_;  // particles in each cell of each slot
+  std::vector<std::uint8_t> unshared_;     // slots that no other rank works with
+  std::vector<std::uint8_t> released_;     // of each particle, or empty
   std::vector<std::uint32_t> begin_;
   std::vector<std::uint32_t> particles_;
   std::array<std::vector<std::uint32_t>, 8> colours_;

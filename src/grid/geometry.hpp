@@ -19,9 +19,10 @@ using BlockCoordinate = std::array<std::int32_t, 3>;
 
 /// What happens at a face of the domain.
 enum class Boundary : std::uint8_t {
-  outflow,   ///< matter leaves: counted with its mass, momentum and energy
-  symmetry,  ///< mirror plane: frictionless, matter does not pass and does not separate
-  no_slip,   ///< wall that matter sticks to
+  outflow,     ///< matter leaves: counted with its mass, momentum and energy
+  symmetry,    ///< mirror plane: frictionless, matter does not pass and does not separate
+  no_slip,     ///< wall that matter sticks to
+  separating,  ///< frictionless wall that pushes and does not hold
 };
 
 /// The uniform background grid of the domain: node i of a direction lies at lower + i * cell_size.

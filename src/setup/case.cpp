@@ -28,8 +28,9 @@ ParameterTable<Domain> Domain::parameters() {
 
 ParameterTable<Domain> Domain::boundary_parameters() {
   const auto face = [](const char* name, std::string Domain::* member) {
-    return choice(name, member, {"outflow", "symmetry", "no_slip"},
-                  "matter leaves and is counted | frictionless mirror plane | wall that matter sticks to")
+    return choice(name, member, {"outflow", "symmetry", "no_slip", "separating"},
+                  "matter leaves and is counted | frictionless mirror plane | wall that matter sticks to | "
+                  "frictionless wall that pushes but does not hold")
         .optional();
   };
   return {face("x_lower", &Domain::x_lower), face("x_upper", &Domain::x_upper),
@@ -38,32 +39,60 @@ ParameterTable<Domain> Domain::boundary_parameters() {
 }
 
 ParameterTable<TimeControl> TimeControl::parameters() {
-  return {real("end", &TimeControl::end, "s", range::positive(), "time at which the run ends"),
-          real("courant", &TimeControl::courant, "", {.lower = 0.0, .upper = 1.0, .lower_open = true},
-               "time step as a share of cell_size / (sound speed + particle speed)")
-              .optional(),
-          real("maximum_growth", &TimeControl::maximum_growth, "", {.lower = 1.0, .lower_open = true},
-               "largest ratio of a time step to the one before")
-              .optional(),
-          real("acceleration_limit", &TimeControl::acceleration_limit, "", range::positive(),
-               "largest acceleration * dt^2 as a share of the cell size")
-              .optional(),
-          choice("scheme", &TimeControl::scheme, {"symplectic", "musl"},
-                 "symplectic: exact energy (default); musl: modified update stress last, for comparison with "
-                 "other codes")
-              .optional()};
+  return {
+      real("end", &TimeControl::end, "s", range::positive(), "time at which the run ends"),
+      real("courant", &TimeControl::courant, "", {.lower = 0.0, .upper = 1.0, .lower_open = true},
+           "time step as a share of cell_size / (sound speed + particle speed)")
+          .optional(),
+      real("maximum_growth", &TimeControl::maximum_growth, "", {.lower = 1.0, .lower_open = true},
+           "largest ratio of a time step to the one before")
+          .optional(),
+      real("acceleration_limit", &TimeControl::acceleration_limit, "", range::positive(),
+           "largest acceleration * dt^2 as a share of the cell size")
+          .optional(),
+      choice("scheme", &TimeControl::scheme, {"symplectic", "musl", "usl", "usf"},
+             "symplectic: exact energy (default); for comparison with other codes: modified update stress "
+             "last, update stress last, update stress first")
+          .optional()};
 }
 
 ParameterTable<TransferControl> TransferControl::parameters() {
-  return {choice("shape_function", &TransferControl::shape_function, {"quadratic_bspline", "linear"},
+  return {choice("shape_function", &TransferControl::shape_function,
+                 {"quadratic_bspline", "cubic_bspline", "convected_gimp", "gimp", "linear"},
                  "functions that carry fields between particles and nodes")
               .optional(),
-          choice("particle_update", &TransferControl::particle_update, {"relaxed_affine", "apic", "flip"},
-                 "velocity transfer to the particles; musl takes flip whatever stands here by default")
+          choice("particle_update", &TransferControl::particle_update,
+                 {"relaxed_affine", "apic", "flip", "pic", "blend", "fmpm"},
+                 "velocity transfer to the particles; schemes other than symplectic take flip by default")
               .optional(),
           real("kappa", &TransferControl::kappa, "", range::non_negative(),
                "relaxation of the affine field: beta = 1 - exp(-kappa c dt / dx)")
+              .optional(),
+          real("flip_fraction", &TransferControl::flip_fraction, "", range::between(0.0, 1.0),
+               "share of FLIP in particle_update \"blend\", the rest is PIC")
+              .optional(),
+          integer("fmpm_order", &TransferControl::fmpm_order, range::between(1, 20),
+                  "k of particle_update \"fmpm\": terms of the inverse of the full mass matrix")
+              .optional(),
+          boolean("random_shift", &TransferControl::random_shift,
+                  "shift the grid by a random part of a cell in every step, along axes without walls")
+              .optional(),
+          integer("random_seed", &TransferControl::random_seed, range::between(0, 1e9), "of random_shift")
+              .optional(),
+          boolean("free_flight", &TransferControl::free_flight,
+                  "failed particles without stress and neighbours fly on without the grid")
               .optional()};
+}
+
+ParameterTable<Splitting> Splitting::parameters() {
+  return {
+      real("length", &Splitting::length, "", range::between(0.0, 2.0),
+           "length in cells of an intact particle along its longest direction beyond which it is divided in "
+           "two; 0: never, 1 to 1.2 keeps stretched matter together")
+          .optional(),
+      integer("maximum_generations", &Splitting::maximum_generations, range::between(0, 20),
+              "divisions that a particle and its parts may undergo")
+          .optional()};
 }
 
 ParameterTable<ArtificialViscosity> ArtificialViscosity::parameters() {
@@ -95,6 +124,9 @@ ParameterTable<Discretization> Discretization::parameters() {
   return {choice("method", &Discretization::method, {"particles"}, "how the body is represented").optional(),
           integer("per_cell", &Discretization::per_cell, range::between(1, 1000),
                   "particles per full cell: 1, 8, 27 or 64")
+              .optional(),
+          boolean("partial_volumes", &Discretization::partial_volumes,
+                  "particles at curved surfaces take the part of their volume that lies in the body")
               .optional()};
 }
 
@@ -120,9 +152,10 @@ ParameterTable<Case> Case::parameters() {
 namespace {
 
 grid::Boundary boundary_kind(const std::string& word) {
-  return word == "symmetry"  ? grid::Boundary::symmetry
-         : word == "no_slip" ? grid::Boundary::no_slip
-                             : grid::Boundary::outflow;
+  return word == "symmetry"     ? grid::Boundary::symmetry
+         : word == "no_slip"    ? grid::Boundary::no_slip
+         : word == "separating" ? grid::Boundary::separating
+                                : grid::Boundary::outflow;
 }
 
 std::array<std::string, 6> faces(const Domain& domain) {
@@ -199,21 +232,51 @@ void read_body(Case& setup, input::Table table, std::set<std::string>& names,
   setup.materials.push_back(std::move(material));
 }
 
+/// What the schemes, particle updates and shape functions can do together (docs/theory/mpm.md, section 5).
+void check_transfer(Case& setup, input::Table* transfer) {
+  const std::string& scheme = setup.time.scheme;
+  TransferControl& control = setup.transfer;
+  const bool exact = scheme == "symplectic";
+  const auto given = [&](const char* key) { return transfer != nullptr && transfer->has(key); };
+  if (!exact && !given("particle_update")) control.particle_update = "flip";
+  const std::string& update = control.particle_update;
+  const bool affine = update == "relaxed_affine" || update == "apic";
+  if (transfer == nullptr) return;
+  if (!exact && affine) {
+    transfer->error_at("particle_update",
+                       fmt::format("scheme \"{}\" carries no affine field: it works with particle_update = "
+                                   "\"flip\", \"pic\", \"blend\" or \"fmpm\"; \"{}\" needs \"symplectic\"",
+                                   scheme, update));
+  }
+  if (exact && update == "fmpm") {
+    transfer->error_at("particle_update",
+                       "particle_update = \"fmpm\" has no exact energy balance, which scheme \"symplectic\" "
+                       "keeps: it works with scheme = \"usl\", \"musl\" or \"usf\"");
+  }
+  const bool bspline =
+      control.shape_function == "quadratic_bspline" || control.shape_function == "cubic_bspline";
+  if (exact && affine && !bspline) {
+    transfer->error_at(
+        "shape_function",
+        fmt::format("particle_update = \"{}\" needs functions whose second moment is the same everywhere: "
+                    "shape_function = \"quadratic_bspline\" or \"cubic_bspline\"; \"{}\" works with "
+                    "\"flip\", \"pic\", \"blend\" (and \"fmpm\" in schemes other than symplectic)",
+                    update, control.shape_function));
+  }
+}
+
 void check_combinations(Case& setup, input::Table& root) {
-  if (auto transfer = root.optional_table("transfer")) {
-    const bool musl = setup.time.scheme == "musl";
-    const bool affine = setup.transfer.particle_update != "flip";
-    if (musl && transfer->has("particle_update") && affine) {
-      transfer->error_at("particle_update", "scheme \"musl\" transfers with particle_update = \"flip\" only");
-    }
-    if (!musl && affine && setup.transfer.shape_function == "linear") {
-      transfer->error_at("shape_function",
-                         fmt::format("particle_update = \"{}\" needs shape_function = "
-                                     "\"quadratic_bspline\"; linear functions take \"flip\"",
-                                     setup.transfer.particle_update));
+  auto transfer = root.optional_table("transfer");
+  check_transfer(setup, transfer ? &*transfer : nullptr);
+  const bool separating = std::ranges::count(faces(setup.domain), "separating") > 0;
+  if (separating && setup.time.scheme == "usf") {
+    if (auto domain = root.optional_table("domain")) {
+      domain->error_at("boundary",
+                       "a separating wall is found to be in contact by the forces on the grid, which scheme "
+                       "\"usf\" does not know yet where it needs them: take \"symplectic\", \"musl\" or "
+                       "\"usl\"");
     }
   }
-  if (setup.time.scheme == "musl") setup.transfer.particle_update = "flip";
 }
 
 Case read(input::Document document, const std::vector<std::pair<std::string, std::string>>& overrides) {
@@ -235,6 +298,7 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   if (auto table = root.required_table("time")) table->read(TimeControl::parameters(), setup.time);
   if (auto table = root.optional_table("transfer"))
     table->read(TransferControl::parameters(), setup.transfer);
+  if (auto table = root.optional_table("splitting")) table->read(Splitting::parameters(), setup.splitting);
   if (auto table = root.optional_table("artificial_viscosity")) {
     table->read(ArtificialViscosity::parameters(), setup.viscosity);
   }
@@ -278,14 +342,16 @@ std::string to_toml(const Case& setup, const std::vector<std::string>& material_
   text += section("domain.boundary", Domain::boundary_parameters(), setup.domain);
   text += section("time", TimeControl::parameters(), setup.time);
   text += section("transfer", TransferControl::parameters(), setup.transfer);
+  text += section("splitting", Splitting::parameters(), setup.splitting);
   text += section("artificial_viscosity", ArtificialViscosity::parameters(), setup.viscosity);
   text += section("output", OutputControl::parameters(), setup.output);
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     Body body = setup.bodies[b];
     body.material = material_of_body[b];
     text += "\n[[body]]\n" + whipple::to_toml(whipple::bind(Body::parameters(), body));
-    text += fmt::format("discretization = {{ method = {}, per_cell = {} }}\n",
-                        whipple::quoted(body.discretization.method), body.discretization.per_cell);
+    text += fmt::format("discretization = {{ method = {}, per_cell = {}, partial_volumes = {} }}\n",
+                        whipple::quoted(body.discretization.method), body.discretization.per_cell,
+                        body.discretization.partial_volumes);
     text += fmt::format("shape = {}\n", body.shape->toml());
   }
   return text;
@@ -300,6 +366,7 @@ std::string describe_case() {
           describe_table(Domain::boundary_parameters());
   text += "\n[time]\n" + describe_table(TimeControl::parameters());
   text += "\n[transfer]\n" + describe_table(TransferControl::parameters());
+  text += "\n[splitting]\n" + describe_table(Splitting::parameters());
   text += "\n[artificial_viscosity]\n" + describe_table(ArtificialViscosity::parameters());
   text += "\n[output]\n" + describe_table(OutputControl::parameters());
   text += "\n[[body]]\n" + describe_table(Body::parameters());

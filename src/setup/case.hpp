@@ -38,7 +38,19 @@ struct TransferControl {
   std::string shape_function = "quadratic_bspline";
   std::string particle_update = "relaxed_affine";
   double kappa = 0.2;
+  double flip_fraction = 0.95;
+  std::int64_t fmpm_order = 2;
+  bool random_shift = false;
+  std::int64_t random_seed = 1;
+  bool free_flight = false;
   static ParameterTable<TransferControl> parameters();
+};
+
+/// Division of stretched particles; no division at length 0.
+struct Splitting {
+  double length = 0.0;  ///< of a particle along its longest direction, in cells
+  std::int64_t maximum_generations = 3;
+  static ParameterTable<Splitting> parameters();
 };
 
 struct ArtificialViscosity {
@@ -59,6 +71,7 @@ struct OutputControl {
 struct Discretization {
   std::string method = "particles";
   std::int64_t per_cell = 8;
+  bool partial_volumes = false;
   static ParameterTable<Discretization> parameters();
 };
 
@@ -81,6 +94,7 @@ struct Case {
   Domain domain;
   TimeControl time;
   TransferControl transfer;
+  Splitting splitting;
   ArtificialViscosity viscosity;
   OutputControl output;
   std::vector<Body> bodies;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace whipple::setup {
 namespace {
@@ -68,14 +69,59 @@ bool inside_domain(const Case& setup, const Vector3& point) {
   return true;
 }
 
-/// Calls f(point) for every lattice point of the body inside the domain.
+/// What a particle takes of its cell of the lattice.
+struct Site {
+  Vector3 position;
+  double share = 1.0;      // of the cell's volume
+  SymmetricTensor extent;  // as of Particles
+};
+
+/// A whole cell of the lattice: its centre decides whether it belongs to the body.
+std::optional<Site> whole_site(const Case& setup, const Body& body, const Lattice& lattice,
+                               const Vector3& point) {
+  if (!inside_domain(setup, point) || !body.shape->contains(point)) return std::nullopt;
+  const Vector3 half = 0.5 * lattice.spacing;
+  return Site{point, 1.0, {half[0] * half[0], half[1] * half[1], half[2] * half[2], 0, 0, 0}};
+}
+
+/// The part of a cell that lies in the body, by the points of a lattice four times as fine: its volume,
+/// centroid and second moments.
+std::optional<Site> partial_site(const Case& setup, const Body& body, const Lattice& lattice,
+                                 const Vector3& point) {
+  constexpr int parts = 4;
+  constexpr double all = parts * parts * parts;
+  const Vector3 part = lattice.spacing / parts;
+  double count = 0;
+  Vector3 first = Vector3::Zero();
+  Matrix3 second = Matrix3::Zero();
+  for (int i = 0; i < parts; ++i) {
+    for (int j = 0; j < parts; ++j) {
+      for (int k = 0; k < parts; ++k) {
+        const Vector3 offset = part.cwiseProduct(Vector3(i, j, k) - Vector3::Constant(0.5 * (parts - 1)));
+        if (!inside_domain(setup, point + offset) || !body.shape->contains(point + offset)) continue;
+        count += 1;
+        first += offset;
+        second += offset * offset.transpose();
+      }
+    }
+  }
+  if (count == 0) return std::nullopt;
+  if (count == all) first.setZero();  // exactly the whole cell
+  const Vector3 center = first / count;
+  // A domain with half-edges r has the covariance sum r r^T / 3; every part brings that of its own box.
+  Matrix3 extent = 3.0 * (second / count - center * center.transpose());
+  extent += (0.5 * part).cwiseAbs2().asDiagonal();
+  return Site{point + center, count / all, SymmetricTensor::from(extent)};
+}
+
+/// Calls f(site) for every particle of the body inside the domain.
 template <class Function>
-void for_each_point(const Case& setup, const Body& body, const Lattice& lattice, Function&& f) {
+void for_each_site(const Case& setup, const Body& body, const Lattice& lattice, Function&& f) {
+  const auto site_at = body.discretization.partial_volumes ? partial_site : whole_site;
   for (long i = 0; i < lattice.count[0]; ++i) {
     for (long j = 0; j < lattice.count[1]; ++j) {
       for (long k = 0; k < lattice.count[2]; ++k) {
-        const Vector3 point = lattice.point(i, j, k);
-        if (inside_domain(setup, point) && body.shape->contains(point)) f(point);
+        if (const std::optional<Site> site = site_at(setup, body, lattice, lattice.point(i, j, k))) f(*site);
       }
     }
   }
@@ -115,9 +161,17 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
       }
     }
     const Lattice lattice = lattice_of(setup, body);
+    if (setup.transfer.shape_function == "gimp" &&
+        lattice.spacing.maxCoeff() > (1.0 + 1e-9) * setup.geometry.cell_size) {
+      faults.push_back({b, fmt::format("body \"{}\": its particles are {:.3g} cells wide, and "
+                                       "shape_function = \"gimp\" takes particles of one cell at most: raise "
+                                       "'per_cell' to 8, or take \"convected_gimp\" or a B-spline",
+                                       body.name, lattice.spacing.maxCoeff() / setup.geometry.cell_size)});
+    }
     std::vector<bool> overlaps(b, false);
     std::size_t count = 0;
-    for_each_point(setup, body, lattice, [&](const Vector3& point) {
+    for_each_site(setup, body, lattice, [&](const Site& site) {
+      const Vector3& point = site.position;
       ++count;
       for (std::size_t other = 0; other < b; ++other) {
         if (!overlaps[other] && setup.bodies[other].shape->contains(point)) {
@@ -132,8 +186,8 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
       const Body& former = setup.bodies[other];
       if (overlaps[other] || !boxes_meet(bounds, former.shape->bounds())) continue;
       bool found = false;
-      for_each_point(setup, former, lattice_of(setup, former),
-                     [&](const Vector3& point) { found = found || body.shape->contains(point); });
+      for_each_site(setup, former, lattice_of(setup, former),
+                    [&](const Site& site) { found = found || body.shape->contains(site.position); });
       if (found)
         faults.push_back({b, fmt::format("body \"{}\" overlaps body \"{}\"", body.name, former.name)});
     }
@@ -156,20 +210,24 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     const Material& material = *setup.materials[b];
     const Lattice lattice = lattice_of(setup, body);
     std::size_t total = 0;
-    for_each_point(setup, body, lattice, [&](const Vector3&) { ++total; });
+    double total_share = 0;
+    for_each_site(setup, body, lattice, [&](const Site& site) {
+      ++total;
+      total_share += site.share;
+    });
     const auto share_begin = [&](int r) {
       return total * static_cast<std::size_t>(r) / static_cast<std::size_t>(ranks);
     };
     const std::size_t begin = share_begin(rank), behind = share_begin(rank + 1);
-    std::vector<Vector3> points;
-    points.reserve(behind - begin);
+    std::vector<Site> sites;
+    sites.reserve(behind - begin);
     std::size_t index = 0;
-    for_each_point(setup, body, lattice, [&](const Vector3& point) {
-      if (index >= begin && index < behind) points.push_back(point);
+    for_each_site(setup, body, lattice, [&](const Site& site) {
+      if (index >= begin && index < behind) sites.push_back(site);
       ++index;
     });
 
-    BodySummary summary{.first = particles.size(), .count = points.size()};
+    BodySummary summary{.first = particles.size(), .count = sites.size()};
     const std::size_t end = summary.first + summary.count;
     resize(particles, end);
     const double density = body_density(material, material.reference);
@@ -179,17 +237,19 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     const Vector3& w = body.angular_velocity;
     Matrix3 spin;
     spin << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t i = 0; i < sites.size(); ++i) {
       const std::size_t p = summary.first + i;
       particles.id[p] = first_id + begin + i;
       particles.body[p] = static_cast<std::uint32_t>(b);
-      particles.mass[p] = mass;
-      particles.position[p] = points[i];
-      particles.velocity[p] = body.velocity + spin * (points[i] - center);
+      particles.mass[p] = mass * sites[i].share;
+      particles.position[p] = sites[i].position;
+      particles.velocity[p] = body.velocity + spin * (sites[i].position - center);
       particles.affine_velocity[p] = spin;
+      particles.extent[p] = sites[i].extent;
+      particles.generation[p] = 0;
     }
     initialise(material, particles, summary.first, end);
-    summary.mass = mass * static_cast<double>(total);
+    summary.mass = mass * total_share;
     first_id += total;
     summary.shape_mass = density * body.shape->volume();
     seeding.bodies.push_back(summary);

@@ -32,8 +32,10 @@ struct Seeding {
 };
 
 /// Fills the bodies with particles on lattices that fit each body's bounding box, as near as possible to the
-/// wanted number per cell. Parts of a body beyond a symmetry plane or wall are left out (quarter models).
-/// Of `ranks` processes each makes an equal share of every body; ids are the same for any number of them.
+/// wanted number per cell; a particle at the surface is whole if its centre lies in the body, or, with
+/// `partial_volumes`, the part of its box that does. Parts of a body beyond a symmetry plane or wall are left
+/// out (quarter models). Of `ranks` processes each makes an equal share of every body; ids are the same for
+/// any number of them.
 Seeding seed(const Case& setup, int rank = 0, int ranks = 1);
 
 }  // namespace whipple::setup

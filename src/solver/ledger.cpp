@@ -19,41 +19,43 @@ Totals& Totals::operator+=(const Totals& other) {
   return *this;
 }
 
-Totals totals_of(const Particles& particles, std::size_t p, double cell_size) {
+Totals totals_of(const Particles& particles, std::size_t p, double affine_inertia) {
   const double m = particles.mass[p];
   const Vector3& v = particles.velocity[p];
   const double speed2 = v.squaredNorm();
-  return {
-      .mass = m,
-      .momentum = m * v,
-      .momentum_scale = m * std::sqrt(speed2),
-      .kinetic_energy = 0.5 * m * speed2,
-      .affine_kinetic_energy = 0.125 * m * cell_size * cell_size * particles.affine_velocity[p].squaredNorm(),
-      .internal_energy = m * particles.specific_internal_energy[p]};
+  return {.mass = m,
+          .momentum = m * v,
+          .momentum_scale = m * std::sqrt(speed2),
+          .kinetic_energy = 0.5 * m * speed2,
+          .affine_kinetic_energy = 0.5 * m * affine_inertia * particles.affine_velocity[p].squaredNorm(),
+          .internal_energy = m * particles.specific_internal_energy[p]};
 }
 
-Totals totals_of(const Particles& particles, double cell_size) {
+Totals totals_of(const Particles& particles, double affine_inertia) {
   return parallel::sum<Totals>(particles.size(),
-                               [&](std::size_t p) { return totals_of(particles, p, cell_size); });
+                               [&](std::size_t p) { return totals_of(particles, p, affine_inertia); });
 }
 
 void Ledger::add(const Ledger& step) {
   outflow += step.outflow;
   wall_impulse += step.wall_impulse;
+  external_impulse += step.external_impulse;
+  external_work += step.external_work;
   work += step.work;
   transfer_heat += step.transfer_heat;
   clamped_to_cold_curve += step.clamped_to_cold_curve;
   limited_volume_changes += step.limited_volume_changes;
+  limited_domains += step.limited_domains;
 }
 
 double Ledger::energy_error(const Totals& now) const {
   const double scale = std::abs(initial.kinetic_energy) + std::abs(initial.affine_kinetic_energy) +
                        std::abs(initial.internal_energy);
-  return (now.energy() + outflow.energy() - initial.energy()) / std::max(scale, 1e-300);
+  return (now.energy() + outflow.energy() - initial.energy() - external_work) / std::max(scale, 1e-300);
 }
 
 double Ledger::momentum_error(const Totals& now) const {
-  const Vector3 error = now.momentum + outflow.momentum - wall_impulse - initial.momentum;
+  const Vector3 error = now.momentum + outflow.momentum - wall_impulse - external_impulse - initial.momentum;
   return error.norm() / std::max(initial.momentum_scale, 1e-300);
 }
 

@@ -20,7 +20,7 @@ struct Totals {
   Vector3 momentum = Vector3::Zero();
   double momentum_scale = 0.0;         ///< sum m |v|, to judge momentum errors by
   double kinetic_energy = 0.0;         ///< of the particles' own velocities
-  double affine_kinetic_energy = 0.0;  ///< of their affine fields: m dx^2 |C|^2 / 8
+  double affine_kinetic_energy = 0.0;  ///< of their affine fields: m inertia |C|^2 / 2
   double internal_energy = 0.0;
 
   [[nodiscard]] double energy() const { return kinetic_energy + affine_kinetic_energy + internal_energy; }
@@ -42,21 +42,26 @@ void for_each_number(T& totals, Function&& f) {
 }
 
 /// Of one particle.
-Totals totals_of(const Particles& particles, std::size_t p, double cell_size);
+/// @param affine_inertia  of the affine field per mass, m^2 (`transfer::affine_inertia`)
+Totals totals_of(const Particles& particles, std::size_t p, double affine_inertia);
 /// Of all particles of this rank; bitwise independent of the number of threads.
-Totals totals_of(const Particles& particles, double cell_size);
+Totals totals_of(const Particles& particles, double affine_inertia);
 
 /// Books everything that enters and leaves, so that at every time
-/// energy = initial - outflow, momentum = initial - outflow + impulse of the walls.
+/// energy = initial - outflow + external work, momentum = initial - outflow + impulse of walls and external
+/// forces.
 struct Ledger {
   Totals initial;
   Totals outflow;
-  Vector3 wall_impulse = Vector3::Zero();  ///< N s, by mirror planes and walls
-  double work = 0.0;                       ///< J, stress on strain, into internal energy
-  double transfer_heat = 0.0;              ///< J, kinetic energy lost in transfers, into internal energy
+  Vector3 wall_impulse = Vector3::Zero();      ///< N s, by mirror planes and walls
+  Vector3 external_impulse = Vector3::Zero();  ///< N s, by an external acceleration
+  double external_work = 0.0;                  ///< J, of the same
+  double work = 0.0;                           ///< J, stress on strain, into internal energy
+  double transfer_heat = 0.0;                  ///< J, kinetic energy lost in transfers, into internal energy
   double clamped_to_cold_curve =
       0.0;  ///< evaluations below the cold curve (temperature clamped, energy kept)
   double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
+  double limited_domains = 0.0;  ///< steps of particles whose domain was larger than its shape function takes
 
   /// Books what happened in a step (its `initial` is not used).
   void add(const Ledger& step);
@@ -75,10 +80,15 @@ void for_each_number(L& ledger, Function&& f) {
   f("wall_impulse_x", ledger.wall_impulse[0]);
   f("wall_impulse_y", ledger.wall_impulse[1]);
   f("wall_impulse_z", ledger.wall_impulse[2]);
+  f("external_impulse_x", ledger.external_impulse[0]);
+  f("external_impulse_y", ledger.external_impulse[1]);
+  f("external_impulse_z", ledger.external_impulse[2]);
+  f("external_work", ledger.external_work);
   f("work", ledger.work);
   f("transfer_heat", ledger.transfer_heat);
   f("clamped_to_cold_curve", ledger.clamped_to_cold_curve);
   f("limited_volume_changes", ledger.limited_volume_changes);
+  f("limited_domains", ledger.limited_domains);
 }
 
 /// Replaces every number by its sum over all ranks. Collective.

@@ -7,6 +7,7 @@ namespace whipple::solver {
 
 void step_symplectic(Simulation& s, double until) {
   s.begin_step(until);        // (6.1) dt from c, |v|, |a|
+  s.split_particles();        // (2.5)-(2.7) if asked for
   s.bin_particles();          // blocks follow the matter
   s.map_particles_to_grid();  // (3.1)-(3.3) m, (mv)^n, f^n on nodes
   s.advance_grid();           // (3.4)-(3.5) v^{n+1} = v^n + dt f^n / m
@@ -16,12 +17,41 @@ void step_symplectic(Simulation& s, double until) {
   s.end_step();                                                   // ledger of energy and momentum
 }
 
-void step_musl(Simulation& s, double until) {
+void step_usf(Simulation& s, double until) {
   s.begin_step(until);  // (6.1)
+  s.split_particles();
+  s.bin_particles();
+  s.map_momentum_to_grid();                                            // (5.5) v^n on nodes
+  s.gather_velocity_gradient();                                        // (5.6) grad v^n
+  s.update_material(Simulation::EnergyUpdate::by_constitutive_model);  // stress and e from grad v^n
+  s.map_particles_to_grid();                                           // (3.1)-(3.3) with the new stress
+  s.advance_grid();                                                    // (3.4), (5.9)
+  s.update_particle_velocity(Simulation::GridGradient::unused);        // (5.1)-(5.2)
+  s.move_particles();                                                  // (5.2) x^{n+1}
+  s.reflect_and_remove();
+  s.end_step();
+}
+
+void step_usl(Simulation& s, double until) {
+  s.begin_step(until);  // (6.1)
+  s.split_particles();
   s.bin_particles();
   s.map_particles_to_grid();                                           // (3.1)-(3.3)
-  s.advance_grid();                                                    // (3.4)-(3.5)
-  s.increment_particle_velocity();                                     // (5.1)-(5.2) v^{n+1}, displacement
+  s.advance_grid();                                                    // (3.4), (5.9)
+  s.update_particle_velocity(Simulation::GridGradient::to_particles);  // (5.1)-(5.2), (5.7) grad v^{n+1}
+  s.update_material(Simulation::EnergyUpdate::by_constitutive_model);  // stress and e at n+1
+  s.move_particles();                                                  // (5.2) x^{n+1}
+  s.reflect_and_remove();
+  s.end_step();
+}
+
+void step_musl(Simulation& s, double until) {
+  s.begin_step(until);  // (6.1)
+  s.split_particles();
+  s.bin_particles();
+  s.map_particles_to_grid();                                           // (3.1)-(3.3)
+  s.advance_grid();                                                    // (3.4), (5.9)
+  s.update_particle_velocity(Simulation::GridGradient::unused);        // (5.1)-(5.2) v^{n+1}, displacement
   s.map_momentum_to_grid();                                            // (5.3) grid velocity from the new v
   s.gather_velocity_gradient();                                        // (5.4) at the old positions
   s.update_material(Simulation::EnergyUpdate::by_constitutive_model);  // stress and e at n+1

@@ -20,11 +20,16 @@ namespace {
 constexpr std::int64_t sort_every = 20;  // steps between sorts of the particle arrays
 constexpr double lookahead_steps = 8.0;  // motion that the active blocks foresee
 
-bool affine(const setup::Case& setup) { return setup.transfer.particle_update != "flip"; }
+bool affine(const setup::Case& setup) {
+  return setup.transfer.particle_update == "relaxed_affine" || setup.transfer.particle_update == "apic";
+}
 
+/// beta of every particle update; FMPM is PIC with another grid velocity.
 transfer::Relaxation relaxation(const setup::TransferControl& control) {
-  if (control.particle_update == "apic") return {.kappa = 0.0, .fixed = 1.0};
-  if (control.particle_update == "flip") return {.kappa = 0.0, .fixed = 0.0};
+  const std::string& update = control.particle_update;
+  if (update == "apic" || update == "pic" || update == "fmpm") return {.kappa = 0.0, .fixed = 1.0};
+  if (update == "flip") return {.kappa = 0.0, .fixed = 0.0};
+  if (update == "blend") return {.kappa = 0.0, .fixed = 1.0 - control.flip_fraction};
   return {.kappa = control.kappa, .fixed = -1.0};
 }
 
@@ -40,7 +45,10 @@ void find_bodies(const Particles& particles, std::vector<setup::BodySummary>& bo
 }  // namespace
 
 Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
-    : setup_(setup), communicator_(communicator), grid_(setup.geometry, communicator) {
+    : setup_(setup),
+      shape_(transfer::shape_function(setup.transfer.shape_function)),
+      communicator_(communicator),
+      grid_(setup.geometry, communicator) {
   setup::Seeding seeding = setup::seed(setup, parallel::rank(communicator), parallel::size(communicator));
   particles_ = std::move(seeding.particles);
   bodies_ = std::move(seeding.bodies);
@@ -53,6 +61,7 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
 Simulation::Simulation(const setup::Case& setup, Particles particles, const RunState& state,
                        MPI_Comm communicator)
     : setup_(setup),
+      shape_(transfer::shape_function(setup.transfer.shape_function)),
       communicator_(communicator),
       particles_(std::move(particles)),
       bodies_(setup.bodies.size()),
@@ -66,7 +75,7 @@ Simulation::Simulation(const setup::Case& setup, Particles particles, const RunS
 
 /// Totals of all ranks, and what the step did to them.
 void Simulation::sum_over_ranks() {
-  totals_ = totals_of(particles_, setup_.domain.cell_size);
+  totals_ = totals_of(particles_, affine_inertia());
   auto count = static_cast<double>(particles_.size());
   solver::sum_over_ranks(communicator_, totals_, step_);
   parallel::sum(communicator_, std::span(&count, 1));
@@ -75,15 +84,17 @@ void Simulation::sum_over_ranks() {
   step_ = {};
 }
 
-template <class Function>
-decltype(auto) Simulation::with_shape(Function&& f) {
-  if (setup_.transfer.shape_function == transfer::Linear::name) return f(transfer::Linear{});
-  return f(transfer::QuadraticBSpline{});
+double Simulation::affine_inertia() const {
+  return transfer::affine_inertia(shape_, setup_.domain.cell_size);
 }
 
 void Simulation::advance(double until) {
   if (setup_.time.scheme == "musl") {
     step_musl(*this, until);
+  } else if (setup_.time.scheme == "usl") {
+    step_usl(*this, until);
+  } else if (setup_.time.scheme == "usf") {
+    step_usf(*this, until);
   } else {
     step_symplectic(*this, until);
   }
@@ -123,14 +134,22 @@ void Simulation::begin_step(double until) {
 
 void Simulation::bin_particles() {
   profile_.time("bin particles", [&] {
-    with_shape([&]<class Shape>(Shape) {
-      const double lookahead = lookahead_steps * state_.time_step;
-      if (!grid_.bin(particles_.position, Shape::stencil)) follow_particles(lookahead, Shape::stencil);
-      if (state_.step % sort_every == 0) {
-        sort_particles();
-        if (!grid_.bin(particles_.position, Shape::stencil)) follow_particles(lookahead, Shape::stencil);
-      }
-    });
+    if (setup_.transfer.random_shift) shift_grid();
+    const double lookahead = lookahead_steps * state_.time_step;
+    const grid::Stencil stencil = transfer::stencil(shape_);
+    if (!grid_.bin(particles_.position, stencil)) follow_particles(lookahead, stencil);
+    if (state_.step % sort_every == 0) {
+      sort_particles();
+      if (!grid_.bin(particles_.position, stencil)) follow_particles(lookahead, stencil);
+    }
+    if (setup_.transfer.free_flight) find_free_flight();
+    external_acceleration_.clear();
+    if (!acceleration_) return;
+    external_acceleration_.resize(particles_.size());
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+      external_acceleration_[p] = acceleration_(particles_, p, state_.time);
+      step_.external_impulse += particles_.mass[p] * state_.time_step * external_acceleration_[p];
+    }
   });
 }
 
@@ -158,10 +177,17 @@ void Simulation::sort_particles() {
   grid_.particles_reordered();
 }
 
+/// After particles came, went or changed their places.
+void Simulation::particles_reallocated() {
+  sort_by_body(particles_);
+  velocity_gradient_.resize(particles_.size());
+  find_bodies(particles_, bodies_);
+  grid_.particles_reordered();
+}
+
 void Simulation::map_particles_to_grid() {
-  profile_.time("particles to grid", [&] {
-    with_shape([&]<class Shape>(Shape) { transfer::particles_to_grid<Shape>(particles_, grid_); });
-  });
+  profile_.time("particles to grid",
+                [&] { transfer::particles_to_grid(shape_, particles_, grid_, external_acceleration_); });
 }
 
 void Simulation::advance_grid() {
@@ -171,44 +197,58 @@ void Simulation::advance_grid() {
     step_.wall_impulse += balance.wall_impulse;
     former_velocity_ = particles_.velocity;
   });
+  if (setup_.transfer.particle_update != "fmpm") return;
+  profile_.time("full mass matrix", [&] {
+    step_.wall_impulse += full_mass_matrix_.apply(shape_, particles_, grid_, grid_update_,
+                                                  static_cast<int>(setup_.transfer.fmpm_order));
+  });
 }
 
 void Simulation::map_grid_to_particles() {
   profile_.time("grid to particles", [&] {
-    with_shape([&]<class Shape>(Shape) {
-      const transfer::TransferBalance balance = transfer::grid_to_particles<Shape>(
-          particles_, grid_, state_.time_step, affine(setup_), velocity_gradient_);
-      step_.work += balance.work;
-      step_.transfer_heat += balance.heat;
-    });
+    const transfer::TransferBalance balance =
+        transfer::grid_to_particles(shape_, particles_, grid_, state_.time_step, affine(setup_),
+                                    velocity_gradient_, external_acceleration_);
+    step_.work += balance.work;
+    step_.transfer_heat += balance.heat;
+    step_.external_work += balance.external_work;
+    for (const std::uint32_t p : flying_) {
+      particles_.position[p] += state_.time_step * particles_.velocity[p];
+      velocity_gradient_[p].setZero();
+    }
   });
 }
 
-void Simulation::increment_particle_velocity() {
+void Simulation::update_particle_velocity(GridGradient gradient) {
   profile_.time("grid to particles", [&] {
     displacement_.resize(particles_.size());
-    with_shape([&]<class Shape>(Shape) {
-      transfer::increment_velocity<Shape>(particles_, grid_, state_.time_step, displacement_);
-    });
+    step_.external_work += transfer::update_velocity(
+        shape_, particles_, grid_, state_.time_step, relaxation(setup_.transfer).fixed, displacement_,
+        gradient == GridGradient::to_particles ? std::span(velocity_gradient_) : std::span<Matrix3>(),
+        external_acceleration_);
+    for (const std::uint32_t p : flying_) {
+      displacement_[p] = state_.time_step * particles_.velocity[p];
+      velocity_gradient_[p].setZero();
+    }
   });
 }
 
 void Simulation::map_momentum_to_grid() {
   profile_.time("momentum to grid", [&] {
-    with_shape([&]<class Shape>(Shape) { transfer::momentum_to_grid<Shape>(particles_, grid_); });
+    transfer::momentum_to_grid(shape_, particles_, particles_.velocity, grid_);
     grid_update_.velocity_from_momentum(grid_);
   });
 }
 
 void Simulation::gather_velocity_gradient() {
   profile_.time("velocity gradient", [&] {
-    with_shape([&]<class Shape>(Shape) {
-      transfer::gather_velocity_gradient<Shape>(particles_, grid_, velocity_gradient_);
-    });
+    transfer::gather_velocity_gradient(shape_, particles_, grid_, velocity_gradient_);
+    for (const std::uint32_t p : flying_) velocity_gradient_[p].setZero();
   });
 }
 
 void Simulation::update_material(EnergyUpdate energy) {
+  if (follows_domains()) deform_domains();
   profile_.time("material", [&] {
     const UpdateSettings settings{.time_step = state_.time_step,
                                   .cell_size = setup_.domain.cell_size,
@@ -250,60 +290,6 @@ void Simulation::update_material(EnergyUpdate energy) {
 void Simulation::move_particles() {
   profile_.time("move", [&] {
     parallel::for_each(particles_.size(), [&](std::size_t p) { particles_.position[p] += displacement_[p]; });
-  });
-}
-
-void Simulation::reflect_and_remove() {
-  profile_.time("boundaries", [&] {
-    const grid::Geometry& g = setup_.geometry;
-    std::vector<std::uint32_t> leaving;
-    for (std::size_t p = 0; p < particles_.size(); ++p) {
-      bool leaves = false;
-      for (int a = 0; a < 3; ++a) {
-        double& x = particles_.position[p][a];
-        if (x >= g.lower[a] && x <= g.upper(a)) continue;
-        const bool low = x < g.lower[a];
-        const grid::Boundary boundary = g.boundary[static_cast<std::size_t>(2 * a + (low ? 0 : 1))];
-        if (boundary == grid::Boundary::outflow) {
-          leaves = true;
-          continue;
-        }
-        // Interpolation gives no normal velocity at a mirror plane, so only the finite time step brings a
-        // particle across: it is put back as its own image.
-        x = 2.0 * (low ? g.lower[a] : g.upper(a)) - x;
-        Matrix3 mirror = Matrix3::Identity();
-        mirror(a, a) = -1.0;
-        // At a no-slip wall all components of the image's velocity are reversed, its place along one axis
-        // only.
-        const Matrix3 image = boundary == grid::Boundary::no_slip ? Matrix3(-Matrix3::Identity()) : mirror;
-        const Vector3 velocity = image * particles_.velocity[p];
-        step_.wall_impulse += particles_.mass[p] * (velocity - particles_.velocity[p]);
-        particles_.velocity[p] = velocity;
-        particles_.affine_velocity[p] = image * particles_.affine_velocity[p] * mirror;
-        for (auto* tensors : {&particles_.deviatoric_stress, &particles_.back_stress, &particles_.strain}) {
-          if (tensors->empty()) continue;  // optional, not in use
-          (*tensors)[p] = SymmetricTensor::from(mirror * (*tensors)[p].matrix() * mirror);
-        }
-      }
-      if (leaves) leaving.push_back(static_cast<std::uint32_t>(p));
-    }
-    if (leaving.empty()) return;
-    std::vector<std::uint32_t> staying;
-    staying.reserve(particles_.size() - leaving.size());
-    auto next = leaving.begin();
-    for (std::uint32_t p = 0; p < particles_.size(); ++p) {
-      if (next != leaving.end() && *next == p) {
-        step_.outflow += totals_of(particles_, p, setup_.domain.cell_size);
-        ++next;
-      } else {
-        staying.push_back(p);
-      }
-    }
-    for (std::size_t i = 0; i < staying.size(); ++i) former_velocity_[i] = former_velocity_[staying[i]];
-    reorder(particles_, staying);
-    velocity_gradient_.resize(particles_.size());
-    find_bodies(particles_, bodies_);
-    grid_.particles_reordered();
   });
 }
 

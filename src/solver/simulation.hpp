@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -13,7 +14,9 @@
 #include "src/setup/seeding.hpp"
 #include "src/solver/ledger.hpp"
 #include "src/solver/profile.hpp"
+#include "src/transfer/full_mass_matrix.hpp"
 #include "src/transfer/grid_update.hpp"
+#include "src/transfer/shape_function.hpp"
 
 namespace whipple::solver {
 
@@ -43,6 +46,11 @@ class Simulation {
   ///         energy error exceeds the case's limit
   void advance(double until);
 
+  /// An acceleration by external forces (m/s^2), asked for every particle at the beginning of each step: its
+  /// index in `particles()`, and the time. For manufactured solutions.
+  using Acceleration = std::function<Vector3(const Particles& particles, std::size_t p, double time)>;
+  void set_external_acceleration(Acceleration acceleration) { acceleration_ = std::move(acceleration); }
+
   [[nodiscard]] const setup::Case& setup() const { return setup_; }
   /// The particles of this rank.
   [[nodiscard]] const Particles& particles() const { return particles_; }
@@ -61,19 +69,20 @@ class Simulation {
 
  private:
   friend void step_symplectic(Simulation& s, double until);
+  friend void step_usf(Simulation& s, double until);
+  friend void step_usl(Simulation& s, double until);
   friend void step_musl(Simulation& s, double until);
-
-  template <class Function>
-  decltype(auto) with_shape(Function&& f);
 
   // The calls of the schemes, in the order of the step.
   [[nodiscard]] double stable_time_step() const;
   void begin_step(double until);
+  void split_particles();
   void bin_particles();
   void map_particles_to_grid();
   void advance_grid();
   void map_grid_to_particles();
-  void increment_particle_velocity();
+  enum class GridGradient { unused, to_particles };
+  void update_particle_velocity(GridGradient gradient);
   void map_momentum_to_grid();
   void gather_velocity_gradient();
   enum class EnergyUpdate { by_work_identity, by_constitutive_model };
@@ -85,14 +94,22 @@ class Simulation {
   void sum_over_ranks();
   void follow_particles(double lookahead, grid::Stencil stencil);
   void sort_particles();
+  void particles_reallocated();
+  void deform_domains();
+  [[nodiscard]] bool follows_domains() const;
+  void shift_grid();
+  void find_free_flight();
+  [[nodiscard]] double affine_inertia() const;
   [[nodiscard]] std::string describe_state(std::size_t particle, const std::string& reason) const;
 
   setup::Case setup_;
+  transfer::ShapeFunction shape_;
   MPI_Comm communicator_;
   Particles particles_;
   std::vector<setup::BodySummary> bodies_;
   grid::BlockGrid grid_;
   transfer::GridUpdate grid_update_;
+  transfer::FullMassMatrix full_mass_matrix_;
   RunState state_;
   Ledger step_;  // what happened on this rank in the step under way
   Totals totals_;
@@ -101,10 +118,18 @@ class Simulation {
   std::vector<Matrix3> velocity_gradient_;
   std::vector<Vector3> displacement_;
   std::vector<Vector3> former_velocity_;
+  Acceleration acceleration_;
+  std::vector<Vector3> external_acceleration_;  // of this step; empty without external forces
+  std::vector<std::uint32_t> flying_;           // particles that fly without the grid in this step
 };
 
 /// Symplectic scheme with exact energy (docs/theory/mpm.md, section 4).
 void step_symplectic(Simulation& s, double until);
+/// Update stress first (Bardenhagen, J. Comput. Phys. 180 (2002) 383; docs/theory/mpm.md, 5).
+void step_usf(Simulation& s, double until);
+/// Update stress last (Sulsky, Chen & Schreyer, Comput. Methods Appl. Mech. Eng. 118 (1994) 179;
+/// docs/theory/mpm.md, 5).
+void step_usl(Simulation& s, double until);
 /// Modified update stress last (Sulsky, Zhou & Schreyer, Comput. Phys. Commun. 87 (1995) 236;
 /// docs/theory/mpm.md, 5).
 void step_musl(Simulation& s, double until);

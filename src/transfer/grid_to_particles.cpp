@@ -104,20 +104,24 @@ double advect_affine_field(Matrix3& c, const Matrix3& gradient, double dt) {
   return before - cap * cap * after;
 }
 
+/// Work of an external force m b on the mean of the grid velocities before and after the forces.
+double external_work(const Moments& m, double mass, const Vector3& b, double dt) {
+  return mass * dt * b.dot(vector(m.velocity + 0.5 * m.increment));
+}
+
 template <class Shape, bool affine, class Access>
 TransferBalance update_particle(Particles& particles, std::size_t p, const grid::Geometry& geometry,
                                 const grid::BlockCoordinate& block, double dt, Matrix3& gradient,
-                                Access& access) {
-  const double dx = geometry.cell_size;
-  const double inertia = 0.25 * dx * dx;  // sum N r r^T of quadratic B-splines
+                                Access& access, std::span<const Vector3> acceleration) {
   Matrix3& c = particles.affine_velocity[p];
   std::array<Lanes, 3> columns{};
+  [[maybe_unused]] double inertia = 0.0;  // sum N r r^T along one direction
   if constexpr (affine) {
+    inertia = Shape::second_moment * geometry.cell_size * geometry.cell_size;
     for (int a = 0; a < 3; ++a) columns[static_cast<std::size_t>(a)] = lanes(c.col(a));
   }
-  const Moments m =
-      gather<Shape, affine>(weights_at<Shape>(local_position(particles.position[p], geometry, block), dx),
-                            lanes(particles.velocity[p]), columns, access);
+  const Moments m = gather<Shape, affine>(weights_at<Shape>(particles, p, geometry, block),
+                                          lanes(particles.velocity[p]), columns, access);
 
   // Velocity and affine field (4.3), heat of the transfer (4.5).
   particles.velocity[p] += vector(m.increment - m.relaxed);
@@ -146,7 +150,9 @@ TransferBalance update_particle(Particles& particles, std::size_t p, const grid:
   const double work = power * particles.volume[p] * dt;
   particles.specific_internal_energy[p] += work / mass + heat;
   particles.position[p] += dt * vector(m.velocity + m.increment);
-  return {work, mass * heat};
+  TransferBalance balance{.work = work, .heat = mass * heat};
+  if (!acceleration.empty()) balance.external_work = external_work(m, mass, acceleration[p], dt);
+  return balance;
 }
 
 /// Calls f(particle, block coordinate, access to the nodes) for every particle, block by block.
@@ -169,62 +175,98 @@ void for_each_particle(BlockGrid& grid, Function&& f) {
 
 template <class Shape, bool affine>
 TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
-                           std::span<Matrix3> velocity_gradient) {
+                           std::span<Matrix3> velocity_gradient, std::span<const Vector3> acceleration) {
   std::vector<TransferBalance> of_slot(grid.slots());
-  for_each_particle(grid,
-                    [&](std::size_t p, std::size_t slot, const grid::BlockCoordinate& block, auto& access) {
-                      of_slot[slot] += update_particle<Shape, affine>(particles, p, grid.geometry(), block,
-                                                                      dt, velocity_gradient[p], access);
-                    });
+  for_each_particle(
+      grid, [&](std::size_t p, std::size_t slot, const grid::BlockCoordinate& block, auto& access) {
+        of_slot[slot] += update_particle<Shape, affine>(particles, p, grid.geometry(), block, dt,
+                                                        velocity_gradient[p], access, acceleration);
+      });
   TransferBalance total;
   for (const TransferBalance& part : of_slot) total += part;
   return total;
 }
 
+template <class Shape, bool with_gradient>
+double update_velocities(Particles& particles, BlockGrid& grid, double dt, double relaxation,
+                         std::span<Vector3> displacement, std::span<Matrix3> velocity_gradient,
+                         std::span<const Vector3> acceleration) {
+  std::vector<double> work_of_slot(grid.slots(), 0.0);
+  for_each_particle(
+      grid, [&](std::size_t p, std::size_t slot, const grid::BlockCoordinate& block, auto& access) {
+        const Moments m = gather<Shape, false>(weights_at<Shape>(particles, p, grid.geometry(), block),
+                                               lanes(particles.velocity[p]), {}, access);
+        Vector3& v = particles.velocity[p];
+        v += vector(m.increment) - relaxation * (v - vector(m.velocity));
+        displacement[p] = dt * vector(m.velocity + m.increment);
+        if constexpr (with_gradient) {
+          for (std::size_t a = 0; a < 3; ++a) {
+            velocity_gradient[p].col(static_cast<int>(a)) =
+                vector(m.velocity_gradient[a] + m.increment_gradient[a]);
+          }
+        }
+        if (!acceleration.empty()) {
+          work_of_slot[slot] += external_work(m, particles.mass[p], acceleration[p], dt);
+        }
+      });
+  double work = 0.0;
+  for (const double part : work_of_slot) work += part;
+  return work;
+}
+
 }  // namespace
 
-template <class Shape>
-TransferBalance grid_to_particles(Particles& particles, BlockGrid& grid, double dt, bool affine,
-                                  std::span<Matrix3> velocity_gradient) {
-  if (!affine) return gather_all<Shape, false>(particles, grid, dt, velocity_gradient);
-  if constexpr (Shape::count == 3) {
-    return gather_all<Shape, true>(particles, grid, dt, velocity_gradient);
-  } else {
-    throw InternalError("the affine transfer needs quadratic B-splines");
-  }
-}
-
-template <class Shape>
-void increment_velocity(Particles& particles, BlockGrid& grid, double dt, std::span<Vector3> displacement) {
-  for_each_particle(grid, [&](std::size_t p, std::size_t, const grid::BlockCoordinate& block, auto& access) {
-    const grid::Geometry& geometry = grid.geometry();
-    const Moments m = gather<Shape, false>(
-        weights_at<Shape>(local_position(particles.position[p], geometry, block), geometry.cell_size),
-        lanes(particles.velocity[p]), {}, access);
-    particles.velocity[p] += vector(m.increment);
-    displacement[p] = dt * vector(m.velocity + m.increment);
+TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, BlockGrid& grid, double dt,
+                                  bool affine, std::span<Matrix3> velocity_gradient,
+                                  std::span<const Vector3> acceleration) {
+  return with_shape(shape, [&]<class Shape>(Shape) {
+    if (!affine) return gather_all<Shape, false>(particles, grid, dt, velocity_gradient, acceleration);
+    if constexpr (CarriesAffineField<Shape>) {
+      return gather_all<Shape, true>(particles, grid, dt, velocity_gradient, acceleration);
+    } else {
+      throw InternalError("the affine transfer needs B-splines");
+      return TransferBalance{};  // the other branch deduces the type
+    }
   });
 }
 
-template <class Shape>
-void gather_velocity_gradient(const Particles& particles, BlockGrid& grid,
+double update_velocity(ShapeFunction shape, Particles& particles, BlockGrid& grid, double dt,
+                       double relaxation, std::span<Vector3> displacement,
+                       std::span<Matrix3> velocity_gradient, std::span<const Vector3> acceleration) {
+  return with_shape(shape, [&]<class Shape>(Shape) {
+    if (velocity_gradient.empty()) {
+      return update_velocities<Shape, false>(particles, grid, dt, relaxation, displacement, velocity_gradient,
+                                             acceleration);
+    }
+    return update_velocities<Shape, true>(particles, grid, dt, relaxation, displacement, velocity_gradient,
+                                          acceleration);
+  });
+}
+
+void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                               std::span<Matrix3> velocity_gradient) {
-  for_each_particle(grid, [&](std::size_t p, std::size_t, const grid::BlockCoordinate& block, auto& access) {
-    const grid::Geometry& geometry = grid.geometry();
-    const Moments m = gather<Shape, false>(
-        weights_at<Shape>(local_position(particles.position[p], geometry, block), geometry.cell_size),
-        lanes(particles.velocity[p]), {}, access);
-    for (int a = 0; a < 3; ++a)
-      velocity_gradient[p].col(a) = vector(m.velocity_gradient[static_cast<std::size_t>(a)]);
+  with_shape(shape, [&]<class Shape>(Shape) {
+    for_each_particle(
+        grid, [&](std::size_t p, std::size_t, const grid::BlockCoordinate& block, auto& access) {
+          const Moments m = gather<Shape, false>(weights_at<Shape>(particles, p, grid.geometry(), block),
+                                                 lanes(particles.velocity[p]), {}, access);
+          for (std::size_t a = 0; a < 3; ++a) {
+            velocity_gradient[p].col(static_cast<int>(a)) = vector(m.velocity_gradient[a]);
+          }
+        });
   });
 }
 
-template TransferBalance grid_to_particles<Linear>(Particles&, BlockGrid&, double, bool, std::span<Matrix3>);
-template TransferBalance grid_to_particles<QuadraticBSpline>(Particles&, BlockGrid&, double, bool,
-                                                             std::span<Matrix3>);
-template void increment_velocity<Linear>(Particles&, BlockGrid&, double, std::span<Vector3>);
-template void increment_velocity<QuadraticBSpline>(Particles&, BlockGrid&, double, std::span<Vector3>);
-template void gather_velocity_gradient<Linear>(const Particles&, BlockGrid&, std::span<Matrix3>);
-template void gather_velocity_gradient<QuadraticBSpline>(const Particles&, BlockGrid&, std::span<Matrix3>);
+void gather_velocity(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
+                     std::span<Vector3> velocity) {
+  with_shape(shape, [&]<class Shape>(Shape) {
+    for_each_particle(
+        grid, [&](std::size_t p, std::size_t, const grid::BlockCoordinate& block, auto& access) {
+          velocity[p] = vector(gather<Shape, false>(weights_at<Shape>(particles, p, grid.geometry(), block),
+                                                    Lanes{}, {}, access)
+                                   .velocity);
+        });
+  });
+}
 
 }  // namespace whipple::transfer

@@ -9,13 +9,15 @@
 
 namespace whipple::transfer {
 
-/// Sums over the particles of one transfer (J).
+/// Sums over the particles of one transfer.
 struct TransferBalance {
-  double work = 0.0;  ///< of the stress on the strain of the mean grid velocity: internal energy gained
-  double heat = 0.0;  ///< kinetic energy lost in the transfer and returned as heat, >= 0
+  double work = 0.0;           ///< J, of the stress on the strain of the mean grid velocity
+  double heat = 0.0;           ///< J, kinetic energy lost in the transfer and returned as heat, >= 0
+  double external_work = 0.0;  ///< J, of the external acceleration, on the mean grid velocity
   TransferBalance& operator+=(const TransferBalance& other) {
     work += other.work;
     heat += other.heat;
+    external_work += other.external_work;
     return *this;
   }
 };
@@ -24,20 +26,28 @@ struct TransferBalance {
 /// relaxed affine transfer, internal energy by the exact work identity plus the heat of the transfer,
 /// position with the grid's velocity, and the velocity gradient of the advanced grid for the constitutive
 /// update.
-/// @param affine            carry the affine field (quadratic B-splines only); false: FLIP
+/// @param affine            carry the affine field (B-splines only); false: FLIP, PIC and their blends
 /// @param velocity_gradient out, one per particle, 1/s: L(i, j) = dv_i/dx_j
-template <class Shape>
-TransferBalance grid_to_particles(Particles& particles, grid::BlockGrid& grid, double dt, bool affine,
-                                  std::span<Matrix3> velocity_gradient);
+/// @param acceleration      by external forces, as given to `particles_to_grid`
+TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid, double dt,
+                                  bool affine, std::span<Matrix3> velocity_gradient,
+                                  std::span<const Vector3> acceleration = {});
 
-/// First gather of MUSL: FLIP increment of the velocity, and the displacement of the step (not yet applied).
-template <class Shape>
-void increment_velocity(Particles& particles, grid::BlockGrid& grid, double dt,
-                        std::span<Vector3> displacement);
+/// Gather of the schemes without exact energy (equations 5.1, 5.2): velocity, and the displacement of the
+/// step (not yet applied).
+/// @param relaxation         towards the grid's velocity: 0 FLIP, 1 PIC
+/// @param velocity_gradient  out: of the advanced grid velocity; empty if it is not wanted
+/// @returns the external work
+double update_velocity(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid, double dt,
+                       double relaxation, std::span<Vector3> displacement,
+                       std::span<Matrix3> velocity_gradient, std::span<const Vector3> acceleration = {});
 
 /// Velocity gradient of the nodes' velocities (Node::first).
-template <class Shape>
-void gather_velocity_gradient(const Particles& particles, grid::BlockGrid& grid,
+void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
                               std::span<Matrix3> velocity_gradient);
+
+/// The nodes' velocities (Node::first) at the particles.
+void gather_velocity(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
+                     std::span<Vector3> velocity);
 
 }  // namespace whipple::transfer

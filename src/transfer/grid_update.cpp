@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/transfer/grid_update.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -19,49 +20,41 @@ constexpr double no_mass = 1e-300;  // kg; below it momentum / mass may overflow
 Lanes reflection(const BlockGrid::MirrorPlane& plane, int first_lane) {
   Lanes sign = broadcast(1.0);
   for (int c = 0; c < 3; ++c) {
-    if (plane.no_slip || c == plane.axis) sign[first_lane + c] = -1.0;
+    if (plane.kind == grid::Boundary::no_slip || c == plane.axis) sign[first_lane + c] = -1.0;
   }
   return sign;
 }
 
+bool separates(const BlockGrid::MirrorPlane& plane) { return plane.kind == grid::Boundary::separating; }
+
 /// The image of a particle brings to node j what the particle brings to the mirror node of j, with the
 /// reflected vector. Real particles only were transferred, so what they brought beyond the plane is folded to
 /// the inside.
-void fold(BlockGrid& grid, bool with_forces) {
-  const std::span<Node> nodes = grid.all_nodes();
-  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
-    const Lanes sign = reflection(plane, 1);
-    parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
-      const auto [outside, image] = plane.pairs[i];
-      nodes[image].first += sign * nodes[outside].first;
-      if (with_forces) nodes[image].second += sign * nodes[outside].second;
-    });
-  }
-  // On a plane a vector is its own image: the reversed components vanish. Mass and force would double alike.
-  // After all folds, because between two planes one cell apart each folds onto the nodes of the other.
-  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
-    const Lanes sign = reflection(plane, 1);
-    parallel::for_each(plane.on_plane.size(), [&](std::size_t i) {
-      Node& node = nodes[plane.on_plane[i]];
-      const Lanes keep = 0.5 * (broadcast(1.0) + sign);
-      node.first *= keep;
-      if (with_forces) node.second *= keep;
-    });
-  }
+void fold(std::span<Node> nodes, const BlockGrid::MirrorPlane& plane, bool with_forces) {
+  const Lanes sign = reflection(plane, 1);
+  parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
+    const BlockGrid::MirrorPair& pair = plane.pairs[i];
+    nodes[pair.image].first += sign * nodes[pair.outside].first;
+    if (with_forces) nodes[pair.image].second += sign * nodes[pair.outside].second;
+  });
 }
 
-/// Velocities beyond the planes are the reflected ones; reverse order, so that corners come out right.
-void copy_back(BlockGrid& grid) {
-  const std::span<Node> nodes = grid.all_nodes();
-  const auto planes = grid.mirror_planes();
-  for (std::size_t n = planes.size(); n-- > 0;) {
-    const Lanes sign = reflection(planes[n], 0);
-    parallel::for_each(planes[n].pairs.size(), [&](std::size_t i) {
-      const auto [outside, image] = planes[n].pairs[i];
-      nodes[outside].first = sign * nodes[image].first;
-      nodes[outside].second = sign * nodes[image].second;
-    });
+/// On a plane a vector is its own image: the reversed components vanish. Mass and force would double alike.
+void restrict_to_plane(Node& node, Lanes sign, bool with_forces) {
+  const Lanes keep = 0.5 * (broadcast(1.0) + sign);
+  node.first *= keep;
+  if (with_forces) node.second *= keep;
+}
+
+/// Did a node take exactly this step from what one rank's particles brought?
+bool is_result_of(const Node& node, const Node& brought, double dt) {
+  const double mass = brought.first[0];
+  if (node.second[3] != mass) return false;
+  const Lanes velocity = brought.first / mass, increment = brought.second * (dt / mass);
+  for (int c = 0; c < 3; ++c) {
+    if (velocity[c + 1] != node.first[c] || increment[c + 1] != node.second[c]) return false;
   }
+  return true;
 }
 
 struct Energies {
@@ -93,13 +86,102 @@ void GridUpdate::remember_nodes_at_planes(const BlockGrid& grid) {
   }
 }
 
+/// Where a separating wall is in contact: the matter on the node of the plane would move into it. All ranks
+/// that hold the node decide alike, by the sums of all.
+void GridUpdate::find_contact(BlockGrid& grid, double dt) {
+  const std::span<Node> nodes = grid.all_nodes();
+  std::vector<Node> own;  // this rank's part, which the exchange replaces
+  if (grid.is_shared()) {
+    own.assign(nodes.begin(), nodes.end());
+    grid.sum_to_owners(BlockGrid::Part::both);
+    grid.borrow_from_owners(BlockGrid::Part::both);
+  }
+  in_contact_.assign(nodes.size(), 0);
+  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+    if (!separates(plane)) continue;
+    const double inward = plane.face % 2 == 0 ? 1.0 : -1.0;
+    parallel::for_each(plane.on_plane.size(), [&](std::size_t i) {
+      const Node& node = nodes[plane.on_plane[i]];
+      const int lane = plane.axis + 1;
+      const double momentum = inward * (node.first[lane] + dt * node.second[lane]);
+      if (node.first[0] >= no_mass && momentum <= 0.0) {
+        in_contact_[plane.on_plane[i]] |= static_cast<std::uint8_t>(1U << plane.axis);
+      }
+    });
+  }
+  if (!own.empty()) std::ranges::copy(own, nodes.begin());
+}
+
+bool GridUpdate::touches(const BlockGrid::MirrorPlane& plane, std::uint32_t node) const {
+  return node != BlockGrid::no_node && (in_contact_[node] >> plane.axis & 1U) != 0;
+}
+
+/// Folds every plane and restricts the nodes on it; separating walls where they are in contact.
+void GridUpdate::fold_planes(BlockGrid& grid, bool with_forces, double dt_for_contact) {
+  const std::span<Node> nodes = grid.all_nodes();
+  bool any_separating = false;
+  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+    if (separates(plane)) {
+      any_separating = true;
+    } else {
+      fold(nodes, plane, with_forces);
+    }
+  }
+  if (any_separating) {
+    if (with_forces) find_contact(grid, dt_for_contact);
+    for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+      if (separates(plane)) fold_where_in_contact(nodes, plane, with_forces);
+    }
+  }
+  // After all folds, because between two planes one cell apart each folds onto the nodes of the other.
+  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+    const Lanes sign = reflection(plane, 1);
+    parallel::for_each(plane.on_plane.size(), [&](std::size_t i) {
+      const std::uint32_t node = plane.on_plane[i];
+      if (!separates(plane) || touches(plane, node)) restrict_to_plane(nodes[node], sign, with_forces);
+    });
+  }
+}
+
+/// Nodes beyond a wall that is not in contact go on as nodes of their own; beyond one in contact they are
+/// emptied.
+void GridUpdate::fold_where_in_contact(std::span<Node> nodes, const BlockGrid::MirrorPlane& plane,
+                                       bool with_forces) const {
+  const Lanes sign = reflection(plane, 1);
+  parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
+    const BlockGrid::MirrorPair& pair = plane.pairs[i];
+    if (!touches(plane, pair.foot)) return;
+    nodes[pair.image].first += sign * nodes[pair.outside].first;
+    nodes[pair.outside].first = broadcast(0.0);
+    if (!with_forces) return;
+    nodes[pair.image].second += sign * nodes[pair.outside].second;
+    nodes[pair.outside].second = broadcast(0.0);
+  });
+}
+
+/// Velocities beyond the planes are the reflected ones; reverse order, so that corners come out right.
+void GridUpdate::copy_back(BlockGrid& grid) const {
+  const std::span<Node> nodes = grid.all_nodes();
+  const auto planes = grid.mirror_planes();
+  for (std::size_t n = planes.size(); n-- > 0;) {
+    const BlockGrid::MirrorPlane& plane = planes[n];
+    const Lanes sign = reflection(plane, 0);
+    parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
+      const BlockGrid::MirrorPair& pair = plane.pairs[i];
+      if (separates(plane) && !touches(plane, pair.foot)) return;
+      nodes[pair.outside].first = sign * nodes[pair.image].first;
+      nodes[pair.outside].second = sign * nodes[pair.image].second;
+    });
+  }
+}
+
 GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& relaxation) {
   const std::span<Node> nodes = grid.all_nodes();
   remember_nodes_at_planes(grid);
   before_.resize(at_planes_.size());
   parallel::for_each(at_planes_.size(), [&](std::size_t i) { before_[i] = nodes[at_planes_[i]]; });
 
-  fold(grid, true);
+  fold_planes(grid, true, dt);
   grid.sum_to_owners(BlockGrid::Part::both);
   const double rate = relaxation.kappa * dt / grid.geometry().cell_size;
   std::vector<Energies> of_slot(grid.owned_slots());
@@ -137,7 +219,8 @@ GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& re
     const Node& node = nodes[at_planes_[i]];
     const double mass = real.first[0];
     // A node that received nothing in the fold is not changed by the planes: only its round-off would count.
-    if (may_be_unchanged_[i] != 0 && node.second[3] == mass) continue;
+    // (What arrives may be a force without any mass to speak of, at the edge of a kernel.)
+    if (may_be_unchanged_[i] != 0 && is_result_of(node, real, dt)) continue;
     const Lanes momentum = {real.first[1], real.first[2], real.first[3], 0.0};
     const Lanes force = {real.second[1], real.second[2], real.second[3], 0.0};
     impulse += mass * node.second - dt * force - node.first[3] * (momentum - mass * node.first);
@@ -147,7 +230,7 @@ GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& re
 
 void GridUpdate::velocity_from_momentum(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
-  fold(grid, false);
+  fold_planes(grid, false, 0.0);
   grid.sum_to_owners(BlockGrid::Part::first);
   parallel::for_each(grid.owned_slots() * grid::nodes_per_block, [&](std::size_t i) {
     Lanes& first = nodes[i].first;

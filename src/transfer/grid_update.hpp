@@ -26,7 +26,7 @@ struct GridBalance {
       Vector3::Zero();  ///< N s, from mirror planes and walls on the particles in this step
 };
 
-/// Mirror planes and the momentum equation on the nodes.
+/// Mirror planes, walls and the momentum equation on the nodes.
 class GridUpdate {
  public:
   /// Folds the nodes beyond the mirror planes onto their images, adds up the parts of all ranks, solves
@@ -34,18 +34,25 @@ class GridUpdate {
   /// changes from the first to the second form (see grid::Node).
   GridBalance advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation);
 
-  /// Second pass of MUSL: nodes hold mass and momentum of the updated particles in `first`; afterwards the
-  /// velocity. Collective.
+  /// Velocity of mass and momentum in `first`, in place (second pass of MUSL, full mass matrix). Separating
+  /// walls are in contact where the last `advance` found them to be. Collective.
   void velocity_from_momentum(grid::BlockGrid& grid);
 
  private:
+  void fold_planes(grid::BlockGrid& grid, bool with_forces, double dt_for_contact);
+  void fold_where_in_contact(std::span<grid::Node> nodes, const grid::BlockGrid::MirrorPlane& plane,
+                             bool with_forces) const;
+  void copy_back(grid::BlockGrid& grid) const;
+  void find_contact(grid::BlockGrid& grid, double dt);
+  [[nodiscard]] bool touches(const grid::BlockGrid::MirrorPlane& plane, std::uint32_t node) const;
   void remember_nodes_at_planes(const grid::BlockGrid& grid);
 
   std::vector<std::uint32_t> at_planes_;  // nodes that the planes may change, ascending
   std::vector<std::uint8_t>
       may_be_unchanged_;  // of each: it is only an image, which may have received nothing
   std::size_t at_planes_of_ = static_cast<std::size_t>(-1);  // adaptation that they belong to
-  std::vector<grid::Node> before_;  // their content before the fold: what the real particles brought
+  std::vector<std::uint8_t> in_contact_;  // of each node on separating walls: a bit per axis
+  std::vector<grid::Node> before_;        // their content before the fold: what the real particles brought
 };
 
 }  // namespace whipple::transfer

@@ -19,7 +19,7 @@ Lanes column(const Matrix3& m, int axis, double factor) {
 }
 
 /// The internal force on node i is -V sigma . grad N_i, sigma = s - (p + q) I.
-Payload payload(const Particles& particles, std::size_t p) {
+Payload payload(const Particles& particles, std::size_t p, std::span<const Vector3> acceleration) {
   const double m = particles.mass[p];
   const Vector3& v = particles.velocity[p];
   const Matrix3& c = particles.affine_velocity[p];
@@ -32,55 +32,93 @@ Payload payload(const Particles& particles, std::size_t p) {
   out.ay = column(c, 1, m);
   out.az = column(c, 2, m);
   out.b0 = Lanes{m * particles.sound_speed[p], 0.0, 0.0, 0.0};
+  if (!acceleration.empty()) {
+    const Vector3& b = acceleration[p];
+    out.b0 += Lanes{0.0, m * b[0], m * b[1], m * b[2]};
+  }
   out.bx = minus_volume * Lanes{0.0, s.xx + mean, s.xy, s.zx};
   out.by = minus_volume * Lanes{0.0, s.xy, s.yy + mean, s.yz};
   out.bz = minus_volume * Lanes{0.0, s.zx, s.yz, s.zz + mean};
   return out;
 }
 
-enum class Content { all, momentum };
+/// What the particles bring, as the kernel asks for it: everything, or mass and momentum with given
+/// velocities.
+struct Everything {
+  const Particles& particles;
+  std::span<const Vector3> acceleration;
+  [[nodiscard]] Payload operator()(std::size_t p) const { return payload(particles, p, acceleration); }
+};
+struct Momentum {
+  const Particles& particles;
+  std::span<const Vector3> velocity;
+  [[nodiscard]] Lanes operator()(std::size_t p) const {
+    const Vector3 momentum = particles.mass[p] * velocity[p];
+    return Lanes{particles.mass[p], momentum[0], momentum[1], momentum[2]};
+  }
+};
 
-template <class Shape, Content content, class Access>
-void scatter(const Particles& particles, std::span<const std::uint32_t> members,
+template <class Shape, class Access>
+void scatter(const Everything& content, std::span<const std::uint32_t> members,
              const grid::Geometry& geometry, const grid::BlockCoordinate& block, Access& access) {
   constexpr int count = Shape::count;
   for (const std::uint32_t p : members) {
-    const auto [wx, wy, wz] =
-        weights_at<Shape>(local_position(particles.position[p], geometry, block), geometry.cell_size);
-    const Payload load = payload(particles, p);
+    const auto [wx, wy, wz] = weights_at<Shape>(content.particles, p, geometry, block);
+    const Payload load = content(p);
     for (std::size_t i = 0; i < count; ++i) {
       const Lanes a_x = load.a0 + wx.distance[i] * load.ax;
       for (std::size_t j = 0; j < count; ++j) {
         const double w = wx.weight[i] * wy.weight[j];
         const Lanes a = w * (a_x + wy.distance[j] * load.ay);
         const Lanes a_z = w * load.az;
-        [[maybe_unused]] const Lanes b = w * load.b0 + (wx.derivative[i] * wy.weight[j]) * load.bx +
-                                         (wx.weight[i] * wy.derivative[j]) * load.by;
-        [[maybe_unused]] const Lanes b_z = w * load.bz;
+        const Lanes b = w * load.b0 + (wx.derivative[i] * wy.weight[j]) * load.bx +
+                        (wx.weight[i] * wy.derivative[j]) * load.by;
+        const Lanes b_z = w * load.bz;
         for (std::size_t k = 0; k < count; ++k) {
           grid::Node* node = access.node(wx.first + static_cast<int>(i), wy.first + static_cast<int>(j),
                                          wz.first + static_cast<int>(k));
           node->first += wz.weight[k] * a + (wz.weight[k] * wz.distance[k]) * a_z;
-          if constexpr (content == Content::all) node->second += wz.weight[k] * b + wz.derivative[k] * b_z;
+          node->second += wz.weight[k] * b + wz.derivative[k] * b_z;
         }
       }
     }
   }
 }
 
-template <class Shape, Content content>
-void scatter_all(const Particles& particles, grid::BlockGrid& grid) {
+template <class Shape, class Access>
+void scatter(const Momentum& content, std::span<const std::uint32_t> members, const grid::Geometry& geometry,
+             const grid::BlockCoordinate& block, Access& access) {
+  constexpr int count = Shape::count;
+  for (const std::uint32_t p : members) {
+    const auto [wx, wy, wz] = weights_at<Shape>(content.particles, p, geometry, block);
+    const Lanes load = content(p);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < count; ++j) {
+        const Lanes a = (wx.weight[i] * wy.weight[j]) * load;
+        for (std::size_t k = 0; k < count; ++k) {
+          access
+              .node(wx.first + static_cast<int>(i), wy.first + static_cast<int>(j),
+                    wz.first + static_cast<int>(k))
+              ->first += wz.weight[k] * a;
+        }
+      }
+    }
+  }
+}
+
+template <class Shape, class Content>
+void scatter_all(const Content& content, grid::BlockGrid& grid) {
   for (const std::vector<std::uint32_t>& colour : grid.colours()) {
     parallel::for_each_uneven(colour.size(), [&](std::size_t i) {
       const std::size_t slot = colour[i];
       const std::span<const std::uint32_t> members = grid.particles_in(slot);
       if (members.size() < direct_access_below) {
         DirectAccess access(grid, slot);
-        scatter<Shape, content>(particles, members, grid.geometry(), grid.coordinate(slot), access);
+        scatter<Shape>(content, members, grid.geometry(), grid.coordinate(slot), access);
       } else {
         ReachCopy copy;
         copy.clear();
-        scatter<Shape, content>(particles, members, grid.geometry(), grid.coordinate(slot), copy);
+        scatter<Shape>(content, members, grid.geometry(), grid.coordinate(slot), copy);
         copy.add_to(grid, slot);
       }
     });
@@ -89,22 +127,18 @@ void scatter_all(const Particles& particles, grid::BlockGrid& grid) {
 
 }  // namespace
 
-template <class Shape>
-void particles_to_grid(const Particles& particles, grid::BlockGrid& grid) {
+void particles_to_grid(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
+                       std::span<const Vector3> acceleration) {
   grid.clear();
-  scatter_all<Shape, Content::all>(particles, grid);
+  with_shape(shape,
+             [&]<class Shape>(Shape) { scatter_all<Shape>(Everything{particles, acceleration}, grid); });
 }
 
-template <class Shape>
-void momentum_to_grid(const Particles& particles, grid::BlockGrid& grid) {
+void momentum_to_grid(ShapeFunction shape, const Particles& particles, std::span<const Vector3> velocity,
+                      grid::BlockGrid& grid) {
   const std::span<grid::Node> nodes = grid.all_nodes();
   parallel::for_each(nodes.size(), [&](std::size_t i) { nodes[i].first = broadcast(0.0); });
-  scatter_all<Shape, Content::momentum>(particles, grid);
+  with_shape(shape, [&]<class Shape>(Shape) { scatter_all<Shape>(Momentum{particles, velocity}, grid); });
 }
-
-template void particles_to_grid<Linear>(const Particles&, grid::BlockGrid&);
-template void particles_to_grid<QuadraticBSpline>(const Particles&, grid::BlockGrid&);
-template void momentum_to_grid<Linear>(const Particles&, grid::BlockGrid&);
-template void momentum_to_grid<QuadraticBSpline>(const Particles&, grid::BlockGrid&);
 
 }  // namespace whipple::transfer

@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
+
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
 #include "src/transfer/shape_function.hpp"
 
 namespace whipple::transfer {
 
-/// Mass, momentum (with the affine field), internal force and mass-weighted sound speed of the particles on
-/// the nodes (docs/theory/mpm.md, equations 3.1 to 3.3). Clears the grid first; mirror planes are not folded
-/// yet. The result is bitwise independent of the number of threads.
-template <class Shape>
-void particles_to_grid(const Particles& particles, grid::BlockGrid& grid);
+/// Mass, momentum (with the affine field), force and mass-weighted sound speed of the particles on the nodes
+/// (docs/theory/mpm.md, equations 3.1 to 3.3). Clears the grid first; mirror planes are not folded yet. The
+/// result is bitwise independent of the number of threads.
+/// @param acceleration by external forces (m/s^2), one per particle; empty: none
+void particles_to_grid(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
+                       std::span<const Vector3> acceleration = {});
 
-/// Momentum only: Node::first is replaced, Node::second stays (second pass of MUSL, equation 5.4).
-template <class Shape>
-void momentum_to_grid(const Particles& particles, grid::BlockGrid& grid);
+/// Mass and momentum only, with a velocity per particle: Node::first is replaced, Node::second stays
+/// (equations 5.3, 5.9).
+void momentum_to_grid(ShapeFunction shape, const Particles& particles, std::span<const Vector3> velocity,
+                      grid::BlockGrid& grid);
 
 }  // namespace whipple::transfer

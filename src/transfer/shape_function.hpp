@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <string>
 #include <string_view>
 
+#include "src/base/error.hpp"
 #include "src/grid/block_grid.hpp"
+#include "src/particles/particles.hpp"
 
 /// Shape functions as policies: weights of the nodes of one direction. A three-dimensional weight is the
 /// product of three of them. Equations: docs/theory/mpm.md, section 2.
 namespace whipple::transfer {
+
+enum class ShapeFunction : std::uint8_t { linear, gimp, convected_gimp, quadratic_bspline, cubic_bspline };
 
 /// Weights, derivatives and distances of the nodes that a particle reaches along one direction.
 template <int Count>
@@ -24,6 +31,7 @@ struct AxisWeights {
 /// Piecewise linear functions of the cells: two nodes per direction, gradients jump at the faces of cells.
 struct Linear {
   static constexpr std::string_view name = "linear";
+  static constexpr auto kind = ShapeFunction::linear;
   static constexpr int count = 2;
   static constexpr grid::Stencil stencil{.shift = 0.0, .count = count};
 
@@ -44,8 +52,11 @@ struct Linear {
 /// (2008) 922). Sum of N r r^T is dx^2/4 everywhere, which the affine transfer relies on.
 struct QuadraticBSpline {
   static constexpr std::string_view name = "quadratic_bspline";
+  static constexpr auto kind = ShapeFunction::quadratic_bspline;
   static constexpr int count = 3;
   static constexpr grid::Stencil stencil{.shift = 0.5, .count = count};
+  /// Sum of N r r^T along one direction, in dx^2.
+  static constexpr double second_moment = 1.0 / 4.0;
 
   static AxisWeights<count> weights(double local, double cell_size) {
     AxisWeights<count> w;
@@ -59,11 +70,137 @@ struct QuadraticBSpline {
   }
 };
 
-/// Weights of all three directions for a particle at `local` (cells from the block's lower corner).
+/// Cubic B-splines: four nodes per direction, continuous second derivatives; sum of N r r^T is dx^2/3
+/// everywhere.
+struct CubicBSpline {
+  static constexpr std::string_view name = "cubic_bspline";
+  static constexpr auto kind = ShapeFunction::cubic_bspline;
+  static constexpr int count = 4;
+  static constexpr grid::Stencil stencil{.shift = 1.0, .count = count};
+  static constexpr double second_moment = 1.0 / 3.0;
+
+  static AxisWeights<count> weights(double local, double cell_size) {
+    AxisWeights<count> w;
+    const double base = std::floor(local - 1.0);
+    const double f = local - base - 1.0;  // 0 .. 1
+    const double b = 1.0 - f;
+    w.first = static_cast<int>(base);
+    w.weight = {b * b * b / 6.0, 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), 2.0 / 3.0 - b * b * (1.0 - 0.5 * b),
+                f * f * f / 6.0};
+    w.derivative = {-0.5 * b * b / cell_size, f * (1.5 * f - 2.0) / cell_size,
+                    -b * (1.5 * b - 2.0) / cell_size, 0.5 * f * f / cell_size};
+    w.distance = {-(1.0 + f) * cell_size, -f * cell_size, b * cell_size, (1.0 + b) * cell_size};
+    return w;
+  }
+};
+
+/// Generalised interpolation (GIMP; Bardenhagen & Kober, CMES 5 (2004) 477): the linear functions averaged
+/// over the particle's own domain, a box of half-sizes h along the axes (in cells).
+template <int nodes>
+AxisWeights<nodes> averaged_linear_weights(double local, double h, double shift, double cell_size) {
+  AxisWeights<nodes> w;
+  const double base = std::floor(local - shift);
+  w.first = static_cast<int>(base);
+  const auto tent = [](double u) { return std::max(0.0, 1.0 - std::abs(u)); };
+  // Integral of the tent over [u - h, u + h], without differences of nearly equal numbers: a weight that is
+  // all round-off would give its node a mass that is none.
+  const auto integral = [h](double u) {
+    const double from = std::abs(u) - h, to = std::abs(u) + h;
+    if (from >= 1.0) return 0.0;
+    const double left = from < 0.0 ? -from * (1.0 + 0.5 * from) : 0.0;  // of the node
+    if (to >= 1.0) return from < 0.0 ? left + 0.5 : 0.5 * (1.0 - from) * (1.0 - from);
+    return from < 0.0 ? left + to * (1.0 - 0.5 * to) : 2.0 * h * (1.0 - std::abs(u));
+  };
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const double u = local - base - static_cast<double>(i);
+    w.weight[i] = integral(u) / (2.0 * h);
+    w.derivative[i] = (tent(u + h) - tent(u - h)) / (2.0 * h * cell_size);
+    w.distance[i] = -u * cell_size;
+  }
+  return w;
+}
+
+/// GIMP with the domains of the beginning (uniform GIMP): at most half a cell on either side of the particle,
+/// so three nodes per direction.
+struct Gimp {
+  static constexpr std::string_view name = "gimp";
+  static constexpr auto kind = ShapeFunction::gimp;
+  static constexpr int count = 3;
+  static constexpr grid::Stencil stencil{.shift = 0.5, .count = count};
+  static constexpr double largest_half_size = 0.5;
+
+  static AxisWeights<count> weights(double local, double half_size, double cell_size) {
+    return averaged_linear_weights<count>(local, half_size, 0.5, cell_size);
+  }
+};
+
+/// GIMP with domains that deform with the matter (convected particle GIMP: Wallstedt & Guilkey, J. Comput.
+/// Phys. 227 (2008) 9628): four nodes per direction, domains of up to one cell on either side of the
+/// particle.
+struct ConvectedGimp {
+  static constexpr std::string_view name = "convected_gimp";
+  static constexpr auto kind = ShapeFunction::convected_gimp;
+  static constexpr int count = 4;
+  static constexpr grid::Stencil stencil{.shift = 1.0, .count = count};
+  static constexpr double largest_half_size = 1.0;
+
+  static AxisWeights<count> weights(double local, double half_size, double cell_size) {
+    return averaged_linear_weights<count>(local, std::min(half_size, largest_half_size), 1.0, cell_size);
+  }
+};
+
+/// Do the weights depend on the size of the particle?
 template <class Shape>
-std::array<AxisWeights<Shape::count>, 3> weights_at(const Vector3& local, double cell_size) {
-  return {Shape::weights(local[0], cell_size), Shape::weights(local[1], cell_size),
-          Shape::weights(local[2], cell_size)};
+concept Sized = requires { Shape::largest_half_size; };
+
+/// Is the sum of N r r^T the same everywhere, as the affine transfer needs it?
+template <class Shape>
+concept CarriesAffineField = requires { Shape::second_moment; };
+
+/// Calls f(Shape{}) for a kind of shape function.
+template <class Function>
+decltype(auto) with_shape(ShapeFunction kind, Function&& f) {
+  switch (kind) {
+    case ShapeFunction::linear:
+      return f(Linear{});
+    case ShapeFunction::gimp:
+      return f(Gimp{});
+    case ShapeFunction::convected_gimp:
+      return f(ConvectedGimp{});
+    case ShapeFunction::quadratic_bspline:
+      return f(QuadraticBSpline{});
+    case ShapeFunction::cubic_bspline:
+      return f(CubicBSpline{});
+  }
+  throw InternalError("unknown shape function");
+}
+
+/// The shape function of that name.
+inline ShapeFunction shape_function(std::string_view name) {
+  for (const ShapeFunction kind : {ShapeFunction::linear, ShapeFunction::gimp, ShapeFunction::convected_gimp,
+                                   ShapeFunction::quadratic_bspline, ShapeFunction::cubic_bspline}) {
+    if (with_shape(kind, [&]<class Shape>(Shape) { return Shape::name == name; })) return kind;
+  }
+  throw InternalError(std::string("unknown shape function ").append(name));
+}
+
+inline grid::Stencil stencil(ShapeFunction kind) {
+  return with_shape(kind, []<class Shape>(Shape) { return Shape::stencil; });
+}
+
+/// Inertia of the affine field per mass, sum of N r r^T along one direction (m^2): its kinetic energy is
+/// m inertia |C|^2 / 2. 0 for functions that carry no affine field.
+inline double affine_inertia(ShapeFunction kind, double cell_size) {
+  return with_shape(kind, [&]<class Shape>(Shape) {
+    if constexpr (CarriesAffineField<Shape>) return Shape::second_moment * cell_size * cell_size;
+    return 0.0;
+  });
+}
+
+/// Half-sizes (in cells) of the box along the axes that has the second moments of the particle's domain:
+/// extent_aa is the sum over its half-edges r of r_a^2 (docs/theory/mpm.md, equation 2.3).
+inline Vector3 half_sizes(const SymmetricTensor& extent, double cell_size) {
+  return Vector3(std::sqrt(extent.xx), std::sqrt(extent.yy), std::sqrt(extent.zz)) / cell_size;
 }
 
 /// Position in cells from the lower corner of a block.
@@ -72,6 +209,22 @@ inline Vector3 local_position(const Vector3& position, const grid::Geometry& geo
   Vector3 local = geometry.in_cells(position);
   for (std::size_t a = 0; a < 3; ++a) local[static_cast<Eigen::Index>(a)] -= block[a] * grid::block_edge;
   return local;
+}
+
+/// Weights of all three directions for a particle.
+template <class Shape>
+std::array<AxisWeights<Shape::count>, 3> weights_at(const Particles& particles, std::size_t p,
+                                                    const grid::Geometry& geometry,
+                                                    const grid::BlockCoordinate& block) {
+  const Vector3 local = local_position(particles.position[p], geometry, block);
+  const double dx = geometry.cell_size;
+  if constexpr (Sized<Shape>) {
+    const Vector3 h = half_sizes(particles.extent[p], dx);
+    return {Shape::weights(local[0], h[0], dx), Shape::weights(local[1], h[1], dx),
+            Shape::weights(local[2], h[2], dx)};
+  } else {
+    return {Shape::weights(local[0], dx), Shape::weights(local[1], dx), Shape::weights(local[2], dx)};
+  }
 }
 
 }  // namespace whipple::transfer

@@ -159,7 +159,7 @@ TEST_F(SolverRanks, MoreRanksThanBlocksDoNoHarm) {
 TEST_F(SolverRanks, AnErrorOfOneRankEndsTheStepOnAll) {
   setup::Seeding seeding = setup::seed(read(), ranks_.rank(), ranks_.count());
   RunState state;
-  state.ledger.initial = totals_of(seeding.particles, 1.2e-3);
+  state.ledger.initial = totals_of(seeding.particles, 0.25 * 1.2e-3 * 1.2e-3);
   sum_over_ranks(MPI_COMM_WORLD, state.ledger.initial);
   if (ranks_.rank() == ranks_.count() - 1) {
     seeding.particles.specific_internal_energy.back() = std::numeric_limits<double>::quiet_NaN();

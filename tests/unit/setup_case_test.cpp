@@ -101,17 +101,33 @@ TEST(Case, AFaultyShapeIsNotPlaced) {
 }
 
 TEST(Case, RefusesCombinationsThatHaveNoMeaning) {
-  expect_error(domain + "[transfer]\nshape_function = \"linear\"\n" + sphere,
-               {"needs shape_function = \"quadratic_bspline\""});
-  expect_error(replaced(domain, "end =", "scheme = \"musl\"\nend =") +
-                   "[transfer]\nparticle_update = \"apic\"\n" + sphere,
-               {"scheme \"musl\" transfers with particle_update = \"flip\" only"});
+  for (const std::string shape : {"linear", "gimp", "convected_gimp"}) {
+    expect_error(domain + "[transfer]\nshape_function = \"" + shape + "\"\n" + sphere,
+                 {"particle_update = \"relaxed_affine\" needs functions whose second moment",
+                  "\"quadratic_bspline\" or \"cubic_bspline\"", "\"" + shape + "\" works with \"flip\""});
+  }
+  expect_error(domain + "[transfer]\nparticle_update = \"fmpm\"\n" + sphere,
+               {"\"fmpm\" has no exact energy balance", "scheme = \"usl\", \"musl\" or \"usf\""});
+  for (const std::string scheme : {"musl", "usl", "usf"}) {
+    const std::string with_scheme = replaced(domain, "end =", "scheme = \"" + scheme + "\"\nend =");
+    expect_error(with_scheme + "[transfer]\nparticle_update = \"apic\"\n" + sphere,
+                 {"scheme \"" + scheme + "\" carries no affine field", "\"flip\", \"pic\", \"blend\""});
+    EXPECT_EQ(read_case_text(with_scheme + sphere, "case.toml").transfer.particle_update, "flip");
+  }
+  expect_error(
+      replaced(replaced(domain, "end =", "scheme = \"usf\"\nend ="), "\"symmetry\" }", "\"separating\" }") +
+          sphere,
+      {"a separating wall", "scheme \"usf\"", "\"musl\""});
+  expect_error(domain + "[transfer]\nshape_function = \"gimp\"\nparticle_update = \"flip\"\n" +
+                   replaced(sphere, "radius = \"3 mm\"", "radius = \"0.7 mm\"") +
+                   "discretization = { per_cell = 1 }\n",
+               {"its particles are 1.4 cells wide", "'per_cell'", "\"convected_gimp\""});
   expect_error(domain + sphere + "discretization = { per_cell = 5 }\n", {"'per_cell' is 5, expected a cube"});
   expect_error(
       replaced(replaced(domain, "x_lower", "x_upper = \"symmetry\", x_lower"), "12 mm", "11.5 mm") + sphere,
       {"whole number of cells along x"});
   expect_error(replaced(domain, "\"symmetry\" }", "\"mirror\" }") + sphere,
-               {"Accepted: outflow, symmetry, no_slip"});
+               {"Accepted: outflow, symmetry, no_slip, separating"});
   expect_error(domain, {"no bodies"});
   expect_error(domain + replaced(sphere, "\"sphere\"", "\"../sphere\""),
                {"'name' is \"../sphere\"", "letters, digits"});

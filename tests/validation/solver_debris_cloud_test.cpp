@@ -99,7 +99,7 @@ TEST(DebrisCloud, AnUndefinedStateStopsWithItsParticleNamed) {
   Particles particles = setup::seed(disk_case()).particles;
   particles.specific_internal_energy[777] = std::nan("");
   solver::RunState state;
-  state.ledger.initial = solver::totals_of(particles, disk_case().domain.cell_size);
+  state.ledger.initial = solver::totals_of(particles, 0.25 * std::pow(disk_case().domain.cell_size, 2));
   solver::Simulation simulation(disk_case(), std::move(particles), state, parallel::world());
   try {
     simulation.advance(1e-6);

@@ -62,7 +62,7 @@ double bending_loss(double courant) {
     particles.affine_velocity[p](0, 1) = -amplitude * slope / 2;
   }
   solver::RunState state;
-  state.ledger.initial = solver::totals_of(particles, mm);
+  state.ledger.initial = solver::totals_of(particles, 0.25 * mm * mm);
   solver::Simulation simulation(setup, particles, state, parallel::world());
   const auto mechanical = [&] {
     const solver::Totals& t = simulation.totals();

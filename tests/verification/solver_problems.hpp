@@ -23,12 +23,15 @@ struct Method {
   double courant = 0.5;
   double linear_viscosity = 0.25;
   double quadratic_viscosity = 1.0;
+  int fmpm_order = 2;
 
   /// Linear FLIP-MUSL with the usual viscosity of hydrocodes: what most peers run.
   static Method musl() { return {"musl", "linear", "flip", 0.3, 0.06, 1.5}; }
-  [[nodiscard]] std::string toml() const {
+  /// @param options further lines of the table `transfer`
+  [[nodiscard]] std::string toml(const std::string& options = "") const {
     return "[transfer]\nshape_function = \"" + shape_function + "\"\nparticle_update = \"" + particle_update +
-           "\"\n[artificial_viscosity]\nlinear = " + std::to_string(linear_viscosity) +
+           "\"\nfmpm_order = " + std::to_string(fmpm_order) + "\n" + options +
+           "[artificial_viscosity]\nlinear = " + std::to_string(linear_viscosity) +
            "\nquadratic = " + std::to_string(quadratic_viscosity) + "\n";
   }
   [[nodiscard]] std::string time_toml(double end) const {

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/simulation.hpp"
+
+namespace whipple::solver {
+
+void Simulation::reflect_and_remove() {
+  profile_.time("boundaries", [&] {
+    const grid::Geometry& g = setup_.geometry;
+    std::vector<std::uint32_t> leaving;
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+      bool leaves = false;
+      for (int a = 0; a < 3; ++a) {
+        double& x = particles_.position[p][a];
+        if (x >= g.lower[a] && x <= g.upper(a)) continue;
+        const bool low = x < g.lower[a];
+        const grid::Boundary boundary = g.boundary[static_cast<std::size_t>(2 * a + (low ? 0 : 1))];
+        if (boundary == grid::Boundary::outflow) {
+          leaves = true;
+          continue;
+        }
+        // Interpolation gives no normal velocity at a mirror plane, so only the finite time step brings a
+        // particle across: it is put back as its own image.
+        x = 2.0 * (low ? g.lower[a] : g.upper(a)) - x;
+        Matrix3 mirror = Matrix3::Identity();
+        mirror(a, a) = -1.0;
+        // At a no-slip wall all components of the image's velocity are reversed, its place along one axis
+        // only.
+        const Matrix3 image = boundary == grid::Boundary::no_slip ? Matrix3(-Matrix3::Identity()) : mirror;
+        const Vector3 velocity = image * particles_.velocity[p];
+        step_.wall_impulse += particles_.mass[p] * (velocity - particles_.velocity[p]);
+        particles_.velocity[p] = velocity;
+        particles_.affine_velocity[p] = image * particles_.affine_velocity[p] * mirror;
+        for (auto* tensors : {&particles_.deviatoric_stress, &particles_.back_stress, &particles_.strain,
+                              &particles_.extent}) {
+          if (tensors->empty()) continue;  // optional, not in use
+          (*tensors)[p] = SymmetricTensor::from(mirror * (*tensors)[p].matrix() * mirror);
+        }
+      }
+      if (leaves) leaving.push_back(static_cast<std::uint32_t>(p));
+    }
+    if (leaving.empty()) return;
+    std::vector<std::uint32_t> staying;
+    staying.reserve(particles_.size() - leaving.size());
+    auto next = leaving.begin();
+    for (std::uint32_t p = 0; p < particles_.size(); ++p) {
+      if (next != leaving.end() && *next == p) {
+        step_.outflow += totals_of(particles_, p, affine_inertia());
+        ++next;
+      } else {
+        staying.push_back(p);
+      }
+    }
+    for (std::size_t i = 0; i < staying.size(); ++i) former_velocity_[i] = former_velocity_[staying[i]];
+    reorder(particles_, staying);
+    particles_reallocated();
+  });
+}
+
+}  // namespace whipple::solver

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/transfer/full_mass_matrix.hpp"
+
+#include "src/parallel/threads.hpp"
+#include "src/transfer/grid_to_particles.hpp"
+#include "src/transfer/particles_to_grid.hpp"
+
+namespace whipple::transfer {
+namespace {
+
+struct Momentum {
+  Vector3 sum = Vector3::Zero();
+  Momentum& operator+=(const Momentum& other) {
+    sum += other.sum;
+    return *this;
+  }
+};
+
+Vector3 momentum(const Particles& particles, std::span<const Vector3> velocity) {
+  return parallel::sum<Momentum>(particles.size(),
+                                 [&](std::size_t p) { return Momentum{particles.mass[p] * velocity[p]}; })
+      .sum;
+}
+
+}  // namespace
+
+Vector3 FullMassMatrix::apply(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
+                              GridUpdate& update, int order) {
+  const std::span<grid::Node> nodes = grid.all_nodes();
+  // Node::first holds the term v*_l of the series (5.9), Node::second the sum so far with the mass in lane 3.
+  parallel::for_each(nodes.size(), [&](std::size_t i) {
+    nodes[i].second += Lanes{1.0, 1.0, 1.0, 0.0} * nodes[i].first;
+    nodes[i].first = nodes[i].second;
+  });
+  at_particles_.resize(particles.size());
+  term_.resize(nodes.size());
+  // Without planes the series keeps the momentum; what it adds with planes is their doing.
+  const bool planes = !grid.mirror_planes().empty();
+  Vector3 impulse = Vector3::Zero();
+  for (int l = 2; l <= order; ++l) {
+    gather_velocity(shape, particles, grid, at_particles_);
+    if (planes && l == 2) impulse -= momentum(particles, at_particles_);
+    parallel::for_each(nodes.size(), [&](std::size_t i) { term_[i] = nodes[i].first; });
+    momentum_to_grid(shape, particles, at_particles_, grid);
+    update.velocity_from_momentum(grid);  // sum over particles and nodes of N_i m N_j v*_j / m_i
+    parallel::for_each(nodes.size(), [&](std::size_t i) {
+      nodes[i].first = term_[i] - nodes[i].first;
+      nodes[i].second += Lanes{1.0, 1.0, 1.0, 0.0} * nodes[i].first;
+    });
+  }
+  parallel::for_each(nodes.size(), [&](std::size_t i) {
+    const double mass = nodes[i].second[3];
+    nodes[i].first = Lanes{1.0, 1.0, 1.0, 0.0} * nodes[i].second;
+    nodes[i].second = Lanes{0.0, 0.0, 0.0, mass};
+  });
+  if (planes && order >= 2) {
+    gather_velocity(shape, particles, grid, at_particles_);
+    impulse += momentum(particles, at_particles_);
+  }
+  return impulse;
+}
+
+}  // namespace whipple::transfer

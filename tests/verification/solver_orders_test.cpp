@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The orders of convergence of docs/orders_of_convergence.md on two grids each: the schemes are of second
+// order where particles stay in their cells, whatever the functions; where they cross cells, functions with
+// continuous gradients keep converging and linear ones do not; PIC is of first order.
+#include "tests/verification/solver_orders.hpp"
+
+#include <gtest/gtest.h>
+
+namespace whipple::verification {
+namespace {
+
+Method method(const std::string& scheme, const std::string& shape, const std::string& update) {
+  Method chosen;
+  chosen.scheme = scheme;
+  chosen.shape_function = shape;
+  chosen.particle_update = update;
+  return chosen;
+}
+
+double order(const ExactMotion& motion, const Method& method, int cells) {
+  const double coarse = motion_error(motion, method, cells);
+  const double fine = motion_error(motion, method, 2 * cells);
+  const double result = order_of(coarse, fine);
+  std::printf("%s, %s %s %s: errors %.2e %.2e, order %.2f\n", motion.name().c_str(), method.scheme.c_str(),
+              method.shape_function.c_str(), method.particle_update.c_str(), coarse, fine, result);
+  return result;
+}
+
+TEST(Order, ExternalAccelerationIsThatOfTheMotion) {
+  // b = d2u/dt2 - (1/rho0) dP/dX, by differences of the exact motion itself.
+  const ManufacturedWaves waves;
+  const Vector3 X(0.3, 0.6, 0.1);
+  const double t = 0.3 / waves.frequency(), h = 1e-4, k = 1e-3 / waves.frequency();
+  const auto stress = [&](double x) {  // P_xx
+    const Vector3 f = waves.stretch({x, X[1], X[2]}, t);
+    const double j = f.prod();
+    return (-Barotropic::pressure(j) + 2 * Barotropic::shear * (std::log(f[0]) - std::log(j) / 3)) * j / f[0];
+  };
+  const double acceleration = (waves.velocity(X, t + k) - waves.velocity(X, t - k))[0] / (2 * k);
+  const double force = (stress(X[0] + h) - stress(X[0] - h)) / (2 * h) / Barotropic::density;
+  const double expected = acceleration - force;
+  EXPECT_NEAR(waves.acceleration()(X, t)[0], expected, 1e-5 * (std::abs(acceleration) + std::abs(force)));
+}
+
+TEST(Order, IsTwoForEverySchemeAndFunctionWithoutCrossings) {
+  const VibratingBar bar;
+  for (const char* scheme : {"symplectic", "usf", "usl", "musl"}) {
+    for (const char* shape : {"linear", "gimp", "convected_gimp", "quadratic_bspline", "cubic_bspline"}) {
+      EXPECT_GT(order(bar, method(scheme, shape, "flip"), 16), 1.8);
+    }
+  }
+  EXPECT_GT(order(bar, method("symplectic", "quadratic_bspline", "relaxed_affine"), 16), 1.8);
+  EXPECT_GT(order(bar, method("symplectic", "cubic_bspline", "relaxed_affine"), 16), 1.8);
+}
+
+}  // namespace
+}  // namespace whipple::verification
