@@ -14,10 +14,10 @@
 namespace whipple::verification {
 namespace {
 
-setup::Case read(const Method& method, double end, const std::string& transfer_options,
-                 const std::string& rest) {
+setup::Case read(Method method, double end, const std::string& transfer_options, const std::string& rest) {
+  method.options = transfer_options;
   return setup::read_case_text(
-      method.time_toml(end) + method.toml(transfer_options) + "[output]\nmaximum_energy_error = 1e9\n" + rest,
+      method.time_toml(end) + method.toml() + "[output]\nmaximum_energy_error = 1e9\n" + rest,
       "methods.toml");
 }
 

@@ -24,11 +24,11 @@ struct Method {
   double linear_viscosity = 0.25;
   double quadratic_viscosity = 1.0;
   int fmpm_order = 2;
+  std::string options = {};  ///< further lines of the table `transfer`
 
   /// Linear FLIP-MUSL with the usual viscosity of hydrocodes: what most peers run.
   static Method musl() { return {"musl", "linear", "flip", 0.3, 0.06, 1.5}; }
-  /// @param options further lines of the table `transfer`
-  [[nodiscard]] std::string toml(const std::string& options = "") const {
+  [[nodiscard]] std::string toml() const {
     return "[transfer]\nshape_function = \"" + shape_function + "\"\nparticle_update = \"" + particle_update +
            "\"\nfmpm_order = " + std::to_string(fmpm_order) + "\n" + options +
            "[artificial_viscosity]\nlinear = " + std::to_string(linear_viscosity) +
