@@ -125,15 +125,15 @@ TEST(PlanarImpact, DefaultSchemeAt1kmPerSecond) { expect_default_accuracy(planar
 
 TEST(PlanarImpact, DefaultSchemeAt3kmPerSecond) { expect_default_accuracy(planar_impact(3000.0, {})); }
 
-// Particles locked to the grid at one pattern are most of the noise on the plateau; a grid that moves at
-// random takes it away, for a little more heat.
-TEST(PlanarImpact, RandomShiftOfTheGridQuietensThePlateau) {
+// A grid that moves at random in every step keeps the jump conditions and the energy. It costs heat: +13 %
+// released energy instead of +3.5 %, and takes little noise away (docs/theory/mpm.md, section 8).
+TEST(PlanarImpact, RandomShiftOfTheGridKeepsJumpAndEnergy) {
   Method shifted;
   shifted.options = "random_shift = true\n";
   const Result result = planar_impact(1000.0, shifted);
-  EXPECT_LT(std::abs(result.pressure), 0.003);
-  EXPECT_LT(result.pressure_noise, 0.02);  // 3.4 % without
-  EXPECT_LT(std::abs(result.released_energy), 0.09);
+  EXPECT_LT(std::abs(result.density), 0.005);
+  EXPECT_LT(std::abs(result.shock_speed), 0.006);
+  EXPECT_LT(std::abs(result.pressure), 0.03);
   EXPECT_LT(result.energy_error, 1e-12);
 }
 
