@@ -95,6 +95,39 @@ inline Symmetric symmetric(const Matrix& m) {
   return {m.xx, m.yy, m.zz, 0.5 * (m.xy + m.yx), 0.5 * (m.yz + m.zy), 0.5 * (m.zx + m.xz)};
 }
 
+/// Strain increment and rotation of one step.
+struct Motion {
+  Symmetric strain;
+  Matrix rotation;
+};
+
+template <StressRotation rule>
+inline Motion motion_of(const Matrix& l, double dt) {
+  const Matrix m = midpoint_displacement_gradient(l, dt);
+  const Motion midpoint = {symmetric(m), rotation(m)};
+  if constexpr (rule == StressRotation::hughes_winget) return midpoint;
+  const Matrix f = identity_plus(dt, l);
+  if (determinant(f) < 0.1) return midpoint;  // no polar decomposition worth the name; J is limited anyway
+  // Newton's iteration R <- (R + R^-T)/2 for the orthogonal factor (Higham, SIAM J. Sci. Stat. Comput. 7
+  // (1986) 1160) converges quadratically from F = V R.
+  Matrix r = f;
+  for (int i = 0; i < 6; ++i) {
+    const Matrix cofactor = adjugate(r);
+    const double w = 0.5 / determinant(r);
+    r = {0.5 * r.xx + w * cofactor.xx, 0.5 * r.xy + w * cofactor.yx, 0.5 * r.xz + w * cofactor.zx,
+         0.5 * r.yx + w * cofactor.xy, 0.5 * r.yy + w * cofactor.yy, 0.5 * r.yz + w * cofactor.zy,
+         0.5 * r.zx + w * cofactor.xz, 0.5 * r.zy + w * cofactor.yz, 0.5 * r.zz + w * cofactor.zz};
+  }
+  const Matrix v = multiply(f, {r.xx, r.yx, r.zx, r.xy, r.yy, r.zy, r.xz, r.yz, r.zz});
+  const Matrix sum = identity_plus(1.0, v),
+               less = {v.xx - 1.0, v.xy, v.xz, v.yx, v.yy - 1.0, v.yz, v.zx, v.zy, v.zz - 1.0};
+  const Matrix e = multiply(less, adjugate(sum));
+  const double scale = 2.0 / determinant(sum);
+  return {symmetric({scale * e.xx, scale * e.xy, scale * e.xz, scale * e.yx, scale * e.yy, scale * e.yz,
+                     scale * e.zx, scale * e.zy, scale * e.zz}),
+          r};
+}
+
 }  // namespace
 
 void volume_change(std::size_t size, double dt, Kinematics& step) {
@@ -105,11 +138,14 @@ void volume_change(std::size_t size, double dt, Kinematics& step) {
   }
 }
 
-void elastic_trial(std::size_t size, double dt, Kinematics& step) {
+namespace {
+
+template <StressRotation rule>
+void elastic_trial_by(std::size_t size, double dt, Kinematics& step) {
   for (std::size_t k = 0; k < size; ++k) {
-    const Matrix m = midpoint_displacement_gradient(load(step.gradient, k), dt);
-    const Symmetric e = symmetric(m);
-    const Symmetric t = turned(load(step.deviator, k), rotation(m));
+    const Motion motion = motion_of<rule>(load(step.gradient, k), dt);
+    const Symmetric& e = motion.strain;
+    const Symmetric t = turned(load(step.deviator, k), motion.rotation);
     const double twice = 2.0 * step.modulus[k], mean = (e.xx + e.yy + e.zz) / 3.0;
     const Symmetric s = {t.xx + twice * (e.xx - mean), t.yy + twice * (e.yy - mean),
                          t.zz + twice * (e.zz - mean), t.xy + twice * e.xy,
@@ -122,17 +158,38 @@ void elastic_trial(std::size_t size, double dt, Kinematics& step) {
   }
 }
 
-void turn(std::size_t size, double dt, const MatrixLanes& gradient, SymmetricLanes& tensor) {
+template <StressRotation rule>
+void turn_by(std::size_t size, double dt, const MatrixLanes& gradient, SymmetricLanes& tensor) {
   for (std::size_t k = 0; k < size; ++k) {
-    const Matrix m = midpoint_displacement_gradient(load(gradient, k), dt);
-    store(turned(load(tensor, k), rotation(m)), tensor, k);
+    store(turned(load(tensor, k), motion_of<rule>(load(gradient, k), dt).rotation), tensor, k);
   }
 }
 
-void strain_increment(std::size_t size, double dt, const MatrixLanes& gradient, SymmetricLanes& strain) {
+template <StressRotation rule>
+void strain_increment_by(std::size_t size, double dt, const MatrixLanes& gradient, SymmetricLanes& strain) {
   for (std::size_t k = 0; k < size; ++k) {
-    store(symmetric(midpoint_displacement_gradient(load(gradient, k), dt)), strain, k);
+    store(motion_of<rule>(load(gradient, k), dt).strain, strain, k);
   }
+}
+
+using enum StressRotation;
+
+}  // namespace
+
+void elastic_trial(std::size_t size, double dt, StressRotation rule, Kinematics& step) {
+  rule == polar ? elastic_trial_by<polar>(size, dt, step) : elastic_trial_by<hughes_winget>(size, dt, step);
+}
+
+void turn(std::size_t size, double dt, StressRotation rule, const MatrixLanes& gradient,
+          SymmetricLanes& tensor) {
+  rule == polar ? turn_by<polar>(size, dt, gradient, tensor)
+                : turn_by<hughes_winget>(size, dt, gradient, tensor);
+}
+
+void strain_increment(std::size_t size, double dt, StressRotation rule, const MatrixLanes& gradient,
+                      SymmetricLanes& strain) {
+  rule == polar ? strain_increment_by<polar>(size, dt, gradient, strain)
+                : strain_increment_by<hughes_winget>(size, dt, gradient, strain);
 }
 
 }  // namespace whipple::material

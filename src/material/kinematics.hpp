@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "src/base/tensor.hpp"
 
@@ -19,6 +20,12 @@ using MatrixLanes = std::array<Lanes, 9>;     ///< rows one after the other
 using SymmetricLanes = std::array<Lanes, 6>;  ///< xx, yy, zz, xy, yz, zx
 
 constexpr std::size_t padded(std::size_t size) { return (size + lane_count - 1) / lane_count * lane_count; }
+
+/// How strain increment and rotation of a step follow from its gradient (docs/theory/material.md, section 2).
+enum class StressRotation : std::uint8_t {
+  hughes_winget,  ///< both of the configuration in the middle of the step
+  polar,          ///< of the polar decomposition I + dt L = V R
+};
 
 /// Input and result of the two functions below. One object, so that the compiler knows its arrays to be
 /// disjoint.
@@ -37,12 +44,14 @@ struct Kinematics {
 void volume_change(std::size_t size, double dt, Kinematics& step);
 
 /// Strain increment, rotation and elastic trial (eq. 2 to 5). @param size a multiple of `lane_count`
-void elastic_trial(std::size_t size, double dt, Kinematics& step);
+void elastic_trial(std::size_t size, double dt, StressRotation rule, Kinematics& step);
 
 /// Turns tensors with the matter (eq. 4). @param size a multiple of `lane_count`
-void turn(std::size_t size, double dt, const MatrixLanes& gradient, SymmetricLanes& tensor);
+void turn(std::size_t size, double dt, StressRotation rule, const MatrixLanes& gradient,
+          SymmetricLanes& tensor);
 
 /// Strain increment alone (eq. 2, 3), for matter without elastic deviator. @param size as above
-void strain_increment(std::size_t size, double dt, const MatrixLanes& gradient, SymmetricLanes& strain);
+void strain_increment(std::size_t size, double dt, StressRotation rule, const MatrixLanes& gradient,
+                      SymmetricLanes& strain);
 
 }  // namespace whipple::material

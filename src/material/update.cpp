@@ -93,8 +93,8 @@ void advance_without_modulus(Step& step, Chunk& chunk) {
   const bool viscous = step.material.strength->viscosity() > 0.0;
   if (viscous) viscous_deviator(step, chunk);
   if (viscous || step.material.needs_strain) {
-    material::strain_increment(material::padded(chunk.size), step.settings.time_step, motion.gradient,
-                               motion.strain);
+    material::strain_increment(material::padded(chunk.size), step.settings.time_step, step.settings.rotation,
+                               motion.gradient, motion.strain);
   } else {
     for (Lanes& lane : motion.strain) std::fill_n(lane.data(), chunk.size, 0.0);
   }
@@ -117,7 +117,8 @@ void shift_by_back_stress(Step& step, Chunk& chunk, Lanes& modulus) {
   const double third = step.material.strength->kinematic_modulus() / 3.0;
   material::Kinematics& motion = chunk.motion;
   gather(chunk, step.points.back_stress, true, chunk.back_stress);
-  material::turn(material::padded(chunk.size), step.settings.time_step, motion.gradient, chunk.back_stress);
+  material::turn(material::padded(chunk.size), step.settings.time_step, step.settings.rotation,
+                 motion.gradient, chunk.back_stress);
   for (std::size_t k = 0; k < chunk.size; ++k) {
     SymmetricTensor shifted = material::tensor(motion.deviator, k);
     for (std::size_t j = 0; j < 6; ++j) shifted.*components[j] -= chunk.back_stress[j][k];
@@ -143,7 +144,7 @@ void advance_deviator(Step& step, Chunk& chunk) {
   }
   for (std::size_t k = chunk.size; k < padded; ++k) motion.modulus[k] = 0.0;
   gather(chunk, step.points.deviatoric_stress, true, motion.deviator);
-  material::elastic_trial(padded, dt, motion);
+  material::elastic_trial(padded, dt, step.settings.rotation, motion);
   const bool kinematic = step.material.strength->kinematic_modulus() > 0.0;
   Lanes shifted_modulus;
   if (kinematic) shift_by_back_stress(step, chunk, shifted_modulus);
@@ -174,7 +175,8 @@ void advance_deviator(Step& step, Chunk& chunk) {
 void advance_strain(Step& step, Chunk& chunk) {
   if (!step.material.needs_strain) return;
   gather(chunk, step.points.strain, false, chunk.strain);
-  material::turn(material::padded(chunk.size), step.settings.time_step, chunk.motion.gradient, chunk.strain);
+  material::turn(material::padded(chunk.size), step.settings.time_step, step.settings.rotation,
+                 chunk.motion.gradient, chunk.strain);
   for (std::size_t j = 0; j < 6; ++j) {
     for (std::size_t k = 0; k < chunk.size; ++k) chunk.strain[j][k] += chunk.motion.strain[j][k];
   }

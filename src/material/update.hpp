@@ -8,6 +8,7 @@
 #include <span>
 
 #include "src/base/tensor.hpp"
+#include "src/material/kinematics.hpp"
 #include "src/material/material.hpp"
 
 /// The constitutive half of a time step, from the velocity gradient to the new stress
@@ -21,6 +22,7 @@ struct UpdateSettings {
   double cell_size = 0.0;            ///< m: length of the artificial viscosity
   double linear_viscosity = 0.25;    ///< c1 of q = rho l |D| (c2 l |D| + c1 c)
   double quadratic_viscosity = 1.0;  ///< c2
+  material::StressRotation rotation = material::StressRotation::hughes_winget;
 };
 
 /// What an update met. Indices are those of the points (not of the range or list).

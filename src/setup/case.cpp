@@ -53,6 +53,11 @@ ParameterTable<TimeControl> TimeControl::parameters() {
       choice("scheme", &TimeControl::scheme, {"symplectic", "musl", "usl", "usf"},
              "symplectic: exact energy (default); for comparison with other codes: modified update stress "
              "last, update stress last, update stress first")
+          .optional(),
+      choice(
+          "stress_rotation", &TimeControl::stress_rotation, {"hughes_winget", "polar"},
+          "how stresses turn with the matter: with the middle of the step, or by the exact rotation of the "
+          "step")
           .optional()};
 }
 

@@ -31,6 +31,7 @@ struct TimeControl {
   double maximum_growth = 1.05;
   double acceleration_limit = 0.1;
   std::string scheme = "symplectic";
+  std::string stress_rotation = "hughes_winget";
   static ParameterTable<TimeControl> parameters();
 };
 

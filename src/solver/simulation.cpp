@@ -253,7 +253,10 @@ void Simulation::update_material(EnergyUpdate energy) {
     const UpdateSettings settings{.time_step = state_.time_step,
                                   .cell_size = setup_.domain.cell_size,
                                   .linear_viscosity = setup_.viscosity.linear,
-                                  .quadratic_viscosity = setup_.viscosity.quadratic};
+                                  .quadratic_viscosity = setup_.viscosity.quadratic,
+                                  .rotation = setup_.time.stress_rotation == "polar"
+                                                  ? material::StressRotation::polar
+                                                  : material::StressRotation::hughes_winget};
     std::string error;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const setup::BodySummary& body = bodies_[b];

@@ -3,9 +3,11 @@
 // uniaxial path, simple shear, energy of closed cycles, loss of strength by melting.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <array>
 #include <cstring>
+#include <memory>
 #include <numbers>
 #include <thread>
 
@@ -44,6 +46,43 @@ TEST(Objectivity, RigidRotationTurnsTheStressAndChangesNothingElse) {
   EXPECT_NEAR(points.volume[0], 1e-9, 1e-9 * 1e-13);
   EXPECT_EQ(points.plastic_strain[0], 0.0);
   EXPECT_EQ(points.void_volume[0], 0.0);
+}
+
+/// Trial deviator after one large step of stretch and rotation, F = Q U, from a given deviator, and its
+/// distance from the exact Q (s + 2 G dev ln U) Q^T, relative.
+double error_of_large_step(material::StressRotation rule, double angle) {
+  const Matrix3 stretch = (Matrix3() << 1.03, 0.02, 0, 0.02, 0.99, -0.01, 0, -0.01, 1.01).finished();
+  const Matrix3 turn = rotation(angle, {0.3, 1.0, 0.2});
+  const Matrix3 gradient = turn * stretch - Matrix3::Identity();  // of a step of 1 s
+  const Matrix3 initial = (Matrix3() << 0.04, 0.03, 0.02, 0.03, -0.03, -0.01, 0.02, -0.01, -0.01).finished();
+  auto motion = std::make_unique<material::Kinematics>();
+  for (std::size_t k = 0; k < material::lane_count; ++k) {
+    for (std::size_t j = 0; j < 9; ++j) {
+      motion->gradient[j][k] = gradient(static_cast<int>(j / 3), static_cast<int>(j % 3));
+    }
+    constexpr std::array<std::array<int, 2>, 6> place = {{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+    for (std::size_t j = 0; j < 6; ++j) motion->deviator[j][k] = initial(place[j][0], place[j][1]);
+    motion->modulus[k] = 1.0;
+  }
+  material::elastic_trial(material::lane_count, 1.0, rule, *motion);
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(stretch);
+  Matrix3 strain = solver.eigenvectors() * solver.eigenvalues().array().log().matrix().asDiagonal() *
+                   solver.eigenvectors().transpose();
+  strain -= strain.trace() / 3 * Matrix3::Identity();
+  const Matrix3 exact = turn * (initial + 2 * strain) * turn.transpose();
+  const auto& s = motion->deviator;
+  const SymmetricTensor result{s[0][0], s[1][0], s[2][0], s[3][0], s[4][0], s[5][0]};
+  return (result.matrix() - exact).norm() / exact.norm();
+}
+
+TEST(Objectivity, PolarRotationIsExactForARotationSuperposedOnAStretch) {
+  using enum material::StressRotation;
+  for (const double angle : {0.01, 0.5, 1.5}) {
+    // What is left is ln U ~ 2 (U - 1)(U + 1)^-1, of third order in the stretch.
+    EXPECT_LT(error_of_large_step(polar, angle), 2e-4) << angle;
+    EXPECT_NEAR(error_of_large_step(polar, angle), error_of_large_step(polar, 0.0), 1e-12) << angle;
+  }
+  EXPECT_GT(error_of_large_step(hughes_winget, 0.5), 0.02);
 }
 
 /// Stress at the end of a path of stretch and shear, with or without a superposed rotation (turned back).

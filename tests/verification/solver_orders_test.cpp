@@ -53,5 +53,25 @@ TEST(Order, IsTwoForEverySchemeAndFunctionWithoutCrossings) {
   EXPECT_GT(order(bar, method("symplectic", "cubic_bspline", "relaxed_affine"), 16), 1.8);
 }
 
+TEST(Order, WithCrossingsBelongsToTheShapeFunction) {
+  const ManufacturedWaves waves;
+  EXPECT_GT(order(waves, method("symplectic", "cubic_bspline", "relaxed_affine"), 8), 1.8);
+  EXPECT_GT(order(waves, method("symplectic", "quadratic_bspline", "relaxed_affine"), 8), 1.7);
+  for (const char* scheme : {"symplectic", "usf", "usl", "musl"}) {
+    EXPECT_GT(order(waves, method(scheme, "convected_gimp", "flip"), 8), 1.7);
+    EXPECT_LT(order(waves, method(scheme, "linear", "flip"), 8), 0.0);  // gradients jump at faces of cells
+  }
+}
+
+TEST(Order, OfTheParticleUpdateIsOneForPicAndTwoForTheFullMassMatrix) {
+  const VibratingBar bar;
+  EXPECT_NEAR(order(bar, method("symplectic", "quadratic_bspline", "pic"), 32), 1.0, 0.2);
+  Method fmpm = method("usl", "quadratic_bspline", "fmpm");
+  fmpm.fmpm_order = 4;
+  EXPECT_NEAR(order(bar, fmpm, 32), 2.0, 0.1);
+  EXPECT_LT(motion_error(bar, fmpm, 64),
+            0.02 * motion_error(bar, method("usl", "quadratic_bspline", "flip"), 64));
+}
+
 }  // namespace
 }  // namespace whipple::verification
