@@ -167,6 +167,6 @@ def witness_figure(analysis):
                     label=f"{name}, highest {values.max():.3g}")
     left.set(xlabel="distance from the axis (mm)", ylabel="per area over the highest (SI)")
     right.set_ylabel("per time over the highest (SI)")
-    legend_above(left)
-    legend_above(right)
+    for ax in (left, right):
+        ax.legend(loc="upper right", frameon=False, fontsize=9)
     return figure

@@ -232,8 +232,9 @@ def radiograph_figure(analysis):
                                 squeeze=False, sharex=True, sharey=True, layout="constrained")
     for ax in axes.flat[len(pictures):]:
         ax.set_visible(False)
-    # Contrast of the last picture: the first ones hold the unshocked bodies in full thickness.
-    darkest = max(min(float(np.quantile(pictures[-1].transmission, 0.002)), 0.9), 1e-3)
+    # Contrast for the cloud of the last picture: black at eight times the optical depth of its middle pixel.
+    matter = pictures[-1].transmission[pictures[-1].transmission < 0.998]
+    darkest = max(float(np.median(matter))**8, 1e-3) if matter.size else 0.5
     norm = Normalize(darkest, 1.0)
     for ax, picture in zip(axes.flat, pictures):
         ax.imshow(picture.transmission, origin="lower", extent=[1e3 * v for v in picture.extent], cmap="gray", norm=norm,

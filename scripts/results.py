@@ -5,7 +5,7 @@
 usage: results.py [CASE[:RUN]]... [--resolution coarse|normal|fine] [--run] [--threads N] [--write] [--list]
 
 Without --run, runs that are there are compared. A run lies in run/results/CASE/RUN.RESOLUTION and is repeated only if
-its command line changed. --write replaces the part of docs/results.md between the markers; everything that has been
+its command line changed (after a change of case.toml or of a material, remove its folder). --write replaces the part of docs/results.md between the markers; everything that has been
 run, in any resolution, is in it. Format of expected.toml: docs/how_to/expected_results.md.
 Exit code 1 if a run failed, 2 for bad input; a quantity outside of its tolerance is a result, not an error.
 """
@@ -29,32 +29,47 @@ def up_to_date(folder, command):
     return stamp.is_file() and stamp.read_text() == " ".join(command)
 
 
-def execute(whipple, case, run, resolution, threads):
-    """Runs the case unless it is there; returns whether it is there now."""
-    folder = RESULTS / case.name / f"{run.name}.{resolution}"
-    relative = folder.relative_to(ROOT)
-    command = ["whipple", "run", str(case.file.relative_to(ROOT)), "-o", str(relative), "--force"]
+def environment(threads):
+    """Idle threads sleep: the machine may be shared."""
+    return os.environ | {"OMP_NUM_THREADS": str(threads), "OMP_WAIT_POLICY": "passive"}
+
+
+def folder_of(case, run, resolution):
+    return RESULTS / case.name / f"{run.name}.{resolution}"
+
+
+def command_of(case, run, resolution):
+    command = ["whipple", "run", str(case.file.relative_to(ROOT)), "-o",
+               str(folder_of(case, run, resolution).relative_to(ROOT)), "--force"]
     for assignment in run.assignments(resolution):
         command += ["--set", assignment]
-    if not up_to_date(folder, command):
-        (folder / "finished.txt").unlink(missing_ok=True)
-        print(f"{time.strftime('%H:%M:%S')} {' '.join(command)}", flush=True)
-        environment = os.environ | {"OMP_NUM_THREADS": str(threads), "OMP_WAIT_POLICY": "passive"}
-        done = subprocess.run([whipple, *command[1:], "--quiet", "--threads", str(threads)], cwd=ROOT, env=environment)
-        if done.returncode != 0:
-            print(f"  failed with exit code {done.returncode}", flush=True)
-            return False
-        (folder / "finished.txt").write_text(" ".join(command))
+    return command
+
+
+def execute(whipple, case, run, resolution, threads):
+    """Runs the case unless it is there; returns whether it is there now."""
+    folder, command = folder_of(case, run, resolution), command_of(case, run, resolution)
+    if up_to_date(folder, command):
+        return True
+    (folder / "finished.txt").unlink(missing_ok=True)
+    print(f"{time.strftime('%H:%M:%S')} {' '.join(command)}", flush=True)
+    done = subprocess.run([whipple, *command[1:], "--quiet", "--threads", str(threads)], cwd=ROOT,
+                          env=environment(threads))
+    if done.returncode != 0:
+        print(f"  failed with exit code {done.returncode}", flush=True)
+        return False
+    (folder / "finished.txt").write_text(" ".join(command))
     return True
 
 
-def analyse(whipple, folder, run):
+def analyse(whipple, folder, run, threads):
     """Measures of a run; repeated if the run or the program is newer."""
     product = folder / "report" / "quantities.csv"
     newest = max((folder / "finished.txt").stat().st_mtime, pathlib.Path(whipple).stat().st_mtime)
     if product.is_file() and product.stat().st_mtime > newest:
         return True
-    done = subprocess.run([whipple, "analyse", str(folder), "--quiet", *run.analyse])
+    done = subprocess.run([whipple, "analyse", str(folder), "--quiet", *run.analyse],
+                          env=environment(threads))
     return done.returncode == 0
 
 
@@ -110,10 +125,10 @@ def main():
         compared = []
         for case, run in chosen:
             for resolution in case.resolutions:
-                folder = RESULTS / case.name / f"{run.name}.{resolution}"
-                if not (folder / "finished.txt").is_file():
+                folder = folder_of(case, run, resolution)
+                if not up_to_date(folder, command_of(case, run, resolution)):
                     continue
-                if not analyse(arguments.whipple, folder, run):
+                if not analyse(arguments.whipple, folder, run, arguments.threads):
                     failed += 1
                     continue
                 compared.append(results_table.compare(case, run, resolution, folder))

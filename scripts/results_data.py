@@ -117,6 +117,9 @@ class Measures:
     def __init__(self, folder):
         self.folder = folder
         self.single = {row["quantity"]: float(row["value"]) for row in self._rows("quantities.csv")}
+        for row in self._rows("bodies.csv"):
+            body, part = row["body part"].rsplit(" ", 1)
+            self.single[f"mass.{body}.{part}"] = float(row["mass [kg]"])
         self.series = {}
         rows = self._rows("series.csv")
         for head in rows[0] if rows else []:
