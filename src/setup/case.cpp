@@ -62,31 +62,37 @@ ParameterTable<TimeControl> TimeControl::parameters() {
 }
 
 ParameterTable<TransferControl> TransferControl::parameters() {
-  return {choice("shape_function", &TransferControl::shape_function,
-                 {"quadratic_bspline", "cubic_bspline", "convected_gimp", "gimp", "linear"},
-                 "functions that carry fields between particles and nodes")
-              .optional(),
-          choice("particle_update", &TransferControl::particle_update,
-                 {"relaxed_affine", "apic", "flip", "pic", "blend", "fmpm"},
-                 "velocity transfer to the particles; schemes other than symplectic take flip by default")
-              .optional(),
-          real("kappa", &TransferControl::kappa, "", range::non_negative(),
-               "relaxation of the affine field: beta = 1 - exp(-kappa c dt / dx)")
-              .optional(),
-          real("flip_fraction", &TransferControl::flip_fraction, "", range::between(0.0, 1.0),
-               "share of FLIP in particle_update \"blend\", the rest is PIC")
-              .optional(),
-          integer("fmpm_order", &TransferControl::fmpm_order, range::between(1, 20),
-                  "k of particle_update \"fmpm\": terms of the inverse of the full mass matrix")
-              .optional(),
-          boolean("random_shift", &TransferControl::random_shift,
-                  "shift the grid by a random part of a cell in every step, along axes without walls")
-              .optional(),
-          integer("random_seed", &TransferControl::random_seed, range::between(0, 1e9), "of random_shift")
-              .optional(),
-          boolean("free_flight", &TransferControl::free_flight,
-                  "failed particles without stress and neighbours fly on without the grid")
-              .optional()};
+  return {
+      choice("shape_function", &TransferControl::shape_function,
+             {"quadratic_bspline", "cubic_bspline", "convected_gimp", "gimp", "linear"},
+             "functions that carry fields between particles and nodes")
+          .optional(),
+      choice("particle_update", &TransferControl::particle_update,
+             {"relaxed_affine", "apic", "flip", "pic", "blend", "fmpm"},
+             "velocity transfer to the particles; schemes other than symplectic take flip by default")
+          .optional(),
+      real("kappa", &TransferControl::kappa, "", range::non_negative(),
+           "relaxation of the affine field: beta = 1 - exp(-kappa c dt / dx)")
+          .optional(),
+      choice(
+          "affine_field", &TransferControl::affine_field, {"deformed", "turned"},
+          "carried on with the deformation of the step: for clouds; or with its rotation only: for rotating "
+          "and vibrating bodies")
+          .optional(),
+      real("flip_fraction", &TransferControl::flip_fraction, "", range::between(0.0, 1.0),
+           "share of FLIP in particle_update \"blend\", the rest is PIC")
+          .optional(),
+      integer("fmpm_order", &TransferControl::fmpm_order, range::between(1, 20),
+              "k of particle_update \"fmpm\": terms of the inverse of the full mass matrix")
+          .optional(),
+      boolean("random_shift", &TransferControl::random_shift,
+              "shift the grid by a random part of a cell in every step, along axes without walls")
+          .optional(),
+      integer("random_seed", &TransferControl::random_seed, range::between(0, 1e9), "of random_shift")
+          .optional(),
+      boolean("free_flight", &TransferControl::free_flight,
+              "failed particles without stress and neighbours fly on without the grid")
+          .optional()};
 }
 
 ParameterTable<Splitting> Splitting::parameters() {

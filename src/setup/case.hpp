@@ -39,6 +39,7 @@ struct TransferControl {
   std::string shape_function = "quadratic_bspline";
   std::string particle_update = "relaxed_affine";
   double kappa = 0.2;
+  std::string affine_field = "deformed";
   double flip_fraction = 0.95;
   std::int64_t fmpm_order = 2;
   bool random_shift = false;

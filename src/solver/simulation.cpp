@@ -20,8 +20,10 @@ namespace {
 constexpr std::int64_t sort_every = 20;  // steps between sorts of the particle arrays
 constexpr double lookahead_steps = 8.0;  // motion that the active blocks foresee
 
-bool affine(const setup::Case& setup) {
-  return setup.transfer.particle_update == "relaxed_affine" || setup.transfer.particle_update == "apic";
+transfer::AffineField affine_field(const setup::TransferControl& control) {
+  using enum transfer::AffineField;
+  if (control.particle_update != "relaxed_affine" && control.particle_update != "apic") return none;
+  return control.affine_field == "turned" ? turned : deformed;
 }
 
 /// beta of every particle update; FMPM is PIC with another grid velocity.
@@ -52,7 +54,8 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
   setup::Seeding seeding = setup::seed(setup, parallel::rank(communicator), parallel::size(communicator));
   particles_ = std::move(seeding.particles);
   bodies_ = std::move(seeding.bodies);
-  if (!affine(setup_)) std::ranges::fill(particles_.affine_velocity, Matrix3::Zero().eval());
+  if (affine_field(setup_.transfer) == transfer::AffineField::none)
+    std::ranges::fill(particles_.affine_velocity, Matrix3::Zero().eval());
   velocity_gradient_.resize(particles_.size());
   sum_over_ranks();
   state_.ledger.initial = totals_;
@@ -206,9 +209,9 @@ void Simulation::advance_grid() {
 
 void Simulation::map_grid_to_particles() {
   profile_.time("grid to particles", [&] {
-    const transfer::TransferBalance balance =
-        transfer::grid_to_particles(shape_, particles_, grid_, state_.time_step, affine(setup_),
-                                    velocity_gradient_, external_acceleration_);
+    const transfer::TransferBalance balance = transfer::grid_to_particles(
+        shape_, particles_, grid_, state_.time_step, affine_field(setup_.transfer), velocity_gradient_,
+        external_acceleration_);
     step_.work += balance.work;
     step_.transfer_heat += balance.heat;
     step_.external_work += balance.external_work;

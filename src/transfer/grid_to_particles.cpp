@@ -90,6 +90,13 @@ Moments gather(const std::array<AxisWeights<Shape::count>, 3>& weights, Lanes v,
   return m;
 }
 
+/// C_p <- C_p R^T (equation 4.9): only the rotation of the step, so the energy of the affine field stays.
+void turn_affine_field(Matrix3& c, const Matrix3& gradient, double dt) {
+  const Matrix3 quarter = 0.25 * dt * (gradient - gradient.transpose());  // half of the spin's increment
+  const Matrix3 identity = Matrix3::Identity();
+  c = c * (identity + quarter).inverse() * (identity - quarter);
+}
+
 /// C_p <- C_p (I + dt L)^-1, never growing (equation 4.8): v_p belongs to the new position, so C_p must be
 /// carried there. @returns the loss of |C|^2
 double advect_affine_field(Matrix3& c, const Matrix3& gradient, double dt) {
@@ -109,10 +116,11 @@ double external_work(const Moments& m, double mass, const Vector3& b, double dt)
   return mass * dt * b.dot(vector(m.velocity + 0.5 * m.increment));
 }
 
-template <class Shape, bool affine, class Access>
+template <class Shape, AffineField field, class Access>
 TransferBalance update_particle(Particles& particles, std::size_t p, const grid::Geometry& geometry,
                                 const grid::BlockCoordinate& block, double dt, Matrix3& gradient,
                                 Access& access, std::span<const Vector3> acceleration) {
+  constexpr bool affine = field != AffineField::none;
   Matrix3& c = particles.affine_velocity[p];
   std::array<Lanes, 3> columns{};
   [[maybe_unused]] double inertia = 0.0;  // sum N r r^T along one direction
@@ -138,7 +146,8 @@ TransferBalance update_particle(Particles& particles, std::size_t p, const grid:
       c.col(a) += vector(dc - bc);
     }
   }
-  if constexpr (affine) heat += 0.5 * inertia * advect_affine_field(c, gradient, dt);
+  if constexpr (field == AffineField::deformed) heat += 0.5 * inertia * advect_affine_field(c, gradient, dt);
+  if constexpr (field == AffineField::turned) turn_affine_field(c, gradient, dt);
 
   const SymmetricTensor& s = particles.deviatoric_stress[p];
   const double mean_stress = -(particles.pressure[p] + particles.artificial_viscosity[p]);
@@ -173,14 +182,14 @@ void for_each_particle(BlockGrid& grid, Function&& f) {
   });
 }
 
-template <class Shape, bool affine>
+template <class Shape, AffineField field>
 TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
                            std::span<Matrix3> velocity_gradient, std::span<const Vector3> acceleration) {
   std::vector<TransferBalance> of_slot(grid.slots());
   for_each_particle(
       grid, [&](std::size_t p, std::size_t slot, const grid::BlockCoordinate& block, auto& access) {
-        of_slot[slot] += update_particle<Shape, affine>(particles, p, grid.geometry(), block, dt,
-                                                        velocity_gradient[p], access, acceleration);
+        of_slot[slot] += update_particle<Shape, field>(particles, p, grid.geometry(), block, dt,
+                                                       velocity_gradient[p], access, acceleration);
       });
   TransferBalance total;
   for (const TransferBalance& part : of_slot) total += part;
@@ -217,12 +226,15 @@ double update_velocities(Particles& particles, BlockGrid& grid, double dt, doubl
 }  // namespace
 
 TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, BlockGrid& grid, double dt,
-                                  bool affine, std::span<Matrix3> velocity_gradient,
+                                  AffineField affine, std::span<Matrix3> velocity_gradient,
                                   std::span<const Vector3> acceleration) {
+  using enum AffineField;
   return with_shape(shape, [&]<class Shape>(Shape) {
-    if (!affine) return gather_all<Shape, false>(particles, grid, dt, velocity_gradient, acceleration);
+    if (affine == none) return gather_all<Shape, none>(particles, grid, dt, velocity_gradient, acceleration);
     if constexpr (CarriesAffineField<Shape>) {
-      return gather_all<Shape, true>(particles, grid, dt, velocity_gradient, acceleration);
+      return affine == deformed
+                 ? gather_all<Shape, deformed>(particles, grid, dt, velocity_gradient, acceleration)
+                 : gather_all<Shape, turned>(particles, grid, dt, velocity_gradient, acceleration);
     } else {
       throw InternalError("the affine transfer needs B-splines");
       return TransferBalance{};  // the other branch deduces the type

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "src/grid/block_grid.hpp"
@@ -22,15 +23,22 @@ struct TransferBalance {
   }
 };
 
+/// What becomes of the particles' affine fields.
+enum class AffineField : std::uint8_t {
+  none,      ///< there is none: FLIP, PIC and their blends
+  deformed,  ///< carried to the new positions with the deformation of the step, never growing
+  turned,    ///< turned with the rotation of the step only, which changes no energy
+};
+
 /// The gather of the symplectic scheme (docs/theory/mpm.md, section 4): velocity and affine field by the
 /// relaxed affine transfer, internal energy by the exact work identity plus the heat of the transfer,
 /// position with the grid's velocity, and the velocity gradient of the advanced grid for the constitutive
 /// update.
-/// @param affine            carry the affine field (B-splines only); false: FLIP, PIC and their blends
+/// @param affine            B-splines only, unless `none`
 /// @param velocity_gradient out, one per particle, 1/s: L(i, j) = dv_i/dx_j
 /// @param acceleration      by external forces, as given to `particles_to_grid`
 TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid, double dt,
-                                  bool affine, std::span<Matrix3> velocity_gradient,
+                                  AffineField affine, std::span<Matrix3> velocity_gradient,
                                   std::span<const Vector3> acceleration = {});
 
 /// Gather of the schemes without exact energy (equations 5.1, 5.2): velocity, and the displacement of the

@@ -219,10 +219,10 @@ double total_energy(const Particles& q, ShapeFunction shape) {
 
 /// One symplectic transfer cycle; checks the exact identities of section 4 of docs/theory/mpm.md.
 template <class Shape>
-void check_energy_identities(const Relaxation& relaxation, bool affine,
+void check_energy_identities(const Relaxation& relaxation, AffineField affine,
                              std::array<grid::Boundary, 6> boundary, const Vector3& lower) {
   Particles q = random_particles(700, lower, Vector3(8, 6.5, 11.8), 3);
-  if (!affine) {
+  if (affine == AffineField::none) {
     for (Matrix3& c : q.affine_velocity) c.setZero();
   }
   grid::BlockGrid grid(geometry(boundary), parallel::world());
@@ -247,27 +247,29 @@ void check_energy_identities(const Relaxation& relaxation, bool affine,
 }
 
 TYPED_TEST(Transfer, EnergyAndMomentumAreExactForEveryMemberOfTheFamily) {
-  constexpr bool affine = CarriesAffineField<TypeParam>;
+  using enum AffineField;
   for (const Relaxation& relaxation :
        {Relaxation{.kappa = 0.2}, Relaxation{.kappa = 5.0}, Relaxation{.fixed = 1.0},
         Relaxation{.fixed = 0.0}, Relaxation{.fixed = 0.37}}) {
-    check_energy_identities<TypeParam>(relaxation, affine, {}, Vector3(-1.2, -0.3, 4));
-    check_energy_identities<TypeParam>(relaxation, false, {}, Vector3(-1.2, -0.3, 4));
+    for (const AffineField affine : {none, deformed, turned}) {
+      if (affine != none && !CarriesAffineField<TypeParam>) continue;
+      check_energy_identities<TypeParam>(relaxation, affine, {}, Vector3(-1.2, -0.3, 4));
+    }
   }
 }
 
 TYPED_TEST(Transfer, EnergyAndMomentumAreExactAtPlanesWallsAndCorners) {
   using enum grid::Boundary;
-  constexpr bool affine = CarriesAffineField<TypeParam>;
+  constexpr AffineField affine = CarriesAffineField<TypeParam> ? AffineField::deformed : AffineField::none;
   const Vector3 corner(-2, -1, 3);
-  const auto check = [&](const Relaxation& relaxation, bool with_affine,
+  const auto check = [&](const Relaxation& relaxation, AffineField with_affine,
                          const std::array<grid::Boundary, 6>& boundary) {
     check_energy_identities<TypeParam>(relaxation, with_affine, boundary, corner);
   };
   check({}, affine, {symmetry, outflow, outflow, outflow, outflow, outflow});
   check({}, affine, {symmetry, outflow, symmetry, outflow, symmetry, outflow});
   check({.fixed = 1.0}, affine, {no_slip, outflow, symmetry, outflow, no_slip, outflow});
-  check({}, false, {symmetry, outflow, no_slip, outflow, symmetry, outflow});
+  check({}, AffineField::none, {symmetry, outflow, no_slip, outflow, symmetry, outflow});
   check({}, affine, {separating, outflow, outflow, outflow, outflow, outflow});
   check({}, affine, {separating, outflow, symmetry, outflow, separating, outflow});
 }
@@ -279,6 +281,7 @@ TYPED_TEST(Transfer, MirrorPlaneEqualsATransferOfRealImages) {
   grid::BlockGrid grid(geometry({symmetry, outflow, outflow, outflow, outflow, outflow}), parallel::world());
 
   constexpr bool affine = CarriesAffineField<TypeParam>;
+  constexpr AffineField carried = affine ? AffineField::deformed : AffineField::none;
   if (!affine) std::ranges::fill(half.affine_velocity, Matrix3::Zero().eval());
 
   // The full problem: a domain with its lower corner further left, particles and images about x = -2.
@@ -307,7 +310,7 @@ TYPED_TEST(Transfer, MirrorPlaneEqualsATransferOfRealImages) {
     bin<TypeParam>(g, q);
     particles_to_grid(TypeParam::kind, q, g);
     GridUpdate().advance(g, dt, {});
-    grid_to_particles(TypeParam::kind, q, g, dt, affine, gradient);
+    grid_to_particles(TypeParam::kind, q, g, dt, carried, gradient);
   };
   cycle(half, grid, half_gradient);
   cycle(full, full_grid, full_gradient);
@@ -329,6 +332,7 @@ TYPED_TEST(Transfer, PlanesOneCellApartEqualRealImages) {
   grid::BlockGrid grid(column, parallel::world());
 
   constexpr bool affine = CarriesAffineField<TypeParam>;
+  constexpr AffineField carried = affine ? AffineField::deformed : AffineField::none;
   if (!affine) std::ranges::fill(thin.affine_velocity, Matrix3::Zero().eval());
 
   // Seven cells side by side, each the image of its neighbours: all that share a node with the one in the
@@ -366,7 +370,7 @@ TYPED_TEST(Transfer, PlanesOneCellApartEqualRealImages) {
     bin<TypeParam>(g, q);
     particles_to_grid(TypeParam::kind, q, g);
     const GridBalance balance = GridUpdate().advance(g, dt, {});
-    grid_to_particles(TypeParam::kind, q, g, dt, affine, l);
+    grid_to_particles(TypeParam::kind, q, g, dt, carried, l);
     return balance;
   };
   const GridBalance balance = cycle(thin, grid, gradient);
@@ -420,6 +424,7 @@ TYPED_TEST(Transfer, NodesOfEveryStencilAreActiveWhereTheDivisionRounds) {
 TYPED_TEST(Transfer, IsGalileanInvariant) {
   Particles at_rest = random_particles(500, Vector3(-1.2, -0.3, 4), Vector3(8, 6.5, 11.8), 5);
   constexpr bool affine = CarriesAffineField<TypeParam>;
+  constexpr AffineField carried = affine ? AffineField::deformed : AffineField::none;
   if (!affine) std::ranges::fill(at_rest.affine_velocity, Matrix3::Zero().eval());
   Particles moving = at_rest;
   const Vector3 common(30, -20, 10);
@@ -430,7 +435,7 @@ TYPED_TEST(Transfer, IsGalileanInvariant) {
     bin<TypeParam>(grid, q);
     particles_to_grid(TypeParam::kind, q, grid);
     GridUpdate().advance(grid, 0.02, {});
-    return grid_to_particles(TypeParam::kind, q, grid, 0.02, affine, gradient);
+    return grid_to_particles(TypeParam::kind, q, grid, 0.02, carried, gradient);
   };
   const TransferBalance b1 = cycle(at_rest, g1);
   const TransferBalance b2 = cycle(moving, g2);
