@@ -91,10 +91,10 @@ Radiograph take_radiograph(const Snapshot& snapshot, const Frame& frame, const P
   const double margin = 2.0 * options.spot + 4.0 * options.pixel;
   picture.lower_axial = limits.lower_axial - margin;
   picture.lower_up = limits.lower_up - margin;
-  const double width = limits.upper_axial + margin - picture.lower_axial;
-  const double height = limits.upper_up + margin - picture.lower_up;
-  picture.columns = static_cast<std::size_t>(std::ceil(width / options.pixel));
-  picture.rows = static_cast<std::size_t>(std::ceil(height / options.pixel));
+  const double picture_width = limits.upper_axial + margin - picture.lower_axial;
+  const double picture_height = limits.upper_up + margin - picture.lower_up;
+  picture.columns = static_cast<std::size_t>(std::ceil(picture_width / options.pixel));
+  picture.rows = static_cast<std::size_t>(std::ceil(picture_height / options.pixel));
   if (picture.columns * picture.rows > 100'000'000) {
     throw InputError("error: the pixels of the radiograph are too small: more than 1e8 of them");
   }
@@ -114,7 +114,7 @@ Radiograph take_radiograph(const Snapshot& snapshot, const Frame& frame, const P
     const double edge = std::clamp(std::cbrt(volumes[i]) / options.pixel, 1.0, widest);
     deposit(image, picture.rows, picture.columns, x, (up - picture.lower_up) / options.pixel, edge, amount);
     if (reflect)
-      deposit(image, picture.rows, picture.columns, x, (-up - picture.lower_up) / options.pixel, width,
+      deposit(image, picture.rows, picture.columns, x, (-up - picture.lower_up) / options.pixel, edge,
               amount);
   }
   constexpr double width_of_sigma = 2.3548200450309493;  // full width at half maximum, 2 sqrt(2 ln 2)

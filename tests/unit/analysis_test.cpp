@@ -330,6 +330,23 @@ TEST(Radiograph, AParticleOfVapourFillsItsVolume) {
   EXPECT_NEAR(*std::ranges::max_element(image), m / (4e-3 * 4e-3), 1e-9 * m / 16e-6);
 }
 
+TEST(Radiograph, TheImageBeyondAMirrorPlaneLooksTheSame) {
+  Maker maker(1e-3);
+  maker.add(Vector3(3e-3, 1e-3, 0), Vector3::Zero());
+  maker.snapshot.scalars["density"][0] = density / 27;  // a cube of 3 mm
+  PictureLimits limits{.lower_axial = -4e-3, .upper_axial = 4e-3, .lower_up = -6e-3, .upper_up = 6e-3};
+  const Radiograph picture = take_radiograph(maker.snapshot, quarter(), limits,
+                                             {.pixel = 0.5e-3, .spot = 0.0, .attenuation = {1.0}});
+  const std::vector<double>& image = picture.areal_density[0];
+  EXPECT_NEAR(std::accumulate(image.begin(), image.end(), 0.0) * 0.25e-6, 4 * density * 1e-9, 1e-15);
+  for (std::size_t row = 0; row < picture.rows; ++row) {
+    for (std::size_t column = 0; column < picture.columns; ++column) {
+      EXPECT_NEAR(image[row * picture.columns + column],
+                  image[(picture.rows - 1 - row) * picture.columns + column], 1e-12);
+    }
+  }
+}
+
 TEST(Radiograph, BlurOfALineHasTheWidthOfTheSpot) {
   // A thin rod across the picture: after the blur it is a Gaussian of the given full width at half maximum.
   Maker maker(0.1e-3);
