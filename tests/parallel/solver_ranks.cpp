@@ -102,6 +102,38 @@ TEST_F(SolverRanks, AgreeWithOneRank) {
   EXPECT_EQ(together.particles().size() < together.particle_count(), ranks_.is_parallel());
 }
 
+// The options whose decisions ranks must take alike: contact of a separating wall, divisions with new
+// numbers, particles that fly without the grid, shifts of the grid, wide kernels with domains.
+TEST_F(SolverRanks, AgreeWithOneRankInEveryOption) {
+  const Overrides options = {{"domain.upper", R"(["12 mm", "12 mm", "3.6 mm"])"},
+                             {"domain.boundary.z_upper", "separating"},
+                             {"splitting.length", "0.7"},
+                             {"transfer.free_flight", "true"},
+                             {"transfer.random_shift", "true"},
+                             {"transfer.shape_function", "cubic_bspline"}};
+  const Overrides domains = {{"time.scheme", "usl"},
+                             {"transfer.shape_function", "convected_gimp"},
+                             {"transfer.particle_update", "fmpm"},
+                             {"output.maximum_energy_error", "1"}};
+  for (const Overrides& chosen : {options, domains}) {
+    const double end = chosen == options ? 1.5e-6 : 0.5e-6;
+    Simulation together(read(chosen), MPI_COMM_WORLD);
+    advance_to(together, end);
+    Simulation alone(read(chosen), MPI_COMM_SELF);
+    const std::size_t seeded = alone.particle_count();
+    advance_to(alone, end);
+    EXPECT_EQ(together.state().step, alone.state().step);
+    EXPECT_EQ(together.particle_count(), alone.particle_count());
+    EXPECT_EQ(alone.particle_count() > seeded, chosen == options);
+    const Totals& initial = alone.state().ledger.initial;
+    EXPECT_NEAR(together.totals().internal_energy, alone.totals().internal_energy, 1e-11 * initial.energy());
+    EXPECT_LE((together.totals().momentum - alone.totals().momentum).norm(), 1e-11 * initial.momentum_scale);
+    EXPECT_LE((together.state().ledger.wall_impulse - alone.state().ledger.wall_impulse).norm(),
+              1e-11 * initial.momentum_scale);
+    EXPECT_LE(together.state().ledger.momentum_error(together.totals()), 1e-11);
+  }
+}
+
 TEST_F(SolverRanks, AgreeWithOneRankInMusl) {
   const Overrides musl = {{"time.scheme", "musl"},
                           {"transfer.shape_function", "linear"},
