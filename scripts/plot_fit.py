@@ -47,7 +47,8 @@ def plot_gruneisen(data, top, bottom):
     grid = np.linspace(volume.min() - 0.01, volume.max() + 0.01, 50)
 
     def line(ratio):
-        return value(data, "gruneisen") - value(data, "gruneisen_slope") * (1.0 - ratio)
+        at_reference, slope = data["gruneisen"]
+        return at_reference - slope * (1.0 - ratio)
 
     top.plot(grid, line(grid), color="0.2", lw=1.2, label="fitted $\\gamma_0 - a (1 - V/V_0)$")
     top.errorbar(volume, gamma, yerr=error, fmt="o", ms=4, capsize=2, color="tab:blue",
@@ -63,7 +64,7 @@ def plot_gruneisen(data, top, bottom):
 def plot_energy(data, top, bottom):
     table = rows(data, "thermal_energy")
     v0 = data["reference_volume"]
-    mass = value(data, "molar_mass")
+    mass = data["molar_mass"]
     gas_constant = 8.314  # J/(mol K), that of the GRAY constants
     colours = plt.get_cmap("viridis")
     volumes = sorted(set(table["volume"]), reverse=True)
@@ -84,16 +85,59 @@ def plot_energy(data, top, bottom):
     bottom.set_xlabel("temperature (K)")
 
 
+def plot_isotherm(data, top, bottom):
+    table = rows(data, "isotherm_pressure")
+    ratio = table["volume"] / data["reference_volume"]
+    order = np.argsort(ratio)
+    top.plot(ratio[order], table["fitted"][order] / 1e9, color="0.2", lw=1.2, label="fitted isotherm")
+    top.plot(ratio, table["datum"] / 1e9, "o", ms=4, color="tab:blue", label="simulations")
+    top.set_ylabel("pressure (GPa)")
+    top.legend(frameon=False)
+    residual_panel(bottom, ratio, table, 1e9, "GPa")
+    bottom.set_xlabel("$V/V_0$")
+
+
+def plot_against(quantity, size, unit, label, abscissa_size, abscissa_label):
+    def draw(data, top, bottom):
+        table = rows(data, quantity)
+        order = np.argsort(table["abscissa"])
+        x = table["abscissa"] / abscissa_size
+        top.plot(x[order], table["fitted"][order] / size, "-", marker="_", color="0.2", lw=1.2, label="fitted")
+        top.errorbar(x, table["datum"] / size, yerr=table["sigma"] / size, fmt="o", ms=4, capsize=2, color="tab:blue",
+                     label="simulations")
+        top.set_ylabel(f"{label} ({unit})")
+        top.legend(frameon=False)
+        residual_panel(bottom, x, table, size, unit)
+        bottom.set_xlabel(abscissa_label)
+
+    return draw
+
+
+# Residuals that call for a panel, and what draws it.
+PANELS = {
+    "shock_velocity": plot_shock_velocity,
+    "isotherm_pressure": plot_isotherm,
+    "thermal_pressure": plot_gruneisen,
+    "thermal_energy": plot_energy,
+    "melting": plot_against("melting", 1.0, "K", "melting temperature", 1e9, "pressure (GPa)"),
+    "latent_heat": plot_against("latent_heat", 1e3, "kJ/kg", "heat of fusion", 1e9, "pressure (GPa)"),
+    "liquid_density": plot_against("liquid_density", 1e3, "g/cm$^3$", "saturated melt", 1.0, "temperature (K)"),
+    "vapour_density": plot_against("vapour_density", 1e3, "g/cm$^3$", "saturated vapour", 1.0, "temperature (K)"),
+}
+
+
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     with open(sys.argv[1], encoding="utf-8") as file:
         data = json.load(file)
     plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False})
-    figure, axes = plt.subplots(2, 3, figsize=(12.5, 5.2), sharex="col", height_ratios=(3, 1), layout="constrained")
-    for column, draw in enumerate((plot_shock_velocity, plot_gruneisen, plot_energy)):
+    panels = [draw for quantity, draw in PANELS.items() if rows(data, quantity) is not None]
+    figure, axes = plt.subplots(2, len(panels), figsize=(4.2 * len(panels), 5.2), sharex="col", height_ratios=(3, 1),
+                                layout="constrained")
+    for column, draw in enumerate(panels):
         draw(data, axes[0, column], axes[1, column])
-    figure.suptitle(f"GRAY fitted to {data['title']}")
+    figure.suptitle(f"{data['model']} fitted to {data['title']}")
     figure.savefig(sys.argv[2], dpi=200)
 
 

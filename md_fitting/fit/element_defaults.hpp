@@ -24,6 +24,8 @@ struct ElementDefaults {
       electronic;                    ///< choices of electronic_heat_coefficient; the first is the default
   NamedDefault melting_temperature;  ///< taken only if the store holds no coexistence point
   std::span<const NamedDefault> constants;  ///< the remaining constants of GRAY
+  const char* vapour;                       ///< where GRAY takes a_y from: "attraction", "boiling"
+  NamedDefault debye_temperature;           ///< taken only if the store holds no elastic constants
 };
 
 /// @throws InputError naming the known elements.
@@ -33,6 +35,7 @@ const ElementDefaults& element_defaults(std::string_view element);
 struct PublishedRow {
   std::string_view name;
   std::string_view element;
+  std::string_view source;
   double specific_volume;  ///< m^3/kg
   double hugoniot_intercept;
   double hugoniot_slope;
@@ -42,7 +45,5 @@ struct PublishedRow {
   double melting_temperature;
 };
 std::span<const PublishedRow> published_rows();
-inline constexpr std::string_view published_rows_source =
-    "Liu, Wang & Zhang, Int. J. Mech. Mater. Des. 9 (2013) 127";
 
 }  // namespace whipple::fit

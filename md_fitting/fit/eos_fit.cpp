@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "md_fitting/fit/fit_report.hpp"
+#include "md_fitting/fit/fit_samples.hpp"
+#include "md_fitting/fit/gray_fit.hpp"
 #include "md_fitting/fit/material_writer.hpp"
+#include "md_fitting/fit/solid_models.hpp"
 #include "src/base/error.hpp"
 #include "src/base/files.hpp"
 #include "src/base/units.hpp"
@@ -22,7 +27,10 @@ struct Options {
   std::vector<std::string> outputs;
   std::string model = "gray";
   std::string density;
-  std::string electronic = "measured";
+  std::string electrons;
+  int bootstrap = 0;
+  int samples = 0;
+  std::uint64_t seed = 1;
   std::string melting = "band";
   std::string reference_temperature = "293 K";
   std::vector<std::string> up_range = {"0.3 km/s", "2.5 km/s"};
@@ -52,7 +60,8 @@ FitSettings settings(const Options& options) {
                                  options.up_range[0], options.up_range[1]));
   }
   settings.melting = options.melting;
-  settings.electronic = options.electronic;
+  settings.electrons = options.electrons;
+  settings.bootstrap = options.bootstrap;
   if (options.statistical_only) settings.model_errors = ModelErrors::none();
   if (!options.density.empty()) {
     settings.density = quantity("--density", options.density, "kg/m^3");
@@ -101,6 +110,30 @@ std::vector<std::filesystem::path> material_files(const Options& options) {
   return files;
 }
 
+/// An ensemble beside the material NAME.toml: NAME_samples/NAME_1.toml, ...
+void write_samples(const Fit& fit, const StoreOrigin& origin, const std::filesystem::path& template_file,
+                   const std::filesystem::path& material, const Options& options) {
+  const FitSamples samples = sample_fit(fit, options.samples, options.seed);
+  const std::string name = material.stem().string();
+  const std::filesystem::path folder = material.parent_path() / (name + "_samples");
+  const std::size_t digits = std::to_string(options.samples).size();
+  for (std::size_t i = 0; i < samples.fits.size(); ++i) {
+    write_file(folder / fmt::format("{}_{:0{}}.toml", name, i + 1, digits),
+               material_text(samples.fits[i], origin, template_file), options.force);
+  }
+  fmt::print("written: {} samples in {}{}\n", samples.fits.size(), folder.string(),
+             samples.refused > 0
+                 ? fmt::format("; {} draws make no material and were replaced", samples.refused)
+                 : "");
+}
+
+Fit fit_model(const std::string& model, std::span<const md::PointRecord> points, const FitSettings& settings,
+              const std::string& store) {
+  if (model == "mie_gruneisen") return fit_mie_gruneisen(points, settings, store);
+  if (model == "debye_gruneisen") return fit_debye_gruneisen(points, settings, store);
+  return fit_gray(points, settings, store);
+}
+
 void run(const Options& options) {
   const std::vector<std::filesystem::path> files = material_files(options);
   const FitSettings chosen = settings(options);
@@ -110,15 +143,24 @@ void run(const Options& options) {
   }
   std::vector<NamedFit> fits;
   std::vector<std::string> materials;
-  for (const std::filesystem::path& store : options.stores) {
+  std::vector<std::function<void()>> ensembles;
+  if (options.samples > 0 && files.empty()) throw InputError("--samples: name the material with -o");
+  for (std::size_t i = 0; i < options.stores.size(); ++i) {
+    const std::filesystem::path& store = options.stores[i];
     const std::vector<md::PointRecord> points = md::read_store(store);
-    fits.push_back({stem(store), fit_gray(points, chosen, store.string())});
+    fits.push_back({stem(store), fit_model(options.model, points, chosen, store.string())});
     if (files.empty()) continue;
-    const GrayFit& fit = fits.back().fit;
+    const Fit& fit = fits.back().fit;
     const std::filesystem::path model = options.template_file.empty()
                                             ? default_template(fit.element)
                                             : std::filesystem::path(options.template_file);
-    materials.push_back(material_text(fit, store_origin(store, points), model));
+    const StoreOrigin origin = store_origin(store, points);
+    materials.push_back(material_text(fit, origin, model));
+    if (options.samples > 0) {
+      ensembles.emplace_back([fit, origin, model, file = files[i], &options] {
+        write_samples(fit, origin, model, file, options);
+      });
+    }
   }
   for (std::size_t i = 0; i < files.size(); ++i) write_file(files[i], materials[i], options.force);
   if (!options.plot.empty()) process::draw_json("scripts/plot_fit.py", plot_data(fits.front()), options.plot);
@@ -130,6 +172,7 @@ void run(const Options& options) {
   fmt::print("\n");
   if (files.empty()) fmt::print("no material written: name one with -o MATERIAL.toml\n");
   for (const std::filesystem::path& file : files) fmt::print("written: {}\n", file.string());
+  for (const auto& write : ensembles) write();
   if (!options.plot.empty()) fmt::print("written: {}\n", options.plot);
 }
 
@@ -145,15 +188,26 @@ int main_program(int argc, char** argv) {
       "Several stores are printed side by side; give -o once for each, or once as a folder.");
   app.add_option("stores", options.stores, "Stores NAME.md.h5 of whipple md")->required();
   app.add_option("--model", options.model, "Equation of state")
-      ->check(CLI::IsMember({"gray"}))
+      ->check(CLI::IsMember({"gray", "mie_gruneisen", "debye_gruneisen"}))
       ->capture_default_str();
   app.add_option("-o,--output", options.outputs, "Material file to write, or a folder (ending with '/')")
       ->allow_extra_args(false);
   app.add_option("--density", options.density,
                  "Measured density: replaces the fitted reference volume, e.g. \"8.9445 g/cm^3\"");
-  app.add_option("--electronic-heat-coefficient", options.electronic,
-                 "Electrons, which the simulations do not hold: measured, liu2013, none, or a quantity")
-      ->capture_default_str();
+  app.add_option(
+      "--electrons", options.electrons,
+      "Their heat coefficient g_el, of which the simulations know nothing: a choice of the element's table "
+      "(measured, none, for copper liu2013), or a quantity such as \"0.69 mJ/(mol K^2)\" (default: the "
+      "first of the table)");
+  app.add_option("--bootstrap", options.bootstrap,
+                 "Errors from so many replicates of the store, drawn from the blocks of its points")
+      ->check(CLI::Range(2, 100000));
+  app.add_option(
+         "--samples", options.samples,
+         "Write so many materials more, with constants drawn from the covariance, into NAME_samples/ beside "
+         "the material NAME.toml")
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--seed", options.seed, "Of the samples")->capture_default_str();
   app.add_option("--melting", options.melting, "Melting transition of the material, and of the fit of T_m0")
       ->check(CLI::IsMember({"band", "isochoric"}))
       ->capture_default_str();

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
+#include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/element_defaults.hpp"
 #include "src/base/text_table.hpp"
 
@@ -22,15 +24,27 @@ struct Column {
   int decimals;
 };
 
-const std::vector<Column>& columns() {
-  static const std::vector<Column> list = {{"V0", "cm3/g", "reference_specific_volume", 1e-3, 5},
+const std::vector<Column>& columns(const std::string& model) {
+  static const std::vector<Column> gray = {{"V0", "cm3/g", "reference_specific_volume", 1e-3, 5},
                                            {"C", "km/s", "hugoniot_intercept", 1e3, 3},
                                            {"S", "", "hugoniot_slope", 1.0, 3},
                                            {"gamma0", "", "gruneisen", 1.0, 3},
                                            {"a", "", "gruneisen_slope", 1.0, 2},
                                            {"g", "1e-7 kJ/(mol K2)", "anharmonic_heat_coefficient", 1e-4, 2},
-                                           {"T_m0", "K", "melting_temperature", 1.0, 0}};
-  return list;
+                                           {"T_m0", "K", "melting_temperature", 1.0, 0},
+                                           {"dS", "J/(mol K)", "melting_entropy", 1.0, 2}};
+  static const std::vector<Column> mie_gruneisen = {{"rho0", "g/cm3", "reference_density", 1e3, 4},
+                                                    {"c0", "km/s", "hugoniot_intercept", 1e3, 3},
+                                                    {"s", "", "hugoniot_slope", 1.0, 3},
+                                                    {"Gamma0", "", "gruneisen", 1.0, 3},
+                                                    {"b", "", "gruneisen_slope", 1.0, 2},
+                                                    {"c_v", "J/(kg K)", "heat_capacity", 1.0, 1}};
+  static const std::vector<Column> debye = {
+      {"rho0", "g/cm3", "reference_density", 1e3, 4}, {"K0", "GPa", "bulk_modulus", 1e9, 1},
+      {"K0'", "", "bulk_modulus_slope", 1.0, 2},      {"gamma0", "", "gruneisen", 1.0, 3},
+      {"a", "", "gruneisen_slope", 1.0, 2},           {"theta0", "K", "debye_temperature", 1.0, 0},
+      {"T_m0", "K", "melting_temperature", 1.0, 0}};
+  return model == "mie_gruneisen" ? mie_gruneisen : model == "debye_gruneisen" ? debye : gray;
 }
 
 using Row = std::vector<std::string>;
@@ -53,18 +67,99 @@ Row published_cells(const PublishedRow& row) {
   const double values[] = {row.specific_volume, row.hugoniot_intercept, row.hugoniot_slope,     row.gruneisen,
                            row.gruneisen_slope, row.heat_coefficient,   row.melting_temperature};
   Row cells = {std::string(row.name)};
-  for (std::size_t i = 0; i < columns().size(); ++i) {
-    cells.push_back(fmt::format("{:.{}f}", values[i] / columns()[i].size, columns()[i].decimals));
+  for (std::size_t i = 0; i < std::size(values); ++i) {
+    cells.push_back(fmt::format("{:.{}f}", values[i] / columns("gray")[i].size, columns("gray")[i].decimals));
   }
+  cells.emplace_back();
   return cells;
+}
+
+std::string left_out_text(const Fit& fit) {
+  std::string text =
+      "\neach datum left out in turn and predicted from the rest: data, rms of (datum - prediction)/error, "
+      "largest; "
+      "the largest shift of a constant in its errors\n";
+  for (const LeaveOneOut& part : fit.left_out) {
+    if (part.data == 0) {
+      text += fmt::format("  {}: the rest does not predict it\n", part.quantity);
+      continue;
+    }
+    text += fmt::format("  {}: {}, {:.2f}, {:.2f} ({}); {} by {:.2f} without {}\n", part.quantity, part.data,
+                        part.rms, part.largest, part.worst, fit.left_out_names[part.constant], part.shift,
+                        part.mover);
+  }
+  return text;
+}
+
+std::string bootstrap_text(const Fit& fit) {
+  const BootstrapResult& result = *fit.bootstrap;
+  std::string text = fmt::format(
+      "\nbootstrap over blocks: {} replicates ({} could not be fitted); {} points drawn from their blocks, "
+      "{} from "
+      "their stated errors\n  constant: error over replicates, error from the noise, their ratio\n",
+      result.replicates, result.failed, result.points_with_blocks, result.points_without);
+  for (std::size_t k = 0; k < fit.left_out_names.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    const double scatter = std::sqrt(result.covariance(row, row));
+    const auto place = std::find(fit.fitted_names.begin(), fit.fitted_names.end(), fit.left_out_names[k]);
+    if (place == fit.fitted_names.end()) continue;
+    const Eigen::Index own = place - fit.fitted_names.begin();
+    const double noise = std::sqrt(fit.statistical_covariance(own, own));
+    text += fmt::format("  {}: {:.3g}, {:.3g}, {:.2f}\n", *place, scatter, noise, scatter / noise);
+  }
+  return text;
+}
+
+std::string unknown_to_classical_nuclei(const Fit& fit) {
+  std::string text =
+      "\nwhat classical nuclei cannot know: electrons (heat, pressure), zero-point motion, and the fall of "
+      "the heat "
+      "capacity below the Debye temperature\n";
+  const auto find = [&](const char* name) {
+    const auto found = std::find_if(fit.constants.begin(), fit.constants.end(),
+                                    [&](const Constant& constant) { return constant.name == name; });
+    return found == fit.constants.end() ? nullptr : &*found;
+  };
+  const Constant* const electrons = find("electronic_heat_coefficient");
+  const Constant* const nuclei = find("anharmonic_heat_coefficient");
+  if (nuclei != nullptr && electrons != nullptr) {
+    text += fmt::format(
+        "  g_anh = {:.3g} +- {:.2g} mJ/(mol K^2), the anharmonic energy of the nuclei, is all that the "
+        "simulations "
+        "bear of g_e\n  g_el = {:.3g} mJ/(mol K^2): {}\n  g_e of the material = g_anh + g_el = {:.3g} "
+        "mJ/(mol K^2)\n",
+        1e3 * nuclei->value, 1e3 * nuclei->error, 1e3 * electrons->value, electrons->source,
+        1e3 * (nuclei->value + electrons->value));
+  } else if (electrons != nullptr) {
+    text += fmt::format("  g_el = {:.3g} mJ/(mol K^2): {}\n", 1e3 * electrons->value, electrons->source);
+  }
+  return text;
+}
+
+std::string windows_text(const Fit& fit) {
+  std::string text =
+      "\nwindow of particle velocities (km/s), states, C (km/s), S: the first is the fit's own\n";
+  for (const WindowResult& window : fit.windows) {
+    text += fmt::format("  {:.2f} ... {:.2f}  {:3d}  {:.3f}  {:.3f}\n", window.least * 1e-3,
+                        window.most * 1e-3, window.states, window.intercept * 1e-3, window.slope);
+  }
+  const auto [least_c, most_c] =
+      std::minmax_element(fit.windows.begin(), fit.windows.end(),
+                          [](const auto& a, const auto& b) { return a.intercept < b.intercept; });
+  const auto [least_s, most_s] = std::minmax_element(
+      fit.windows.begin(), fit.windows.end(), [](const auto& a, const auto& b) { return a.slope < b.slope; });
+  return text + fmt::format("  over the windows: C {:.3f} ... {:.3f} km/s, S {:.3f} ... {:.3f}\n",
+                            least_c->intercept * 1e-3, most_c->intercept * 1e-3, least_s->slope,
+                            most_s->slope);
 }
 
 }  // namespace
 
 std::string constants_table(std::span<const NamedFit> fits) {
+  const std::string& model = fits.front().fit.model;
   Row titles = {""};
   Row units = {""};
-  for (const Column& column : columns()) {
+  for (const Column& column : columns(model)) {
     titles.push_back(column.title);
     units.push_back(column.unit);
   }
@@ -72,30 +167,32 @@ std::string constants_table(std::span<const NamedFit> fits) {
   std::set<std::string, std::less<>> elements;
   for (const NamedFit& fit : fits) {
     Row row = {fit.name};
-    for (const Column& column : columns()) row.push_back(cell(fit.fit.constant(column.name), column));
+    for (const Column& column : columns(model)) row.push_back(cell(fit.fit.constant(column.name), column));
     rows.push_back(row);
     elements.insert(fit.fit.element);
   }
-  bool published = false;
+  std::string sources;
   for (const PublishedRow& row : published_rows()) {
-    if (!elements.contains(row.element)) continue;
+    if (model != "gray" || !elements.contains(row.element)) continue;
     rows.push_back(published_cells(row));
-    published = true;
+    if (sources.find(row.source) == std::string::npos) {
+      sources += fmt::format("{}{}", sources.empty() ? "" : "; ", row.source);
+    }
   }
   std::string text = text_table(rows, "lr");
   text += "errors: one standard deviation from noise and model error, in brackets from the noise alone\n";
-  text += "g: fitted rows the anharmonic coefficient of classical nuclei";
-  if (published) {
-    text +=
-        fmt::format("; published rows the sum with the electrons\npublished rows: {}", published_rows_source);
+  if (model == "gray") text += "g: fitted rows the anharmonic coefficient of classical nuclei";
+  if (!sources.empty()) {
+    text += fmt::format("; published rows that of the electrons, or the sum\npublished rows: {}", sources);
   }
-  return text + "\n";
+  return model == "gray" ? text + "\n" : text;
 }
 
-std::string fit_details(const GrayFit& fit) {
+std::string fit_details(const Fit& fit) {
   std::string text;
-  text += fmt::format("potential {}; chi^2 = {:.1f} for {} degrees of freedom: {:.2f}\n", fit.potential,
-                      fit.chi_squared, fit.degrees_of_freedom, fit.chi_squared / fit.degrees_of_freedom);
+  text += fmt::format("model {}; potential {}; chi^2 = {:.1f} for {} degrees of freedom: {:.2f}\n", fit.model,
+                      fit.potential, fit.chi_squared, fit.degrees_of_freedom,
+                      fit.chi_squared / fit.degrees_of_freedom);
   for (const ChiSquaredPart& part : fit.chi_squared_parts) {
     text += fmt::format("  {}: {:.1f} from {} data\n", part.quantity, part.chi_squared, part.data);
   }
@@ -103,6 +200,7 @@ std::string fit_details(const GrayFit& fit) {
     text += fmt::format("  {} isochore states above T_m(V) left out (superheated solid)\n",
                         fit.superheated_states);
   }
+  for (const std::string& remark : fit.remarks) text += fmt::format("  {}\n", remark);
 
   text += "\ncorrelations\n";
   const Eigen::MatrixXd correlation = fit.correlation();
@@ -114,34 +212,25 @@ std::string fit_details(const GrayFit& fit) {
   }
   text += text_table(rows, "lr");
 
-  text += "\nwindow of particle velocities (km/s), states, C (km/s), S: the first is the fit's own\n";
-  for (const WindowResult& window : fit.windows) {
-    text += fmt::format("  {:.2f} ... {:.2f}  {:3d}  {:.3f}  {:.3f}\n", window.least * 1e-3,
-                        window.most * 1e-3, window.states, window.intercept * 1e-3, window.slope);
-  }
-  const auto [least_c, most_c] =
-      std::minmax_element(fit.windows.begin(), fit.windows.end(),
-                          [](const auto& a, const auto& b) { return a.intercept < b.intercept; });
-  const auto [least_s, most_s] = std::minmax_element(
-      fit.windows.begin(), fit.windows.end(), [](const auto& a, const auto& b) { return a.slope < b.slope; });
-  text += fmt::format("  over the windows: C {:.3f} ... {:.3f} km/s, S {:.3f} ... {:.3f}\n",
-                      least_c->intercept * 1e-3, most_c->intercept * 1e-3, least_s->slope, most_s->slope);
+  text += left_out_text(fit);
+  if (fit.bootstrap) text += bootstrap_text(fit);
+  if (!fit.windows.empty()) text += windows_text(fit);
 
   text += "\ngamma of each isochore (slope of P against E; noise only) beside the fitted line\n";
   for (const IsochoreGruneisen& isochore : fit.isochores) {
     const double ratio = isochore.volume / fit.fitted_reference_volume;
     text +=
         fmt::format("  V/V0 = {:.4f}  {:.3f} +- {:.3f}  line {:.3f}  {} states\n", ratio, isochore.gruneisen,
-                    isochore.error, fit.value("gruneisen") - fit.value("gruneisen_slope") * (1.0 - ratio),
-                    isochore.states);
+                    isochore.error, fit.gruneisen - fit.gruneisen_slope * (1.0 - ratio), isochore.states);
   }
-  if (fit.isochoric_melting_temperature) {
+  if (fit.isochoric_melting_temperature && fit.model == "gray") {
     text += fmt::format(
         "\nmelting: the solid of volume V0 coexists with liquid at {:.0f} K; T_m0 of melting = \"{}\" is "
         "{:.0f} K\n",
         *fit.isochoric_melting_temperature, fit.settings.melting, fit.value("melting_temperature"));
   }
 
+  text += unknown_to_classical_nuclei(fit);
   text += "\nnot from the simulations\n";
   for (const Constant& constant : fit.constants) {
     if (constant.origin == Origin::fitted) continue;
@@ -158,10 +247,13 @@ std::string fit_details(const GrayFit& fit) {
 }
 
 std::string plot_data(const NamedFit& named) {
-  const GrayFit& fit = named.fit;
+  const Fit& fit = named.fit;
   nlohmann::json data;
   data["title"] = named.name;
+  data["model"] = fit.model;
   data["reference_volume"] = fit.fitted_reference_volume;
+  data["molar_mass"] = fit.molar_mass;
+  data["gruneisen"] = {fit.gruneisen, fit.gruneisen_slope};
   for (const Constant& constant : fit.constants) {
     data["constants"][constant.name] = {{"value", constant.value}, {"error", constant.error}};
   }

@@ -4,23 +4,25 @@
 #include <span>
 #include <string>
 
-#include "md_fitting/fit/gray_fit.hpp"
+#include "md_fitting/fit/fit_result.hpp"
 
 namespace whipple::fit {
 
 /// A fit under the name that its row carries.
 struct NamedFit {
   std::string name;
-  GrayFit fit;
+  Fit fit;
 };
 
-/// Rows V0, C, S, gamma0, a, g, T_m0 with errors (1 sigma: total, noise in brackets) of all fits, and below
-/// them the published rows of their elements.
+/// The model's chief constants (GRAY: V0, C, S, gamma0, a, g, T_m0, Delta S) with errors (1 sigma: total,
+/// noise in brackets) of all fits, which are of one model, and below those of GRAY the published rows of
+/// their elements.
 std::string constants_table(std::span<const NamedFit> fits);
 
-/// Everything else about one fit: chi^2 per kind of data, correlations, windows, gamma of the isochores,
-/// defaults, the complete model against the simulations.
-std::string fit_details(const GrayFit& fit);
+/// Everything else about one fit: chi^2 per kind of data, correlations, leave-one-out check, bootstrap,
+/// windows, gamma of the isochores, defaults, what the simulations cannot know, the complete model against
+/// them.
+std::string fit_details(const Fit& fit);
 
 /// The data of scripts/plot_fit.py as JSON.
 std::string plot_data(const NamedFit& fit);

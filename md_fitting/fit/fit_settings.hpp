@@ -16,9 +16,14 @@ struct ModelErrors {
   double thermal_pressure = 0.01;      ///< relative, per state: gamma depends on T, too
   double energy = 0.003;  ///< relative to the thermal energy, per state: not exactly quadratic in T
   double melting_temperature = 0.01;  ///< relative: Lindemann law
+  double latent_heat = 0.05;          ///< relative: one entropy of melting for all volumes
+  double isotherm_pressure = 0.01;    ///< relative, per state: Vinet's form
+  double isotherm_volume = 5e-4;      ///< relative, per state, as a pressure
+  double liquid_density = 0.03;       ///< relative, of the saturated melt: the form of the fluid
+  double vapour_density = 0.3;        ///< relative, of the saturated vapour
 
   /// No model error at all: the weights are those of the noise.
-  static ModelErrors none() { return {0, 0, 0, 0, 0, 0, 0}; }
+  static ModelErrors none() { return {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}; }
 };
 
 struct FitSettings {
@@ -29,8 +34,9 @@ struct FitSettings {
   /// T_m(V) itself does. It is also the melting transition of the material.
   std::string melting = "band";
   ModelErrors model_errors;
-  std::string electronic = "measured";  ///< name of a choice of the element's table, or a quantity
-  std::optional<double> density;        ///< kg/m^3: replaces the fitted reference volume by a measured one
+  std::string electrons;  ///< name of a choice of the element's table, or a quantity; empty: the first choice
+  int bootstrap = 0;      ///< replicates; 0: none
+  std::optional<double> density;  ///< kg/m^3: replaces the fitted reference volume by a measured one
 };
 
 }  // namespace whipple::fit

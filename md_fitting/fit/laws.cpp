@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "md_fitting/fit/laws.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <utility>
+
+#include "src/base/error.hpp"
 
 namespace whipple::fit {
 namespace {
@@ -11,18 +15,28 @@ double anharmonic_energy(const eos::GrayConstants& c, double V, double T) {
   return c.anharmonic_heat_coefficient * std::pow(V / c.reference_specific_volume, c.electronic_gruneisen) *
          T * T / (2.0 * c.molar_mass);
 }
+
+eos::GrayPoint phase(const eos::GrayFreeEnergy& surface, bool liquid, double V, double T) {
+  return liquid ? surface.liquid(V, T) : surface.solid(V, T);
+}
 }  // namespace
 
 double gamma(const eos::GrayConstants& c, double V) {
   return c.gruneisen - c.gruneisen_slope * (1.0 - V / c.reference_specific_volume);
 }
 
-double thermal_energy(const eos::GrayConstants& c, double V, double T) {
-  return 3.0 * eos::GrayConstants::gas_constant * T / c.molar_mass + anharmonic_energy(c, V, T);
+double thermal_energy(const SolidConstants& c, double V, double T) {
+  return c.heat_capacity * T + anharmonic_energy(c.gray, V, T);
 }
 
 double anharmonic_pressure(const eos::GrayConstants& c, double V, double T) {
   return (c.electronic_gruneisen - gamma(c, V)) * anharmonic_energy(c, V, T) / V;
+}
+
+double isotherm_pressure(const SolidConstants& c, double V) {
+  const double X = std::cbrt(V / c.gray.reference_specific_volume);
+  return 3.0 * c.bulk_modulus * (1.0 - X) / (X * X) *
+         std::exp(1.5 * (c.bulk_modulus_slope - 1.0) * (1.0 - X));
 }
 
 double melting_temperature(const eos::GrayConstants& c, double V) {
@@ -32,18 +46,48 @@ double melting_temperature(const eos::GrayConstants& c, double V) {
 }
 
 namespace {
-/// The band rests on Delta S - alpha alone. Without the fall of the liquid's heat capacity (alpha = 0) the
-/// surface exists for every g, also where liquid or vapour of the complete model would have no positive heat
-/// capacity.
-eos::GrayConstants without_liquid_slope(eos::GrayConstants constants) {
+/// Melting rests on Delta S - alpha alone, up to the square of T/T_m - 1. Without the fall of the liquid's
+/// heat capacity (alpha = 0) the surface exists for every g, also where liquid or vapour of the complete
+/// model would have no positive heat capacity. Nor does the attraction of the vapour matter: one is as good
+/// as another.
+eos::GrayConstants for_melting(eos::GrayConstants constants) {
   constants.melting_entropy -= constants.liquid_heat_coefficient;
   constants.liquid_heat_coefficient = 0.0;
+  constants.vapour = "attraction";
+  if (!std::isfinite(constants.vapour_attraction)) {
+    constants.vapour_attraction =
+        std::pow(constants.hugoniot_intercept, 2) * constants.reference_specific_volume;
+  }
   return constants;
 }
 }  // namespace
 
-Solidus::Solidus(eos::GrayConstants constants) : surface_(without_liquid_slope(std::move(constants))) {}
+Melting::Melting(eos::GrayConstants constants) : surface_(for_melting(std::move(constants))) {}
 
-double Solidus::temperature(double V) const { return surface_.band(surface_.isochore(V)).T1; }
+double Melting::solidus(double V) const { return surface_.band(surface_.isochore(V)).T1; }
+
+double Melting::latent_heat(double pressure, double temperature) const {
+  const auto enthalpy = [&](bool liquid) {
+    const double V = condensed_volume(surface_, liquid, pressure, temperature);
+    return phase(surface_, liquid, V, temperature).energy + pressure * V;
+  };
+  return enthalpy(true) - enthalpy(false);
+}
+
+double condensed_volume(const eos::GrayFreeEnergy& surface, bool liquid, double pressure,
+                        double temperature) {
+  double small = surface.least_volume();
+  double large = surface.join_volume();
+  const auto excess = [&](double V) { return phase(surface, liquid, V, temperature).pressure - pressure; };
+  if (!(excess(small) > 0.0 && excess(large) < 0.0)) {
+    throw StateError(fmt::format("the model has no {} at {:.4g} GPa and {:.0f} K",
+                                 liquid ? "liquid" : "solid", 1e-9 * pressure, temperature));
+  }
+  while (large - small > 1e-12 * large) {
+    const double middle = 0.5 * (small + large);
+    (excess(middle) > 0.0 ? small : large) = middle;
+  }
+  return 0.5 * (small + large);
+}
 
 }  // namespace whipple::fit

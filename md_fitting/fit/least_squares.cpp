@@ -109,8 +109,10 @@ LeastSquaresSolution solve(const LeastSquaresProblem& problem) {
   }
   gsl_set_error_handler(handler);
   if (callback.failure) std::rethrow_exception(callback.failure);
-  // GSL_ENOPROG: no step lowers chi squared any more, the minimum to rounding.
-  if (status != GSL_SUCCESS && status != GSL_ENOPROG) {
+  // GSL_ENOPROG: no step lowers chi squared any more, the minimum to rounding. If the very first one does
+  // not, the driver says GSL_EMAXITER and gives the reason.
+  const bool at_minimum = status == GSL_ENOPROG || (status == GSL_EMAXITER && reason == GSL_ENOPROG);
+  if (status != GSL_SUCCESS && !at_minimum) {
     throw StateError(fmt::format("least squares: no convergence after {} iterations ({})",
                                  gsl_multifit_nlinear_niter(workspace.get()), gsl_strerror(status)));
   }
@@ -129,6 +131,8 @@ LeastSquaresSolution solve(const LeastSquaresProblem& problem) {
 
   const Eigen::MatrixXd jacobian = to_eigen(*gsl_multifit_nlinear_jac(workspace.get()));
   require_determined(jacobian);
+  solution.jacobian = jacobian;
+  solution.sigma_factor = sigma.matrixL();
   const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
   const Eigen::MatrixXd inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(p, p));
   solution.covariance = 0.5 * (inverse + inverse.transpose());

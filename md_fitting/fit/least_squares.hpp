@@ -22,6 +22,8 @@ struct LeastSquaresSolution {
   Eigen::MatrixXd statistical_covariance;  ///< share of the noise of the data alone
   Eigen::VectorXd residuals;               ///< as the problem defines them
   Eigen::VectorXd whitened;                ///< L^-1 r with L L^T = Sigma: unit variance, uncorrelated
+  Eigen::MatrixXd jacobian;                ///< of the whitened residuals
+  Eigen::MatrixXd sigma_factor;            ///< L
   double chi_squared = 0.0;
   int degrees_of_freedom = 0;
   int iterations = 0;

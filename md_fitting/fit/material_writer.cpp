@@ -7,11 +7,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <set>
 #include <sstream>
 #include <string_view>
 #include <vector>
 
+#include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/element_defaults.hpp"
 #include "src/base/error.hpp"
 #include "src/base/hash.hpp"
@@ -61,7 +63,34 @@ std::string constant_line(const Constant& constant) {
   return line + "\n";
 }
 
-std::string covariance_table(const GrayFit& fit) {
+/// A symmetric matrix of the fitted constants as a table, one row for each name.
+std::string matrix_table(const char* title, const std::vector<std::string>& names,
+                         const Eigen::MatrixXd& matrix, const std::function<std::string(double)>& number) {
+  std::string text = fmt::format("\n[covariance.{}]\n", title);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::vector<std::string> row;
+    for (const double value : matrix.row(static_cast<Eigen::Index>(i))) row.push_back(number(value));
+    text += fmt::format("{} = [{}]\n", names[i], fmt::join(row, ", "));
+  }
+  return text;
+}
+
+/// Scatter over the replicates of the bootstrap, by the names of the covariance; "nan" for constants that the
+/// bootstrap leaves out (those of the vapour).
+std::vector<std::string> bootstrap_errors(const Fit& fit) {
+  std::vector<std::string> errors;
+  for (const std::string& name : fit.fitted_names) {
+    const auto place = std::find(fit.left_out_names.begin(), fit.left_out_names.end(), name);
+    const Eigen::Index row = place - fit.left_out_names.begin();
+    errors.push_back(place == fit.left_out_names.end()
+                         ? std::string("nan")
+                         : fmt::format("{:.4e}", std::sqrt(fit.bootstrap->covariance(row, row))));
+  }
+  return errors;
+}
+
+std::string covariance_table(const Fit& fit) {
+  if (fit.fitted_names.empty()) return {};  // of a sample
   std::vector<std::string> names;
   std::vector<std::string> si_units;
   for (const std::string& name : fit.fitted_names) {
@@ -69,24 +98,25 @@ std::string covariance_table(const GrayFit& fit) {
     si_units.push_back(whipple::quoted(fit.constant(name).unit));
   }
   std::string text = fmt::format(
-      "[covariance]\n# Of the fitted constants, from the noise of the data and the model error; entry (i, j) "
-      "in "
-      "units[i] * units[j].\nnames = [{}]\nunits = [{}]\nmatrix = [\n",
+      "[covariance]\n# Of the fitted constants, from the noise of the data and the model error: entry k of "
+      "row i in "
+      "units[i] * units[k].\nnames = [{}]\nunits = [{}]\n",
       fmt::join(names, ", "), fmt::join(si_units, ", "));
-  for (Eigen::Index i = 0; i < fit.covariance.rows(); ++i) {
-    std::vector<std::string> row;
-    for (Eigen::Index k = 0; k < fit.covariance.cols(); ++k) {
-      row.push_back(fmt::format("{:.6e}", fit.covariance(i, k)));
-    }
-    text += fmt::format("  [{}],\n", fmt::join(row, ", "));
-  }
   std::vector<std::string> noise;
   for (Eigen::Index i = 0; i < fit.statistical_covariance.rows(); ++i) {
     noise.push_back(fmt::format("{:.4e}", std::sqrt(fit.statistical_covariance(i, i))));
   }
-  text += fmt::format("]\nstatistical_error = [{}]\n", fmt::join(noise, ", "));
+  text += fmt::format("statistical_error = [{}]\n", fmt::join(noise, ", "));
+  if (fit.bootstrap) {
+    text += fmt::format("bootstrap_replicates = {}\nbootstrap_error = [{}]\n", fit.bootstrap->replicates,
+                        fmt::join(bootstrap_errors(fit), ", "));
+  }
   text +=
       fmt::format("chi_squared = {:.6g}\ndegrees_of_freedom = {}\n", fit.chi_squared, fit.degrees_of_freedom);
+  text += matrix_table("matrix", fit.fitted_names, fit.covariance,
+                       [](double value) { return fmt::format("{:.6e}", value); });
+  text += matrix_table("correlation", fit.fitted_names, fit.correlation(),
+                       [](double value) { return fmt::format("{:.3f}", value); });
   return text;
 }
 
@@ -104,11 +134,16 @@ std::string settings_table(const FitSettings& settings) {
                       errors.gruneisen, errors.anharmonic);
   text += fmt::format("model_error_thermal_pressure = {}\nmodel_error_energy = {}\n", errors.thermal_pressure,
                       errors.energy);
-  text += fmt::format("model_error_melting_temperature = {}\n", errors.melting_temperature);
+  text += fmt::format("model_error_melting_temperature = {}\nmodel_error_latent_heat = {}\n",
+                      errors.melting_temperature, errors.latent_heat);
+  text += fmt::format("model_error_isotherm_pressure = {}\nmodel_error_isotherm_volume = {}\n",
+                      errors.isotherm_pressure, errors.isotherm_volume);
+  text += fmt::format("model_error_liquid_density = {}\nmodel_error_vapour_density = {}\n",
+                      errors.liquid_density, errors.vapour_density);
   return text;
 }
 
-std::string provenance_table(const GrayFit& fit, const StoreOrigin& origin) {
+std::string provenance_table(const Fit& fit, const StoreOrigin& origin) {
   std::string text = fmt::format("[provenance]\nstore = {}\nstore_sha256 = {}\npotential = {}\n",
                                  whipple::quoted(origin.name), whipple::quoted(origin.sha256),
                                  whipple::quoted(fit.potential));
@@ -125,7 +160,7 @@ std::string provenance_table(const GrayFit& fit, const StoreOrigin& origin) {
   return fmt::format("{}\n{}", text, settings_table(fit.settings));
 }
 
-std::string defaults_table(const GrayFit& fit) {
+std::string defaults_table(const Fit& fit) {
   std::string text =
       "[defaults]\n# Constants that the simulations do not bear: name of the choice, and its source.\n";
   for (const Constant& constant : fit.constants) {
@@ -199,30 +234,32 @@ std::filesystem::path default_template(const std::string& element) {
                   file, fmt::join(names, ", ")));
 }
 
-std::string material_text(const GrayFit& fit, const StoreOrigin& origin,
+std::string material_text(const Fit& fit, const StoreOrigin& origin,
                           const std::filesystem::path& template_file) {
   const std::string_view metal = element_defaults(fit.element).metal;
-  std::string text =
-      fmt::format("name = \"{} (GRAY fitted to molecular dynamics, {})\"\n", metal, origin.name);
+  const bool gray = fit.model == "gray";
+  std::string text = fmt::format("name = \"{} ({} fitted to molecular dynamics, {})\"\n", metal,
+                                 gray ? "GRAY" : fit.model, origin.name);
   text +=
       fmt::format("source = {}\n", whipple::quoted(fmt::format("whipple fit of {}; interatomic potential {}",
                                                                origin.name, fit.potential)));
-  text += fmt::format(
-      "note = \"solid from molecular dynamics; electrons, liquid and vapour from the named defaults; "
-      "strength and "
-      "failure as in {}\"\n\n",
-      template_file.filename().string());
-  text += "[eos]\nmodel = \"gray\"\n";
+  text +=
+      fmt::format("note = \"solid from molecular dynamics; {} strength and failure as in {}\"\n\n",
+                  gray ? "electrons, liquid and vapour from the named defaults as far as not fitted;" : "",
+                  template_file.filename().string());
+  text += fmt::format("[eos]\nmodel = \"{}\"\n", fit.model);
   text +=
       fmt::format("source = {}\n",
                   whipple::quoted(fmt::format(
                       "fitted: weighted least squares, {} (docs/theory/fit.md); the rest: table [defaults]",
                       origin.name)));
   for (const Constant& constant : fit.constants) text += constant_line(constant);
-  text += fmt::format("melting = {}\n\n", whipple::quoted(fit.gray.melting));
+  for (const auto& [name, word] : fit.words) text += fmt::format("{} = {}\n", name, whipple::quoted(word));
+  text += "\n";
   text += strength_and_failure(template_file);
-  text +=
-      fmt::format("\n{}\n{}\n{}", covariance_table(fit), provenance_table(fit, origin), defaults_table(fit));
+  const std::string covariance = covariance_table(fit);
+  text += fmt::format("\n{}{}\n{}", covariance.empty() ? covariance : covariance + "\n",
+                      provenance_table(fit, origin), defaults_table(fit));
   return text;
 }
 

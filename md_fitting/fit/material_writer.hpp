@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "md_fitting/fit/gray_fit.hpp"
+#include "md_fitting/fit/fit_result.hpp"
 
 namespace whipple::fit {
 
@@ -31,8 +31,9 @@ std::string strength_and_failure(const std::filesystem::path& material);
 std::filesystem::path default_template(const std::string& element);
 
 /// Text of the complete material file: [eos] with every constant in practical units, its error or the name of
-/// its default beside it; [covariance]; [provenance]; [defaults]; [strength] and [[failure]] of the template.
-std::string material_text(const GrayFit& fit, const StoreOrigin& origin,
+/// its default beside it; [covariance] with the correlations; [provenance]; [defaults]; [strength] and
+/// [[failure]] of the template.
+std::string material_text(const Fit& fit, const StoreOrigin& origin,
                           const std::filesystem::path& template_file);
 
 /// Writes a file as a whole (temporary name, then renamed).

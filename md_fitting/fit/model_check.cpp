@@ -7,6 +7,8 @@
 #include "eos/loci.hpp"
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/gray.hpp"
+#include "md_fitting/fit/laws.hpp"
+#include "md_fitting/fit/vapour_fit.hpp"
 #include "src/base/error.hpp"
 
 namespace whipple::fit {
@@ -62,12 +64,10 @@ double edge_temperature(const eos::GrayFreeEnergy& surface, double pressure, boo
 
 }  // namespace
 
-std::vector<ModelCheck> check_model(const eos::GrayConstants& constants, const Observations& data,
-                                    std::span<const md::PointRecord> points) {
-  const eos::ModelEquationOfState<eos::Gray> model(constants);
-  const eos::GrayFreeEnergy& surface = model.underlying().free_energy();
+std::vector<ModelCheck> check_solid(const eos::EquationOfState& model,
+                                    const std::function<double(double, double)>& solid_pressure,
+                                    const Observations& data, std::span<const md::PointRecord> points) {
   std::vector<ModelCheck> checks;
-
   Deviations shock("Hugoniot pressure", "GPa", 1e9);
   const eos::Hugoniot hugoniot(model);
   for (const HugoniotState& state : data.hugoniot) {
@@ -80,7 +80,7 @@ std::vector<ModelCheck> check_model(const eos::GrayConstants& constants, const O
     for (const md::PointRecord& point : md::select(points, protocol)) {
       if (!is_solid(point)) continue;
       pressure.add(point.result("pressure").value, [&] {
-        return surface.solid(point.condition("specific_volume"), point.condition("temperature")).pressure;
+        return solid_pressure(point.condition("specific_volume"), point.condition("temperature"));
       });
     }
     pressure.finish(checks);
@@ -96,15 +96,55 @@ std::vector<ModelCheck> check_model(const eos::GrayConstants& constants, const O
     });
   }
   expansion.finish(checks);
+  return checks;
+}
+
+std::vector<ModelCheck> check_gray(const eos::GrayConstants& constants, const Observations& data,
+                                   std::span<const md::PointRecord> points) {
+  const eos::ModelEquationOfState<eos::Gray> model(constants);
+  const eos::GrayFreeEnergy& surface = model.underlying().free_energy();
+  std::vector<ModelCheck> checks =
+      check_solid(model, [&](double V, double T) { return surface.solid(V, T).pressure; }, data, points);
 
   Deviations melting("melting temperature at the pressure", "K", 1.0);
+  Deviations heat("latent heat of fusion", "%", 0.01);
+  Deviations volume("volume of fusion", "%", 0.01);
   for (const MeltingPoint& point : data.melting) {
     melting.add(point.temperature.value, [&] {
       return 0.5 * (edge_temperature(surface, point.pressure, false) +
                     edge_temperature(surface, point.pressure, true));
     });
+    const double T = point.temperature.value;
+    const auto at = [&](bool liquid) { return condensed_volume(surface, liquid, point.pressure, T); };
+    if (point.latent_heat) {
+      heat.add(1.0, [&] {
+        const double solid = at(false), liquid = at(true);
+        return (surface.liquid(liquid, T).energy - surface.solid(solid, T).energy +
+                point.pressure * (liquid - solid)) /
+               point.latent_heat->value;
+      });
+    }
+    if (point.fusion_volume)
+      volume.add(1.0, [&] { return (at(true) - at(false)) / point.fusion_volume->value; });
   }
-  melting.finish(checks);
+  for (Deviations* part : {&melting, &heat, &volume}) part->finish(checks);
+
+  Deviations melt("volume of the melt", "%", 0.01);
+  for (const LiquidState& state : data.liquid) {
+    melt.add(1.0, [&] {
+      return condensed_volume(surface, true, state.pressure, state.temperature) / state.volume.value;
+    });
+  }
+  melt.finish(checks);
+  Deviations liquid("saturated melt, density", "%", 0.01);
+  Deviations vapour("saturated vapour, density", "%", 0.01);
+  for (const SaturationState& state : data.saturation) {
+    const auto density = [&] { return saturated_densities(constants, state.temperature); };
+    liquid.add(1.0, [&] { return density().first / state.liquid_density.value; });
+    vapour.add(1.0, [&] { return density().second / state.vapour_density.value; });
+  }
+  liquid.finish(checks);
+  vapour.finish(checks);
   return checks;
 }
 

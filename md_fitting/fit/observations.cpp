@@ -19,6 +19,7 @@ constexpr double same_volume = 1e-6;      // relative: states of one isochore
 constexpr double same_temperature = 0.5;  // K: a volume at the reference temperature itself
 constexpr std::size_t least_states = 3;   // of the Hugoniot window, of an isochore
 constexpr std::size_t least_isochores = 2;
+constexpr std::size_t least_isotherm = 5;
 
 /// V at zero pressure and the reference temperature: the point there, or the line through its neighbours.
 bool reference_volume(const std::vector<PointRecord>& points, double temperature, Estimate& volume) {
@@ -101,11 +102,49 @@ std::vector<MeltingPoint> melting_points(const std::vector<PointRecord>& points)
   for (const PointRecord& point : points) {
     if (!point.results.contains("solid_specific_volume"))
       continue;  // without it the point says nothing on V0
+    const auto optional = [&](const char* name) {
+      const auto result = point.results.find(name);
+      return result == point.results.end() ? std::nullopt : std::optional(result->second);
+    };
     found.push_back({point.condition("pressure"), point.result("melting_temperature"),
-                     point.result("solid_specific_volume")});
+                     point.result("solid_specific_volume"), optional("latent_heat"),
+                     optional("fusion_volume")});
   }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.pressure < b.pressure; });
   return found;
+}
+
+/// Solid states at the reference temperature, of whatever protocol.
+std::vector<IsothermState> isotherm_states(std::span<const PointRecord> points, double temperature) {
+  std::vector<IsothermState> found;
+  for (const char* protocol : {"isotherm", "isochore"}) {
+    for (const PointRecord& point : md::select(points, protocol)) {
+      if (!is_solid(point) || std::abs(point.condition("temperature") - temperature) > same_temperature)
+        continue;
+      found.push_back({point.condition("specific_volume"), point.result("pressure")});
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.volume > b.volume; });
+  return found;
+}
+
+/// What bears on liquid, vapour and the Debye temperature.
+void add_other_phases(std::span<const PointRecord> points, Observations& data) {
+  for (const PointRecord& point : md::select(points, "liquid")) {
+    if (point.result("liquid").value < 0.5) continue;
+    data.liquid.push_back(
+        {point.condition("temperature"), point.condition("pressure"), point.result("specific_volume")});
+  }
+  for (const PointRecord& point : md::select(points, "liquid_vapour")) {
+    data.saturation.push_back(
+        {point.condition("temperature"), point.result("liquid_density"), point.result("vapour_density")});
+  }
+  std::sort(data.saturation.begin(), data.saturation.end(),
+            [](const auto& a, const auto& b) { return a.temperature < b.temperature; });
+  for (const PointRecord& point : md::select(points, "elastic")) {
+    data.elastic.push_back({point.condition("specific_volume"), point.result("bulk_modulus").value,
+                            point.result("shear_modulus_hill").value});
+  }
 }
 
 /// The one value that all finished points share.
@@ -141,8 +180,11 @@ bool is_solid(const PointRecord& point) {
   return flag == point.results.end() || flag->second.value > 0.5;
 }
 
-Observations observe(std::span<const PointRecord> points, double reference_temperature, double least,
-                     double most, const std::string& store_name) {
+Observations observe(std::span<const PointRecord> points, const FitSettings& settings, const Needs& needs,
+                     const std::string& store_name) {
+  const double reference_temperature = settings.reference_temperature;
+  const double least = settings.least_particle_velocity;
+  const double most = settings.most_particle_velocity;
   if (std::none_of(points.begin(), points.end(), [](const PointRecord& point) { return point.done(); })) {
     throw InputError(
         fmt::format("{}: no finished points ({} failed); run a plan with the protocols "
@@ -175,7 +217,7 @@ Observations observe(std::span<const PointRecord> points, double reference_tempe
       std::count_if(data.hugoniot.begin(), data.hugoniot.end(), [&](const HugoniotState& state) {
         return state.particle_velocity >= least && state.particle_velocity <= most;
       });
-  if (inside < static_cast<std::ptrdiff_t>(least_states)) {
+  if (needs.hugoniot && inside < static_cast<std::ptrdiff_t>(least_states)) {
     lacking += missing(points, "hugoniot",
                        fmt::format("{} finished, {} of them with a particle velocity of {} ... {} km/s",
                                    data.hugoniot.size(), inside, 1e-3 * least, 1e-3 * most),
@@ -188,7 +230,14 @@ Observations observe(std::span<const PointRecord> points, double reference_tempe
                                    data.isochores.size(), least_states),
                        fmt::format("{}", least_isochores));
   }
+  data.isotherm = isotherm_states(points, reference_temperature);
+  if (needs.isotherm && data.isotherm.size() < least_isotherm) {
+    lacking += missing(points, "isotherm",
+                       fmt::format("{} solid states at {} K", data.isotherm.size(), reference_temperature),
+                       fmt::format("{}", least_isotherm));
+  }
   data.melting = melting_points(md::select(points, "coexistence"));
+  add_other_phases(points, data);
   if (!lacking.empty()) {
     throw InputError(fmt::format("{}: points are missing:{}", store_name, lacking));
   }

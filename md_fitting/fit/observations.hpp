@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/fit/fit_settings.hpp"
 
 /// From the points of a store to the data of the fit.
 namespace whipple::fit {
@@ -34,6 +36,32 @@ struct MeltingPoint {
   double pressure = 0.0;
   md::Estimate temperature;
   md::Estimate solid_volume;
+  std::optional<md::Estimate> latent_heat;    ///< J/kg; older stores have none
+  std::optional<md::Estimate> fusion_volume;  ///< m^3/kg
+};
+
+/// A solid at the reference temperature.
+struct IsothermState {
+  double volume = 0.0;
+  md::Estimate pressure;
+};
+
+/// Melt at a temperature and a pressure.
+struct LiquidState {
+  double temperature = 0.0, pressure = 0.0;
+  md::Estimate volume;
+};
+
+/// Melt and vapour in equilibrium, kg/m^3.
+struct SaturationState {
+  double temperature = 0.0;
+  md::Estimate liquid_density, vapour_density;
+};
+
+/// Elastic constants of the static crystal at a volume, Pa.
+struct ElasticState {
+  double volume = 0.0;
+  double bulk_modulus = 0.0, shear_modulus = 0.0;  ///< Hill's
 };
 
 struct Observations {
@@ -45,15 +73,27 @@ struct Observations {
   std::vector<HugoniotState> hugoniot;  ///< all states, by rising particle velocity
   std::vector<Isochore> isochores;      ///< by falling volume; at least three states each
   std::vector<MeltingPoint> melting;    ///< by rising pressure
+  std::vector<IsothermState> isotherm;  ///< by falling volume
+  std::vector<LiquidState> liquid;
+  std::vector<SaturationState> saturation;  ///< by rising temperature
+  std::vector<ElasticState> elastic;
+};
+
+/// Which data must be there.
+struct Needs {
+  bool hugoniot = true;
+  bool isotherm = false;
 };
 
 /// Has the crystal of a point not melted? Protocols without that flag simulate solids only.
 bool is_solid(const md::PointRecord& point);
 
 /// Sorts the finished points of a store into data.
-/// @param least, most window of particle velocities (m/s) that must hold at least three Hugoniot states
+/// @param settings  reference temperature, and the window of particle velocities that must hold at least
+/// three
+///                  Hugoniot states
 /// @throws InputError listing every protocol whose points are missing or too few, and mixed potentials.
-Observations observe(std::span<const md::PointRecord> points, double reference_temperature, double least,
-                     double most, const std::string& store_name);
+Observations observe(std::span<const md::PointRecord> points, const FitSettings& settings, const Needs& needs,
+                     const std::string& store_name);
 
 }  // namespace whipple::fit

@@ -11,6 +11,7 @@
 #include "src/app/eos_diagrams.hpp"
 #include "src/app/eos_figure.hpp"
 #include "src/app/eos_queries.hpp"
+#include "src/app/eos_samples.hpp"
 #include "src/app/eos_tabulate.hpp"
 #include "src/base/error.hpp"
 #include "src/base/files.hpp"
@@ -32,6 +33,7 @@ struct Output {
 struct Request {
   std::vector<std::string> materials;
   EosOptions options;
+  SampleOptions samples;  ///< of the Hugoniot
   Output output;
 };
 
@@ -132,6 +134,35 @@ void add_quantities(CLI::App& sub, const std::string& takes, EosOptions& o) {
   option('o', "--to", o.to, "End of the curve, e.g. '150 GPa'");
 }
 
+/// The band of Hugoniots instead of one: mean, and two standard deviations to both sides in the figure.
+void run_samples(const Request& request) {
+  if (request.materials.size() != 1) throw InputError("--samples: one material at a time");
+  const SampledHugoniot sampled =
+      sampled_hugoniot(request.options, request.samples, request.materials.front());
+  print(sampled.table);
+  const Output& output = request.output;
+  if (!output.csv.empty()) {
+    write_csv(sampled.table, output.csv);
+    fmt::print("written: {}\n", output.csv);
+  }
+  if (!output.plot.empty()) {
+    Figure figure = figure_of(sampled.table, output);
+    const std::size_t y = column_index(sampled.table, output.y);
+    const FigureCurve mean = figure.curves.front();
+    for (const double side : {-2.0, 2.0}) {
+      FigureCurve edge = mean;
+      edge.label = "two standard deviations";
+      edge.style = "dashed";
+      for (std::size_t i = 0; i < edge.y.size(); ++i) {
+        edge.y[i] += side * std::get<double>(sampled.table.series.front().rows[i][y + 1]) / figure.y.size;
+      }
+      figure.curves.push_back(std::move(edge));
+    }
+    draw(figure, output.plot);
+  }
+  for (const std::string& remark : sampled.remarks) fmt::print("{}\n", remark);
+}
+
 void add_query(CLI::App& command, const Query& query) {
   auto request = std::make_shared<Request>();
   CLI::App* sub = command.add_subcommand(query.name, query.summary);
@@ -153,12 +184,24 @@ void add_query(CLI::App& command, const Query& query) {
                     "Measurements drawn as points: CSV files, or names of those that come with the program "
                     "(eos/data)");
   }
+  if (query.table == hugoniot_table) {
+    sub->add_option(
+           "--samples", request->samples.count,
+           "Draw so many sets of constants from the covariance of a fitted material: mean and standard "
+           "deviation of the Hugoniot, of fractions after release, and of the thresholds of melting")
+        ->check(CLI::Range(2, 100000));
+    sub->add_option("--seed", request->samples.seed, "Of the draws")->capture_default_str();
+    sub->add_option("--release-pressure", request->samples.release_pressure,
+                    "With --samples: end of the releases")
+        ->capture_default_str();
+  }
   sub->add_flag("--force", request->output.force, "Overwrite existing files");
   sub->footer(fmt::format("Example:\n  {}", query.example));
   sub->callback([request, &query] {
     const Output& output = request->output;
     require_new_file(output.csv, output.force);
     require_new_figure(output.plot, output.force);
+    if (request->samples.count > 0) return run_samples(*request);
     const Materials materials = read_materials(request->materials);
     const CurveTable table = query.table(request->options, materials);
     (query.table == state_table ? print_list : print)(table);

@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <csignal>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "md_fitting/plan/plan.hpp"
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
 #include "src/process/mpirun.hpp"
@@ -21,19 +24,37 @@ struct Options {
   bool retry_failed = false;
 };
 
+/// What a shell, and mpirun, returns for a process that a signal ended, less the signal.
+constexpr int killed_code = 128;
+
+/// The physical cores, or as many of them as make whole teams of a point's ranks.
+int usual_ranks(const std::string& plan) {
+  const int team = static_cast<int>(md::read_plan(plan).ranks_per_point);
+  return std::max(1, process::physical_cores() / team) * team;
+}
+
 int run_md(const Options& options) {
   if (!std::filesystem::exists(options.plan)) {
     throw InputError(fmt::format("{}: error: cannot open the file", options.plan));
   }
-  const int ranks = options.ranks > 0 ? options.ranks : process::physical_cores();
+  const int ranks = options.ranks > 0 ? options.ranks : usual_ranks(options.plan);
   const log::Level level = log::level();
   std::vector<std::string> program = {"whipple-md", options.plan};
   if (!options.store.empty()) program.insert(program.end(), {"-o", options.store});
   if (options.retry_failed) program.emplace_back("--retry-failed");
   if (level == log::Level::quiet) program.emplace_back("--quiet");
   if (level == log::Level::verbose) program.emplace_back("--verbose");
-  // Ranks share no state but the queue of points: each runs one thread.
-  return process::mpirun(ranks, program, {{"OMP_NUM_THREADS", "1"}});
+  // Ranks share no state but the queue of points: each runs one thread. A rank that is killed (by the system,
+  // for memory) takes the others along; what was finished is in the store, and another call goes on with the
+  // rest.
+  constexpr int most_calls = 3;
+  for (int call = 1;; ++call) {
+    const int code = process::mpirun(ranks, program, {{"OMP_NUM_THREADS", "1"}});
+    if (code != killed_code + SIGKILL) return code;
+    log::warning("a worker was killed (SIGKILL): {}",
+                 call < most_calls ? "going on with the points that are missing" : "the plan is incomplete");
+    if (call == most_calls) return static_cast<int>(ExitCode::state);
+  }
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "src/base/text.hpp"
 #include "src/input/document.hpp"
 #include "src/material/failure/catalogue.hpp"
+#include "src/material/material_samples.hpp"
 #include "src/material/strength/catalogue.hpp"
 
 namespace whipple {
@@ -152,8 +153,10 @@ struct Declared {
       modifiers;
 };
 
-Declared declare_file(const fs::path& file) {
+Declared declare_file(const fs::path& file,
+                      std::span<const std::pair<std::string, std::string>> changes = {}) {
   input::Document document = input::Document::from_file(file);
+  for (const auto& [key, value] : changes) document.set(key, value);
   input::Table root = document.root();
   Declared declared;
   root.read(head_of_file(), declared.head);
@@ -216,8 +219,12 @@ fs::path find_material(const fs::path& path, const fs::path& beside) {
 }
 
 Material read_material(const fs::path& path, const fs::path& beside) {
-  const fs::path file = find_material(path, beside);
-  const Declared declared = declare_file(file);
+  return read_changed_material(find_material(path, beside), {});
+}
+
+Material read_changed_material(const fs::path& file,
+                               std::span<const std::pair<std::string, std::string>> changes) {
+  const Declared declared = declare_file(file, changes);
   std::shared_ptr<const eos::EquationOfState> eos = build(declared.eos, declared.eos_line, "eos");
   for (const auto& [builder, line] : declared.modifiers) {
     eos = build([&] { return builder(eos); }, line, "eos.modifier");

@@ -11,18 +11,19 @@
 namespace whipple::fit::testing {
 
 inline const std::vector<std::string> fitted = {
-    "reference_specific_volume", "hugoniot_intercept",          "hugoniot_slope",     "gruneisen",
-    "gruneisen_slope",           "anharmonic_heat_coefficient", "melting_temperature"};
+    "reference_specific_volume", "hugoniot_intercept",          "hugoniot_slope",      "gruneisen",
+    "gruneisen_slope",           "anharmonic_heat_coefficient", "melting_temperature", "melting_entropy"};
 
 inline std::vector<double> values(const eos::GrayConstants& c) {
-  return {c.reference_specific_volume, c.hugoniot_intercept,          c.hugoniot_slope,     c.gruneisen,
-          c.gruneisen_slope,           c.anharmonic_heat_coefficient, c.melting_temperature};
+  return {
+      c.reference_specific_volume, c.hugoniot_intercept,          c.hugoniot_slope,      c.gruneisen,
+      c.gruneisen_slope,           c.anharmonic_heat_coefficient, c.melting_temperature, c.melting_entropy};
 }
 
 inline FitSettings noise_only() {
   FitSettings settings;
   settings.model_errors = ModelErrors::none();
-  settings.electronic = "none";  // as in the data
+  settings.electrons = "none";  // as in the data
   return settings;
 }
 

@@ -5,9 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "tests/unit/md_temporary_folder.hpp"
 
@@ -105,6 +108,67 @@ TEST_F(EosCommand, MeltColdDomeAndMatchPrintTheirFigures) {
   EXPECT_THAT(output(), HasSubstr("two materials at least"));
   EXPECT_EQ(run("melt aluminium_mie_gruneisen"), 3);
   EXPECT_THAT(output(), HasSubstr("does not melt"));
+}
+
+// The band of a fitted material: the deviation of Us is that of C and S with their correlation, and the
+// thresholds of melting come with theirs.
+TEST_F(EosCommand, SamplesDrawTheBandOfTheHugoniot) {
+  std::ofstream(folder.path() / "fitted.toml") << R"toml(name = "fitted"
+[eos]
+model = "gray"
+molar_mass = "63.546 g/mol"
+reference_specific_volume = "0.1118 cm^3/g"
+hugoniot_intercept = "3.94 km/s"
+hugoniot_slope = 1.489
+gruneisen = 1.97
+gruneisen_slope = 1.5
+electronic_heat_coefficient = "4.9e-7 kJ/(mol K^2)"
+melting_temperature = "1790 K"
+vapour_attraction = "0.62 kJ cm^3/g^2"
+[covariance]
+names = ["hugoniot_intercept", "hugoniot_slope", "melting_temperature"]
+units = ["m/s", "", "K"]
+[covariance.matrix]
+hugoniot_intercept = [400.0, -0.16, 0.0]
+hugoniot_slope = [-0.16, 1e-4, 0.0]
+melting_temperature = [0.0, 0.0, 400.0]
+)toml";
+  ASSERT_EQ(
+      run("hugoniot fitted.toml --samples 60 --from '1 km/s' --to '3 km/s' --points 3 --csv band.csv --plot "
+          "band.png --seed 3"),
+      0)
+      << output();
+  EXPECT_THAT(output(),
+              ContainsRegex("melting behind the shock begins at 2[0-9][0-9]\\.[0-9] \\+- [0-9.]+ GPa"));
+  EXPECT_THAT(output(), HasSubstr("melting on release begins at"));
+  EXPECT_EQ(read("band.png").substr(1, 3), "PNG");
+  std::istringstream lines(read("band.csv"));
+  std::string line;
+  std::getline(lines, line);
+  std::getline(lines, line);
+  EXPECT_EQ(line.substr(0, 32), "up_km_s,us_km_s,sd-us_km_s,P_GPa");
+  for (const double up : {1.0, 2.0, 3.0}) {
+    ASSERT_TRUE(std::getline(lines, line));
+    std::vector<double> cells;
+    std::string cell;
+    for (std::istringstream words(line); std::getline(words, cell, ',');)
+      cells.push_back(std::strtod(cell.c_str(), nullptr));
+    EXPECT_NEAR(cells[0], up, 1e-12);
+    // var(C + S up) = 400 - 2 * 0.16 up + 1e-4 up^2 in m/s, up in m/s; 60 draws know it to a tenth.
+    const double u = 1e3 * up;
+    const double deviation = 1e-3 * std::sqrt(400.0 - 0.32 * u + 1e-4 * u * u);
+    EXPECT_NEAR(cells[2], deviation, 0.4 * deviation) << up;
+    EXPECT_NEAR(cells[1], 3.94 + 1.489 * up, 0.02) << up;
+    EXPECT_EQ(cells.back(), 60.0);
+  }
+  // Refusals: no covariance; entries that contradict the names.
+  EXPECT_EQ(run("hugoniot copper --samples 5"), 2);
+  EXPECT_THAT(output(), HasSubstr("has no table [covariance]"));
+  std::string text = read("fitted.toml");
+  text.replace(text.find("hugoniot_slope = [-0.16, 1e-4, 0.0]"), 35, "hugoniot_slope = [-0.16, 1e-4]     ");
+  std::ofstream(folder.path() / "short.toml") << text;
+  EXPECT_EQ(run("hugoniot short.toml --samples 5"), 2);
+  EXPECT_THAT(output(), HasSubstr("2 entries in a covariance of 3 constants"));
 }
 
 TEST_F(EosCommand, FiguresAndDiagrams) {

@@ -11,13 +11,17 @@
 
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/gray.hpp"
+#include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/element_defaults.hpp"
 #include "md_fitting/fit/fit_report.hpp"
+#include "md_fitting/fit/fit_samples.hpp"
 #include "md_fitting/fit/gray_fit.hpp"
 #include "md_fitting/fit/material_writer.hpp"
 #include "src/base/error.hpp"
+#include "src/base/normal_samples.hpp"
 #include "src/base/units.hpp"
 #include "src/material/material_file.hpp"
+#include "src/material/material_samples.hpp"
 #include "tests/unit/fit_support.hpp"
 #include "tests/unit/md_temporary_folder.hpp"
 
@@ -121,7 +125,7 @@ TEST_F(FitMaterial, SaysOfEveryConstantWhereItComesFrom) {
   int given = 0;
   for (std::string line; std::getline(lines, line);) {
     if (line.find(" = ") == std::string::npos || line.starts_with("model") || line.starts_with("source") ||
-        line.starts_with("melting =")) {
+        line.starts_with("melting =") || line.starts_with("vapour =")) {
       continue;
     }
     if (line.starts_with("# ")) continue;
@@ -133,12 +137,13 @@ TEST_F(FitMaterial, SaysOfEveryConstantWhereItComesFrom) {
     defaults += is_default;
     given += is_given;
   }
-  EXPECT_EQ(fitted, 7);
+  EXPECT_EQ(fitted, 8);
   EXPECT_EQ(given, 2);      // molar mass, reference temperature
-  EXPECT_EQ(defaults, 12);  // S2 and S3 of the shock curve among them
+  EXPECT_EQ(defaults, 11);  // S2 and S3 of the shock curve among them
   EXPECT_THAT(material, HasSubstr("electronic_heat_coefficient = \"\\\"measured\\\": calorimetry"));
   EXPECT_THAT(material, HasSubstr("vapour_attraction = \"\\\"critical\\\""));
   EXPECT_THAT(material, HasSubstr("[covariance]"));
+  EXPECT_THAT(material, HasSubstr("[covariance.correlation]\nreference_specific_volume = [1.000, "));
   EXPECT_THAT(material, HasSubstr("store = \"copper.md.h5\""));
   EXPECT_THAT(material, HasSubstr(whipple::sha256_of_file(file)));
   EXPECT_THAT(material, HasSubstr("lammps_version = \"none\""));
@@ -187,14 +192,14 @@ TEST_F(FitMaterial, ElectronsAreANamedChoice) {
   const std::vector<md::PointRecord> points = md::read_store(file);
   FitSettings settings;
   EXPECT_DOUBLE_EQ(fit_gray(points, settings, "s").value("electronic_heat_coefficient"), 6.9e-4);
-  settings.electronic = "liu2013";
+  settings.electrons = "liu2013";
   EXPECT_DOUBLE_EQ(fit_gray(points, settings, "s").value("electronic_heat_coefficient"), 4.9e-4);
-  settings.electronic = "0.5 mJ/(mol K^2)";
+  settings.electrons = "0.5 mJ/(mol K^2)";
   const GrayFit given = fit_gray(points, settings, "s");
   EXPECT_DOUBLE_EQ(given.value("electronic_heat_coefficient"), 5e-4);
   EXPECT_EQ(given.constant("electronic_heat_coefficient").origin, Origin::given);
   for (const char* wrong : {"mesured", "-1e-4", "3 km"}) {
-    settings.electronic = wrong;
+    settings.electrons = wrong;
     EXPECT_THROW(fit_gray(points, settings, "s"), InputError) << wrong;
   }
 }
@@ -306,6 +311,96 @@ TEST_F(FitMaterial, ExecutableReportsWrongInput) {
   EXPECT_EQ(run(fmt::format("'{}' --model jwl", file.string())), 2);
   EXPECT_EQ(run(fmt::format("'{0}' '{0}' -o one.toml", file.string())), 2);
   EXPECT_THAT(output(), HasSubstr("2 stores and 1 outputs"));
+}
+
+// Draws have the mean and the covariance that they were asked for, also where variables differ by powers of
+// ten.
+TEST(NormalSamples, HaveTheirCovariance) {
+  const Eigen::Vector3d mean(1e-4, 4000.0, 1.5);
+  const Eigen::Vector3d sigma(2e-8, 15.0, 0.0);  // the last one is known exactly
+  Eigen::Matrix3d correlation = Eigen::Matrix3d::Identity();
+  correlation(0, 1) = correlation(1, 0) = -0.8;
+  const Eigen::Matrix3d covariance = sigma.asDiagonal() * correlation * sigma.asDiagonal();
+  NormalSamples samples(mean, covariance, 5);
+  constexpr int draws = 4000;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < draws; ++i) {
+    const Eigen::Vector3d x = samples.draw();
+    EXPECT_EQ(x[2], 1.5);
+    const Eigen::Vector3d pull((x[0] - mean[0]) / sigma[0], (x[1] - mean[1]) / sigma[1], 0.0);
+    sum += pull / draws;
+    squares += pull * pull.transpose() / draws;
+  }
+  EXPECT_LT(sum.norm(), 4.0 * std::sqrt(2.0 / draws));
+  EXPECT_NEAR(squares(0, 0), 1.0, 4.0 * std::sqrt(2.0 / draws));
+  EXPECT_NEAR(squares(1, 1), 1.0, 4.0 * std::sqrt(2.0 / draws));
+  EXPECT_NEAR(squares(0, 1), -0.8, 4.0 * std::sqrt(1.64 / draws));
+  EXPECT_EQ(NormalSamples(mean, covariance, 5).draw(), NormalSamples(mean, covariance, 5).draw());
+  Eigen::Matrix3d wrong = Eigen::Matrix3d::Identity();
+  wrong(0, 1) = wrong(1, 0) = 2.0;  // a correlation of 2
+  EXPECT_THROW(NormalSamples(mean, wrong, 1), InputError);
+  wrong(0, 1) = 0.0;
+  EXPECT_THROW(NormalSamples(mean, wrong, 1), InputError);  // not symmetric
+  EXPECT_THROW(NormalSamples(mean, Eigen::Matrix2d::Identity(), 1), InputError);
+}
+
+// The ensemble of the fit and that of its material file have the stated errors, and their files read back.
+TEST_F(FitMaterial, SamplesScatterByTheStatedErrors) {
+  const std::vector<md::PointRecord> points = md::read_store(file);
+  const GrayFit fit = fit_gray(points, {}, file.string());
+  const FitSamples samples = sample_fit(fit, 200, 1);
+  ASSERT_EQ(samples.fits.size(), 200u);
+  for (const std::string& name : fit.fitted_names) {
+    double mean = 0.0, squares = 0.0;
+    for (const Fit& sample : samples.fits) {
+      const double pull = (sample.value(name) - fit.value(name)) / fit.constant(name).error;
+      mean += pull / 200.0;
+      squares += pull * pull / 200.0;
+    }
+    EXPECT_NEAR(mean, 0.0, 4.0 / std::sqrt(200.0)) << name;
+    EXPECT_NEAR(squares, 1.0, 4.0 * std::sqrt(2.0 / 200.0)) << name;
+  }
+  EXPECT_EQ(samples.fits[0].constant("gruneisen").source.substr(0, 15), "sample 1 of 200");
+  const std::filesystem::path material_file = folder.path() / "fitted.toml";
+  write_file(material_file, text(), false);
+  const MaterialSamples materials = sample_material(material_file, 20, 1);
+  ASSERT_EQ(materials.materials.size(), 20u);
+  EXPECT_EQ(materials.names, fit.fitted_names);
+  // The same distribution and the same seed: the first materials are the same but for the digits of a file.
+  const double rho0 = materials.materials[0].eos->reference_density();
+  EXPECT_NEAR(rho0 * samples.fits[0].value("reference_specific_volume"), 1.0, 1e-6);
+  EXPECT_NE(materials.materials[1].eos->reference_density(), rho0);
+  EXPECT_THROW(sample_material(folder.path() / "template.toml", 2, 1), InputError);  // no covariance
+}
+
+TEST_F(FitMaterial, ExecutableWritesAnEnsemble) {
+  const std::filesystem::path target = folder.path() / "cu.toml";
+  ASSERT_EQ(run(fmt::format("'{}' -q --template '{}' -o '{}' --samples 12 --bootstrap 5", file.string(),
+                            (folder.path() / "template.toml").string(), target.string())),
+            0)
+      << output();
+  EXPECT_THAT(output(), HasSubstr("written: 12 samples in " + (folder.path() / "cu_samples").string()));
+  EXPECT_THAT(read_text(target), HasSubstr("bootstrap_replicates = 5"));
+  const std::string sample = read_text(folder.path() / "cu_samples" / "cu_07.toml");
+  EXPECT_THAT(sample, HasSubstr("# given: sample 7 of 12 from the covariance of the fit, seed 1"));
+  EXPECT_THAT(sample, Not(HasSubstr("[covariance]")));
+  EXPECT_NO_THROW(read_material(folder.path() / "cu_samples" / "cu_12.toml"));
+  EXPECT_EQ(run(fmt::format("'{}' --samples 3", file.string())), 2);
+  EXPECT_THAT(output(), HasSubstr("--samples: name the material with -o"));
+}
+
+TEST_F(FitMaterial, ExecutableFitsOtherModels) {
+  const std::filesystem::path target = folder.path() / "mg.toml";
+  ASSERT_EQ(run(fmt::format("'{}' --model mie_gruneisen --template '{}' -o '{}'", file.string(),
+                            (folder.path() / "template.toml").string(), target.string())),
+            0)
+      << output();
+  const Material material = read_material(target);
+  EXPECT_EQ(material.eos->model(), "mie_gruneisen");
+  EXPECT_THAT(read_text(target), HasSubstr("gruneisen_law = \"linear\""));
+  EXPECT_EQ(run(fmt::format("'{}' --model debye_gruneisen", file.string())), 2);
+  EXPECT_THAT(output(), HasSubstr("protocol \"isotherm\""));  // three states are too few
 }
 
 TEST_F(FitMaterial, SeveralStoresAreWrittenIntoAFolder) {

@@ -14,6 +14,7 @@
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/gray.hpp"
 #include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/fit/laws.hpp"
 #include "src/base/hash.hpp"
 
 /// Points as molecular dynamics would give them, from a GRAY model with known constants and noise of known
@@ -44,6 +45,7 @@ struct Noise {
   double energy = 400.0;         ///< J/kg
   double correlation = 0.5;      ///< of pressure and energy
   double melting = 10.0;         ///< K
+  double latent_heat = 0.02;     ///< relative
   bool silent = false;           ///< the errors are stated, but the values are exact
   /// Us = C + S up exactly. The model's own Hugoniot is a line only if gamma_e = gamma or g = 0.
   bool straight_hugoniot = true;
@@ -81,11 +83,14 @@ class SyntheticStore {
       }
     }
     for (const double ratio : {0.98, 0.93, 0.88}) add_state("isotherm", ratio * v0, 293.0, surface);
+    const Melting melting(constants);
     for (const double ratio : {1.06, 1.02, 0.98, 0.94}) {
       const eos::GrayBand band = surface.band(surface.isochore(ratio * v0));
+      const double heat = melting.latent_heat(band.P1, band.T1);
       add("coexistence", {{"pressure", band.P1}},
           {{"melting_temperature", noisy(band.T1, noise.melting)},
-           {"solid_specific_volume", {ratio * v0, 0.0}}});
+           {"solid_specific_volume", {ratio * v0, 0.0}},
+           {"latent_heat", noisy(heat, noise.latent_heat * heat)}});
     }
   }
 

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "md_fitting/fit/least_squares.hpp"
+#include "md_fitting/fit/solid_problem.hpp"
+
+namespace whipple::fit {
+
+/// What happens to one kind of data if each of its data is left out in turn.
+struct LeaveOneOut {
+  std::string quantity;
+  int data = 0;              ///< that the rest predicts; a datum that alone bears a constant is none
+  double rms = 0.0;          ///< of (datum - prediction)/error: 1 is expected
+  double largest = 0.0;      ///< of the same, by size
+  std::string worst{};       ///< the datum that differs so much
+  double shift = 0.0;        ///< largest change of a constant, in units of its error
+  std::size_t constant = 0;  ///< which one
+  std::string mover{};       ///< the datum whose absence moves it
+};
+
+/// Leave-one-out residuals and shifts, exact for a linear problem, here about the solution: with the inverse
+/// covariance Q = Sigma^-1 - Sigma^-1 X (X^T Sigma^-1 X)^-1 X^T Sigma^-1 of the residuals, a datum R that is
+/// predicted from the others differs by Q_RR^-1 (Q r)_R, with covariance Q_RR^-1 (Dubrule, Math. Geol. 15
+/// (1983) 687).
+/// @param constants  number of the first parameters whose shifts count
+std::vector<LeaveOneOut> leave_one_out(std::span<const Datum> data, const LeastSquaresSolution& solution,
+                                       Eigen::Index constants);
+
+}  // namespace whipple::fit

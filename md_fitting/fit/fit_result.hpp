@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "md_fitting/fit/bootstrap.hpp"
+#include "md_fitting/fit/cross_validation.hpp"
+#include "md_fitting/fit/fit_settings.hpp"
+
+/// What a fit yields, whatever the model.
+namespace whipple::fit {
+
+enum class Origin { fitted, given, by_default };
+
+/// One numerical constant of the material.
+struct Constant {
+  std::string name;  ///< key of the model's parameter table
+  std::string unit;  ///< SI
+  std::string meaning;
+  double value = 0.0;  ///< SI
+  Origin origin = Origin::by_default;
+  double error = 0.0;              ///< 1 sigma from noise and model error; 0 if not fitted
+  double statistical_error = 0.0;  ///< 1 sigma from the noise alone
+  std::string source;              ///< of a constant that is not fitted: name of the default, and its source
+};
+
+/// One datum beside the fitted law, SI.
+struct Residual {
+  std::string quantity;  ///< "volume", "shock_velocity", "isotherm_pressure", "thermal_pressure",
+                         ///< "thermal_energy", "melting", "latent_heat", "liquid_density", "vapour_density"
+  double volume = 0.0;
+  double temperature = 0.0;
+  double abscissa =
+      0.0;  ///< temperature, up, volume, thermal energy, temperature, pressure, pressure, temperature
+  double datum = 0.0;
+  double fitted = 0.0;
+  double sigma = 0.0;  ///< from both parts of the weights
+};
+
+/// gamma of one isochore by itself: slope of P against E with the noise of its points.
+struct IsochoreGruneisen {
+  double volume = 0.0;
+  double gruneisen = 0.0;
+  double error = 0.0;
+  int states = 0;
+};
+
+/// C and S of one window of particle velocities.
+struct WindowResult {
+  double least = 0.0, most = 0.0;  ///< m/s
+  int states = 0;
+  double intercept = 0.0, slope = 0.0;  ///< m/s, 1
+};
+
+/// chi^2 of one kind of data.
+struct ChiSquaredPart {
+  std::string quantity;
+  double chi_squared = 0.0;
+  int data = 0;
+};
+
+/// The complete model of the material against all points of one protocol.
+struct ModelCheck {
+  std::string quantity;  ///< "Hugoniot pressure", ...
+  std::string unit;      ///< of the figures below
+  int points = 0;
+  double rms = 0.0, mean = 0.0, maximum = 0.0;  ///< model less molecular dynamics
+};
+
+struct Fit {
+  std::string model;  ///< name in the catalogue of equations of state
+  std::string element;
+  std::string potential;
+  std::vector<Constant> constants;  ///< of the material, in the order of the model's parameter table
+  std::vector<std::pair<std::string, std::string>> words;  ///< constants that are words: "melting", "band"
+  std::vector<std::string> fitted_names;                   ///< of the covariance
+  Eigen::MatrixXd covariance;                              ///< SI, from noise and model error
+  Eigen::MatrixXd statistical_covariance;                  ///< SI, from the noise alone
+  double fitted_reference_volume = 0.0;           ///< m^3/kg; the material has another if a density was given
+  double molar_mass = 0.0;                        ///< kg/mol
+  double gruneisen = 0.0, gruneisen_slope = 0.0;  ///< gamma0 and a of gamma = gamma0 - a (1 - V/V0)
+  double chi_squared = 0.0;
+  int degrees_of_freedom = 0;
+  std::vector<ChiSquaredPart> chi_squared_parts;
+  std::vector<LeaveOneOut> left_out;
+  std::vector<std::string> left_out_names;  ///< of the constants that `left_out` speaks of
+  std::optional<BootstrapResult> bootstrap;
+  /// T_m0 if the solid melted isochorically: T_m where the solid of the volume V0 coexists with liquid.
+  std::optional<double> isochoric_melting_temperature;
+  std::vector<Residual> residuals;
+  std::vector<IsochoreGruneisen> isochores;
+  std::vector<WindowResult> windows;  ///< the fit's own window comes first
+  std::vector<ModelCheck> checks;
+  std::vector<std::string> remarks;
+  int superheated_states = 0;  ///< isochore states above T_m(V), left out
+  FitSettings settings;
+
+  [[nodiscard]] const Constant& constant(std::string_view name) const;
+  [[nodiscard]] double value(std::string_view name) const { return constant(name).value; }
+  [[nodiscard]] Eigen::MatrixXd correlation() const;
+};
+
+}  // namespace whipple::fit

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/fit/fit_samples.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <span>
+
+#include "eos/catalogue.hpp"
+#include "md_fitting/fit/constant_list.hpp"
+#include "src/base/error.hpp"
+#include "src/base/normal_samples.hpp"
+
+namespace whipple::fit {
+namespace {
+
+/// Builds the model of a fit. @throws InputError if its constants contradict each other
+void require_material(const Fit& fit) {
+  const auto builder = eos::find_model(fit.model).declare([&](std::span<const BoundParameter> parameters) {
+    for (const BoundParameter& parameter : parameters) {
+      const std::string& name = parameter.info.name;
+      if (double* const* number = std::get_if<double*>(&parameter.target)) {
+        const auto found = std::find_if(fit.constants.begin(), fit.constants.end(),
+                                        [&](const Constant& constant) { return constant.name == name; });
+        if (found != fit.constants.end()) **number = found->value;
+      } else if (std::string* const* word = std::get_if<std::string*>(&parameter.target)) {
+        const auto found = std::find_if(fit.words.begin(), fit.words.end(),
+                                        [&](const auto& one) { return one.first == name; });
+        if (found != fit.words.end()) **word = found->second;
+      }
+    }
+  });
+  static_cast<void>(builder());
+}
+
+}  // namespace
+
+FitSamples sample_fit(const Fit& fit, int count, std::uint64_t seed) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(fit.fitted_names.size()));
+  for (std::size_t k = 0; k < fit.fitted_names.size(); ++k) {
+    values[static_cast<Eigen::Index>(k)] = fit.value(fit.fitted_names[k]);
+  }
+  NormalSamples distribution(values, fit.covariance, seed);
+  FitSamples samples;
+  while (static_cast<int>(samples.fits.size()) < count) {
+    const Eigen::VectorXd drawn = distribution.draw();
+    Fit sample = fit;
+    const std::string source = fmt::format("sample {} of {} from the covariance of the fit, seed {}",
+                                           samples.fits.size() + 1, count, seed);
+    for (Constant& constant : sample.constants) {
+      const auto place = std::find(fit.fitted_names.begin(), fit.fitted_names.end(), constant.name);
+      if (place == fit.fitted_names.end()) continue;
+      constant.value = as_written(drawn[place - fit.fitted_names.begin()], constant.unit);
+      constant.origin = Origin::given;
+      constant.source = source;
+    }
+    sample.fitted_names.clear();
+    try {
+      require_material(sample);
+      samples.fits.push_back(std::move(sample));
+    } catch (const InputError& error) {
+      if (++samples.refused > 4 * static_cast<int>(samples.fits.size()) + 20) {
+        throw InputError(fmt::format("{} of {} draws from the covariance make no material; the last: {}",
+                                     samples.refused, samples.refused + static_cast<int>(samples.fits.size()),
+                                     error.what()));
+      }
+    }
+  }
+  return samples;
+}
+
+}  // namespace whipple::fit

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/fit/solid_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "md_fitting/fit/laws.hpp"
+
+namespace whipple::fit {
+namespace {
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Scales that make the parameters of order one.
+constexpr double pressure_scale = 1e9;  // Pa
+constexpr double energy_scale = 1e4;    // J/kg
+
+double square(double value) { return value * value; }
+}  // namespace
+
+SolidProblem::SolidProblem(const Observations& data, const FitSettings& settings, const SolidModel& model,
+                           const SolidConstants& start)
+    : observations_(data), settings_(settings), model_(model), start_(start) {
+  for (const Place place : model.free) {
+    bounded_.emplace_back(at(start, place), bounds_of(place, start), scale_of(place));
+  }
+  for (const HugoniotState& state : data.hugoniot) {
+    if (model.hugoniot && state.particle_velocity >= settings.least_particle_velocity &&
+        state.particle_velocity <= settings.most_particle_velocity) {
+      window_.push_back(state);
+    }
+  }
+  for (const Isochore& isochore : data.isochores) {
+    const ThermalState& cold = isochore.states.front();
+    const double v = isochore.volume;
+    cold_.push_back({cold.pressure.value - gamma(start.gray, v) * cold.energy.value / v,
+                     cold.energy.value - thermal_energy(start, v, cold.temperature)});
+  }
+  for (const MeltingPoint& point : data.melting) {
+    if (model.fits(Place::melting)) melting_.push_back(&point);
+    if (model.fits(Place::entropy) && point.latent_heat) fusion_.push_back(&point);
+  }
+  list_data();
+  linearise_melting();
+}
+
+void SolidProblem::list_data() {
+  const auto add = [&](const char* quantity, const std::string& label, Index rows = 1) {
+    rows_.push_back({quantity, label, size_, rows});
+    size_ += rows;
+  };
+  const double v0 = observations_.reference_volume.value;
+  add("volume at zero pressure", fmt::format("T = {:.0f} K", observations_.reference_temperature));
+  for (const HugoniotState& state : window_) {
+    add("shock velocity", fmt::format("up = {:.3g} km/s", 1e-3 * state.particle_velocity));
+  }
+  if (model_.isotherm) {
+    for (const IsothermState& state : observations_.isotherm) {
+      add("pressure of the isotherm", fmt::format("V/V0 = {:.3f}", state.volume / v0));
+    }
+  }
+  for (const Isochore& isochore : observations_.isochores) {
+    for (const ThermalState& state : isochore.states) {
+      add("pressure and energy of the isochores",
+          fmt::format("V/V0 = {:.3f}, T = {:.0f} K", isochore.volume / v0, state.temperature), 2);
+    }
+  }
+  const auto pressure = [](const MeltingPoint* point) {
+    return fmt::format("P = {:.3g} GPa", 1e-9 * point->pressure);
+  };
+  for (const MeltingPoint* point : melting_) add("melting temperature", pressure(point));
+  for (const MeltingPoint* point : fusion_) add("latent heat of fusion", pressure(point));
+}
+
+VectorXd SolidProblem::melting_values(const SolidConstants& constants) const {
+  VectorXd values(static_cast<Index>(melting_.size() + fusion_.size()));
+  const auto surface = model_.surface ? std::make_unique<Melting>(constants.gray) : nullptr;
+  Index row = 0;
+  for (const MeltingPoint* point : melting_) {
+    const double v = point->solid_volume.value;
+    values[row++] = surface ? surface->solidus(v) : melting_temperature(constants.gray, v);
+  }
+  for (const MeltingPoint* point : fusion_) {
+    values[row++] = surface->latent_heat(point->pressure, point->temperature.value);
+  }
+  return values;
+}
+
+/// GRAY's surface costs a fraction of a millisecond: its rows are linear about the start values, and the fit
+/// is repeated from its result until these stay.
+void SolidProblem::linearise_melting() {
+  if (melting_.empty() && fusion_.empty()) return;
+  VectorXd p = VectorXd::Zero(constants());
+  melting_start_ = melting_values(start_);
+  melting_slopes_.resize(melting_start_.size(), constants());
+  constexpr double step = 1e-4;
+  for (Index k = 0; k < constants(); ++k) {
+    p[k] = step;
+    const VectorXd above = melting_values(constants_at(p));
+    p[k] = -step;
+    melting_slopes_.col(k) = (above - melting_values(constants_at(p))) / (2.0 * step);
+    p[k] = 0.0;
+  }
+}
+
+SolidConstants SolidProblem::constants_at(const VectorXd& p) const {
+  SolidConstants trial = start_;
+  for (std::size_t k = 0; k < bounded_.size(); ++k) {
+    at(trial, model_.free[k]) = bounded_[k].value(p[static_cast<Index>(k)]);
+  }
+  return trial;
+}
+
+VectorXd SolidProblem::scale(const VectorXd& p) const {
+  VectorXd slopes(constants());
+  for (std::size_t k = 0; k < bounded_.size(); ++k) {
+    slopes[static_cast<Index>(k)] = bounded_[k].slope(p[static_cast<Index>(k)]);
+  }
+  return slopes;
+}
+
+std::pair<double, double> SolidProblem::velocities(const HugoniotState& state, double v0) {
+  return {v0 * std::sqrt(state.pressure.value / (v0 - state.volume)),
+          std::sqrt(state.pressure.value * (v0 - state.volume))};
+}
+
+SolidProblem::Intercepts SolidProblem::intercepts(const VectorXd& p, std::size_t isochore) const {
+  const Index place = constants() + 2 * static_cast<Index>(isochore);
+  return {cold_[isochore].pressure + pressure_scale * p[place],
+          cold_[isochore].energy + energy_scale * p[place + 1]};
+}
+
+VectorXd SolidProblem::residuals(const VectorXd& p) const {
+  const SolidConstants constants = constants_at(p);
+  const eos::GrayConstants& gray = constants.gray;
+  VectorXd r(size());
+  Index row = 0;
+  r[row++] = observations_.reference_volume.value - gray.reference_specific_volume;
+  for (const HugoniotState& state : window_) {
+    const auto [us, up] = velocities(state, gray.reference_specific_volume);
+    r[row++] = us - gray.hugoniot_intercept - gray.hugoniot_slope * up;
+  }
+  if (model_.isotherm) {
+    for (const IsothermState& state : observations_.isotherm) {
+      r[row++] = state.pressure.value - isotherm_pressure(constants, state.volume);
+    }
+  }
+  for (std::size_t j = 0; j < observations_.isochores.size(); ++j) {
+    const double v = observations_.isochores[j].volume;
+    const Intercepts at_zero = intercepts(p, j);
+    for (const ThermalState& state : observations_.isochores[j].states) {
+      r[row++] = state.pressure.value - at_zero.pressure - gamma(gray, v) * state.energy.value / v -
+                 anharmonic_pressure(gray, v, state.temperature);
+      r[row++] = state.energy.value - at_zero.energy - thermal_energy(constants, v, state.temperature);
+    }
+  }
+  if (melting_start_.size() > 0) {
+    r.tail(melting_start_.size()) = -melting_start_ - melting_slopes_ * p.head(this->constants());
+  }
+  for (const MeltingPoint* point : melting_) r[row++] += point->temperature.value;
+  for (const MeltingPoint* point : fusion_) r[row++] += point->latent_heat->value;
+  return r;
+}
+
+LeastSquaresProblem SolidProblem::least_squares() const {
+  LeastSquaresProblem problem;
+  problem.residuals = [this](const VectorXd& p) { return residuals(p); };
+  problem.start = VectorXd::Zero(constants() + 2 * static_cast<Index>(observations_.isochores.size()));
+  problem.statistical = MatrixXd::Zero(size(), size());
+  problem.model = MatrixXd::Zero(size(), size());
+  weigh(problem.statistical, problem.model);
+  return problem;
+}
+
+void SolidProblem::weigh(MatrixXd& statistical, MatrixXd& model) const {
+  const ModelErrors& errors = settings_.model_errors;
+  Index row = 0;
+  const auto weight = [&](double noise, double misfit) {
+    statistical(row, row) = noise;
+    model(row, row) = square(misfit);
+    ++row;
+  };
+  weight(square(observations_.reference_volume.error),
+         errors.zero_pressure_volume * observations_.reference_volume.value);
+  for (const HugoniotState& state : window_) {
+    // V is exact; Us and up both go as P^(1/2): d(Us - S up) = (Us - S up) dP/(2P).
+    const auto [us, up] = velocities(state, start_.gray.reference_specific_volume);
+    weight(
+        square((us - start_.gray.hugoniot_slope * up) * state.pressure.error / (2.0 * state.pressure.value)),
+        errors.shock_velocity * us);
+  }
+  if (model_.isotherm) {
+    for (const IsothermState& state : observations_.isotherm) {
+      weight(square(state.pressure.error), std::hypot(errors.isotherm_pressure * state.pressure.value,
+                                                      errors.isotherm_volume * start_.bulk_modulus));
+    }
+  }
+  for (const Isochore& isochore : observations_.isochores) {
+    weigh_isochore(isochore, row, statistical, model);
+    row += 2 * static_cast<Index>(isochore.states.size());
+  }
+  for (const MeltingPoint* point : melting_) {
+    const double v = point->solid_volume.value;
+    const double step = 1e-4 * v;
+    const double slope =
+        (melting_temperature(start_.gray, v + step) - melting_temperature(start_.gray, v - step)) /
+        (2.0 * step);
+    weight(square(point->temperature.error) + square(slope * point->solid_volume.error),
+           errors.melting_temperature * point->temperature.value);
+  }
+  for (const MeltingPoint* point : fusion_) {
+    weight(square(point->latent_heat->error), errors.latent_heat * point->latent_heat->value);
+  }
+}
+
+void SolidProblem::weigh_isochore(const Isochore& isochore, Index begin, MatrixXd& statistical,
+                                  MatrixXd& model) const {
+  const ModelErrors& errors = settings_.model_errors;
+  const double k = gamma(start_.gray, isochore.volume) / isochore.volume;
+  const ThermalState& cold = isochore.states.front();
+  const auto rows = static_cast<Index>(2 * isochore.states.size());
+  // Deviations common to the isochore: gamma by a fixed share, the anharmonic coefficient by a fixed amount.
+  VectorXd pressure = VectorXd::Zero(rows);
+  VectorXd energy = VectorXd::Zero(rows);
+  for (Index i = 0; i < rows; i += 2) {
+    const ThermalState& state = isochore.states[static_cast<std::size_t>(i / 2)];
+    const Index row = begin + i;
+    const double noise = square(state.energy.error);
+    const double common = state.correlation * state.pressure.error * state.energy.error;
+    // The residual of P contains -gamma E/V: the noise of E is common to both rows.
+    statistical(row, row) = square(state.pressure.error) + k * k * noise - 2.0 * k * common;
+    statistical(row + 1, row + 1) = noise;
+    statistical(row, row + 1) = statistical(row + 1, row) = common - k * noise;
+    const double heat = state.energy.value - cold.energy.value;
+    model(row, row) = square(errors.thermal_pressure * k * heat);
+    model(row + 1, row + 1) = square(errors.energy * heat);
+    pressure[i] = errors.gruneisen * k * heat;
+    energy[i + 1] = errors.anharmonic * (square(state.temperature) - square(cold.temperature)) /
+                    (2.0 * observations_.molar_mass);
+  }
+  model.block(begin, begin, rows, rows) += pressure * pressure.transpose() + energy * energy.transpose();
+}
+
+}  // namespace whipple::fit

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "md_fitting/fit/fit_settings.hpp"
+#include "md_fitting/fit/least_squares.hpp"
+#include "md_fitting/fit/observations.hpp"
+#include "md_fitting/fit/solid_constants.hpp"
+
+namespace whipple::fit {
+
+/// Rows that belong to one datum: a state of pressure and energy has two.
+struct Datum {
+  std::string quantity;  ///< "shock velocity", ...
+  std::string label;     ///< "up = 1.2 km/s"
+  Eigen::Index begin = 0, rows = 1;
+};
+
+/// The least-squares problem of a model of the solid: which residual belongs to which datum, and with which
+/// weight (docs/theory/fit.md, sections 2 and 3). Rows: V0; the Hugoniot states of the window; the states of
+/// the isotherm; P and E of each isochore state; melting temperatures; latent heats. Parameters: the model's
+/// constants, each mapped into its bounds, then two intercepts per isochore.
+class SolidProblem {
+ public:
+  /// @param data   outlives the problem
+  /// @param start  start values of the fitted constants, and the values of all others
+  /// @throws InputError if the start values contradict each other
+  SolidProblem(const Observations& data, const FitSettings& settings, const SolidModel& model,
+               const SolidConstants& start);
+
+  [[nodiscard]] LeastSquaresProblem least_squares() const;
+  [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& parameters) const;
+
+  [[nodiscard]] SolidConstants constants_at(const Eigen::VectorXd& parameters) const;
+  /// d(constant)/d(parameter), diagonal: brings the covariance of the parameters to SI.
+  [[nodiscard]] Eigen::VectorXd scale(const Eigen::VectorXd& parameters) const;
+
+  /// Us and up of a state from its pressure and volume by the jump conditions about V0.
+  static std::pair<double, double> velocities(const HugoniotState& state, double reference_volume);
+
+  [[nodiscard]] Eigen::Index constants() const { return static_cast<Eigen::Index>(bounded_.size()); }
+  [[nodiscard]] const std::vector<HugoniotState>& window() const { return window_; }
+  /// All data, in the order of the rows.
+  [[nodiscard]] const std::vector<Datum>& data() const { return rows_; }
+  [[nodiscard]] Eigen::Index size() const { return size_; }
+
+ private:
+  struct Intercepts {
+    double pressure, energy;  ///< of P - gamma E/V - ... and of E - c T - ..., at T = 0
+  };
+  [[nodiscard]] Intercepts intercepts(const Eigen::VectorXd& parameters, std::size_t isochore) const;
+  [[nodiscard]] Eigen::VectorXd melting_values(const SolidConstants& constants) const;
+  void list_data();
+  void linearise_melting();
+  void weigh(Eigen::MatrixXd& statistical, Eigen::MatrixXd& model) const;
+  void weigh_isochore(const Isochore& isochore, Eigen::Index begin, Eigen::MatrixXd& statistical,
+                      Eigen::MatrixXd& model) const;
+
+  const Observations& observations_;
+  FitSettings settings_;
+  SolidModel model_;
+  SolidConstants start_;
+  std::vector<BoundedParameter> bounded_;
+  std::vector<HugoniotState> window_;
+  std::vector<const MeltingPoint*> melting_,
+      fusion_;                      ///< with a temperature, with a latent heat to be fitted
+  std::vector<Intercepts> cold_;    ///< of the start values: the parameters count from there
+  Eigen::VectorXd melting_start_;   ///< melting temperatures and latent heats at the start values
+  Eigen::MatrixXd melting_slopes_;  ///< by the parameters
+  std::vector<Datum> rows_;
+  Eigen::Index size_ = 0;
+};
+
+}  // namespace whipple::fit

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <random>
+
+namespace whipple {
+
+/// Draws from a normal distribution of several correlated variables; the same seed gives the same draws.
+class NormalSamples {
+ public:
+  /// @param covariance  symmetric; may be singular, its variables may differ by any power of ten
+  /// @throws InputError if sizes differ, a variance is negative, or the correlations contradict each other
+  NormalSamples(Eigen::VectorXd mean, const Eigen::MatrixXd& covariance, std::uint64_t seed);
+
+  Eigen::VectorXd draw();
+
+ private:
+  Eigen::VectorXd mean_;
+  Eigen::MatrixXd factor_;  ///< factor_ factor_^T = covariance
+  std::mt19937_64 generator_;
+  std::normal_distribution<double> normal_;
+};
+
+}  // namespace whipple

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "src/material/material.hpp"
+
+namespace whipple {
+
+/// Materials whose constants are drawn from the covariance of a fitted one.
+struct MaterialSamples {
+  std::vector<Material> materials;
+  std::vector<std::string> names;  ///< of the drawn constants
+  int refused = 0;  ///< draws of which the model makes no material; another one was drawn for each
+};
+
+/// Reads the table [covariance] of a material file (names, units, and a row of [covariance.matrix] for each
+/// name) and draws its constants from the normal distribution about their values in [eos].
+/// @param path, beside  as of read_material
+/// @throws InputError if the file has no covariance, a table is at fault, or four of five draws are refused
+MaterialSamples sample_material(const std::filesystem::path& path, int count, std::uint64_t seed,
+                                const std::filesystem::path& beside = {});
+
+/// A material file with some keys changed before it is read: ("eos.gruneisen", "1.9").
+/// @throws InputError as read_material
+Material read_changed_material(const std::filesystem::path& file,
+                               std::span<const std::pair<std::string, std::string>> changes);
+
+}  // namespace whipple

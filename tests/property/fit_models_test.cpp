@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The other models and the fluid: data made of known constants give them back, within the stated errors.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "md_fitting/fit/solid_models.hpp"
+#include "md_fitting/fit/vapour_fit.hpp"
+#include "src/base/error.hpp"
+#include "tests/property/fit_recovery.hpp"
+
+namespace whipple::fit {
+namespace {
+
+using testing::Noise;
+using testing::noise_only;
+using testing::SyntheticStore;
+using testing::true_constants;
+
+double pull(const Fit& fit, const char* name, double truth) {
+  const Constant& constant = fit.constant(name);
+  EXPECT_EQ(constant.origin, Origin::fitted) << name;
+  return (constant.value - truth) / constant.error;
+}
+
+/// chi^2 of the deviations from the truth by the stated covariance, over several seeds: its mean is the
+/// number of constants.
+template <class FitOf, class Truth>
+void expect_honest(const FitOf& fit_of, const Truth& truth, int seeds) {
+  double sum = 0.0;
+  double data_sum = 0.0;
+  double degrees_of_freedom = 0.0;
+  Eigen::Index constants = 0;
+  for (unsigned seed = 1; seed <= static_cast<unsigned>(seeds); ++seed) {
+    const Fit fit = fit_of(seed);
+    constants = fit.covariance.rows();
+    Eigen::VectorXd deviation(constants);
+    for (Eigen::Index k = 0; k < constants; ++k) {
+      const std::string& name = fit.fitted_names[static_cast<std::size_t>(k)];
+      deviation[k] = fit.value(name) - truth(name);
+    }
+    // In units of the errors: the covariance itself mixes m^3/kg with K.
+    const Eigen::VectorXd scale = fit.covariance.diagonal().cwiseSqrt();
+    sum += deviation.cwiseQuotient(scale).dot(
+        Eigen::LDLT<Eigen::MatrixXd>(fit.correlation()).solve(deviation.cwiseQuotient(scale)));
+    data_sum += fit.chi_squared;
+    degrees_of_freedom += fit.degrees_of_freedom;
+  }
+  const double expected = static_cast<double>(constants) * seeds;
+  EXPECT_NEAR(sum, expected, 4.0 * std::sqrt(2.0 * expected));
+  EXPECT_NEAR(data_sum, degrees_of_freedom, 4.0 * std::sqrt(2.0 * degrees_of_freedom));
+}
+
+// GRAY: eight constants over eight seeds, within the stated covariance, and chi^2 of the data within its
+// scatter.
+TEST(FitModels, GrayIsRecoveredWithinItsCovariance) {
+  const eos::GrayConstants truth = true_constants();
+  const std::vector<double> expected = testing::values(truth);
+  expect_honest(
+      [&](unsigned seed) { return fit_gray(SyntheticStore(truth, Noise{}, seed).points, noise_only(), "s"); },
+      [&](const std::string& name) {
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+          if (testing::fitted[i] == name) return expected[i];
+        }
+        return std::nan("");
+      },
+      8);
+}
+
+eos::GrayConstants harmonic() {
+  eos::GrayConstants truth = true_constants();
+  truth.anharmonic_heat_coefficient = 0.0;
+  return truth;
+}
+
+// Mie and Grueneisen: the same solid without anharmonic energy; rho Gamma = rho0 (Gamma0 + b mu) with b =
+// gamma0 - a.
+TEST(FitModels, MieGruneisenIsRecovered) {
+  const eos::GrayConstants truth = harmonic();
+  const auto value = [&](const std::string& name) {
+    if (name == "reference_density") return 1.0 / truth.reference_specific_volume;
+    if (name == "hugoniot_intercept") return truth.hugoniot_intercept;
+    if (name == "hugoniot_slope") return truth.hugoniot_slope;
+    if (name == "gruneisen") return truth.gruneisen;
+    if (name == "gruneisen_slope") return truth.gruneisen - truth.gruneisen_slope;
+    if (name == "heat_capacity") return 3.0 * eos::GrayConstants::gas_constant / truth.molar_mass;
+    return std::nan("");
+  };
+  Noise silent;
+  silent.silent = true;
+  const Fit exact = fit_mie_gruneisen(SyntheticStore(truth, silent, 1).points, noise_only(), "s");
+  for (const std::string& name : exact.fitted_names) {
+    EXPECT_NEAR(exact.value(name), value(name), 1e-6 * std::abs(value(name))) << name;
+  }
+  ASSERT_EQ(exact.words.size(), 1u);
+  EXPECT_EQ(exact.words.front().second, "linear");
+  expect_honest(
+      [&](unsigned seed) {
+        return fit_mie_gruneisen(SyntheticStore(truth, Noise{}, seed).points, noise_only(), "s");
+      },
+      value, 8);
+}
+
+// Debye and Grueneisen: an isotherm of Vinet's form in place of the shocks.
+TEST(FitModels, DebyeGruneisenIsRecovered) {
+  eos::GrayConstants truth = harmonic();
+  truth.melting = "isochoric";  // the model melts by Lindemann's law alone
+  SolidConstants solid{truth, 0.0, 135e9, 5.3};
+  const auto store = [&](bool silent, unsigned seed) {
+    Noise noise;
+    noise.silent = silent;
+    SyntheticStore points(truth, noise, seed);
+    std::erase_if(points.points, [](const md::PointRecord& point) {
+      return point.protocol == "isotherm" || point.protocol == "hugoniot";
+    });
+    std::mt19937_64 generator(seed);
+    std::normal_distribution<double> normal;
+    for (const double ratio : {1.02, 0.99, 0.96, 0.93, 0.89, 0.86, 0.82, 0.78}) {
+      const double v = ratio * truth.reference_specific_volume;
+      const double error = 2e7;
+      points.add(
+          "isotherm", {{"specific_volume", v}, {"temperature", 293.0}},
+          {{"pressure", {isotherm_pressure(solid, v) + (silent ? 0.0 : error * normal(generator)), error}},
+           {"specific_internal_energy", {0.0, 400.0}}});
+    }
+    return points.points;
+  };
+  const auto value = [&](const std::string& name) {
+    if (name == "reference_density") return 1.0 / truth.reference_specific_volume;
+    if (name == "bulk_modulus") return solid.bulk_modulus;
+    if (name == "bulk_modulus_slope") return solid.bulk_modulus_slope;
+    if (name == "gruneisen") return truth.gruneisen;
+    if (name == "gruneisen_slope") return truth.gruneisen_slope;
+    if (name == "melting_temperature") return truth.melting_temperature;
+    return std::nan("");
+  };
+  const Fit exact = fit_debye_gruneisen(store(true, 1), noise_only(), "s");
+  ASSERT_EQ(exact.fitted_names.size(), 6u);
+  for (const std::string& name : exact.fitted_names) {
+    EXPECT_NEAR(exact.value(name), value(name), 1e-6 * std::abs(value(name))) << name;
+  }
+  EXPECT_EQ(exact.constant("debye_temperature").origin, Origin::by_default);
+  EXPECT_DOUBLE_EQ(exact.value("debye_temperature"), 343.0);
+  expect_honest([&](unsigned seed) { return fit_debye_gruneisen(store(false, seed), noise_only(), "s"); },
+                value, 8);
+}
+
+TEST(FitModels, DebyeGruneisenAsksForAnIsotherm) {
+  std::vector<md::PointRecord> points = SyntheticStore(harmonic(), Noise{}, 1).points;
+  std::erase_if(points, [](const md::PointRecord& point) { return point.protocol == "isotherm"; });
+  try {
+    fit_debye_gruneisen(points, noise_only(), "s");
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("protocol \"isotherm\": 0 solid states at 293 K, the fit needs 5"),
+        std::string::npos)
+        << error.what();
+  }
+}
+
+/// Saturated densities of the model, with noise.
+void add_saturation(SyntheticStore& store, const eos::GrayConstants& truth, double error, unsigned seed) {
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal;
+  for (const double temperature : {4500.0, 5000.0, 5500.0, 6000.0}) {
+    const auto [liquid, vapour] = saturated_densities(truth, temperature);
+    const auto noisy = [&](double value) {
+      return md::Estimate{value * (1.0 + error * normal(generator)), (error > 0.0 ? error : 1e-3) * value};
+    };
+    const md::Estimate dense = noisy(liquid);
+    store.add("liquid_vapour", {{"temperature", temperature}},
+              {{"liquid_density", dense}, {"vapour_density", noisy(vapour)}});
+  }
+}
+
+// The fluid: a_y and V_J from saturated densities.
+TEST(FitModels, VapourIsRecovered) {
+  eos::GrayConstants truth = true_constants();
+  truth.join_volume_ratio = 1.27;
+  truth.vapour_attraction = 570.0;
+  Noise silent;
+  silent.silent = true;
+  SyntheticStore store(truth, silent, 1);
+  add_saturation(store, truth, 0.0, 1);
+  const GrayFit fit = fit_gray(store.points, noise_only(), "s");
+  EXPECT_TRUE(fit.remarks.empty()) << fit.remarks.front();
+  EXPECT_EQ(fit.constant("vapour_attraction").origin, Origin::fitted);
+  EXPECT_NEAR(fit.value("vapour_attraction"), 570.0, 0.01);
+  EXPECT_NEAR(fit.value("join_volume_ratio"), 1.27, 1e-4);
+  // The joint covariance is positive and holds the solid's share.
+  EXPECT_EQ(fit.covariance.rows(), 10);
+  EXPECT_GT(Eigen::LDLT<Eigen::MatrixXd>(fit.correlation()).vectorD().minCoeff(), 0.0);
+
+  double attraction = 0.0;
+  double join = 0.0;
+  constexpr int seeds = 6;
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    SyntheticStore noisy(truth, Noise{}, seed);
+    add_saturation(noisy, truth, 0.01, seed);
+    const GrayFit one = fit_gray(noisy.points, noise_only(), "s");
+    attraction += std::pow(pull(one, "vapour_attraction", 570.0), 2);
+    join += std::pow(pull(one, "join_volume_ratio", 1.27), 2);
+  }
+  EXPECT_LT(attraction / seeds, 1.0 + 4.0 * std::sqrt(2.0 / seeds));
+  EXPECT_LT(join / seeds, 1.0 + 4.0 * std::sqrt(2.0 / seeds));
+  EXPECT_GT(attraction + join, 0.02 * seeds);  // the errors are not vastly too large, either
+}
+
+TEST(FitModels, OneTemperatureOfSaturationIsTooFew) {
+  const eos::GrayConstants truth = true_constants();
+  SyntheticStore store(truth, Noise{}, 1);
+  store.add("liquid_vapour", {{"temperature", 6000.0}},
+            {{"liquid_density", {5000.0, 50.0}}, {"vapour_density", {100.0, 10.0}}});
+  const GrayFit fit = fit_gray(store.points, noise_only(), "s");
+  ASSERT_EQ(fit.remarks.size(), 1u);
+  EXPECT_NE(fit.remarks.front().find("one temperature only"), std::string::npos);
+  EXPECT_EQ(fit.constant("vapour_attraction").origin, Origin::by_default);
+}
+
+// The bootstrap of a whole store agrees with the errors that the fit derives from the noise.
+TEST(FitModels, BootstrapAgreesWithTheCovariance) {
+  FitSettings settings = noise_only();
+  settings.bootstrap = 60;
+  const GrayFit fit = fit_gray(SyntheticStore(true_constants(), Noise{}, 2).points, settings, "s");
+  ASSERT_TRUE(fit.bootstrap.has_value());
+  EXPECT_EQ(fit.bootstrap->replicates, 60);
+  for (Eigen::Index k = 0; k < fit.bootstrap->covariance.rows(); ++k) {
+    const double ratio = std::sqrt(fit.bootstrap->covariance(k, k) / fit.statistical_covariance(k, k));
+    EXPECT_NEAR(ratio, 1.0, 4.0 / std::sqrt(2.0 * 60)) << fit.fitted_names[static_cast<std::size_t>(k)];
+  }
+}
+
+// Leave-one-out: data that obey the laws differ from their predictions by their errors.
+TEST(FitModels, LeaveOneOutIsUnityForHonestData) {
+  const GrayFit fit = fit_gray(SyntheticStore(true_constants(), Noise{}, 4).points, noise_only(), "s");
+  ASSERT_EQ(fit.left_out.size(), 5u);
+  for (const LeaveOneOut& part : fit.left_out) {
+    EXPECT_GT(part.data, 0) << part.quantity;
+    EXPECT_NEAR(part.rms, 1.0, 4.0 / std::sqrt(2.0 * part.data)) << part.quantity;
+  }
+}
+
+}  // namespace
+}  // namespace whipple::fit
