@@ -99,10 +99,15 @@ int run_plan(const Options& options) {
         potential.name(), potential.table_end(), potential.least_volume_ratio(),
         potential.lattice_constant());
   }
-  const CampaignSummary summary = run_campaign(tasks, options.store, MPI_COMM_WORLD, options.retry_failed);
+  const CampaignSummary summary = run_campaign(tasks, options.store, MPI_COMM_WORLD, options.retry_failed,
+                                               static_cast<int>(plan.ranks_per_point));
   if (rank == 0) {
     report(summary, options.store);
     if (plan.liquid_vapour) report_critical_point(options.store);
+  }
+  if (summary.code != 0) {
+    if (rank == 0) log::warning("the plan is incomplete; the same call goes on with what is missing");
+    return summary.code;
   }
   const bool complete = summary.failed + summary.blocked + summary.left == 0;
   return static_cast<int>(complete ? ExitCode::success : ExitCode::state);

@@ -8,10 +8,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <optional>
+#include <tuple>
+#include <vector>
 
+#include "md_fitting/data_set/store_order.hpp"
 #include "src/base/error.hpp"
 #include "src/base/units.hpp"
 #include "src/hdf5/hdf5.hpp"
@@ -52,13 +58,18 @@ PointRecord read_point(const hdf5::Group& points, const std::string& key) {
   point.protocol = group.text_attribute("protocol");
   point.status = group.text_attribute("status");
   point.message = group.text_attribute("message");
-  point.wall_seconds = group.real_attribute("wall_seconds");
   const hdf5::Group conditions = group.open_group("conditions");
   for (const std::string& name : conditions.names(hdf5::Order::creation))
     point.conditions[name] = read_quantity(conditions, name).value;
   const hdf5::Group results = group.open_group("results");
   for (const std::string& name : results.names(hdf5::Order::creation))
     point.results[name] = read_quantity(results, name);
+  if (group.has("blocks")) {
+    const hdf5::Group blocks = group.open_group("blocks");
+    for (const std::string& name : blocks.names(hdf5::Order::creation)) {
+      point.blocks[name] = blocks.open_dataset(name).read_all<double>();
+    }
+  }
   const hdf5::Group provenance = group.open_group("provenance");
   for (const std::string& name : provenance.attribute_names())
     point.provenance[name] = provenance.text_attribute(name);
@@ -70,13 +81,18 @@ void write_point(const hdf5::Group& points, const PointRecord& point) {
   write_text(group, "protocol", point.protocol);
   write_text(group, "status", point.status);
   write_text(group, "message", point.message);
-  group.set_attribute("wall_seconds", point.wall_seconds);
   const hdf5::Group conditions = group.create_group("conditions", hdf5::Order::creation);
   for (const auto& [name, value] : point.conditions) write_quantity(conditions, name, {&value, 1});
   const hdf5::Group results = group.create_group("results", hdf5::Order::creation);
   for (const auto& [name, estimate] : point.results) {
     const std::array<double, 2> numbers = {estimate.value, estimate.error};
     write_quantity(results, name, numbers);
+  }
+  if (!point.blocks.empty()) {
+    const hdf5::Group blocks = group.create_group("blocks", hdf5::Order::creation);
+    for (const auto& [name, means] : point.blocks) {
+      if (!means.empty()) write_quantity(blocks, name, means);
+    }
   }
   const hdf5::Group provenance = group.create_group("provenance", hdf5::Order::creation);
   for (const auto& [name, text] : point.provenance) write_text(provenance, name, text);
@@ -252,13 +268,44 @@ std::vector<PointRecord> select(std::span<const PointRecord> points, std::string
   return chosen;
 }
 
-bool append_point(const std::filesystem::path& path, const PointRecord& point) {
-  if (point.key.empty() || point.protocol.empty() || (point.status != "done" && point.status != "failed")) {
-    throw InternalError("a point needs a key, a protocol and a status 'done' or 'failed' to be stored");
+namespace {
+
+/// What keeps a file of a size from being written into a folder, in the words of the system; empty: nothing.
+std::string obstacle(const std::filesystem::path& probe, std::uintmax_t size) {
+  const int descriptor = ::open(probe.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor < 0) return std::strerror(errno);
+  const std::vector<char> zeros(1 << 16);
+  std::string reason;
+  for (std::uintmax_t written = 0; written < size && reason.empty();) {
+    const ssize_t count = ::write(descriptor, zeros.data(), zeros.size());
+    if (count > 0) {
+      written += static_cast<std::uintmax_t>(count);
+    } else {
+      reason = errno == ENOSPC   ? "the disk is full"
+               : errno == EDQUOT ? "the quota of the disk is used up"
+               : errno == EFBIG  ? "the greatest size of a file is reached"
+                                 : std::strerror(errno);
+    }
   }
-  std::filesystem::create_directories(std::filesystem::absolute(path).parent_path());
-  const WriterLock lock(path);
-  const std::filesystem::path copy = beside(path, ".part");
+  ::close(descriptor);
+  ::unlink(probe.c_str());
+  return reason;
+}
+
+/// @throws InputError if there is no room for a store with one more point. Asked before HDF5 writes anything:
+/// a file that it cannot complete stays open in it to the end of the program.
+void require_room(const std::filesystem::path& path, const std::filesystem::path& copy) {
+  constexpr std::uintmax_t one_more_point = 1 << 18;
+  std::error_code fault;
+  const std::uintmax_t present = std::filesystem::file_size(path, fault);
+  const std::string reason = obstacle(copy, (fault ? 0 : present) + one_more_point);
+  if (reason.empty()) return;
+  throw InputError(
+      fmt::format("cannot write {}: {}; the points stored so far are safe", path.string(), reason));
+}
+
+bool append_to(const std::filesystem::path& path, const std::filesystem::path& copy,
+               const PointRecord& point) {
   const bool exists = std::filesystem::exists(path);
   if (exists) std::filesystem::copy_file(path, copy, std::filesystem::copy_options::overwrite_existing);
   hdf5::File file = exists ? hdf5::File::open(copy, hdf5::File::Access::modify) : create_file(copy);
@@ -277,6 +324,50 @@ bool append_point(const std::filesystem::path& path, const PointRecord& point) {
   sync_to_disk(copy);
   std::filesystem::rename(copy, path);
   return true;
+}
+
+bool same_bytes(const std::filesystem::path& first, const std::filesystem::path& second) {
+  std::ifstream a(first, std::ios::binary);
+  std::ifstream b(second, std::ios::binary);
+  using Bytes = std::istreambuf_iterator<char>;
+  return std::equal(Bytes(a), Bytes(), Bytes(b), Bytes());
+}
+
+bool in_order(const PointRecord& a, const PointRecord& b) {
+  return std::tie(a.protocol, a.conditions, a.key) < std::tie(b.protocol, b.conditions, b.key);
+}
+
+}  // namespace
+
+void normalise_store(const std::filesystem::path& path) {
+  const WriterLock lock(path);
+  std::vector<PointRecord> records = read_store(path);
+  std::sort(records.begin(), records.end(), in_order);
+  const std::filesystem::path copy = beside(path, ".part");
+  require_room(path, copy);
+  hdf5::File file = create_file(copy);
+  {
+    const hdf5::Group points = file.root.open_group("points");
+    for (const PointRecord& point : records) write_point(points, point);
+  }
+  file.close();
+  if (same_bytes(copy, path)) {
+    std::filesystem::remove(copy);
+    return;
+  }
+  sync_to_disk(copy);
+  std::filesystem::rename(copy, path);
+}
+
+bool append_point(const std::filesystem::path& path, const PointRecord& point) {
+  if (point.key.empty() || point.protocol.empty() || (point.status != "done" && point.status != "failed")) {
+    throw InternalError("a point needs a key, a protocol and a status 'done' or 'failed' to be stored");
+  }
+  std::filesystem::create_directories(std::filesystem::absolute(path).parent_path());
+  const WriterLock lock(path);
+  const std::filesystem::path copy = beside(path, ".part");
+  require_room(path, copy);
+  return append_to(path, copy, point);
 }
 
 void require_writable(const std::filesystem::path& path) {

@@ -23,11 +23,14 @@ struct Estimate {
 /// docs/theory/molecular_dynamics.md.
 struct PointRecord {
   std::string key;  ///< SHA-256 (hexadecimal) of everything the point depends on; its identity in the store
-  std::string protocol;                           ///< "lattice", "isotherm", "hugoniot", ...
-  std::string status;                             ///< "done" or "failed"
-  std::string message;                            ///< why it failed; remarks of a point that is done
-  std::map<std::string, double> conditions;       ///< SI
-  std::map<std::string, Estimate> results;        ///< SI; empty if the point failed
+  std::string protocol;                      ///< "lattice", "isotherm", "hugoniot", ...
+  std::string status;                        ///< "done" or "failed"
+  std::string message;                       ///< why it failed; remarks of a point that is done
+  std::map<std::string, double> conditions;  ///< SI
+  std::map<std::string, Estimate> results;   ///< SI; empty if the point failed
+  /// Means over equal parts of the averaged time, for resampling (docs/theory/fit.md, section 2): of results
+  /// by name, equally many of each. Points of older stores have none.
+  std::map<std::string, std::vector<double>> blocks;
   std::map<std::string, std::string> provenance;  ///< potential, its hash, element, molar_mass (kg/mol),
                                                   ///< sizes, steps, seed, LAMMPS version, ...
   double wall_seconds = 0.0;

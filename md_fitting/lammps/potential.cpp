@@ -14,6 +14,7 @@
 
 #include "md_fitting/lammps/eam_files.hpp"
 #include "md_fitting/lammps/units.hpp"
+#include "md_fitting/lammps/zhou_2004.hpp"
 #include "src/base/error.hpp"
 #include "src/base/hash.hpp"
 #include "src/base/text.hpp"
@@ -41,6 +42,16 @@ constexpr std::array known = {
         "Mishin, Mehl, Papaconstantopoulos, Voter, Kress, Phys. Rev. B 63 (2001) 224106; tables from the "
         "Cu block of Apostol, Mishin, Phys. Rev. B 83 (2011) 054116"},
     KnownPotential{"copper_universal_3", "Cu", "Cu_u3.eam", 0.0,
+                   "Foiles, Baskes, Daw, Phys. Rev. B 33 (1986) 7983"},
+    KnownPotential{"copper_universal_6", "Cu", "Cu_u6.eam", 0.0,
+                   "Adams, Foiles, Wolfer, J. Mater. Res. 4 (1989) 102"},
+    KnownPotential{"aluminium_mendelev_2008", "Al", "Al_mm.eam.fs", 0.0,
+                   "Mendelev, Kramer, Becker, Asta, Philos. Mag. 88 (2008) 1723"},
+    KnownPotential{
+        "aluminium_voter_chen_1987", "Al", "CoAl.eam.alloy", 0.0,
+        "Voter, Chen, Mater. Res. Soc. Symp. Proc. 82 (1987) 175; tables from the Al block of Vailhe, "
+        "Farkas, J. Mater. Res. 12 (1997) 2559"},
+    KnownPotential{"nickel_universal_3", "Ni", "Ni_u3.eam", 0.0,
                    "Foiles, Baskes, Daw, Phys. Rev. B 33 (1986) 7983"},
 };
 
@@ -77,6 +88,10 @@ std::filesystem::path find_file(const std::string& name, const std::string& elem
   std::vector<std::string> choices;
   for (const KnownPotential& potential : known) {
     if (element == potential.element) choices.emplace_back(potential.name);
+  }
+  const std::vector<std::string> formulas = zhou_2004_elements();
+  if (std::find(formulas.begin(), formulas.end(), element) != formulas.end()) {
+    choices.emplace_back(zhou_2004_name);
   }
   for (std::string& file : files_for(element, potential_folder())) choices.push_back(std::move(file));
   throw InputError(fmt::format("there is no potential '{}'{}; for {} there are: {} (files in {})", name,
@@ -139,35 +154,46 @@ Potential Potential::load(const std::string& name, const std::string& element,
                           const std::filesystem::path& folder) {
   Potential potential;
   potential.name_ = name;
-  const auto entry =
-      std::find_if(known.begin(), known.end(), [&](const auto& one) { return name == one.name; });
-  const bool by_name = entry != known.end();
-  if (by_name && element != entry->element) {
-    throw InputError(fmt::format("potential {} is for {}, not for {}", name, entry->element, element));
-  }
-  potential.file_ = find_file(by_name ? entry->file : name, element, folder);
-  potential.tables_ = read_eam(potential.file_, element);
-  potential.source_ = by_name ? entry->source : "the file " + potential.file_.filename().string();
-  const EamFormat format = eam_format(potential.file_);
-  if (format == EamFormat::angular_dependent) {
-    if (by_name && entry->cutoff > 0.0) shorten(potential.tables_, entry->cutoff, name);
-    const std::string text =
-        to_setfl(potential.tables_, fmt::format("{} out of {}", element, potential.file_.string()));
-    potential.style_ = "eam/alloy";
-    // The hash is that of the tables only: the path in the comment is not part of the physics.
-    potential.hash_ = sha256(to_setfl(potential.tables_, ""));
-    potential.written_ = std::make_shared<TemporaryFile>(element + ".eam.alloy", text);
+  if (name == zhou_2004_name) {
+    potential.tables_ = zhou_2004(element);
+    potential.file_ = name;
+    potential.source_ = "Zhou, Johnson, Wadley, Phys. Rev. B 69 (2004) 144113";
+    potential.write_tables(fmt::format("{} by the formulas of {}", element, potential.source_));
   } else {
-    potential.style_ = format == EamFormat::funcfl  ? "eam"
-                       : format == EamFormat::setfl ? "eam/alloy"
-                                                    : "eam/fs";
-    potential.hash_ = sha256(content_of(potential.file_));
+    potential.read_file(element, folder);
   }
   potential.lattice_constant_ = potential.tables_.static_lattice_constant();
   const double end = potential.tables_.density_end();
   potential.table_end_ = potential.tables_.volume_ratio_at(end);
   potential.least_volume_ratio_ = potential.tables_.volume_ratio_at(end / (1.0 + density_margin));
   return potential;
+}
+
+void Potential::read_file(const std::string& element, const std::filesystem::path& folder) {
+  const auto entry =
+      std::find_if(known.begin(), known.end(), [&](const auto& one) { return name_ == one.name; });
+  const bool by_name = entry != known.end();
+  if (by_name && element != entry->element) {
+    throw InputError(fmt::format("potential {} is for {}, not for {}", name_, entry->element, element));
+  }
+  file_ = find_file(by_name ? entry->file : name_, element, folder);
+  tables_ = read_eam(file_, element);
+  source_ = by_name ? entry->source : "the file " + file_.filename().string();
+  const EamFormat format = eam_format(file_);
+  if (format == EamFormat::angular_dependent) {
+    if (by_name && entry->cutoff > 0.0) shorten(tables_, entry->cutoff, name_);
+    write_tables(fmt::format("{} out of {}", element, file_.string()));
+  } else {
+    style_ = format == EamFormat::funcfl ? "eam" : format == EamFormat::setfl ? "eam/alloy" : "eam/fs";
+    hash_ = sha256(content_of(file_));
+  }
+}
+
+void Potential::write_tables(const std::string& comment) {
+  style_ = "eam/alloy";
+  // The hash is that of the tables only: the comment is not part of the physics.
+  hash_ = sha256(to_setfl(tables_, ""));
+  written_ = std::make_shared<TemporaryFile>(element() + ".eam.alloy", to_setfl(tables_, comment));
 }
 
 void Potential::apply(Lammps& lammps) const {

@@ -17,8 +17,8 @@ std::filesystem::path potential_folder();
 /// An embedded-atom potential of one element, checked before LAMMPS sees it.
 class Potential {
  public:
-  /// Loads a potential by the name of a known one, or by a file name: a path, a file beside the plan
-  /// (`folder`), or a file in LAMMPS' folder.
+  /// Loads a potential by the name of a known one ("zhou_2004" for each of its elements), or by a file name:
+  /// a path, a file beside the plan (`folder`), or a file in LAMMPS' folder.
   /// @throws InputError if there is no such file (listing the ones for the element), if the element is not in
   /// it, or if the file is damaged.
   static Potential load(const std::string& name, const std::string& element,
@@ -56,6 +56,9 @@ class Potential {
 
  private:
   class TemporaryFile;
+  void read_file(const std::string& element, const std::filesystem::path& folder);
+  /// Tables that LAMMPS reads from a file made for it.
+  void write_tables(const std::string& comment);
 
   std::string name_;
   std::filesystem::path file_;

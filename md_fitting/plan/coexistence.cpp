@@ -14,7 +14,8 @@ std::vector<BoundParameter> keys(CoexistencePlan& plan) {
       integer("attempts", &CoexistencePlan::attempts, {.lower = 1, .upper = 20},
               "restarts from the last temperature when crystal or melt has vanished")
           .optional()};
-  return with_size(bind(table, plan), plan.size);
+  return join_keys(with_size(bind(table, plan), plan.size),
+                   keys(plan.target, "K", "wanted standard error of the melting temperature"));
 }
 
 void check(const CoexistencePlan& section, const Plan&, input::Table& table) {

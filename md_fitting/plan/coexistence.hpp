@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "md_fitting/plan/run_size.hpp"
+#include "md_fitting/plan/target.hpp"
 #include "src/input/document.hpp"
 
 namespace whipple::md {
@@ -16,6 +17,7 @@ struct CoexistencePlan {
   std::vector<double> first_guess;  ///< K, one per pressure
   std::int64_t attempts = 4;
   RunSize size{.cells = 8, .equilibration_steps = 5000, .steps = 10000};
+  Target target{};
 };
 
 std::vector<BoundParameter> keys(CoexistencePlan& plan);

@@ -9,7 +9,8 @@ std::vector<BoundParameter> keys(HugoniotPlan& plan) {
   static const ParameterTable<HugoniotPlan> table = {
       real_list("volume_ratio", &HugoniotPlan::volume_ratio, "", range::open_between(0.1, 1.0),
                 "V behind the shock over the volume of the static crystal at zero pressure")};
-  return with_size(bind(table, plan), plan.size);
+  return join_keys(with_size(bind(table, plan), plan.size),
+                   keys(plan.target, "", "wanted standard error of the shock velocity, relative"));
 }
 
 void check(const HugoniotPlan&, const Plan& plan, input::Table& table) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "md_fitting/plan/run_size.hpp"
+#include "md_fitting/plan/target.hpp"
 #include "src/input/document.hpp"
 
 namespace whipple::md {
@@ -14,6 +15,7 @@ struct Plan;
 struct HugoniotPlan {
   std::vector<double> volume_ratio;
   RunSize size{};
+  Target target{};
 };
 
 std::vector<BoundParameter> keys(HugoniotPlan& plan);

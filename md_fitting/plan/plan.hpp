@@ -31,6 +31,7 @@ struct Plan {
   std::string element;
   std::string potential;
   std::int64_t seed = 1;
+  std::int64_t ranks_per_point = 1;
   std::filesystem::path folder;  ///< of the plan file: a potential file may lie there
 
   // One member per section: optional for [section], a vector for [[section]].

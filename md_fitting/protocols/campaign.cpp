@@ -7,10 +7,15 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <thread>
+#include <utility>
+#include <vector>
 
+#include "md_fitting/data_set/store_order.hpp"
+#include "md_fitting/protocols/point_team.hpp"
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
 #include "src/base/progress.hpp"
@@ -124,6 +129,7 @@ PointRecord compute_point(const Task& task, const PointRecord* dependency, int s
     point.status = "done";
     point.message = std::move(result.message);
     point.results = std::move(result.results);
+    point.blocks = std::move(result.blocks);
     point.provenance["lammps_commands"] = std::move(result.transcript);
   } catch (const LammpsError& error) {
     point.status = "failed";
@@ -141,10 +147,11 @@ PointRecord compute_point(const Task& task, const PointRecord* dependency, int s
 
 /// Continues a point until it is as exact as wanted, storing it after every segment. A segment that fails
 /// leaves what is there.
-PointRecord continue_point(const Task& task, const PointRecord* dependency, PointRecord point,
-                           const std::filesystem::path& store) {
+/// @param compute  a segment of the point
+PointRecord continue_point(const Task& task, PointRecord point, const std::filesystem::path& store,
+                           const std::function<PointRecord(int segment)>& compute) {
   while (wants_more(point, task.precision)) {
-    const PointRecord segment = compute_point(task, dependency, point.segments());
+    const PointRecord segment = compute(point.segments());
     if (!segment.done()) {
       log::warning("{} is not continued: {}", short_label(point), segment.message);
       break;
@@ -220,10 +227,162 @@ std::string summarize(const PointRecord& point) {
   return text + fmt::format(" [{:.1f} s]", point.wall_seconds);
 }
 
-CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem::path& store,
-                             MPI_Comm communicator, bool retry_failed) {
+namespace {
+
+/// Points of this rank, or of the team that it leads.
+struct Counts {
+  int computed = 0, failed = 0, blocked = 0;
+};
+
+/// Computes what the leader of the team announces, until it dismisses the team.
+void follow(std::span<const Task> tasks, const std::filesystem::path& store, const PointTeam& team) {
+  while (const auto order = team.wait()) {
+    try {
+      const Task& task = tasks[static_cast<std::size_t>(order->task)];
+      std::optional<PointRecord> dependency;
+      if (!task.dependency.empty()) dependency = find_point(store, task.dependency);
+      static_cast<void>(
+          compute_point(task, dependency ? &*dependency : nullptr, static_cast<int>(order->segment)));
+    } catch (const std::exception&) {
+      // The leader met the same and reports it.
+    }
+  }
+}
+
+/// Takes tasks from the common queue of all leaders and works them off with the own team.
+class Leader {
+ public:
+  /// @param status  of the tasks, as `read_status` tells it
+  Leader(std::span<const Task> tasks, const std::string& status, std::vector<std::size_t> queue,
+         const std::filesystem::path& store, const PointTeam& team)
+      : tasks_(tasks),
+        status_(status),
+        queue_(std::move(queue)),
+        store_(store),
+        team_(team),
+        shared_(team.leaders(), tasks.size()) {
+    MPI_Comm_rank(team.leaders(), &rank_);
+    if (rank_ == 0) {
+      progress_.emplace("md", static_cast<double>(tasks.size()));
+      progress_->start_from(static_cast<double>(tasks.size() - queue_.size()));
+    }
+  }
+
+  /// @throws whatever keeps points from being stored; the other leaders stop then
+  void work() {
+    try {
+      while (shared_.read(SharedNumbers::stop) == 0) {
+        const long place = shared_.add(SharedNumbers::next_task, 1);
+        if (place >= static_cast<long>(queue_.size())) break;
+        if (!work_on(queue_[static_cast<std::size_t>(place)])) break;
+      }
+    } catch (...) {
+      shared_.add(SharedNumbers::stop, 1);
+      throw;
+    }
+    // The first one goes on showing the progress of the others.
+    while (rank_ == 0 && shared_.read(SharedNumbers::stop) == 0 &&
+           shared_.read(SharedNumbers::finished) < static_cast<long>(queue_.size())) {
+      show("waiting for the last points");
+      std::this_thread::sleep_for(200ms);
+    }
+    show("done");
+  }
+  [[nodiscard]] const Counts& counts() const { return counts_; }
+
+ private:
+  void show(const std::string& remark) {
+    if (!progress_) return;
+    const auto before = static_cast<double>(tasks_.size() - queue_.size());
+    progress_->update(before + static_cast<double>(shared_.read(SharedNumbers::finished)), remark);
+  }
+
+  /// The point that a task needs: another team is computing it, or it is in the store, because tasks that
+  /// others need stand earlier in the queue. Nothing if it failed.
+  std::optional<PointRecord> needed_by(const Task& task, bool& stopped) {
+    const auto place = std::find_if(queue_.begin(), queue_.end(),
+                                    [&](std::size_t i) { return tasks_[i].key == task.dependency; });
+    stopped = place != queue_.end() && !wait_for(*place, shared_);
+    if (stopped) return std::nullopt;
+    std::optional<PointRecord> found = find_point(store_, task.dependency);
+    if (found && !found->done()) found.reset();
+    return found;
+  }
+
+  void finish(std::size_t index) {
+    shared_.add(SharedNumbers::of_task(index), 1);  // whoever waits for it learns that its turn is over
+    shared_.add(SharedNumbers::finished, 1);
+  }
+
+  /// False if the work is being stopped.
+  bool work_on(std::size_t index) {
+    const Task& task = tasks_[index];
+    show(short_label(unfinished(task)));
+    std::optional<PointRecord> dependency;
+    if (!task.dependency.empty()) {
+      bool stopped = false;
+      dependency = needed_by(task, stopped);
+      if (stopped) return false;
+      if (!dependency) {
+        ++counts_.blocked;
+        log::warning("{} not computed: the point it depends on failed", short_label(unfinished(task)));
+        finish(index);
+        return true;
+      }
+    }
+    const auto compute = [&](int segment) {
+      team_.announce({static_cast<long>(index), segment});
+      return compute_point(task, dependency ? &*dependency : nullptr, segment);
+    };
+    std::optional<PointRecord> present;
+    if (status_[index] == 'c') present = find_point(store_, task.key);
+    PointRecord point = present ? *present : compute(0);
+    if (!present && !append_point(store_, point)) {
+      log::detail("{} was stored by another process meanwhile", point.label());
+    }
+    point = continue_point(task, std::move(point), store_, compute);
+    ++(point.done() ? counts_.computed : counts_.failed);
+    finish(index);
+    if (point.done()) {
+      log::info("{}", summarize(point));
+    } else {
+      log::warning("{}", summarize(point));
+    }
+    show(short_label(point));
+    return true;
+  }
+
+  std::span<const Task> tasks_;
+  const std::string& status_;
+  std::vector<std::size_t> queue_;
+  const std::filesystem::path& store_;
+  const PointTeam& team_;
+  SharedNumbers shared_;
+  std::optional<Progress> progress_;
+  Counts counts_;
+  int rank_ = 0;
+};
+
+/// Rank 0 puts the store in order; a disk too full for that leaves it as it is.
+void put_in_order(const std::filesystem::path& store, MPI_Comm communicator) {
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
+  MPI_Barrier(communicator);
+  if (rank != 0) return;
+  try {
+    normalise_store(store);
+  } catch (const InputError& error) {
+    log::warning("the store stays as it is: {}", error.what());
+  }
+}
+
+}  // namespace
+
+CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem::path& store,
+                             MPI_Comm communicator, bool retry_failed, int ranks_per_point) {
+  int rank = 0;
+  MPI_Comm_rank(communicator, &rank);
+  const PointTeam team(communicator, ranks_per_point);
   const std::string status = read_status(tasks, store, communicator, rank);
   CampaignSummary summary;
   std::vector<std::size_t> queue;
@@ -236,85 +395,33 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
       queue.push_back(i);
     }
   }
-  if (queue.empty()) return summary;
-  const auto place_of = [&](const std::string& key) {
-    return std::find_if(queue.begin(), queue.end(), [&](std::size_t i) { return tasks[i].key == key; });
-  };
-
-  std::string fault;
-  std::array<int, 3> counts{};  // computed, failed, blocked by this rank
-  {
-    SharedNumbers shared(communicator, tasks.size());
-    std::optional<Progress> progress;
-    if (rank == 0) {
-      progress.emplace("md", static_cast<double>(tasks.size()));
-      progress->start_from(static_cast<double>(tasks.size() - queue.size()));
-    }
-    const auto show = [&](const std::string& remark) {
-      if (!progress) return;
-      const auto before = static_cast<double>(tasks.size() - queue.size());
-      progress->update(before + static_cast<double>(shared.read(SharedNumbers::finished)), remark);
-    };
-    try {
-      while (shared.read(SharedNumbers::stop) == 0) {
-        const long place = shared.add(SharedNumbers::next_task, 1);
-        if (place >= static_cast<long>(queue.size())) break;
-        const std::size_t index = queue[static_cast<std::size_t>(place)];
-        const Task& task = tasks[index];
-        show(short_label(unfinished(task)));
-        std::optional<PointRecord> dependency;
-        if (!task.dependency.empty()) {
-          // Tasks that others need stand earlier in the queue: another rank is computing it, or it is in the
-          // store.
-          const auto place_of_it = place_of(task.dependency);
-          if (place_of_it != queue.end() && !wait_for(*place_of_it, shared)) break;
-          dependency = find_point(store, task.dependency);
-          if (!dependency || !dependency->done()) {
-            ++counts[2];
-            log::warning("{} not computed: the point it depends on failed", short_label(unfinished(task)));
-            shared.add(SharedNumbers::of_task(index),
-                       1);  // whoever waits for it learns that it will not come
-            shared.add(SharedNumbers::finished, 1);
-            continue;
-          }
-        }
-        const PointRecord* const needed = dependency ? &*dependency : nullptr;
-        std::optional<PointRecord> present;
-        if (status[index] == 'c') present = find_point(store, task.key);
-        PointRecord point = present ? *present : compute_point(task, needed, 0);
-        if (!present && !append_point(store, point))
-          log::detail("{} was stored by another process meanwhile", point.label());
-        point = continue_point(task, needed, std::move(point), store);
-        ++counts[point.done() ? 0 : 1];
-        shared.add(SharedNumbers::of_task(index), 1);
-        shared.add(SharedNumbers::finished, 1);
-        if (point.done()) {
-          log::info("{}", summarize(point));
-        } else {
-          log::warning("{}", summarize(point));
-        }
-        show(short_label(point));
-      }
-    } catch (const std::exception& error) {
-      fault = error.what();
-      shared.add(SharedNumbers::stop, 1);
-    }
-    // Rank 0 goes on showing the progress of the others.
-    while (rank == 0 && shared.read(SharedNumbers::stop) == 0 &&
-           shared.read(SharedNumbers::finished) < static_cast<long>(queue.size())) {
-      show("waiting for the last points");
-      std::this_thread::sleep_for(200ms);
-    }
-    show("done");
-    if (!fault.empty()) log::warning("rank {}: {}", rank, fault);
-    const int own = fault.empty() ? 0 : 1;
-    int any = 0;
-    MPI_Allreduce(&own, &any, 1, MPI_INT, MPI_MAX, communicator);
-    if (any != 0)
-      throw InputError("the campaign stopped; the points finished so far are in " + store.string());
+  if (queue.empty()) {
+    put_in_order(store, communicator);  // an earlier call may have been killed before it did so
+    return summary;
   }
+
+  Counts own;
+  int code = 0;
+  if (team.leads()) {
+    Leader leader(tasks, status, std::move(queue), store, team);
+    try {
+      leader.work();
+    } catch (const std::exception& error) {
+      // The points finished so far are in the store: what stopped the work is no fault of the plan.
+      const bool defect = exit_code(error) == ExitCode::internal;
+      code = static_cast<int>(defect ? ExitCode::internal : ExitCode::state);
+      log::warning("the work stopped before its end: {}", error.what());
+    }
+    own = leader.counts();
+    team.dismiss();
+  } else {
+    follow(tasks, store, team);
+  }
+  put_in_order(store, communicator);
+  const std::array<int, 3> counts = {own.computed, own.failed, own.blocked};
   std::array<int, 3> total{};
   MPI_Allreduce(counts.data(), total.data(), 3, MPI_INT, MPI_SUM, communicator);
+  MPI_Allreduce(&code, &summary.code, 1, MPI_INT, MPI_MAX, communicator);
   summary.computed = total[0];
   summary.failed = total[1];
   summary.blocked = total[2];

@@ -17,15 +17,20 @@ struct CampaignSummary {
   int failed = 0;    ///< points that failed now
   int left = 0;      ///< points that failed in an earlier call and were left alone
   int blocked = 0;   ///< points whose dependency failed
+  int code = 0;      ///< exit code of what stopped the work before its end; 0: nothing did
 };
 
-/// Computes what is missing of the tasks, one task per rank at a time from a common queue, and adds each
-/// finished point to the store at once. A task that fails is named, stored as failed with its message, and
-/// the others go on. The numbers do not depend on the number of ranks. Collective.
-/// @param retry_failed also compute points that failed in an earlier call
-/// @throws InputError on every rank if the store cannot be written.
+/// Computes what is missing of the tasks, one task per rank (or team of ranks) at a time from a common queue,
+/// and adds each finished point to the store at once. A task that fails is named, stored as failed with its
+/// message, and the others go on. The numbers do not depend on the number of teams. A store that cannot be
+/// written any more (a full disk) stops the work: its message is a warning, and the summary says so. At the
+/// end the store is put in order
+/// (`normalise_store`): the same points give the same bytes. Collective.
+/// @param retry_failed    also compute points that failed in an earlier call
+/// @param ranks_per_point ranks of a team; the last digits of the numbers depend on it
+/// @throws InputError on every rank if the store is none, or the ranks are no multiple of those of a team
 CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem::path& store,
-                             MPI_Comm communicator, bool retry_failed);
+                             MPI_Comm communicator, bool retry_failed, int ranks_per_point = 1);
 
 /// "pressure = 45.312 +- 0.011 GPa" for people: usual units, two digits of the error.
 std::string format_result(const std::string& quantity, const Estimate& estimate);

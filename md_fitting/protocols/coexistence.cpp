@@ -219,7 +219,10 @@ void add_coexistence(const Plan& plan, TaskList& list) {
   if (!plan.coexistence) return;
   const CoexistencePlan& melting = *plan.coexistence;
   for (std::size_t i = 0; i < melting.pressure.size(); ++i) {
-    PointRequest request{{{"pressure", melting.pressure[i]}}, size_settings(melting.size), {}};
+    PointRequest request{{{"pressure", melting.pressure[i]}},
+                         size_settings(melting.size),
+                         {},
+                         precision_of("melting_temperature", false, melting.target, melting.size)};
     request.settings["first_guess"] = fmt::format("{}", melting.first_guess[i]);
     request.settings["attempts"] = std::to_string(melting.attempts);
     list.add(request, [&potential = list.potential(), size = melting.size, pressure = melting.pressure[i],

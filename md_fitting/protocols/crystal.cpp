@@ -7,12 +7,13 @@
 #include <cmath>
 
 #include "md_fitting/lammps/units.hpp"
+#include "md_fitting/protocols/point_team.hpp"
 
 namespace whipple::md {
 
 Crystal::Crystal(const Potential& potential, double lattice_constant, std::int64_t nx, std::int64_t ny,
                  std::int64_t nz, const std::string& structure)
-    : nx_(nx), ny_(ny), nz_(nz) {
+    : nx_(nx), ny_(ny), nz_(nz), lammps_(point_communicator()) {
   lammps_.command("units metal");
   lammps_.command("atom_style atomic");
   lammps_.command("boundary p p p");

@@ -138,6 +138,10 @@ HugoniotState solve_hugoniot(StateSource& source, const ReferenceState& referenc
   result.solid = last.state.solid;
   result.crystal_share = last.state.crystal_share;
   result.runs = runs + 2;
+  for (std::size_t b = 0; b < last.state.pressure_blocks.size(); ++b) {
+    result.pressure_blocks.push_back(
+        solve({last.state.energy_blocks[b], last.state.pressure_blocks[b], inputs[2], inputs[3]})[1]);
+  }
   return result;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "md_fitting/data_set/data_set.hpp"
 #include "md_fitting/protocols/state_source.hpp"
 
@@ -31,6 +33,8 @@ struct HugoniotState {
   double crystal_share = 1.0;
   bool solid = true;
   int runs = 0;
+  std::vector<double>
+      pressure_blocks{};  ///< Pa, of the final run, each moved onto the Hugoniot; may be empty
 };
 
 /// The state behind a steady shock at one specific volume: the temperature at which

@@ -29,7 +29,8 @@ TaskResult compute_hugoniot(const Potential& potential, const RunSize& size, std
            {"crystal_share", {state.crystal_share, 0.0}},
            {"solid", {state.solid ? 1.0 : 0.0, 0.0}}},
           structure_remark(state.crystal_share, state.solid),
-          source.transcript()};
+          source.transcript(),
+          {{"pressure", state.pressure_blocks}}};
 }
 
 }  // namespace
@@ -40,7 +41,10 @@ void add_hugoniot(const Plan& plan, TaskList& list) {
   for (const double ratio : plan.hugoniot->volume_ratio) {
     list.require_range(ratio);
     const double volume = ratio * list.potential().static_volume();
-    list.add({{{"specific_volume", volume}}, size_settings(size), list.first_key("zero_pressure_volume")},
+    list.add({{{"specific_volume", volume}},
+              size_settings(size),
+              list.first_key("zero_pressure_volume"),
+              precision_of("shock_velocity", true, plan.hugoniot->target, size)},
              [&potential = list.potential(), size, volume](std::int64_t seed, const PointRecord* reference) {
                return compute_hugoniot(potential, size, seed, volume, *reference);
              });

@@ -76,6 +76,10 @@ State NvtStateSource::state(double specific_volume, double temperature, Effort e
                                     metal::specific_energy(energy.error, mass)};
   state.pressure = {pressure.value * metal::bar, pressure.error * metal::bar};
   state.correlation = error_correlation(series[0], series[1]);
+  for (const double mean : block_means(series[0])) {
+    state.energy_blocks.push_back(metal::specific_energy(mean, mass));
+  }
+  for (const double mean : block_means(series[1])) state.pressure_blocks.push_back(mean * metal::bar);
   const double square = metal::angstrom * metal::angstrom;
   state.mean_square_displacement = {last_displacement * square, block_average(displacement).error * square};
   return state;

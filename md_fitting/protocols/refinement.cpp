@@ -50,6 +50,10 @@ PointRecord join(const PointRecord& point, const PointRecord& segment) {
     estimate.error = weighted_error(n, estimate.error, m, other.error);
     if (sigma > 0.0 && difference > agreement * sigma) estimate.error *= difference / (agreement * sigma);
   }
+  for (auto& [name, means] : joined.blocks) {
+    const auto more = segment.blocks.find(name);
+    if (more != segment.blocks.end()) means.insert(means.end(), more->second.begin(), more->second.end());
+  }
   // The correlation is that of the joint covariance.
   if (joined.results.contains("error_correlation")) {
     const auto covariance = [](const PointRecord& part) {

@@ -16,14 +16,16 @@ void add_state(TaskList& list, double ratio, double temperature, const RunSize& 
            [&potential = list.potential(), size, volume, temperature](std::int64_t seed, const PointRecord*) {
              NvtStateSource source(potential, size, seed);
              const State state = source.state(volume, temperature, StateSource::Effort::final);
-             return TaskResult{{{"pressure", state.pressure},
-                                {"specific_internal_energy", state.specific_internal_energy},
-                                {"error_correlation", {state.correlation, 0.0}},
-                                {"mean_square_displacement", state.mean_square_displacement},
-                                {"crystal_share", {state.crystal_share, 0.0}},
-                                {"solid", {state.solid ? 1.0 : 0.0, 0.0}}},
-                               structure_remark(state.crystal_share, state.solid),
-                               source.transcript()};
+             return TaskResult{
+                 {{"pressure", state.pressure},
+                  {"specific_internal_energy", state.specific_internal_energy},
+                  {"error_correlation", {state.correlation, 0.0}},
+                  {"mean_square_displacement", state.mean_square_displacement},
+                  {"crystal_share", {state.crystal_share, 0.0}},
+                  {"solid", {state.solid ? 1.0 : 0.0, 0.0}}},
+                 structure_remark(state.crystal_share, state.solid),
+                 source.transcript(),
+                 {{"pressure", state.pressure_blocks}, {"specific_internal_energy", state.energy_blocks}}};
            });
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "md_fitting/data_set/data_set.hpp"
 
 namespace whipple::md {
@@ -13,6 +15,9 @@ struct State {
   double correlation = 0.0;           ///< of the errors of pressure and energy, -1 ... 1
   double crystal_share = 1.0;         ///< of the atoms, in the nearest minimum of the energy
   bool solid = true;                  ///< by displacement and by structure
+  /// Means of pressure and energy over equal parts of the averaged time; a formula has none.
+  std::vector<double> pressure_blocks{};
+  std::vector<double> energy_blocks{};
 };
 
 /// Anything that knows the state at a volume and a temperature: molecular dynamics, or in tests a formula.

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t least_blocks = 16;
 
-/// Standard error of the mean from blocks of one length; what is left over at the beginning is dropped.
-double error_with_blocks(std::span<const double> series, std::size_t length) {
+/// Means of blocks of one length; what is left over at the beginning is dropped.
+std::vector<double> means_of_length(std::span<const double> series, std::size_t length) {
   const std::size_t blocks = series.size() / length;
   series = series.last(blocks * length);
   std::vector<double> means(blocks);
@@ -24,19 +24,36 @@ double error_with_blocks(std::span<const double> series, std::size_t length) {
     const auto block = series.subspan(b * length, length);
     means[b] = std::accumulate(block.begin(), block.end(), 0.0) / static_cast<double>(length);
   }
+  return means;
+}
+
+/// Standard error of the mean from blocks of one length.
+double error_with_blocks(std::span<const double> series, std::size_t length) {
+  const std::vector<double> means = means_of_length(series, length);
+  const std::size_t blocks = means.size();
   const double mean = std::accumulate(means.begin(), means.end(), 0.0) / static_cast<double>(blocks);
   double squares = 0.0;
   for (const double value : means) squares += (value - mean) * (value - mean);
   return std::sqrt(squares / static_cast<double>(blocks * (blocks - 1)));
 }
 
+void require_blocks(std::span<const double> series) {
+  if (series.size() >= least_blocks) return;
+  throw InternalError(
+      fmt::format("block averages need at least {} samples, not {}", least_blocks, series.size()));
+}
+
 }  // namespace
 
+std::vector<double> block_means(std::span<const double> series) {
+  require_blocks(series);
+  std::vector<double> means = means_of_length(series, series.size() / least_blocks);
+  means.erase(means.begin(), means.end() - static_cast<std::ptrdiff_t>(least_blocks));
+  return means;
+}
+
 Estimate block_average(std::span<const double> series) {
-  if (series.size() < least_blocks) {
-    throw InternalError(
-        fmt::format("block averages need at least {} samples, not {}", least_blocks, series.size()));
-  }
+  require_blocks(series);
   if (!std::all_of(series.begin(), series.end(), [](double value) { return std::isfinite(value); })) {
     throw StateError("a sample of the simulation is not finite");
   }

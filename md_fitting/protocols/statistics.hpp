@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "md_fitting/data_set/data_set.hpp"
 
@@ -13,6 +14,11 @@ namespace whipple::md {
 /// needs no reader).
 /// @throws InternalError for fewer than 16 samples; StateError if a sample is not finite.
 Estimate block_average(std::span<const double> series);
+
+/// Means over the 16 longest blocks of equal length; what is left over at the beginning is dropped. They are
+/// what a bootstrap over blocks draws from.
+/// @throws InternalError for fewer than 16 samples.
+std::vector<double> block_means(std::span<const double> series);
 
 /// Correlation (-1 ... 1) of the errors of the means of two series that were sampled together.
 double error_correlation(std::span<const double> first, std::span<const double> second);

@@ -23,7 +23,7 @@ std::map<std::string, std::string> common_settings(const Plan& plan, const Poten
           {"static_specific_volume", fmt::format("{}", potential.static_volume())},
           {"density_table_end", fmt::format("{}", potential.table_end())},
           {"lammps_version", std::to_string(lammps_release())},
-          {"ranks", "1"},
+          {"ranks", std::to_string(plan.ranks_per_point)},
           {"plan_seed", std::to_string(plan.seed)}};
 }
 

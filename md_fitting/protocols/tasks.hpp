@@ -19,6 +19,8 @@ struct TaskResult {
   std::map<std::string, Estimate> results;
   std::string message;     ///< remark, e.g. that the crystal melted
   std::string transcript;  ///< LAMMPS commands
+  std::map<std::string, std::vector<double>>
+      blocks{};  ///< means over parts of the averaged time, of some results
 };
 
 /// One point of a plan: what it is, what it depends on, and how it is computed.
@@ -37,7 +39,7 @@ struct Task {
 
 /// All points of a plan, those that others depend on first. The key of each is the hash of everything that
 /// its numbers depend on: tables of the potential, protocol and its revision, conditions, sizes, seed,
-/// release of LAMMPS, ranks (always one) and the key of the point it depends on. The potential must outlive
+/// release of LAMMPS, ranks of a point and the key of the point it depends on. The potential must outlive
 /// the tasks.
 /// @throws InputError for states outside the range of the potential, all at once.
 std::vector<Task> make_tasks(const Plan& plan, const Potential& potential);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "md_fitting/lammps/units.hpp"
@@ -52,10 +53,13 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
   for (double& volume : series[1]) volume = cold_volume + modes * (volume - cold_volume);
   const Estimate energy = block_average(series[0]);
   const Estimate volume = block_average(series[1]);
+  std::vector<double> blocks;
+  for (const double mean : block_means(series[1])) blocks.push_back(metal::specific_volume(mean, mass));
   return {{metal::specific_volume(volume.value, mass), metal::specific_volume(volume.error, mass)},
           {metal::specific_energy(energy.value, mass), metal::specific_energy(energy.error, mass)},
           {modes * expansion.value, modes * expansion.error},
-          lammps.transcript()};
+          lammps.transcript(),
+          std::move(blocks)};
 }
 
 Estimate thermal_expansion(std::span<const double> volume, std::span<const double> energy, double atoms,
@@ -84,7 +88,8 @@ void add_zero_pressure(const Plan& plan, TaskList& list) {
                                   {"specific_internal_energy", result.specific_internal_energy},
                                   {"thermal_expansion", result.thermal_expansion}},
                                  "",
-                                 result.transcript};
+                                 result.transcript,
+                                 {{"specific_volume", result.volume_blocks}}};
              });
   }
 }

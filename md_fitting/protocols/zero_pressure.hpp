@@ -16,6 +16,7 @@ struct ZeroPressureResult {
   Estimate specific_internal_energy;  ///< J/kg
   Estimate thermal_expansion;         ///< 1/K, (1/V) dV/dT at constant pressure, from fluctuations
   std::string transcript;
+  std::vector<double> volume_blocks{};  ///< m^3/kg, means over parts of the averaged time
 };
 
 /// (1/V) dV/dT from the joint fluctuations of volume and potential energy at zero pressure and constant

@@ -6,98 +6,25 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <string>
 #include <thread>
 
 #include "md_fitting/data_set/data_set.hpp"
-#include "tests/unit/md_temporary_folder.hpp"
+#include "tests/parallel/md_program.hpp"
 
 namespace whipple::md {
 namespace {
 
-struct Outcome {
-  int code = -1;
-  std::string text;  // standard output and standard error
-};
-
-/// mpirun in containers (root), with more ranks than cores, without threads.
-void set_mpi_environment() {
-  for (const char* name :
-       {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "OMPI_MCA_rmaps_base_oversubscribe",
-        "OMPI_MCA_mpi_yield_when_idle", "OMP_NUM_THREADS"}) {
-    setenv(name, "1", 1);
-  }
-}
-
-Outcome run(const std::string& command) {
-  set_mpi_environment();
-  Outcome outcome;
-  FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
-  std::array<char, 4096> buffer{};
-  while (pipe != nullptr && fgets(buffer.data(), buffer.size(), pipe) != nullptr)
-    outcome.text += buffer.data();
-  const int status = pipe == nullptr ? -1 : pclose(pipe);
-  if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
-  return outcome;
-}
-
-std::string mpirun(int ranks, const std::string& command) {
-  return std::string(WHIPPLE_MPIEXEC) + " -n " + std::to_string(ranks) + " " + command;
-}
-
-constexpr const char* plan_text = R"(
-title = "test"
-element = "Cu"
-potential = "copper_universal_3"
-[zero_pressure_volume]
-cells = 3
-equilibration_steps = 200
-steps = 400
-[[isotherm]]
-volume_ratio = [1.0, 0.9, 0.8]
-cells = 3
-equilibration_steps = 100
-steps = 400
-[hugoniot]
-volume_ratio = [0.9, 0.8]
-cells = 3
-equilibration_steps = 100
-steps = 400
-)";
-
-class WhippleMd : public ::testing::Test {
- protected:
-  void SetUp() override { write("plan.toml", plan_text); }
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream(folder.path() / name) << text;
-  }
-  std::string path(const std::string& name) { return (folder.path() / name).string(); }
-  std::string command(const std::string& store) {
-    return std::string(WHIPPLE_MD) + " " + path("plan.toml") + " -o " + path(store);
-  }
-  TemporaryFolder folder;
-};
-
-void expect_same_points(std::vector<PointRecord> first, std::vector<PointRecord> second) {
-  ASSERT_EQ(first.size(), second.size());
-  const auto by_key = [](const PointRecord& a, const PointRecord& b) { return a.key < b.key; };
-  std::sort(first.begin(), first.end(), by_key);
-  std::sort(second.begin(), second.end(), by_key);
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    EXPECT_EQ(first[i].key, second[i].key);
-    EXPECT_TRUE(first[i].done());
-    for (const auto& [name, estimate] : first[i].results) {
-      EXPECT_EQ(estimate.value, second[i].result(name).value) << first[i].label() << " " << name;
-      EXPECT_EQ(estimate.error, second[i].result(name).error) << first[i].label() << " " << name;
-    }
-  }
-}
+using testing::expect_same_points;
+using testing::mpirun;
+using testing::Outcome;
+using testing::plan_text;
+using testing::run;
+using testing::WhippleMd;
 
 TEST_F(WhippleMd, NumbersDoNotDependOnTheRanks) {
   const Outcome alone = run(command("one.md.h5"));
@@ -185,6 +112,29 @@ TEST_F(WhippleMd, ExitCodesTellWhatHappened) {
   EXPECT_EQ(quiet.text.find("points, potential"), std::string::npos) << quiet.text;
   EXPECT_NE(run(std::string(WHIPPLE_MD) + " --describe").text.find("[hugoniot]"), std::string::npos);
 }
+
+// A number of ranks that makes no whole teams is refused before any work.
+TEST_F(WhippleMd, RanksMustMakeWholeTeams) {
+  write("plan.toml", std::string("ranks_per_point = 2\n") + plan_text);
+  const Outcome odd = run(mpirun(3, command("odd.md.h5")));
+  EXPECT_EQ(odd.code, 2) << odd.text;
+  EXPECT_NE(odd.text.find("ranks_per_point = 2 needs a multiple of 2 ranks, not 3"), std::string::npos)
+      << odd.text;
+}
+
+// Store and fit do not know when, how often and with how many ranks they were computed.
+TEST_F(WhippleMd, StoreIsTheSameByteForByte) {
+  ASSERT_EQ(run(command("one.md.h5")).code, 0);
+  ASSERT_EQ(run(command("two.md.h5")).code, 0);
+  ASSERT_EQ(run(mpirun(2, command("three.md.h5"))).code, 0);
+  const std::string bytes = testing::bytes_of(path("one.md.h5"));
+  EXPECT_FALSE(bytes.empty());
+  EXPECT_EQ(testing::bytes_of(path("two.md.h5")), bytes);
+  EXPECT_EQ(testing::bytes_of(path("three.md.h5")), bytes);
+}
+
+// SIGKILL for a worker, then for the driver, at random moments: nothing lost, nothing doubled.
+TEST_F(WhippleMd, SurvivesKillsOfWorkerAndDriver) { testing::kill_at_random(*this, 2); }
 
 // An instance on two ranks where one rank alone reports an error: the job ends with the message instead of
 // hanging.

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The campaign: nothing is computed twice, a failure stays alone, what depends on a failure waits.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 
 #include "md_fitting/protocols/campaign.hpp"
@@ -55,6 +60,65 @@ TEST_F(Campaign, SecondCallComputesNothing) {
   // The point that depends on another was given its numbers.
   EXPECT_EQ(read_store(store).at(2).result("pressure").value, 2.0);
   EXPECT_EQ(read_store(store).at(0).origin("lammps_commands"), "units metal\n");
+}
+
+/// The greatest size of a file that this process may write, while the object lives no more than `bytes`.
+class FileSizeLimit {
+ public:
+  FileSizeLimit() { getrlimit(RLIMIT_FSIZE, &former_); }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &former_); }
+  void set(std::uintmax_t bytes) const {
+    const rlimit limit{static_cast<rlim_t>(bytes), former_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+
+ private:
+  rlimit former_{};
+};
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// A disk that is full, simulated by the greatest size of a file, while the store is copied or while the point
+// is written: named, the summary carries the exit code of an incomplete plan, the points so far are safe, and
+// the next call goes on to the store of an undisturbed one.
+TEST_F(Campaign, FullDiskIsNamedAndLosesNothing) {
+  const auto former = std::signal(SIGXFSZ, SIG_IGN);
+  std::vector<Task> tasks = {task("a"), task("bb"), task("ccc", "a")};
+  EXPECT_EQ(run(tasks).computed, 3);
+  const std::string whole = bytes_of(store);
+  for (const double room : {0.5, 1.02}) {
+    std::filesystem::remove(store);
+    const auto compute = tasks[1].compute;
+    CampaignSummary stopped;
+    ::testing::internal::CaptureStderr();
+    {
+      const FileSizeLimit limit;
+      tasks[1].compute = [&](const PointRecord* needed) {
+        limit.set(static_cast<std::uintmax_t>(room * static_cast<double>(std::filesystem::file_size(store))));
+        return compute(needed);
+      };
+      stopped = run(tasks);
+    }
+    const std::string words = ::testing::internal::GetCapturedStderr();
+    EXPECT_EQ(stopped.code, static_cast<int>(ExitCode::state));
+    EXPECT_EQ(stopped.computed, 1);
+    EXPECT_NE(words.find("the work stopped before its end: cannot write"), std::string::npos) << words;
+    EXPECT_NE(words.find("the greatest size of a file is reached; the points stored so far are safe"),
+              std::string::npos)
+        << words;
+    EXPECT_EQ(read_store(store).size(), 1U);
+    tasks[1].compute = compute;
+    const CampaignSummary rest = run(tasks);
+    EXPECT_EQ(rest.code, 0);
+    EXPECT_EQ(rest.computed, 2);
+    EXPECT_EQ(bytes_of(store), whole);
+  }
+  std::signal(SIGXFSZ, former);
 }
 
 TEST_F(Campaign, MorePointsAreAdded) {

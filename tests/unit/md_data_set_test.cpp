@@ -8,10 +8,14 @@
 #include <cmath>
 #include <csignal>
 #include <fstream>
+#include <functional>
+#include <iterator>
 
 #include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/data_set/store_order.hpp"
 #include "src/base/error.hpp"
 #include "src/base/hash.hpp"
+#include "src/hdf5/hdf5.hpp"
 #include "tests/unit/md_temporary_folder.hpp"
 
 namespace whipple::md {
@@ -27,7 +31,7 @@ PointRecord example(const std::string& name) {
   point.results = {{"pressure", {1.0 / 3.0 * 1e10, 7.1e6}},
                    {"specific_internal_energy", {-5.3e6, std::sqrt(2.0)}}};
   point.provenance = {{"potential", "Cu_u3.eam"}, {"molar_mass", "0.06355"}, {"empty", ""}};
-  point.wall_seconds = 12.5;
+  point.blocks = {{"pressure", {1.0e9, 1.0 / 3.0}}};
   return point;
 }
 
@@ -38,7 +42,7 @@ void expect_equal(const PointRecord& a, const PointRecord& b) {
   EXPECT_EQ(a.message, b.message);
   EXPECT_EQ(a.conditions, b.conditions);
   EXPECT_EQ(a.provenance, b.provenance);
-  EXPECT_EQ(a.wall_seconds, b.wall_seconds);
+  EXPECT_EQ(a.blocks, b.blocks);
   ASSERT_EQ(a.results.size(), b.results.size());
   for (const auto& [name, estimate] : a.results) {
     EXPECT_EQ(estimate.value, b.result(name).value) << name;
@@ -157,6 +161,59 @@ TEST(Store, RefusesOtherFilesAndLeavesThemAlone) {
   EXPECT_THROW(read_store(folder.path() / "missing.md.h5"), InputError);
   EXPECT_THROW(require_writable("/proc/whipple/store.md.h5"), InputError);
   EXPECT_THROW(require_writable(folder.path()), InputError);
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The same points give the same bytes, whatever the order in which they came, and how long they took.
+TEST(Store, InOrderHasTheSameBytesWhateverItsHistory) {
+  const TemporaryFolder folder;
+  const auto first = folder.path() / "first.md.h5";
+  const auto second = folder.path() / "second.md.h5";
+  for (const char* name : {"a", "b", "c"}) append_point(first, example(name));
+  PointRecord failed = example("b");
+  failed.status = "failed";
+  failed.results.clear();
+  append_point(second, failed);
+  for (const char* name : {"c", "a", "b"}) {
+    PointRecord point = example(name);
+    point.wall_seconds = 7.0;
+    append_point(second, point);
+  }
+  EXPECT_NE(bytes_of(first), bytes_of(second));
+  normalise_store(first);
+  normalise_store(second);
+  EXPECT_EQ(bytes_of(first), bytes_of(second));
+  EXPECT_EQ(read_store(first).size(), 3U);
+  EXPECT_THROW(normalise_store(folder.path() / "missing.md.h5"), InputError);
+}
+
+TEST(Store, RefusesAnotherVersionByName) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "newer.md.h5";
+  {
+    hdf5::File file = hdf5::File::create(path, hdf5::File::Compatibility::compact);
+    file.root.set_fixed_attribute("format", "whipple-md", hdf5::Characters::utf8);
+    file.root.set_attribute("version", 99.0);
+    file.close();
+  }
+  const std::string before = bytes_of(path);
+  for (const auto& call : {std::function<void()>([&] { read_store(path); }),
+                           std::function<void()>([&] { append_point(path, example("other")); }),
+                           std::function<void()>([&] { require_writable(path); })}) {
+    try {
+      call();
+      ADD_FAILURE() << "no error";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("has format version 99, this program reads versions up to 1"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+  EXPECT_EQ(bytes_of(path), before);
 }
 
 TEST(PointRecord, NamesWhatIsMissing) {

@@ -8,6 +8,7 @@
 
 #include "md_fitting/lammps/eam_files.hpp"
 #include "md_fitting/lammps/potential.hpp"
+#include "md_fitting/lammps/zhou_2004.hpp"
 #include "src/base/error.hpp"
 #include "tests/unit/md_temporary_folder.hpp"
 
@@ -34,6 +35,61 @@ TEST(Potential, LatticeSumsGiveThePublishedCopper) {
     EXPECT_NEAR(potential.mass(), 63.546, 0.005) << name;
     EXPECT_NEAR(potential.static_volume(), 1.119e-4, 1e-7) << name;
   }
+}
+
+// Zhou, Johnson, Wadley (2004): every metal of the formulas has its lattice constant and its cohesive energy
+// (table II).
+TEST(Potential, FormulasOfZhouGiveThePublishedMetals) {
+  struct Metal {
+    const char* element;
+    double lattice_constant, cohesive_energy;  // A, eV
+  };
+  for (const Metal& metal : {Metal{"Cu", 3.615, 3.54}, Metal{"Al", 4.05, 3.58}, Metal{"Pb", 4.95, 2.02},
+                             Metal{"Ni", 3.52, 4.45}, Metal{"Ta", 3.303, 8.09}, Metal{"W", 3.165, 8.76}}) {
+    const Potential potential = Potential::load("zhou_2004", metal.element);
+    EXPECT_NEAR(potential.lattice_constant(), metal.lattice_constant, 0.003 * metal.lattice_constant)
+        << metal.element;
+    EXPECT_NEAR(potential.tables().crystal_energy(potential.lattice_constant()), -metal.cohesive_energy,
+                0.01 * metal.cohesive_energy)
+        << metal.element;
+    EXPECT_LT(potential.least_volume_ratio(), 0.3) << metal.element;
+  }
+  EXPECT_THROW(Potential::load("zhou_2004", "U"), InputError);
+}
+
+// Against the authors' own tables of copper and tantalum, which LAMMPS ships. There tantalum stands as an fcc
+// metal: that is the author's program, which knows no other lattice.
+TEST(Potential, FormulasOfZhouAgreeWithTheTablesOfTheAuthors) {
+  for (const char* element : {"Cu", "Ta"}) {
+    const EamTables formula = zhou_2004(element);
+    EamTables file = read_eam(potential_folder() / "CuTa.eam.alloy", element);
+    file.structure = formula.structure;
+    for (const double factor : {0.85, 0.92, 1.0, 1.08, 1.2}) {
+      const double a = factor * formula.header_lattice_constant;
+      EXPECT_NEAR(formula.crystal_energy(a), file.crystal_energy(a), 2e-4) << element << " " << factor;
+      EXPECT_NEAR(formula.crystal_density(a), file.crystal_density(a), 1e-5 * file.crystal_density(a))
+          << element << " " << factor;
+    }
+  }
+}
+
+// What each named potential can bear is known from its tables, before any run.
+TEST(Potential, EveryNamedPotentialKnowsItsLimit) {
+  for (const auto& [name, element] :
+       {std::pair("copper_universal_6", "Cu"), std::pair("aluminium_mendelev_2008", "Al"),
+        std::pair("aluminium_voter_chen_1987", "Al"), std::pair("nickel_universal_3", "Ni")}) {
+    const Potential potential = Potential::load(name, element);
+    EXPECT_NO_THROW(potential.require_range(0.65)) << name;
+    EXPECT_EQ(potential.tables().structure, "fcc") << name;
+    const double least = potential.least_volume_ratio();
+    if (least > 0.0) {
+      EXPECT_EQ(input_error([&] { potential.require_range(0.99 * least); }).substr(0, 10),
+                std::string("potential "))
+          << name;
+    }
+  }
+  EXPECT_NE(input_error([] { Potential::load("nickel_universal_3", "Cu"); }).find("is for Ni, not for Cu"),
+            std::string::npos);
 }
 
 // The short table of the file that LAMMPS ships and the full table are two tabulations of the same function:

@@ -27,6 +27,7 @@ PointRecord part(double pressure, double error, double correlation = 0.0) {
                    {"specific_internal_energy", {2.0 * pressure, 3.0 * error}},
                    {"error_correlation", {correlation, 0.0}},
                    {"solid", {1.0, 0.0}}};
+  point.blocks = {{"pressure", {pressure, pressure}}};
   point.provenance = {{"lammps_commands", "run 1\n"}};
   return point;
 }
@@ -37,6 +38,7 @@ TEST(Join, IsTheMeanOfAllSegmentsWhateverTheOrder) {
   EXPECT_NEAR(all.result("pressure").error, 0.3 / std::sqrt(3.0), 1e-12);
   EXPECT_EQ(all.segments(), 3);
   EXPECT_EQ(all.origin("lammps_commands"), "run 1\nrun 1\nrun 1\n");
+  EXPECT_EQ(all.blocks.at("pressure"), (std::vector<double>{1.0, 1.0, 1.1, 1.1, 1.2, 1.2}));
 }
 
 TEST(Join, KeepsTheCorrelationOfEqualPartsAndTheWorseFlag) {

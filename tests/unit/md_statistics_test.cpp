@@ -45,6 +45,19 @@ TEST(BlockAverage, FindsTheErrorOfAnAutoregressiveSeries) {
   EXPECT_GE(within, 184);
 }
 
+// The blocks that a bootstrap draws from have the mean of the series' end, and their scatter is the error.
+TEST(BlockMeans, AreSixteenAndCarryTheError) {
+  const std::vector<double> series = autoregressive(1);
+  const std::vector<double> blocks = block_means(series);
+  ASSERT_EQ(blocks.size(), 16u);
+  double mean = 0.0;
+  for (const double value : blocks) mean += value / 16.0;
+  EXPECT_NEAR(mean, block_average(series).value, 1e-12);  // a power of two of samples: nothing is dropped
+  EXPECT_LE(block_average(blocks).error, block_average(series).error * (1 + 1e-12));
+  EXPECT_EQ(block_means(std::vector<double>(33, 2.0)), std::vector<double>(16, 2.0));
+  EXPECT_THROW(block_means(std::vector<double>(15, 1.0)), InternalError);
+}
+
 TEST(BlockAverage, RefusesWhatHasNoError) {
   EXPECT_THROW(block_average(std::vector<double>(15, 1.0)), InternalError);
   std::vector<double> series(100, 1.0);
