@@ -20,22 +20,67 @@ if(WHIPPLE_SANITIZE)
   target_link_options(whipple_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
+# The same heavy headers are read by every file. Off: every file must name all that it uses (preset dev).
+option(WHIPPLE_PRECOMPILED_HEADERS "Read the headers of the standard library, fmt, Eigen and GoogleTest once" ON)
+if(WHIPPLE_PRECOMPILED_HEADERS AND CCACHE)
+  # What ccache needs to keep objects that were made with precompiled headers; DEPEND: no second preprocessing.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_PCH_EXTSUM=1
+      CCACHE_DEPEND=1 ${CCACHE})
+  target_compile_options(whipple_flags INTERFACE -fpch-preprocess)
+endif()
+if(WHIPPLE_PRECOMPILED_HEADERS)
+  # GCC 12 forgets which lines of a precompiled header are the system's, and sees overlong copies in std::string there.
+  target_compile_options(whipple_flags INTERFACE -Wno-stringop-overflow -Wno-array-bounds -Wno-restrict)
+endif()
+target_link_libraries(whipple_flags INTERFACE fmt::fmt)
+
+# whipple_precompiled_headers(NAME HEADERS ... DEPENDS ...): what targets with the same flags reuse.
+function(whipple_precompiled_headers name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;DEPENDS;OPTIONS" ${ARGN})
+  file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/${name}.cpp CONTENT "")
+  add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/${name}.cpp)
+  target_link_libraries(${name} PRIVATE whipple_flags ${ARG_DEPENDS})
+  target_compile_options(${name} PRIVATE ${ARG_OPTIONS})
+  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+  # GCC writes the path of the build into its file; ccache shall know it by what it was made of.
+  get_target_property(flags whipple_flags INTERFACE_COMPILE_OPTIONS)
+  string(SHA256 contents "${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_BUILD_TYPE} ${flags} ${ARG_OPTIONS} ${ARG_HEADERS}
+    ${fmt_VERSION} ${Eigen3_VERSION} ${GTest_VERSION}")
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/CMakeFiles/${name}.dir/cmake_pch.hxx.gch.sum CONTENT ${contents})
+endfunction()
+set(whipple_heavy_headers <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <random>
+    <span> <sstream> <string> <string_view> <vector> <fmt/format.h> <fmt/ranges.h> <Eigen/Core> <Eigen/Geometry>)
+if(WHIPPLE_PRECOMPILED_HEADERS)
+  whipple_precompiled_headers(whipple_precompiled HEADERS ${whipple_heavy_headers} DEPENDS Eigen3::Eigen)
+endif()
+
 # whipple_library(NAME SOURCES a.cpp ... DEPENDS lib ...): one folder, one static library whipple_NAME.
 function(whipple_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
   add_library(whipple_${name} STATIC ${ARG_SOURCES})
   target_link_libraries(whipple_${name} PUBLIC whipple_flags ${ARG_DEPENDS})
+  if(WHIPPLE_PRECOMPILED_HEADERS)
+    target_precompile_headers(whipple_${name} REUSE_FROM whipple_precompiled)
+  endif()
 endfunction()
 
 # whipple_test(NAME [STARTS_MPI] SOURCES ... DEPENDS ... LABELS ...): one GoogleTest executable, each of its tests a CTest
 # test. STARTS_MPI: the process initialises MPI itself.
 include(GoogleTest)
+# The work is done in the libraries: what a test itself computes does not need the last optimisation.
+set(whipple_test_options $<$<CONFIG:Release>:-O1>)
+if(WHIPPLE_TESTS AND WHIPPLE_PRECOMPILED_HEADERS)
+  whipple_precompiled_headers(whipple_precompiled_test HEADERS ${whipple_heavy_headers} <gtest/gtest.h> <gmock/gmock.h>
+    DEPENDS Eigen3::Eigen GTest::gtest GTest::gmock OPTIONS ${whipple_test_options})
+endif()
 function(whipple_test name)
   cmake_parse_arguments(ARG "STARTS_MPI" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE whipple_flags ${ARG_DEPENDS} GTest::gtest_main)
-  # The work is done in the libraries: what a test itself computes does not need the last optimisation.
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${name} PRIVATE ${whipple_test_options})
+  if(WHIPPLE_PRECOMPILED_HEADERS)
+    target_precompile_headers(${name} REUSE_FROM whipple_precompiled_test)
+  endif()
   target_compile_definitions(${name} PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" WHIPPLE_BINARY_DIR="${PROJECT_BINARY_DIR}")
   gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${ARG_LABELS}")
   # gtest_discover_tests splits a list in a property, so the environment is set when ctest has found the tests.

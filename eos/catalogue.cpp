@@ -93,7 +93,7 @@ const ModelEntry& find_model(std::string_view name) {
     if (candidate.name == name) return candidate;
     names.push_back(candidate.name);
   }
-  throw InputError(fmt::format("unknown equation of state {}{}; known: {}", quoted(name),
+  throw InputError(fmt::format("unknown equation of state {}{}; known: {}", toml_string(name),
                                did_you_mean(name, names), fmt::join(names, ", ")));
 }
 

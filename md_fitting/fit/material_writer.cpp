@@ -43,7 +43,7 @@ std::string constant_line(const Constant& constant) {
   const std::string unit = constant.unit;
   const std::string text = practical_quantity(constant.value, unit);
   const bool bare = text.find(' ') == std::string::npos;
-  std::string line = fmt::format("{} = {}", constant.name, bare ? text : whipple::quoted(text));
+  std::string line = fmt::format("{} = {}", constant.name, bare ? text : toml_string(text));
   switch (constant.origin) {
     case Origin::fitted: {
       // The errors in the unit of the value.
@@ -94,8 +94,8 @@ std::string covariance_table(const Fit& fit) {
   std::vector<std::string> names;
   std::vector<std::string> si_units;
   for (const std::string& name : fit.fitted_names) {
-    names.push_back(whipple::quoted(name));
-    si_units.push_back(whipple::quoted(fit.constant(name).unit));
+    names.push_back(toml_string(name));
+    si_units.push_back(toml_string(fit.constant(name).unit));
   }
   std::string text = fmt::format(
       "[covariance]\n# Of the fitted constants, from the noise of the data and the model error: entry k of "
@@ -126,7 +126,7 @@ std::string settings_table(const FitSettings& settings) {
   text += fmt::format("reference_temperature = \"{} K\"\n", settings.reference_temperature);
   text += fmt::format("particle_velocities = [\"{} km/s\", \"{} km/s\"]\n",
                       settings.least_particle_velocity / 1000.0, settings.most_particle_velocity / 1000.0);
-  text += fmt::format("melting = {}\n", whipple::quoted(settings.melting));
+  text += fmt::format("melting = {}\n", toml_string(settings.melting));
   text += "# Model errors, one standard deviation (docs/theory/fit.md)\n";
   text += fmt::format("model_error_volume = {}\nmodel_error_shock_velocity = {}\n",
                       errors.zero_pressure_volume, errors.shock_velocity);
@@ -145,10 +145,10 @@ std::string settings_table(const FitSettings& settings) {
 
 std::string provenance_table(const Fit& fit, const StoreOrigin& origin) {
   std::string text = fmt::format("[provenance]\nstore = {}\nstore_sha256 = {}\npotential = {}\n",
-                                 whipple::quoted(origin.name), whipple::quoted(origin.sha256),
-                                 whipple::quoted(fit.potential));
+                                 toml_string(origin.name), toml_string(origin.sha256),
+                                 toml_string(fit.potential));
   for (const auto& [name, value] : origin.common) {
-    if (name != "potential") text += fmt::format("{} = {}\n", name, whipple::quoted(value));
+    if (name != "potential") text += fmt::format("{} = {}\n", name, toml_string(value));
   }
   text += fmt::format("superheated_states_left_out = {}\n", fit.superheated_states);
   for (const auto& [title, counts] :
@@ -165,7 +165,7 @@ std::string defaults_table(const Fit& fit) {
       "[defaults]\n# Constants that the simulations do not bear: name of the choice, and its source.\n";
   for (const Constant& constant : fit.constants) {
     if (constant.origin == Origin::by_default) {
-      text += fmt::format("{} = {}\n", constant.name, whipple::quoted(constant.source));
+      text += fmt::format("{} = {}\n", constant.name, toml_string(constant.source));
     }
   }
   return text;
@@ -241,7 +241,7 @@ std::string material_text(const Fit& fit, const StoreOrigin& origin,
   std::string text = fmt::format("name = \"{} ({} fitted to molecular dynamics, {})\"\n", metal,
                                  gray ? "GRAY" : fit.model, origin.name);
   text +=
-      fmt::format("source = {}\n", whipple::quoted(fmt::format("whipple fit of {}; interatomic potential {}",
+      fmt::format("source = {}\n", toml_string(fmt::format("whipple fit of {}; interatomic potential {}",
                                                                origin.name, fit.potential)));
   text +=
       fmt::format("note = \"solid from molecular dynamics; {} strength and failure as in {}\"\n\n",
@@ -250,11 +250,11 @@ std::string material_text(const Fit& fit, const StoreOrigin& origin,
   text += fmt::format("[eos]\nmodel = \"{}\"\n", fit.model);
   text +=
       fmt::format("source = {}\n",
-                  whipple::quoted(fmt::format(
+                  toml_string(fmt::format(
                       "fitted: weighted least squares, {} (docs/theory/fit.md); the rest: table [defaults]",
                       origin.name)));
   for (const Constant& constant : fit.constants) text += constant_line(constant);
-  for (const auto& [name, word] : fit.words) text += fmt::format("{} = {}\n", name, whipple::quoted(word));
+  for (const auto& [name, word] : fit.words) text += fmt::format("{} = {}\n", name, toml_string(word));
   text += "\n";
   text += strength_and_failure(template_file);
   const std::string covariance = covariance_table(fit);

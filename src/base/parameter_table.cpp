@@ -100,7 +100,7 @@ std::string value_as_toml(const BoundParameter& parameter) {
   return std::visit(Overloaded{[&](double* value) { return quantity_as_toml(*value, unit); },
                                [&](std::int64_t* value) { return fmt::format("{}", *value); },
                                [&](bool* value) { return std::string(*value ? "true" : "false"); },
-                               [&](std::string* value) { return quoted(*value); },
+                               [&](std::string* value) { return toml_string(*value); },
                                [&](Vector3* value) {
                                  return fmt::format("[{}, {}, {}]", quantity_as_toml((*value)[0], unit),
                                                     quantity_as_toml((*value)[1], unit),
@@ -114,7 +114,7 @@ std::string value_as_toml(const BoundParameter& parameter) {
                                },
                                [&](std::vector<std::string>* values) {
                                  std::vector<std::string> items;
-                                 for (const std::string& value : *values) items.push_back(quoted(value));
+                                 for (const std::string& value : *values) items.push_back(toml_string(value));
                                  return fmt::format("[{}]", fmt::join(items, ", "));
                                }},
                     parameter.target);

@@ -46,7 +46,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
   return best == nullptr ? std::string() : fmt::format(", did you mean \"{}\"?", *best);
 }
 
-std::string quoted(std::string_view text) {
+std::string toml_string(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     switch (c) {

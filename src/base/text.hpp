@@ -11,7 +11,7 @@ namespace whipple {
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates);
 
 /// The text in double quotes, escaped as a TOML basic string.
-std::string quoted(std::string_view text);
+std::string toml_string(std::string_view text);
 
 /// Seconds as "12 s", "3 min 20 s", "2 h 05 min".
 std::string format_duration(double seconds);

@@ -100,7 +100,7 @@ std::vector<OutputField> select_output_fields(std::span<const std::string> names
   std::string unknown;
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    unknown += fmt::format("{}unknown output field {}{}", unknown.empty() ? "" : "\n", quoted(name),
+    unknown += fmt::format("{}unknown output field {}{}", unknown.empty() ? "" : "\n", toml_string(name),
                            did_you_mean(name, known));
   }
   if (!unknown.empty()) throw InputError(fmt::format("{}\nknown: {}", unknown, fmt::join(known, ", ")));

@@ -348,7 +348,7 @@ Case read_case_text(const std::string& text, const std::string& name) {
 }
 
 std::string to_toml(const Case& setup, const std::vector<std::string>& material_of_body) {
-  std::string text = fmt::format("title = {}\n", whipple::quoted(setup.title));
+  std::string text = fmt::format("title = {}\n", toml_string(setup.title));
   text += section("domain", Domain::parameters(), setup.domain);
   text += section("domain.boundary", Domain::boundary_parameters(), setup.domain);
   text += section("time", TimeControl::parameters(), setup.time);
@@ -361,7 +361,7 @@ std::string to_toml(const Case& setup, const std::vector<std::string>& material_
     body.material = material_of_body[b];
     text += "\n[[body]]\n" + whipple::to_toml(whipple::bind(Body::parameters(), body));
     text += fmt::format("discretization = {{ method = {}, per_cell = {}, partial_volumes = {} }}\n",
-                        whipple::quoted(body.discretization.method), body.discretization.per_cell,
+                        toml_string(body.discretization.method), body.discretization.per_cell,
                         body.discretization.partial_volumes);
     text += fmt::format("shape = {}\n", body.shape->toml());
   }

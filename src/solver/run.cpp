@@ -69,9 +69,9 @@ std::string provenance(const setup::Case& setup, const std::string& program, int
   gethostname(host.data(), host.size() - 1);
   return fmt::format(
       "\n[provenance]\nprogram = {}\ncase_file = {}\nmachine = {}\nranks = {}\nthreads = {}\nstarted = {}\n",
-      whipple::quoted(program), whipple::quoted(setup.file.string()), whipple::quoted(host.data()), ranks,
+      toml_string(program), toml_string(setup.file.string()), toml_string(host.data()), ranks,
       parallel::threads(),
-      whipple::quoted(fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(
+      toml_string(fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(
                                                               std::chrono::system_clock::now())))));
 }
 

@@ -40,14 +40,14 @@ TEST(DidYouMean, IsSilentWhenNothingIsNear) {
 }
 
 TEST(Quoted, EscapesWhatTomlReserves) {
-  EXPECT_EQ(whipple::quoted("plain"), "\"plain\"");
-  EXPECT_EQ(whipple::quoted("say \"no\""), "\"say \\\"no\\\"\"");
-  EXPECT_EQ(whipple::quoted("a\\b\nc\td"), "\"a\\\\b\\nc\\td\"");
+  EXPECT_EQ(whipple::toml_string("plain"), "\"plain\"");
+  EXPECT_EQ(whipple::toml_string("say \"no\""), "\"say \\\"no\\\"\"");
+  EXPECT_EQ(whipple::toml_string("a\\b\nc\td"), "\"a\\\\b\\nc\\td\"");
 }
 
 TEST(Quoted, EscapesControlCharactersByNumber) {
-  EXPECT_EQ(whipple::quoted(std::string("a\x01z\x7f")), "\"a\\u0001z\\u007F\"");
-  EXPECT_EQ(whipple::quoted("a\r\b"), "\"a\\u000D\\u0008\"");
+  EXPECT_EQ(whipple::toml_string(std::string("a\x01z\x7f")), "\"a\\u0001z\\u007F\"");
+  EXPECT_EQ(whipple::toml_string("a\r\b"), "\"a\\u000D\\u0008\"");
 }
 
 TEST(FormatDuration, ChoosesTheUnits) {
