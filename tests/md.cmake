@@ -21,7 +21,6 @@ whipple_test(md_ranks_test SOURCES parallel/md_ranks_test.cpp DEPENDS whipple_md
 whipple_test(md_kill_test SOURCES parallel/md_kill_test.cpp DEPENDS whipple_md_data_set LABELS long)
 target_compile_definitions(md_kill_test PRIVATE WHIPPLE_MD="$<TARGET_FILE:whipple-md>" WHIPPLE_MPIEXEC="${MPIEXEC_EXECUTABLE}")
 add_dependencies(md_kill_test whipple-md)
-whipple_test(md_honesty_test SOURCES validation/md_honesty_test.cpp DEPENDS whipple_md_protocols LABELS long)
 target_compile_definitions(md_ranks_test PRIVATE WHIPPLE_MD="$<TARGET_FILE:whipple-md>"
   WHIPPLE_MD_GUARD_ABORT="$<TARGET_FILE:md_guard_abort>" WHIPPLE_MPIEXEC="${MPIEXEC_EXECUTABLE}")
 add_dependencies(md_ranks_test whipple-md md_guard_abort)
