@@ -144,9 +144,9 @@ std::string settings_table(const FitSettings& settings) {
 }
 
 std::string provenance_table(const Fit& fit, const StoreOrigin& origin) {
-  std::string text = fmt::format("[provenance]\nstore = {}\nstore_sha256 = {}\npotential = {}\n",
-                                 toml_string(origin.name), toml_string(origin.sha256),
-                                 toml_string(fit.potential));
+  std::string text =
+      fmt::format("[provenance]\nstore = {}\nstore_sha256 = {}\npotential = {}\n", toml_string(origin.name),
+                  toml_string(origin.sha256), toml_string(fit.potential));
   for (const auto& [name, value] : origin.common) {
     if (name != "potential") text += fmt::format("{} = {}\n", name, toml_string(value));
   }
@@ -240,8 +240,7 @@ std::string material_text(const Fit& fit, const StoreOrigin& origin,
   const bool gray = fit.model == "gray";
   std::string text = fmt::format("name = \"{} ({} fitted to molecular dynamics, {})\"\n", metal,
                                  gray ? "GRAY" : fit.model, origin.name);
-  text +=
-      fmt::format("source = {}\n", toml_string(fmt::format("whipple fit of {}; interatomic potential {}",
+  text += fmt::format("source = {}\n", toml_string(fmt::format("whipple fit of {}; interatomic potential {}",
                                                                origin.name, fit.potential)));
   text +=
       fmt::format("note = \"solid from molecular dynamics; {} strength and failure as in {}\"\n\n",

@@ -152,8 +152,8 @@ std::string Material::constants() const {
   std::string text = file.empty() ? "" : fmt::format("# read from {}\n", file.string());
   text += fmt::format("name = {}\nsource = {}\n", toml_string(name), toml_string(source));
   if (!note.empty()) text += fmt::format("note = {}\n", toml_string(note));
-  text += fmt::format("[eos]\nmodel = {}\n{}\n[strength]\n{}", toml_string(eos->model()),
-                      eos->constants(), strength->constants());
+  text += fmt::format("[eos]\nmodel = {}\n{}\n[strength]\n{}", toml_string(eos->model()), eos->constants(),
+                      strength->constants());
   for (const auto& criterion : failure) text += fmt::format("\n[[failure]]\n{}", criterion->constants());
   return text;
 }

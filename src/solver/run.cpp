@@ -72,7 +72,7 @@ std::string provenance(const setup::Case& setup, const std::string& program, int
       toml_string(program), toml_string(setup.file.string()), toml_string(host.data()), ranks,
       parallel::threads(),
       toml_string(fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(
-                                                              std::chrono::system_clock::now())))));
+                                                          std::chrono::system_clock::now())))));
 }
 
 io::RunDirectory new_directory(const setup::Case& setup, const fs::path& path, const RunOptions& options,
