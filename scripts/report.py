@@ -21,6 +21,7 @@ try:
     matplotlib.use("Agg")
     import numpy as np
     import report_curves
+    import report_gauges
     import report_metrics
     import report_pictures
     from report_data import AXES, PHASES, NotARun, Run, Snapshot
@@ -216,6 +217,14 @@ class Report:
         self.add_figure("step.png", "Time step, largest pressure and temperature of any particle.",
                         report_curves.step_figure(run))
 
+    def gauges(self):
+        history = report_gauges.read(self.run)
+        figure = report_gauges.figure(history)
+        if figure is not None:
+            self.page.heading("Gauges")
+            self.add_figure("gauges.png", "State at the gauges and tracers: " +
+                            ", ".join(report_gauges.names(history)) + ".", figure)
+
     def write(self):
         path = self.output / "report.html"
         path.write_text(self.page.text(), encoding="utf-8")
@@ -264,6 +273,7 @@ def main(words=None):
         report.given_figures(arguments.figure)
         report.cloud()
         report.curves()
+        report.gauges()
         print(report.write())
     except (NotARun, OSError) as error:
         print(f"report: error: {error}", file=sys.stderr)

@@ -155,6 +155,11 @@ void finish(Step& step, Chunk& chunk) {
     points.vaporised_fraction[i] = chunk.vaporised[k];
     if (has_pores) points.distension[i] = chunk.distension[k];
     points.sound_speed[i] = std::sqrt(squared);
+    points.maximum_pressure[i] = std::max(points.maximum_pressure[i], pressure);
+    points.maximum_temperature[i] = std::max(points.maximum_temperature[i], chunk.temperature[k]);
+    if (chunk.melted[k] >= melted_share && points.melting_time[i] == never) {
+      points.melting_time[i] = step.settings.time;
+    }
   }
 }
 

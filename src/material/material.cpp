@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "eos/inversions.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
 #include "src/material/strength/none.hpp"
@@ -28,6 +29,24 @@ eos::State state_of_zero_pressure(const eos::EquationOfState& model, double temp
   }
   throw InputError(
       fmt::format("no condensed state of zero pressure at {} K: give a density as well", temperature));
+}
+
+/// @throws InputError, StateError if there is none
+eos::State state_at_pressure(const eos::EquationOfState& model, double pressure,
+                             std::optional<double> density, std::optional<double> temperature) {
+  if (density && temperature) {
+    throw InputError("pressure, temperature and density are given: two of them fix the state");
+  }
+  if (density) return eos::state_at_pressure(model, *density, pressure);
+  const double at = temperature.value_or(model.reference_temperature());
+  if (std::isnan(at)) throw InputError("the equation of state has no temperature: give pressure and density");
+  try {
+    return eos::state_at_pressure_and_temperature(model, pressure, at);
+  } catch (const StateError&) {
+    constexpr double thin = 1e-6;  // of the reference density: on the branch of the vapour
+    if (!(pressure > 0.0)) throw;
+    return eos::state_at_pressure_and_temperature(model, pressure, at, thin * model.reference_density());
+  }
 }
 
 /// @throws InputError if parts do not go together
@@ -88,9 +107,10 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
 }
 
 eos::State initial_state(const Material& material, std::optional<double> density,
-                         std::optional<double> temperature) {
+                         std::optional<double> temperature, std::optional<double> pressure) {
   const eos::EquationOfState& model = *material.eos;
   try {
+    if (pressure) return state_at_pressure(model, *pressure, density, temperature);
     // A gas, which has no state of zero pressure, or a model without temperature.
     if (!temperature && (std::isnan(model.reference_temperature()) || (!model.condensed() && !density))) {
       return model.state(density.value_or(model.reference_density()), model.reference_energy());
@@ -114,10 +134,12 @@ void use_fields(const Material& material, MaterialPoints& points) {
   if (material.needs_strain) points.strain.resize(n);
 }
 
+void initialise(const Material& material, MaterialPoints& points, std::size_t begin, std::size_t end) {
+  initialise(material, points, begin, end, material.reference);
+}
+
 void initialise(const Material& material, MaterialPoints& points, std::size_t begin, std::size_t end,
-                std::optional<double> density, std::optional<double> temperature) {
-  const eos::State state =
-      density || temperature ? initial_state(material, density, temperature) : material.reference;
+                const eos::State& state) {
   const auto carried = [](double value) { return std::isnan(value) ? 0.0 : value; };
   const std::array rho = {state.density}, p = {state.pressure}, kelvin = {state.temperature}, strain = {0.0};
   std::array<double, 1> modulus = {};
@@ -143,6 +165,9 @@ void initialise(const Material& material, MaterialPoints& points, std::size_t be
     points.failure_threshold_factor[i] = 1.0;
     points.damage[i] = 0.0;
     points.failed[i] = failure::intact;
+    points.maximum_pressure[i] = state.pressure;
+    points.maximum_temperature[i] = points.temperature[i];
+    points.melting_time[i] = state.melted_fraction >= melted_share ? 0.0 : never;
     if (!points.back_stress.empty()) points.back_stress[i] = {};
     if (!points.strain.empty()) points.strain[i] = {};
   }
@@ -154,6 +179,10 @@ std::string Material::constants() const {
   if (!note.empty()) text += fmt::format("note = {}\n", toml_string(note));
   text += fmt::format("[eos]\nmodel = {}\n{}\n[strength]\n{}", toml_string(eos->model()), eos->constants(),
                       strength->constants());
+  if (conductivity > 0.0) {
+    text += fmt::format("\n[thermal]\nsource = {}\nconductivity = \"{} W/(m K)\"\n", toml_string(source),
+                        conductivity);
+  }
   for (const auto& criterion : failure) text += fmt::format("\n[[failure]]\n{}", criterion->constants());
   return text;
 }

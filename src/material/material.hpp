@@ -33,8 +33,9 @@ struct Material {
   std::string note;
   std::string group;  ///< where the library lists it: "metals", "explosives", ...; may be empty
   Measured measured;
-  std::shared_ptr<const eos::EquationOfState> eos;                 ///< never null
-  std::shared_ptr<const strength::Strength> strength;              ///< never null
+  double conductivity = 0.0;                           ///< W/(m K); used by runs with conduction of heat
+  std::shared_ptr<const eos::EquationOfState> eos;     ///< never null
+  std::shared_ptr<const strength::Strength> strength;  ///< never null
   std::vector<std::shared_ptr<const failure::Criterion>> failure;  ///< in the order of the file; may be empty
   bool softens = false;       ///< some criterion takes stress away before it fails (eq. 18, 19)
   bool needs_strain = false;  ///< some criterion asks for the strain
@@ -52,12 +53,14 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
                        std::shared_ptr<const strength::Strength> strength = nullptr,
                        std::vector<std::shared_ptr<const failure::Criterion>> failure = {});
 
-/// State of matter at the start of a run. Without a temperature: the reference temperature; without a
-/// density: the density of zero pressure at the temperature. A sampled body has mass = density * volume of
-/// the sample.
-/// @throws InputError if there is no such state, or if the model carries no temperature and one is given
+/// State of matter at the start of a run, from at most two of density (kg/m^3), temperature (K) and pressure
+/// (Pa). Without a temperature: the reference temperature, unless density and pressure fix it; without
+/// density and pressure: the density of zero pressure at the temperature. At a pressure and a temperature it
+/// is the condensed phase if there is one (its branch of the isotherm), else the vapour.
+/// @throws InputError if there is no such state, if all three are given, or if the model carries no
+/// temperature and one is needed
 eos::State initial_state(const Material& material, std::optional<double> density = {},
-                         std::optional<double> temperature = {});
+                         std::optional<double> temperature = {}, std::optional<double> pressure = {});
 
 /// Density of a body that starts from a state: with the voids of its failure model.
 double body_density(const Material& material, const eos::State& state);
@@ -65,11 +68,12 @@ double body_density(const Material& material, const eos::State& state);
 /// Brings the optional fields that the material needs into use.
 void use_fields(const Material& material, MaterialPoints& points);
 
-/// Sets every field of the points [begin, end) but mass to the initial state, intact and without scatter,
-/// without deviatoric stress: volume = mass / density, specific internal energy of the equation of state,
-/// sound speed longitudinal; brings the optional fields that the material needs into use.
-/// @throws as `initial_state`
+/// Sets every field of the points [begin, end) but mass to a state, intact and without scatter, without
+/// deviatoric stress: volume = mass / density, specific internal energy of the equation of state, sound speed
+/// longitudinal; brings the optional fields that the material needs into use.
 void initialise(const Material& material, MaterialPoints& points, std::size_t begin, std::size_t end,
-                std::optional<double> density = {}, std::optional<double> temperature = {});
+                const eos::State& state);
+/// The same with the reference state.
+void initialise(const Material& material, MaterialPoints& points, std::size_t begin, std::size_t end);
 
 }  // namespace whipple

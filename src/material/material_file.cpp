@@ -66,6 +66,17 @@ ParameterTable<MeasuredTable> measured_values() {
           .optional()};
 }
 
+struct ThermalTable {
+  double conductivity = 0.0;
+  std::string source;
+};
+
+ParameterTable<ThermalTable> thermal_constants() {
+  return {text("source", &ThermalTable::source, "where the values come from"),
+          real("conductivity", &ThermalTable::conductivity, "W/(m K)", range::non_negative(),
+               "heat conductivity, for runs with conduction of heat")};
+}
+
 template <class Entry>
 std::vector<std::string> names(std::span<const Entry> catalogue) {
   std::vector<std::string> words;
@@ -142,6 +153,7 @@ std::string describe_catalogue(std::span<const Entry> catalogue, const std::stri
 struct Declared {
   Head head;
   MeasuredTable measured;
+  ThermalTable thermal;
   std::vector<fs::path> companions;
   decltype(declare(std::span<const eos::ModelEntry>(), std::declval<input::Table>())) eos;
   decltype(declare(strength::catalogue(), std::declval<input::Table>())) strength;
@@ -176,6 +188,7 @@ Declared declare_file(const fs::path& file,
   for (input::Table& table : root.list("failure"))
     declared.failure.push_back(declare(failure::catalogue(), table));
   if (auto table = root.optional_table("measured")) table->read(measured_values(), declared.measured);
+  if (auto table = root.optional_table("thermal")) table->read(thermal_constants(), declared.thermal);
   document.finish();
   return declared;
 }
@@ -242,6 +255,7 @@ Material read_changed_material(const fs::path& file,
     material.note = declared.head.note;
     material.group = declared.head.group;
     material.measured = declared.measured;
+    material.conductivity = declared.thermal.conductivity;
     return material;
   } catch (const InputError& fault) {
     throw InputError(fmt::format("{}: error: {}", file.string(), fault.what()));

@@ -23,6 +23,7 @@ struct UpdateSettings {
   double linear_viscosity = 0.25;    ///< c1 of q = rho l |D| (c2 l |D| + c1 c)
   double quadratic_viscosity = 1.0;  ///< c2
   material::StressRotation rotation = material::StressRotation::hughes_winget;
+  double time = 0.0;  ///< s, at the end of the step
 };
 
 /// What an update met. Indices are those of the points (not of the range or list).

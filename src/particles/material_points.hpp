@@ -23,6 +23,9 @@ Field(const char*, const char*, std::vector<Value> Points::*) -> Field<Points, V
 template <class Points, class Value>
 Field(const char*, const char*, std::vector<Value> Points::*, bool) -> Field<Points, Value>;
 
+constexpr double never = -1.0;        ///< time of what has not happened, s
+constexpr double melted_share = 0.5;  ///< melted mass fraction that counts as melted
+
 /// State of matter at points, one array per field (SI): what MPM particles and Gauss points of finite
 /// elements share, so that `update_material` is one code path.
 struct MaterialPoints {
@@ -42,6 +45,10 @@ struct MaterialPoints {
   std::vector<double> failure_threshold_factor;  ///< scatter of the failure threshold (1: none)
   std::vector<double> damage;                    ///< of criteria with a past, 0 to 1 (failed)
   std::vector<std::uint8_t> failed;  ///< 0 intact, else what made it fail: src/material/failure/criterion.hpp
+  std::vector<double> maximum_pressure;     ///< Pa, so far
+  std::vector<double> maximum_temperature;  ///< K, so far
+  std::vector<double>
+      melting_time;  ///< s, when half of the mass was first melted; `never` (-1) if it was not
   std::vector<SymmetricTensor> back_stress;  ///< Pa, centre of the yield surface; optional
   std::vector<SymmetricTensor> strain;       ///< logarithmic strain, turned with the matter; optional
 
@@ -58,7 +65,10 @@ struct MaterialPoints {
         Field{"vaporised_fraction", "1", &P::vaporised_fraction}, Field{"distension", "1", &P::distension},
         Field{"failure_threshold_factor", "1", &P::failure_threshold_factor},
         Field{"damage", "1", &P::damage}, Field{"failed", "1", &P::failed},
-        Field{"back_stress", "Pa", &P::back_stress, true}, Field{"strain", "1", &P::strain, true});
+        Field{"maximum_pressure", "Pa", &P::maximum_pressure},
+        Field{"maximum_temperature", "K", &P::maximum_temperature},
+        Field{"melting_time", "s", &P::melting_time}, Field{"back_stress", "Pa", &P::back_stress, true},
+        Field{"strain", "1", &P::strain, true});
   }
 };
 

@@ -124,10 +124,19 @@ ParameterTable<OutputControl> OutputControl::parameters() {
           integer("history_every", &OutputControl::history_every, range::between(1, 1e9),
                   "steps between rows of history.csv")
               .optional(),
+          integer("gauges_every", &OutputControl::gauges_every, range::between(1, 1e9),
+                  "steps between rows of gauges.csv")
+              .optional(),
           real("maximum_energy_error", &OutputControl::maximum_energy_error, "", range::positive(),
                "the run stops when the relative error of the total energy exceeds this")
               .optional(),
           text_list("fields", &OutputControl::fields, io::output_field_names(), "quantities in the snapshots")
+              .optional()};
+}
+
+ParameterTable<HeatControl> HeatControl::parameters() {
+  return {boolean("conduction", &HeatControl::conduction,
+                  "heat flows between particles by the conductivities of their materials ([thermal])")
               .optional()};
 }
 
@@ -225,6 +234,11 @@ void read_body(Case& setup, input::Table table, std::set<std::string>& names,
                                                        body.discretization.per_cell));
     }
   }
+  auto initial = table.optional_table("initial");
+  if (initial) initial->read(InitialState::parameters(), body.initial);
+  if (auto scatter = table.optional_table("failure_scatter")) {
+    scatter->read(FailureScatter::parameters(), body.failure_scatter);
+  }
   body.shape = read_shape(table);
   std::shared_ptr<const Material> material;
   if (!body.material.empty()) {
@@ -238,6 +252,13 @@ void read_body(Case& setup, input::Table table, std::set<std::string>& names,
       }
     }
     material = known;
+  }
+  if (initial && material) {
+    try {
+      static_cast<void>(body.initial.of(*material));
+    } catch (const InputError& error) {
+      initial->error(error.what());
+    }
   }
   setup.bodies.push_back(std::move(body));
   setup.materials.push_back(std::move(material));
@@ -290,6 +311,29 @@ void check_combinations(Case& setup, input::Table& root) {
   }
 }
 
+/// What conduction of heat needs of the transfer and of the materials.
+void check_conduction(const Case& setup, input::Table& heat) {
+  if (!setup.heat.conduction) return;
+  if (setup.transfer.shape_function == "linear") {
+    heat.error_at("conduction",
+                  "'conduction' needs smooth shape functions; transfer.shape_function is \"linear\"");
+  }
+  bool conducts = false;
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const Material* material = setup.materials[b].get();
+    if (material == nullptr || !(material->conductivity > 0.0)) continue;
+    conducts = true;
+    if (!(material->reference.heat_capacity > 0.0)) {
+      heat.error_at("conduction", fmt::format("'conduction': the equation of state of body \"{}\" has no "
+                                              "temperature",
+                                              setup.bodies[b].name));
+    }
+  }
+  if (!conducts) {
+    heat.error_at("conduction", "'conduction' is on, but no material has a conductivity ([thermal])");
+  }
+}
+
 Case read(input::Document document, const std::vector<std::pair<std::string, std::string>>& overrides) {
   for (const auto& [key, value] : overrides) document.set(key, value);
   Case setup;
@@ -314,6 +358,8 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
     table->read(ArtificialViscosity::parameters(), setup.viscosity);
   }
   if (auto table = root.optional_table("output")) table->read(OutputControl::parameters(), setup.output);
+  auto heat = root.optional_table("heat");
+  if (heat) heat->read(HeatControl::parameters(), setup.heat);
   check_combinations(setup, root);
 
   std::set<std::string> names;
@@ -326,6 +372,15 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   if (complete && setup.geometry.cells[0] > 0 && setup.geometry.cells[1] > 0 && setup.geometry.cells[2] > 0) {
     for (const PlacementFault& fault : placement_faults(setup))
       bodies[fault.body].error_at("shape", fault.message);
+  }
+  if (heat) check_conduction(setup, *heat);
+  setup.gauges = read_gauges(root);
+  if (complete) {
+    for (const std::string& fault : gauge_faults(setup.gauges, setup.geometry, [&](const Vector3& point) {
+           return std::ranges::any_of(setup.bodies, [&](const Body& b) { return b.shape->contains(point); });
+         })) {
+      root.error(fault);
+    }
   }
   document.finish();
   return setup;
@@ -355,6 +410,7 @@ std::string to_toml(const Case& setup, const std::vector<std::string>& material_
   text += section("transfer", TransferControl::parameters(), setup.transfer);
   text += section("splitting", Splitting::parameters(), setup.splitting);
   text += section("artificial_viscosity", ArtificialViscosity::parameters(), setup.viscosity);
+  text += section("heat", HeatControl::parameters(), setup.heat);
   text += section("output", OutputControl::parameters(), setup.output);
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     Body body = setup.bodies[b];
@@ -364,8 +420,15 @@ std::string to_toml(const Case& setup, const std::vector<std::string>& material_
                         toml_string(body.discretization.method), body.discretization.per_cell,
                         body.discretization.partial_volumes);
     text += fmt::format("shape = {}\n", body.shape->toml());
+    if (body.initial.given()) {
+      text += "[body.initial]\n" + whipple::to_toml(whipple::bind(InitialState::parameters(), body.initial));
+    }
+    if (body.failure_scatter.given()) {
+      text += "[body.failure_scatter]\n" +
+              whipple::to_toml(whipple::bind(FailureScatter::parameters(), body.failure_scatter));
+    }
   }
-  return text;
+  return text + setup.gauges.toml();
 }
 
 std::string describe_case() {
@@ -379,9 +442,14 @@ std::string describe_case() {
   text += "\n[transfer]\n" + describe_table(TransferControl::parameters());
   text += "\n[splitting]\n" + describe_table(Splitting::parameters());
   text += "\n[artificial_viscosity]\n" + describe_table(ArtificialViscosity::parameters());
+  text += "\n[heat]\n" + describe_table(HeatControl::parameters());
   text += "\n[output]\n" + describe_table(OutputControl::parameters());
   text += "\n[[body]]\n" + describe_table(Body::parameters());
   text += "\n[body.discretization]\n" + describe_table(Discretization::parameters());
+  text += "\n[body.initial], at most two of\n" + describe_table(InitialState::parameters());
+  text += "\n[body.failure_scatter]\n" + describe_table(FailureScatter::parameters());
+  text += "\n[[gauge]]\n" + describe_table(Gauge::parameters());
+  text += "\n[[tracers]]\n" + describe_table(Tracers::parameters());
   for (const ShapeEntry& entry : shape_catalogue()) {
     text +=
         fmt::format("\nshape = {{ {} = {{ ... }} }}: {}\n{}", entry.name, entry.summary, entry.describe());

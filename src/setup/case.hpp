@@ -10,6 +10,8 @@
 #include "src/base/parameter_table.hpp"
 #include "src/grid/geometry.hpp"
 #include "src/material/material.hpp"
+#include "src/setup/body_state.hpp"
+#include "src/setup/gauges.hpp"
 #include "src/setup/shapes/shape.hpp"
 
 namespace whipple::setup {
@@ -65,9 +67,15 @@ struct OutputControl {
   double snapshot_every = 0.0;
   double checkpoint_every = 600.0;
   std::int64_t history_every = 1;
+  std::int64_t gauges_every = 1;
   double maximum_energy_error = 0.01;
   std::vector<std::string> fields;
   static ParameterTable<OutputControl> parameters();
+};
+
+struct HeatControl {
+  bool conduction = false;
+  static ParameterTable<HeatControl> parameters();
 };
 
 struct Discretization {
@@ -85,6 +93,8 @@ struct Body {
   Vector3 velocity = Vector3::Zero();
   Vector3 angular_velocity = Vector3::Zero();
   Discretization discretization;
+  InitialState initial;
+  FailureScatter failure_scatter;
   std::shared_ptr<const Shape> shape;
   static ParameterTable<Body> parameters();
 };
@@ -98,8 +108,10 @@ struct Case {
   TransferControl transfer;
   Splitting splitting;
   ArtificialViscosity viscosity;
+  HeatControl heat;
   OutputControl output;
   std::vector<Body> bodies;
+  Gauges gauges;
   std::vector<std::shared_ptr<const Material>> materials;  ///< of each body
   grid::Geometry geometry;
 

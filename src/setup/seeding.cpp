@@ -230,7 +230,8 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     BodySummary summary{.first = particles.size(), .count = sites.size()};
     const std::size_t end = summary.first + summary.count;
     resize(particles, end);
-    const double density = body_density(material, material.reference);
+    const eos::State state = body.initial.of(material);
+    const double density = body_density(material, state);
     const double mass = density * lattice.spacing.prod();
     const Shape::Bounds bounds = body.shape->bounds();
     const Vector3 center = 0.5 * (bounds.lower + bounds.upper);
@@ -248,7 +249,11 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       particles.extent[p] = sites[i].extent;
       particles.generation[p] = 0;
     }
-    initialise(material, particles, summary.first, end);
+    initialise(material, particles, summary.first, end, state);
+    for (std::size_t p = summary.first; body.failure_scatter.given() && p < end; ++p) {
+      particles.failure_threshold_factor[p] =
+          body.failure_scatter.factor(particles.id[p], lattice.spacing.prod());
+    }
     summary.mass = mass * total_share;
     first_id += total;
     summary.shape_mass = density * body.shape->volume();

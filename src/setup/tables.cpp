@@ -33,6 +33,7 @@ std::shared_ptr<const Material> tabulated(const Material& material, double error
   result.companions = material.companions;
   result.source = material.source;
   result.note = material.note;
+  result.conductivity = material.conductivity;
   return std::make_shared<const Material>(std::move(result));
 }
 

@@ -24,6 +24,7 @@
 #include "src/parallel/threads.hpp"
 #include "src/setup/tables.hpp"
 #include "src/solver/checkpointing.hpp"
+#include "src/solver/gauges.hpp"
 #include "src/solver/signals.hpp"
 
 namespace whipple::solver {
@@ -195,10 +196,15 @@ class Runner {
         ranks_(ranks),
         wall_time_(options.wall_time),
         simulation_(setup, parallel::world()),
-        series_(open_series(setup, directory, directory.path(), parallel::world())) {
-    if (ranks_.is_root()) history_.emplace(directory.history_file());
+        series_(open_series(setup, directory, directory.path(), parallel::world())),
+        recorder_(setup.gauges.all(), simulation_.particles(), parallel::world()) {
+    if (ranks_.is_root()) {
+      history_.emplace(directory.history_file());
+      gauges_.emplace(gauges_file());
+    }
     write_snapshot();
     append_history();
+    append_gauges();
   }
 
   Runner(const setup::Case& setup, const io::RunDirectory& directory, io::Checkpoint checkpoint,
@@ -209,9 +215,12 @@ class Runner {
         simulation_(setup, std::move(checkpoint.particles), from_checkpoint(checkpoint.values),
                     parallel::world()),
         series_(open_series(setup, directory, directory.path(), parallel::world())),
+        recorder_(setup.gauges.all(), checkpoint.values),
         snapshots_(checkpoint.values.integer("snapshots")) {
-    ranks_.on_root(
-        [&] { history_.emplace(io::History::restart(directory.history_file(), simulation_.state().step)); });
+    ranks_.on_root([&] {
+      history_.emplace(io::History::restart(directory.history_file(), simulation_.state().step));
+      gauges_.emplace(io::History::restart(gauges_file(), simulation_.state().step));
+    });
     series_.restart(simulation_.state().time);
     log::info("restarted from {} at step {}, t = {:.6g} s", checkpoint.path.string(),
               simulation_.state().step, simulation_.state().time);
@@ -234,6 +243,7 @@ class Runner {
       const RunState& state = simulation_.state();
       const bool last = state.time >= end;
       if (last || state.step % setup.output.history_every == 0) append_history();
+      if (last || state.step % setup.output.gauges_every == 0) append_gauges();
       const double next_snapshot = setup.output.snapshot_every * static_cast<double>(snapshots_);
       if (last || (setup.output.snapshot_every > 0.0 && state.time >= next_snapshot)) write_snapshot();
       const double since = seconds_since(last_checkpoint);
@@ -289,6 +299,14 @@ class Runner {
     ranks_.on_root([&] { history_->append(row); });
   }
 
+  [[nodiscard]] fs::path gauges_file() const { return directory_.path() / "gauges.csv"; }
+
+  void append_gauges() {
+    if (recorder_.empty()) return;
+    const std::vector<io::HistoryValue> row = recorder_.row(simulation_);
+    ranks_.on_root([&] { gauges_->append(row); });
+  }
+
   void advance(double end) {
     try {
       simulation_.advance(end);
@@ -322,6 +340,7 @@ class Runner {
   void write_checkpoint(const fs::path& folder) {
     io::CheckpointValues values = to_checkpoint(simulation_.state());
     values.integers["snapshots"] = snapshots_;
+    recorder_.to_checkpoint(values);
     values.texts["run_name"] = directory_.name();
     const fs::path path = io::write_checkpoint(folder, simulation_.state().step, simulation_.particles(),
                                                values, simulation_.communicator());
@@ -353,7 +372,9 @@ class Runner {
   double wall_time_;  // s, 0: no limit
   Simulation simulation_;
   io::ParticleSeries series_;
+  GaugeRecorder recorder_;
   std::optional<io::History> history_;  // on the root
+  std::optional<io::History> gauges_;   // on the root
   std::int64_t snapshots_ = 0;          // multiple of the interval at which the next snapshot is due
 };
 

@@ -9,6 +9,7 @@ void step_symplectic(Simulation& s, double until) {
   s.begin_step(until);        // (6.1) dt from c, |v|, |a|
   s.split_particles();        // (2.5)-(2.7) if asked for
   s.bin_particles();          // blocks follow the matter
+  s.conduct_heat();           // e, if the case asks for it (docs/theory/conduction.md)
   s.map_particles_to_grid();  // (3.1)-(3.3) m, (mv)^n, f^n on nodes
   s.advance_grid();           // (3.4)-(3.5) v^{n+1} = v^n + dt f^n / m
   s.map_grid_to_particles();  // (4.2)-(4.8) v, C, x, e at n+1; grad v^{n+1}
@@ -21,6 +22,7 @@ void step_usf(Simulation& s, double until) {
   s.begin_step(until);  // (6.1)
   s.split_particles();
   s.bin_particles();
+  s.conduct_heat();
   s.map_momentum_to_grid();                                            // (5.5) v^n on nodes
   s.gather_velocity_gradient();                                        // (5.6) grad v^n
   s.update_material(Simulation::EnergyUpdate::by_constitutive_model);  // stress and e from grad v^n
@@ -36,6 +38,7 @@ void step_usl(Simulation& s, double until) {
   s.begin_step(until);  // (6.1)
   s.split_particles();
   s.bin_particles();
+  s.conduct_heat();
   s.map_particles_to_grid();                                           // (3.1)-(3.3)
   s.advance_grid();                                                    // (3.4), (5.9)
   s.update_particle_velocity(Simulation::GridGradient::to_particles);  // (5.1)-(5.2), (5.7) grad v^{n+1}
@@ -49,6 +52,7 @@ void step_musl(Simulation& s, double until) {
   s.begin_step(until);  // (6.1)
   s.split_particles();
   s.bin_particles();
+  s.conduct_heat();
   s.map_particles_to_grid();                                           // (3.1)-(3.3)
   s.advance_grid();                                                    // (3.4), (5.9)
   s.update_particle_velocity(Simulation::GridGradient::unused);        // (5.1)-(5.2) v^{n+1}, displacement

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "src/base/error.hpp"
 #include "src/material/update.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
 #include "src/particles/migrate.hpp"
+#include "src/transfer/conduction.hpp"
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/particles_to_grid.hpp"
 
@@ -70,10 +72,29 @@ Simulation::Simulation(const setup::Case& setup, Particles particles, const RunS
       bodies_(setup.bodies.size()),
       grid_(setup.geometry, communicator),
       state_(state) {
+  require_fields();
   sort_by_body(particles_);  // checkpoints hold the particles of several ranks one after the other
   find_bodies(particles_, bodies_);
   velocity_gradient_.resize(particles_.size());
   sum_over_ranks();
+}
+
+/// A checkpoint of the same case holds the optional fields of its materials; of another material, perhaps
+/// not.
+void Simulation::require_fields() const {
+  Particles needed;
+  needed.mass.resize(particles_.size());
+  for (const auto& material : setup_.materials) use_fields(*material, needed);
+  std::string missing;
+  for_each_field<Particles>([&](const auto& field) {
+    if (field.optional && (needed.*(field.values)).size() > (particles_.*(field.values)).size()) {
+      missing = field.name;
+    }
+  });
+  if (!missing.empty()) {
+    throw InputError(
+        fmt::format("the checkpoint has no field \"{}\", which a material of the case needs", missing));
+  }
 }
 
 /// Totals of all ranks, and what the step did to them.
@@ -109,11 +130,34 @@ double Simulation::stable_time_step() const {
   });
   const double dx = setup_.domain.cell_size;
   double dt = setup_.time.courant * dx / parallel::maximum(communicator_, speed);
+  dt = std::min(dt, diffusive_time_step());
   if (state_.maximum_acceleration > 0.0) {
     dt = std::min(dt, std::sqrt(setup_.time.acceleration_limit * dx / state_.maximum_acceleration));
   }
   if (state_.time_step > 0.0) dt = std::min(dt, setup_.time.maximum_growth * state_.time_step);
   return dt;
+}
+
+/// Explicit diffusion of momentum and of heat is stable below dx^2 / (9 a), a the diffusivity, whatever the
+/// particles: the squares of the gradients of quadratic B-splines over their values add up to 18/dx^2 at most
+/// (docs/theory/conduction.md, eq. 5).
+double Simulation::diffusive_time_step() const {
+  const double dx = setup_.domain.cell_size;
+  double diffusivity = 0.0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const Material& material = *setup_.materials[b];
+    double per_volume = material.strength->viscosity();
+    if (setup_.heat.conduction && material.conductivity > 0.0) {
+      per_volume = std::max(per_volume, material.conductivity / material.reference.heat_capacity);
+    }
+    if (!(per_volume > 0.0)) continue;
+    diffusivity = std::max(diffusivity, parallel::maximum(bodies_[b].count, 0.0, [&](std::size_t i) {
+                             const std::size_t p = bodies_[b].first + i;
+                             return per_volume * particles_.volume[p] / particles_.mass[p];
+                           }));
+  }
+  diffusivity = parallel::maximum(communicator_, diffusivity);
+  return diffusivity > 0.0 ? dx * dx / (18.0 * diffusivity) : std::numeric_limits<double>::infinity();
 }
 
 void Simulation::begin_step(double until) {
@@ -188,6 +232,18 @@ void Simulation::particles_reallocated() {
   grid_.particles_reordered();
 }
 
+void Simulation::conduct_heat() {
+  if (!setup_.heat.conduction) return;
+  profile_.time("conduction", [&] {
+    std::vector<transfer::ThermalConstants> constants;
+    for (const auto& material : setup_.materials) {
+      const double capacity = material->reference.heat_capacity;
+      constants.push_back({material->conductivity, capacity > 0.0 ? capacity : 1.0});
+    }
+    transfer::conduct_heat(particles_, grid_, state_.time_step, constants);
+  });
+}
+
 void Simulation::map_particles_to_grid() {
   profile_.time("particles to grid",
                 [&] { transfer::particles_to_grid(shape_, particles_, grid_, external_acceleration_); });
@@ -259,7 +315,8 @@ void Simulation::update_material(EnergyUpdate energy) {
                                   .quadratic_viscosity = setup_.viscosity.quadratic,
                                   .rotation = setup_.time.stress_rotation == "polar"
                                                   ? material::StressRotation::polar
-                                                  : material::StressRotation::hughes_winget};
+                                                  : material::StressRotation::hughes_winget,
+                                  .time = state_.time + state_.time_step};
     std::string error;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const setup::BodySummary& body = bodies_[b];

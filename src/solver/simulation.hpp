@@ -75,9 +75,11 @@ class Simulation {
 
   // The calls of the schemes, in the order of the step.
   [[nodiscard]] double stable_time_step() const;
+  [[nodiscard]] double diffusive_time_step() const;
   void begin_step(double until);
   void split_particles();
   void bin_particles();
+  void conduct_heat();
   void map_particles_to_grid();
   void advance_grid();
   void map_grid_to_particles();
@@ -91,6 +93,7 @@ class Simulation {
   void reflect_and_remove();
   void end_step();
 
+  void require_fields() const;
   void sum_over_ranks();
   void follow_particles(double lookahead, grid::Stencil stencil);
   void sort_particles();

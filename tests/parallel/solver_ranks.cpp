@@ -10,12 +10,14 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 
 #include "src/base/error.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/ranks.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/solver/checkpointing.hpp"
+#include "src/solver/gauges.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {
@@ -132,6 +134,39 @@ TEST_F(SolverRanks, AgreeWithOneRankInEveryOption) {
               1e-11 * initial.momentum_scale);
     EXPECT_LE(together.state().ledger.momentum_error(together.totals()), 1e-11);
   }
+}
+
+TEST_F(SolverRanks, GaugesAgreeWithOneRankAndFollowTheSameParticles) {
+  const std::vector<setup::Gauge> gauges = {{"fixed", "fixed", {1e-3, 1e-3, 1e-3}},
+                                            {"moving", "moving", {2e-3, 2e-3, 2.8e-3}},
+                                            {"disk", "moving", {0.0, 0.0, -3e-3}},
+                                            {"empty", "fixed", {11e-3, 11e-3, 7e-3}}};
+  Simulation together(read(), MPI_COMM_WORLD), alone(read(), MPI_COMM_SELF);
+  const GaugeRecorder all(gauges, together.particles(), MPI_COMM_WORLD);
+  const GaugeRecorder one(gauges, alone.particles(), MPI_COMM_SELF);
+  io::CheckpointValues of_all, of_one;
+  all.to_checkpoint(of_all);
+  one.to_checkpoint(of_one);
+  EXPECT_EQ(of_all.integers, of_one.integers);
+  EXPECT_EQ(of_all.integers.size(), 2U);
+  advance_to(together, 0.5e-6);
+  advance_to(alone, 0.5e-6);
+  const std::vector<io::HistoryValue> a = all.row(together), b = GaugeRecorder(gauges, of_one).row(alone);
+  ASSERT_EQ(a.size(), b.size());
+  std::map<std::string, double> value;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].name, b[i].name);
+    value[b[i].name] = b[i].value;
+    if (std::isnan(b[i].value)) {
+      EXPECT_TRUE(std::isnan(a[i].value)) << a[i].name;
+    } else {
+      EXPECT_NEAR(a[i].value, b[i].value, 1e-9 * std::max(std::abs(b[i].value), 1.0)) << a[i].name;
+    }
+  }
+  EXPECT_TRUE(std::isnan(value["empty.pressure"]));
+  EXPECT_GT(value["fixed.pressure"], 1e10);  // shocked
+  EXPECT_GT(value["moving.z"], 2.5e-3);
+  EXPECT_NEAR(value["disk.velocity_z"], 5550.0, 600.0);  // not yet slowed down
 }
 
 TEST_F(SolverRanks, AgreeWithOneRankInMusl) {

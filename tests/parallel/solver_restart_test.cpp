@@ -49,6 +49,18 @@ shape = { box = { lower = ["-10 mm", "-10 mm", "0 mm"], upper = ["10 mm", "10 mm
 [output]
 snapshot_every = "1 us"
 checkpoint_every = "1 ms"
+[[gauge]]
+name = "axis"
+position = ["0.5 mm", "0.5 mm", "1 mm"]
+[[gauge]]
+name = "rear"
+kind = "moving"
+position = ["1 mm", "1 mm", "2.8 mm"]
+[[tracers]]
+name = "line"
+from = ["0 mm", "0 mm", "-3 mm"]
+to = ["4 mm", "0 mm", "-3 mm"]
+count = 3
 )";
 
 class Run : public testing::Test {
@@ -104,6 +116,11 @@ class Run : public testing::Test {
   [[nodiscard]] std::string history(const std::string& directory) const {
     return text(folder_ / directory / "history.csv");
   }
+  [[nodiscard]] std::string gauges(const std::string& directory) const {
+    const std::string content = text(folder_ / directory / "gauges.csv");
+    EXPECT_GT(content.size(), 1000U);
+    return content;
+  }
   /// Bytes of the last checkpoint: every field of every particle in full precision.
   [[nodiscard]] std::string newest_checkpoint(const std::string& directory) const {
     const std::vector<fs::path> paths = io::list_checkpoints(folder_ / directory / "checkpoint");
@@ -152,6 +169,7 @@ TEST_F(Run, KilledAndRestartedGivesBitwiseTheSameHistory) {
   again.restart = true;
   ASSERT_EQ(run_in_child(again), 0);
   EXPECT_EQ(first_difference(history("killed"), history("whole")), "");
+  EXPECT_EQ(first_difference(gauges("killed"), gauges("whole")), "");
   EXPECT_TRUE(newest_checkpoint("killed") == newest_checkpoint("whole"));
   // The index names the same snapshots.
   EXPECT_EQ(first_difference(text(folder_ / "killed" / "debris.particles.hdf.series"),
@@ -163,6 +181,7 @@ TEST_F(Run, OneAndTwoThreadsGiveBitwiseTheSame) {
   ASSERT_EQ(run_in_child(options("one", 1)), 0);
   ASSERT_EQ(run_in_child(options("two", 2)), 0);
   EXPECT_EQ(first_difference(history("one"), history("two")), "");
+  EXPECT_EQ(first_difference(gauges("one"), gauges("two")), "");
   EXPECT_TRUE(newest_checkpoint("one") == newest_checkpoint("two"));
 }
 

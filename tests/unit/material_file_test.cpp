@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <optional>
+#include <tuple>
 
 #include "eos/catalogue.hpp"
 #include "src/base/error.hpp"
@@ -292,6 +294,61 @@ TEST(InitialState, GivenTemperatureOrDensityGivesTheirState) {
   EXPECT_EQ(dense.temperature, 300.0);
   EXPECT_THROW(static_cast<void>(initial_state(copper, {}, 50000.0)), InputError);
   EXPECT_THROW(static_cast<void>(initial_state(copper, 1e6)), InputError);
+}
+
+TEST(InitialState, PressureWithTemperatureOrDensityGivesTheirState) {
+  const Material copper = read_material("copper");
+  const eos::State hot = initial_state(copper, {}, 600.0, 1e5);
+  EXPECT_NEAR(hot.pressure, 1e5, 1.0);
+  EXPECT_NEAR(hot.temperature, 600.0, 1e-6);
+  EXPECT_NEAR(hot.density, initial_state(copper, {}, 600.0).density, 1e-5 * hot.density);
+  const eos::State squeezed = initial_state(copper, {}, {}, 10e9);
+  EXPECT_EQ(squeezed.temperature, copper.reference.temperature);
+  EXPECT_NEAR(squeezed.density / copper.reference.density, 1.065,
+              0.005);  // 8.93 to 9.52: isotherm of Dewaele
+  const eos::State dense = initial_state(copper, 9500.0, {}, 20e9);
+  EXPECT_EQ(dense.density, 9500.0);
+  EXPECT_NEAR(dense.pressure, 20e9, 1e3);
+  EXPECT_GT(dense.temperature, 1000.0);
+  const eos::State vapour = initial_state(copper, {}, 6000.0, 1e4);  // no condensed state at this pressure
+  EXPECT_LT(vapour.density, 1.0);
+  EXPECT_NEAR(vapour.pressure, 1e4, 1.0);
+  EXPECT_GT(vapour.vaporised_fraction, 0.99);
+  const eos::State air = initial_state(read_material("air"), {}, 300.0, 101325.0);
+  EXPECT_NEAR(air.density, 101325.0 / (287.0 * 300.0), 0.01);
+  for (const auto& [density, temperature, pressure] :
+       {std::tuple<double, double, double>{9000, 300, 1e5}, {0, 300, -50e9}, {8930, 0, -50e9}}) {
+    const auto given = [](double x) { return x == 0.0 ? std::nullopt : std::optional(x); };
+    EXPECT_THROW(static_cast<void>(initial_state(copper, given(density), given(temperature), pressure)),
+                 InputError);
+  }
+}
+
+TEST(PeakFields, KeepWhatWasReachedAndWhenHalfOfTheMassMelted) {
+  const Material copper = read_material("copper");
+  MaterialPoints points;
+  resize(points, 1);
+  points.mass[0] = copper.reference.density * 1e-9;
+  initialise(copper, points, 0, 1);
+  EXPECT_EQ(points.melting_time[0], never);
+  EXPECT_EQ(points.maximum_temperature[0], points.temperature[0]);
+  double pressure = 0.0, temperature = 0.0, melted_at = never;
+  for (int n = 1; n <= 400; ++n) {
+    const double rate = n <= 200 ? -1e-3 : 1.2e-3;
+    points.specific_internal_energy[0] += n <= 200 ? 6e3 : -4e3;
+    const Matrix3 gradient = rate / 1e-8 * Matrix3::Identity();
+    update_material(copper, points, 0, 1, std::span(&gradient, 1),
+                    {.time_step = 1e-8, .cell_size = 1e-3, .time = n * 1e-8});
+    pressure = std::max(pressure, points.pressure[0]);
+    temperature = std::max(temperature, points.temperature[0]);
+    if (melted_at == never && points.melted_fraction[0] >= 0.5) melted_at = n * 1e-8;
+  }
+  EXPECT_GT(melted_at, 0.0);
+  EXPECT_EQ(points.melting_time[0], melted_at);
+  EXPECT_EQ(points.maximum_pressure[0], pressure);
+  EXPECT_EQ(points.maximum_temperature[0], temperature);
+  EXPECT_LT(points.pressure[0], pressure);
+  EXPECT_LT(points.temperature[0], temperature);
 }
 
 TEST(Describe, NamesEveryModelAndRefusesUnknownOnes) {

@@ -164,5 +164,129 @@ shape = { box = { lower = ["-10 mm", "-10 mm", "0 mm"], upper = ["10 mm", "10 mm
   for (const Vector3& x : seeding.particles.position) EXPECT_TRUE(x[0] > 0 && x[1] > 0);
 }
 
+TEST(Initial, BodyStartsInTheStateThatItsTableGives) {
+  const Case setup = read_case_text(
+      domain + sphere + "initial = { pressure = \"1 bar\", temperature = \"600 K\" }\n", "case.toml");
+  const Seeding seeding = seed(setup);
+  const eos::State state = initial_state(*setup.materials[0], {}, 600.0, 1e5);
+  for (const std::size_t p : {std::size_t{0}, seeding.particles.size() - 1}) {
+    EXPECT_EQ(seeding.particles.temperature[p], state.temperature);
+    EXPECT_EQ(seeding.particles.specific_internal_energy[p], state.specific_internal_energy);
+    EXPECT_NEAR(seeding.particles.mass[p] / seeding.particles.volume[p], state.density, 1e-9 * state.density);
+  }
+  expect_error(domain + sphere + "initial = { pressure = \"-50 GPa\" }\n",
+               {"case.toml:", "initial state", "copper"});
+  expect_error(domain + sphere +
+                   "initial = { pressure = \"1 bar\", temperature = \"300 K\", density = \"9 g/cm^3\" }\n",
+               {"two of them"});
+  expect_error(domain + sphere + "initial = { pressure = \"1 m\", temprature = \"300 K\" }\n",
+               {"wrong dimension", "did you mean \"temperature\""});
+  expect_error(domain + sphere + "initial = { temperature = \"-3 K\" }\n", {"'temperature'", "> 0"});
+}
+
+TEST(FailureScatter, FollowsTheWeibullDistributionOfMeanOneAndItsEffectOfSize) {
+  FailureScatter scatter;
+  scatter.weibull_modulus = 6.0;
+  scatter.seed = 3;
+  constexpr std::uint64_t n = 200000;
+  double sum = 0.0;
+  std::uint64_t below = 0;
+  const double median = std::pow(std::numbers::ln2, 1.0 / 6.0) / std::tgamma(1.0 + 1.0 / 6.0);
+  for (std::uint64_t id = 0; id < n; ++id) {
+    const double k = scatter.factor(id, 1e-9);
+    ASSERT_GT(k, 0.0);
+    sum += k;
+    if (k < median) ++below;
+  }
+  EXPECT_NEAR(sum / n, 1.0, 2e-3);  // five standard errors
+  EXPECT_NEAR(static_cast<double>(below) / n, 0.5, 6e-3);
+  FailureScatter sized = scatter;
+  sized.reference_volume = 1e-9;
+  EXPECT_EQ(sized.factor(7, 1e-9), scatter.factor(7, 1e-9));
+  EXPECT_NEAR(sized.factor(7, 64e-9), 0.5 * scatter.factor(7, 1e-9), 1e-12);  // 64^(-1/6)
+  scatter.seed = 4;
+  EXPECT_NE(scatter.factor(7, 1e-9), sized.factor(7, 1e-9));
+}
+
+TEST(FailureScatter, IsTheSameForAnyNumberOfRanksAndIsReadAndWritten) {
+  const Case setup = read_case_text(
+      domain + sphere +
+          "failure_scatter = { weibull_modulus = 8, seed = 5, reference_volume = \"1 mm^3\" }\n",
+      "case.toml");
+  const Seeding whole = seed(setup);
+  std::size_t at = 0;
+  for (int rank = 0; rank < 3; ++rank) {
+    const Seeding part = seed(setup, rank, 3);
+    for (std::size_t p = 0; p < part.particles.size(); ++p, ++at) {
+      ASSERT_EQ(part.particles.id[p], whole.particles.id[at]);
+      ASSERT_EQ(part.particles.failure_threshold_factor[p], whole.particles.failure_threshold_factor[at]);
+    }
+  }
+  EXPECT_NE(whole.particles.failure_threshold_factor[0], whole.particles.failure_threshold_factor[1]);
+  const Case again = read_case_text(to_toml(setup, {"copper.toml"}), "run.toml");
+  EXPECT_EQ(again.bodies[0].failure_scatter.seed, 5);
+  EXPECT_EQ(again.bodies[0].failure_scatter.weibull_modulus, 8.0);
+  EXPECT_FALSE(again.bodies[0].initial.given());
+  expect_error(domain + sphere + "failure_scatter = { seed = 5 }\n", {"missing key 'weibull_modulus'"});
+  expect_error(domain + sphere + "failure_scatter = { weibull_modulus = 0 }\n", {"'weibull_modulus'", "> 0"});
+}
+
+const std::string gauges = R"(
+[[gauge]]
+name = "fixed"
+position = ["1 mm", "1 mm", "5 mm"]
+[[gauge]]
+name = "inside"
+kind = "moving"
+position = ["1 mm", "1 mm", "-4 mm"]
+[[tracers]]
+name = "line"
+from = ["0 mm", "0 mm", "-5 mm"]
+to = ["2 mm", "0 mm", "-5 mm"]
+count = 5
+)";
+
+TEST(GaugesOfACase, AreReadWrittenAndNumbered) {
+  const Case setup = read_case_text(domain + sphere + gauges, "case.toml");
+  const std::vector<Gauge> all = setup.gauges.all();
+  ASSERT_EQ(all.size(), 7U);
+  EXPECT_FALSE(all[0].moving());
+  EXPECT_TRUE(all[1].moving());
+  EXPECT_EQ(all[2].name, "line_1");
+  EXPECT_EQ(all[6].name, "line_5");
+  EXPECT_NEAR(all[4].position[0], 1e-3, 1e-15);
+  const Case again = read_case_text(to_toml(setup, {"copper.toml"}), "run.toml");
+  ASSERT_EQ(again.gauges.all().size(), 7U);
+  EXPECT_EQ(again.gauges.all()[5].position, all[5].position);
+}
+
+TEST(GaugesOfACase, MistakesAreNamed) {
+  expect_error(domain + sphere + replaced(gauges, "\"5 mm\"", "\"50 mm\""),
+               {"gauge \"fixed\"", "outside of the domain"});
+  expect_error(domain + sphere + replaced(gauges, "\"-4 mm\"", "\"4 mm\""),
+               {"gauge \"inside\"", "no body is there"});
+  expect_error(
+      domain + sphere + replaced(gauges, "\"2 mm\", \"0 mm\", \"-5 mm\"", "\"9 mm\", \"0 mm\", \"-5 mm\""),
+      {"gauge \"line_5\"", "no body is there"});
+  expect_error(domain + sphere + replaced(gauges, "\"inside\"", "\"fixed\""),
+               {"two gauges are called \"fixed\""});
+  expect_error(domain + sphere + replaced(gauges, "\"inside\"", "\"a,b\""), {"names columns"});
+  expect_error(domain + sphere + replaced(gauges, "\"moving\"", "\"flying\""), {"'kind' is \"flying\""});
+  expect_error(domain + sphere + replaced(gauges, "count = 5", "count = 1"), {"'count' is 1"});
+  expect_error(domain + sphere + replaced(gauges, "position = [\"1 mm\", \"1 mm\", \"5 mm\"]", ""),
+               {"missing key 'position'"});
+}
+
+TEST(Heat, ConductionNeedsSmoothFunctionsAndAMaterialThatConducts) {
+  const std::string on = "[heat]\nconduction = true\n";
+  const std::string ofhc = replaced(sphere, "copper.toml", "copper_ofhc");
+  EXPECT_TRUE(read_case_text(domain + on + ofhc, "case.toml").heat.conduction);
+  EXPECT_GT(read_case_text(domain + ofhc, "case.toml").materials[0]->conductivity, 300.0);
+  expect_error(domain + on + sphere, {"case.toml:", "no material has a conductivity"});
+  expect_error(domain + on + "[transfer]\nshape_function = \"linear\"\nparticle_update = \"flip\"\n" + ofhc,
+               {"'conduction' needs smooth shape functions"});
+  expect_error(domain + "[heat]\nconduction = 3\n" + ofhc, {"'conduction'"});
+}
+
 }  // namespace
 }  // namespace whipple::setup

@@ -23,7 +23,7 @@ struct ViscousFluid {
   static constexpr const char* summary = "Newtonian fluid";
   static constexpr const char* theory =
       "s = 2 eta dev D, D symmetric velocity gradient; its work is heat. The time step is bounded by\n"
-      "rho dx^2 / (12 eta).\n"
+      "rho dx^2 / (18 eta).\n"
       "Source: Batchelor, An Introduction to Fluid Dynamics (1967), sec. 3.3.";
 };
 

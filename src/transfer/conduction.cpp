@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/transfer/conduction.hpp"
+
+#include <vector>
+
+#include "src/parallel/threads.hpp"
+#include "src/transfer/node_access.hpp"
+#include "src/transfer/shape_function.hpp"
+
+namespace whipple::transfer {
+namespace {
+
+using grid::BlockGrid;
+using grid::Node;
+using Shape = QuadraticBSpline;
+
+constexpr double no_capacity = 1e-300;  // J/K; below it the temperature of a node has no meaning
+
+/// Calls f(node, N, grad N) for the nodes of a particle.
+template <class Access, class Function>
+void for_each_node(const Particles& particles, std::size_t p, const grid::Geometry& geometry,
+                   const grid::BlockCoordinate& block, Access& access, Function&& f) {
+  const auto [wx, wy, wz] = weights_at<Shape>(particles, p, geometry, block);
+  for (std::size_t i = 0; i < Shape::count; ++i) {
+    for (std::size_t j = 0; j < Shape::count; ++j) {
+      for (std::size_t k = 0; k < Shape::count; ++k) {
+        Node* node = access.node(wx.first + static_cast<int>(i), wy.first + static_cast<int>(j),
+                                 wz.first + static_cast<int>(k));
+        const Vector3 gradient(wx.derivative[i] * wy.weight[j] * wz.weight[k],
+                               wx.weight[i] * wy.derivative[j] * wz.weight[k],
+                               wx.weight[i] * wy.weight[j] * wz.derivative[k]);
+        f(*node, wx.weight[i] * wy.weight[j] * wz.weight[k], gradient);
+      }
+    }
+  }
+}
+
+/// Adds what every particle brings to its nodes: bring(node, p, N, grad N). Node::second stays as it is.
+template <class Bring>
+void scatter(const Particles& particles, BlockGrid& grid, Bring&& bring) {
+  for (const std::vector<std::uint32_t>& colour : grid.colours()) {
+    parallel::for_each_uneven(colour.size(), [&](std::size_t i) {
+      const std::size_t slot = colour[i];
+      const auto all = [&](auto& access) {
+        for (const std::uint32_t p : grid.particles_in(slot)) {
+          for_each_node(particles, p, grid.geometry(), grid.coordinate(slot), access,
+                        [&](Node& node, double n, const Vector3& gradient) { bring(node, p, n, gradient); });
+        }
+      };
+      if (grid.particles_in(slot).size() < direct_access_below) {
+        DirectAccess access(grid, slot);
+        all(access);
+      } else {
+        ReachCopy copy;
+        copy.clear();
+        all(copy);
+        copy.add_to(grid, slot);
+      }
+    });
+  }
+}
+
+/// Calls f(p, access to its nodes) for every particle, block by block.
+template <class Function>
+void gather(const Particles& particles, BlockGrid& grid, Function&& f) {
+  parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
+    if (grid.particles_in(slot).empty()) return;
+    ReachCopy copy;
+    copy.load(grid, slot);
+    for (const std::uint32_t p : grid.particles_in(slot)) {
+      f(p, [&](auto&& of_node) {
+        for_each_node(particles, p, grid.geometry(), grid.coordinate(slot), copy, of_node);
+      });
+    }
+  });
+}
+
+/// Scalars of the nodes beyond the mirror planes are those of their images, so what particles brought there
+/// belongs to the images.
+void fold_and_sum(BlockGrid& grid) {
+  const std::span<Node> nodes = grid.all_nodes();
+  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+    parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
+      nodes[plane.pairs[i].image].first += nodes[plane.pairs[i].outside].first;
+    });
+  }
+  grid.sum_to_owners(BlockGrid::Part::first);
+}
+
+void share(BlockGrid& grid) {
+  grid.borrow_from_owners(BlockGrid::Part::first);
+  const std::span<Node> nodes = grid.all_nodes();
+  const auto planes = grid.mirror_planes();
+  for (std::size_t n = planes.size(); n-- > 0;) {
+    parallel::for_each(planes[n].pairs.size(), [&](std::size_t i) {
+      nodes[planes[n].pairs[i].outside].first = nodes[planes[n].pairs[i].image].first;
+    });
+  }
+}
+
+}  // namespace
+
+void conduct_heat(Particles& particles, BlockGrid& grid, double dt,
+                  std::span<const ThermalConstants> of_body) {
+  const auto constants = [&](std::size_t p) -> const ThermalConstants& { return of_body[particles.body[p]]; };
+  const std::span<Node> nodes = grid.all_nodes();
+  const std::size_t owned = grid.owned_slots() * grid::nodes_per_block;
+
+  grid.clear();  // (eq. 1) heat capacity and temperature of the nodes
+  scatter(particles, grid, [&](Node& node, std::size_t p, double n, const Vector3&) {
+    const double capacity = n * particles.mass[p] * constants(p).heat_capacity;
+    node.first += Lanes{capacity, capacity * particles.temperature[p], 0.0, 0.0};
+  });
+  fold_and_sum(grid);
+  parallel::for_each(owned, [&](std::size_t i) {
+    Lanes& first = nodes[i].first;
+    first[1] = first[0] > no_capacity ? first[1] / first[0] : 0.0;
+  });
+  share(grid);
+
+  std::vector<Vector3> flux(particles.size());  // (eq. 2) -V k grad T of the particles
+  gather(particles, grid, [&](std::size_t p, auto&& for_nodes) {
+    Vector3 gradient = Vector3::Zero();
+    for_nodes([&](const Node& node, double, const Vector3& g) { gradient += node.first[1] * g; });
+    flux[p] = -(particles.volume[p] + particles.void_volume[p]) * constants(p).conductivity * gradient;
+  });
+
+  parallel::for_each(nodes.size(), [&](std::size_t i) {  // (eq. 3) heat of the nodes
+    nodes[i].second = nodes[i].first;
+    nodes[i].first = broadcast(0.0);
+  });
+  scatter(particles, grid, [&](Node& node, std::size_t p, double, const Vector3& gradient) {
+    node.first += Lanes{gradient.dot(flux[p]), 0.0, 0.0, 0.0};
+  });
+  fold_and_sum(grid);
+  parallel::for_each(owned, [&](std::size_t i) {
+    const double capacity = nodes[i].second[0];
+    nodes[i].first =
+        capacity > no_capacity && !grid.is_image(i) ? nodes[i].first * (dt / capacity) : broadcast(0.0);
+  });
+  share(grid);
+
+  gather(particles, grid, [&](std::size_t p, auto&& for_nodes) {  // (eq. 4)
+    double rise = 0.0;
+    for_nodes([&](const Node& node, double n, const Vector3&) { rise += n * node.first[0]; });
+    particles.specific_internal_energy[p] += constants(p).heat_capacity * rise;
+  });
+}
+
+}  // namespace whipple::transfer

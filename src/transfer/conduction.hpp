@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+
+#include "src/grid/block_grid.hpp"
+#include "src/particles/particles.hpp"
+
+namespace whipple::transfer {
+
+/// Constants of conduction of one body.
+struct ThermalConstants {
+  double conductivity = 0.0;   ///< W/(m K)
+  double heat_capacity = 0.0;  ///< J/(kg K), weights the share of a particle in the heat of a node
+};
+
+/// One explicit step of the conduction of heat between particles through the grid, with quadratic B-splines
+/// (docs/theory/conduction.md): temperatures to the nodes, Fourier's flux at the particles, heat to the
+/// nodes and back into the specific internal energies. The sum of the heat is zero to round-off; mirror
+/// planes and free surfaces are adiabatic. Particles must be binned; node contents are lost. Collective;
+/// bitwise independent of the number of threads.
+/// @param of_body  constants of every body of the case
+void conduct_heat(Particles& particles, grid::BlockGrid& grid, double dt,
+                  std::span<const ThermalConstants> of_body);
+
+}  // namespace whipple::transfer

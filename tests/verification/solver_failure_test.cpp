@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Spall of a plate by every failure model: the release of the stress makes and loses no energy, the momentum
+// stays, and the plate parts into two pieces that fly apart.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/verification/solver_problems.hpp"
+
+namespace whipple {
+namespace {
+
+struct Model {
+  std::string name;
+  std::string constants;
+  double scatter;  ///< Weibull modulus; 0: none
+};
+
+class SpallByModel : public testing::TestWithParam<Model> {};
+
+std::string material(const Model& model) {
+  return verification::write_material("spall_" + model.name, R"toml(
+name = "aluminium"
+source = "constants of the verification problems"
+[eos]
+model = "mie_gruneisen"
+source = "Steinberg (1996), Al 2024-T4"
+reference_density = "2.785 g/cm^3"
+hugoniot_intercept = "5.328 km/s"
+hugoniot_slope = 1.338
+gruneisen = 2.0
+heat_capacity = "863 J/(kg K)"
+reference_temperature = "300 K"
+[strength]
+model = "von_mises"
+source = "test"
+shear_modulus = "27.6 GPa"
+yield_stress = "300 MPa"
+[[failure]]
+model = ")toml" + model.name + "\"\nsource = \"test\"\n" + model.constants);
+}
+
+TEST_P(SpallByModel, MakesAndLosesNoEnergyAndPartsThePlate) {
+  const Model& model = GetParam();
+  const std::string scatter =
+      model.scatter > 0.0
+          ? "failure_scatter = { weibull_modulus = " + std::to_string(model.scatter) + ", seed = 1 }\n"
+          : "";
+  const std::string file = material(model);
+  const setup::Case setup = setup::read_case_text(R"(
+[domain]
+lower = ["0 mm", "0 mm", "-3 mm"]
+upper = ["0.1 mm", "0.1 mm", "6 mm"]
+cell_size = "0.1 mm"
+boundary = { x_lower = "symmetry", x_upper = "symmetry", y_lower = "symmetry", y_upper = "symmetry" }
+[time]
+end = "2.5 us"
+[[body]]
+name = "flyer"
+material = ")" + file + R"("
+velocity = ["0 m/s", "0 m/s", "800 m/s"]
+shape = { box = { lower = ["0 mm", "0 mm", "-1.5 mm"], upper = ["0.1 mm", "0.1 mm", "0 mm"] } }
+[[body]]
+name = "plate"
+material = ")" + file + R"("
+shape = { box = { lower = ["0 mm", "0 mm", "0 mm"], upper = ["0.1 mm", "0.1 mm", "3 mm"] } }
+)" + scatter,
+                                                  "spall.toml");
+  solver::Simulation simulation(setup, parallel::world());
+  verification::EnergyWatch watch;
+  verification::run_to(simulation, setup.time.end, std::ref(watch));
+  EXPECT_LT(watch.worst, 1e-12);
+  EXPECT_LT(simulation.state().ledger.momentum_error(simulation.totals()), 1e-12);
+  const Particles& particles = simulation.particles();
+  double lowest = 1e9, highest = -1e9, failed = 0.0, mass = 0.0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    mass += particles.mass[p];
+    if (particles.failed[p] != 0) failed += particles.mass[p];
+    if (particles.body[p] != 1) continue;
+    lowest = std::min(lowest, particles.velocity[p][2]);
+    highest = std::max(highest, particles.velocity[p][2]);
+  }
+  EXPECT_GT(failed, 0.0);
+  EXPECT_LT(failed, 0.7 * mass);
+  EXPECT_GT(highest - lowest, 50.0);  // a scab flies ahead of the rest
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Models, SpallByModel,
+    testing::Values(Model{"tensile_pressure", "spall_strength = \"1.2 GPa\"\n", 0.0},
+                    Model{"tensile_pressure", "spall_strength = \"1.2 GPa\"\n", 10.0},
+                    Model{"plastic_strain", "failure_strain = 0.06\n", 0.0},
+                    Model{"principal_stress", "tensile_strength = \"1.4 GPa\"\n", 0.0},
+                    Model{"principal_strain", "failure_strain = 0.01\n", 0.0},
+                    Model{"johnson_cook_damage",
+                          "d1 = 0.005\nd2 = 0.2\nd3 = -3\nd4 = 0\nd5 = 0\nreference_temperature = \"300 "
+                          "K\"\nmelting_temperature = \"900 K\"\n",
+                          0.0},
+                    Model{"grady_kipp", "flaw_density = \"1e30 1/m^3\"\nweibull_modulus = 8\n", 0.0},
+                    Model{"gurson", "initial_porosity = 0.002\nfailure_porosity = 0.1\n", 0.0}),
+    [](const testing::TestParamInfo<Model>& instance) {
+      return instance.param.name + (instance.param.scatter > 0.0 ? "_with_scatter" : "");
+    });
+
+}  // namespace
+}  // namespace whipple

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Viscous fluid: the decaying vortex of Taylor and Green, an exact solution of the Navier-Stokes equations
+// between frictionless walls, v = U (sin kx cos ky, -cos kx sin ky) exp(-2 nu k^2 t), k = pi/L. Proves the
+// viscosity, its heat, and the bound of the time step. Source: G. I. Taylor, A. E. Green, Proc. R. Soc. A 158
+// (1937) 499, its plane form in G. K. Batchelor (1967).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/verification/solver_problems.hpp"
+
+namespace whipple {
+namespace {
+
+constexpr double length = 0.01, speed = 2.0, viscosity_nu = 0.2 * speed * length;
+constexpr double wave = std::numbers::pi / length, end = 1.0 / (4.0 * viscosity_nu * wave * wave);
+
+std::string fluid() {
+  return verification::write_material("viscous_fluid", R"toml(
+name = "viscous fluid"
+source = "constants of the verification problem: slow sound, Mach number 0.02"
+[eos]
+model = "mie_gruneisen"
+source = "test"
+reference_density = "1 g/cm^3"
+hugoniot_intercept = "100 m/s"
+hugoniot_slope = 1.0
+gruneisen = 0.0
+heat_capacity = "1000 J/(kg K)"
+reference_temperature = "300 K"
+[strength]
+model = "viscous_fluid"
+source = "test"
+viscosity = "4 Pa s"
+)toml");
+}
+
+struct Decay {
+  double kinetic_energy;  // over that of the start
+  double heat;            // over the loss of kinetic energy
+  double energy_error;
+  double largest_step;  // over dx^2/nu
+};
+
+Decay decay(int cells) {
+  const double dx = length / cells;
+  const auto mm = [](double x) { return std::to_string(1e3 * x); };
+  const std::string box = "lower = [0.0, 0.0, 0.0]\nupper = [\"" + mm(length) + " mm\", \"" + mm(length) +
+                          " mm\", \"" + mm(dx) + " mm\"]\n";
+  const setup::Case setup = setup::read_case_text(
+      "[domain]\n" + box + "cell_size = \"" + mm(dx) +
+          " mm\"\nboundary = { x_lower = \"symmetry\", x_upper = \"symmetry\", y_lower = \"symmetry\", "
+          "y_upper = "
+          "\"symmetry\", z_lower = \"symmetry\", z_upper = \"symmetry\" }\n[time]\nend = "
+          "1\n[transfer]\nkappa = "
+          "0\n[artificial_viscosity]\nlinear = 0\nquadratic = 0\n[[body]]\nname = \"fluid\"\nmaterial = \"" +
+          fluid() + "\"\nshape = { box = { " + "lower = [0.0, 0.0, 0.0], upper = [\"" + mm(length) +
+          " mm\", \"" + mm(length) + " mm\", \"" + mm(dx) + " mm\"] } }\n",
+      "vortex.toml");
+  Particles particles = setup::seed(setup).particles;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const double x = wave * particles.position[p][0], y = wave * particles.position[p][1];
+    particles.velocity[p] = speed * Vector3(std::sin(x) * std::cos(y), -std::cos(x) * std::sin(y), 0.0);
+    Matrix3& c = particles.affine_velocity[p];
+    c.setZero();
+    c(0, 0) = speed * wave * std::cos(x) * std::cos(y);
+    c(0, 1) = -speed * wave * std::sin(x) * std::sin(y);
+    c(1, 0) = -c(0, 1);
+    c(1, 1) = -c(0, 0);
+  }
+  solver::RunState state;
+  state.ledger.initial = solver::totals_of(particles, dx);
+  solver::Simulation simulation(setup, particles, state, parallel::world());
+  const solver::Totals before = simulation.totals();
+  Decay result{};
+  verification::run_to(simulation, end, [&](const solver::Simulation& s) {
+    result.energy_error = std::max(result.energy_error, std::abs(s.state().ledger.energy_error(s.totals())));
+    result.largest_step = std::max(result.largest_step, s.state().time_step * viscosity_nu / (dx * dx));
+  });
+  const solver::Totals& now = simulation.totals();
+  const auto kinetic = [](const solver::Totals& t) { return t.kinetic_energy + t.affine_kinetic_energy; };
+  result.kinetic_energy = kinetic(now) / kinetic(before);
+  result.heat = (now.internal_energy - before.internal_energy) / (kinetic(before) - kinetic(now));
+  return result;
+}
+
+TEST(ViscousFluid, TaylorGreenVortexDecaysAtTheExactRateAndItsEnergyIsHeat) {
+  const Decay coarse = decay(8), fine = decay(16);
+  const double exact = std::exp(-1.0);
+  RecordProperty("coarse", std::to_string(coarse.kinetic_energy / exact - 1.0));
+  RecordProperty("fine", std::to_string(fine.kinetic_energy / exact - 1.0));
+  EXPECT_NEAR(fine.kinetic_energy, exact, 0.02 * exact);
+  EXPECT_LT(std::abs(fine.kinetic_energy - exact), 0.4 * std::abs(coarse.kinetic_energy - exact));
+  for (const Decay& d : {coarse, fine}) {
+    EXPECT_NEAR(d.heat, 1.0, 1e-9);
+    EXPECT_LT(d.energy_error, 1e-11);
+    EXPECT_LT(d.largest_step, 1.0 / 18.0 + 1e-12);
+  }
+  EXPECT_GT(fine.largest_step, 0.9 / 18.0);  // the bound is what acts
+}
+
+}  // namespace
+}  // namespace whipple
