@@ -166,7 +166,8 @@ TEST_F(SolverRanks, GaugesAgreeWithOneRankAndFollowTheSameParticles) {
   EXPECT_TRUE(std::isnan(value["empty.pressure"]));
   EXPECT_GT(value["fixed.pressure"], 1e10);  // shocked
   EXPECT_GT(value["moving.z"], 2.5e-3);
-  EXPECT_NEAR(value["disk.velocity_z"], 5550.0, 600.0);  // not yet slowed down
+  EXPECT_LT(value["disk.velocity_z"], 5550.0);  // the shock reaches it
+  EXPECT_GT(value["disk.velocity_z"], 3000.0);
 }
 
 TEST_F(SolverRanks, AgreeWithOneRankInMusl) {

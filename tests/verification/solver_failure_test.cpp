@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
     Models, SpallByModel,
     testing::Values(Model{"tensile_pressure", "spall_strength = \"1.2 GPa\"\n", 0.0},
                     Model{"tensile_pressure", "spall_strength = \"1.2 GPa\"\n", 10.0},
-                    Model{"plastic_strain", "failure_strain = 0.06\n", 0.0},
+                    Model{"plastic_strain", "failure_strain = 0.1\n", 0.0},
                     Model{"principal_stress", "tensile_strength = \"1.4 GPa\"\n", 0.0},
                     Model{"principal_strain", "failure_strain = 0.01\n", 0.0},
                     Model{"johnson_cook_damage",
@@ -97,7 +97,10 @@ INSTANTIATE_TEST_SUITE_P(
                           "K\"\nmelting_temperature = \"900 K\"\n",
                           0.0},
                     Model{"grady_kipp", "flaw_density = \"1e30 1/m^3\"\nweibull_modulus = 8\n", 0.0},
-                    Model{"gurson", "initial_porosity = 0.002\nfailure_porosity = 0.1\n", 0.0}),
+                    Model{"gurson",
+                          "initial_porosity = 0.002\nfailure_porosity = 0.03\nnucleated_porosity = "
+                          "0.04\nnucleation_strain = 0.07\nnucleation_scatter = 0.03\n",
+                          0.0}),
     [](const testing::TestParamInfo<Model>& instance) {
       return instance.param.name + (instance.param.scatter > 0.0 ? "_with_scatter" : "");
     });
