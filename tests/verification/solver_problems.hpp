@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mpi.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <functional>
@@ -40,10 +41,10 @@ struct Method {
   }
 };
 
-/// A material file of the test's own in a temporary folder; returns its path. Written as a whole: tests that
-/// run at the same time write the same file.
+/// A material file of the process's own in a temporary folder; returns its path.
 inline std::string write_material(const std::string& name, const std::string& text) {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("whipple_" + name + ".toml");
+  const std::filesystem::path path = std::filesystem::temp_directory_path() /
+                                     ("whipple_" + name + "_" + std::to_string(::getpid()) + ".toml");
   io::write_text_atomically(path, text);
   return path.string();
 }
