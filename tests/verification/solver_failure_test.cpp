@@ -19,25 +19,9 @@ struct Model {
 class SpallByModel : public testing::TestWithParam<Model> {};
 
 std::string material(const Model& model) {
-  return verification::write_material("spall_" + model.name, R"toml(
-name = "aluminium"
-source = "constants of the verification problems"
-[eos]
-model = "mie_gruneisen"
-source = "Steinberg (1996), Al 2024-T4"
-reference_density = "2.785 g/cm^3"
-hugoniot_intercept = "5.328 km/s"
-hugoniot_slope = 1.338
-gruneisen = 2.0
-heat_capacity = "863 J/(kg K)"
-reference_temperature = "300 K"
-[strength]
-model = "von_mises"
-source = "test"
-shear_modulus = "27.6 GPa"
-yield_stress = "300 MPa"
-[[failure]]
-model = ")toml" + model.name + "\"\nsource = \"test\"\n" + model.constants);
+  return verification::aluminium(
+      "spall_" + model.name, "300 MPa",
+      "[[failure]]\nmodel = \"" + model.name + "\"\nsource = \"test\"\n" + model.constants);
 }
 
 TEST_P(SpallByModel, MakesAndLosesNoEnergyAndPartsThePlate) {

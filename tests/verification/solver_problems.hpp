@@ -49,11 +49,12 @@ inline std::string write_material(const std::string& name, const std::string& te
   return path.string();
 }
 
-/// Linear elastic aluminium (von Mises far above every stress), the Grueneisen material of the shock
-/// problems.
-inline std::string elastic_aluminium() {
-  return write_material("elastic_aluminium", R"toml(
-name = "elastic aluminium"
+/// Aluminium, the Grueneisen material of the shock problems, with von Mises' yield stress; `more` follows
+/// (failure).
+inline std::string aluminium(const std::string& name, const std::string& yield_stress,
+                             const std::string& more = {}) {
+  return write_material(name, R"toml(
+name = "aluminium"
 source = "constants of the verification problems"
 [eos]
 model = "mie_gruneisen"
@@ -68,9 +69,12 @@ reference_temperature = "300 K"
 model = "von_mises"
 source = "test"
 shear_modulus = "27.6 GPa"
-yield_stress = "1e6 GPa"
-)toml");
+yield_stress = ")toml" + yield_stress +
+                                  "\"\n" + more);
 }
+
+/// Linear elastic: yields far above every stress.
+inline std::string elastic_aluminium() { return aluminium("elastic_aluminium", "1e6 GPa"); }
 
 /// Runs a simulation to a time; `each_step` may look at it after every step.
 inline void run_to(solver::Simulation& simulation, double end,
