@@ -88,11 +88,12 @@ std::optional<BlockCoordinate> BlockGrid::block_of(const Vector3& position) cons
   return block;
 }
 
-bool BlockGrid::bin(std::span<const Vector3> position, Stencil stencil) {
-  const bool complete = slot_of_particle_.size() == position.size() && locate(position, stencil);
+bool BlockGrid::bin(std::span<const Vector3> position, Stencil stencil, std::span<const Vector3> guests) {
+  const bool complete = slot_of_particle_.size() == position.size() && locate(position, stencil) &&
+                        locate_guests(guests, stencil);
   if (parallel::any(communicator_, !complete)) return false;
   released_.clear();
-  list_particles(position.size());
+  list_points();
   return true;
 }
 
@@ -124,6 +125,21 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
     }
   });
   return complete;
+}
+
+/// Guests come and go, so each one's block is looked up; false if a stencil reaches beyond the active set.
+bool BlockGrid::locate_guests(std::span<const Vector3> guests, Stencil stencil) {
+  slot_of_guest_.resize(guests.size());
+  for (std::size_t g = 0; g < guests.size(); ++g) {
+    const std::optional<BlockCoordinate> block = block_of(guests[g]);
+    const std::int32_t slot = block ? table_.find(*block) : no_slot;
+    if (slot == no_slot) return false;
+    slot_of_guest_[g] = slot;
+    const auto at = static_cast<std::size_t>(slot);
+    const std::uint32_t touched = touched_neighbours(local_position(at, guests[g]), Vector3::Zero(), stencil);
+    if ((touched & ~existing_[at]) != 0) return false;
+  }
+  return true;
 }
 
 std::vector<WantedBlock> BlockGrid::wanted_blocks(std::span<const Vector3> position,
@@ -200,7 +216,7 @@ std::vector<int> BlockGrid::owners(std::span<const Vector3> position) const {
 }
 
 void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vector3> velocity,
-                         double lookahead, Stencil stencil) {
+                         double lookahead, Stencil stencil, std::size_t guests) {
   // Particles may have come and gone since `adapt`, unless there is no other rank.
   if (parallel::size(communicator_) > 1) {
     wanted_ = wanted_blocks(position, velocity, lookahead, stencil, 0.0);
@@ -220,8 +236,8 @@ void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vect
     }
   });
   nodes_.resize(slots() * nodes_per_block);
-  slot_of_particle_.resize(position.size());
-  for (std::size_t p = 0; p < position.size(); ++p)
+  slot_of_particle_.resize(position.size() - guests);
+  for (std::size_t p = 0; p < slot_of_particle_.size(); ++p)
     slot_of_particle_[p] = table_.find(*block_of(position[p]));
   find_mirror_nodes();
 }
@@ -250,13 +266,15 @@ Vector3 BlockGrid::local_position(std::size_t slot, const Vector3& position) con
   return local;
 }
 
-void BlockGrid::count_cells(std::span<const Vector3> position) {
+void BlockGrid::count_cells(std::span<const Vector3> position, std::span<const Vector3> guests) {
   cell_count_.assign(slots() * nodes_per_block, 0);
+  const auto count = [&](std::size_t slot, const Vector3& point) {
+    const std::array<int, 3> cell = cell_of(local_position(slot, point));
+    ++cell_count_[slot * nodes_per_block + static_cast<std::size_t>(node_index(cell[0], cell[1], cell[2]))];
+  };
   for (std::size_t s = 0; s < slots(); ++s) {
-    for (const std::uint32_t p : particles_in(s)) {
-      const std::array<int, 3> cell = cell_of(local_position(s, position[p]));
-      ++cell_count_[s * nodes_per_block + static_cast<std::size_t>(node_index(cell[0], cell[1], cell[2]))];
-    }
+    for (const std::uint32_t p : particles_in(s)) count(s, position[p]);
+    for (const std::uint32_t g : guests_in(s)) count(s, guests[g]);
   }
   // Other ranks may have particles, unseen here, in blocks that they borrow and in blocks of their own.
   unshared_.assign(slots(), 1);
@@ -304,25 +322,35 @@ void BlockGrid::release(std::span<const std::uint32_t> particles) {
   if (particles.empty()) return;
   released_.assign(slot_of_particle_.size(), 0);
   for (const std::uint32_t p : particles) released_[p] = 1;
-  list_particles(slot_of_particle_.size());
+  list_points();
 }
 
-/// Counting sort by slot; stable, so that the particles of a block keep the order of their indices.
-void BlockGrid::list_particles(std::size_t n) {
-  begin_.assign(slots() + 1, 0);
-  for (std::size_t p = 0; p < n; ++p) {
-    if (is_listed(p)) ++begin_[static_cast<std::size_t>(slot_of_particle_[p]) + 1];
+namespace {
+
+/// Counting sort by slot; stable, so that the points of a block keep the order of their indices.
+template <class Listed>
+void list_by_slot(std::size_t slots, std::span<const std::int32_t> slot_of, Listed&& listed,
+                  PointList& list) {
+  list.begin.assign(slots + 1, 0);
+  for (std::size_t p = 0; p < slot_of.size(); ++p) {
+    if (listed(p)) ++list.begin[static_cast<std::size_t>(slot_of[p]) + 1];
   }
-  for (std::size_t s = 0; s < slots(); ++s) begin_[s + 1] += begin_[s];
-  particles_.resize(begin_.back());
-  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-  for (std::size_t p = 0; p < n; ++p) {
-    if (!is_listed(p)) continue;
-    particles_[next[static_cast<std::size_t>(slot_of_particle_[p])]++] = static_cast<std::uint32_t>(p);
+  for (std::size_t s = 0; s < slots; ++s) list.begin[s + 1] += list.begin[s];
+  list.points.resize(list.begin.back());
+  std::vector<std::uint32_t> next(list.begin.begin(), list.begin.end() - 1);
+  for (std::size_t p = 0; p < slot_of.size(); ++p) {
+    if (listed(p)) list.points[next[static_cast<std::size_t>(slot_of[p])]++] = static_cast<std::uint32_t>(p);
   }
+}
+
+}  // namespace
+
+void BlockGrid::list_points() {
+  list_by_slot(slots(), slot_of_particle_, [&](std::size_t p) { return is_listed(p); }, particles_);
+  list_by_slot(slots(), slot_of_guest_, [](std::size_t) { return true; }, guests_);
   for (auto& colour : colours_) colour.clear();
   for (std::size_t s = 0; s < slots(); ++s) {
-    if (begin_[s + 1] == begin_[s]) continue;
+    if (particles_.in(s).empty() && guests_.in(s).empty()) continue;
     const BlockCoordinate& c = blocks_.coordinate[s];
     colours_[static_cast<std::size_t>((c[0] & 1) << 2 | (c[1] & 1) << 1 | (c[2] & 1))].push_back(
         static_cast<std::uint32_t>(s));

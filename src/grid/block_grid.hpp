@@ -52,6 +52,16 @@ constexpr ReachMap reach_map() {
 constexpr int node_index(int x, int y, int z) { return (x * block_edge + y) * block_edge + z; }
 constexpr int neighbour_index(int x, int y, int z) { return (x * 3 + y) * 3 + z; }
 
+/// Points by block.
+struct PointList {
+  std::vector<std::uint32_t> begin;   ///< of each slot in `points`, and the end
+  std::vector<std::uint32_t> points;  ///< indices, block by block
+
+  [[nodiscard]] std::span<const std::uint32_t> in(std::size_t slot) const {
+    return std::span(points).subspan(begin[slot], begin[slot + 1] - begin[slot]);
+  }
+};
+
 /// The sparse background grid: the blocks where particles are, their nodes, and the list of particles in each
 /// block. Slots number the active blocks of a rank: its own in the order of the forest's space-filling curve,
 /// then those that it borrows from other ranks because its particles reach them.
@@ -63,13 +73,15 @@ class BlockGrid {
   BlockGrid(const Geometry& geometry, MPI_Comm communicator);
 
   /// Finds the block of every particle and lists the particles by block, in the order of their index.
-  /// @returns false, on every rank, if the stencil of some particle reaches beyond the active blocks: then
-  /// `adapt` and `activate` must follow, and another `bin`. Collective.
-  bool bin(std::span<const Vector3> position, Stencil stencil);
+  /// @param guests other points that work with the nodes (nodes of finite elements): listed apart
+  /// @returns false, on every rank, if the stencil of some particle or guest reaches beyond the active
+  /// blocks: then `adapt` and `activate` must follow, and another `bin`. Collective.
+  bool bin(std::span<const Vector3> position, Stencil stencil, std::span<const Vector3> guests = {});
 
   /// Lets the forest follow the particles: finest leaves where stencils reach, now and along the motion over
   /// `lookahead` seconds, so that it need not be adapted every step; and divides the blocks anew among the
   /// ranks if their work has drifted apart. Collective.
+  /// @param position of the particles, then of the guests
   /// @param weight  work of one particle of this rank, in any unit that all ranks share
   /// @throws StateError on every rank if a particle is outside of the domain and its outer layer (names the
   /// index)
@@ -79,16 +91,17 @@ class BlockGrid {
   [[nodiscard]] std::vector<int> owners(std::span<const Vector3> position) const;
   /// Activates the blocks that the particles of this rank reach, own ones and those that it borrows from
   /// other ranks; drops the others. Collective.
+  /// @param guests how many of the positions, the last ones, are guests
   void activate(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
-                Stencil stencil);
+                Stencil stencil, std::size_t guests = 0);
 
   /// Moves the nodes away from where the geometry has them, by at most half a cell along each axis; before
   /// `bin`. Axes with mirror planes must not be moved.
   void shift(const Vector3& cells);
 
-  /// Counts the particles of this rank in every cell, after `bin`.
-  void count_cells(std::span<const Vector3> position);
-  /// Is a particle of this rank farther than two cells from every other one, from mirror planes, and from
+  /// Counts the particles and guests of this rank in every cell, after `bin`.
+  void count_cells(std::span<const Vector3> position, std::span<const Vector3> guests = {});
+  /// Is a particle of this rank farther than two cells from every other one, guests, mirror planes, and
   /// blocks that other ranks share? After `count_cells`.
   [[nodiscard]] bool is_alone(std::uint32_t particle, const Vector3& position) const;
   /// Takes particles (ascending) off the lists of their blocks until the next `bin`: the transfers do not see
@@ -109,11 +122,13 @@ class BlockGrid {
   }
   /// Indices of the particles in a block, ascending.
   [[nodiscard]] std::span<const std::uint32_t> particles_in(std::size_t slot) const {
-    return std::span(particles_).subspan(begin_[slot], begin_[slot + 1] - begin_[slot]);
+    return particles_.in(slot);
   }
+  /// Indices of the guests in a block, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> guests_in(std::size_t slot) const { return guests_.in(slot); }
   /// All particles, block by block: an order that keeps neighbours in memory near one another.
-  [[nodiscard]] std::span<const std::uint32_t> particles_by_block() const { return particles_; }
-  /// Slots with particles whose reaches do not overlap, for each of the eight colours.
+  [[nodiscard]] std::span<const std::uint32_t> particles_by_block() const { return particles_.points; }
+  /// Slots with particles or guests whose reaches do not overlap, for each of the eight colours.
   [[nodiscard]] const std::array<std::vector<std::uint32_t>, 8>& colours() const { return colours_; }
 
   [[nodiscard]] Node* nodes(std::size_t slot) { return &nodes_[slot * nodes_per_block]; }
@@ -166,7 +181,8 @@ class BlockGrid {
   [[nodiscard]] std::vector<WantedBlock> wanted_blocks(std::span<const Vector3> position,
                                                        std::span<const Vector3> velocity, double lookahead,
                                                        Stencil stencil, double weight) const;
-  void list_particles(std::size_t n);
+  bool locate_guests(std::span<const Vector3> guests, Stencil stencil);
+  void list_points();
   [[nodiscard]] bool is_listed(std::size_t particle) const {
     return released_.empty() || released_[particle] == 0;
   }
@@ -193,8 +209,8 @@ class BlockGrid {
   std::vector<std::uint16_t> cell_count_;  // particles in each cell of each slot
   std::vector<std::uint8_t> unshared_;     // slots that no other rank works with
   std::vector<std::uint8_t> released_;     // of each particle, or empty
-  std::vector<std::uint32_t> begin_;
-  std::vector<std::uint32_t> particles_;
+  std::vector<std::int32_t> slot_of_guest_;
+  PointList particles_, guests_;
   std::array<std::vector<std::uint32_t>, 8> colours_;
   std::vector<MirrorPlane> planes_;
   std::vector<std::uint8_t> outside_;

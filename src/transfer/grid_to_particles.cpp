@@ -7,6 +7,7 @@
 #include "src/base/error.hpp"
 #include "src/parallel/threads.hpp"
 #include "src/transfer/node_access.hpp"
+#include "src/transfer/transition_nodes.hpp"
 
 namespace whipple::transfer {
 namespace {
@@ -116,39 +117,58 @@ double external_work(const Moments& m, double mass, const Vector3& b, double dt)
   return mass * dt * b.dot(vector(m.velocity + 0.5 * m.increment));
 }
 
-template <class Shape, AffineField field, class Access>
-TransferBalance update_particle(Particles& particles, std::size_t p, const grid::Geometry& geometry,
-                                const grid::BlockCoordinate& block, double dt, Matrix3& gradient,
-                                Access& access, std::span<const Vector3> acceleration) {
+/// What the grid did to a point in the step.
+struct Advance {
+  Moments moments;
+  Matrix3 gradient;       ///< of the new grid velocity
+  Matrix3 mean_gradient;  ///< of the mean of old and new grid velocity
+  double heat = 0.0;      ///< J/kg
+};
+
+/// Velocity and affine field (4.3), heat of the transfer (4.5), position (4.4).
+template <class Shape, AffineField field, class Points, class Access>
+Advance advance_point(Points& points, std::size_t p, const grid::Geometry& geometry,
+                      const grid::BlockCoordinate& block, double dt, Access& access) {
   constexpr bool affine = field != AffineField::none;
-  Matrix3& c = particles.affine_velocity[p];
+  Matrix3& c = points.affine_velocity[p];
   std::array<Lanes, 3> columns{};
   [[maybe_unused]] double inertia = 0.0;  // sum N r r^T along one direction
   if constexpr (affine) {
     inertia = Shape::second_moment * geometry.cell_size * geometry.cell_size;
     for (int a = 0; a < 3; ++a) columns[static_cast<std::size_t>(a)] = lanes(c.col(a));
   }
-  const Moments m = gather<Shape, affine>(weights_at<Shape>(particles, p, geometry, block),
-                                          lanes(particles.velocity[p]), columns, access);
-
-  // Velocity and affine field (4.3), heat of the transfer (4.5).
-  particles.velocity[p] += vector(m.increment - m.relaxed);
-  double heat = sum3(m.loss + m.increment * (m.relaxed - 0.5 * m.increment) - 0.5 * m.relaxed * m.relaxed);
-  Matrix3 mean_gradient;  // of the mean of old and new grid velocity: the exact work identity (4.6)
+  Advance out;
+  Moments& m = out.moments;
+  m = gather<Shape, affine>(weights_at<Shape>(points, p, geometry, block), lanes(points.velocity[p]), columns,
+                            access);
+  points.velocity[p] += vector(m.increment - m.relaxed);
+  points.position[p] += dt * vector(m.velocity + m.increment);
+  out.heat = sum3(m.loss + m.increment * (m.relaxed - 0.5 * m.increment) - 0.5 * m.relaxed * m.relaxed);
   for (int a = 0; a < 3; ++a) {
     const auto ua = static_cast<std::size_t>(a);
-    gradient.col(a) = vector(m.velocity_gradient[ua] + m.increment_gradient[ua]);
-    mean_gradient.col(a) = vector(m.velocity_gradient[ua] + 0.5 * m.increment_gradient[ua]);
+    out.gradient.col(a) = vector(m.velocity_gradient[ua] + m.increment_gradient[ua]);
+    out.mean_gradient.col(a) = vector(m.velocity_gradient[ua] + 0.5 * m.increment_gradient[ua]);
     if constexpr (affine) {
       const Lanes dc = m.increment_moment[ua] / inertia;
       const Lanes bc = m.relaxed_moment[ua] / inertia;
-      heat += inertia * sum3(dc * (bc - 0.5 * dc) - 0.5 * bc * bc);
+      out.heat += inertia * sum3(dc * (bc - 0.5 * dc) - 0.5 * bc * bc);
       c.col(a) += vector(dc - bc);
     }
   }
-  if constexpr (field == AffineField::deformed) heat += 0.5 * inertia * advect_affine_field(c, gradient, dt);
-  if constexpr (field == AffineField::turned) turn_affine_field(c, gradient, dt);
+  if constexpr (field == AffineField::deformed) {
+    out.heat += 0.5 * inertia * advect_affine_field(c, out.gradient, dt);
+  }
+  if constexpr (field == AffineField::turned) turn_affine_field(c, out.gradient, dt);
+  return out;
+}
 
+template <class Shape, AffineField field, class Access>
+TransferBalance update_particle(Particles& particles, std::size_t p, const grid::Geometry& geometry,
+                                const grid::BlockCoordinate& block, double dt, Matrix3& gradient,
+                                Access& access, std::span<const Vector3> acceleration) {
+  const Advance advance = advance_point<Shape, field>(particles, p, geometry, block, dt, access);
+  gradient = advance.gradient;
+  const Matrix3& mean_gradient = advance.mean_gradient;  // the exact work identity (4.6)
   const SymmetricTensor& s = particles.deviatoric_stress[p];
   const double mean_stress = -(particles.pressure[p] + particles.artificial_viscosity[p]);
   const double power =
@@ -157,18 +177,22 @@ TransferBalance update_particle(Particles& particles, std::size_t p, const grid:
       s.yz * (mean_gradient(1, 2) + mean_gradient(2, 1)) + s.zx * (mean_gradient(2, 0) + mean_gradient(0, 2));
   const double mass = particles.mass[p];
   const double work = power * particles.volume[p] * dt;
-  particles.specific_internal_energy[p] += work / mass + heat;
-  particles.position[p] += dt * vector(m.velocity + m.increment);
-  TransferBalance balance{.work = work, .heat = mass * heat};
-  if (!acceleration.empty()) balance.external_work = external_work(m, mass, acceleration[p], dt);
+  particles.specific_internal_energy[p] += work / mass + advance.heat;
+  TransferBalance balance{.work = work, .heat = mass * advance.heat};
+  if (!acceleration.empty()) {
+    balance.external_work = external_work(advance.moments, mass, acceleration[p], dt);
+  }
   return balance;
 }
 
-/// Calls f(particle, block coordinate, access to the nodes) for every particle, block by block.
+/// Calls f(point, slot, block coordinate, access to the nodes) for the points of every block, as listed by
+/// `members`.
 template <class Function>
-void for_each_particle(BlockGrid& grid, Function&& f) {
+void for_each_point(BlockGrid& grid,
+                    std::span<const std::uint32_t> (BlockGrid::*members_of)(std::size_t) const,
+                    Function&& f) {
   parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
-    const std::span<const std::uint32_t> members = grid.particles_in(slot);
+    const std::span<const std::uint32_t> members = (grid.*members_of)(slot);
     if (members.empty()) return;
     const grid::BlockCoordinate& block = grid.coordinate(slot);
     if (members.size() < direct_access_below) {
@@ -180,6 +204,11 @@ void for_each_particle(BlockGrid& grid, Function&& f) {
       for (const std::uint32_t p : members) f(p, slot, block, copy);
     }
   });
+}
+
+template <class Function>
+void for_each_particle(BlockGrid& grid, Function&& f) {
+  for_each_point(grid, &BlockGrid::particles_in, f);
 }
 
 template <class Shape, AffineField field>
@@ -238,6 +267,43 @@ TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, Blo
     } else {
       throw InternalError("the affine transfer needs B-splines");
       return TransferBalance{};  // the other branch deduces the type
+    }
+  });
+}
+
+void TransitionNodes::resize(std::size_t n) {
+  for (auto* values : {&mass, &sound_speed, &heat}) values->resize(n);
+  for (auto* values : {&position, &velocity, &force, &mean_velocity, &new_velocity}) values->resize(n);
+  affine_velocity.resize(n);
+}
+
+namespace {
+
+template <class Shape, AffineField field>
+void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt) {
+  for_each_point(grid, &BlockGrid::guests_in,
+                 [&](std::size_t p, std::size_t, const grid::BlockCoordinate& block, auto& access) {
+                   const Advance advance =
+                       advance_point<Shape, field>(nodes, p, grid.geometry(), block, dt, access);
+                   const Moments& m = advance.moments;
+                   nodes.mean_velocity[p] = vector(m.velocity + 0.5 * m.increment);
+                   nodes.new_velocity[p] = vector(m.velocity + m.increment);
+                   nodes.heat[p] = nodes.mass[p] * advance.heat;
+                 });
+}
+
+}  // namespace
+
+void grid_to_nodes(ShapeFunction shape, TransitionNodes& nodes, BlockGrid& grid, double dt,
+                   AffineField affine) {
+  using enum AffineField;
+  with_shape(shape, [&]<class Shape>(Shape) {
+    if constexpr (CarriesAffineField<Shape>) {
+      if (affine == none) return move_nodes<Shape, none>(nodes, grid, dt);
+      if (affine == deformed) return move_nodes<Shape, deformed>(nodes, grid, dt);
+      return move_nodes<Shape, turned>(nodes, grid, dt);
+    } else {
+      throw InternalError("nodes of elements need B-splines");
     }
   });
 }

@@ -211,15 +211,15 @@ inline Vector3 local_position(const Vector3& position, const grid::Geometry& geo
   return local;
 }
 
-/// Weights of all three directions for a particle.
-template <class Shape>
-std::array<AxisWeights<Shape::count>, 3> weights_at(const Particles& particles, std::size_t p,
+/// Weights of all three directions for a particle, or another point that has a position.
+template <class Shape, class Points>
+std::array<AxisWeights<Shape::count>, 3> weights_at(const Points& points, std::size_t p,
                                                     const grid::Geometry& geometry,
                                                     const grid::BlockCoordinate& block) {
-  const Vector3 local = local_position(particles.position[p], geometry, block);
+  const Vector3 local = local_position(points.position[p], geometry, block);
   const double dx = geometry.cell_size;
   if constexpr (Sized<Shape>) {
-    const Vector3 h = half_sizes(particles.extent[p], dx);
+    const Vector3 h = half_sizes(points.extent[p], dx);
     return {Shape::weights(local[0], h[0], dx), Shape::weights(local[1], h[1], dx),
             Shape::weights(local[2], h[2], dx)};
   } else {

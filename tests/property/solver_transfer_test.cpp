@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "src/parallel/mpi.hpp"
@@ -13,6 +14,7 @@
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/grid_update.hpp"
 #include "src/transfer/particles_to_grid.hpp"
+#include "src/transfer/transition_nodes.hpp"
 
 namespace whipple::transfer {
 namespace {
@@ -255,6 +257,65 @@ TYPED_TEST(Transfer, EnergyAndMomentumAreExactForEveryMemberOfTheFamily) {
       if (affine != none && !CarriesAffineField<TypeParam>) continue;
       check_energy_identities<TypeParam>(relaxation, affine, {}, Vector3(-1.2, -0.3, 4));
     }
+  }
+}
+
+// Nodes of elements among particles: what they get from the grid is what a particle without stress gets, to
+// which an external acceleration gives the same force; so all identities hold for them as well.
+TYPED_TEST(AffineTransfer, NodesMoveLikeParticlesUnderTheSameForce) {
+  constexpr std::size_t all = 700, first = 300;  // those from `first` on are nodes
+  constexpr double dt = 0.05;
+  const std::array<grid::Boundary, 6> planes = {grid::Boundary::symmetry, grid::Boundary::symmetry};
+  Particles q = random_particles(all, Vector3(-2, -0.3, 4), Vector3(9, 6.5, 11.8), 6);
+  std::vector<Vector3> acceleration(all, Vector3::Zero());
+  TransitionNodes nodes;
+  nodes.resize(all - first);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const std::size_t p = first + n;
+    q.deviatoric_stress[p] = {};
+    q.pressure[p] = q.artificial_viscosity[p] = 0;
+    acceleration[p] = 0.3 * q.velocity[(7 * p) % all];
+    nodes.mass[n] = q.mass[p];
+    nodes.sound_speed[n] = q.sound_speed[p];
+    nodes.position[n] = q.position[p];
+    nodes.velocity[n] = q.velocity[p];
+    nodes.affine_velocity[n] = q.affine_velocity[p];
+    nodes.force[n] = q.mass[p] * acceleration[p];
+  }
+  const std::vector<double> energy = q.specific_internal_energy;
+  Particles alone = q;
+  std::vector<std::uint32_t> order(first);
+  std::iota(order.begin(), order.end(), 0U);
+  reorder(alone, order);
+  const auto step = [&](Particles& particles, TransitionNodes* guests) {
+    grid::BlockGrid grid(geometry(planes), parallel::world());
+    grid.adapt(q.position, q.velocity, 0.0, TypeParam::stencil);
+    const std::size_t count = guests ? guests->size() : 0;
+    grid.activate(q.position, q.velocity, 0.0, TypeParam::stencil, count);
+    ASSERT_TRUE(grid.bin(particles.position, TypeParam::stencil,
+                         guests ? std::span<const Vector3>(guests->position) : std::span<const Vector3>()));
+    particles_to_grid(TypeParam::kind, particles, grid, std::span(acceleration).first(particles.size()));
+    if (guests) nodes_to_grid(TypeParam::kind, *guests, grid);
+    GridUpdate update;
+    update.advance(grid, dt, {.kappa = 0.7});
+    std::vector<Matrix3> gradient(particles.size());
+    grid_to_particles(TypeParam::kind, particles, grid, dt, AffineField::deformed, gradient,
+                      std::span(acceleration).first(particles.size()));
+    if (guests) grid_to_nodes(TypeParam::kind, *guests, grid, dt, AffineField::deformed);
+  };
+  step(q, nullptr);
+  step(alone, &nodes);
+  for (std::size_t p = 0; p < first; ++p) {
+    EXPECT_LT((alone.velocity[p] - q.velocity[p]).norm(), 1e-11) << p;
+    EXPECT_NEAR(alone.specific_internal_energy[p], q.specific_internal_energy[p], 1e-11) << p;
+  }
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const std::size_t p = first + n;
+    EXPECT_LT((nodes.velocity[n] - q.velocity[p]).norm(), 1e-11) << p;
+    EXPECT_LT((nodes.position[n] - q.position[p]).norm(), 1e-11) << p;
+    EXPECT_LT((nodes.affine_velocity[n] - q.affine_velocity[p]).norm(), 1e-10) << p;
+    EXPECT_NEAR(nodes.heat[n] / nodes.mass[n], q.specific_internal_energy[p] - energy[p], 1e-11) << p;
+    EXPECT_GE(nodes.heat[n], 0.0) << p;
   }
 }
 
