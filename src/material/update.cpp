@@ -188,7 +188,8 @@ void advance_viscosity(Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const std::size_t i = chunk.index[k];
-    const double closing = -chunk.motion.divergence[k] * settings.cell_size;  // l |D|, m/s
+    const double length = settings.lengths.empty() ? settings.cell_size : settings.lengths[i];
+    const double closing = -chunk.motion.divergence[k] * length;  // l |D|, m/s
     const bool open = points.failed[i] != failure::intact && points.void_volume[i] > 0.0;
     const bool active = closing > 0.0 && !open;
     points.artificial_viscosity[i] =

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "src/base/tensor.hpp"
+#include "src/particles/material_points.hpp"
+
+/// Eight-node hexahedra of one body: structures and what is done to them outside of the time step
+/// (docs/theory/fem.md).
+namespace whipple::fem {
+
+/// Indices of the nodes of a hexahedron in the order of VTK (type 12) and Gmsh (type 5): natural coordinates
+/// (-,-,-) (+,-,-) (+,+,-) (-,+,-), then the same four with zeta = +1.
+using Corners = std::array<std::uint32_t, 8>;
+
+/// Points and hexahedra, nothing else: what generators make and readers read.
+struct Hexahedra {
+  std::vector<Vector3> nodes;  ///< m
+  std::vector<Corners> elements;
+};
+
+/// How the integrals over an element are taken.
+enum class Quadrature : std::uint8_t {
+  one_point,  ///< mean gradient of Flanagan & Belytschko, with hourglass control
+  b_bar,      ///< 2 x 2 x 2 Gauss points, volumetric strain of the element's mean (Hughes' B-bar)
+};
+constexpr std::size_t points_per_element(Quadrature quadrature) {
+  return quadrature == Quadrature::one_point ? 1 : 8;
+}
+
+/// Directions in which a boundary condition prescribes the velocity of a node: bits of Nodes::constrained.
+namespace constraint {
+constexpr std::uint8_t none = 0, x = 1, y = 2, z = 4, all = 7;
+constexpr std::uint8_t axis(int a) { return static_cast<std::uint8_t>(1U << static_cast<unsigned>(a)); }
+}  // namespace constraint
+
+struct Nodes {
+  std::vector<std::uint64_t> id;          ///< unique, never changes
+  std::vector<double> mass;               ///< kg, lumped: shares of the elements that are left
+  std::vector<Vector3> position;          ///< m
+  std::vector<Vector3> velocity;          ///< m/s
+  std::vector<Vector3> force;             ///< N, of `internal_forces`
+  std::vector<std::uint8_t> constrained;  ///< bits of fem::constraint
+  std::vector<Vector3> prescribed;        ///< m/s, velocity along the constrained directions
+
+  [[nodiscard]] std::size_t size() const { return mass.size(); }
+
+  static constexpr auto fields() {
+    using N = Nodes;
+    return std::make_tuple(Field{"id", "1", &N::id}, Field{"mass", "kg", &N::mass},
+                           Field{"position", "m", &N::position}, Field{"velocity", "m/s", &N::velocity},
+                           Field{"force", "N", &N::force}, Field{"constrained", "1", &N::constrained},
+                           Field{"prescribed", "m/s", &N::prescribed});
+  }
+};
+
+/// Generalised forces (N) of the four hourglass modes, one column per mode (docs/theory/fem.md, 3).
+using HourglassForce = Eigen::Matrix<double, 3, 4>;
+
+struct Elements {
+  std::vector<std::uint64_t> id;  ///< unique, never changes
+  std::vector<Corners> corners;
+  std::vector<HourglassForce> hourglass_force;  ///< zero with Quadrature::b_bar
+  std::vector<double> hourglass_energy;         ///< J, work against the stiffness of the hourglass modes
+
+  [[nodiscard]] std::size_t size() const { return id.size(); }
+
+  static constexpr auto fields() {
+    using E = Elements;
+    return std::make_tuple(Field{"id", "1", &E::id}, Field{"corners", "1", &E::corners},
+                           Field{"hourglass_force", "N", &E::hourglass_force},
+                           Field{"hourglass_energy", "J", &E::hourglass_energy});
+  }
+};
+
+/// Gauss points; those of element e are the rows [e n, (e + 1) n) with n = points_per_element, in the order
+/// of the corners that they are next to.
+struct GaussPoints : MaterialPoints {
+  std::vector<double> length;  ///< m, of the element: for time step and artificial viscosity (eq. 5.2)
+
+  [[nodiscard]] std::size_t size() const { return mass.size(); }
+
+  static constexpr auto fields() {
+    return std::tuple_cat(MaterialPoints::fields(),
+                          std::make_tuple(Field{"length", "m", &GaussPoints::length}));
+  }
+};
+
+/// The elements of one body on one rank.
+struct Mesh {
+  Quadrature quadrature = Quadrature::one_point;
+  std::uint32_t body = 0;  ///< index of the body in the case
+  Nodes nodes;
+  Elements elements;
+  GaussPoints points;
+
+  // Derived from the corners by `connect`: the corners that meet at node a are
+  // node_corners[first_corner[a]] ... node_corners[first_corner[a + 1] - 1], each 8 element + corner,
+  // ascending.
+  std::vector<std::uint32_t> first_corner, node_corners;
+  std::vector<Vector3> corner_force;  ///< scratch of `internal_forces`
+
+  [[nodiscard]] std::span<const std::uint32_t> corners_at(std::size_t node) const {
+    return std::span(node_corners).subspan(first_corner[node], first_corner[node + 1] - first_corner[node]);
+  }
+};
+
+/// The first element (counted from 0) that cannot be computed with, and why: a node that does not exist, a
+/// corner used twice (degenerate), a Jacobian that is not positive in a corner or Gauss point (inverted).
+struct Fault {
+  std::size_t element;
+  std::string reason;
+};
+std::optional<Fault> first_fault(const Hexahedra& hexahedra);
+
+/// @param name  of the mesh, begins the message
+/// @throws InputError for the first fault, for a mesh without elements, for nodes of no element
+void check(const Hexahedra& hexahedra, const std::string& name);
+
+/// Nodes, elements and Gauss points with their volumes; ids count from the given numbers. Without mass,
+/// velocity and state: `set_density`, then `initialise` (src/material/material.hpp) with `mesh.points`.
+/// The hexahedra must have passed `check`.
+Mesh make_mesh(const Hexahedra& hexahedra, Quadrature quadrature, std::uint32_t body = 0,
+               std::uint64_t first_node_id = 0, std::uint64_t first_element_id = 0);
+
+/// Masses of Gauss points (density times volume, kg/m^3) and lumped masses of the nodes.
+void set_density(Mesh& mesh, double density);
+
+/// What belongs to an element of a corner's node: its share of the lumped mass (kg), by row sums with the
+/// element's own quadrature: m/8 with one point, sum of N_a m_q over the Gauss points with eight.
+double corner_mass(const Mesh& mesh, std::size_t element, std::size_t corner);
+
+/// Rebuilds what is derived from the corners; needed after the corners were set or read.
+void connect(Mesh& mesh);
+
+/// Sums the corners' masses at the nodes.
+void lump_masses(Mesh& mesh);
+
+/// Takes elements (`removed` != 0) out of the mesh, with their Gauss points and the mass that they gave to
+/// their nodes; nodes without elements vanish. The order of what stays is kept.
+void remove_elements(Mesh& mesh, std::span<const std::uint8_t> removed);
+
+double mass(const Mesh& mesh, std::size_t element);
+/// m^3 of the trilinear hexahedron (exact); negative if inverted.
+double volume(const Mesh& mesh, std::size_t element);
+/// Least Jacobian of the eight corners over the mean one, an eighth of the volume: 1 for a parallelepiped, 0
+/// where a corner has become flat, negative where it is turned inside out.
+double scaled_jacobian(const Mesh& mesh, std::size_t element);
+
+/// Nodes whose coordinate along an axis (0 to 2) is within `tolerance` (m) of the given one.
+std::vector<std::uint32_t> nodes_on_plane(const Mesh& mesh, int axis, double coordinate, double tolerance);
+
+/// Prescribes the velocity (m/s) of nodes along the directions of the bits (fem::constraint), beside what is
+/// prescribed for them already. A fixed node: all and zero. A symmetry plane: its axis and zero.
+void constrain(Mesh& mesh, std::span<const std::uint32_t> nodes, std::uint8_t directions,
+               const Vector3& velocity = Vector3::Zero());
+
+/// Sums over a mesh (SI); bitwise independent of the number of threads.
+struct MeshTotals {
+  double mass = 0.0;
+  Vector3 momentum = Vector3::Zero();
+  Vector3 angular_momentum = Vector3::Zero();  ///< about the origin
+  double momentum_scale = 0.0;                 ///< sum m |v|, to judge momentum errors by
+  double kinetic_energy = 0.0;
+  double internal_energy = 0.0;
+  double hourglass_energy = 0.0;
+
+  [[nodiscard]] double energy() const { return kinetic_energy + internal_energy + hourglass_energy; }
+  MeshTotals& operator+=(const MeshTotals& other);
+};
+MeshTotals totals(const Mesh& mesh);
+
+}  // namespace whipple::fem

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "src/base/error.hpp"
+#include "src/fem/step.hpp"
+#include "src/parallel/threads.hpp"
+
+namespace whipple::fem {
+
+double critical_time_step(const Mesh& mesh, const ViscosityCoefficients& viscosity) {
+  const GaussPoints& points = mesh.points;
+  // The greatest of the frequencies 1/dt: infinite time step without elements.
+  const double rate = parallel::maximum(points.size(), 0.0, [&](std::size_t i) {
+    const double c = points.sound_speed[i], length = points.length[i];
+    const double density = points.mass[i] / points.volume[i];
+    // q/(l |D|) rho from q itself (eq. 5.3), with the linear part whether the element closes or not
+    const double linear = viscosity.linear * c;
+    const double speed =
+        0.5 * (linear + std::sqrt(linear * linear +
+                                  4.0 * viscosity.quadratic * points.artificial_viscosity[i] / density));
+    const double xi = std::sqrt(3.0) * speed / c;
+    // 1/(sqrt(1 + xi^2) - xi) = sqrt(1 + xi^2) + xi
+    return std::sqrt(3.0) * c / length * (std::sqrt(1.0 + xi * xi) + xi);
+  });
+  return 1.0 / rate;
+}
+
+ConstraintBalance& ConstraintBalance::operator+=(const ConstraintBalance& other) {
+  impulse += other.impulse;
+  work += other.work;
+  return *this;
+}
+
+ConstraintBalance advance_velocities(Mesh& mesh, double dt, Motion& motion,
+                                     std::span<const std::uint8_t> elsewhere) {
+  Nodes& nodes = mesh.nodes;
+  motion.mean.resize(nodes.size());
+  motion.end.resize(nodes.size());
+  return parallel::sum<ConstraintBalance>(nodes.size(), [&](std::size_t a) {
+    ConstraintBalance balance;
+    if (!elsewhere.empty() && elsewhere[a] != 0) return balance;
+    const Vector3 before = nodes.velocity[a];
+    Vector3 after = before + dt / nodes.mass[a] * nodes.force[a];
+    if (nodes.constrained[a] != constraint::none) {
+      for (int i = 0; i < 3; ++i) {
+        if ((nodes.constrained[a] & constraint::axis(i)) == 0) continue;
+        const double impulse = nodes.mass[a] * (nodes.prescribed[a][i] - after[i]);
+        after[i] = nodes.prescribed[a][i];
+        balance.impulse[i] = impulse;
+        balance.work += impulse * 0.5 * (before[i] + after[i]);
+      }
+    }
+    nodes.velocity[a] = after;
+    motion.mean[a] = 0.5 * (before + after);
+    motion.end[a] = after;
+    return balance;
+  });
+}
+
+void move_nodes(Mesh& mesh, const Motion& motion, double dt) {
+  parallel::for_each(mesh.nodes.size(), [&](std::size_t a) { mesh.nodes.position[a] += dt * motion.end[a]; });
+}
+
+void add_heat(Mesh& mesh, std::span<const double> node_heat) {
+  if (node_heat.size() != mesh.nodes.size()) throw InternalError("fem::add_heat: one heat per node");
+  const std::size_t n = points_per_element(mesh.quadrature);
+  parallel::for_each(mesh.elements.size(), [&](std::size_t e) {
+    double heat = 0.0;  // of the shares of the element in its nodes
+    for (std::size_t a = 0; a < 8; ++a) {
+      const std::uint32_t node = mesh.elements.corners[e][a];
+      if (node_heat[node] != 0.0) heat += node_heat[node] * corner_mass(mesh, e, a) / mesh.nodes.mass[node];
+    }
+    if (heat == 0.0) return;
+    const double per_mass = heat / mass(mesh, e);
+    for (std::size_t q = 0; q < n; ++q) mesh.points.specific_internal_energy[n * e + q] += per_mass;
+  });
+}
+
+}  // namespace whipple::fem

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "src/fem/mesh.hpp"
+
+/// The parts of an explicit step of finite elements, in the order in which a scheme calls them
+/// (docs/theory/fem.md, 1). Stresses are those of the Gauss points; between `deform` and the next
+/// `internal_forces` the caller runs `update_material` on them with the velocity gradients and with
+/// `points.length` as the lengths of the artificial viscosity. Energy: kinetic + internal + hourglass is
+/// constant to round-off whatever the stresses are. No function allocates per element or throws.
+namespace whipple::fem {
+
+/// Resistance of the four modes of a one-point element that its mean gradient does not see (eq. 3.3, 3.4).
+struct HourglassControl {
+  enum class Kind : std::uint8_t {
+    viscous,    ///< resists the rate; what it takes becomes heat at once
+    stiffness,  ///< resists the amplitude; its work is stored as hourglass energy
+  };
+  Kind kind = Kind::stiffness;
+  double coefficient = 0.05;  ///< share of the element's greatest stiffness, or of its critical damping
+};
+
+/// Coefficients of the artificial viscosity q = rho l |D| (c2 l |D| + c1 c) that enter the time step.
+struct ViscosityCoefficients {
+  double linear = 0.25;
+  double quadratic = 1.0;
+};
+
+/// Bound of the stable time step (s): the least 2/omega (sqrt(1 + xi^2) - xi) of the elements, with omega of
+/// the longitudinal sound speed and the element's length, xi of the artificial viscosity (eq. 5.1 to 5.3).
+/// Needs lengths (`make_mesh`, `deform`) and states. Infinite without elements.
+double critical_time_step(const Mesh& mesh, const ViscosityCoefficients& viscosity);
+
+/// Forces of stresses and hourglass control on the nodes, into `nodes.force` (eq. 2.4, 3.2, 4.3).
+void internal_forces(Mesh& mesh);
+
+/// Velocities of a step, one per node; grid nodes of a coupled run may give their own.
+struct Motion {
+  std::vector<Vector3> mean;  ///< m/s, of the velocities before and after the forces: the work
+  std::vector<Vector3> end;   ///< m/s, after the forces: displacement and strain of the step
+};
+
+/// What boundary conditions did in a step.
+struct ConstraintBalance {
+  Vector3 impulse = Vector3::Zero();  ///< N s, on the body
+  double work = 0.0;                  ///< J, on the body
+  ConstraintBalance& operator+=(const ConstraintBalance& other);
+};
+
+/// v <- v + dt f/m, then the prescribed components; `motion` gets the mean of old and new velocity, and the
+/// new one. Nodes of `elsewhere` (!= 0) are left alone with their part of `motion`: the caller fills it.
+/// @param elsewhere  empty, or one entry per node
+ConstraintBalance advance_velocities(Mesh& mesh, double dt, Motion& motion,
+                                     std::span<const std::uint8_t> elsewhere = {});
+
+/// What the deformation of a step did to the elements.
+struct DeformationReport {
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  double work = 0.0;            ///< J, of the stresses, into internal energy
+  double hourglass_work = 0.0;  ///< J, into hourglass energy (stiffness) or internal energy (viscous)
+  std::size_t inverted = 0;     ///< elements without positive volume (or Jacobian at a Gauss point)
+  std::size_t first_inverted = none;
+  DeformationReport& operator+=(const DeformationReport& other);
+};
+
+/// Velocity gradients, work and hourglass forces of the step that takes the nodes from their present
+/// positions to x + dt motion.end (eq. 2.5, 2.6, 3.1 to 3.6, 4.2 to 4.5); `points.length` becomes that of the
+/// end of the step. The volume that `update_material` makes of a gradient is exactly that of the element.
+/// @param velocity_gradient  1/s, one per Gauss point
+DeformationReport deform(Mesh& mesh, const Motion& motion, double dt, const HourglassControl& hourglass,
+                         std::span<Matrix3> velocity_gradient);
+
+/// x <- x + dt motion.end
+void move_nodes(Mesh& mesh, const Motion& motion, double dt);
+
+/// Shares heat given at the nodes (J) among their elements by mass (specific internal energy).
+void add_heat(Mesh& mesh, std::span<const double> node_heat);
+
+}  // namespace whipple::fem

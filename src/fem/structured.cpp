@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/fem/structured.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <unordered_map>
+
+#include "src/base/error.hpp"
+
+namespace whipple::fem {
+namespace {
+
+using Counts = std::array<std::size_t, 3>;
+/// From the unit cube to space.
+using Map = std::function<Vector3(double, double, double)>;
+
+void require_positive(const char* body, const char* what, double value) {
+  if (!(value > 0.0) || !std::isfinite(value)) {
+    throw InputError(fmt::format("mesh of a {}: {} must be positive, not {:.6g} m", body, what, value));
+  }
+}
+
+std::size_t divisions(double length, double size) {
+  return static_cast<std::size_t>(std::max(1.0, std::round(length / size)));
+}
+
+void turn_round(Corners& corners) {
+  for (std::size_t a = 0; a < 4; ++a) std::swap(corners[a], corners[a + 4]);
+}
+
+/// Appends a block of elements. The map must keep the orientation.
+void add_block(Hexahedra& mesh, const Counts& n, const Map& map) {
+  const std::size_t first = mesh.nodes.size();
+  for (std::size_t k = 0; k <= n[2]; ++k) {
+    for (std::size_t j = 0; j <= n[1]; ++j) {
+      for (std::size_t i = 0; i <= n[0]; ++i) {
+        const auto part = [](std::size_t m, std::size_t of) {
+          return static_cast<double>(m) / static_cast<double>(of);
+        };
+        mesh.nodes.push_back(map(part(i, n[0]), part(j, n[1]), part(k, n[2])));
+      }
+    }
+  }
+  const auto node = [&](std::size_t i, std::size_t j, std::size_t k) {
+    return static_cast<std::uint32_t>(first + i + (n[0] + 1) * (j + (n[1] + 1) * k));
+  };
+  for (std::size_t k = 0; k < n[2]; ++k) {
+    for (std::size_t j = 0; j < n[1]; ++j) {
+      for (std::size_t i = 0; i < n[0]; ++i) {
+        mesh.elements.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
+                                 node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1),
+                                 node(i, j + 1, k + 1)});
+      }
+    }
+  }
+}
+
+/// Adds the mirror images of what is at positive coordinates, then joins the parts.
+void complete(Hexahedra& mesh, std::size_t axes, const Halved& halved, double size) {
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    if (halved[axis]) continue;
+    Hexahedra image = mesh;
+    Matrix3 mirror = Matrix3::Identity();
+    mirror(static_cast<int>(axis), static_cast<int>(axis)) = -1.0;
+    transform(image, mirror, Vector3::Zero());
+    const auto offset = static_cast<std::uint32_t>(mesh.nodes.size());
+    mesh.nodes.insert(mesh.nodes.end(), image.nodes.begin(), image.nodes.end());
+    for (Corners& corners : image.elements) {
+      for (std::uint32_t& node : corners) node += offset;
+      mesh.elements.push_back(corners);
+    }
+  }
+  merge_nodes(mesh, 1e-6 * size);
+}
+
+// Shares of the radius: half-diagonal of the core and half of its width at the middle of a side.
+constexpr double core_corner = 0.62, core_middle = 0.5;
+constexpr double eighth_turn = 0.25 * std::numbers::pi;
+
+}  // namespace
+
+void transform(Hexahedra& hexahedra, const Matrix3& rotation, const Vector3& translation) {
+  for (Vector3& x : hexahedra.nodes) x = rotation * x + translation;
+  if (rotation.determinant() < 0.0) std::ranges::for_each(hexahedra.elements, turn_round);
+}
+
+void merge_nodes(Hexahedra& hexahedra, double tolerance) {
+  // Nodes by cells of four tolerances; whatever is near a node lies in one of the 8 cells that its box of
+  // +- one tolerance touches.
+  using Cell = std::array<std::int64_t, 3>;
+  struct Hash {
+    std::size_t operator()(const Cell& c) const {
+      std::size_t h = 0;
+      for (const std::int64_t i : c) h = h * 0x9e3779b97f4a7c15ULL + static_cast<std::size_t>(i);
+      return h ^ (h >> 29U);
+    }
+  };
+  const double width = 4.0 * tolerance;
+  const auto cell = [&](const Vector3& x) {
+    Cell c;
+    for (std::size_t i = 0; i < 3; ++i)
+      c[i] = static_cast<std::int64_t>(std::floor(x[static_cast<int>(i)] / width));
+    return c;
+  };
+  std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> nodes_of;
+  std::vector<Vector3> kept;
+  std::vector<std::uint32_t> renumbered(hexahedra.nodes.size());
+  for (std::size_t a = 0; a < hexahedra.nodes.size(); ++a) {
+    const Vector3& x = hexahedra.nodes[a];
+    auto found = static_cast<std::uint32_t>(kept.size());
+    for (unsigned k = 0; k < 8 && found == kept.size(); ++k) {
+      const auto side = [&](unsigned bit) { return (k >> bit & 1U) != 0 ? tolerance : -tolerance; };
+      const auto near = nodes_of.find(cell(x + Vector3(side(0), side(1), side(2))));
+      if (near == nodes_of.end()) continue;
+      for (const std::uint32_t b : near->second) {
+        if ((kept[b] - x).norm() <= tolerance) found = b;
+      }
+    }
+    if (found == kept.size()) {
+      nodes_of[cell(x)].push_back(found);
+      kept.push_back(x);
+    }
+    renumbered[a] = found;
+  }
+  hexahedra.nodes = std::move(kept);
+  for (Corners& corners : hexahedra.elements) {
+    for (std::uint32_t& node : corners) node = renumbered[node];
+  }
+}
+
+Hexahedra make_box(const Vector3& lower, const Vector3& upper, const Counts& counts) {
+  for (int i = 0; i < 3; ++i) require_positive("box", "each edge", upper[i] - lower[i]);
+  if (std::ranges::count(counts, 0U) > 0)
+    throw InputError("mesh of a box: each edge needs at least one element");
+  Hexahedra mesh;
+  add_block(mesh, counts, [&](double u, double v, double w) {
+    return Vector3(lower + (upper - lower).cwiseProduct(Vector3(u, v, w)));
+  });
+  return mesh;
+}
+
+Hexahedra make_box(const Vector3& lower, const Vector3& upper, double size) {
+  require_positive("box", "the size of an element", size);
+  Counts counts;
+  for (int i = 0; i < 3; ++i) {
+    require_positive("box", "each edge", upper[i] - lower[i]);
+    counts[static_cast<std::size_t>(i)] = divisions(upper[i] - lower[i], size);
+  }
+  return make_box(lower, upper, counts);
+}
+
+Hexahedra make_cylinder(double radius, double length, double size, const Halved& halved) {
+  require_positive("cylinder", "the radius", radius);
+  require_positive("cylinder", "the length", length);
+  require_positive("cylinder", "the size of an element", size);
+  const std::size_t core = divisions(core_middle * radius, size);
+  const std::size_t ring = divisions((1.0 - core_middle) * radius, size);
+  const std::size_t axial = divisions(length, size);
+  const double corner = core_corner * radius * std::sqrt(0.5), bulge = core_middle * radius - corner;
+  const auto core_point = [=](double u, double v) {
+    return Vector3(u * (corner + bulge * (1.0 - v * v)), v * (corner + bulge * (1.0 - u * u)), 0.0);
+  };
+  const auto between = [=](const Vector3& inner, double angle, double share, double w) {
+    const Vector3 outer(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+    return Vector3(inner + share * (outer - inner) + Vector3(0.0, 0.0, w * length));
+  };
+  Hexahedra mesh;  // a quarter
+  add_block(mesh, {core, core, axial}, [&](double u, double v, double w) {
+    return Vector3(core_point(u, v) + Vector3(0.0, 0.0, w * length));
+  });
+  add_block(mesh, {ring, core, axial}, [&](double share, double v, double w) {
+    return between(core_point(1.0, v), v * eighth_turn, share, w);
+  });
+  add_block(mesh, {core, ring, axial}, [&](double u, double share, double w) {
+    return between(core_point(u, 1.0), (2.0 - u) * eighth_turn, share, w);
+  });
+  complete(mesh, 2, halved, size);
+  return mesh;
+}
+
+Hexahedra make_tube(double inner_radius, double outer_radius, double length, double size,
+                    const Halved& halved) {
+  require_positive("tube", "the inner radius", inner_radius);
+  require_positive("tube", "the outer radius less the inner one", outer_radius - inner_radius);
+  require_positive("tube", "the length", length);
+  require_positive("tube", "the size of an element", size);
+  const std::size_t radial = divisions(outer_radius - inner_radius, size);
+  const std::size_t around = std::max<std::size_t>(2, divisions(2.0 * eighth_turn * outer_radius, size));
+  Hexahedra mesh;
+  add_block(mesh, {radial, around, divisions(length, size)}, [&](double u, double v, double w) {
+    const double r = inner_radius + u * (outer_radius - inner_radius), angle = 2.0 * eighth_turn * v;
+    return Vector3(r * std::cos(angle), r * std::sin(angle), w * length);
+  });
+  complete(mesh, 2, halved, size);
+  return mesh;
+}
+
+Hexahedra make_sphere(double radius, double size, const Halved& halved) {
+  require_positive("sphere", "the radius", radius);
+  require_positive("sphere", "the size of an element", size);
+  const std::size_t core = divisions(core_middle * radius, size);
+  const std::size_t layer = divisions((1.0 - core_middle) * radius, size);
+  const double corner = core_corner * radius / std::sqrt(3.0), bulge = core_middle * radius - corner;
+  const auto core_point = [=](double u, double v, double w) {
+    const auto along = [=](double x, double y, double z) {
+      return x * (corner + bulge * (1.0 - 0.5 * (y * y + z * z)));
+    };
+    return Vector3(along(u, v, w), along(v, w, u), along(w, u, v));
+  };
+  Hexahedra mesh;  // an octant
+  add_block(mesh, {core, core, core}, core_point);
+  // Towards x; the other two by turning the axes.
+  const Map towards_x = [&](double share, double v, double w) {
+    const Vector3 inner = core_point(1.0, v, w);
+    const Vector3 outer =
+        radius * Vector3(1.0, std::tan(v * eighth_turn), std::tan(w * eighth_turn)).normalized();
+    return Vector3(inner + share * (outer - inner));
+  };
+  add_block(mesh, {layer, core, core}, towards_x);
+  add_block(mesh, {layer, core, core}, [&](double share, double v, double w) {
+    const Vector3 x = towards_x(share, v, w);
+    return Vector3(x[2], x[0], x[1]);
+  });
+  add_block(mesh, {layer, core, core}, [&](double share, double v, double w) {
+    const Vector3 x = towards_x(share, v, w);
+    return Vector3(x[1], x[2], x[0]);
+  });
+  complete(mesh, 3, halved, size);
+  return mesh;
+}
+
+}  // namespace whipple::fem

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "src/fem/mesh.hpp"
+
+/// Structured meshes of simple bodies (docs/theory/fem.md, 7). Lengths in m; `size` is the wanted edge of an
+/// element, met as nearly as whole numbers allow, with at least one element per part. Curved surfaces are
+/// those of the trilinear elements with their nodes on the exact surface: the volume is smaller than that of
+/// the body, by O(size^2).
+namespace whipple::fem {
+
+/// Which half of a body along each axis is made: all, or what lies at positive coordinates (models with
+/// symmetry planes).
+using Halved = std::array<bool, 3>;
+
+/// @throws InputError if the box is empty or a count is 0
+Hexahedra make_box(const Vector3& lower, const Vector3& upper, const std::array<std::size_t, 3>& counts);
+/// @throws InputError if the box is empty or the size is not positive
+Hexahedra make_box(const Vector3& lower, const Vector3& upper, double size);
+
+/// Butterfly mesh of a cylinder about the z axis from z = 0 to `length`: a square core with bulged edges and
+/// a ring around it. `halved[2]` is not used.
+/// @throws InputError if a length is not positive
+Hexahedra make_cylinder(double radius, double length, double size, const Halved& halved = {});
+
+/// Tube about the z axis from z = 0 to `length`; `halved[2]` is not used.
+/// @throws InputError if a length is not positive or the inner radius not below the outer one
+Hexahedra make_tube(double inner_radius, double outer_radius, double length, double size,
+                    const Halved& halved = {});
+
+/// Sphere about the origin: a cube with bulged faces and a layer around it.
+/// @throws InputError if a length is not positive
+Hexahedra make_sphere(double radius, double size, const Halved& halved = {});
+
+/// x <- rotation x + translation; a reflection turns the elements round, so that they stay upright.
+void transform(Hexahedra& hexahedra, const Matrix3& rotation, const Vector3& translation);
+
+/// Makes one node of nodes that are nearer than `tolerance` (m) to each other.
+void merge_nodes(Hexahedra& hexahedra, double tolerance);
+
+}  // namespace whipple::fem
