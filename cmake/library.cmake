@@ -54,13 +54,16 @@ if(WHIPPLE_PRECOMPILED_HEADERS)
   whipple_precompiled_headers(whipple_precompiled HEADERS ${whipple_heavy_headers} DEPENDS Eigen3::Eigen)
 endif()
 
-# whipple_library(NAME SOURCES a.cpp ... DEPENDS lib ...): one folder, one static library whipple_NAME.
+# whipple_library(NAME SOURCES a.cpp ... DEPENDS lib ... PRECOMPILED target): one folder, one static library whipple_NAME.
 function(whipple_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "PRECOMPILED" "SOURCES;DEPENDS" ${ARGN})
   add_library(whipple_${name} STATIC ${ARG_SOURCES})
   target_link_libraries(whipple_${name} PUBLIC whipple_flags ${ARG_DEPENDS})
+  if(NOT ARG_PRECOMPILED)
+    set(ARG_PRECOMPILED whipple_precompiled)
+  endif()
   if(WHIPPLE_PRECOMPILED_HEADERS)
-    target_precompile_headers(whipple_${name} REUSE_FROM whipple_precompiled)
+    target_precompile_headers(whipple_${name} REUSE_FROM ${ARG_PRECOMPILED})
   endif()
 endfunction()
 

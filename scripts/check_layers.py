@@ -31,6 +31,8 @@ MAY_USE = {
                   "src/io"],
     "src/solver": ["src/base", "src/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
                    "src/fem", "src/contact", "src/afemp", "src/io", "src/setup"],
+    # Times the solver.
+    "src/bench": ["src/base", "src/parallel", "src/process", "src/particles", "src/grid", "src/transfer", "src/setup", "src/solver"],
     # Reads what runs wrote; knows no solver.
     "src/analysis": ["src/base", "src/input", "src/parallel", "src/hdf5"],
     "md_fitting/data_set": ["src/base", "src/hdf5"],
@@ -42,7 +44,7 @@ MAY_USE = {
     "md_fitting": ["src/base", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],
     # The program whipple: it starts the other two, so of their side it knows the plan's keys only.
     "src/app": ["src/base", "src/input", "src/parallel", "src/process", "eos", "eos/files", "src/particles", "src/grid", "src/material",
-                "src/transfer", "src/io", "src/analysis", "src/setup", "src/solver", "md_fitting/plan"],
+                "src/transfer", "src/io", "src/analysis", "src/setup", "src/solver", "src/bench", "md_fitting/plan"],
 }
 
 # CMake library -> module, where the name is not the last part of the folder.

@@ -24,7 +24,7 @@ set_tests_properties(eos_table_error_test.at_a_million_states PROPERTIES
 whipple_test(eos_table_file_test SOURCES unit/eos_table_file_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
 whipple_test(eos_sesame_test SOURCES unit/eos_sesame_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
 
-add_executable(eos_benchmark benchmark/eos_benchmark.cpp)
+add_executable(eos_benchmark EXCLUDE_FROM_ALL benchmark/eos_benchmark.cpp)
 target_link_libraries(eos_benchmark PRIVATE whipple_eos benchmark::benchmark)
 
 whipple_test(eos_command_test SOURCES unit/eos_command_test.cpp DEPENDS GTest::gmock fmt::fmt LABELS fast)

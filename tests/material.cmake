@@ -10,5 +10,5 @@ whipple_test(test_material_modifiers SOURCES unit/material_modifiers_test.cpp DE
 whipple_test(test_material_file SOURCES unit/material_file_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
 
 # Measured, not asserted: benchmark_material --benchmark_min_time=0.2
-add_executable(benchmark_material benchmark/material_benchmark.cpp)
+add_executable(benchmark_material EXCLUDE_FROM_ALL benchmark/material_benchmark.cpp)
 target_link_libraries(benchmark_material PRIVATE whipple_flags whipple_material benchmark::benchmark)

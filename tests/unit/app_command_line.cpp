@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -103,6 +104,43 @@ TEST_F(CommandLine, WrongArgumentsHaveExitCodeTwo) {
   EXPECT_EQ(whipple("md plan.toml --ranks 0").code, 2) << "out of range";
   EXPECT_EQ(whipple("version surplus").code, 2);
   EXPECT_EQ(whipple("units '3 m'").code, 2) << "--to is missing";
+}
+
+TEST_F(CommandLine, BenchWritesItsFiguresAndComparesThem) {
+  const Result first = whipple("bench taylor_bar_musl --quick --json first.json");
+  ASSERT_EQ(first.code, 0) << first.err;
+  for (const char* what : {"triad", "particles to grid", "material", "whole step", "of bandwidth"}) {
+    EXPECT_THAT(first.out, HasSubstr(what));
+  }
+  const nlohmann::json record = nlohmann::json::parse(text_of(folder_ / "first.json"));
+  EXPECT_GT(record.at("bandwidth_bytes_per_s"), 1e8);
+  const nlohmann::json& measured = record.at("measurements").at(0);
+  double of_stages = 0.0;
+  for (const nlohmann::json& stage : measured.at("stages")) {
+    of_stages += stage.at("ns_per_particle_step").get<double>();
+  }
+  const double whole = measured.at("ns_per_particle_step");
+  EXPECT_LE(of_stages, whole);
+  EXPECT_GE(of_stages, 0.8 * whole) << "time is spent outside of the stages";
+  EXPECT_GT(measured.at("peak_memory_bytes"),
+            measured.at("bytes_per_particle").get<double>() * measured.at("particles").get<double>());
+
+  const Result second = whipple("bench taylor_bar_musl --quick --ranks 1,2 --compare first.json");
+  ASSERT_EQ(second.code, 0) << second.err;
+  EXPECT_THAT(second.out, HasSubstr("now / before"));
+  EXPECT_THAT(second.out, HasSubstr("efficiency"));
+}
+
+TEST_F(CommandLine, BenchRefusesWhatItDoesNotKnowBeforeItMeasures) {
+  const Result unknown = whipple("bench taylor");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("there is no problem \"taylor\"; there are taylor_bar, "));
+  write("other.json", "{}");
+  const Result other = whipple("bench taylor_bar --compare other.json");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.err, HasSubstr("not written by whipple bench --json"));
+  EXPECT_EQ(whipple("bench taylor_bar --json other.json").code, 2) << "the file exists";
+  EXPECT_EQ(text_of(folder_ / "other.json"), "{}");
 }
 
 TEST_F(CommandLine, ARestartKeepsGridAndBodies) {

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// What the machine can do, measured in the same call as the problems: speeds of the code are worth something
+/// beside these only.
+namespace whipple::bench {
+
+struct MachineRates {
+  double bandwidth = 0.0;   ///< bytes/s, triad a = b + s c over arrays far larger than the caches
+  double arithmetic = 0.0;  ///< flop/s, fused multiply-adds of four doubles in registers
+};
+
+/// The rates of `threads` threads of this process together, best of several repetitions (about a second).
+MachineRates measure_machine(int threads);
+
+}  // namespace whipple::bench

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/bench/measurement.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "src/base/error.hpp"
+#include "src/bench/stage_cost.hpp"
+#include "src/parallel/mpi.hpp"
+#include "src/parallel/threads.hpp"
+#include "src/process/paths.hpp"
+#include "src/solver/simulation.hpp"
+
+namespace whipple::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t parts = 5;  // of the timed steps; the best one counts
+
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+/// All matter flies on without forces (see Problem::thinning).
+solver::Simulation thinned(const setup::Case& setup, const solver::Simulation& formed, double time) {
+  Particles particles = formed.particles();
+  for (std::size_t p = 0; p < particles.size(); ++p) particles.position[p] += time * particles.velocity[p];
+  return {setup, std::move(particles), formed.state(), formed.communicator()};
+}
+
+/// Nodes and particles of all ranks.
+std::array<double, 2> nodes_and_particles(const solver::Simulation& simulation) {
+  std::array<double, 2> counts = {static_cast<double>(simulation.grid().slots()) * grid::nodes_per_block,
+                                  static_cast<double>(simulation.particles().size())};
+  parallel::sum(simulation.communicator(), counts);
+  return counts;
+}
+
+struct Part {
+  double particle_steps = 0.0;
+  double nanoseconds = std::numeric_limits<double>::infinity();  // per particle and step
+  std::vector<solver::Profile::Stage> stages;
+};
+
+/// Advances `steps` steps (or to the end of the case) and times them.
+Part time_steps(solver::Simulation& simulation, std::size_t steps) {
+  const double end = simulation.setup().time.end;
+  Part part;
+  simulation.profile().clear();
+  const Clock::time_point begin = Clock::now();
+  for (std::size_t i = 0; i < steps && simulation.state().time < end; ++i) {
+    part.particle_steps += static_cast<double>(simulation.particle_count());
+    simulation.advance(end);
+  }
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  part.nanoseconds = 1e9 * seconds / part.particle_steps;
+  part.stages = simulation.profile().stages();
+  return part;
+}
+
+}  // namespace
+
+Measurement measure(const Problem& problem, int threads, Length length) {
+  const MPI_Comm world = parallel::world();
+  parallel::set_threads(threads);
+  const setup::Case setup =
+      setup::read_case(process::find_data(problem.case_file).string(), problem.overrides);
+  std::optional<solver::Simulation> simulation(std::in_place, setup, world);
+  const bool whole = length == Length::whole;
+  const int share = length == Length::quick ? 5 : 1;
+  if (!whole) {
+    for (int i = 0; i < problem.steps_before / share; ++i) simulation->advance(setup.time.end);
+    if (problem.thinning > 0.0) {
+      simulation.emplace(thinned(setup, *simulation, problem.thinning));
+      simulation->advance(setup.time.end);
+    }
+  }
+  Part best;
+  const std::int64_t first_step = simulation->state().step;
+  const std::size_t steps = static_cast<std::size_t>(problem.steps / share) / parts;
+  for (std::size_t i = 0; i < (whole ? 1 : parts); ++i) {
+    Part part = time_steps(*simulation,
+                           whole ? std::numeric_limits<std::size_t>::max() : std::max(steps, std::size_t{2}));
+    std::array<double, 1> slowest = {part.nanoseconds};
+    parallel::maximum(world, slowest);
+    part.nanoseconds = slowest[0];
+    if (part.nanoseconds < best.nanoseconds) best = std::move(part);
+  }
+
+  const auto [nodes, particles] = nodes_and_particles(*simulation);
+  std::array<double, 1> memory = {static_cast<double>(simulation->bytes())};
+  parallel::sum(world, memory);
+  std::array<double, 1> peak = {peak_memory()};
+  parallel::maximum(world, peak);
+  Measurement result{.problem = problem.name,
+                     .ranks = parallel::size(world),
+                     .threads = threads,
+                     .particles = simulation->particle_count(),
+                     .steps = static_cast<std::size_t>(simulation->state().step - first_step),
+                     .nanoseconds = best.nanoseconds,
+                     .particles_per_block = particles / nodes * grid::nodes_per_block,
+                     .bytes_per_particle = memory[0] / particles,
+                     .peak_memory = peak[0],
+                     .stages = {}};
+  for (const solver::Profile::Stage& stage : best.stages) {
+    const StageCost cost = stage_cost(stage.name, setup, nodes / particles);
+    result.stages.push_back({stage.name, 1e9 * stage.seconds / best.particle_steps, cost.bytes, cost.flops});
+  }
+  return result;
+}
+
+nlohmann::json to_json(const Measurement& m) {
+  nlohmann::json stages = nlohmann::json::array();
+  for (const StageMeasurement& stage : m.stages) {
+    stages.push_back({{"stage", stage.name},
+                      {"ns_per_particle_step", stage.nanoseconds},
+                      {"bytes_per_particle_step", stage.bytes},
+                      {"flops_per_particle_step", stage.flops}});
+  }
+  return {{"problem", m.problem},
+          {"ranks", m.ranks},
+          {"threads", m.threads},
+          {"particles", m.particles},
+          {"steps", m.steps},
+          {"ns_per_particle_step", m.nanoseconds},
+          {"particles_per_block", m.particles_per_block},
+          {"bytes_per_particle", m.bytes_per_particle},
+          {"peak_memory_bytes", m.peak_memory},
+          {"stages", stages}};
+}
+
+Measurement from_json(const nlohmann::json& json) {
+  try {
+    Measurement m{.problem = json.at("problem"),
+                  .ranks = json.at("ranks"),
+                  .threads = json.at("threads"),
+                  .particles = json.at("particles"),
+                  .steps = json.at("steps"),
+                  .nanoseconds = json.at("ns_per_particle_step"),
+                  .particles_per_block = json.at("particles_per_block"),
+                  .bytes_per_particle = json.at("bytes_per_particle"),
+                  .peak_memory = json.at("peak_memory_bytes"),
+                  .stages = {}};
+    for (const nlohmann::json& stage : json.at("stages")) {
+      m.stages.push_back({stage.at("stage"), stage.at("ns_per_particle_step"),
+                          stage.at("bytes_per_particle_step"), stage.at("flops_per_particle_step")});
+    }
+    return m;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(std::string("no measurement of whipple bench: ") + error.what());
+  }
+}
+
+}  // namespace whipple::bench

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "src/bench/problems.hpp"
+
+namespace whipple::bench {
+
+/// Time, traffic and arithmetic of a stage per particle and step.
+struct StageMeasurement {
+  std::string name;
+  double nanoseconds = 0.0;  ///< wall clock
+  double bytes = 0.0;        ///< that must move at least; 0: not counted
+  double flops = 0.0;        ///< that the equations need; 0: not counted
+};
+
+/// One problem on so many ranks and threads.
+struct Measurement {
+  std::string problem;
+  int ranks = 1;
+  int threads = 1;  ///< of each rank
+  std::size_t particles = 0;
+  std::size_t steps = 0;
+  double nanoseconds = 0.0;  ///< wall clock per particle and step, best of several parts of the run
+  double particles_per_block = 0.0;
+  double bytes_per_particle = 0.0;  ///< memory of the fields and the grid, all ranks
+  double peak_memory = 0.0;         ///< bytes, resident, of the largest rank's process
+  std::vector<StageMeasurement> stages;
+
+  [[nodiscard]] int cores() const { return ranks * threads; }
+};
+
+enum class Length {
+  quick,  ///< a fifth of the steps
+  normal,
+  whole,  ///< from the beginning to the end of the case
+};
+
+/// Times a problem on the ranks of this process's world. Collective.
+Measurement measure(const Problem& problem, int threads, Length length);
+
+nlohmann::json to_json(const Measurement& measurement);
+/// @throws InputError if keys are missing
+Measurement from_json(const nlohmann::json& json);
+
+}  // namespace whipple::bench

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/bench/problems.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "src/base/error.hpp"
+
+namespace whipple::bench {
+namespace {
+
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+
+/// What most peers compute with, and what their published speeds belong to.
+const Overrides linear_musl = {{"time.scheme", "musl"},
+                               {"transfer.particle_update", "flip"},
+                               {"transfer.shape_function", "linear"},
+                               {"output.maximum_energy_error", "1"}};
+
+/// The quarter model of the case as the whole sphere and plate: 138,278 particles in the peer's input.
+const Overrides whole_model = {{"domain.lower", "['-80.56 mm', '-118.72 mm', '-118.72 mm']"},
+                               {"domain.boundary.y_lower", "outflow"},
+                               {"domain.boundary.z_lower", "outflow"}};
+
+Overrides together(Overrides first, const Overrides& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+std::vector<Problem> all_problems() {
+  const std::string taylor = "cases/taylor_bar/case.toml";
+  const std::string lead = "cases/lead_sphere_on_plate/case.toml";
+  const std::string lead_gray = "cases/lead_sphere_on_plate_gray/case.toml";
+  const std::string disk = "cases/copper_disk_on_aluminium/case.toml";
+  return {
+      {.name = "taylor_bar",
+       .what = "Johnson-Cook, Mie-Grueneisen, default scheme",
+       .case_file = taylor,
+       .overrides = {{"domain.cell_size", "0.475 mm"}},
+       .steps_before = 20,
+       .steps = 100},
+      {.name = "taylor_bar_musl",
+       .what = "the same with linear MUSL",
+       .case_file = taylor,
+       .overrides = together({{"domain.cell_size", "0.475 mm"}}, linear_musl),
+       .steps_before = 20,
+       .steps = 100},
+      {.name = "lead_impact",
+       .what = "lead sphere on plate during penetration, Mie-Grueneisen, default scheme",
+       .case_file = lead,
+       .overrides = whole_model,
+       .steps_before = 50,
+       .steps = 50},
+      {.name = "lead_impact_musl",
+       .what = "the same with linear MUSL",
+       .case_file = lead,
+       .overrides = together(whole_model, linear_musl),
+       .steps_before = 50,
+       .steps = 50},
+      {.name = "lead_impact_gray",
+       .what = "the same with three-phase GRAY, default scheme, 14 cells across the sphere",
+       .case_file = lead_gray,
+       .overrides = {},
+       .steps_before = 100,
+       .steps = 50},
+      {.name = "lead_impact_million",
+       .what = "lead_impact with half the cell size: eight times the particles",
+       .case_file = lead,
+       .overrides = together(whole_model, {{"domain.cell_size", "1.06 mm"}}),
+       .steps_before = 20,
+       .steps = 10},
+      {.name = "debris_cloud",
+       .what = "copper disk on aluminium, three-phase GRAY, cloud formed",
+       .case_file = disk,
+       .overrides = {{"domain.cell_size", "0.5 mm"}},
+       .steps_before = 200,
+       .steps = 50},
+      {.name = "late_cloud",
+       .what = "the same cloud, thinned to about 1/16 particle per cell",
+       .case_file = disk,
+       .overrides = {{"domain.cell_size", "0.5 mm"},
+                     {"domain.lower", "['0 mm', '0 mm', '-500 mm']"},
+                     {"domain.upper", "['1000 mm', '1000 mm', '1500 mm']"},
+                     {"time.end", "1 ms"}},
+       .steps_before = 200,
+       .steps = 30,
+       .thinning = 20e-6},
+  };
+}
+
+}  // namespace
+
+const std::vector<Problem>& problems() {
+  static const std::vector<Problem> list = all_problems();
+  return list;
+}
+
+const Problem& find_problem(std::string_view name) {
+  const auto found = std::ranges::find(problems(), name, &Problem::name);
+  if (found != problems().end()) return *found;
+  std::vector<std::string> names;
+  for (const Problem& problem : problems()) names.push_back(problem.name);
+  throw InputError(fmt::format("there is no problem \"{}\"; there are {}", name, fmt::join(names, ", ")));
+}
+
+}  // namespace whipple::bench

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string_view>
+
+#include "src/setup/case.hpp"
+
+namespace whipple::bench {
+
+/// What a stage of the step costs at least, per particle.
+struct StageCost {
+  double bytes = 0.0;
+  double flops = 0.0;
+};
+
+/// Bytes: every field that the stage reads or writes moves once between memory and core, and so do the nodes
+/// of the active blocks where the stage sweeps them. Flops: additions and multiplications of the equations on
+/// the nodes that a particle reaches, without the constitutive models, which depend on the state. Stages that
+/// are not counted cost 0.
+/// @param stage  its name in solver::Profile
+/// @param nodes_per_particle  nodes of the active blocks over particles
+StageCost stage_cost(std::string_view stage, const setup::Case& setup, double nodes_per_particle);
+
+}  // namespace whipple::bench
