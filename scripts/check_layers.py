@@ -156,7 +156,7 @@ def check_cmake(root):
             continue
         text = re.sub(r"#.*", "", path.read_text(encoding="utf-8"))
         for body in re.findall(r"whipple_library\s*\(([^)]*)\)", text):
-            for library in re.findall(r"\bwhipple_\w+", body):
+            for library in re.findall(r"\bwhipple_\w+", body.partition("DEPENDS")[2]):
                 used = LIBRARY_OF.get(library, "src/" + library.removeprefix("whipple_"))
                 if used not in MAY_USE:
                     faults.append(f"{relative}: {library} is in no layer")
