@@ -35,6 +35,16 @@ inline Lanes absolute(Lanes x) { return Lanes(_mm256_andnot_pd(_mm256_set1_pd(-0
 /// Four numbers from memory without alignment.
 inline Lanes load(const double* from) { return Lanes(_mm256_loadu_pd(from)); }
 inline void store(double* to, Lanes x) { _mm256_storeu_pd(to, __m256d(x)); }
+/// Three numbers from memory in lanes 0 to 2, and back; lane 3 is 0.
+inline Lanes load_vector(const double* from) {
+  return Lanes(_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(from)), _mm_load_sd(from + 2), 1));
+}
+inline void store_vector(double* to, Lanes x) {
+  _mm_storeu_pd(to, _mm256_castpd256_pd128(__m256d(x)));
+  _mm_store_sd(to + 2, _mm256_extractf128_pd(__m256d(x), 1));
+}
+/// One number from memory in all lanes.
+inline Lanes broadcast_from(const double* from) { return Lanes(_mm256_broadcast_sd(from)); }
 /// The first `count` numbers from memory, the other lanes hold `rest`; and back.
 inline Lanes load(const double* from, std::size_t count, double rest) {
   if (count >= 4) return load(from);

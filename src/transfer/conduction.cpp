@@ -18,18 +18,17 @@ constexpr double no_capacity = 1e-300;  // J/K; below it the temperature of a no
 
 /// Calls f(node, N, grad N) for the nodes of a particle.
 template <class Access, class Function>
-void for_each_node(const Particles& particles, std::size_t p, const grid::Geometry& geometry,
-                   const grid::BlockCoordinate& block, Access& access, Function&& f) {
-  const auto [wx, wy, wz] = weights_at<Shape>(particles, p, geometry, block);
+void for_each_node(const Particles& particles, std::size_t p, const BlockFrame& frame, Access& access,
+                   Function&& f) {
+  const Weights<Shape::count> w = weights_at<Shape>(particles, p, frame);
+  const auto nodes = access.stencil(w.first_node());
   for (std::size_t i = 0; i < Shape::count; ++i) {
     for (std::size_t j = 0; j < Shape::count; ++j) {
       for (std::size_t k = 0; k < Shape::count; ++k) {
-        Node* node = access.node(wx.first + static_cast<int>(i), wy.first + static_cast<int>(j),
-                                 wz.first + static_cast<int>(k));
-        const Vector3 gradient(wx.derivative[i] * wy.weight[j] * wz.weight[k],
-                               wx.weight[i] * wy.derivative[j] * wz.weight[k],
-                               wx.weight[i] * wy.weight[j] * wz.derivative[k]);
-        f(*node, wx.weight[i] * wy.weight[j] * wz.weight[k], gradient);
+        const double wx = w.weight[i][0], wy = w.weight[j][1], wz = w.weight[k][2];
+        const Vector3 gradient(w.derivative[i][0] * wy * wz, wx * w.derivative[j][1] * wz,
+                               wx * wy * w.derivative[k][2]);
+        f(nodes(i, j, k), wx * wy * wz, gradient);
       }
     }
   }
@@ -41,21 +40,14 @@ void scatter(const Particles& particles, BlockGrid& grid, Bring&& bring) {
   for (const std::vector<std::uint32_t>& colour : grid.colours()) {
     parallel::for_each_uneven(colour.size(), [&](std::size_t i) {
       const std::size_t slot = colour[i];
-      const auto all = [&](auto& access) {
-        for (const std::uint32_t p : grid.particles_in(slot)) {
-          for_each_node(particles, p, grid.geometry(), grid.coordinate(slot), access,
+      const std::span<const std::uint32_t> members = grid.particles_in(slot);
+      const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
+      add_to_nodes<Shape, Node>(grid, slot, members.size(), [&](auto& access) {
+        for (const std::uint32_t p : members) {
+          for_each_node(particles, p, frame, access,
                         [&](Node& node, double n, const Vector3& gradient) { bring(node, p, n, gradient); });
         }
-      };
-      if (grid.particles_in(slot).size() < direct_access_below) {
-        DirectAccess access(grid, slot);
-        all(access);
-      } else {
-        ReachCopy copy;
-        copy.clear();
-        all(copy);
-        copy.add_to(grid, slot);
-      }
+      });
     });
   }
 }
@@ -64,14 +56,14 @@ void scatter(const Particles& particles, BlockGrid& grid, Bring&& bring) {
 template <class Function>
 void gather(const Particles& particles, BlockGrid& grid, Function&& f) {
   parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
-    if (grid.particles_in(slot).empty()) return;
-    ReachCopy copy;
-    copy.load(grid, slot);
-    for (const std::uint32_t p : grid.particles_in(slot)) {
-      f(p, [&](auto&& of_node) {
-        for_each_node(particles, p, grid.geometry(), grid.coordinate(slot), copy, of_node);
-      });
-    }
+    const std::span<const std::uint32_t> members = grid.particles_in(slot);
+    if (members.empty()) return;
+    const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
+    read_nodes<Shape, Node>(grid, slot, members.size(), [&](auto& access) {
+      for (const std::uint32_t p : members) {
+        f(p, [&](auto&& of_node) { for_each_node(particles, p, frame, access, of_node); });
+      }
+    });
   });
 }
 

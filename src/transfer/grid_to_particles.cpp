@@ -7,6 +7,7 @@
 #include "src/base/error.hpp"
 #include "src/parallel/threads.hpp"
 #include "src/transfer/node_access.hpp"
+#include "src/transfer/node_sums.hpp"
 #include "src/transfer/transition_nodes.hpp"
 
 namespace whipple::transfer {
@@ -15,211 +16,175 @@ namespace {
 using grid::BlockGrid;
 using grid::Node;
 
-Lanes lanes(const Vector3& v) { return Lanes{v[0], v[1], v[2], 0.0}; }
 Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
 
-/// Broadcast of the last lane (the node's beta).
-Lanes last(Lanes v) { return __builtin_shuffle(v, (__v4di){3, 3, 3, 3}); }
-
-/// Sums over the nodes of a particle (docs/theory/mpm.md, equations 4.2 to 4.7); lane 3 of each is
-/// meaningless.
-struct Moments {
-  Lanes velocity = broadcast(0.0);            // sum N v
-  Lanes increment = broadcast(0.0);           // sum N d
-  Lanes relaxed = broadcast(0.0);             // sum N beta D
-  Lanes loss = broadcast(0.0);                // sum N [beta D (D - d) + d d / 2], per component
-  std::array<Lanes, 3> velocity_gradient{};   // sum dN/dx_a v
-  std::array<Lanes, 3> increment_gradient{};  // sum dN/dx_a d
-  std::array<Lanes, 3> increment_moment{};    // sum N d r_a
-  std::array<Lanes, 3> relaxed_moment{};      // sum N beta D r_a
-};
-
-/// D = a_p(x_i) - v_i is the difference of the particle's affine field and the grid's velocity at node i.
-template <class Shape, bool affine, class Access>
-Moments gather(const std::array<AxisWeights<Shape::count>, 3>& weights, Lanes v,
-               const std::array<Lanes, 3>& c, Access& access) {
-  const auto& [wx, wy, wz] = weights;
-  Moments m;
-  for (std::size_t i = 0; i < Shape::count; ++i) {
-    for (std::size_t j = 0; j < Shape::count; ++j) {
-      Lanes field = v;
-      if constexpr (affine) field += wx.distance[i] * c[0] + wy.distance[j] * c[1];
-      Lanes v0 = broadcast(0.0), vz = v0, d0 = v0, d1 = v0, dz = v0, b0 = v0, b1 = v0, loss = v0;
-      for (std::size_t k = 0; k < Shape::count; ++k) {
-        const Node* node = access.node(wx.first + static_cast<int>(i), wy.first + static_cast<int>(j),
-                                       wz.first + static_cast<int>(k));
-        const Lanes vi = node->first;
-        const Lanes d = node->second;
-        Lanes difference = field - vi;
-        if constexpr (affine) difference += wz.distance[k] * c[2];
-        const Lanes relaxed = last(vi) * difference;
-        v0 += wz.weight[k] * vi;
-        vz += wz.derivative[k] * vi;
-        d0 += wz.weight[k] * d;
-        dz += wz.derivative[k] * d;
-        b0 += wz.weight[k] * relaxed;
-        loss += wz.weight[k] * (relaxed * (difference - d) + 0.5 * d * d);
-        if constexpr (affine) {
-          const double moment = wz.weight[k] * wz.distance[k];
-          d1 += moment * d;
-          b1 += moment * relaxed;
-        }
-      }
-      const double w = wx.weight[i] * wy.weight[j];
-      const double gx = wx.derivative[i] * wy.weight[j];
-      const double gy = wx.weight[i] * wy.derivative[j];
-      m.velocity += w * v0;
-      m.increment += w * d0;
-      m.relaxed += w * b0;
-      m.loss += w * loss;
-      m.velocity_gradient[0] += gx * v0;
-      m.velocity_gradient[1] += gy * v0;
-      m.velocity_gradient[2] += w * vz;
-      m.increment_gradient[0] += gx * d0;
-      m.increment_gradient[1] += gy * d0;
-      m.increment_gradient[2] += w * dz;
-      if constexpr (affine) {
-        m.increment_moment[0] += (w * wx.distance[i]) * d0;
-        m.increment_moment[1] += (w * wy.distance[j]) * d0;
-        m.increment_moment[2] += w * d1;
-        m.relaxed_moment[0] += (w * wx.distance[i]) * b0;
-        m.relaxed_moment[1] += (w * wy.distance[j]) * b0;
-        m.relaxed_moment[2] += w * b1;
-      }
-    }
-  }
+/// The matrix with these columns.
+Matrix3 matrix(const std::array<Lanes, 3>& columns) {
+  Matrix3 m;
+  for (int a = 0; a < 3; ++a) store_vector(m.col(a).data(), columns[static_cast<std::size_t>(a)]);
   return m;
 }
 
 /// C_p <- C_p R^T (equation 4.9): only the rotation of the step, so the energy of the affine field stays.
-void turn_affine_field(Matrix3& c, const Matrix3& gradient, double dt) {
+void turn_affine_field(std::array<Lanes, 3>& columns, const Matrix3& gradient, double dt) {
   const Matrix3 quarter = 0.25 * dt * (gradient - gradient.transpose());  // half of the spin's increment
   const Matrix3 identity = Matrix3::Identity();
-  c = c * (identity + quarter).inverse() * (identity - quarter);
+  const Matrix3 turned = matrix(columns) * (identity + quarter).inverse() * (identity - quarter);
+  for (int a = 0; a < 3; ++a) columns[static_cast<std::size_t>(a)] = load_vector(turned.col(a).data());
+}
+
+/// a x b in lanes 0 to 2, 0 in lane 3.
+inline Lanes cross(Lanes a, Lanes b) {
+  const auto rotated = [](Lanes x) { return __builtin_shuffle(x, (__v4di){1, 2, 0, 3}); };
+  return rotated(a * rotated(b) - rotated(a) * b);
+}
+
+inline double squared_norm(const std::array<Lanes, 3>& columns) {
+  return sum3(columns[0] * columns[0] + columns[1] * columns[1] + columns[2] * columns[2]);
 }
 
 /// C_p <- C_p (I + dt L)^-1, never growing (equation 4.8): v_p belongs to the new position, so C_p must be
 /// carried there. @returns the loss of |C|^2
-double advect_affine_field(Matrix3& c, const Matrix3& gradient, double dt) {
-  const Matrix3 deformation = Matrix3::Identity() + dt * gradient;
-  if (deformation.determinant() <= 0.1)
-    return 0.0;  // a deformation that large in a step has no meaningful inverse
-  const double before = c.squaredNorm();
-  Matrix3 carried = c * deformation.inverse();
-  const double after = carried.squaredNorm();
-  const double cap = after > before ? std::sqrt(before / after) : 1.0;
-  c = cap * carried;
-  return before - cap * cap * after;
+[[gnu::always_inline]] inline double advect_affine_field(std::array<Lanes, 3>& c,
+                                                         const std::array<Lanes, 3>& gradient, double dt) {
+  const Lanes f0 = Lanes{1.0, 0.0, 0.0, 0.0} + dt * gradient[0];
+  const Lanes f1 = Lanes{0.0, 1.0, 0.0, 0.0} + dt * gradient[1];
+  const Lanes f2 = Lanes{0.0, 0.0, 1.0, 0.0} + dt * gradient[2];
+  const std::array<Lanes, 3> rows = {cross(f1, f2), cross(f2, f0), cross(f0, f1)};  // of the adjugate
+  const double determinant = sum3(f0 * rows[0]);
+  if (determinant <= 0.1) return 0.0;  // a deformation that large in a step has no meaningful inverse
+  const double before = squared_norm(c), inverse = 1.0 / determinant;
+  const std::array<Lanes, 3> scaled = {inverse * c[0], inverse * c[1], inverse * c[2]};
+  std::array<Lanes, 3> carried;
+  for (std::size_t a = 0; a < 3; ++a) {
+    carried[a] = broadcast(rows[0][a]) * scaled[0] + broadcast(rows[1][a]) * scaled[1] +
+                 broadcast(rows[2][a]) * scaled[2];
+  }
+  const double after = squared_norm(carried);
+  if (after > before) {
+    const double cap = std::sqrt(before / after);
+    for (std::size_t a = 0; a < 3; ++a) c[a] = cap * carried[a];
+    return before - cap * cap * after;
+  }
+  c = carried;
+  return before - after;
 }
 
 /// Work of an external force m b on the mean of the grid velocities before and after the forces.
-double external_work(const Moments& m, double mass, const Vector3& b, double dt) {
-  return mass * dt * b.dot(vector(m.velocity + 0.5 * m.increment));
+double external_work(Lanes new_velocity, Lanes increment, double mass, const Vector3& b, double dt) {
+  return mass * dt * b.dot(vector(new_velocity - 0.5 * increment));
 }
 
-/// What the grid did to a point in the step.
+/// What the grid did to a point in the step, beside its new velocity, affine field and position.
 struct Advance {
-  Moments moments;
-  Matrix3 gradient;       ///< of the new grid velocity
-  Matrix3 mean_gradient;  ///< of the mean of old and new grid velocity
-  double heat = 0.0;      ///< J/kg
+  Lanes new_velocity;             ///< of the grid
+  std::array<Lanes, 3> gradient;  ///< of it
+  Lanes weighted_increment;       ///< see Moments
+  double heat;                    ///< J/kg
 };
 
 /// Velocity and affine field (4.3), heat of the transfer (4.5), position (4.4).
-template <class Shape, AffineField field, class Points, class Access>
-Advance advance_point(Points& points, std::size_t p, const grid::Geometry& geometry,
-                      const grid::BlockCoordinate& block, double dt, Access& access) {
+template <class Shape, AffineField field, class Points, class Stencil>
+[[gnu::always_inline]] inline Advance advance_point(Points& points, std::size_t p, const BlockFrame& frame,
+                                                    const Weights<Shape::count>& weights, double dt,
+                                                    const Weighting& weighting, const Stencil& nodes) {
   constexpr bool affine = field != AffineField::none;
-  Matrix3& c = points.affine_velocity[p];
-  std::array<Lanes, 3> columns{};
-  [[maybe_unused]] double inertia = 0.0;  // sum N r r^T along one direction
+  std::array<Lanes, 3> c{};
   if constexpr (affine) {
-    inertia = Shape::second_moment * geometry.cell_size * geometry.cell_size;
-    for (int a = 0; a < 3; ++a) columns[static_cast<std::size_t>(a)] = lanes(c.col(a));
-  }
-  Advance out;
-  Moments& m = out.moments;
-  m = gather<Shape, affine>(weights_at<Shape>(points, p, geometry, block), lanes(points.velocity[p]), columns,
-                            access);
-  points.velocity[p] += vector(m.increment - m.relaxed);
-  points.position[p] += dt * vector(m.velocity + m.increment);
-  out.heat = sum3(m.loss + m.increment * (m.relaxed - 0.5 * m.increment) - 0.5 * m.relaxed * m.relaxed);
-  for (int a = 0; a < 3; ++a) {
-    const auto ua = static_cast<std::size_t>(a);
-    out.gradient.col(a) = vector(m.velocity_gradient[ua] + m.increment_gradient[ua]);
-    out.mean_gradient.col(a) = vector(m.velocity_gradient[ua] + 0.5 * m.increment_gradient[ua]);
-    if constexpr (affine) {
-      const Lanes dc = m.increment_moment[ua] / inertia;
-      const Lanes bc = m.relaxed_moment[ua] / inertia;
-      out.heat += inertia * sum3(dc * (bc - 0.5 * dc) - 0.5 * bc * bc);
-      c.col(a) += vector(dc - bc);
+    for (int a = 0; a < 3; ++a) {
+      c[static_cast<std::size_t>(a)] = load_vector(points.affine_velocity[p].col(a).data());
     }
   }
-  if constexpr (field == AffineField::deformed) {
-    out.heat += 0.5 * inertia * advect_affine_field(c, out.gradient, dt);
+  const Lanes velocity = load_vector(points.velocity[p].data());
+  const Moments m = gather<affine>(weights, velocity, c, weighting, nodes);
+  store_vector(points.velocity[p].data(), velocity + m.change);
+  store_vector(points.position[p].data(), load_vector(points.position[p].data()) + dt * m.velocity.value);
+  Lanes heat_lanes = 0.5 * (m.loss - m.change * m.change);
+  double heat = 0.0;
+  if constexpr (affine) {
+    // sum N r r^T along one direction
+    const double inertia = Shape::second_moment * frame.cell_size * frame.cell_size;
+    const double per_inertia = 1.0 / inertia;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Lanes change = per_inertia * m.moment[a];
+      heat_lanes -= 0.5 * change * m.moment[a];
+      c[a] += change;
+    }
+    if constexpr (field == AffineField::deformed) {
+      heat = 0.5 * inertia * advect_affine_field(c, m.velocity.gradient, dt);
+    } else {
+      turn_affine_field(c, matrix(m.velocity.gradient), dt);
+    }
+    for (int a = 0; a < 3; ++a) {
+      store_vector(points.affine_velocity[p].col(a).data(), c[static_cast<std::size_t>(a)]);
+    }
   }
-  if constexpr (field == AffineField::turned) turn_affine_field(c, out.gradient, dt);
-  return out;
+  return {m.velocity.value, m.velocity.gradient, m.weighted_increment, heat + sum3(heat_lanes)};
 }
 
 template <class Shape, AffineField field, class Access>
-TransferBalance update_particle(Particles& particles, std::size_t p, const grid::Geometry& geometry,
-                                const grid::BlockCoordinate& block, double dt, Matrix3& gradient,
-                                Access& access, std::span<const Vector3> acceleration) {
-  const Advance advance = advance_point<Shape, field>(particles, p, geometry, block, dt, access);
-  gradient = advance.gradient;
-  const Matrix3& mean_gradient = advance.mean_gradient;  // the exact work identity (4.6)
+[[gnu::always_inline]] inline TransferBalance update_particle(Particles& particles, std::size_t p,
+                                                              const BlockFrame& frame, double dt,
+                                                              Matrix3& gradient, Access& access,
+                                                              std::span<const Vector3> acceleration) {
   const SymmetricTensor& s = particles.deviatoric_stress[p];
   const double mean_stress = -(particles.pressure[p] + particles.artificial_viscosity[p]);
-  const double power =
-      (s.xx + mean_stress) * mean_gradient(0, 0) + (s.yy + mean_stress) * mean_gradient(1, 1) +
-      (s.zz + mean_stress) * mean_gradient(2, 2) + s.xy * (mean_gradient(0, 1) + mean_gradient(1, 0)) +
-      s.yz * (mean_gradient(1, 2) + mean_gradient(2, 1)) + s.zx * (mean_gradient(2, 0) + mean_gradient(0, 2));
+  const std::array<Lanes, 3> stress = {Lanes{s.xx + mean_stress, s.xy, s.zx, 0.0},
+                                       Lanes{s.xy, s.yy + mean_stress, s.yz, 0.0},
+                                       Lanes{s.zx, s.yz, s.zz + mean_stress, 0.0}};
+  const Weights<Shape::count> weights = weights_at<Shape>(particles, p, frame);
+  const auto nodes = access.stencil(weights.first_node());
+  const Advance advance =
+      advance_point<Shape, field>(particles, p, frame, weights, dt, {Lanes{}, stress}, nodes);
+  // The mean of old and new grid velocity makes the exact work identity (4.6).
+  Lanes power = -0.5 * advance.weighted_increment;
+  for (std::size_t a = 0; a < 3; ++a) {
+    power += stress[a] * advance.gradient[a];
+    store_vector(gradient.col(static_cast<int>(a)).data(), advance.gradient[a]);
+  }
   const double mass = particles.mass[p];
-  const double work = power * particles.volume[p] * dt;
+  const double work = sum3(power) * particles.volume[p] * dt;
   particles.specific_internal_energy[p] += work / mass + advance.heat;
   TransferBalance balance{.work = work, .heat = mass * advance.heat};
   if (!acceleration.empty()) {
-    balance.external_work = external_work(advance.moments, mass, acceleration[p], dt);
+    const Lanes increment =
+        gather_value<false>(weights, [&](auto... node) { return nodes(node...).second; }).value;
+    balance.external_work = external_work(advance.new_velocity, increment, mass, acceleration[p], dt);
   }
   return balance;
 }
 
-/// Calls f(point, slot, block coordinate, access to the nodes) for the points of every block, as listed by
-/// `members`.
-template <class Function>
+/// Calls f(point, slot, frame of the block, access to the nodes) for the points of every block, as listed by
+/// `members_of`.
+/// @tparam Content  what the points read of a node: grid::Node, or Lanes for its first register
+template <class Shape, class Content, class Function>
 void for_each_point(BlockGrid& grid,
                     std::span<const std::uint32_t> (BlockGrid::*members_of)(std::size_t) const,
                     Function&& f) {
   parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
     const std::span<const std::uint32_t> members = (grid.*members_of)(slot);
     if (members.empty()) return;
-    const grid::BlockCoordinate& block = grid.coordinate(slot);
-    if (members.size() < direct_access_below) {
-      DirectAccess access(grid, slot);
-      for (const std::uint32_t p : members) f(p, slot, block, access);
-    } else {
-      ReachCopy copy;
-      copy.load(grid, slot);
-      for (const std::uint32_t p : members) f(p, slot, block, copy);
-    }
+    const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
+    read_nodes<Shape, Content>(grid, slot, members.size(), [&](auto& access) {
+      for (const std::uint32_t p : members) f(p, slot, frame, access);
+    });
   });
 }
 
-template <class Function>
+template <class Shape, class Content, class Function>
 void for_each_particle(BlockGrid& grid, Function&& f) {
-  for_each_point(grid, &BlockGrid::particles_in, f);
+  for_each_point<Shape, Content>(grid, &BlockGrid::particles_in, f);
 }
 
 template <class Shape, AffineField field>
 TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
                            std::span<Matrix3> velocity_gradient, std::span<const Vector3> acceleration) {
   std::vector<TransferBalance> of_slot(grid.slots());
-  for_each_particle(
-      grid, [&](std::size_t p, std::size_t slot, const grid::BlockCoordinate& block, auto& access) {
-        of_slot[slot] += update_particle<Shape, field>(particles, p, grid.geometry(), block, dt,
-                                                       velocity_gradient[p], access, acceleration);
-      });
+  for_each_particle<Shape, Node>(grid,
+                                 [&](std::size_t p, std::size_t slot, const BlockFrame& frame, auto& access) {
+                                   of_slot[slot] += update_particle<Shape, field>(
+                                       particles, p, frame, dt, velocity_gradient[p], access, acceleration);
+                                 });
   TransferBalance total;
   for (const TransferBalance& part : of_slot) total += part;
   return total;
@@ -230,26 +195,41 @@ double update_velocities(Particles& particles, BlockGrid& grid, double dt, doubl
                          std::span<Vector3> displacement, std::span<Matrix3> velocity_gradient,
                          std::span<const Vector3> acceleration) {
   std::vector<double> work_of_slot(grid.slots(), 0.0);
-  for_each_particle(
-      grid, [&](std::size_t p, std::size_t slot, const grid::BlockCoordinate& block, auto& access) {
-        const Moments m = gather<Shape, false>(weights_at<Shape>(particles, p, grid.geometry(), block),
-                                               lanes(particles.velocity[p]), {}, access);
-        Vector3& v = particles.velocity[p];
-        v += vector(m.increment) - relaxation * (v - vector(m.velocity));
-        displacement[p] = dt * vector(m.velocity + m.increment);
-        if constexpr (with_gradient) {
-          for (std::size_t a = 0; a < 3; ++a) {
-            velocity_gradient[p].col(static_cast<int>(a)) =
-                vector(m.velocity_gradient[a] + m.increment_gradient[a]);
-          }
-        }
+  for_each_particle<Shape, Node>(
+      grid, [&](std::size_t p, std::size_t slot, const BlockFrame& frame, auto& access) {
+        const Weights<Shape::count> weights = weights_at<Shape>(particles, p, frame);
+        const auto nodes = access.stencil(weights.first_node());
+        const Lanes increment =
+            gather_value<false>(weights, [&](auto... node) { return nodes(node...).second; }).value;
+        const ValueAndGradient after = gather_value<with_gradient>(
+            weights, [&](auto... node) { return nodes(node...).first + nodes(node...).second; });
+        const Lanes before = after.value - increment;
+        double* const velocity = particles.velocity[p].data();
+        const Lanes old = load_vector(velocity);
+        store_vector(velocity, old + increment - relaxation * (old - before));
+        store_vector(displacement[p].data(), dt * after.value);
+        if constexpr (with_gradient) velocity_gradient[p] = matrix(after.gradient);
         if (!acceleration.empty()) {
-          work_of_slot[slot] += external_work(m, particles.mass[p], acceleration[p], dt);
+          work_of_slot[slot] += external_work(after.value, increment, particles.mass[p], acceleration[p], dt);
         }
       });
   double work = 0.0;
   for (const double part : work_of_slot) work += part;
   return work;
+}
+
+/// Sums of the nodes' velocities, for every particle: take(p, sums).
+template <bool with_gradient, class Take>
+void gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& grid, Take&& take) {
+  with_shape(shape, [&]<class Shape>(Shape) {
+    for_each_particle<Shape, Lanes>(
+        grid, [&](std::size_t p, std::size_t, const BlockFrame& frame, auto& access) {
+          const Weights<Shape::count> weights = weights_at<Shape>(particles, p, frame);
+          const auto nodes = access.stencil(weights.first_node());
+          take(p, gather_value<with_gradient>(weights,
+                                              [&](auto... node) { return first_register(nodes(node...)); }));
+        });
+  });
 }
 
 }  // namespace
@@ -281,15 +261,15 @@ namespace {
 
 template <class Shape, AffineField field>
 void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt) {
-  for_each_point(grid, &BlockGrid::guests_in,
-                 [&](std::size_t p, std::size_t, const grid::BlockCoordinate& block, auto& access) {
-                   const Advance advance =
-                       advance_point<Shape, field>(nodes, p, grid.geometry(), block, dt, access);
-                   const Moments& m = advance.moments;
-                   nodes.mean_velocity[p] = vector(m.velocity + 0.5 * m.increment);
-                   nodes.new_velocity[p] = vector(m.velocity + m.increment);
-                   nodes.heat[p] = nodes.mass[p] * advance.heat;
-                 });
+  for_each_point<Shape, Node>(
+      grid, &BlockGrid::guests_in, [&](std::size_t p, std::size_t, const BlockFrame& frame, auto& access) {
+        const Weights<Shape::count> weights = weights_at<Shape>(nodes, p, frame);
+        const Advance advance = advance_point<Shape, field>(
+            nodes, p, frame, weights, dt, {.value = broadcast(1.0)}, access.stencil(weights.first_node()));
+        store_vector(nodes.mean_velocity[p].data(), advance.new_velocity - 0.5 * advance.weighted_increment);
+        store_vector(nodes.new_velocity[p].data(), advance.new_velocity);
+        nodes.heat[p] = nodes.mass[p] * advance.heat;
+      });
 }
 
 }  // namespace
@@ -323,27 +303,15 @@ double update_velocity(ShapeFunction shape, Particles& particles, BlockGrid& gri
 
 void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                               std::span<Matrix3> velocity_gradient) {
-  with_shape(shape, [&]<class Shape>(Shape) {
-    for_each_particle(
-        grid, [&](std::size_t p, std::size_t, const grid::BlockCoordinate& block, auto& access) {
-          const Moments m = gather<Shape, false>(weights_at<Shape>(particles, p, grid.geometry(), block),
-                                                 lanes(particles.velocity[p]), {}, access);
-          for (std::size_t a = 0; a < 3; ++a) {
-            velocity_gradient[p].col(static_cast<int>(a)) = vector(m.velocity_gradient[a]);
-          }
-        });
+  gather_first<true>(shape, particles, grid, [&](std::size_t p, const ValueAndGradient& sums) {
+    velocity_gradient[p] = matrix(sums.gradient);
   });
 }
 
 void gather_velocity(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                      std::span<Vector3> velocity) {
-  with_shape(shape, [&]<class Shape>(Shape) {
-    for_each_particle(
-        grid, [&](std::size_t p, std::size_t, const grid::BlockCoordinate& block, auto& access) {
-          velocity[p] = vector(gather<Shape, false>(weights_at<Shape>(particles, p, grid.geometry(), block),
-                                                    Lanes{}, {}, access)
-                                   .velocity);
-        });
+  gather_first<false>(shape, particles, grid, [&](std::size_t p, const ValueAndGradient& sums) {
+    store_vector(velocity[p].data(), sums.value);
   });
 }
 

@@ -15,39 +15,25 @@ struct Payload {
   Lanes b0, bx, by, bz;
 };
 
-Lanes column(const Matrix3& m, int axis, double factor) {
-  return Lanes{0.0, factor * m(0, axis), factor * m(1, axis), factor * m(2, axis)};
+/// Mass times a vector, in the lanes of a momentum or force.
+[[gnu::always_inline]] inline Lanes times(double mass, const double* v) {
+  return mass * Lanes{0.0, v[0], v[1], v[2]};
 }
 
-/// Mass and momentum, with the sound speed.
-template <class Points>
-Payload inertia(const Points& points, std::size_t p) {
+/// Mass and momentum, with the sound speed; the rest is 0.
+template <bool affine, class Points>
+[[gnu::always_inline]] inline Payload inertia(const Points& points, std::size_t p) {
   const double m = points.mass[p];
-  const Vector3& v = points.velocity[p];
-  const Matrix3& c = points.affine_velocity[p];
   Payload out{};
-  out.a0 = Lanes{m, m * v[0], m * v[1], m * v[2]};
-  out.ax = column(c, 0, m);
-  out.ay = column(c, 1, m);
-  out.az = column(c, 2, m);
-  out.b0 = Lanes{m * points.sound_speed[p], 0.0, 0.0, 0.0};
-  return out;
-}
-
-/// The internal force on node i is -V sigma . grad N_i, sigma = s - (p + q) I.
-Payload payload(const Particles& particles, std::size_t p, std::span<const Vector3> acceleration) {
-  const double m = particles.mass[p];
-  const SymmetricTensor& s = particles.deviatoric_stress[p];
-  const double mean = -(particles.pressure[p] + particles.artificial_viscosity[p]);
-  const double minus_volume = -particles.volume[p];
-  Payload out = inertia(particles, p);
-  if (!acceleration.empty()) {
-    const Vector3& b = acceleration[p];
-    out.b0 += Lanes{0.0, m * b[0], m * b[1], m * b[2]};
+  out.a0 = times(m, points.velocity[p].data());
+  out.a0[0] = m;
+  if constexpr (affine) {
+    const double* c = points.affine_velocity[p].data();
+    out.ax = times(m, c);
+    out.ay = times(m, c + 3);
+    out.az = times(m, c + 6);
   }
-  out.bx = minus_volume * Lanes{0.0, s.xx + mean, s.xy, s.zx};
-  out.by = minus_volume * Lanes{0.0, s.xy, s.yy + mean, s.yz};
-  out.bz = minus_volume * Lanes{0.0, s.zx, s.yz, s.zz + mean};
+  out.b0[0] = m * points.sound_speed[p];
   return out;
 }
 
@@ -60,50 +46,74 @@ struct OfParticles {
   }
 };
 struct Everything : OfParticles {
+  using Content = grid::Node;
   std::span<const Vector3> acceleration;
-  [[nodiscard]] Payload operator()(std::size_t p) const { return payload(points, p, acceleration); }
-};
-struct Momentum : OfParticles {
-  std::span<const Vector3> velocity;
-  [[nodiscard]] Lanes operator()(std::size_t p) const {
-    const Vector3 momentum = points.mass[p] * velocity[p];
-    return Lanes{points.mass[p], momentum[0], momentum[1], momentum[2]};
+  /// The internal force on node i is -V sigma . grad N_i, sigma = s - (p + q) I.
+  template <bool affine>
+  [[nodiscard, gnu::always_inline]] Payload load(std::size_t p) const {
+    const SymmetricTensor& s = points.deviatoric_stress[p];
+    const double mean = -(points.pressure[p] + points.artificial_viscosity[p]);
+    const double minus_volume = -points.volume[p];
+    Payload out = inertia<affine>(points, p);
+    if (!acceleration.empty()) out.b0 += times(points.mass[p], acceleration[p].data());
+    out.bx = minus_volume * Lanes{0.0, s.xx + mean, s.xy, s.zx};
+    out.by = minus_volume * Lanes{0.0, s.xy, s.yy + mean, s.yz};
+    out.bz = minus_volume * Lanes{0.0, s.zx, s.yz, s.zz + mean};
+    return out;
   }
 };
 struct OfNodes {
+  using Content = grid::Node;
   const TransitionNodes& points;
   static std::span<const std::uint32_t> members(const grid::BlockGrid& grid, std::size_t slot) {
     return grid.guests_in(slot);
   }
-  [[nodiscard]] Payload operator()(std::size_t p) const {
-    Payload out = inertia(points, p);
-    const Vector3& f = points.force[p];
-    out.b0 += Lanes{0.0, f[0], f[1], f[2]};
+  template <bool affine>
+  [[nodiscard]] Payload load(std::size_t p) const {
+    Payload out = inertia<affine>(points, p);
+    out.b0 += times(1.0, points.force[p].data());
     return out;
   }
 };
+struct Momentum : OfParticles {
+  using Content = Lanes;
+  std::span<const Vector3> velocity;
+};
 
-template <class Shape, class Content, class Access>
-void scatter(const Content& content, std::span<const std::uint32_t> members, const grid::Geometry& geometry,
-             const grid::BlockCoordinate& block, Access& access) {
-  constexpr int count = Shape::count;
+template <class Shape, class What, class Access>
+void scatter(const What& what, std::span<const std::uint32_t> members, const BlockFrame& frame,
+             Access& access) {
+  constexpr std::size_t count = Shape::count;
+  constexpr bool affine = CarriesAffineField<Shape>;
   for (const std::uint32_t p : members) {
-    const auto [wx, wy, wz] = weights_at<Shape>(content.points, p, geometry, block);
-    const Payload load = content(p);
+    const Weights<count> w = weights_at<Shape>(what.points, p, frame);
+    const Payload load = what.template load<affine>(p);
+    const auto nodes = access.stencil(w.first_node());
+    const std::array<Lanes, count> weight = of_direction(w.weight, 2), slope = of_direction(w.derivative, 2);
+    std::array<Lanes, count> moment;
+    for (std::size_t k = 0; k < count; ++k) moment[k] = weight[k] * broadcast(w.distance[k][2]);
     for (std::size_t i = 0; i < count; ++i) {
-      const Lanes a_x = load.a0 + wx.distance[i] * load.ax;
+      const Lanes wx = broadcast(w.weight[i][0]), dx = broadcast(w.derivative[i][0]);
+      const Lanes b_x = wx * load.b0 + dx * load.bx, b_y = wx * load.by, b_z = wx * load.bz;
+      Lanes a_x = wx * load.a0, a_y, a_z;
+      if constexpr (affine) {
+        a_x += wx * broadcast(w.distance[i][0]) * load.ax;
+        a_y = wx * load.ay;
+        a_z = wx * load.az;
+      }
       for (std::size_t j = 0; j < count; ++j) {
-        const double w = wx.weight[i] * wy.weight[j];
-        const Lanes a = w * (a_x + wy.distance[j] * load.ay);
-        const Lanes a_z = w * load.az;
-        const Lanes b = w * load.b0 + (wx.derivative[i] * wy.weight[j]) * load.bx +
-                        (wx.weight[i] * wy.derivative[j]) * load.by;
-        const Lanes b_z = w * load.bz;
+        const Lanes wy = broadcast(w.weight[j][1]);
+        Lanes a = wy * a_x, az;
+        if constexpr (affine) {
+          a += wy * broadcast(w.distance[j][1]) * a_y;
+          az = wy * a_z;
+        }
+        const Lanes b = wy * b_x + broadcast(w.derivative[j][1]) * b_y, bz = wy * b_z;
         for (std::size_t k = 0; k < count; ++k) {
-          grid::Node* node = access.node(wx.first + static_cast<int>(i), wy.first + static_cast<int>(j),
-                                         wz.first + static_cast<int>(k));
-          node->first += wz.weight[k] * a + (wz.weight[k] * wz.distance[k]) * a_z;
-          node->second += wz.weight[k] * b + wz.derivative[k] * b_z;
+          grid::Node& node = nodes(i, j, k);
+          node.first += weight[k] * a;
+          if constexpr (affine) node.first += moment[k] * az;
+          node.second += weight[k] * b + slope[k] * bz;
         }
       }
     }
@@ -111,41 +121,35 @@ void scatter(const Content& content, std::span<const std::uint32_t> members, con
 }
 
 template <class Shape, class Access>
-void scatter(const Momentum& content, std::span<const std::uint32_t> members, const grid::Geometry& geometry,
-             const grid::BlockCoordinate& block, Access& access) {
-  constexpr int count = Shape::count;
+void scatter(const Momentum& what, std::span<const std::uint32_t> members, const BlockFrame& frame,
+             Access& access) {
+  constexpr std::size_t count = Shape::count;
   for (const std::uint32_t p : members) {
-    const auto [wx, wy, wz] = weights_at<Shape>(content.points, p, geometry, block);
-    const Lanes load = content(p);
+    const Weights<count> w = weights_at<Shape>(what.points, p, frame);
+    const double* v = what.velocity[p].data();
+    const Lanes load = what.points.mass[p] * Lanes{1.0, v[0], v[1], v[2]};
+    const auto nodes = access.stencil(w.first_node());
+    const std::array<Lanes, count> weight = of_direction(w.weight, 2);
     for (std::size_t i = 0; i < count; ++i) {
+      const Lanes a_x = broadcast(w.weight[i][0]) * load;
       for (std::size_t j = 0; j < count; ++j) {
-        const Lanes a = (wx.weight[i] * wy.weight[j]) * load;
-        for (std::size_t k = 0; k < count; ++k) {
-          access
-              .node(wx.first + static_cast<int>(i), wy.first + static_cast<int>(j),
-                    wz.first + static_cast<int>(k))
-              ->first += wz.weight[k] * a;
-        }
+        const Lanes a = broadcast(w.weight[j][1]) * a_x;
+        for (std::size_t k = 0; k < count; ++k) first_register(nodes(i, j, k)) += weight[k] * a;
       }
     }
   }
 }
 
-template <class Shape, class Content>
-void scatter_all(const Content& content, grid::BlockGrid& grid) {
+template <class Shape, class What>
+void scatter_all(const What& what, grid::BlockGrid& grid) {
   for (const std::vector<std::uint32_t>& colour : grid.colours()) {
     parallel::for_each_uneven(colour.size(), [&](std::size_t i) {
       const std::size_t slot = colour[i];
-      const std::span<const std::uint32_t> members = Content::members(grid, slot);
-      if (members.size() < direct_access_below) {
-        DirectAccess access(grid, slot);
-        scatter<Shape>(content, members, grid.geometry(), grid.coordinate(slot), access);
-      } else {
-        ReachCopy copy;
-        copy.clear();
-        scatter<Shape>(content, members, grid.geometry(), grid.coordinate(slot), copy);
-        copy.add_to(grid, slot);
-      }
+      const std::span<const std::uint32_t> members = What::members(grid, slot);
+      if (members.empty()) return;
+      const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
+      add_to_nodes<Shape, typename What::Content>(
+          grid, slot, members.size(), [&](auto& access) { scatter<Shape>(what, members, frame, access); });
     });
   }
 }

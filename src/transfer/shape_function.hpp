@@ -6,10 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 
 #include "src/base/error.hpp"
+#include "src/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
 
@@ -20,13 +22,17 @@ namespace whipple::transfer {
 enum class ShapeFunction : std::uint8_t { linear, gimp, convected_gimp, quadratic_bspline, cubic_bspline };
 
 /// Weights, derivatives and distances of the nodes that a particle reaches along one direction.
-template <int Count>
+/// @tparam Number double, or Lanes for the three directions at once (lane = direction)
+template <int Count, class Number = double>
 struct AxisWeights {
-  int first = 0;                         ///< first node, counted from the block's lower corner (>= -1)
-  std::array<double, Count> weight;      ///< N
-  std::array<double, Count> derivative;  ///< dN/dx, 1/m
-  std::array<double, Count> distance;    ///< node position minus particle position, m
+  Number first{};  ///< first node, a whole number, counted from the block's lower corner (>= -1)
+  std::array<Number, Count> weight;      ///< N
+  std::array<Number, Count> derivative;  ///< dN/dx, 1/m
+  std::array<Number, Count> distance;    ///< node position minus particle position, m
 };
+
+inline double whole_below(double x) { return std::floor(x); }
+inline Lanes whole_below(Lanes x) { return Lanes(_mm256_floor_pd(__m256d(x))); }
 
 /// Piecewise linear functions of the cells: two nodes per direction, gradients jump at the faces of cells.
 struct Linear {
@@ -36,13 +42,14 @@ struct Linear {
   static constexpr grid::Stencil stencil{.shift = 0.0, .count = count};
 
   /// @param local position in cells from the block's lower corner
-  static AxisWeights<count> weights(double local, double cell_size) {
-    AxisWeights<count> w;
-    const double base = std::floor(local);
-    const double f = local - base;
-    w.first = static_cast<int>(base);
+  template <class Number>
+  static AxisWeights<count, Number> weights(Number local, double cell_size) {
+    AxisWeights<count, Number> w;
+    w.first = whole_below(local);
+    const Number f = local - w.first, zero{};
+    const double per_cell = 1.0 / cell_size;
     w.weight = {1.0 - f, f};
-    w.derivative = {-1.0 / cell_size, 1.0 / cell_size};
+    w.derivative = {zero - per_cell, zero + per_cell};
     w.distance = {-f * cell_size, (1.0 - f) * cell_size};
     return w;
   }
@@ -58,13 +65,14 @@ struct QuadraticBSpline {
   /// Sum of N r r^T along one direction, in dx^2.
   static constexpr double second_moment = 1.0 / 4.0;
 
-  static AxisWeights<count> weights(double local, double cell_size) {
-    AxisWeights<count> w;
-    const double base = std::floor(local - 0.5);
-    const double g = local - base;  // 0.5 .. 1.5
-    w.first = static_cast<int>(base);
+  template <class Number>
+  static AxisWeights<count, Number> weights(Number local, double cell_size) {
+    AxisWeights<count, Number> w;
+    w.first = whole_below(local - 0.5);
+    const Number g = local - w.first;  // 0.5 .. 1.5
+    const double per_cell = 1.0 / cell_size;
     w.weight = {0.5 * (1.5 - g) * (1.5 - g), 0.75 - (g - 1.0) * (g - 1.0), 0.5 * (g - 0.5) * (g - 0.5)};
-    w.derivative = {(g - 1.5) / cell_size, -2.0 * (g - 1.0) / cell_size, (g - 0.5) / cell_size};
+    w.derivative = {(g - 1.5) * per_cell, (g - 1.0) * (-2.0 * per_cell), (g - 0.5) * per_cell};
     w.distance = {-g * cell_size, (1.0 - g) * cell_size, (2.0 - g) * cell_size};
     return w;
   }
@@ -79,16 +87,17 @@ struct CubicBSpline {
   static constexpr grid::Stencil stencil{.shift = 1.0, .count = count};
   static constexpr double second_moment = 1.0 / 3.0;
 
-  static AxisWeights<count> weights(double local, double cell_size) {
-    AxisWeights<count> w;
-    const double base = std::floor(local - 1.0);
-    const double f = local - base - 1.0;  // 0 .. 1
-    const double b = 1.0 - f;
-    w.first = static_cast<int>(base);
+  template <class Number>
+  static AxisWeights<count, Number> weights(Number local, double cell_size) {
+    AxisWeights<count, Number> w;
+    w.first = whole_below(local - 1.0);
+    const Number f = local - w.first - 1.0;  // 0 .. 1
+    const Number b = 1.0 - f;
+    const double per_cell = 1.0 / cell_size;
     w.weight = {b * b * b / 6.0, 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), 2.0 / 3.0 - b * b * (1.0 - 0.5 * b),
                 f * f * f / 6.0};
-    w.derivative = {-0.5 * b * b / cell_size, f * (1.5 * f - 2.0) / cell_size,
-                    -b * (1.5 * b - 2.0) / cell_size, 0.5 * f * f / cell_size};
+    w.derivative = {-0.5 * b * b * per_cell, f * (1.5 * f - 2.0) * per_cell, -b * (1.5 * b - 2.0) * per_cell,
+                    0.5 * f * f * per_cell};
     w.distance = {-(1.0 + f) * cell_size, -f * cell_size, b * cell_size, (1.0 + b) * cell_size};
     return w;
   }
@@ -100,7 +109,7 @@ template <int nodes>
 AxisWeights<nodes> averaged_linear_weights(double local, double h, double shift, double cell_size) {
   AxisWeights<nodes> w;
   const double base = std::floor(local - shift);
-  w.first = static_cast<int>(base);
+  w.first = base;
   const auto tent = [](double u) { return std::max(0.0, 1.0 - std::abs(u)); };
   // Integral of the tent over [u - h, u + h], without differences of nearly equal numbers: a weight that is
   // all round-off would give its node a mass that is none.
@@ -203,27 +212,69 @@ inline Vector3 half_sizes(const SymmetricTensor& extent, double cell_size) {
   return Vector3(std::sqrt(extent.xx), std::sqrt(extent.yy), std::sqrt(extent.zz)) / cell_size;
 }
 
-/// Position in cells from the lower corner of a block.
-inline Vector3 local_position(const Vector3& position, const grid::Geometry& geometry,
-                              const grid::BlockCoordinate& block) {
-  Vector3 local = geometry.in_cells(position);
-  for (std::size_t a = 0; a < 3; ++a) local[static_cast<Eigen::Index>(a)] -= block[a] * grid::block_edge;
-  return local;
+/// A block as the weights see it: made once for all of its particles.
+struct BlockFrame {
+  Lanes lower;   ///< of the grid, m
+  Lanes corner;  ///< of the block, in cells
+  double cell_size;
+
+  BlockFrame(const grid::Geometry& geometry, const grid::BlockCoordinate& block)
+      : lower(load_vector(geometry.lower.data())),
+        corner{static_cast<double>(grid::block_edge * block[0]),
+               static_cast<double>(grid::block_edge * block[1]),
+               static_cast<double>(grid::block_edge * block[2]), 0.0},
+        cell_size(geometry.cell_size) {}
+
+  /// Position in cells from the lower corner of the block (lane = direction), below its upper one. Rounds as
+  /// Geometry::in_cells does.
+  [[nodiscard]] Lanes local(const Vector3& position) const {
+    const Lanes in_cells = (load_vector(position.data()) - lower) / cell_size;
+    // The difference may round up where the position is just below a corner at zero.
+    constexpr double below_end = grid::block_edge * (1.0 - std::numeric_limits<double>::epsilon());
+    return minimum(in_cells - corner, broadcast(below_end));
+  }
+};
+
+/// Weights of all three directions.
+template <int Count>
+struct Weights : AxisWeights<Count, Lanes> {
+  /// Index of the first node, counted from the block's lower corner.
+  [[nodiscard]] std::array<int, 3> first_node() const {
+    const __m128i whole = _mm256_cvttpd_epi32(__m256d(this->first));
+    return {_mm_cvtsi128_si32(whole), _mm_extract_epi32(whole, 1), _mm_extract_epi32(whole, 2)};
+  }
+};
+
+/// Values of one direction for all nodes of a stencil, each in all lanes.
+template <std::size_t Count>
+[[gnu::always_inline]] inline std::array<Lanes, Count> of_direction(const std::array<Lanes, Count>& values,
+                                                                    std::size_t direction) {
+  std::array<Lanes, Count> all;
+  for (std::size_t k = 0; k < Count; ++k) all[k] = broadcast(values[k][direction]);
+  return all;
 }
 
-/// Weights of all three directions for a particle, or another point that has a position.
+/// Weights of all three directions for a particle, or another point with a position.
 template <class Shape, class Points>
-std::array<AxisWeights<Shape::count>, 3> weights_at(const Points& points, std::size_t p,
-                                                    const grid::Geometry& geometry,
-                                                    const grid::BlockCoordinate& block) {
-  const Vector3 local = local_position(points.position[p], geometry, block);
-  const double dx = geometry.cell_size;
+[[gnu::always_inline]] inline Weights<Shape::count> weights_at(const Points& points, std::size_t p,
+                                                               const BlockFrame& frame) {
+  const Lanes local = frame.local(points.position[p]);
+  const double dx = frame.cell_size;
   if constexpr (Sized<Shape>) {
     const Vector3 h = half_sizes(points.extent[p], dx);
-    return {Shape::weights(local[0], h[0], dx), Shape::weights(local[1], h[1], dx),
-            Shape::weights(local[2], h[2], dx)};
+    Weights<Shape::count> all{};
+    for (int a = 0; a < 3; ++a) {
+      const AxisWeights<Shape::count> axis = Shape::weights(local[a], h[a], dx);
+      all.first[a] = axis.first;
+      for (std::size_t i = 0; i < Shape::count; ++i) {
+        all.weight[i][a] = axis.weight[i];
+        all.derivative[i][a] = axis.derivative[i];
+        all.distance[i][a] = axis.distance[i];
+      }
+    }
+    return all;
   } else {
-    return {Shape::weights(local[0], dx), Shape::weights(local[1], dx), Shape::weights(local[2], dx)};
+    return {Shape::weights(local, dx)};
   }
 }
 

@@ -469,8 +469,9 @@ TYPED_TEST(Transfer, NodesOfEveryStencilAreActiveWhereTheDivisionRounds) {
         resize(one, 1);
         one.position[0] = x[0];
         one.extent[0] = {cell_size * cell_size, cell_size * cell_size, cell_size * cell_size, 0, 0, 0};
-        const auto weights = weights_at<TypeParam>(one, 0, fine, grid.coordinate(slot));
-        for (const int node : {weights[0].first, weights[0].first + TypeParam::count - 1}) {
+        const auto weights = weights_at<TypeParam>(one, 0, BlockFrame(fine, grid.coordinate(slot)));
+        const int first = weights.first_node()[0];
+        for (const int node : {first, first + TypeParam::count - 1}) {
           const int block = node < 0 ? 0 : node < grid::block_edge ? 1 : 2;
           EXPECT_NE(grid.neighbours(slot)[static_cast<std::size_t>(grid::neighbour_index(block, 1, 1))],
                     grid::BlockGrid::no_slot)
