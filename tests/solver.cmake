@@ -15,6 +15,7 @@ whipple_test(test_conduction STARTS_MPI SOURCES verification/transfer_conduction
 whipple_test(test_failure STARTS_MPI SOURCES verification/solver_failure_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_viscous STARTS_MPI SOURCES verification/solver_viscous_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_setup SOURCES unit/setup_case_test.cpp unit/setup_shape_test.cpp DEPENDS whipple_setup LABELS fast)
+whipple_test(test_case_fuzz STARTS_MPI SOURCES fuzz/case_fuzz.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_debris_cloud STARTS_MPI SOURCES validation/solver_debris_cloud_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_solver_table STARTS_MPI SOURCES validation/solver_table_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_solver_regression STARTS_MPI SOURCES regression/solver_regression_test.cpp DEPENDS whipple_solver LABELS fast)

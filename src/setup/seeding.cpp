@@ -133,6 +133,19 @@ bool boxes_meet(const Shape::Bounds& a, const Shape::Bounds& b) {
 
 }  // namespace
 
+double expected_memory(const Case& setup) {
+  constexpr double bytes_per_particle = 500.0;  // in full blocks: docs/performance.md
+  double particles = 0.0;
+  for (const Body& body : setup.bodies) {
+    const Shape::Bounds bounds = body.shape->bounds();
+    Vector3 upper = bounds.upper;
+    for (int a = 0; a < 3; ++a) upper[a] = std::min(upper[a], setup.geometry.upper(a));
+    const Vector3 inside = (upper - bounds.lower.cwiseMax(setup.geometry.lower)).cwiseMax(0.0);
+    particles += (inside / wanted_spacing(setup, body)).prod();
+  }
+  return bytes_per_particle * particles;
+}
+
 std::vector<PlacementFault> placement_faults(const Case& setup) {
   constexpr double most_points = 1e9;  // some 500 GB of particles
   std::vector<PlacementFault> faults;

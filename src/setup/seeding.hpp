@@ -15,6 +15,10 @@ struct PlacementFault {
   std::string message;
 };
 
+/// Bytes that the particles and the grid around them will take, of all ranks together; at most, for a body
+/// takes less than its bounding box.
+double expected_memory(const Case& setup);
+
 /// Bodies that leave the domain through an outflow face, hold no particle, or share points with another body.
 std::vector<PlacementFault> placement_faults(const Case& setup);
 

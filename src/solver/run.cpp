@@ -15,6 +15,7 @@
 
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
+#include "src/base/machine.hpp"
 #include "src/base/progress.hpp"
 #include "src/base/text.hpp"
 #include "src/io/history.hpp"
@@ -40,6 +41,18 @@ void set_threads(int threads, MPI_Comm communicator) {
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const int share = std::max(1, cores / parallel::ranks_on_machine(communicator));
   parallel::set_threads(threads > 0 ? threads : share);
+}
+
+/// Before any work: a machine that runs out of memory ends the run, and others with it.
+void require_memory(const setup::Case& setup, MPI_Comm communicator) {
+  const double needed = setup::expected_memory(setup);
+  const double available = physical_memory() * parallel::size(communicator) /
+                           static_cast<double>(parallel::ranks_on_machine(communicator));
+  if (needed <= available) return;
+  throw InputError(fmt::format(
+      "{}: the particles of all bodies take up to {}, and there are {}: enlarge 'domain.cell_size' or reduce "
+      "'per_cell', or take more machines",
+      setup.file.string(), format_bytes(needed), format_bytes(available)));
 }
 
 /// Name of a run: the folder of its case, or the file if that is not called case.toml.
@@ -409,6 +422,7 @@ int run(const RunOptions& options) {
     return runner.run();
   }
   setup::Case setup = setup::read_case(options.case_file, options.overrides);
+  require_memory(setup, parallel::world());
   setup::tabulate_materials(setup, ranks);
   const io::RunDirectory directory =
       new_directory(setup, output_directory(options, options.case_file), options, ranks);
@@ -422,6 +436,7 @@ std::string check(const RunOptions& options) {
   const MPI_Comm communicator = parallel::world();
   set_threads(options.threads, communicator);
   const setup::Case setup = setup::read_case(options.case_file, options.overrides);
+  require_memory(setup, communicator);
   Simulation simulation(setup, communicator);
   std::string text = fmt::format("{}\n{}\n\n", setup.file.string(), setup.title);
   text += fmt::format("grid: {} x {} x {} cells of {:.6g} mm\n", setup.geometry.cells[0],
