@@ -81,16 +81,21 @@ double maximum(MPI_Comm comm, double value) {
 }
 
 void sum(MPI_Comm comm, std::span<double> values) {
-  const auto ranks = static_cast<std::size_t>(size(comm));
+  constexpr int sum_tag = 5;
+  const int ranks = size(comm), own = rank(comm), count = static_cast<int>(values.size());
   if (ranks == 1) return;
-  // Gathered and added in the order of the ranks: MPI_SUM may choose another order from run to run.
-  std::vector<double> all(ranks * values.size());
-  const int n = static_cast<int>(values.size());
-  MPI_Allgather(values.data(), n, MPI_DOUBLE, all.data(), n, MPI_DOUBLE, comm);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = 0.0;
-    for (std::size_t r = 0; r < ranks; ++r) values[i] += all[r * values.size() + i];
+  // A binomial tree of our own: MPI_SUM may choose another order from run to run.
+  std::vector<double> other(values.size());
+  for (int reach = 1; reach < ranks; reach *= 2) {
+    if ((own & reach) != 0) {
+      MPI_Send(values.data(), count, MPI_DOUBLE, own - reach, sum_tag, comm);
+      break;
+    }
+    if (own + reach >= ranks) continue;
+    MPI_Recv(other.data(), count, MPI_DOUBLE, own + reach, sum_tag, comm, MPI_STATUS_IGNORE);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] += other[i];
   }
+  MPI_Bcast(values.data(), count, MPI_DOUBLE, 0, comm);
 }
 
 bool any(MPI_Comm comm, bool value) { return maximum(comm, value ? 1.0 : 0.0) > 0.0; }

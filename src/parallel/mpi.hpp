@@ -11,7 +11,7 @@
 #include <vector>
 
 /// What the solver says between processes. Everything with a communicator is collective, and free on one
-/// rank. Sums are taken in the order of the ranks: the same bits for the same number of ranks.
+/// rank. Sums are taken along one tree of ranks: the same bits for the same number of ranks.
 namespace whipple::parallel {
 
 /// Initialises MPI on the first call of the process (threads: only the main thread communicates) and
