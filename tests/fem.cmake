@@ -1,2 +1,6 @@
 # Tests of the finite elements.
 whipple_test(test_fem SOURCES property/fem_step_test.cpp DEPENDS whipple_fem whipple_material LABELS fast)
+
+# Measured, not asserted: benchmark_fem --benchmark_min_time=0.2
+add_executable(benchmark_fem benchmark/fem_benchmark.cpp)
+target_link_libraries(benchmark_fem PRIVATE whipple_flags whipple_fem whipple_material benchmark::benchmark)

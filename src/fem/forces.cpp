@@ -10,12 +10,14 @@ namespace whipple::fem {
 namespace {
 
 /// Forces f_a = sum_k F_k phi_ka of a stress on the mean gradient (eq. 2.6).
-Modes<Lanes> mean_gradient_forces(const Columns<Lanes>& stress, const VolumeGradient<Lanes>& beta) {
+[[gnu::always_inline]] inline Modes<Lanes> mean_gradient_forces(const Columns<Lanes>& stress,
+                                                                const VolumeGradient<Lanes>& beta) {
   return {-(stress * beta.xi),      -(stress * beta.eta),    -(stress * beta.zeta), -(stress * beta.eta_zeta),
           -(stress * beta.zeta_xi), -(stress * beta.xi_eta), Triple<Lanes>{}};
 }
 
-Modes<Lanes> one_point_forces(const Mesh& mesh, const FourElements& four, const Modes<Lanes>& x) {
+[[gnu::always_inline]] inline Modes<Lanes> one_point_forces(const Mesh& mesh, const FourElements& four,
+                                                            const Modes<Lanes>& x) {
   const VolumeGradient<Lanes> beta = volume_gradient(x);
   Columns<Lanes> stress = deviator_at(mesh.points, four.index);
   add_to_diagonal(stress, mean_stress_at(mesh.points, four.index));
@@ -59,21 +61,40 @@ Modes<Lanes> b_bar_forces(const Mesh& mesh, const FourElements& four, const Mode
   return f + mean_gradient_forces(mean, beta);
 }
 
+template <class Kernel>
+void forces_of_block(Mesh& mesh, std::size_t block, const Kernel& kernel) {
+  BlockField position, force;
+  position.copy(mesh, block, mesh.nodes.position);
+  force.zero(mesh, block);
+  for_each_four(block, mesh.elements.size(), [&](const FourElements& four) {
+    force.add(mesh, four, kernel(mesh, four, position.modes(mesh, four)));
+  });
+  Blocks& blocks = mesh.blocks;
+  const std::uint32_t first = blocks.first_slot[block];
+  for (std::uint32_t s = first; s < blocks.first_slot[block + 1]; ++s) {
+    const Lanes f = force[s - first];
+    blocks.slot_force[s] = {f[0], f[1], f[2]};
+  }
+}
+
 }  // namespace
 
 void internal_forces(Mesh& mesh) {
-  const std::size_t elements = mesh.elements.size();
-  parallel::for_each(FourElements::groups(elements), [&](std::size_t group) {
-    const FourElements four(group, elements);
-    const Modes<Lanes> x = gather_modes(four, mesh.elements.corners, mesh.nodes.position);
-    const auto forces = corners_of(mesh.quadrature == Quadrature::one_point ? one_point_forces(mesh, four, x)
-                                                                            : b_bar_forces(mesh, four, x));
-    const auto place = [&](std::size_t l) { return mesh.corner_force[8 * four.index[l]].data(); };
-    scatter_columns<8>(four, forces, {place(0), place(1), place(2), place(3)});
+  parallel::for_each(block_count(mesh), [&](std::size_t block) {
+    if (mesh.quadrature == Quadrature::b_bar) {
+      forces_of_block(mesh, block, b_bar_forces);
+    } else {
+      forces_of_block(mesh, block, [](const auto&... arguments) __attribute__((always_inline)) {
+        return one_point_forces(arguments...);
+      });
+    }
   });
+  const Blocks& blocks = mesh.blocks;
   parallel::for_each(mesh.nodes.size(), [&](std::size_t a) {
     Vector3 force = Vector3::Zero();
-    for (const std::uint32_t corner : mesh.corners_at(a)) force += mesh.corner_force[corner];
+    for (std::uint32_t k = blocks.first_of_node[a]; k < blocks.first_of_node[a + 1]; ++k) {
+      force += blocks.slot_force[blocks.slots_of_node[k]];
+    }
     mesh.nodes.force[a] = force;
   });
 }

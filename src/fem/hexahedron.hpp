@@ -26,27 +26,27 @@ struct Triple {
   }
 };
 template <class T>
-Triple<T> operator+(const Triple<T>& a, const Triple<T>& b) {
+[[gnu::always_inline]] inline Triple<T> operator+(const Triple<T>& a, const Triple<T>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 template <class T>
-Triple<T> operator-(const Triple<T>& a, const Triple<T>& b) {
+[[gnu::always_inline]] inline Triple<T> operator-(const Triple<T>& a, const Triple<T>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <class T>
-Triple<T> operator-(const Triple<T>& a) {
+[[gnu::always_inline]] inline Triple<T> operator-(const Triple<T>& a) {
   return {-a.x, -a.y, -a.z};
 }
 template <class S, class T>
-Triple<T> operator*(const S& s, const Triple<T>& a) {
+[[gnu::always_inline]] inline Triple<T> operator*(const S& s, const Triple<T>& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
 template <class T>
-T dot(const Triple<T>& a, const Triple<T>& b) {
+[[gnu::always_inline]] inline T dot(const Triple<T>& a, const Triple<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 template <class T>
-Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
+[[gnu::always_inline]] inline Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
@@ -56,28 +56,28 @@ struct Columns {
   Triple<T> x, y, z;
 };
 template <class T>
-Triple<T> operator*(const Columns<T>& m, const Triple<T>& v) {
+[[gnu::always_inline]] inline Triple<T> operator*(const Columns<T>& m, const Triple<T>& v) {
   return v.x * m.x + v.y * m.y + v.z * m.z;
 }
 template <class T>
-T determinant(const Columns<T>& m) {
+[[gnu::always_inline]] inline T determinant(const Columns<T>& m) {
   return dot(m.x, cross(m.y, m.z));
 }
 /// Cofactors: the inverse transposed, times the determinant.
 template <class T>
-Columns<T> cofactors(const Columns<T>& m) {
+[[gnu::always_inline]] inline Columns<T> cofactors(const Columns<T>& m) {
   return {cross(m.y, m.z), cross(m.z, m.x), cross(m.x, m.y)};
 }
 /// a b^T
 template <class T>
-void add_dyad(Columns<T>& m, const Triple<T>& a, const Triple<T>& b) {
+[[gnu::always_inline]] inline void add_dyad(Columns<T>& m, const Triple<T>& a, const Triple<T>& b) {
   m.x += b.x * a;
   m.y += b.y * a;
   m.z += b.z * a;
 }
 /// a : b
 template <class T>
-T contraction(const Columns<T>& a, const Columns<T>& b) {
+[[gnu::always_inline]] inline T contraction(const Columns<T>& a, const Columns<T>& b) {
   return dot(a.x, b.x) + dot(a.y, b.y) + dot(a.z, b.z);
 }
 
@@ -88,7 +88,7 @@ struct Modes {
 };
 
 template <class T>
-Modes<T> operator+(const Modes<T>& a, const Modes<T>& b) {
+[[gnu::always_inline]] inline Modes<T> operator+(const Modes<T>& a, const Modes<T>& b) {
   return {a.xi + b.xi,
           a.eta + b.eta,
           a.zeta + b.zeta,
@@ -98,13 +98,13 @@ Modes<T> operator+(const Modes<T>& a, const Modes<T>& b) {
           a.xi_eta_zeta + b.xi_eta_zeta};
 }
 template <class S, class T>
-Modes<T> operator*(const S& s, const Modes<T>& a) {
+[[gnu::always_inline]] inline Modes<T> operator*(const S& s, const Modes<T>& a) {
   return {s * a.xi, s * a.eta, s * a.zeta, s * a.eta_zeta, s * a.zeta_xi, s * a.xi_eta, s * a.xi_eta_zeta};
 }
 
 /// From the corners to the modes: u_k = 1/8 sum_a phi_ka u_a (eq. 2.2).
 template <class T>
-Modes<T> modes_of(const std::array<Triple<T>, 8>& u) {
+[[gnu::always_inline]] inline Modes<T> modes_of(const std::array<Triple<T>, 8>& u) {
   const Triple<T> s0 = u[1] + u[0], d0 = u[1] - u[0], s1 = u[2] + u[3], d1 = u[2] - u[3];
   const Triple<T> s2 = u[5] + u[4], d2 = u[5] - u[4], s3 = u[6] + u[7], d3 = u[6] - u[7];
   const Triple<T> ss0 = s1 + s0, ds0 = s1 - s0, sd0 = d1 + d0, dd0 = d1 - d0;
@@ -115,7 +115,7 @@ Modes<T> modes_of(const std::array<Triple<T>, 8>& u) {
 
 /// From the modes to the corners: u_a = sum_k phi_ka u_k, without the constant mode.
 template <class T>
-std::array<Triple<T>, 8> corners_of(const Modes<T>& m) {
+[[gnu::always_inline]] inline std::array<Triple<T>, 8> corners_of(const Modes<T>& m) {
   const Triple<T> xi_low = m.xi - m.zeta_xi, xi_high = m.xi + m.zeta_xi;
   const Triple<T> eta_low = m.eta - m.eta_zeta, eta_high = m.eta + m.eta_zeta;
   const Triple<T> both_low = m.xi_eta - m.xi_eta_zeta, both_high = m.xi_eta + m.xi_eta_zeta;
@@ -145,7 +145,7 @@ struct VolumeGradient {
 
 /// Volume and its gradient (eq. 2.3, 2.4).
 template <class T>
-VolumeGradient<T> volume_gradient(const Modes<T>& x) {
+[[gnu::always_inline]] inline VolumeGradient<T> volume_gradient(const Modes<T>& x) {
   const auto third = [](const Triple<T>& a) { return (1.0 / 3.0) * a; };
   const Triple<T>&a = x.xi, &b = x.eta, &c = x.zeta, &d = x.eta_zeta, &e = x.zeta_xi, &f = x.xi_eta;
   VolumeGradient<T> g;
@@ -162,7 +162,7 @@ VolumeGradient<T> volume_gradient(const Modes<T>& x) {
 
 /// The volume alone.
 template <class T>
-T volume_of(const Modes<T>& x) {
+[[gnu::always_inline]] inline T volume_of(const Modes<T>& x) {
   const Triple<T>&a = x.xi, &b = x.eta, &c = x.zeta, &d = x.eta_zeta, &e = x.zeta_xi, &f = x.xi_eta;
   return 8.0 * (dot(a, cross(b, c) + (1.0 / 3.0) * cross(f, e)) +
                 (1.0 / 3.0) * (dot(b, cross(d, f)) + dot(c, cross(e, d))));
@@ -170,7 +170,8 @@ T volume_of(const Modes<T>& x) {
 
 /// sum_a u_a B_a^T: the mean gradient of the field times the volume.
 template <class T>
-Columns<T> mean_gradient_times_volume(const Modes<T>& u, const VolumeGradient<T>& g) {
+[[gnu::always_inline]] inline Columns<T> mean_gradient_times_volume(const Modes<T>& u,
+                                                                    const VolumeGradient<T>& g) {
   Columns<T> sum{};
   add_dyad(sum, u.xi, g.xi);
   add_dyad(sum, u.eta, g.eta);
@@ -183,7 +184,8 @@ Columns<T> mean_gradient_times_volume(const Modes<T>& u, const VolumeGradient<T>
 
 /// Derivatives of a field with respect to the natural coordinates at a point (columns).
 template <class T>
-Columns<T> natural_gradient(const Modes<T>& u, double xi, double eta, double zeta) {
+[[gnu::always_inline]] inline Columns<T> natural_gradient(const Modes<T>& u, double xi, double eta,
+                                                          double zeta) {
   return {u.xi + zeta * u.zeta_xi + eta * u.xi_eta + (eta * zeta) * u.xi_eta_zeta,
           u.eta + zeta * u.eta_zeta + xi * u.xi_eta + (zeta * xi) * u.xi_eta_zeta,
           u.zeta + eta * u.eta_zeta + xi * u.zeta_xi + (xi * eta) * u.xi_eta_zeta};
@@ -197,7 +199,7 @@ constexpr double gauss_coordinate = 0.57735026918962576451;  ///< 1/sqrt(3)
 /// x^(1/3) for x in [1/2, 2] to round-off: three steps of Halley's iteration from the tangent at 1. Outside
 /// of that range, a positive number.
 template <class T>
-T cube_root_near_one(T x) {
+[[gnu::always_inline]] inline T cube_root_near_one(T x) {
   T y = 1.0 + (1.0 / 3.0) * (x - 1.0);
   for (int i = 0; i < 3; ++i) {
     const T cube = y * y * y;
@@ -208,7 +210,7 @@ T cube_root_near_one(T x) {
 
 /// Length of a one-point element (m): V sqrt(3/2 / sum_a |B_a|^2), the edge of a cube (eq. 5.2).
 template <class T>
-T one_point_length(const VolumeGradient<T>& g) {
+[[gnu::always_inline]] inline T one_point_length(const VolumeGradient<T>& g) {
   using std::sqrt;
   using whipple::sqrt;
   return g.volume / sqrt((2.0 / 3.0) * g.squared_norm());
@@ -221,7 +223,8 @@ struct EightPointSize {
   T least_jacobian;  ///< m^3
 };
 template <class T>
-EightPointSize<T> eight_point_size(const Modes<T>& x, const VolumeGradient<T>& g) {
+[[gnu::always_inline]] inline EightPointSize<T> eight_point_size(const Modes<T>& x,
+                                                                 const VolumeGradient<T>& g) {
   using std::sqrt;
   using whipple::sqrt;
   T trace{}, least{};  // integral of sum_a |grad N_a|^2; least Jacobian

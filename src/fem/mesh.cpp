@@ -57,6 +57,75 @@ std::string inversion(const Modes<double>& x) {
   return {};
 }
 
+/// Elements along a Morton curve of cells of their mean size: neighbours in space become neighbours in
+/// memory.
+std::vector<std::uint32_t> spatial_order(const Hexahedra& hexahedra) {
+  const std::size_t n = hexahedra.elements.size();
+  std::vector<Vector3> centre(n, Vector3::Zero());
+  Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity());
+  double volume = 0.0;
+  for (std::size_t e = 0; e < n; ++e) {
+    for (const std::uint32_t node : hexahedra.elements[e]) centre[e] += 0.125 * hexahedra.nodes[node];
+    lower = lower.cwiseMin(centre[e]);
+    volume += volume_of(modes(hexahedra.nodes, hexahedra.elements[e]));
+  }
+  const double cell = std::cbrt(volume / static_cast<double>(n));
+  std::vector<std::uint64_t> key(n, 0);
+  for (std::size_t e = 0; e < n; ++e) {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const double steps =
+          std::min((centre[e][static_cast<int>(axis)] - lower[static_cast<int>(axis)]) / cell, 2e6);
+      const auto coordinate = static_cast<std::uint64_t>(steps + 0.5);
+      for (unsigned bit = 0; bit < 21; ++bit) key[e] |= (coordinate >> bit & 1U) << (3 * bit + axis);
+    }
+  }
+  std::vector<std::uint32_t> order(n);
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t e) { return key[e]; });
+  return order;
+}
+
+/// Values of one item after the other: offsets and lists from (item, value) pairs that come by ascending
+/// value.
+void list_by_item(std::span<const std::uint32_t> item_of_value, std::size_t items,
+                  std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& values) {
+  first.assign(items + 1, 0);
+  for (const std::uint32_t item : item_of_value) ++first[item + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  values.resize(item_of_value.size());
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (std::size_t v = 0; v < item_of_value.size(); ++v) {
+    values[next[item_of_value[v]]++] = static_cast<std::uint32_t>(v);
+  }
+}
+
+void make_blocks(Mesh& mesh) {
+  Blocks& blocks = mesh.blocks;
+  const auto& corners = mesh.elements.corners;
+  blocks.first_slot.assign(1, 0);
+  blocks.slot_node.clear();
+  blocks.corner_slot.resize(corners.size());
+  constexpr std::uint32_t none = 0xffffffff;
+  std::vector<std::uint32_t> slot(mesh.nodes.size(), none);
+  for (std::size_t begin = 0; begin < corners.size(); begin += Blocks::size) {
+    const std::uint32_t first = blocks.first_slot.back();
+    for (std::size_t e = begin; e < std::min(begin + Blocks::size, corners.size()); ++e) {
+      for (std::size_t a = 0; a < 8; ++a) {
+        std::uint32_t& own = slot[corners[e][a]];
+        if (own == none) {
+          own = static_cast<std::uint32_t>(blocks.slot_node.size());
+          blocks.slot_node.push_back(corners[e][a]);
+        }
+        blocks.corner_slot[e][a] = static_cast<std::uint16_t>(own - first);
+      }
+    }
+    for (std::size_t s = first; s < blocks.slot_node.size(); ++s) slot[blocks.slot_node[s]] = none;
+    blocks.first_slot.push_back(static_cast<std::uint32_t>(blocks.slot_node.size()));
+  }
+  list_by_item(blocks.slot_node, mesh.nodes.size(), blocks.first_of_node, blocks.slots_of_node);
+  blocks.slot_force.resize(blocks.slot_node.size());
+}
+
 template <class Points>
 void keep(Points& points, std::span<const std::uint32_t> kept, std::size_t rows_per_item) {
   for_each_field<Points>([&](const auto& field) {
@@ -118,13 +187,26 @@ Mesh make_mesh(const Hexahedra& hexahedra, Quadrature quadrature, std::uint32_t 
   resize(mesh.elements, hexahedra.elements.size());
   const std::size_t n = points_per_element(quadrature);
   resize(mesh.points, n * hexahedra.elements.size());
-  std::iota(mesh.nodes.id.begin(), mesh.nodes.id.end(), first_node_id);
-  std::iota(mesh.elements.id.begin(), mesh.elements.id.end(), first_element_id);
-  mesh.nodes.position = hexahedra.nodes;
+  constexpr std::uint32_t unnumbered = 0xffffffff;
+  std::vector<std::uint32_t> number(hexahedra.nodes.size(), unnumbered);
+  std::uint32_t next = 0;
+  const std::vector<std::uint32_t> order = spatial_order(hexahedra);
+  for (std::size_t e = 0; e < order.size(); ++e) {
+    mesh.elements.id[e] = first_element_id + order[e];
+    for (std::size_t a = 0; a < 8; ++a) {
+      const std::uint32_t node = hexahedra.elements[order[e]][a];
+      if (number[node] == unnumbered) {
+        number[node] = next;
+        mesh.nodes.id[next] = first_node_id + node;
+        mesh.nodes.position[next] = hexahedra.nodes[node];
+        ++next;
+      }
+      mesh.elements.corners[e][a] = number[node];
+    }
+  }
   for (auto* zero : {&mesh.nodes.velocity, &mesh.nodes.force, &mesh.nodes.prescribed}) {
     std::ranges::fill(*zero, Vector3::Zero());
   }
-  mesh.elements.corners = hexahedra.elements;
   std::ranges::fill(mesh.elements.hourglass_force, HourglassForce::Zero());
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const Modes<double> x = modes(mesh.nodes.position, mesh.elements.corners[e]);
@@ -153,19 +235,12 @@ double corner_mass(const Mesh& mesh, std::size_t element, std::size_t corner) {
 
 void connect(Mesh& mesh) {
   const auto& corners = mesh.elements.corners;
-  mesh.first_corner.assign(mesh.nodes.size() + 1, 0);
-  for (const Corners& nodes : corners) {
-    for (const std::uint32_t node : nodes) ++mesh.first_corner[node + 1];
-  }
-  std::partial_sum(mesh.first_corner.begin(), mesh.first_corner.end(), mesh.first_corner.begin());
-  mesh.node_corners.resize(8 * corners.size());
-  std::vector<std::uint32_t> next(mesh.first_corner.begin(), mesh.first_corner.end() - 1);
-  for (std::size_t e = 0; e < corners.size(); ++e) {
-    for (std::size_t a = 0; a < 8; ++a) {
-      mesh.node_corners[next[corners[e][a]]++] = static_cast<std::uint32_t>(8 * e + a);
-    }
-  }
-  mesh.corner_force.resize(8 * corners.size());
+  static_assert(sizeof(Corners) == 8 * sizeof(std::uint32_t));
+  const std::span<const std::uint32_t> nodes = corners.empty()
+                                                   ? std::span<const std::uint32_t>()
+                                                   : std::span(corners.front().data(), 8 * corners.size());
+  list_by_item(nodes, mesh.nodes.size(), mesh.first_corner, mesh.node_corners);
+  make_blocks(mesh);
 }
 
 void lump_masses(Mesh& mesh) {

@@ -94,6 +94,19 @@ struct GaussPoints : MaterialPoints {
   }
 };
 
+/// Consecutive elements that the kernels take together: positions and velocities of their nodes are copied
+/// to the first-level cache, forces are summed there first. Derived from the corners by `connect`.
+struct Blocks {
+  static constexpr std::size_t size = 256;  ///< elements
+
+  std::vector<std::uint32_t> first_slot;  ///< the slots of block b: [first_slot[b], first_slot[b + 1])
+  std::vector<std::uint32_t> slot_node;   ///< node of each slot
+  std::vector<std::array<std::uint16_t, 8>> corner_slot;  ///< of each element, counted in its block
+  std::vector<std::uint32_t> first_of_node,
+      slots_of_node;                ///< of node a, ascending, as in Mesh::first_corner
+  std::vector<Vector3> slot_force;  ///< scratch of `internal_forces`
+};
+
 /// The elements of one body on one rank.
 struct Mesh {
   Quadrature quadrature = Quadrature::one_point;
@@ -106,7 +119,7 @@ struct Mesh {
   // node_corners[first_corner[a]] ... node_corners[first_corner[a + 1] - 1], each 8 element + corner,
   // ascending.
   std::vector<std::uint32_t> first_corner, node_corners;
-  std::vector<Vector3> corner_force;  ///< scratch of `internal_forces`
+  Blocks blocks;
 
   [[nodiscard]] std::span<const std::uint32_t> corners_at(std::size_t node) const {
     return std::span(node_corners).subspan(first_corner[node], first_corner[node + 1] - first_corner[node]);
@@ -125,9 +138,10 @@ std::optional<Fault> first_fault(const Hexahedra& hexahedra);
 /// @throws InputError for the first fault, for a mesh without elements, for nodes of no element
 void check(const Hexahedra& hexahedra, const std::string& name);
 
-/// Nodes, elements and Gauss points with their volumes; ids count from the given numbers. Without mass,
-/// velocity and state: `set_density`, then `initialise` (src/material/material.hpp) with `mesh.points`.
-/// The hexahedra must have passed `check`.
+/// Nodes, elements and Gauss points with their volumes, in an order that keeps neighbours together; the ids
+/// count from the given numbers in the order of the hexahedra. Without mass, velocity and state:
+/// `set_density`, then `initialise` (src/material/material.hpp) with `mesh.points`. The hexahedra must have
+/// passed `check`.
 Mesh make_mesh(const Hexahedra& hexahedra, Quadrature quadrature, std::uint32_t body = 0,
                std::uint64_t first_node_id = 0, std::uint64_t first_element_id = 0);
 
