@@ -11,6 +11,7 @@
 
 #include "src/base/error.hpp"
 #include "src/fem/hexahedron.hpp"
+#include "src/fem/lists.hpp"
 #include "src/parallel/threads.hpp"
 
 namespace whipple::fem {
@@ -85,20 +86,6 @@ std::vector<std::uint32_t> spatial_order(const Hexahedra& hexahedra) {
   return order;
 }
 
-/// Values of one item after the other: offsets and lists from (item, value) pairs that come by ascending
-/// value.
-void list_by_item(std::span<const std::uint32_t> item_of_value, std::size_t items,
-                  std::vector<std::uint32_t>& first, std::vector<std::uint32_t>& values) {
-  first.assign(items + 1, 0);
-  for (const std::uint32_t item : item_of_value) ++first[item + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  values.resize(item_of_value.size());
-  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-  for (std::size_t v = 0; v < item_of_value.size(); ++v) {
-    values[next[item_of_value[v]]++] = static_cast<std::uint32_t>(v);
-  }
-}
-
 void make_blocks(Mesh& mesh) {
   Blocks& blocks = mesh.blocks;
   const auto& corners = mesh.elements.corners;
@@ -144,18 +131,20 @@ void keep(Points& points, std::span<const std::uint32_t> kept, std::size_t rows_
 std::optional<Fault> first_fault(const Hexahedra& hexahedra) {
   for (std::size_t e = 0; e < hexahedra.elements.size(); ++e) {
     const Corners& corners = hexahedra.elements[e];
-    for (const std::uint32_t node : corners) {
+    for (std::size_t a = 0; a < 8; ++a) {
+      const std::uint32_t node = corners[a];
       if (node >= hexahedra.nodes.size()) {
-        return Fault{e, fmt::format("node {} does not exist: there are {}", node, hexahedra.nodes.size())};
-      }
-      if (std::ranges::count(corners, node) > 1) {
         return Fault{
-            e, fmt::format("degenerate: node {} stands at more than one corner ({}); only hexahedra with "
-                           "eight different nodes are supported",
-                           node, fmt::join(corners, ", "))};
+            e, fmt::format("wrong: node {} does not exist, there are {}", node, hexahedra.nodes.size())};
       }
-      if (!hexahedra.nodes[node].allFinite())
-        return Fault{e, fmt::format("node {} has no finite position", node)};
+      const auto twin = std::ranges::find(corners, node) - corners.begin();
+      if (static_cast<std::size_t>(twin) != a) {
+        return Fault{
+            e, fmt::format("degenerate: corners {} and {} are one node; a hexahedron needs eight", twin, a)};
+      }
+      if (!hexahedra.nodes[node].allFinite()) {
+        return Fault{e, fmt::format("wrong: corner {} has no finite position", a)};
+      }
     }
     std::string reason = inversion(modes(hexahedra.nodes, corners));
     if (!reason.empty()) return Fault{e, std::move(reason)};
@@ -298,12 +287,12 @@ std::vector<std::uint32_t> nodes_on_plane(const Mesh& mesh, int axis, double coo
   return found;
 }
 
-void constrain(Mesh& mesh, std::span<const std::uint32_t> nodes, std::uint8_t directions,
+void constrain(Nodes& nodes, std::span<const std::uint32_t> which, std::uint8_t directions,
                const Vector3& velocity) {
-  for (const std::uint32_t a : nodes) {
-    mesh.nodes.constrained[a] = static_cast<std::uint8_t>(mesh.nodes.constrained[a] | directions);
+  for (const std::uint32_t a : which) {
+    nodes.constrained[a] = static_cast<std::uint8_t>(nodes.constrained[a] | directions);
     for (int i = 0; i < 3; ++i) {
-      if ((directions & constraint::axis(i)) != 0) mesh.nodes.prescribed[a][i] = velocity[i];
+      if ((directions & constraint::axis(i)) != 0) nodes.prescribed[a][i] = velocity[i];
     }
   }
 }

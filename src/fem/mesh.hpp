@@ -174,8 +174,12 @@ std::vector<std::uint32_t> nodes_on_plane(const Mesh& mesh, int axis, double coo
 
 /// Prescribes the velocity (m/s) of nodes along the directions of the bits (fem::constraint), beside what is
 /// prescribed for them already. A fixed node: all and zero. A symmetry plane: its axis and zero.
-void constrain(Mesh& mesh, std::span<const std::uint32_t> nodes, std::uint8_t directions,
+void constrain(Nodes& nodes, std::span<const std::uint32_t> which, std::uint8_t directions,
                const Vector3& velocity = Vector3::Zero());
+inline void constrain(Mesh& mesh, std::span<const std::uint32_t> which, std::uint8_t directions,
+                      const Vector3& velocity = Vector3::Zero()) {
+  constrain(mesh.nodes, which, directions, velocity);
+}
 
 /// Sums over a mesh (SI); bitwise independent of the number of threads.
 struct MeshTotals {

@@ -31,9 +31,8 @@ ConstraintBalance& ConstraintBalance::operator+=(const ConstraintBalance& other)
   return *this;
 }
 
-ConstraintBalance advance_velocities(Mesh& mesh, double dt, Motion& motion,
+ConstraintBalance advance_velocities(Nodes& nodes, double dt, Motion& motion,
                                      std::span<const std::uint8_t> elsewhere) {
-  Nodes& nodes = mesh.nodes;
   motion.mean.resize(nodes.size());
   motion.end.resize(nodes.size());
   return parallel::sum<ConstraintBalance>(nodes.size(), [&](std::size_t a) {
@@ -57,8 +56,8 @@ ConstraintBalance advance_velocities(Mesh& mesh, double dt, Motion& motion,
   });
 }
 
-void move_nodes(Mesh& mesh, const Motion& motion, double dt) {
-  parallel::for_each(mesh.nodes.size(), [&](std::size_t a) { mesh.nodes.position[a] += dt * motion.end[a]; });
+void move_nodes(Nodes& nodes, const Motion& motion, double dt) {
+  parallel::for_each(nodes.size(), [&](std::size_t a) { nodes.position[a] += dt * motion.end[a]; });
 }
 
 void add_heat(Mesh& mesh, std::span<const double> node_heat) {

@@ -55,8 +55,13 @@ struct ConstraintBalance {
 /// v <- v + dt f/m, then the prescribed components; `motion` gets the mean of old and new velocity, and the
 /// new one. Nodes of `elsewhere` (!= 0) are left alone with their part of `motion`: the caller fills it.
 /// @param elsewhere  empty, or one entry per node
-ConstraintBalance advance_velocities(Mesh& mesh, double dt, Motion& motion,
+ConstraintBalance advance_velocities(Nodes& nodes, double dt, Motion& motion,
                                      std::span<const std::uint8_t> elsewhere = {});
+
+inline ConstraintBalance advance_velocities(Mesh& mesh, double dt, Motion& motion,
+                                            std::span<const std::uint8_t> elsewhere = {}) {
+  return advance_velocities(mesh.nodes, dt, motion, elsewhere);
+}
 
 /// What the deformation of a step did to the elements.
 struct DeformationReport {
@@ -76,7 +81,8 @@ DeformationReport deform(Mesh& mesh, const Motion& motion, double dt, const Hour
                          std::span<Matrix3> velocity_gradient);
 
 /// x <- x + dt motion.end
-void move_nodes(Mesh& mesh, const Motion& motion, double dt);
+void move_nodes(Nodes& nodes, const Motion& motion, double dt);
+inline void move_nodes(Mesh& mesh, const Motion& motion, double dt) { move_nodes(mesh.nodes, motion, dt); }
 
 /// Shares heat given at the nodes (J) among their elements by mass (specific internal energy).
 void add_heat(Mesh& mesh, std::span<const double> node_heat);

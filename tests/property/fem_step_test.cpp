@@ -382,8 +382,8 @@ TEST(Boundary, PrescribedVelocityBooksImpulseAndWork) {
       if (id % 16 < 4) piston.push_back(a);
       if (id >= 48) wall.push_back(a);
     }
-    constrain(body.mesh, piston, fem::constraint::x | fem::constraint::y, Vector3(150.0, -20.0, 1e9));
-    constrain(body.mesh, wall, fem::constraint::z);
+    constrain(body.mesh.nodes, piston, fem::constraint::x | fem::constraint::y, Vector3(150.0, -20.0, 1e9));
+    constrain(body.mesh.nodes, wall, fem::constraint::z);
     const fem::MeshTotals before = totals(body.mesh);
     for (int i = 0; i < 100; ++i) body.step(0.5 * body.critical_time_step());
     const fem::MeshTotals now = totals(body.mesh);

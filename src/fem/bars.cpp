@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/fem/bars.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "src/base/error.hpp"
+#include "src/fem/lists.hpp"
+#include "src/parallel/threads.hpp"
+
+namespace whipple::fem {
+namespace {
+
+Vector3 along(const Bars& bars, std::size_t b) {
+  const auto& ends = bars.elements.ends[b];
+  return bars.nodes.position[ends[1]] - bars.nodes.position[ends[0]];
+}
+
+/// Volume at the start, m^3.
+double volume(const Bars& bars, std::size_t b) { return bars.elements.mass[b] / bars.material.density; }
+
+/// Stress at the end of a step from its logarithmic strain increment: elastic trial, return to the yield
+/// stress (eq. 6.2).
+void update_stress(Bars& bars, std::size_t b, double strain_increment) {
+  BarElements& e = bars.elements;
+  const BarMaterial& m = bars.material;
+  if (e.broken[b] != 0) return;
+  const double trial = e.stress[b] + m.young * strain_increment;
+  const double excess = std::abs(trial) - (m.yield_stress + m.hardening_modulus * e.plastic_strain[b]);
+  if (!(excess > 0.0)) {
+    e.stress[b] = trial;
+    return;
+  }
+  const double plastic = excess / (m.young + m.hardening_modulus);
+  e.stress[b] = trial - std::copysign(m.young * plastic, trial);
+  e.plastic_strain[b] += plastic;
+  if (e.plastic_strain[b] > m.failure_strain) {
+    e.broken[b] = 1;
+    e.stress[b] = 0.0;  // the elastic energy becomes heat: internal energy stays
+  }
+}
+
+}  // namespace
+
+Bars make_bars(const Lines& lines, double area, const BarMaterial& material, const std::string& name,
+               std::uint32_t body, std::uint64_t first_node_id, std::uint64_t first_element_id) {
+  if (lines.elements.empty()) throw InputError(name + ": there are no bars");
+  for (const auto& [what, value] :
+       {std::pair{"density", material.density}, std::pair{"Young's modulus", material.young},
+        std::pair{"yield stress", material.yield_stress}, std::pair{"cross-section", area}}) {
+    if (!(value > 0.0))
+      throw InputError(fmt::format("{}: the {} of bars must be positive, not {:.6g}", name, what, value));
+  }
+  if (!(material.hardening_modulus >= 0.0) || !(material.failure_strain > 0.0)) {
+    throw InputError(name + ": bars need a hardening modulus of at least 0 and a positive failure strain");
+  }
+  Bars bars;
+  bars.material = material;
+  bars.body = body;
+  resize(bars.nodes, lines.nodes.size());
+  resize(bars.elements, lines.elements.size());
+  std::iota(bars.nodes.id.begin(), bars.nodes.id.end(), first_node_id);
+  std::iota(bars.elements.id.begin(), bars.elements.id.end(), first_element_id);
+  bars.nodes.position = lines.nodes;
+  for (auto* zero : {&bars.nodes.velocity, &bars.nodes.force, &bars.nodes.prescribed}) {
+    std::ranges::fill(*zero, Vector3::Zero());
+  }
+  bars.elements.ends = lines.elements;
+  for (std::size_t b = 0; b < bars.elements.size(); ++b) {
+    for (const std::uint32_t node : lines.elements[b]) {
+      if (node >= lines.nodes.size()) {
+        throw InputError(fmt::format("{}: bar {}: node {} does not exist, there are {}", name, b, node,
+                                     lines.nodes.size()));
+      }
+    }
+    const double length = along(bars, b).norm();
+    if (!(length > 0.0) || !std::isfinite(length))
+      throw InputError(fmt::format("{}: bar {} has no length", name, b));
+    bars.elements.reference_length[b] = length;
+    bars.elements.mass[b] = material.density * area * length;
+    for (const std::uint32_t node : lines.elements[b]) bars.nodes.mass[node] += 0.5 * bars.elements.mass[b];
+  }
+  const auto unused = std::ranges::find(bars.nodes.mass, 0.0);
+  if (unused != bars.nodes.mass.end()) {
+    throw InputError(fmt::format("{}: node {} belongs to no bar", name, unused - bars.nodes.mass.begin()));
+  }
+  connect(bars);
+  return bars;
+}
+
+void connect(Bars& bars) {
+  const auto& ends = bars.elements.ends;
+  list_by_item(
+      ends.empty() ? std::span<const std::uint32_t>() : std::span(ends.front().data(), 2 * ends.size()),
+      bars.nodes.size(), bars.first_end, bars.node_ends);
+  bars.axial_force.resize(ends.size());
+}
+
+double critical_time_step(const Bars& bars) {
+  const double speed = std::sqrt(bars.material.young / bars.material.density);
+  return 1.0 / parallel::maximum(bars.elements.size(), 0.0, [&](std::size_t b) {
+           return bars.elements.broken[b] != 0 ? 0.0 : speed / along(bars, b).norm();
+         });
+}
+
+void internal_forces(Bars& bars) {
+  parallel::for_each(bars.elements.size(), [&](std::size_t b) {
+    const Vector3 x = along(bars, b);
+    bars.axial_force[b] = (-bars.elements.stress[b] * volume(bars, b) / x.squaredNorm()) * x;
+  });
+  parallel::for_each(bars.nodes.size(), [&](std::size_t a) {
+    Vector3 force = Vector3::Zero();
+    for (std::uint32_t k = bars.first_end[a]; k < bars.first_end[a + 1]; ++k) {
+      const std::uint32_t end = bars.node_ends[k];
+      force += (end % 2 == 1 ? 1.0 : -1.0) * bars.axial_force[end / 2];
+    }
+    bars.nodes.force[a] = force;
+  });
+}
+
+double deform(Bars& bars, const Motion& motion, double dt) {
+  if (motion.end.size() != bars.nodes.size() || motion.mean.size() != bars.nodes.size()) {
+    throw InternalError("fem::deform: velocities do not fit the bars");
+  }
+  return parallel::sum<double>(bars.elements.size(), [&](std::size_t b) {
+    const auto& [first, second] = bars.elements.ends[b];
+    const Vector3 x = along(bars, b);
+    const Vector3 end = x + dt * (motion.end[second] - motion.end[first]);
+    const double rate = x.dot(motion.mean[second] - motion.mean[first]) / x.squaredNorm();  // of the strain
+    const double work = dt * volume(bars, b) * bars.elements.stress[b] * rate;
+    bars.elements.internal_energy[b] += work;
+    update_stress(bars, b, 0.5 * std::log(end.squaredNorm() / x.squaredNorm()));
+    return work;
+  });
+}
+
+double internal_energy(const Bars& bars) {
+  return parallel::sum<double>(bars.elements.size(),
+                               [&](std::size_t b) { return bars.elements.internal_energy[b]; });
+}
+
+}  // namespace whipple::fem

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "src/fem/mesh.hpp"
+#include "src/fem/step.hpp"
+
+/// Two-node bars that carry an axial force only: reinforcement, fibres, wires (docs/theory/fem.md, 6). Their
+/// nodes are nodes of finite elements: they move by themselves, or with the velocity field of a grid.
+namespace whipple::fem {
+
+/// Points and the two ends of every bar.
+struct Lines {
+  std::vector<Vector3> nodes;  ///< m
+  std::vector<std::array<std::uint32_t, 2>> elements;
+};
+
+/// Elastic-plastic bar of logarithmic strain (eq. 6.2).
+struct BarMaterial {
+  double density = 0.0;                                           ///< kg/m^3
+  double young = 0.0;                                             ///< Pa
+  double yield_stress = std::numeric_limits<double>::infinity();  ///< Pa
+  double hardening_modulus = 0.0;  ///< Pa, slope of the yield stress over the plastic strain
+  double failure_strain = std::numeric_limits<double>::infinity();  ///< plastic strain at which a bar breaks
+};
+
+struct BarElements {
+  std::vector<std::uint64_t> id;
+  std::vector<std::array<std::uint32_t, 2>> ends;
+  std::vector<double> mass;              ///< kg
+  std::vector<double> reference_length;  ///< m, free of stress
+  std::vector<double> stress;            ///< Pa, Kirchhoff (per volume at the start), positive in tension
+  std::vector<double> plastic_strain;    ///< equivalent
+  std::vector<double> internal_energy;   ///< J, elastic and heat
+  std::vector<std::uint8_t> broken;      ///< 1: carries nothing any more
+
+  [[nodiscard]] std::size_t size() const { return id.size(); }
+
+  static constexpr auto fields() {
+    using B = BarElements;
+    return std::make_tuple(
+        Field{"id", "1", &B::id}, Field{"ends", "1", &B::ends}, Field{"mass", "kg", &B::mass},
+        Field{"reference_length", "m", &B::reference_length}, Field{"stress", "Pa", &B::stress},
+        Field{"plastic_strain", "1", &B::plastic_strain}, Field{"internal_energy", "J", &B::internal_energy},
+        Field{"broken", "1", &B::broken});
+  }
+};
+
+/// Bars of one material.
+struct Bars {
+  BarMaterial material;
+  std::uint32_t body = 0;  ///< index of the body in the case
+  Nodes nodes;
+  BarElements elements;
+
+  // Derived by `connect`: the ends that meet at node a, each 2 bar + end, ascending.
+  std::vector<std::uint32_t> first_end, node_ends;
+  std::vector<Vector3> axial_force;  ///< scratch of `internal_forces`: N, on the second end
+};
+
+/// @param area  m^2, of the cross-section
+/// @throws InputError if density, stiffness or area is not positive, if a bar has no length, a node that does
+/// not exist or one node twice, or a node belongs to no bar
+Bars make_bars(const Lines& lines, double area, const BarMaterial& material, const std::string& name,
+               std::uint32_t body = 0, std::uint64_t first_node_id = 0, std::uint64_t first_element_id = 0);
+
+/// Rebuilds what is derived from the ends.
+void connect(Bars& bars);
+
+/// Least l/c of the bars that are not broken (s), c^2 = E/rho (eq. 6.4).
+double critical_time_step(const Bars& bars);
+
+/// Forces on the nodes, into `nodes.force` (eq. 6.1).
+void internal_forces(Bars& bars);
+
+/// Work of the step, then strain and stress at its end, exactly those of the moved nodes (eq. 6.2, 6.3).
+/// @returns J, work into internal energy
+double deform(Bars& bars, const Motion& motion, double dt);
+
+double internal_energy(const Bars& bars);
+
+}  // namespace whipple::fem

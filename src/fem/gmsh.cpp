@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/fem/gmsh.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string_view>
+#include <unordered_map>
+
+#include "src/base/error.hpp"
+#include "src/base/text.hpp"
+
+namespace whipple::fem {
+namespace {
+
+/// Kinds of elements by their number in the file (Gmsh reference manual, "MSH file format").
+struct Kind {
+  int number;
+  const char* name;
+  int dimension;
+  std::size_t nodes;
+};
+constexpr int line_kind = 1, hexahedron_kind = 5;
+constexpr std::array kinds = {Kind{1, "2-node lines", 1, 2},
+                              Kind{2, "3-node triangles", 2, 3},
+                              Kind{3, "4-node quadrangles", 2, 4},
+                              Kind{4, "4-node tetrahedra", 3, 4},
+                              Kind{5, "8-node hexahedra", 3, 8},
+                              Kind{6, "6-node prisms", 3, 6},
+                              Kind{7, "5-node pyramids", 3, 5},
+                              Kind{8, "3-node lines", 1, 3},
+                              Kind{9, "6-node triangles", 2, 6},
+                              Kind{10, "9-node quadrangles", 2, 9},
+                              Kind{11, "10-node tetrahedra", 3, 10},
+                              Kind{12, "27-node hexahedra", 3, 27},
+                              Kind{13, "18-node prisms", 3, 18},
+                              Kind{14, "14-node pyramids", 3, 14},
+                              Kind{15, "points", 0, 1},
+                              Kind{16, "8-node quadrangles", 2, 8},
+                              Kind{17, "20-node hexahedra", 3, 20},
+                              Kind{18, "15-node prisms", 3, 15},
+                              Kind{19, "13-node pyramids", 3, 13}};
+
+const Kind* kind_of(int number) {
+  const auto found = std::ranges::find(kinds, number, &Kind::number);
+  return found == kinds.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+/// Reads line by line; knows where it is.
+class GmshReader {
+ public:
+  GmshReader(GmshFile& file, const std::filesystem::path& path, double length_unit)
+      : file_(file), path_(path), unit_(length_unit), stream_(path) {
+    if (!stream_) throw InputError(fmt::format("{}: cannot be read", path.string()));
+  }
+
+  void read() {
+    format();
+    while (next_or_end()) {
+      if (text_ == "$PhysicalNames") {
+        physical_names();
+      } else if (text_ == "$Entities" && version_ == 4.1) {
+        entities();
+      } else if (text_ == "$Nodes") {
+        version_ == 4.1 ? nodes_4() : nodes_2();
+      } else if (text_ == "$Elements") {
+        version_ == 4.1 ? elements_4() : elements_2();
+      } else if (text_ == "$PartitionedEntities") {
+        fail("the mesh is partitioned; save it in one part (Mesh.PartitionOldStyleMsh2, Unpartition)");
+      } else if (text_.starts_with("$")) {
+        skip(std::string(text_));
+      } else if (!text_.empty()) {
+        fail(fmt::format("expected the beginning of a section ($...), not \"{}\"", text_));
+      }
+    }
+    if (!saw_elements_) fail("the file ends without $Elements");
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("{}:{}: error: {}", path_.string(), line_, what));
+  }
+  bool next_or_end() {
+    if (!std::getline(stream_, buffer_)) return false;
+    ++line_;
+    while (!buffer_.empty() && (buffer_.back() == '\r' || buffer_.back() == ' ')) buffer_.pop_back();
+    text_ = rest_ = buffer_;
+    return true;
+  }
+  void next(const char* section) {
+    if (!next_or_end()) fail(fmt::format("the file ends inside ${}", section));
+  }
+  /// The next word of the line.
+  std::string_view word(const char* what) {
+    const std::size_t begin = rest_.find_first_not_of(" \t");
+    if (begin == std::string_view::npos) fail(fmt::format("the line ends where {} is expected", what));
+    rest_.remove_prefix(begin);
+    const std::size_t length = std::min(rest_.find_first_of(" \t"), rest_.size());
+    const std::string_view result = rest_.substr(0, length);
+    rest_.remove_prefix(length);
+    return result;
+  }
+  template <class Number>
+  Number number(const char* what) {
+    const std::string_view text = word(what);
+    Number value{};
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc{} || end != text.data() + text.size()) {
+      fail(fmt::format("\"{}\" is not {}", text, what));
+    }
+    return value;
+  }
+  std::size_t count(const char* what) { return number<std::size_t>(what); }
+  void end_of(const char* section) {
+    next(section);
+    if (text_ != fmt::format("$End{}", section))
+      fail(fmt::format("expected $End{}, not \"{}\"", section, text_));
+  }
+  void skip(const std::string& section) {
+    const std::string end = "$End" + section.substr(1);
+    do next(section.c_str() + 1);
+    while (text_ != end);
+  }
+
+  void format() {
+    if (!next_or_end() || text_ != "$MeshFormat") {
+      throw InputError(
+          fmt::format("{}: not a mesh of Gmsh: the first line is not $MeshFormat", path_.string()));
+    }
+    next("MeshFormat");
+    version_ = number<double>("the version of the format");
+    if (version_ != 2.2 && version_ != 4.1) {
+      fail(fmt::format("format {}; supported are 2.2 and 4.1 (gmsh -format msh41)", version_));
+    }
+    if (number<int>("0 (ASCII) or 1 (binary)") != 0)
+      fail("binary file; supported is ASCII (gmsh -bin 0, Mesh.Binary = 0)");
+    end_of("MeshFormat");
+  }
+
+  GmshFile::Group& group(int dimension, int tag) {
+    const auto same = [&](const GmshFile::Group& g) { return g.dimension == dimension && g.tag == tag; };
+    const auto found = std::ranges::find_if(file_.groups_, same);
+    if (found != file_.groups_.end()) return *found;
+    return file_.groups_.emplace_back(GmshFile::Group{dimension, tag, fmt::format("physical {}", tag), {}});
+  }
+
+  void physical_names() {
+    next("PhysicalNames");
+    for (std::size_t left = count("the number of physical names"); left > 0; --left) {
+      next("PhysicalNames");
+      const int dimension = number<int>("a dimension"), tag = number<int>("the tag of a physical group");
+      const std::size_t begin = rest_.find('"'), end = rest_.rfind('"');
+      if (begin == std::string_view::npos || end <= begin + 1)
+        fail("expected the name of the group in quotes");
+      group(dimension, tag).name = rest_.substr(begin + 1, end - begin - 1);
+    }
+    end_of("PhysicalNames");
+  }
+
+  void entities() {
+    next("Entities");
+    std::array<std::size_t, 4> counts;
+    for (std::size_t& n : counts) n = count("a number of entities");
+    for (int dimension = 0; dimension < 4; ++dimension) {
+      for (std::size_t left = counts[static_cast<std::size_t>(dimension)]; left > 0; --left) {
+        next("Entities");
+        const int tag = number<int>("the tag of an entity");
+        for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) number<double>("a coordinate");
+        std::vector<int>& physical = physical_of_entity_[{dimension, tag}];
+        physical.resize(count("the number of physical groups of an entity"));
+        for (int& p : physical) p = number<int>("the tag of a physical group");
+      }
+    }
+    end_of("Entities");
+  }
+
+  void add_node(std::uint64_t tag) {
+    Vector3 x;
+    for (int i = 0; i < 3; ++i) x[i] = unit_ * number<double>("a coordinate");
+    if (!index_of_node_.emplace(tag, static_cast<std::uint32_t>(file_.nodes_.size())).second) {
+      fail(fmt::format("node {} is defined twice", tag));
+    }
+    file_.nodes_.push_back(x);
+  }
+  void nodes_2() {
+    next("Nodes");
+    for (std::size_t left = count("the number of nodes"); left > 0; --left) {
+      next("Nodes");
+      const auto tag = number<std::uint64_t>("the number of a node");
+      add_node(tag);
+    }
+    end_of("Nodes");
+  }
+  void nodes_4() {
+    next("Nodes");
+    for (std::size_t blocks = count("the number of blocks"); blocks > 0; --blocks) {
+      next("Nodes");
+      number<int>("a dimension");
+      number<int>("the tag of an entity");
+      number<int>("0 or 1 (parametric)");
+      std::vector<std::uint64_t> tags(count("the number of nodes"));
+      for (std::uint64_t& tag : tags) {
+        next("Nodes");
+        tag = number<std::uint64_t>("the tag of a node");
+      }
+      for (const std::uint64_t tag : tags) {
+        next("Nodes");
+        add_node(tag);
+      }
+    }
+    end_of("Nodes");
+  }
+
+  void add_element(std::uint64_t tag, const Kind& kind, std::span<const int> physical) {
+    GmshFile::Element element{tag, line_, kind.number, {}};
+    for (std::size_t i = 0; i < kind.nodes; ++i) {
+      const auto node = number<std::uint64_t>("the number of a node");
+      const auto found = index_of_node_.find(node);
+      if (found == index_of_node_.end()) fail(fmt::format("element {}: node {} is not defined", tag, node));
+      element.nodes.push_back(found->second);
+    }
+    for (const int p : physical) {
+      // Negative in format 4.1 where the entity is reversed.
+      if (p != 0)
+        group(kind.dimension, std::abs(p))
+            .elements.push_back(static_cast<std::uint32_t>(file_.elements_.size()));
+    }
+    file_.elements_.push_back(std::move(element));
+  }
+  const Kind& kind() {
+    const int number_of_kind = number<int>("the kind of an element");
+    const Kind* found = kind_of(number_of_kind);
+    if (found == nullptr) fail(fmt::format("elements of kind {} are not supported", number_of_kind));
+    return *found;
+  }
+  void elements_2() {
+    saw_elements_ = true;
+    next("Elements");
+    for (std::size_t left = count("the number of elements"); left > 0; --left) {
+      next("Elements");
+      const auto tag = number<std::uint64_t>("the number of an element");
+      const Kind& k = kind();
+      std::vector<int> tags(count("the number of tags"));
+      for (int& t : tags) t = number<int>("a tag");
+      add_element(tag, k, std::span(tags).first(std::min<std::size_t>(tags.size(), 1)));
+    }
+    end_of("Elements");
+  }
+  void elements_4() {
+    saw_elements_ = true;
+    next("Elements");
+    for (std::size_t blocks = count("the number of blocks"); blocks > 0; --blocks) {
+      next("Elements");
+      const int dimension = number<int>("a dimension"), entity = number<int>("the tag of an entity");
+      const Kind& k = kind();
+      const std::vector<int>& physical = physical_of_entity_[{dimension, entity}];
+      for (std::size_t left = count("the number of elements"); left > 0; --left) {
+        next("Elements");
+        add_element(number<std::uint64_t>("the tag of an element"), k, physical);
+      }
+    }
+    end_of("Elements");
+  }
+
+  GmshFile& file_;
+  std::filesystem::path path_;
+  double unit_, version_ = 0.0;
+  std::ifstream stream_;
+  std::string buffer_;
+  std::string_view text_, rest_;
+  std::size_t line_ = 0;
+  bool saw_elements_ = false;
+  std::unordered_map<std::uint64_t, std::uint32_t> index_of_node_;
+  std::map<std::pair<int, int>, std::vector<int>> physical_of_entity_;
+};
+
+GmshFile GmshFile::read(const std::filesystem::path& path, double length_unit) {
+  GmshFile file;
+  file.path_ = path;
+  GmshReader(file, path, length_unit).read();
+  return file;
+}
+
+std::vector<std::string> GmshFile::group_names() const {
+  std::vector<std::string> names;
+  for (const Group& group : groups_) names.push_back(group.name);
+  return names;
+}
+
+const GmshFile::Group& GmshFile::find(const std::string& name, int dimension, int kind) const {
+  const std::vector<std::string> names = group_names();
+  if (names.empty()) {
+    throw InputError(fmt::format("{}: the mesh has no physical groups; a body needs one (Physical Volume)",
+                                 path_.string()));
+  }
+  const auto same = [&](const Group& g) { return g.name == name && g.dimension == dimension; };
+  auto found = std::ranges::find_if(groups_, same);
+  if (found == groups_.end()) found = std::ranges::find(groups_, name, &Group::name);
+  if (found == groups_.end()) {
+    throw InputError(fmt::format("{}: no physical group \"{}\"{} The mesh has: {}", path_.string(), name,
+                                 did_you_mean(name, names), fmt::join(names, ", ")));
+  }
+  constexpr std::array dimensions = {"points", "curves", "surfaces", "volumes"};
+  if (found->dimension != dimension) {
+    throw InputError(fmt::format("{}: physical group \"{}\" is one of {}, not of {}", path_.string(), name,
+                                 dimensions[static_cast<std::size_t>(found->dimension)],
+                                 dimensions[static_cast<std::size_t>(dimension)]));
+  }
+  if (found->elements.empty()) {
+    throw InputError(fmt::format("{}: physical group \"{}\" has no elements", path_.string(), name));
+  }
+  for (const std::uint32_t e : found->elements) {
+    const Element& element = elements_[e];
+    if (element.kind == kind) continue;
+    throw InputError(fmt::format(
+        "{}:{}: error: element {} of group \"{}\" is one of the {}; supported are {}", path_.string(),
+        element.line, element.tag, name, kind_of(element.kind)->name, kind_of(kind)->name));
+  }
+  return *found;
+}
+
+std::vector<Vector3> GmshFile::own_nodes(const Group& group, std::vector<std::uint32_t>& number) const {
+  constexpr std::uint32_t unnumbered = 0xffffffff;
+  number.assign(nodes_.size(), unnumbered);
+  std::vector<Vector3> own;
+  for (const std::uint32_t e : group.elements) {
+    for (const std::uint32_t node : elements_[e].nodes) {
+      if (number[node] != unnumbered) continue;
+      number[node] = static_cast<std::uint32_t>(own.size());
+      own.push_back(nodes_[node]);
+    }
+  }
+  return own;
+}
+
+Hexahedra GmshFile::hexahedra(const std::string& name) const {
+  const Group& group = find(name, 3, hexahedron_kind);
+  std::vector<std::uint32_t> number;
+  Hexahedra result;
+  result.nodes = own_nodes(group, number);
+  for (const std::uint32_t e : group.elements) {
+    Corners& corners = result.elements.emplace_back();
+    std::ranges::transform(elements_[e].nodes, corners.begin(),
+                           [&](std::uint32_t node) { return number[node]; });
+  }
+  if (const auto fault = first_fault(result)) {
+    const Element& element = elements_[group.elements[fault->element]];
+    throw InputError(fmt::format("{}:{}: error: element {} of group \"{}\" is {}", path_.string(),
+                                 element.line, element.tag, name, fault->reason));
+  }
+  return result;
+}
+
+Lines GmshFile::lines(const std::string& name) const {
+  const Group& group = find(name, 1, line_kind);
+  std::vector<std::uint32_t> number;
+  Lines result;
+  result.nodes = own_nodes(group, number);
+  for (const std::uint32_t e : group.elements) {
+    const auto& nodes = elements_[e].nodes;
+    if (nodes[0] == nodes[1]) {
+      throw InputError(fmt::format("{}:{}: error: element {} of group \"{}\" has one node twice",
+                                   path_.string(), elements_[e].line, elements_[e].tag, name));
+    }
+    result.elements.push_back({number[nodes[0]], number[nodes[1]]});
+  }
+  return result;
+}
+
+}  // namespace whipple::fem

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes: generators against exact volumes, checks and their messages, files of Gmsh, removal of elements.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <sstream>
+
+#include "src/base/error.hpp"
+#include "src/fem/gmsh.hpp"
+#include "tests/unit/fem_support.hpp"
+#include "tests/unit/folder_test.hpp"
+
+namespace whipple::fem_test {
+namespace {
+
+using fem::Hexahedra;
+using std::numbers::pi;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+double volume_of(const Hexahedra& mesh) {
+  const fem::Mesh built = fem::make_mesh(mesh, Quadrature::one_point);
+  double sum = 0.0;
+  for (std::size_t e = 0; e < built.elements.size(); ++e) sum += fem::volume(built, e);
+  return sum;
+}
+
+/// Number of faces that belong to one element, after merging of nodes; a conforming mesh has them on its
+/// surface.
+std::size_t surface_faces(const Hexahedra& mesh, const std::function<bool(const Vector3&)>& on_surface) {
+  constexpr std::array<std::array<int, 4>, 6> faces = {
+      {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+  std::map<std::array<std::uint32_t, 4>, int> count;
+  for (const auto& corners : mesh.elements) {
+    for (const auto& face : faces) {
+      std::array<std::uint32_t, 4> key;
+      for (std::size_t i = 0; i < 4; ++i) key[i] = corners[static_cast<std::size_t>(face[i])];
+      std::ranges::sort(key);
+      ++count[key];
+    }
+  }
+  std::size_t free = 0;
+  for (const auto& [key, n] : count) {
+    EXPECT_LE(n, 2);
+    if (n != 1) continue;
+    ++free;
+    for (const std::uint32_t node : key)
+      EXPECT_TRUE(on_surface(mesh.nodes[node])) << mesh.nodes[node].transpose();
+  }
+  return free;
+}
+
+/// Worst element: least Jacobian of the corners over the mean one.
+double quality(const Hexahedra& mesh) {
+  const fem::Mesh built = fem::make_mesh(mesh, Quadrature::one_point);
+  double worst = 1.0;
+  for (std::size_t e = 0; e < built.elements.size(); ++e)
+    worst = std::min(worst, fem::scaled_jacobian(built, e));
+  return worst;
+}
+
+TEST(Meshes, Box) {
+  const Hexahedra box = fem::make_box(Vector3(1, 2, 3), Vector3(2, 4, 6), 0.5);
+  EXPECT_EQ(box.elements.size(), 2U * 4U * 6U);
+  EXPECT_EQ(box.nodes.size(), 3U * 5U * 7U);
+  fem::check(box, "box");
+  EXPECT_NEAR(volume_of(box), 6.0, 1e-14);
+  EXPECT_NEAR(quality(box), 1.0, 1e-12);
+}
+
+/// Curved bodies: volume converges to the exact one with second order, the surface lies where it should, no
+/// node is doubled, elements are good, halves and quarters are halves and quarters.
+struct Round {
+  const char* name;
+  double volume;
+  std::function<Hexahedra(double, fem::Halved)> make;
+  std::function<bool(const Vector3&)> on_surface;
+  int halvings;  // axes that can be halved
+  double least_quality;
+  double size;  // whole numbers of elements fit twice as many at half of it
+};
+std::vector<Round> rounds() {
+  const auto near = [](double a, double b) { return std::abs(a - b) < 1e-9; };
+  const auto radius = [](const Vector3& x) { return std::hypot(x[0], x[1]); };
+  return {{"cylinder", pi * 4.0 * 3.0,
+           [](double h, fem::Halved half) { return fem::make_cylinder(2.0, 3.0, h, half); },
+           [=](const Vector3& x) { return near(radius(x), 2.0) || near(x[2], 0.0) || near(x[2], 3.0); }, 2,
+           0.3, 0.5},
+          {"tube", pi * (4.0 - 1.0) * 3.0,
+           [](double h, fem::Halved half) { return fem::make_tube(1.0, 2.0, 3.0, h, half); },
+           [=](const Vector3& x) {
+             return near(radius(x), 2.0) || near(radius(x), 1.0) || near(x[2], 0.0) || near(x[2], 3.0);
+           },
+           2, 0.8, 0.4},
+          {"sphere", 4.0 / 3.0 * pi * 8.0,
+           [](double h, fem::Halved half) { return fem::make_sphere(2.0, h, half); },
+           [=](const Vector3& x) { return near(x.norm(), 2.0); }, 3, 0.25, 0.5}};
+}
+
+TEST(Meshes, RoundBodies) {
+  for (const Round& round : rounds()) {
+    const Hexahedra coarse = round.make(round.size, {}), fine = round.make(0.5 * round.size, {});
+    fem::check(coarse, round.name);
+    fem::check(fine, round.name);
+    const double first = 1.0 - volume_of(coarse) / round.volume,
+                 second = 1.0 - volume_of(fine) / round.volume;
+    EXPECT_GT(second, 0.0) << round.name;
+    EXPECT_NEAR(std::log2(first / second), 2.0, 0.15) << round.name;
+    EXPECT_LT(second, 0.02) << round.name;
+    EXPECT_GT(surface_faces(coarse, round.on_surface), 20U) << round.name;
+    EXPECT_GT(quality(fine), round.least_quality) << round.name;
+    fem::Halved half = {};
+    double share = 1.0;
+    for (int axis = 0; axis < round.halvings; ++axis) {
+      half[static_cast<std::size_t>(axis)] = true;
+      share *= 0.5;
+      const Hexahedra part = round.make(round.size, half);
+      EXPECT_NEAR(volume_of(part), share * volume_of(coarse), 1e-12 * round.volume) << round.name;
+      for (const Vector3& x : part.nodes) EXPECT_GT(x[axis], -1e-12);
+    }
+  }
+}
+
+TEST(Meshes, TransformKeepsElementsUpright) {
+  Hexahedra box = fem::make_box(Vector3::Zero(), Vector3(1, 2, 3), 1.0);
+  Matrix3 mirror = Matrix3::Identity();
+  mirror(1, 1) = -1.0;
+  fem::transform(box, mirror, Vector3(10, 0, 0));
+  fem::check(box, "mirrored");
+  EXPECT_NEAR(volume_of(box), 6.0, 1e-14);
+}
+
+TEST(Checks, SayWhatIsWrong) {
+  const Hexahedra good = fem::make_box(Vector3::Zero(), Vector3(3, 1, 1), 1.0);
+  Hexahedra inverted = good;
+  for (int a = 0; a < 4; ++a)
+    std::swap(inverted.elements[1][static_cast<std::size_t>(a)],
+              inverted.elements[1][static_cast<std::size_t>(a + 4)]);
+  EXPECT_THAT(
+      message_of<InputError>([&] { fem::check(inverted, "box"); }),
+      AllOf(HasSubstr("box: element 1 is inverted or flat at corner 0: Jacobian -0.125 m^3 (volume -1 m^3)"),
+            HasSubstr("the order of the corners")));
+  Hexahedra degenerate = good;
+  degenerate.elements[2][7] = degenerate.elements[2][6];
+  EXPECT_THAT(message_of<InputError>([&] { fem::check(degenerate, "box"); }),
+              HasSubstr("element 2 is degenerate: corners 6 and 7 are one node"));
+  Hexahedra missing = good;
+  missing.elements[0][3] = 99;
+  EXPECT_THAT(message_of<InputError>([&] { fem::check(missing, "box"); }),
+              HasSubstr("element 0 is wrong: node 99 does not exist, there are 16"));
+  Hexahedra folded = good;  // positive volume, one corner turned inside out
+  folded.nodes[folded.elements[0][6]] = Vector3(0.2, 0.2, 0.2);
+  EXPECT_THAT(message_of<InputError>([&] { fem::check(folded, "box"); }),
+              HasSubstr("element 0 is inverted or flat at corner 6"));
+  Hexahedra unused = good;
+  unused.nodes.emplace_back(5, 5, 5);
+  EXPECT_THAT(message_of<InputError>([&] { fem::check(unused, "box"); }),
+              HasSubstr("box: node 16 belongs to no element"));
+  EXPECT_THAT(message_of<InputError>([&] { fem::check({}, "box"); }), HasSubstr("no hexahedra"));
+  EXPECT_THAT(message_of<InputError>([&] { fem::make_box(Vector3::Zero(), Vector3(1, 0, 1), 0.1); }),
+              HasSubstr("each edge must be positive, not 0 m"));
+  EXPECT_THAT(message_of<InputError>([&] { fem::make_cylinder(1.0, 1.0, -0.1); }),
+              HasSubstr("the size of an element must be positive, not -0.1 m"));
+  EXPECT_THAT(message_of<InputError>([&] { fem::make_tube(1.0, 1.0, 1.0, 0.1); }),
+              HasSubstr("the outer radius less the inner one"));
+}
+
+TEST(Removal, KeepsMassMomentumAndStateOfTheRest) {
+  for (const Quadrature quadrature : both) {
+    Body body(Solid{}.material(), distorted_box(3, 1.0, 0.2), quadrature);
+    std::mt19937_64 generator(3);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    for (Vector3& v : body.mesh.nodes.velocity)
+      v = Vector3(uniform(generator), uniform(generator), uniform(generator));
+    for (double& e : body.mesh.points.specific_internal_energy) e = uniform(generator);
+    const fem::MeshTotals before = totals(body.mesh);
+    // A layer of nine: four nodes at its corners of the cube vanish, and the rest of its outer face.
+    std::vector<std::uint8_t> removed(27, 0);
+    double mass = 0.0, energy = 0.0;
+    Vector3 momentum = Vector3::Zero();
+    const std::size_t n = points_per_element(quadrature);
+    for (std::size_t e = 0; e < 27; ++e) {
+      if (body.mesh.elements.id[e] >= 9) continue;
+      removed[e] = 1;
+      mass += fem::mass(body.mesh, e);
+      for (std::size_t q = 0; q < n; ++q) {
+        energy += body.mesh.points.mass[n * e + q] * body.mesh.points.specific_internal_energy[n * e + q];
+      }
+      double corners = 0.0;
+      for (std::size_t a = 0; a < 8; ++a) {
+        corners += fem::corner_mass(body.mesh, e, a);
+        momentum +=
+            fem::corner_mass(body.mesh, e, a) * body.mesh.nodes.velocity[body.mesh.elements.corners[e][a]];
+      }
+      EXPECT_NEAR(corners, fem::mass(body.mesh, e), 1e-12 * mass);
+    }
+    fem::remove_elements(body.mesh, removed);
+    const fem::MeshTotals after = totals(body.mesh);
+    EXPECT_EQ(body.mesh.elements.size(), 18U);
+    EXPECT_EQ(body.mesh.nodes.size(), 48U);
+    EXPECT_EQ(body.mesh.points.size(), 18U * n);
+    EXPECT_NEAR(after.mass, before.mass - mass, 1e-13 * before.mass);
+    EXPECT_LT((after.momentum - before.momentum + momentum).norm(), 1e-12 * before.momentum_scale);
+    EXPECT_NEAR(after.internal_energy, before.internal_energy - energy, 1e-12 * before.mass);
+    fem::internal_forces(body.mesh);  // the derived lists fit
+    std::ranges::fill(removed, 1);
+    removed.resize(18);
+    fem::remove_elements(body.mesh, removed);
+    EXPECT_EQ(body.mesh.nodes.size(), 0U);
+    EXPECT_EQ(fem::critical_time_step(body.mesh, {}), std::numeric_limits<double>::infinity());
+  }
+}
+
+class Gmsh : public FolderTest {
+ protected:
+  static std::string text_of(const std::string& name) {
+    std::ifstream file(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/" + name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  /// The file with the first `from` replaced.
+  std::filesystem::path changed(const std::string& name, const std::string& from,
+                                const std::string& to) const {
+    std::string text = text_of(name);
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    if (at != std::string::npos) text.replace(at, from.size(), to);
+    std::ofstream(folder_ / "changed.msh") << text;
+    return folder_ / "changed.msh";
+  }
+};
+
+/// Files that Gmsh 4.8.4 wrote from two_boxes.geo: two boxes, 12 and 18 elements, sheared; both formats
+/// alike.
+TEST_F(Gmsh, ReadsBothFormats) {
+  std::vector<Hexahedra> plates;
+  for (const char* name : {"two_boxes_22.msh", "two_boxes_41.msh"}) {
+    const auto file = fem::GmshFile::read(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/" + name, 1e-3);
+    EXPECT_THAT(file.group_names(),
+                ::testing::UnorderedElementsAre("plate", "projectile", "rebar", "bottom"));
+    const Hexahedra plate = file.hexahedra("plate"), projectile = file.hexahedra("projectile");
+    EXPECT_EQ(plate.elements.size(), 12U) << name;
+    EXPECT_EQ(plate.nodes.size(), 36U) << name;
+    EXPECT_NEAR(volume_of(plate), 2e-9, 1e-22) << name;
+    EXPECT_EQ(projectile.elements.size(), 18U) << name;
+    EXPECT_NEAR(volume_of(projectile), 3e-9, 1e-20) << name;  // sheared by 0.5 over a height of 1.5
+    fem::check(plate, "plate");
+    fem::check(projectile, "projectile");
+    const fem::Lines rebar = file.lines("rebar");
+    EXPECT_EQ(rebar.elements.size(), 3U);
+    EXPECT_EQ(rebar.nodes.size(), 4U);
+    double length = 0.0;
+    for (const auto& [a, b] : rebar.elements) length += (rebar.nodes[a] - rebar.nodes[b]).norm();
+    EXPECT_NEAR(length, 2e-3, 1e-15);
+    plates.push_back(plate);
+  }
+  EXPECT_EQ(plates[0].nodes.size(), plates[1].nodes.size());
+}
+
+TEST_F(Gmsh, NamesFileLineAndElement) {
+  const auto read = [](const std::filesystem::path& path) {
+    return message_of<InputError>([&] { fem::GmshFile::read(path); });
+  };
+  const auto of_group = [](const std::filesystem::path& path, const std::string& group) {
+    return message_of<InputError>([&] { std::ignore = fem::GmshFile::read(path).hexahedra(group); });
+  };
+  const std::filesystem::path good = std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/two_boxes_22.msh";
+  EXPECT_THAT(of_group(good, "projektile"),
+              AllOf(HasSubstr("no physical group \"projektile\""), HasSubstr("did you mean \"projectile\""),
+                    HasSubstr("The mesh has: rebar, bottom, plate, projectile")));
+  EXPECT_THAT(of_group(good, "bottom"), HasSubstr("\"bottom\" is one of surfaces, not of volumes"));
+  EXPECT_THAT(message_of<InputError>([&] { std::ignore = fem::GmshFile::read(good).lines("plate"); }),
+              HasSubstr("is one of volumes, not of curves"));
+  EXPECT_THAT(read(folder_ / "none.msh"), HasSubstr("cannot be read"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "$MeshFormat\n", "solid\n")), HasSubstr("not a mesh of Gmsh"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "2.2 0 8", "2.2 1 8")),
+              HasSubstr("changed.msh:2: error: binary file"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "2.2 0 8", "4 0 8")),
+              HasSubstr(":2: error: format 4; supported are 2.2 and 4.1"));
+  EXPECT_THAT(read(changed("two_boxes_41.msh", "$EndElements", "")), HasSubstr("expected $EndElements"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "$Elements\n", "$Comments\n")),
+              HasSubstr("ends inside $Comments"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n1 0 x 0\n")),
+              HasSubstr("error: \"x\" is not a coordinate"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n1 0 0\n")),
+              HasSubstr("the line ends where a coordinate is expected"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n2 0 0 0\n")),
+              HasSubstr("node 2 is defined twice"));
+}
+
+TEST_F(Gmsh, RefusesElementsThatItCannotComputeWith) {
+  // The first hexahedron of the plate, by its line in the file.
+  const std::string text = text_of("two_boxes_22.msh");
+  std::istringstream lines(text);
+  std::string line, first;
+  std::size_t number = 0, at = 0;
+  while (std::getline(lines, line)) {
+    ++number;
+    std::istringstream words(line);
+    int tag = 0, kind = 0, tags = 0, physical = 0;
+    if (words >> tag >> kind >> tags >> physical && kind == 5 && tags == 2 && physical == 1) {
+      first = line;
+      at = number;
+      break;
+    }
+  }
+  ASSERT_FALSE(first.empty());
+  std::istringstream words(first);
+  std::array<int, 13> n{};
+  for (int& value : n) words >> value;
+  const auto message = [&](const std::string& replacement) {
+    const auto path = changed("two_boxes_22.msh", first, replacement);
+    return message_of<InputError>([&] { std::ignore = fem::GmshFile::read(path).hexahedra("plate"); });
+  };
+  const std::string where = "changed.msh:" + std::to_string(at) + ": error: element " + std::to_string(n[0]);
+  const auto join = [&](std::span<const int> nodes, int kind) {
+    std::ostringstream out;
+    out << n[0] << ' ' << kind << " 2 1 " << n[4];
+    for (const int node : nodes) out << ' ' << node;
+    return out.str();
+  };
+  const std::span<const int> corners = std::span(n).subspan(5);
+  EXPECT_THAT(
+      message(join(corners.first(4), 4)),
+      HasSubstr(where +
+                " of group \"plate\" is one of the 4-node tetrahedra; supported are 8-node hexahedra"));
+  const std::array<int, 8> inverted = {n[9], n[10], n[11], n[12], n[5], n[6], n[7], n[8]};
+  EXPECT_THAT(message(join(inverted, 5)),
+              HasSubstr(where + " of group \"plate\" is inverted or flat at corner 0"));
+  std::array<int, 8> degenerate;
+  std::ranges::copy(corners, degenerate.begin());
+  degenerate[7] = degenerate[6];
+  EXPECT_THAT(message(join(degenerate, 5)),
+              HasSubstr(where + " of group \"plate\" is degenerate: corners 6 and 7 are one node"));
+  EXPECT_THAT(message(join(corners.first(7), 5)),
+              HasSubstr("the line ends where the number of a node is expected"));
+  degenerate[7] = 999;
+  EXPECT_THAT(message(join(degenerate, 5)),
+              HasSubstr("element " + std::to_string(n[0]) + ": node 999 is not defined"));
+}
+
+}  // namespace
+}  // namespace whipple::fem_test
