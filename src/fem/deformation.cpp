@@ -159,7 +159,7 @@ struct EightPoints {
         add_dyad(l, natural.z, cofactor.z);
         return l;
       };
-      // Work (eq. 4.4), velocity gradient (eq. 4.5)
+      // Work (eq. 4.3), velocity gradient (eq. 4.4)
       const Lanes work = dt * (contraction(deviator_at(points, rows), in_space(mean_velocity)) +
                                det * mean_stress_at(points, rows) * mean_divergence);
       store_gradient(step, four, rows,

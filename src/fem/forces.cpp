@@ -43,7 +43,7 @@ Modes<Lanes> b_bar_forces(const Mesh& mesh, const FourElements& four, const Mode
     const auto rows = at.rows(four);
     const Columns<Lanes> jacobian = at.gradient(x);
     mean_stress += determinant(jacobian) * mean_stress_at(mesh.points, rows);
-    // Deviator (eq. 4.2): det J s : grad u = (s cof J) : du/dxi
+    // Deviator: det J s : grad u = (s cof J) : du/dxi
     const Columns<Lanes> cofactor = cofactors(jacobian), s = deviator_at(mesh.points, rows);
     const Triple<Lanes> px = -0.125 * (s * cofactor.x), py = -0.125 * (s * cofactor.y),
                         pz = -0.125 * (s * cofactor.z);
@@ -55,7 +55,7 @@ Modes<Lanes> b_bar_forces(const Mesh& mesh, const FourElements& four, const Mode
     f.xi_eta += at.eta * px + at.xi * py;
     f.xi_eta_zeta += (at.eta * at.zeta) * px + (at.zeta * at.xi) * py + (at.xi * at.eta) * pz;
   }
-  // Pressure on the mean gradient (eq. 4.3).
+  // Pressure on the mean gradient.
   Columns<Lanes> mean{};
   add_to_diagonal(mean, mean_stress / beta.volume);
   return f + mean_gradient_forces(mean, beta);

@@ -32,11 +32,11 @@ struct ViscosityCoefficients {
 };
 
 /// Bound of the stable time step (s): the least 2/omega (sqrt(1 + xi^2) - xi) of the elements, with omega of
-/// the longitudinal sound speed and the element's length, xi of the artificial viscosity (eq. 5.1 to 5.3).
+/// the longitudinal sound speed and the element's length, xi of the artificial viscosity (eq. 5.1 to 5.4).
 /// Needs lengths (`make_mesh`, `deform`) and states. Infinite without elements.
 double critical_time_step(const Mesh& mesh, const ViscosityCoefficients& viscosity);
 
-/// Forces of stresses and hourglass control on the nodes, into `nodes.force` (eq. 2.4, 3.2, 4.3).
+/// Forces of stresses and hourglass control on the nodes, into `nodes.force` (eq. 2.6, 3.5, 4.2).
 void internal_forces(Mesh& mesh);
 
 /// Velocities of a step, one per node; grid nodes of a coupled run may give their own.
@@ -52,8 +52,9 @@ struct ConstraintBalance {
   ConstraintBalance& operator+=(const ConstraintBalance& other);
 };
 
-/// v <- v + dt f/m, then the prescribed components; `motion` gets the mean of old and new velocity, and the
-/// new one. Nodes of `elsewhere` (!= 0) are left alone with their part of `motion`: the caller fills it.
+/// v <- v + dt f/m (eq. 1.1), then the prescribed components; `motion` gets the mean of old and new velocity,
+/// and the new one. Nodes of `elsewhere` (!= 0) are left alone with their part of `motion`: the caller fills
+/// it.
 /// @param elsewhere  empty, or one entry per node
 ConstraintBalance advance_velocities(Nodes& nodes, double dt, Motion& motion,
                                      std::span<const std::uint8_t> elsewhere = {});
@@ -74,13 +75,13 @@ struct DeformationReport {
 };
 
 /// Velocity gradients, work and hourglass forces of the step that takes the nodes from their present
-/// positions to x + dt motion.end (eq. 2.5, 2.6, 3.1 to 3.6, 4.2 to 4.5); `points.length` becomes that of the
-/// end of the step. The volume that `update_material` makes of a gradient is exactly that of the element.
+/// positions to x + dt motion.end (eq. 2.5 to 2.8, 3.1 to 3.6, 4.1 to 4.4); `points.length` becomes that of
+/// the end of the step. The volume that `update_material` makes of a gradient is exactly that of the element.
 /// @param velocity_gradient  1/s, one per Gauss point
 DeformationReport deform(Mesh& mesh, const Motion& motion, double dt, const HourglassControl& hourglass,
                          std::span<Matrix3> velocity_gradient);
 
-/// x <- x + dt motion.end
+/// x <- x + dt motion.end (eq. 1.3)
 void move_nodes(Nodes& nodes, const Motion& motion, double dt);
 inline void move_nodes(Mesh& mesh, const Motion& motion, double dt) { move_nodes(mesh.nodes, motion, dt); }
 
