@@ -42,26 +42,6 @@ template <class T>
   scatter_columns<3>(four, {l.x, l.y, l.z}, {place(0), place(1), place(2), place(3)});
 }
 
-/// Turns vectors by the incremental rotation of the step, that of update_material (docs/theory/material.md,
-/// eq. 3 and 4): r = (I - W/2)^-1 (I + W/2), W = dt skw L (I + dt/2 L)^-1.
-[[gnu::always_inline]] inline std::array<Triple<Lanes>, 4> turned(const std::array<Triple<Lanes>, 4>& q,
-                                                                  const Columns<Lanes>& l, double dt) {
-  Columns<Lanes> middle = scaled(l, broadcast(0.5 * dt));
-  add_to_diagonal(middle, broadcast(1.0));
-  const Columns<Lanes> inverse_transposed = cofactors(middle);  // times the determinant
-  // dt L (I + dt/2 L)^-1 = 2 (I - (I + dt/2 L)^-1): half of the axial vector of W from the inverse alone.
-  const Lanes factor = 0.5 / determinant(middle);
-  const Columns<Lanes>& c = inverse_transposed;
-  const Triple<Lanes> w = factor * Triple<Lanes>{c.y.z - c.z.y, c.z.x - c.x.z, c.x.y - c.y.x};
-  const Lanes scale = 2.0 / (1.0 + dot(w, w));
-  std::array<Triple<Lanes>, 4> result;
-  for (std::size_t m = 0; m < 4; ++m) {
-    const Triple<Lanes> t = cross(w, q[m]);
-    result[m] = q[m] + scale * (t + cross(w, t));
-  }
-  return result;
-}
-
 /// The four modes that the mean gradient does not see.
 constexpr std::array<Triple<Lanes> Modes<Lanes>::*, 4> hourglass_modes = {
     &Modes<Lanes>::eta_zeta, &Modes<Lanes>::zeta_xi, &Modes<Lanes>::xi_eta, &Modes<Lanes>::xi_eta_zeta};
@@ -109,11 +89,13 @@ struct OnePoint {
     const double coefficient = 0.125 * root8 * step.hourglass.coefficient;
     const Lanes resistance =
         mass * frequency * (viscous ? broadcast(2.0 * coefficient) : (coefficient * dt) * frequency);
-    if constexpr (!viscous) q = turned(q, l, dt);
     for (std::size_t m = 0; m < 4; ++m) {
       const auto mode = hourglass_modes[m];
-      const Triple<Lanes> increment = resistance * (end_velocity.*mode - l * (x.*mode));
-      q[m] = viscous ? increment : q[m] + increment;
+      if constexpr (viscous) {
+        q[m] = resistance * (end_velocity.*mode - l * (x.*mode));
+      } else {
+        q[m] += resistance * (end_velocity.*mode) + l * (dt * q[m] - resistance * (x.*mode));
+      }
     }
     const auto place = [&](std::size_t k) { return elements.hourglass_force[four.index[k]].data(); };
     scatter_columns<4>(four, q, {place(0), place(1), place(2), place(3)});
@@ -199,7 +181,7 @@ DeformationReport& DeformationReport::operator+=(const DeformationReport& other)
 }
 
 DeformationReport deform(Mesh& mesh, const Motion& motion, double dt, const HourglassControl& hourglass,
-                         std::span<Matrix3> velocity_gradient) {
+                         std::span<Matrix3> velocity_gradient, const AfterBlock& after_block) {
   if (velocity_gradient.size() != mesh.points.size() || motion.end.size() != mesh.nodes.size() ||
       motion.mean.size() != mesh.nodes.size()) {
     throw InternalError("fem::deform: velocities or gradients do not fit the mesh");
@@ -214,6 +196,10 @@ DeformationReport deform(Mesh& mesh, const Motion& motion, double dt, const Hour
       deform_block(step, motion, block, OnePoint<viscous>{}, reports[block]);
     } else {
       deform_block(step, motion, block, OnePoint<stiffness>{}, reports[block]);
+    }
+    if (after_block) {
+      const std::size_t rows = Blocks::size * points_per_element(mesh.quadrature);
+      after_block(block * rows, std::min((block + 1) * rows, mesh.points.size()));
     }
   });
   DeformationReport sum;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -74,12 +76,16 @@ struct DeformationReport {
   DeformationReport& operator+=(const DeformationReport& other);
 };
 
+/// Called with Gauss points [begin, end) whose gradients and energies stand: the constitutive update, while
+/// they are in the cache. Runs in several threads on disjoint points.
+using AfterBlock = std::function<void(std::size_t begin, std::size_t end)>;
+
 /// Velocity gradients, work and hourglass forces of the step that takes the nodes from their present
 /// positions to x + dt motion.end (eq. 2.5 to 2.8, 3.1 to 3.6, 4.1 to 4.4); `points.length` becomes that of
 /// the end of the step. The volume that `update_material` makes of a gradient is exactly that of the element.
 /// @param velocity_gradient  1/s, one per Gauss point
 DeformationReport deform(Mesh& mesh, const Motion& motion, double dt, const HourglassControl& hourglass,
-                         std::span<Matrix3> velocity_gradient);
+                         std::span<Matrix3> velocity_gradient, const AfterBlock& after_block = {});
 
 /// x <- x + dt motion.end (eq. 1.3)
 void move_nodes(Nodes& nodes, const Motion& motion, double dt);

@@ -31,21 +31,20 @@ void elements(benchmark::State& state, const char* name, fem::Quadrature quadrat
   std::vector<Matrix3> gradients(mesh.points.size());
   const fem::ViscosityCoefficients viscosity;
   double dt = 0.0;
-  const auto update = [&] {
+  const auto update = [&](std::size_t begin, std::size_t end) {
     UpdateSettings settings;
     settings.time_step = dt;
     settings.lengths = mesh.points.length;
-    const MaterialReport report =
-        update_material(material, mesh.points, 0, mesh.points.size(), gradients, settings);
+    const std::span<const Matrix3> own = std::span(gradients).subspan(begin, end - begin);
+    const MaterialReport report = update_material(material, mesh.points, begin, end, own, settings);
     if (!report.valid()) state.SkipWithError("a point left the range of its model");
   };
   const auto step = [&] {
     dt = 0.9 * fem::critical_time_step(mesh, viscosity);
     fem::internal_forces(mesh);
     fem::advance_velocities(mesh, dt, motion);
-    fem::deform(mesh, motion, dt, {}, gradients);
+    fem::deform(mesh, motion, dt, {}, gradients, update);
     fem::move_nodes(mesh, motion, dt);
-    update();
   };
   step();
   for (auto _ : state) {
@@ -62,7 +61,7 @@ void elements(benchmark::State& state, const char* name, fem::Quadrature quadrat
         fem::deform(mesh, motion, 1e-12, {}, gradients);
         break;
       case Part::material:
-        update();
+        update(0, mesh.points.size());
         break;
       case Part::step:
         step();

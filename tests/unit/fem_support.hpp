@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mutex>
 #include <random>
 #include <vector>
 
@@ -71,8 +72,6 @@ struct Body {
   void step(double dt) {
     fem::internal_forces(mesh);
     boundary += fem::advance_velocities(mesh, dt, motion);
-    deformation += fem::deform(mesh, motion, dt, hourglass, gradients);
-    fem::move_nodes(mesh, motion, dt);
     time += dt;
     UpdateSettings settings;
     settings.time_step = dt;
@@ -80,7 +79,15 @@ struct Body {
     settings.linear_viscosity = viscosity.linear;
     settings.quadratic_viscosity = viscosity.quadratic;
     settings.time = time;
-    report.merge(update_material(material, mesh.points, 0, mesh.points.size(), gradients, settings));
+    std::mutex one_at_a_time;
+    deformation +=
+        fem::deform(mesh, motion, dt, hourglass, gradients, [&](std::size_t begin, std::size_t end) {
+          const std::span<const Matrix3> part = std::span(gradients).subspan(begin, end - begin);
+          const MaterialReport met = update_material(material, mesh.points, begin, end, part, settings);
+          const std::scoped_lock lock(one_at_a_time);
+          report.merge(met);
+        });
+    fem::move_nodes(mesh, motion, dt);
   }
 
   MaterialReport report;
