@@ -39,7 +39,7 @@ MAY_USE = {
     "md_fitting/plan": ["src/base", "src/input"],
     "md_fitting/lammps": ["src/base", "md_fitting/data_set"],
     "md_fitting/protocols": ["src/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],
-    "md_fitting/fit": ["src/base", "src/input", "src/process", "eos", "md_fitting/data_set"],
+    "md_fitting/fit": ["src/base", "src/input", "src/process", "eos", "md_fitting/data_set", "md_fitting/plan"],
     # The program whipple-md.
     "md_fitting": ["src/base", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],
     # The program whipple: it starts the other two, so of their side it knows the plan's keys only.

@@ -13,6 +13,7 @@
 #include "md_fitting/fit/fit_samples.hpp"
 #include "md_fitting/fit/gray_fit.hpp"
 #include "md_fitting/fit/material_writer.hpp"
+#include "md_fitting/fit/proposal.hpp"
 #include "md_fitting/fit/solid_models.hpp"
 #include "src/base/error.hpp"
 #include "src/base/files.hpp"
@@ -36,6 +37,9 @@ struct Options {
   std::vector<std::string> up_range = {"0.3 km/s", "2.5 km/s"};
   std::string template_file;
   std::string plot;
+  std::string propose;
+  std::string proposal = "proposal.toml";
+  int proposed = 1;
   bool statistical_only = false;
   bool force = false;
   bool quiet = false;
@@ -134,7 +138,32 @@ Fit fit_model(const std::string& model, std::span<const md::PointRecord> points,
   return fit_gray(points, settings, store);
 }
 
+/// The next round of `whipple md --adaptive`: a plan of its points, or no file if the work is at its end.
+void propose_round(const Options& options) {
+  if (options.stores.size() > 1) throw InputError("--propose works on one store");
+  const md::Plan plan = md::read_plan(options.propose);
+  if (!plan.adaptive) {
+    throw InputError(
+        fmt::format("{}: error: the section [adaptive] is missing: it says what the points are to tell",
+                    options.propose));
+  }
+  const std::filesystem::path& store = options.stores.front();
+  std::vector<md::PointRecord> points;
+  if (std::filesystem::exists(store)) points = md::read_store(store);
+  const Proposal proposal = propose(plan, points, options.proposed, store.string());
+  for (const std::string& line : proposal.lines) fmt::print("{}\n", line);
+  if (proposal.next) {
+    write_file(options.proposal, md::plan_text(*proposal.next), true);
+  } else {
+    fmt::print("adaptive plan at its end: {}\n", proposal.end);
+  }
+}
+
 void run(const Options& options) {
+  if (!options.propose.empty()) {
+    propose_round(options);
+    return;
+  }
   const std::vector<std::filesystem::path> files = material_files(options);
   const FitSettings chosen = settings(options);
   if (!options.plot.empty()) {
@@ -220,6 +249,17 @@ int main_program(int argc, char** argv) {
   app.add_option("--template", options.template_file,
                  "Material whose strength and failure are copied (default: the element's in the library)");
   app.add_option("--plot", options.plot, "Figure of data, fit and residuals, FILE.png");
+  CLI::Option* propose = app.add_option(
+      "--propose", options.propose,
+      "Instead of a fit: the points of the plan PLAN.toml, which has a section [adaptive], that "
+      "the store lacks most; whipple md --adaptive computes them");
+  app.add_option("--proposal", options.proposal, "Plan of the proposed points; no file if there are none")
+      ->needs(propose)
+      ->capture_default_str();
+  app.add_option("--points", options.proposed, "Proposed at once")
+      ->needs(propose)
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
   app.add_flag("--statistical-only", options.statistical_only,
                "Weights and errors from the noise alone, without model errors");
   app.add_flag("--force", options.force, "Overwrite existing files");

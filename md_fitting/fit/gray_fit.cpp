@@ -158,9 +158,9 @@ GrayFit fit_gray(std::span<const md::PointRecord> points, const FitSettings& set
   Sources sources;
   const SolidConstants fixed = fixed_constants(data, settings, sources);
   const SolidModel model = gray_model(data);
-  const SolidFit solid = fit_solid(std::move(data), model, fixed, settings, store_name);
-
   GrayFit fit;
+  fit.solid = fit_solid(std::move(data), model, fixed, settings, store_name);
+  const SolidFit& solid = fit.solid;
   static_cast<Fit&>(fit) = solid.report;
   fit.model = "gray";
   fit.gray = solid.constants.gray;

@@ -7,6 +7,7 @@
 #include "eos/models/gray_constants.hpp"
 #include "md_fitting/data_set/data_set.hpp"
 #include "md_fitting/fit/fit_result.hpp"
+#include "md_fitting/fit/solid_fit.hpp"
 
 /// The constants of the GRAY equation of state from molecular dynamics: one weighted nonlinear least-squares
 /// problem, one covariance (docs/theory/fit.md).
@@ -14,6 +15,7 @@ namespace whipple::fit {
 
 struct GrayFit : Fit {
   eos::GrayConstants gray;  ///< the model of the material
+  SolidFit solid;           ///< the solid's share, as it was fitted
 };
 
 /// Fits V0, C, S, gamma0, a, g_anh; with coexistence T_m0; with latent heats Delta S; with saturated

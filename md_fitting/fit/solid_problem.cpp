@@ -28,10 +28,7 @@ SolidProblem::SolidProblem(const Observations& data, const FitSettings& settings
     bounded_.emplace_back(at(start, place), bounds_of(place, start), scale_of(place));
   }
   for (const HugoniotState& state : data.hugoniot) {
-    if (model.hugoniot && state.particle_velocity >= settings.least_particle_velocity &&
-        state.particle_velocity <= settings.most_particle_velocity) {
-      window_.push_back(state);
-    }
+    if (in_window(state)) window_.push_back(state);
   }
   for (const Isochore& isochore : data.isochores) {
     const ThermalState& cold = isochore.states.front();
@@ -45,6 +42,11 @@ SolidProblem::SolidProblem(const Observations& data, const FitSettings& settings
   }
   list_data();
   linearise_melting();
+}
+
+bool SolidProblem::in_window(const HugoniotState& state) const {
+  return model_.hugoniot && state.particle_velocity >= settings_.least_particle_velocity &&
+         state.particle_velocity <= settings_.most_particle_velocity;
 }
 
 void SolidProblem::list_data() {

@@ -27,12 +27,22 @@ void read_section(Content& section, const Plan& plan, input::Table& table) {
   if constexpr (requires { check(section, plan, table); }) check(section, plan, table);
 }
 
-/// How one section is read and described, whatever its type.
+template <class Content>
+std::vector<Content> as_list(const std::optional<Content>& section) {
+  return section ? std::vector<Content>{*section} : std::vector<Content>{};
+}
+template <class Content>
+const std::vector<Content>& as_list(const std::vector<Content>& sections) {
+  return sections;
+}
+
+/// How one section is read, described and written, whatever its type.
 struct Section {
   const char* name;
   const char* meaning;
   void (*read)(Plan& plan, input::Table& root, const char* name);
   std::string (*describe)(const char* name, const char* meaning);
+  std::string (*write)(const Plan& plan, const char* name);
 };
 
 template <auto Member>
@@ -53,6 +63,14 @@ Section section(const char* name, const char* meaning) {
             Content defaults;
             return fmt::format("{0}{2}{1}: {3}\n{4}", single ? "[" : "[[", single ? "]" : "]]", key, text,
                                describe(keys(defaults)));
+          },
+          [](const Plan& plan, const char* key) {
+            std::string all;
+            for (Content content : as_list(plan.*Member)) {
+              all += fmt::format("\n{0}{2}{1}\n{3}", single ? "[" : "[[", single ? "]" : "]]", key,
+                                 to_toml(keys(content)));
+            }
+            return all;
           }};
 }
 
@@ -77,7 +95,11 @@ const std::vector<Section>& sections() {
       section<&Plan::liquid>("liquid", "volume and enthalpy of the melt"),
       section<&Plan::piston>("piston", "shocks that a piston drives through a crystal along [001]"),
       section<&Plan::spall>("spall", "largest tension of a crystal that expands in all directions"),
-      section<&Plan::liquid_vapour>("liquid_vapour", "a film of melt and its vapour")};
+      section<&Plan::liquid_vapour>("liquid_vapour", "a film of melt and its vapour"),
+      section<&Plan::adaptive>(
+          "adaptive",
+          "of a call with --adaptive: what the points chosen from the ranges of the other "
+          "sections shall tell")};
   return all;
 }
 
@@ -96,6 +118,16 @@ Plan read_plan(input::Document& document) {
 Plan read_plan(const std::filesystem::path& path) {
   input::Document document = input::Document::from_file(path);
   return read_plan(document);
+}
+
+std::string plan_text(const Plan& plan) {
+  Plan copy = plan;
+  const std::filesystem::path beside = plan.folder / plan.potential;
+  if (std::filesystem::is_regular_file(beside)) copy.potential = std::filesystem::absolute(beside).string();
+  std::string all = to_toml(keys(copy));
+  copy.adaptive.reset();
+  for (const Section& section : sections()) all += section.write(copy, section.name);
+  return all;
 }
 
 std::string describe_plan() {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "md_fitting/plan/adaptive.hpp"
 #include "md_fitting/plan/coexistence.hpp"
 #include "md_fitting/plan/cold_curve.hpp"
 #include "md_fitting/plan/elastic.hpp"
@@ -47,11 +48,16 @@ struct Plan {
   std::optional<PistonPlan> piston;
   std::optional<SpallPlan> spall;
   std::optional<LiquidVapourPlan> liquid_vapour;
+  std::optional<AdaptivePlan> adaptive;  ///< no points of its own
 };
 
 /// Reads a plan. @throws InputError with all errors at once, each with file:line:column.
 Plan read_plan(const std::filesystem::path& path);
 Plan read_plan(input::Document& document);
+
+/// The points of a plan as a file that reads back to the same numbers, without [adaptive]. A potential file
+/// beside the plan gets its whole path.
+std::string plan_text(const Plan& plan);
 
 /// The sections of a plan with their keys: for `whipple describe md` and the manual.
 std::string describe_plan();

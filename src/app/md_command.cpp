@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +16,8 @@
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
 #include "src/process/mpirun.hpp"
+#include "src/process/paths.hpp"
+#include "src/process/process.hpp"
 
 namespace whipple::app {
 namespace {
@@ -22,6 +27,7 @@ struct Options {
   std::string store;
   int ranks = 0;
   bool retry_failed = false;
+  bool adaptive = false;
 };
 
 /// What a shell, and mpirun, returns for a process that a signal ended, less the signal.
@@ -33,13 +39,10 @@ int usual_ranks(const std::string& plan) {
   return std::max(1, process::physical_cores() / team) * team;
 }
 
-int run_md(const Options& options) {
-  if (!std::filesystem::exists(options.plan)) {
-    throw InputError(fmt::format("{}: error: cannot open the file", options.plan));
-  }
-  const int ranks = options.ranks > 0 ? options.ranks : usual_ranks(options.plan);
+/// Computes what is missing of a plan.
+int compute(const Options& options, const std::string& plan, int ranks) {
   const log::Level level = log::level();
-  std::vector<std::string> program = {"whipple-md", options.plan};
+  std::vector<std::string> program = {"whipple-md", plan};
   if (!options.store.empty()) program.insert(program.end(), {"-o", options.store});
   if (options.retry_failed) program.emplace_back("--retry-failed");
   if (level == log::Level::quiet) program.emplace_back("--quiet");
@@ -57,6 +60,49 @@ int run_md(const Options& options) {
   }
 }
 
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Rounds of proposal (whipple-fit) and computation (whipple-md) until the proposer has no more points.
+int run_adaptive(Options options, int ranks) {
+  const std::filesystem::path plan = options.plan;
+  if (options.store.empty()) options.store = plan.stem().string() + ".md.h5";
+  const std::filesystem::path store = options.store;
+  const std::filesystem::path round =
+      store.parent_path() / fmt::format(".{}.round.toml", store.filename().string());
+  const int team = static_cast<int>(md::read_plan(plan).ranks_per_point);
+  const std::string at_once = std::to_string(std::max(1, ranks / team));
+  std::string former;
+  for (;;) {
+    std::filesystem::remove(round);
+    const int code =
+        process::run_process({process::find_executable("whipple-fit").string(), options.store, "--propose",
+                              options.plan, "--proposal", round.string(), "--points", at_once});
+    if (code != 0 || !std::filesystem::exists(round)) return code;
+    const std::string text = content_of(round);
+    if (text == former) {
+      log::warning("the points proposed last could not be computed");
+      std::filesystem::remove(round);
+      return static_cast<int>(ExitCode::state);
+    }
+    former = text;
+    const int computed = compute(options, round.string(), ranks);
+    std::filesystem::remove(round);
+    // A point that failed is in the store, and the next proposal does without it.
+    if (computed != 0 && computed != static_cast<int>(ExitCode::state)) return computed;
+  }
+}
+
+int run_md(const Options& options) {
+  if (!std::filesystem::exists(options.plan)) {
+    throw InputError(fmt::format("{}: error: cannot open the file", options.plan));
+  }
+  const int ranks = options.ranks > 0 ? options.ranks : usual_ranks(options.plan);
+  return options.adaptive ? run_adaptive(options, ranks) : compute(options, options.plan, ranks);
+}
+
 }  // namespace
 
 void add_md_command(CLI::App& app) {
@@ -69,6 +115,9 @@ void add_md_command(CLI::App& app) {
       ->add_option("--ranks", options->ranks, "MPI ranks, one state point each (default: the physical cores)")
       ->check(CLI::Range(1, 4096));
   command->add_flag("--retry-failed", options->retry_failed, "Also run points that failed before");
+  command->add_flag(
+      "--adaptive", options->adaptive,
+      "Choose the points from the ranges of the plan by what its section [adaptive] is to learn");
   command->footer("Example:\n  whipple md cases/md/copper_mishin_short.toml -o copper.md.h5 --ranks 2");
   command->callback([options] {
     const int code = run_md(*options);

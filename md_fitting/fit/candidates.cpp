@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/fit/candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace whipple::fit {
+namespace {
+
+using md::PointRecord;
+using md::RunSize;
+
+/// Equidistant, ends included and exact.
+std::vector<double> spaced(double least, double most, std::int64_t count) {
+  if (least == most) return {least};
+  std::vector<double> values;
+  for (std::int64_t i = 0; i + 1 < count; ++i) {
+    values.push_back(least + (most - least) * static_cast<double>(i) / static_cast<double>(count - 1));
+  }
+  values.push_back(most);
+  return values;
+}
+
+std::pair<double, double> ends(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return {*least, *most};
+}
+
+/// Straight lines between the entries, level beyond them.
+double interpolated(const std::map<double, double>& table, double x) {
+  const auto above = table.lower_bound(x);
+  if (above == table.end()) return table.rbegin()->second;
+  if (above == table.begin() || above->first == x) return above->second;
+  const auto below = std::prev(above);
+  const double share = (x - below->first) / (above->first - below->first);
+  return (1.0 - share) * below->second + share * above->second;
+}
+
+bool same(double a, double b) { return std::abs(a - b) <= 1e-6 * std::abs(b) + 1e-9; }
+
+/// Atoms times steps of a point of a protocol.
+double cost_of(const std::string& protocol, double atoms_per_cell, const RunSize& size) {
+  const auto cube = [&](double cells) { return atoms_per_cell * cells * cells * cells; };
+  const auto cells = static_cast<double>(size.cells);
+  const auto equilibration = static_cast<double>(size.equilibration_steps);
+  const auto steps = static_cast<double>(size.steps);
+  if (protocol == "hugoniot") {
+    constexpr double searches = 3.0;  // runs of half the equilibration and a quarter of the steps
+    return cube(cells) * ((equilibration + steps) + searches * (0.5 * equilibration + 0.25 * steps));
+  }
+  if (protocol == "coexistence") {
+    constexpr double preparation = 1500.0 + 0.5 * (5000.0 + 1000.0) + 1000.0;  // half of the cell melts
+    const double phase = std::fmax(4.0, 0.75 * cells);  // crystal and melt are averaged apart as well
+    return 2.0 * cube(cells) * (preparation + equilibration + steps) +
+           2.0 * cube(phase) * (0.5 * equilibration + steps);
+  }
+  return cube(cells) * (equilibration + steps);
+}
+
+RunSize size_of(const PointRecord& point) {
+  const auto number = [&](const char* name) {
+    return static_cast<std::int64_t>(point.provenance.contains(name) ? point.origin_number(name) : 0.0);
+  };
+  return {.cells = number("cells"),
+          .equilibration_steps = number("equilibration_steps"),
+          .steps = number("steps")};
+}
+
+}  // namespace
+
+Ranges::Ranges(const md::Plan& plan, std::span<const PointRecord> points) : plan_(plan), points_(points) {
+  if (points.empty()) return;
+  static_volume_ = points.front().origin_number("static_specific_volume");
+  atoms_per_cell_ = points.front().origin("structure") == "bcc" ? 2.0 : 4.0;
+}
+
+const md::IsochorePlan& Ranges::nearest_isochore(double volume_ratio) const {
+  return *std::min_element(plan_.isochores.begin(), plan_.isochores.end(), [&](const auto& a, const auto& b) {
+    return std::abs(a.volume_ratio - volume_ratio) < std::abs(b.volume_ratio - volume_ratio);
+  });
+}
+
+const RunSize& Ranges::size_of(const PlannedPoint& point) const {
+  if (point.protocol == "hugoniot") return plan_.hugoniot->size;
+  if (point.protocol == "coexistence") return plan_.coexistence->size;
+  if (point.protocol == "isochore") return nearest_isochore(point.volume_ratio).size;
+  return plan_.zero_pressure->size;
+}
+
+std::vector<double> Ranges::isochore_ratios() const {
+  std::vector<double> ratios;
+  for (const md::IsochorePlan& isochore : plan_.isochores) ratios.push_back(isochore.volume_ratio);
+  const auto [least, most] = ends(ratios);
+  return spaced(least, most, plan_.adaptive->candidates);
+}
+
+std::vector<PlannedPoint> Ranges::isochore(double volume_ratio) const {
+  std::map<double, double> coldest;
+  std::map<double, double> hottest;
+  for (const md::IsochorePlan& isochore : plan_.isochores) {
+    const auto [least, most] = ends(isochore.temperature);
+    coldest[isochore.volume_ratio] = least;
+    hottest[isochore.volume_ratio] = most;
+  }
+  std::vector<PlannedPoint> points;
+  for (const double temperature : spaced(interpolated(coldest, volume_ratio),
+                                         interpolated(hottest, volume_ratio), plan_.adaptive->candidates)) {
+    points.push_back({"isochore", volume_ratio, temperature, 0.0});
+  }
+  return points;
+}
+
+std::vector<PlannedPoint> Ranges::hugoniot() const {
+  const auto [least, most] = ends(plan_.hugoniot->volume_ratio);
+  std::vector<PlannedPoint> points;
+  for (const double ratio : spaced(least, most, plan_.adaptive->candidates)) {
+    points.push_back({"hugoniot", ratio, 0.0, 0.0});
+  }
+  return points;
+}
+
+std::vector<PlannedPoint> Ranges::coexistence() const {
+  if (!plan_.coexistence || plan_.coexistence->pressure.empty()) return {};
+  std::map<double, double> guesses;
+  for (std::size_t i = 0; i < plan_.coexistence->pressure.size(); ++i) {
+    guesses[plan_.coexistence->pressure[i]] = plan_.coexistence->first_guess[i];
+  }
+  std::vector<PlannedPoint> points;
+  for (const double pressure :
+       spaced(guesses.begin()->first, guesses.rbegin()->first, plan_.adaptive->candidates)) {
+    points.push_back({"coexistence", 0.0, interpolated(guesses, pressure), pressure});
+  }
+  return points;
+}
+
+bool Ranges::present(const PlannedPoint& point) const {
+  return std::any_of(points_.begin(), points_.end(), [&](const PointRecord& record) {
+    if (record.protocol != point.protocol) return false;
+    if (point.protocol == "coexistence") return same(record.condition("pressure"), point.pressure);
+    if (point.protocol == "zero_pressure_volume")
+      return same(record.condition("temperature"), point.temperature);
+    return same(record.condition("specific_volume"), point.volume_ratio * static_volume_) &&
+           (point.protocol == "hugoniot" || same(record.condition("temperature"), point.temperature));
+  });
+}
+
+std::vector<PlannedPoint> Ranges::start() const {
+  std::vector<PlannedPoint> wanted;
+  for (const double temperature : plan_.zero_pressure->temperature) {
+    wanted.push_back({"zero_pressure_volume", 0.0, temperature, 0.0});
+  }
+  /// `count` of the points, spread over all of them.
+  const auto spread = [&](const std::vector<PlannedPoint>& points, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double place = static_cast<double>(i * (points.size() - 1)) / static_cast<double>(count - 1);
+      wanted.push_back(points[static_cast<std::size_t>(std::lround(place))]);
+    }
+  };
+  spread(hugoniot(), std::min<std::size_t>(5, hugoniot().size()));  // the ends may lie outside of the window
+  const std::vector<double> ratios = isochore_ratios();
+  spread(isochore(ratios.back()), 3);
+  spread(isochore(ratios.front()), 3);
+  const std::vector<PlannedPoint> melting = coexistence();
+  if (!melting.empty()) wanted.push_back(melting.front());
+  std::erase_if(wanted, [&](const PlannedPoint& point) { return present(point); });
+  return wanted;
+}
+
+std::vector<Candidate> Ranges::candidates(std::span<const double> isochore_volumes) const {
+  std::vector<Candidate> all;
+  const auto add = [&](const std::vector<PlannedPoint>& points) {
+    Candidate candidate;
+    for (const PlannedPoint& point : points) {
+      if (present(point)) continue;
+      candidate.points.push_back(point);
+      candidate.cost += cost(point);
+    }
+    if (!candidate.points.empty()) all.push_back(candidate);
+  };
+  for (const PlannedPoint& point : hugoniot()) add({point});
+  for (const double ratio : isochore_ratios()) {
+    const std::vector<PlannedPoint> states = isochore(ratio);
+    const bool known = std::any_of(isochore_volumes.begin(), isochore_volumes.end(),
+                                   [&](double volume) { return same(volume, ratio * static_volume_); });
+    if (known) {
+      for (const PlannedPoint& point : states) add({point});
+    } else {
+      add({states.front(), states[states.size() / 2], states.back()});
+    }
+  }
+  for (const PlannedPoint& point : coexistence()) add({point});
+  return all;
+}
+
+double Ranges::cost(const PlannedPoint& point) const {
+  return cost_of(point.protocol, atoms_per_cell_, size_of(point));
+}
+
+double Ranges::spent() const {
+  double sum = 0.0;
+  for (const PointRecord& point : points_) {
+    sum += cost_of(point.protocol, atoms_per_cell_, fit::size_of(point)) * point.segments();
+  }
+  return sum;
+}
+
+double Ranges::sampling(const PlannedPoint& point) const {
+  const RunSize& size = size_of(point);
+  return std::pow(static_cast<double>(size.cells), 3) * static_cast<double>(size.steps);
+}
+
+double Ranges::sampling(const PointRecord& point) {
+  const RunSize size = fit::size_of(point);
+  return std::pow(static_cast<double>(size.cells), 3) * static_cast<double>(size.steps) * point.segments();
+}
+
+md::Plan Ranges::plan_of(std::span<const PlannedPoint> points) const {
+  md::Plan plan;
+  plan.title = plan_.title;
+  plan.element = plan_.element;
+  plan.potential = plan_.potential;
+  plan.seed = plan_.seed;
+  plan.ranks_per_point = plan_.ranks_per_point;
+  plan.folder = plan_.folder;
+  plan.zero_pressure = plan_.zero_pressure;  // Hugoniot points need it; what the store holds costs nothing
+  for (const PlannedPoint& point : points) {
+    if (point.protocol == "hugoniot") {
+      if (!plan.hugoniot) plan.hugoniot = md::HugoniotPlan{{}, plan_.hugoniot->size, {}};
+      plan.hugoniot->volume_ratio.push_back(point.volume_ratio);
+    } else if (point.protocol == "isochore") {
+      plan.isochores.push_back({point.volume_ratio, {point.temperature}, size_of(point), {}});
+    } else if (point.protocol == "coexistence") {
+      if (!plan.coexistence) {
+        plan.coexistence = *plan_.coexistence;
+        plan.coexistence->pressure.clear();
+        plan.coexistence->first_guess.clear();
+      }
+      plan.coexistence->pressure.push_back(point.pressure);
+      plan.coexistence->first_guess.push_back(point.temperature);
+    }
+  }
+  return plan;
+}
+
+}  // namespace whipple::fit

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/fit/design.hpp"
+
+#include <utility>
+
+#include "src/base/error.hpp"
+
+namespace whipple::fit {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+std::vector<Index> as_vector(std::span<const Index> rows) { return {rows.begin(), rows.end()}; }
+
+}  // namespace
+
+Design::Design(MatrixXd jacobian, MatrixXd sigma, VectorXd weak, std::vector<Index> present)
+    : jacobian_(std::move(jacobian)),
+      sigma_(std::move(sigma)),
+      weak_(std::move(weak)),
+      present_(std::move(present)) {
+  update();
+}
+
+void Design::update() {
+  factor_.compute(sigma_(present_, present_));
+  if (factor_.info() != Eigen::Success) {
+    throw StateError("the covariance of the data is not positive definite (a datum without error?)");
+  }
+  const MatrixXd present = jacobian_(present_, Eigen::all);
+  whitened_ = factor_.matrixL().solve(present);
+  MatrixXd information = whitened_.transpose() * whitened_;
+  information.diagonal() += weak_.cwiseAbs2().cwiseInverse();
+  covariance_ = information.llt().solve(MatrixXd::Identity(information.rows(), information.cols()));
+}
+
+double Design::reduction(std::span<const Index> rows, const VectorXd& gradient) const {
+  const std::vector<Index> chosen = as_vector(rows);
+  // What the present rows do not tell about the new ones already: u = J_c - Sigma_cA Sigma_A^-1 J_A.
+  const MatrixXd common = sigma_(present_, chosen);
+  const MatrixXd shared = factor_.matrixL().solve(common);
+  const MatrixXd jacobian = jacobian_(chosen, Eigen::all);
+  const MatrixXd own = jacobian - shared.transpose() * whitened_;
+  const MatrixXd noise = sigma_(chosen, chosen);
+  const MatrixXd spread = noise - shared.transpose() * shared + own * covariance_ * own.transpose();
+  const VectorXd told = own * (covariance_ * gradient);
+  return told.dot(spread.llt().solve(told));
+}
+
+void Design::add(std::span<const Index> rows) {
+  present_.insert(present_.end(), rows.begin(), rows.end());
+  update();
+}
+
+}  // namespace whipple::fit
