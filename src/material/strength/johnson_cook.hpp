@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "src/base/parameter_table.hpp"
 #include "src/base/vector_math.hpp"
@@ -83,59 +84,62 @@ struct JohnsonCook : ElasticConstants {
     return trial > solid * least_factor * yield_stress;
   }
 
-  /// Root of f(x) = q - 3 G x - w Y(ep + x, x/dt, T) for four points. f falls monotonically from f(0) > 0 to
-  /// f((q - w Y(ep, 0, T)) / 3G) <= 0, which brackets it. Y is concave in x, so a Newton step from the right
-  /// of the root ends left of it and from there converges monotonically; where the first step leaves the
-  /// bracket (the logarithm is steep for small increments), Newton in ln x, which approaches from the right,
-  /// replaces it, and bisection at the kink of the reference rate. Two to six evaluations in practice.
-  /// Every point takes the steps that it would take alone.
-  [[nodiscard]] Lanes increment(Lanes trial, Lanes plastic_strain, Lanes temperature, Lanes modulus,
-                                Lanes solid, double dt) const {
-    const Lanes softening = solid * thermal_factor(temperature);
-    const Lanes strain_0 = maximum(plastic_strain, Lanes{});
-    const Lanes yield = softening * (yield_stress + hardening_coefficient * power(strain_0));
-    const Lanes stiffness = 3.0 * modulus;
-    const double least_rate_strain = reference_rate * dt;
-    LanesMask active = trial > yield;
-    const LanesMask yields = active;
-    Lanes lower{}, upper = (trial - yield) / stiffness;
-    Lanes x = upper;
-    for (int iteration = 0; iteration < 30 && any(active); ++iteration) {
-      const Lanes strain = strain_0 + x, raised = power(strain);
-      const LanesMask fast = x > least_rate_strain;
-      Lanes rate_factor = broadcast(1.0);
-      if (rate_coefficient > 0.0 && any(fast)) {
-        rate_factor += rate_coefficient * natural_log(maximum(x / least_rate_strain, broadcast(1.0)));
-      }
-      const Lanes hardening = yield_stress + hardening_coefficient * raised;
-      const Lanes residual = trial - stiffness * x - softening * hardening * rate_factor;
-      active &= absolute(residual) > 1e-11 * trial;
-      if (!any(active)) break;
-      const LanesMask right = residual > 0.0;
-      lower = select(active & right, x, lower);
-      upper = select(active & ~right, x, upper);
-      const Lanes slope = stiffness + softening * (hardening_coefficient * hardening_exponent * raised /
-                                                       strain * rate_factor +
-                                                   select(fast, hardening * rate_coefficient / x, Lanes{}));
-      const Lanes newton = x + residual / slope;
-      const LanesMask inside = (newton > lower) & (newton < upper);
-      Lanes next = newton;
-      if (any(active & ~inside)) {
-        const Lanes logarithmic = x * exp(residual / (slope * x));
-        next = select(inside, newton, select(lower > 0.0, 0.5 * (lower + upper), logarithmic));
-      }
-      x = select(active, next, x);
-      active &= upper - lower > 1e-15 * upper;
+  /// The return of four points, and what it works with.
+  struct Return {
+    Lanes trial, plastic_strain, temperature, modulus, solid;
+    Lanes increment;  ///< x, the result
+    Lanes softening, power, stiffness, logarithmic, argument, lower, upper;
+    LanesMask active;
+  };
+
+  /// Root of f(x) = q - 3 G x - w Y(ep + x, x/dt, T). f falls monotonically from f(0) > 0 to
+  /// f((q - w Y(ep, 0, T)) / 3G) <= 0, which brackets it. Halley's method from the root for linear hardening;
+  /// where a step leaves the bracket (the logarithm is steep for small increments), Newton in ln x, which
+  /// approaches from the right, replaces it, and bisection at the kink of the reference rate. Mostly two
+  /// evaluations. Every point takes the steps that it would take alone. All groups pass through one stage
+  /// after the other: what bounds a single one is the latency of its logarithms and powers.
+  void solve(std::span<Return> groups, double dt) const {
+    const double least = reference_rate * dt;
+    for (Return& r : groups) r.softening = r.solid * thermal_factor(r.temperature);
+    for (Return& r : groups) {
+      r.plastic_strain = maximum(r.plastic_strain, Lanes{});
+      r.power = power(r.plastic_strain);
     }
-    return select(yields, x, Lanes{});
+    for (Return& r : groups) begin(r, least);
+    if (rate_coefficient > 0.0) {
+      for (Return& r : groups) guess(r, least);
+    }
+    bool active = true;
+    for (int iteration = 0; iteration < 30 && active; ++iteration) {
+      active = false;
+      for (Return& r : groups) {
+        if (!any(r.active)) continue;
+        iterate(r, least);
+        active = true;
+      }
+    }
   }
   [[nodiscard]] double increment(double trial, double plastic_strain, double temperature, double modulus,
                                  double solid, double dt) const {
-    return increment(broadcast(trial), broadcast(plastic_strain), broadcast(temperature), broadcast(modulus),
-                     broadcast(solid), dt)[0];
+    Return one{};
+    one.trial = broadcast(trial);
+    one.plastic_strain = broadcast(plastic_strain);
+    one.temperature = broadcast(temperature);
+    one.modulus = broadcast(modulus);
+    one.solid = broadcast(solid);
+    solve({&one, 1}, dt);
+    return one.increment[0];
   }
 
  private:
+  /// 1 - T*^m
+  [[nodiscard]] Lanes thermal_factor(Lanes temperature) const {
+    const Lanes homologous =
+        (temperature - reference_temperature) / (melting_temperature - reference_temperature);
+    const LanesMask warm = homologous > 0.0;
+    const Lanes base = minimum(select(warm, homologous, broadcast(1.0)), broadcast(1.0));
+    return select(warm, 1.0 - exp(thermal_exponent * natural_log(base)), broadcast(1.0));
+  }
   /// strain^n for strain >= 0
   [[nodiscard]] Lanes power(Lanes strain) const {
     if (hardening_coefficient == 0.0) return Lanes{};
@@ -143,13 +147,76 @@ struct JohnsonCook : ElasticConstants {
     const Lanes raised = exp(hardening_exponent * natural_log(maximum(strain, broadcast(least))));
     return select(strain > least, raised, Lanes{});
   }
-  [[nodiscard]] Lanes thermal_factor(Lanes temperature) const {
-    const Lanes homologous =
-        (temperature - reference_temperature) / (melting_temperature - reference_temperature);
-    const LanesMask warm = homologous > 0.0;
-    if (!any(warm)) return broadcast(1.0);
-    const Lanes base = minimum(select(warm, homologous, broadcast(1.0)), broadcast(1.0));
-    return select(warm, 1.0 - pow(base, broadcast(thermal_exponent)), broadcast(1.0));
+  /// The same of strain = plastic strain + x, by the binomial series where x is small beside the strain.
+  [[nodiscard]] Lanes power(const Return& r, Lanes strain) const {
+    if (hardening_coefficient == 0.0) return Lanes{};
+    const Lanes x = r.increment;
+    const LanesMask small = 100.0 * x < r.plastic_strain;
+    const Lanes t = x / maximum(r.plastic_strain, 100.0 * x);
+    Lanes sum = broadcast(1.0);  // the terms that are left out are below 1e-16
+    for (int k = 7; k > 0; --k) sum = 1.0 + t * ((hardening_exponent - (k - 1)) / k) * sum;
+    return bits(small) == all_lanes ? r.power * sum : select(small, r.power * sum, power(strain));
+  }
+  /// Bracket, and the root without the rate. With rate it is, for linear hardening, the root of
+  /// S x + a ln(x/l) = b, b = q - w Y(ep, 0, T) and a = C w Y: z + ln z = K of z = S x/a.
+  void begin(Return& r, double least) const {
+    const Lanes yield = r.softening * (yield_stress + hardening_coefficient * r.power);
+    const Lanes excess = r.trial - yield;
+    r.stiffness = 3.0 * r.modulus;
+    r.active = excess > 0.0;
+    r.lower = Lanes{};
+    r.upper = excess / r.stiffness;
+    const Lanes slope = r.stiffness + r.softening * (hardening_coefficient * hardening_exponent) * r.power /
+                                          maximum(r.plastic_strain, r.upper);
+    r.increment = select(r.active, excess / slope, Lanes{});
+    if (!(rate_coefficient > 0.0)) return;
+    const Lanes a = maximum(rate_coefficient * yield, 1e-9 * excess);
+    r.logarithmic = select(r.active, a / slope, broadcast(1.0));
+    r.argument = select(r.active, excess / a, broadcast(1.0)) - natural_log(r.logarithmic / least);  // K
+  }
+  /// z by the asymptotic series of Wright's omega function (R. M. Corless and D. J. Jeffrey, LNCS 2385 (2002)
+  /// 76), for K < 1 roughly.
+  void guess(Return& r, double least) const {
+    const Lanes k = maximum(r.argument, broadcast(1.0)), logarithm = natural_log(k), inverse = 1.0 / k;
+    Lanes z = k - logarithm + logarithm * inverse * (1.0 + (0.5 * logarithm - 1.0) * inverse);
+    if (const LanesMask small = r.argument < 1.0; any(small & r.active)) {
+      const Lanes raised = exp(minimum(r.argument, broadcast(1.0)));
+      z = select(small, raised / (1.0 + raised), z);
+    }
+    const Lanes root = r.logarithmic * z, without = r.increment;
+    r.increment = minimum(without, maximum(root, broadcast(least)));
+  }
+  void iterate(Return& r, double least) const {
+    const Lanes x = r.increment, strain = r.plastic_strain + x, raised = power(r, strain);
+    const LanesMask fast = x > least;
+    Lanes rate_factor = broadcast(1.0);
+    if (rate_coefficient > 0.0) {
+      rate_factor += rate_coefficient * natural_log(maximum(x / least, broadcast(1.0)));
+    }
+    const Lanes hardening = yield_stress + hardening_coefficient * raised;
+    const Lanes residual = r.trial - r.stiffness * x - r.softening * hardening * rate_factor;
+    r.active &= absolute(residual) > 1e-11 * r.trial;
+    const LanesMask left = residual > 0.0;
+    r.lower = select(r.active & left, x, r.lower);
+    r.upper = select(r.active & ~left, x, r.upper);
+    const Lanes inverse = 1.0 / (strain * x), per_strain = inverse * x, per_x = inverse * strain;
+    const Lanes work_hardening = (hardening_coefficient * hardening_exponent) * raised * per_strain;
+    const Lanes rate_hardening = select(fast, rate_coefficient * per_x, Lanes{});
+    const Lanes slope =
+        r.stiffness + r.softening * (work_hardening * rate_factor + hardening * rate_hardening);
+    const Lanes curvature =
+        r.softening * ((hardening_exponent - 1.0) * per_strain * work_hardening * rate_factor +
+                       rate_hardening * (2.0 * work_hardening - hardening * per_x));
+    Lanes next = x + 2.0 * residual * slope / (2.0 * slope * slope + residual * curvature);
+    const LanesMask inside = (next > r.lower) & (next < r.upper);
+    // The error of a step of Halley's method goes with the third power of the one before.
+    const LanesMask near = inside & (absolute(next - x) <= 1e-4 * x);
+    if (any(r.active & ~inside)) {
+      const Lanes logarithmic = x * exp(residual / (slope * x));
+      next = select(inside, next, select(r.lower > 0.0, 0.5 * (r.lower + r.upper), logarithmic));
+    }
+    r.increment = select(r.active, next, x);
+    r.active &= ~near & (r.upper - r.lower > 1e-15 * r.upper);
   }
 };
 
