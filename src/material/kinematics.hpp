@@ -11,7 +11,7 @@
 /// points, one array per tensor component, so that the compiler works on several points at a time.
 namespace whipple::material {
 
-constexpr std::size_t chunk_size = 256;  ///< the scratch of a chunk stays in the second-level cache
+constexpr std::size_t chunk_size = 64;  ///< the scratch of a chunk stays in the second-level cache
 constexpr std::size_t lane_count =
     8;  ///< chunks are padded to a multiple: no remainder loop with other rounding
 
