@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "src/base/error.hpp"
+#include "src/base/vector_math.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
 
@@ -37,6 +38,27 @@ constexpr std::array<std::uint32_t, 64> neighbour_masks() {
   return masks;
 }
 constexpr std::array<std::uint32_t, 64> masks = neighbour_masks();
+
+/// The same by direction: bits 0 to 2 for the directions in which something reaches the block before, bits 3
+/// to 5 for those in which it reaches the block after.
+constexpr std::array<std::uint32_t, 64> masks_by_direction() {
+  std::array<std::uint32_t, 64> by_direction{};
+  for (unsigned bits = 0; bits < 64; ++bits) {
+    unsigned reach = 0;
+    for (unsigned a = 0; a < 3; ++a) reach |= ((bits >> a & 1U) | (bits >> (a + 3) & 1U) << 1U) << (2 * a);
+    by_direction[bits] = masks[reach];
+  }
+  return by_direction;
+}
+
+/// `touched_neighbours` without motion, for a position with the directions in lanes.
+std::uint32_t touched_neighbours(Lanes local, Stencil stencil) {
+  static constexpr std::array<std::uint32_t, 64> by_direction = masks_by_direction();
+  const Lanes first = Lanes(_mm256_floor_pd(__m256d(local - stencil.shift)));
+  const unsigned before = bits(first < 0.0) & 7U;
+  const unsigned after = bits(first > static_cast<double>(block_edge - stencil.count)) & 7U;
+  return by_direction[before | after << 3U];
+}
 
 /// Nodes beyond a mirror plane that the stencil of a particle before it may hold.
 constexpr std::int32_t mirror_reach = 2;
@@ -100,28 +122,31 @@ bool BlockGrid::bin(std::span<const Vector3> position, Stencil stencil, std::spa
 /// Updates the slot of every particle from its former slot; false if a particle left the active set.
 bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
   std::atomic<bool> complete = true;
+  const Lanes lower = load_vector(geometry_.lower.data());
   parallel::for_each_chunk(position.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       auto slot = static_cast<std::size_t>(slot_of_particle_[p]);
-      Vector3 local = geometry_.in_cells(position[p]);
-      int neighbour = 0;
-      bool far = false;
-      for (std::size_t a = 0; a < 3; ++a) {
-        const auto axis = static_cast<Eigen::Index>(a);
-        const double block = std::floor(local[axis] / block_edge);
-        const double offset = block - blocks_.coordinate[slot][a];
-        far = far || !(std::abs(offset) <= 1.0);
-        neighbour = neighbour * 3 + (far ? 0 : static_cast<int>(offset) + 1);
-        local[axis] -= block * block_edge;
+      const Lanes in_cells = (load_vector(position[p].data()) - lower) / geometry_.cell_size;
+      Lanes local = in_cells - corner_[slot];
+      if (bits((local >= 0.0) & (local < double{block_edge})) != all_lanes) {
+        int neighbour = 0;
+        bool far = false;
+        for (int a = 0; a < 3; ++a) {
+          const double block = std::floor(in_cells[a] / block_edge);
+          const double offset = block - blocks_.coordinate[slot][static_cast<std::size_t>(a)];
+          far = far || !(std::abs(offset) <= 1.0);
+          neighbour = neighbour * 3 + (far ? 0 : static_cast<int>(offset) + 1);
+          local[a] = in_cells[a] - block * block_edge;
+        }
+        const std::int32_t moved = far ? no_slot : neighbours_[slot][static_cast<std::size_t>(neighbour)];
+        if (moved == no_slot) {
+          complete = false;
+          return;
+        }
+        slot = static_cast<std::size_t>(moved);
+        slot_of_particle_[p] = moved;
       }
-      const std::int32_t moved = far ? no_slot : neighbours_[slot][static_cast<std::size_t>(neighbour)];
-      if (moved == no_slot) {
-        complete = false;
-        return;
-      }
-      slot = static_cast<std::size_t>(moved);
-      slot_of_particle_[p] = moved;
-      if ((touched_neighbours(local, Vector3::Zero(), stencil) & ~existing_[slot]) != 0) complete = false;
+      if ((touched_neighbours(local, stencil) & ~existing_[slot]) != 0) complete = false;
     }
   });
   return complete;
@@ -151,6 +176,7 @@ std::vector<WantedBlock> BlockGrid::wanted_blocks(std::span<const Vector3> posit
   homes.reserve(slots() + 64);
   std::vector<WantedBlock> home;
   std::vector<std::uint32_t> wanted_mask;
+  std::int32_t last = -1;  // home of the particle before
   std::string error;
   for (std::size_t p = 0; p < position.size(); ++p) {
     const std::optional<BlockCoordinate> block = block_of(position[p]);
@@ -159,7 +185,11 @@ std::vector<WantedBlock> BlockGrid::wanted_blocks(std::span<const Vector3> posit
                           position[p][0], position[p][1], position[p][2]);
       break;
     }
-    const std::int32_t i = homes.find_or_insert(*block, static_cast<std::int32_t>(home.size()));
+    // Neighbours in memory are mostly in one block.
+    if (last < 0 || home[static_cast<std::size_t>(last)].coordinate != *block) {
+      last = homes.find_or_insert(*block, static_cast<std::int32_t>(home.size()));
+    }
+    const std::int32_t i = last;
     if (static_cast<std::size_t>(i) == home.size()) {
       home.push_back({*block, 0.0});
       wanted_mask.push_back(0);
@@ -227,19 +257,46 @@ void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vect
     table_.find_or_insert(blocks_.coordinate[s], static_cast<std::int32_t>(s));
   }
   neighbours_.resize(slots());
+  for (auto& of_slot : neighbours_) of_slot.fill(no_slot);
   existing_.assign(slots(), 0);
+  corner_.assign(slots(), Lanes{});
   parallel::for_each(slots(), [&](std::size_t s) {
-    for (int n = 0; n < 27; ++n) {
-      const std::int32_t slot = table_.find(shifted(blocks_.coordinate[s], n));
-      neighbours_[s][static_cast<std::size_t>(n)] = slot;
-      if (slot != no_slot) existing_[s] |= 1U << n;
+    const BlockCoordinate& block = blocks_.coordinate[s];
+    for (int a = 0; a < 3; ++a) corner_[s][a] = block_edge * block[static_cast<std::size_t>(a)];
+    // Of two neighbours the first finds the second, and leaves itself with it.
+    for (std::size_t n = 0; n < 27; ++n) {
+      if (n == 13) {
+        neighbours_[s][n] = static_cast<std::int32_t>(s);
+      } else if (n < 13) {
+        const std::int32_t slot = table_.find(shifted(block, static_cast<int>(n)));
+        neighbours_[s][n] = slot;
+        if (slot != no_slot)
+          neighbours_[static_cast<std::size_t>(slot)][26 - n] = static_cast<std::int32_t>(s);
+      }
+    }
+  });
+  parallel::for_each(slots(), [&](std::size_t s) {
+    for (std::size_t n = 0; n < 27; ++n) {
+      if (neighbours_[s][n] != no_slot) existing_[s] |= 1U << n;
     }
   });
   nodes_.resize(slots() * nodes_per_block);
   slot_of_particle_.resize(position.size() - guests);
-  for (std::size_t p = 0; p < slot_of_particle_.size(); ++p)
-    slot_of_particle_[p] = table_.find(*block_of(position[p]));
+  for (std::size_t p = 0; p < slot_of_particle_.size(); ++p) {
+    const BlockCoordinate block = *block_of(position[p]);
+    // Neighbours in memory are mostly in one block.
+    const std::int32_t before = p == 0 ? no_slot : slot_of_particle_[p - 1];
+    const bool same = before != no_slot && blocks_.coordinate[static_cast<std::size_t>(before)] == block;
+    slot_of_particle_[p] = same ? before : table_.find(block);
+  }
   find_mirror_nodes();
+}
+
+void BlockGrid::particles_reordered(std::span<const std::uint32_t> order) {
+  if (is_shared()) return particles_reordered();
+  std::vector<std::int32_t> reordered(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) reordered[i] = slot_of_particle_[order[i]];
+  slot_of_particle_ = std::move(reordered);
 }
 
 void BlockGrid::shift(const Vector3& cells) {
@@ -327,27 +384,46 @@ void BlockGrid::release(std::span<const std::uint32_t> particles) {
 
 namespace {
 
-/// Counting sort by slot; stable, so that the points of a block keep the order of their indices.
-template <class Listed>
-void list_by_slot(std::size_t slots, std::span<const std::int32_t> slot_of, Listed&& listed,
-                  PointList& list) {
-  list.begin.assign(slots + 1, 0);
-  for (std::size_t p = 0; p < slot_of.size(); ++p) {
-    if (listed(p)) ++list.begin[static_cast<std::size_t>(slot_of[p]) + 1];
+/// Calls f(slot, begin, end) for the runs of points with one slot.
+template <class Function>
+void for_each_run(std::span<const std::int32_t> slot_of, Function&& f) {
+  for (std::size_t begin = 0, end = 0; begin < slot_of.size(); begin = end) {
+    const std::int32_t slot = slot_of[begin];
+    for (end = begin + 1; end < slot_of.size() && slot_of[end] == slot;) ++end;
+    f(static_cast<std::size_t>(slot), begin, end);
   }
+}
+
+/// Counting sort by slot; stable, so that the points of a block keep the order of their indices. The points
+/// are nearly sorted, so whole runs go at a time.
+/// @param released  of each point; or empty: none
+void list_by_slot(std::size_t slots, std::span<const std::int32_t> slot_of,
+                  std::span<const std::uint8_t> released, PointList& list) {
+  list.begin.assign(slots + 1, 0);
+  for_each_run(slot_of, [&](std::size_t slot, std::size_t begin, std::size_t end) {
+    std::size_t count = end - begin;
+    if (!released.empty()) {
+      for (std::size_t p = begin; p < end; ++p) count -= released[p];
+    }
+    list.begin[slot + 1] += static_cast<std::uint32_t>(count);
+  });
   for (std::size_t s = 0; s < slots; ++s) list.begin[s + 1] += list.begin[s];
   list.points.resize(list.begin.back());
   std::vector<std::uint32_t> next(list.begin.begin(), list.begin.end() - 1);
-  for (std::size_t p = 0; p < slot_of.size(); ++p) {
-    if (listed(p)) list.points[next[static_cast<std::size_t>(slot_of[p])]++] = static_cast<std::uint32_t>(p);
-  }
+  for_each_run(slot_of, [&](std::size_t slot, std::size_t begin, std::size_t end) {
+    std::uint32_t* to = &list.points[0] + next[slot];
+    for (std::size_t p = begin; p < end; ++p) {
+      if (released.empty() || released[p] == 0) *to++ = static_cast<std::uint32_t>(p);
+    }
+    next[slot] = static_cast<std::uint32_t>(to - &list.points[0]);
+  });
 }
 
 }  // namespace
 
 void BlockGrid::list_points() {
-  list_by_slot(slots(), slot_of_particle_, [&](std::size_t p) { return is_listed(p); }, particles_);
-  list_by_slot(slots(), slot_of_guest_, [](std::size_t) { return true; }, guests_);
+  list_by_slot(slots(), slot_of_particle_, released_, particles_);
+  list_by_slot(slots(), slot_of_guest_, {}, guests_);
   for (auto& colour : colours_) colour.clear();
   for (std::size_t s = 0; s < slots(); ++s) {
     if (particles_.in(s).empty() && guests_.in(s).empty()) continue;

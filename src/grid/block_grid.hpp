@@ -110,6 +110,8 @@ class BlockGrid {
 
   /// Particles changed their order or number: the next `bin` looks every block up anew.
   void particles_reordered() { slot_of_particle_.clear(); }
+  /// The same when every particle is still there: new[i] = old[order[i]]. On one rank the blocks stay known.
+  void particles_reordered(std::span<const std::uint32_t> order);
 
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
   [[nodiscard]] std::size_t slots() const { return blocks_.coordinate.size(); }
@@ -183,9 +185,6 @@ class BlockGrid {
                                                        Stencil stencil, double weight) const;
   bool locate_guests(std::span<const Vector3> guests, Stencil stencil);
   void list_points();
-  [[nodiscard]] bool is_listed(std::size_t particle) const {
-    return released_.empty() || released_[particle] == 0;
-  }
   void find_mirror_nodes();
   [[nodiscard]] std::uint32_t active_node(const std::array<std::int32_t, 3>& place) const;
   /// Sends nodes of the slots `from` of every peer, and calls receive(slot, node in it, registers) for what
@@ -204,6 +203,7 @@ class BlockGrid {
   BlockSet blocks_;
   std::vector<std::array<std::int32_t, 27>> neighbours_;
   std::vector<std::uint32_t> existing_;  // bit per neighbour
+  std::vector<Lanes> corner_;            // of each slot, in cells
   std::vector<Node> nodes_;
   std::vector<std::int32_t> slot_of_particle_;
   std::vector<std::uint16_t> cell_count_;  // particles in each cell of each slot

@@ -221,7 +221,7 @@ void Simulation::sort_particles() {
   std::vector<std::uint32_t> order(particles_.size());
   for (const std::uint32_t p : grid_.particles_by_block()) order[next[particles_.body[p]]++] = p;
   reorder(particles_, order);
-  grid_.particles_reordered();
+  grid_.particles_reordered(order);
 }
 
 /// After particles came, went or changed their places.
