@@ -38,21 +38,27 @@ void for_each_chunk(std::size_t n, Body&& body) {
   for_each_uneven(chunks, [&](std::size_t c) { body(c * chunk_size, std::min(n, (c + 1) * chunk_size)); });
 }
 
-/// Sum over i of term(i), whose value is default-constructible to zero and has +=. Chunks are summed in their
-/// order.
+/// Sum over chunks of at most `chunk_size` items of term(begin, end), whose value is default-constructible to
+/// zero and has +=. Chunks are summed in their order.
 template <class Sum, class Term>
-Sum sum(std::size_t n, Term&& term) {
+Sum sum_of_chunks(std::size_t n, Term&& term) {
   const std::size_t chunks = (n + chunk_size - 1) / chunk_size;
   std::vector<Sum> partial(chunks);
-  for_each(chunks, [&](std::size_t c) {
-    Sum local{};
-    const std::size_t end = std::min(n, (c + 1) * chunk_size);
-    for (std::size_t i = c * chunk_size; i < end; ++i) local += term(i);
-    partial[c] = local;
-  });
+  for_each(chunks,
+           [&](std::size_t c) { partial[c] = term(c * chunk_size, std::min(n, (c + 1) * chunk_size)); });
   Sum total{};
   for (const Sum& part : partial) total += part;
   return total;
+}
+
+/// Sum over i of term(i), by chunks.
+template <class Sum, class Term>
+Sum sum(std::size_t n, Term&& term) {
+  return sum_of_chunks<Sum>(n, [&](std::size_t begin, std::size_t end) {
+    Sum local{};
+    for (std::size_t i = begin; i < end; ++i) local += term(i);
+    return local;
+  });
 }
 
 /// Maximum over i of value(i), `start` if there are none.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "src/base/vector_math.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {
@@ -6,8 +7,12 @@ namespace whipple::solver {
 void Simulation::reflect_and_remove() {
   profile_.time("boundaries", [&] {
     const grid::Geometry& g = setup_.geometry;
+    const Lanes lower = {g.lower[0], g.lower[1], g.lower[2], 0.0};
+    const Lanes upper = {g.upper(0), g.upper(1), g.upper(2), 0.0};
     std::vector<std::uint32_t> leaving;
     for (std::size_t p = 0; p < particles_.size(); ++p) {
+      const Lanes position = load_vector(particles_.position[p].data());
+      if (bits((position >= lower) & (position <= upper)) == all_lanes) continue;
       bool leaves = false;
       for (int a = 0; a < 3; ++a) {
         double& x = particles_.position[p][a];

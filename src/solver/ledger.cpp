@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/vector_math.hpp"
 #include "src/io/output_fields.hpp"
 #include "src/parallel/threads.hpp"
 
@@ -31,9 +32,42 @@ Totals totals_of(const Particles& particles, std::size_t p, double affine_inerti
           .internal_energy = m * particles.specific_internal_energy[p]};
 }
 
+namespace {
+
+/// Sums of particles one after the other, in a few registers.
+Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_t end,
+                       double affine_inertia) {
+  Lanes momentum{}, affine{};
+  double mass = 0.0, scale = 0.0, twice_kinetic = 0.0, internal = 0.0, affine_rest = 0.0;
+  for (std::size_t p = begin; p < end; ++p) {
+    const double m = particles.mass[p];
+    const Lanes v = load_vector(particles.velocity[p].data());
+    const double speed2 = sum3(v * v);
+    mass += m;
+    momentum += m * v;
+    scale += m * std::sqrt(speed2);
+    twice_kinetic += m * speed2;
+    internal += m * particles.specific_internal_energy[p];
+    if (affine_inertia == 0.0) continue;
+    const double* c = particles.affine_velocity[p].data();
+    const Lanes first = load(c), second = load(c + 4);
+    affine += m * (first * first + second * second);
+    affine_rest += m * c[8] * c[8];
+  }
+  return {.mass = mass,
+          .momentum = Vector3(momentum[0], momentum[1], momentum[2]),
+          .momentum_scale = scale,
+          .kinetic_energy = 0.5 * twice_kinetic,
+          .affine_kinetic_energy = 0.5 * affine_inertia * (sum3(affine) + affine[3] + affine_rest),
+          .internal_energy = internal};
+}
+
+}  // namespace
+
 Totals totals_of(const Particles& particles, double affine_inertia) {
-  return parallel::sum<Totals>(particles.size(),
-                               [&](std::size_t p) { return totals_of(particles, p, affine_inertia); });
+  return parallel::sum_of_chunks<Totals>(particles.size(), [&](std::size_t begin, std::size_t end) {
+    return totals_of_range(particles, begin, end, affine_inertia);
+  });
 }
 
 void Ledger::add(const Ledger& step) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "src/base/error.hpp"
+#include "src/base/vector_math.hpp"
 #include "src/material/update.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
@@ -358,10 +359,12 @@ void Simulation::move_particles() {
 
 void Simulation::end_step() {
   profile_.time("ledger", [&] {
-    const double per_step = 1.0 / state_.time_step;
-    const double acceleration = parallel::maximum(particles_.size(), 0.0, [&](std::size_t p) {
-      return per_step * (particles_.velocity[p] - former_velocity_[p]).norm();
+    const double squared_change = parallel::maximum(particles_.size(), 0.0, [&](std::size_t p) {
+      const Lanes change =
+          load_vector(particles_.velocity[p].data()) - load_vector(former_velocity_[p].data());
+      return sum3(change * change);
     });
+    const double acceleration = std::sqrt(squared_change) / state_.time_step;
     state_.maximum_acceleration = parallel::maximum(communicator_, acceleration);
     sum_over_ranks();
     ++state_.step;
