@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "src/material/kinematics.hpp"
 #include "src/material/update.hpp"
@@ -17,13 +20,21 @@ constexpr double least_sound_speed_ratio = 0.1;  ///< of the bulk sound speed of
 struct Chunk {
   std::size_t size = 0;
   std::array<std::size_t, chunk_size> index;
-  Lanes density, pressure, temperature, plastic_strain, solid_fraction;
+  bool contiguous = false;  // index[k] = index[0] + k
+  // Of the points, as they were before the step until they are replaced:
+  Lanes mass, volume, void_volume, specific_internal_energy, artificial_viscosity, sound_speed;
+  Lanes density, pressure, temperature, plastic_strain, melted, damage;
+  std::array<std::uint8_t, chunk_size> failed;
+  bool any_failed = false, any_void = false, any_damage = false;
+  // And what is derived:
+  Lanes solid_fraction;
   Lanes old_volume;                    // m^3 of matter
   Lanes volume_change;                 // m^3 of matter, on which its pressure does work
   Kinematics motion;                   // its deviator becomes the new one
+  SymmetricLanes old_deviator;         // of schemes that integrate the energy
   SymmetricLanes back_stress, strain;  // of materials that need them only
   Lanes solid_modulus, increment;
-  Lanes energy, bulk_sound_speed, melted, vaporised;
+  Lanes energy, bulk_sound_speed, vaporised;
   Lanes acting_pressure;  // after failure
   Lanes distension;       // of porous matter only
 
@@ -34,6 +45,26 @@ struct Chunk {
   strength::State strength_state() {
     return {view(density), view(pressure), view(temperature), view(plastic_strain)};
   }
+
+  /// One field of the points into the chunk, and back.
+  template <class Value, class To>
+  void fetch(const std::vector<Value>& from, To& to) const {
+    if (contiguous) {
+      std::copy_n(from.data() + index[0], size, to.data());
+    } else {
+      for (std::size_t k = 0; k < size; ++k) to[k] = from[index[k]];
+    }
+  }
+  template <class Value, class From>
+  void deposit(const From& from, std::vector<Value>& to) const {
+    if (contiguous) {
+      std::copy_n(from.data(), size, to.data() + index[0]);
+    } else {
+      for (std::size_t k = 0; k < size; ++k) to[index[k]] = from[k];
+    }
+  }
+  void fetch(const std::vector<SymmetricTensor>& from, SymmetricLanes& to) const;
+  void deposit(const SymmetricLanes& from, std::vector<SymmetricTensor>& to) const;
 };
 
 struct Step {
@@ -57,24 +88,24 @@ inline void scale(SymmetricLanes& lanes, std::size_t k, double factor) {
 }
 
 /// Share of the stiffness that a point still has: 1 - melted, less its damage if that softens; 0 failed.
-inline double solid_fraction(const Step& step, std::size_t point, double melted) {
-  if (step.points.failed[point] != failure::intact) return 0.0;
-  return (1.0 - melted) * (step.material.softens ? 1.0 - step.points.damage[point] : 1.0);
+inline double solid_fraction(const Step& step, const Chunk& chunk, std::size_t k) {
+  if (chunk.failed[k] != failure::intact) return 0.0;
+  return (1.0 - chunk.melted[k]) * (step.material.softens ? 1.0 - chunk.damage[k] : 1.0);
 }
 
 /// Share of a change of the whole volume that goes to the voids of a point: all of it where the point has
 /// failed, its damage where cracks open in softening matter, and that of the porosity in porous matter.
-inline double void_share(const Step& step, std::size_t point) {
-  const MaterialPoints& points = step.points;
-  if (points.failed[point] != failure::intact) return 1.0;
-  if (step.material.softens) return points.damage[point];
-  return points.void_volume[point] / (points.volume[point] + points.void_volume[point]);
+inline double void_share(const Step& step, const Chunk& chunk, std::size_t k) {
+  if (chunk.failed[k] != failure::intact) return 1.0;
+  if (step.material.softens) return chunk.damage[k];
+  return chunk.void_volume[k] / (chunk.volume[k] + chunk.void_volume[k]);
 }
 
 /// Voids grow, criteria are asked: between the equation of state and `finish`.
 void apply_failure(Step& step, Chunk& chunk);
 
-/// Cracks and voids, loss of the deviator by melting and damage, sound speed; writes the new state.
+/// Cracks and voids, loss of the deviator by melting and damage, sound speed; writes the new state, all but
+/// the energy.
 void finish(Step& step, Chunk& chunk);
 
 }  // namespace whipple::material

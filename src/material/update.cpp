@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "src/base/vector_math.hpp"
 #include "src/material/chunk.hpp"
 
 namespace whipple {
@@ -19,50 +20,105 @@ using material::components;
 using material::Lanes;
 using material::Step;
 
+/// Columns of L, one matrix after the other, to lanes.
+void gather_gradient(const Step& step, Chunk& chunk) {
+  material::MatrixLanes& gradient = chunk.motion.gradient;
+  const auto row_major = [](std::size_t e) { return e % 3 * 3 + e / 3; };
+  const double* from = step.gradient[0].data();
+  std::size_t k = 0;
+  for (; k + 4 <= chunk.size; k += 4) {
+    const double* m = from + 9 * k;
+    for (std::size_t half = 0; half < 2; ++half) {
+      const double* at = m + 4 * half;
+      const auto columns = transposed({load(at), load(at + 9), load(at + 18), load(at + 27)});
+      for (std::size_t e = 0; e < 4; ++e) store(&gradient[row_major(4 * half + e)][k], columns[e]);
+    }
+    store(&gradient[8][k], whipple::Lanes{m[8], m[17], m[26], m[35]});
+  }
+  for (; k < chunk.size; ++k) {
+    for (std::size_t e = 0; e < 9; ++e) gradient[row_major(e)][k] = from[9 * k + e];
+  }
+  for (; k < material::padded(chunk.size); ++k) {
+    for (Lanes& lane : gradient) lane[k] = 0.0;
+  }
+}
+
 void gather(Step& step, Chunk& chunk) {
   const MaterialPoints& points = step.points;
+  chunk.fetch(points.mass, chunk.mass);
+  chunk.fetch(points.volume, chunk.volume);
+  chunk.fetch(points.void_volume, chunk.void_volume);
+  chunk.fetch(points.specific_internal_energy, chunk.specific_internal_energy);
+  chunk.fetch(points.pressure, chunk.pressure);
+  chunk.fetch(points.temperature, chunk.temperature);
+  chunk.fetch(points.plastic_strain, chunk.plastic_strain);
+  chunk.fetch(points.sound_speed, chunk.sound_speed);
+  chunk.fetch(points.melted_fraction, chunk.melted);
+  chunk.fetch(points.failed, chunk.failed);
+  if (step.material.failure.empty() && !step.material.softens) {
+    std::fill_n(chunk.damage.data(), chunk.size, 0.0);
+  } else {
+    chunk.fetch(points.damage, chunk.damage);
+  }
+  std::uint8_t failed = 0;
+  double void_volume = 0.0;
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const std::size_t i = chunk.index[k];
-    chunk.old_volume[k] = points.volume[i];
-    chunk.density[k] = points.mass[i] / points.volume[i];
-    chunk.pressure[k] = points.pressure[i];
-    chunk.temperature[k] = points.temperature[i];
-    chunk.plastic_strain[k] = points.plastic_strain[i];
-    chunk.solid_fraction[k] = material::solid_fraction(step, i, points.melted_fraction[i]);
-    for (std::size_t j = 0; j < 9; ++j) {
-      chunk.motion.gradient[j][k] = step.gradient[k](static_cast<int>(j / 3), static_cast<int>(j % 3));
+    failed |= chunk.failed[k];
+    void_volume = std::max(void_volume, chunk.void_volume[k]);
+    chunk.old_volume[k] = chunk.volume[k];
+    chunk.density[k] = chunk.mass[k] / chunk.volume[k];
+    chunk.solid_fraction[k] = 1.0 - chunk.melted[k];
+  }
+  chunk.any_failed = failed != 0;
+  chunk.any_void = void_volume > 0.0;
+  if (chunk.any_failed || step.material.softens) {
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      chunk.solid_fraction[k] = material::solid_fraction(step, chunk, k);
     }
   }
-  for (std::size_t k = chunk.size; k < material::padded(chunk.size); ++k) {
-    for (Lanes& lane : chunk.motion.gradient) lane[k] = 0.0;
-  }
+  gather_gradient(step, chunk);
 }
 
 /// Volume of matter and void after the step (eq. 1, eq. 11): the total follows J; voids take their share of
 /// the change until they are closed.
 void advance_volume(Step& step, Chunk& chunk) {
-  MaterialPoints& points = step.points;
+  Lanes limited;
   material::volume_change(material::padded(chunk.size), step.settings.time_step, chunk.motion);
+  std::size_t beyond = 0, undefined = 0;
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const std::size_t i = chunk.index[k];
     const double ratio = chunk.motion.ratio[k];
-    const double limited = std::clamp(ratio, least_volume_ratio, greatest_volume_ratio);
-    if (ratio < least_volume_ratio || ratio > greatest_volume_ratio) ++step.report.limited_volume_changes;
-    const double before = points.volume[i] + points.void_volume[i];
-    if (points.void_volume[i] > 0.0) {
-      const double total = before * limited, share = material::void_share(step, i);
-      points.volume[i] = std::min(points.volume[i] + (1.0 - share) * (total - before), total);
-      points.void_volume[i] = total - points.volume[i];
-    } else {
-      points.volume[i] *= limited;
+    limited[k] = std::clamp(ratio, least_volume_ratio, greatest_volume_ratio);
+    beyond += ratio < least_volume_ratio || ratio > greatest_volume_ratio ? 1 : 0;
+    chunk.volume_change[k] = chunk.old_volume[k] * (limited[k] - 1.0);
+    chunk.volume[k] = chunk.old_volume[k] * limited[k];
+  }
+  step.report.limited_volume_changes += beyond;
+  if (chunk.any_void) {
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      if (!(chunk.void_volume[k] > 0.0)) continue;
+      chunk.volume[k] = chunk.old_volume[k];
+      const double before = chunk.volume[k] + chunk.void_volume[k];
+      const double total = before * limited[k], share = material::void_share(step, chunk, k);
+      chunk.volume[k] = std::min(chunk.volume[k] + (1.0 - share) * (total - before), total);
+      chunk.void_volume[k] = total - chunk.volume[k];
     }
+  }
+  if (chunk.any_failed) {
     // Stress acts on the matter and strains it as the whole; in failed matter, on nothing but itself.
-    chunk.volume_change[k] = points.failed[i] == failure::intact ? chunk.old_volume[k] * (limited - 1.0)
-                                                                 : points.volume[i] - chunk.old_volume[k];
-    if (!(points.volume[i] > 0.0) || !std::isfinite(points.specific_internal_energy[i] + points.volume[i])) {
-      ++step.report.undefined;
-      step.report.first_undefined = std::min(step.report.first_undefined, i);
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      if (chunk.failed[k] != failure::intact) chunk.volume_change[k] = chunk.volume[k] - chunk.old_volume[k];
     }
+  }
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double sum = chunk.specific_internal_energy[k] + chunk.volume[k];
+    undefined += !(chunk.volume[k] > 0.0) || !std::isfinite(sum) ? 1 : 0;
+  }
+  if (undefined == 0) return;
+  step.report.undefined += undefined;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double sum = chunk.specific_internal_energy[k] + chunk.volume[k];
+    if (chunk.volume[k] > 0.0 && std::isfinite(sum)) continue;
+    step.report.first_undefined = std::min(step.report.first_undefined, chunk.index[k]);
   }
 }
 
@@ -101,14 +157,10 @@ void advance_without_modulus(Step& step, Chunk& chunk) {
 }
 
 /// Tensors of points that carry the deviator; zero elsewhere and in the padding.
-void gather(const Chunk& chunk, const std::vector<SymmetricTensor>& from, bool solids_only,
-            material::SymmetricLanes& to) {
-  for (std::size_t k = 0; k < chunk.size; ++k) {
-    const double carried = solids_only && !(chunk.solid_fraction[k] > 0.0) ? 0.0 : 1.0;
-    for (std::size_t j = 0; j < 6; ++j) to[j][k] = carried * (from[chunk.index[k]].*components[j]);
-  }
-  for (std::size_t k = chunk.size; k < material::padded(chunk.size); ++k) {
-    for (Lanes& lane : to) lane[k] = 0.0;
+void mask_to_solids(const Chunk& chunk, material::SymmetricLanes& tensors) {
+  for (Lanes& lane : tensors) {
+    for (std::size_t k = 0; k < chunk.size; ++k) lane[k] = chunk.solid_fraction[k] > 0.0 ? lane[k] : 0.0;
+    for (std::size_t k = chunk.size; k < material::padded(chunk.size); ++k) lane[k] = 0.0;
   }
 }
 
@@ -116,7 +168,8 @@ void gather(const Chunk& chunk, const std::vector<SymmetricTensor>& from, bool s
 void shift_by_back_stress(Step& step, Chunk& chunk, Lanes& modulus) {
   const double third = step.material.strength->kinematic_modulus() / 3.0;
   material::Kinematics& motion = chunk.motion;
-  gather(chunk, step.points.back_stress, true, chunk.back_stress);
+  chunk.fetch(step.points.back_stress, chunk.back_stress);
+  mask_to_solids(chunk, chunk.back_stress);
   material::turn(material::padded(chunk.size), step.settings.time_step, step.settings.rotation,
                  motion.gradient, chunk.back_stress);
   for (std::size_t k = 0; k < chunk.size; ++k) {
@@ -143,7 +196,8 @@ void advance_deviator(Step& step, Chunk& chunk) {
     motion.modulus[k] = chunk.solid_modulus[k] * chunk.solid_fraction[k];
   }
   for (std::size_t k = chunk.size; k < padded; ++k) motion.modulus[k] = 0.0;
-  gather(chunk, step.points.deviatoric_stress, true, motion.deviator);
+  chunk.fetch(step.points.deviatoric_stress, motion.deviator);
+  mask_to_solids(chunk, motion.deviator);
   material::elastic_trial(padded, dt, step.settings.rotation, motion);
   const bool kinematic = step.material.strength->kinematic_modulus() > 0.0;
   Lanes shifted_modulus;
@@ -174,7 +228,10 @@ void advance_deviator(Step& step, Chunk& chunk) {
 /// Logarithmic strain, turned with the matter (eq. 17).
 void advance_strain(Step& step, Chunk& chunk) {
   if (!step.material.needs_strain) return;
-  gather(chunk, step.points.strain, false, chunk.strain);
+  chunk.fetch(step.points.strain, chunk.strain);
+  for (Lanes& lane : chunk.strain) {
+    std::fill_n(lane.data() + chunk.size, material::padded(chunk.size) - chunk.size, 0.0);
+  }
   material::turn(material::padded(chunk.size), step.settings.time_step, step.settings.rotation,
                  chunk.motion.gradient, chunk.strain);
   for (std::size_t j = 0; j < 6; ++j) {
@@ -184,40 +241,38 @@ void advance_strain(Step& step, Chunk& chunk) {
 
 /// Artificial viscosity (eq. 8): in compression only, none in failed matter beside an open void.
 void advance_viscosity(Step& step, Chunk& chunk) {
-  MaterialPoints& points = step.points;
   const UpdateSettings& settings = step.settings;
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const std::size_t i = chunk.index[k];
-    const double length = settings.lengths.empty() ? settings.cell_size : settings.lengths[i];
-    const double closing = -chunk.motion.divergence[k] * length;  // l |D|, m/s
-    const bool open = points.failed[i] != failure::intact && points.void_volume[i] > 0.0;
-    const bool active = closing > 0.0 && !open;
-    points.artificial_viscosity[i] =
-        active
-            ? points.mass[i] / points.volume[i] * closing *
-                  (settings.quadratic_viscosity * closing + settings.linear_viscosity * points.sound_speed[i])
-            : 0.0;
+    const double closing = -chunk.motion.divergence[k] * settings.cell_size;  // l |D|, m/s
+    const double viscosity =
+        chunk.mass[k] / chunk.volume[k] * closing *
+        (settings.quadratic_viscosity * closing + settings.linear_viscosity * chunk.sound_speed[k]);
+    chunk.artificial_viscosity[k] = closing > 0.0 ? viscosity : 0.0;
+  }
+  if (!chunk.any_failed || !chunk.any_void) return;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    if (chunk.failed[k] != failure::intact && chunk.void_volume[k] > 0.0) chunk.artificial_viscosity[k] = 0.0;
   }
 }
 
 /// Density and the energy that the equation of state of the symplectic scheme takes: half a step ahead of
 /// e^n+1 (pressure and stresses then stand at the end of the step), less the elastic energy of the deviator
 /// (eq. 9, 10).
-void prepare_energy(Step& step, Chunk& chunk) {
-  const MaterialPoints& points = step.points;
+void prepare_energy(const Step& step, Chunk& chunk) {
   const double half_step = 0.5 * step.settings.time_step;
+  const material::SymmetricLanes& lanes = chunk.motion.deviator;
+  const material::MatrixLanes& l = chunk.motion.gradient;
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const std::size_t i = chunk.index[k];
-    const SymmetricTensor s = material::tensor(chunk.motion.deviator, k);
-    const material::MatrixLanes& l = chunk.motion.gradient;
+    const SymmetricTensor s = material::tensor(lanes, k);
     const double deviatoric = s.xx * l[0][k] + s.yy * l[4][k] + s.zz * l[8][k] + s.xy * (l[1][k] + l[3][k]) +
                               s.yz * (l[5][k] + l[7][k]) + s.zx * (l[2][k] + l[6][k]);
     const double power =
-        deviatoric - (points.pressure[i] + points.artificial_viscosity[i]) * chunk.motion.divergence[k];
+        deviatoric - (chunk.pressure[k] + chunk.artificial_viscosity[k]) * chunk.motion.divergence[k];
     const double modulus = chunk.motion.modulus[k];
-    const double elastic = modulus > 0.0 ? s.squared_norm() / (4.0 * modulus) : 0.0;
-    const double specific_volume = points.volume[i] / points.mass[i];
-    chunk.energy[k] = points.specific_internal_energy[i] + (half_step * power - elastic) * specific_volume;
+    const double elastic = s.squared_norm() / (4.0 * (modulus > 0.0 ? modulus : 1.0));
+    const double specific_volume = chunk.volume[k] / chunk.mass[k];
+    chunk.energy[k] = chunk.specific_internal_energy[k] +
+                      (half_step * power - (modulus > 0.0 ? elastic : 0.0)) * specific_volume;
   }
 }
 
@@ -225,18 +280,13 @@ bool porous(const Step& step) { return step.material.eos->initial_distension() >
 
 /// One call for the chunk; density, pressure and temperature become the new ones.
 eos::RangeReport evaluate(Step& step, Chunk& chunk) {
-  for (std::size_t k = 0; k < chunk.size; ++k) {
-    const std::size_t i = chunk.index[k];
-    chunk.density[k] = step.points.mass[i] / step.points.volume[i];
-  }
+  for (std::size_t k = 0; k < chunk.size; ++k) chunk.density[k] = chunk.mass[k] / chunk.volume[k];
   eos::Batch batch{chunk.view(chunk.density),          chunk.view(chunk.energy),
                    chunk.view(chunk.pressure),         chunk.view(chunk.temperature),
                    chunk.view(chunk.bulk_sound_speed), chunk.view(chunk.melted),
                    chunk.view(chunk.vaporised)};
   if (porous(step)) {  // always from the distension before the step, which `finish` replaces
-    for (std::size_t k = 0; k < chunk.size; ++k) {
-      chunk.distension[k] = step.points.distension[chunk.index[k]];
-    }
+    chunk.fetch(step.points.distension, chunk.distension);
     batch.distension = chunk.view(chunk.distension);
   }
   eos::RangeReport range = step.material.eos->evaluate(batch);
@@ -248,40 +298,35 @@ eos::RangeReport evaluate(Step& step, Chunk& chunk) {
 /// 2m, where e_0 holds all work but that of the new pressure. Two evaluations and the secant through them:
 /// exact for an equation of state that is linear in e at constant density.
 eos::RangeReport integrate_energy(Step& step, Chunk& chunk) {
-  MaterialPoints& points = step.points;
-  Lanes without_new_pressure, first_energy, first_pressure;
+  Lanes without_new_pressure, first_energy, first_pressure, half_change;
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const std::size_t i = chunk.index[k];
-    const double change = chunk.volume_change[k];
     double strain_work = 0.0;  // mean stress : strain increment
     for (std::size_t j = 0; j < 6; ++j) {
-      const double mean = 0.5 * (chunk.motion.deviator[j][k] + points.deviatoric_stress[i].*components[j]);
+      const double mean = 0.5 * (chunk.motion.deviator[j][k] + chunk.old_deviator[j][k]);
       strain_work += (j < 3 ? 1.0 : 2.0) * mean * chunk.motion.strain[j][k];
     }
-    const double work = strain_work * 0.5 * (points.volume[i] + chunk.old_volume[k]) -
-                        change * (0.5 * points.pressure[i] + points.artificial_viscosity[i]);
-    without_new_pressure[k] = points.specific_internal_energy[i] + work / points.mass[i];
-    chunk.energy[k] = without_new_pressure[k] - 0.5 * change * points.pressure[i] / points.mass[i];
-    first_energy[k] = chunk.energy[k];
+    const double per_mass = 1.0 / chunk.mass[k], h = 0.5 * chunk.volume_change[k] * per_mass;
+    const double work = strain_work * 0.5 * (chunk.volume[k] + chunk.old_volume[k]) -
+                        chunk.volume_change[k] * (0.5 * chunk.pressure[k] + chunk.artificial_viscosity[k]);
+    half_change[k] = h;
+    without_new_pressure[k] = chunk.specific_internal_energy[k] + work * per_mass;
+    first_energy[k] = without_new_pressure[k] - h * chunk.pressure[k];
+    chunk.energy[k] = first_energy[k];
   }
   eos::RangeReport range = evaluate(step, chunk);
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const std::size_t i = chunk.index[k];
-    const double h = 0.5 * chunk.volume_change[k] / points.mass[i];
     first_pressure[k] = chunk.pressure[k];
-    chunk.energy[k] = without_new_pressure[k] - h * first_pressure[k];
+    chunk.energy[k] = without_new_pressure[k] - half_change[k] * first_pressure[k];
   }
   range.merge(evaluate(step, chunk));
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const std::size_t i = chunk.index[k];
-    const double h = 0.5 * chunk.volume_change[k] / points.mass[i];
-    const double span = chunk.energy[k] - first_energy[k];
-    const double slope = (chunk.pressure[k] - first_pressure[k]) / span;
+    const double h = half_change[k], span = chunk.energy[k] - first_energy[k];
+    const double slope = (chunk.pressure[k] - first_pressure[k]) / (span != 0.0 ? span : 1.0);
     const bool resolved = std::abs(span) > 1e-9 * std::abs(chunk.energy[k]) && h * slope > -0.5;
     const double gain = h * (first_pressure[k] - chunk.pressure[k]) / (resolved ? 1.0 + h * slope : 1.0);
     chunk.energy[k] += gain;
-    if (resolved) chunk.pressure[k] += slope * gain;
-    points.specific_internal_energy[i] = chunk.energy[k];
+    chunk.pressure[k] += resolved ? slope * gain : 0.0;
+    chunk.specific_internal_energy[k] = chunk.energy[k];
   }
   return range;
 }
@@ -291,6 +336,7 @@ enum class Energy { from_grid, integrated };
 void update_chunk(Step& step, Chunk& chunk, Energy energy) {
   gather(step, chunk);
   advance_volume(step, chunk);
+  if (energy == Energy::integrated) chunk.fetch(step.points.deviatoric_stress, chunk.old_deviator);
   advance_deviator(step, chunk);
   advance_strain(step, chunk);
   advance_viscosity(step, chunk);
@@ -306,13 +352,13 @@ void update_chunk(Step& step, Chunk& chunk, Energy energy) {
   material::finish(step, chunk);
   // The work of the step took the pressure of the equation of state; a failed point acts with less (eq. 15).
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const std::size_t i = chunk.index[k];
-    const double excess = chunk.pressure[k] - step.points.pressure[i];
-    step.points.specific_internal_energy[i] += 0.5 * chunk.volume_change[k] * excess / step.points.mass[i];
+    const double excess = chunk.pressure[k] - chunk.acting_pressure[k];
+    chunk.specific_internal_energy[k] += 0.5 * chunk.volume_change[k] * excess / chunk.mass[k];
   }
+  chunk.deposit(chunk.specific_internal_energy, step.points.specific_internal_energy);
 }
 
-template <class IndexOf>
+template <bool contiguous, class IndexOf>
 MaterialReport update_all(const Material& material, MaterialPoints& points, std::size_t count,
                           IndexOf index_of, std::span<const Matrix3> velocity_gradient,
                           const UpdateSettings& settings, Energy energy) {
@@ -321,6 +367,7 @@ MaterialReport update_all(const Material& material, MaterialPoints& points, std:
   for (std::size_t first = 0; first < count; first += chunk_size) {
     chunk.size = std::min(chunk_size, count - first);
     for (std::size_t k = 0; k < chunk.size; ++k) chunk.index[k] = index_of(first + k);
+    chunk.contiguous = contiguous;
     Step step{material, points, velocity_gradient.subspan(first, chunk.size), settings, report};
     update_chunk(step, chunk, energy);
   }
@@ -328,6 +375,41 @@ MaterialReport update_all(const Material& material, MaterialPoints& points, std:
 }
 
 }  // namespace
+
+namespace material {
+
+void Chunk::fetch(const std::vector<SymmetricTensor>& from, SymmetricLanes& to) const {
+  std::size_t k = 0;
+  for (; k + 4 <= size; k += 4) {
+    std::array<const double*, 4> at;
+    for (std::size_t n = 0; n < 4; ++n) at[n] = &from[index[k + n]].xx;
+    const auto normal = transposed({load(at[0]), load(at[1]), load(at[2]), load(at[3])});
+    const auto shear = transposed({load(at[0] + 2), load(at[1] + 2), load(at[2] + 2), load(at[3] + 2)});
+    for (std::size_t j = 0; j < 4; ++j) store(&to[j][k], normal[j]);
+    store(&to[4][k], shear[2]);
+    store(&to[5][k], shear[3]);
+  }
+  for (; k < size; ++k) {
+    for (std::size_t j = 0; j < 6; ++j) to[j][k] = from[index[k]].*components[j];
+  }
+}
+
+void Chunk::deposit(const SymmetricLanes& from, std::vector<SymmetricTensor>& to) const {
+  std::size_t k = 0;
+  for (; k + 4 <= size; k += 4) {
+    const auto lane = [&](std::size_t j) { return load(&from[j][k]); };
+    const auto front = transposed({lane(0), lane(1), lane(2), lane(3)});
+    const auto back = transposed({lane(2), lane(3), lane(4), lane(5)});
+    for (std::size_t n = 0; n < 4; ++n) {
+      double* const at = &to[index[k + n]].xx;
+      store(at, front[n]);
+      store(at + 2, back[n]);
+    }
+  }
+  for (; k < size; ++k) to[index[k]] = tensor(from, k);
+}
+
+}  // namespace material
 
 void MaterialReport::merge(const MaterialReport& other) {
   equation_of_state.merge(other.equation_of_state);
@@ -340,7 +422,7 @@ void MaterialReport::merge(const MaterialReport& other) {
 MaterialReport update_material(const Material& material, MaterialPoints& points, std::size_t begin,
                                std::size_t end, std::span<const Matrix3> velocity_gradient,
                                const UpdateSettings& settings) {
-  return update_all(
+  return update_all<true>(
       material, points, end - begin, [=](std::size_t k) { return begin + k; }, velocity_gradient, settings,
       Energy::from_grid);
 }
@@ -348,7 +430,7 @@ MaterialReport update_material(const Material& material, MaterialPoints& points,
 MaterialReport update_material(const Material& material, MaterialPoints& points,
                                std::span<const std::uint32_t> indices,
                                std::span<const Matrix3> velocity_gradient, const UpdateSettings& settings) {
-  return update_all(
+  return update_all<false>(
       material, points, indices.size(), [=](std::size_t k) { return std::size_t{indices[k]}; },
       velocity_gradient, settings, Energy::from_grid);
 }
@@ -356,7 +438,7 @@ MaterialReport update_material(const Material& material, MaterialPoints& points,
 MaterialReport update_material_and_energy(const Material& material, MaterialPoints& points, std::size_t begin,
                                           std::size_t end, std::span<const Matrix3> velocity_gradient,
                                           const UpdateSettings& settings) {
-  return update_all(
+  return update_all<true>(
       material, points, end - begin, [=](std::size_t k) { return begin + k; }, velocity_gradient, settings,
       Energy::integrated);
 }
@@ -365,7 +447,7 @@ MaterialReport update_material_and_energy(const Material& material, MaterialPoin
                                           std::span<const std::uint32_t> indices,
                                           std::span<const Matrix3> velocity_gradient,
                                           const UpdateSettings& settings) {
-  return update_all(
+  return update_all<false>(
       material, points, indices.size(), [=](std::size_t k) { return std::size_t{indices[k]}; },
       velocity_gradient, settings, Energy::integrated);
 }
