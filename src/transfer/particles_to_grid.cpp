@@ -20,20 +20,21 @@ struct Payload {
   return mass * Lanes{0.0, v[0], v[1], v[2]};
 }
 
-/// Mass and momentum, with the sound speed; the rest is 0.
+/// Mass and momentum, with the sound speed and no force; b_a is left open. (Clearing the whole payload would
+/// cost more than the rest of it.)
 template <bool affine, class Points>
 [[gnu::always_inline]] inline Payload inertia(const Points& points, std::size_t p) {
   const double m = points.mass[p];
-  Payload out{};
-  out.a0 = times(m, points.velocity[p].data());
-  out.a0[0] = m;
+  Payload out;
+  const double* v = points.velocity[p].data();
+  out.a0 = m * Lanes{1.0, v[0], v[1], v[2]};
   if constexpr (affine) {
     const double* c = points.affine_velocity[p].data();
     out.ax = times(m, c);
     out.ay = times(m, c + 3);
     out.az = times(m, c + 6);
   }
-  out.b0[0] = m * points.sound_speed[p];
+  out.b0 = Lanes{m * points.sound_speed[p], 0.0, 0.0, 0.0};
   return out;
 }
 
@@ -72,6 +73,7 @@ struct OfNodes {
   [[nodiscard]] Payload load(std::size_t p) const {
     Payload out = inertia<affine>(points, p);
     out.b0 += times(1.0, points.force[p].data());
+    out.bx = out.by = out.bz = Lanes{};
     return out;
   }
 };
@@ -101,6 +103,7 @@ void scatter(const What& what, std::span<const std::uint32_t> members, const Blo
         a_y = wx * load.ay;
         a_z = wx * load.az;
       }
+#pragma GCC unroll 4
       for (std::size_t j = 0; j < count; ++j) {
         const Lanes wy = broadcast(w.weight[j][1]);
         Lanes a = wy * a_x, az;
@@ -109,6 +112,7 @@ void scatter(const What& what, std::span<const std::uint32_t> members, const Blo
           az = wy * a_z;
         }
         const Lanes b = wy * b_x + broadcast(w.derivative[j][1]) * b_y, bz = wy * b_z;
+#pragma GCC unroll 4
         for (std::size_t k = 0; k < count; ++k) {
           grid::Node& node = nodes(i, j, k);
           node.first += weight[k] * a;
@@ -130,10 +134,13 @@ void scatter(const Momentum& what, std::span<const std::uint32_t> members, const
     const Lanes load = what.points.mass[p] * Lanes{1.0, v[0], v[1], v[2]};
     const auto nodes = access.stencil(w.first_node());
     const std::array<Lanes, count> weight = of_direction(w.weight, 2);
+#pragma GCC unroll 4
     for (std::size_t i = 0; i < count; ++i) {
       const Lanes a_x = broadcast(w.weight[i][0]) * load;
+#pragma GCC unroll 4
       for (std::size_t j = 0; j < count; ++j) {
         const Lanes a = broadcast(w.weight[j][1]) * a_x;
+#pragma GCC unroll 4
         for (std::size_t k = 0; k < count; ++k) first_register(nodes(i, j, k)) += weight[k] * a;
       }
     }
