@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/transfer/grid_to_particles.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -61,13 +62,10 @@ inline double squared_norm(const std::array<Lanes, 3>& columns) {
                  broadcast(rows[2][a]) * scaled[2];
   }
   const double after = squared_norm(carried);
-  if (after > before) {
-    const double cap = std::sqrt(before / after);
-    for (std::size_t a = 0; a < 3; ++a) c[a] = cap * carried[a];
-    return before - cap * cap * after;
-  }
-  c = carried;
-  return before - after;
+  // Without a branch, which nothing would foretell. (0/0 is not less than 1.)
+  const double cap = std::sqrt(std::min(1.0, before / after));
+  for (std::size_t a = 0; a < 3; ++a) c[a] = cap * carried[a];
+  return before - cap * cap * after;
 }
 
 /// Work of an external force m b on the mean of the grid velocities before and after the forces.
@@ -77,17 +75,16 @@ double external_work(Lanes new_velocity, Lanes increment, double mass, const Vec
 
 /// What the grid did to a point in the step, beside its new velocity, affine field and position.
 struct Advance {
-  Lanes new_velocity;             ///< of the grid
-  std::array<Lanes, 3> gradient;  ///< of it
-  Lanes weighted_increment;       ///< see Moments
-  double heat;                    ///< J/kg
+  ValueAndGradient velocity;   ///< of the grid after the forces
+  ValueAndGradient increment;  ///< of it
+  double heat;                 ///< J/kg
 };
 
 /// Velocity and affine field (4.3), heat of the transfer (4.5), position (4.4).
 template <class Shape, AffineField field, class Points, class Stencil>
 [[gnu::always_inline]] inline Advance advance_point(Points& points, std::size_t p, const BlockFrame& frame,
                                                     const Weights<Shape::count>& weights, double dt,
-                                                    const Weighting& weighting, const Stencil& nodes) {
+                                                    const Stencil& nodes) {
   constexpr bool affine = field != AffineField::none;
   std::array<Lanes, 3> c{};
   if constexpr (affine) {
@@ -96,18 +93,18 @@ template <class Shape, AffineField field, class Points, class Stencil>
     }
   }
   const Lanes velocity = load_vector(points.velocity[p].data());
-  const Moments m = gather<affine>(weights, velocity, c, weighting, nodes);
-  store_vector(points.velocity[p].data(), velocity + m.change);
+  const Moments m = gather<affine>(weights, velocity, c, nodes);
+  store_vector(points.velocity[p].data(), velocity + m.change.value);
   store_vector(points.position[p].data(), load_vector(points.position[p].data()) + dt * m.velocity.value);
-  Lanes heat_lanes = 0.5 * (m.loss - m.change * m.change);
+  Lanes heat_lanes = 0.5 * (m.loss - m.change.value * m.change.value);
   double heat = 0.0;
   if constexpr (affine) {
     // sum N r r^T along one direction
     const double inertia = Shape::second_moment * frame.cell_size * frame.cell_size;
-    const double per_inertia = 1.0 / inertia;
+    const double per_inertia = frame.per_cell_size * frame.per_cell_size / Shape::second_moment;
     for (std::size_t a = 0; a < 3; ++a) {
-      const Lanes change = per_inertia * m.moment[a];
-      heat_lanes -= 0.5 * change * m.moment[a];
+      const Lanes change = per_inertia * m.change.gradient[a];
+      heat_lanes -= 0.5 * change * m.change.gradient[a];
       c[a] += change;
     }
     if constexpr (field == AffineField::deformed) {
@@ -119,12 +116,13 @@ template <class Shape, AffineField field, class Points, class Stencil>
       store_vector(points.affine_velocity[p].col(a).data(), c[static_cast<std::size_t>(a)]);
     }
   }
-  return {m.velocity.value, m.velocity.gradient, m.weighted_increment, heat + sum3(heat_lanes)};
+  return {m.velocity, m.increment, heat + sum3(heat_lanes)};
 }
 
 template <class Shape, AffineField field, class Access>
 [[gnu::always_inline]] inline TransferBalance update_particle(Particles& particles, std::size_t p,
-                                                              const BlockFrame& frame, double dt,
+                                                              const BlockFrame& frame,
+                                                              const Weights<Shape::count>& weights, double dt,
                                                               Matrix3& gradient, Access& access,
                                                               std::span<const Vector3> acceleration) {
   const SymmetricTensor& s = particles.deviatoric_stress[p];
@@ -132,33 +130,30 @@ template <class Shape, AffineField field, class Access>
   const std::array<Lanes, 3> stress = {Lanes{s.xx + mean_stress, s.xy, s.zx, 0.0},
                                        Lanes{s.xy, s.yy + mean_stress, s.yz, 0.0},
                                        Lanes{s.zx, s.yz, s.zz + mean_stress, 0.0}};
-  const Weights<Shape::count> weights = weights_at<Shape>(particles, p, frame);
   const auto nodes = access.stencil(weights.first_node());
-  const Advance advance =
-      advance_point<Shape, field>(particles, p, frame, weights, dt, {Lanes{}, stress}, nodes);
+  const Advance advance = advance_point<Shape, field>(particles, p, frame, weights, dt, nodes);
   // The mean of old and new grid velocity makes the exact work identity (4.6).
-  Lanes power = -0.5 * advance.weighted_increment;
+  Lanes power{};
   for (std::size_t a = 0; a < 3; ++a) {
-    power += stress[a] * advance.gradient[a];
-    store_vector(gradient.col(static_cast<int>(a)).data(), advance.gradient[a]);
+    power += stress[a] * (advance.velocity.gradient[a] - 0.5 * advance.increment.gradient[a]);
+    store_vector(gradient.col(static_cast<int>(a)).data(), advance.velocity.gradient[a]);
   }
   const double mass = particles.mass[p];
   const double work = sum3(power) * particles.volume[p] * dt;
   particles.specific_internal_energy[p] += work / mass + advance.heat;
   TransferBalance balance{.work = work, .heat = mass * advance.heat};
   if (!acceleration.empty()) {
-    const Lanes increment =
-        gather_value<false>(weights, [&](auto... node) { return nodes(node...).second; }).value;
-    balance.external_work = external_work(advance.new_velocity, increment, mass, acceleration[p], dt);
+    balance.external_work =
+        external_work(advance.velocity.value, advance.increment.value, mass, acceleration[p], dt);
   }
   return balance;
 }
 
-/// Calls f(point, slot, frame of the block, access to the nodes) for the points of every block, as listed by
-/// `members_of`.
+/// Calls f(point, slot, frame of the block, weights, access to the nodes) for the points of every block, as
+/// listed by `members_of`.
 /// @tparam Content  what the points read of a node: grid::Node, or Lanes for its first register
-template <class Shape, class Content, class Function>
-void for_each_point(BlockGrid& grid,
+template <class Shape, class Content, class Points, class Function>
+void for_each_point(const Points& points, BlockGrid& grid,
                     std::span<const std::uint32_t> (BlockGrid::*members_of)(std::size_t) const,
                     Function&& f) {
   parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
@@ -166,24 +161,28 @@ void for_each_point(BlockGrid& grid,
     if (members.empty()) return;
     const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
     read_nodes<Shape, Content>(grid, slot, members.size(), [&](auto& access) {
-      for (const std::uint32_t p : members) f(p, slot, frame, access);
+      for_each_with_weights<Shape>(
+          points, members, frame,
+          [&](std::size_t p, const Weights<Shape::count>& weights) { f(p, slot, frame, weights, access); });
     });
   });
 }
 
 template <class Shape, class Content, class Function>
-void for_each_particle(BlockGrid& grid, Function&& f) {
-  for_each_point<Shape, Content>(grid, &BlockGrid::particles_in, f);
+void for_each_particle(const Particles& particles, BlockGrid& grid, Function&& f) {
+  for_each_point<Shape, Content>(particles, grid, &BlockGrid::particles_in, f);
 }
 
 template <class Shape, AffineField field>
 TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
                            std::span<Matrix3> velocity_gradient, std::span<const Vector3> acceleration) {
   std::vector<TransferBalance> of_slot(grid.slots());
-  for_each_particle<Shape, Node>(grid,
-                                 [&](std::size_t p, std::size_t slot, const BlockFrame& frame, auto& access) {
+  for_each_particle<Shape, Node>(particles, grid,
+                                 [&](std::size_t p, std::size_t slot, const BlockFrame& frame,
+                                     const Weights<Shape::count>& weights, auto& access) {
                                    of_slot[slot] += update_particle<Shape, field>(
-                                       particles, p, frame, dt, velocity_gradient[p], access, acceleration);
+                                       particles, p, frame, weights, dt, velocity_gradient[p], access,
+                                       acceleration);
                                  });
   TransferBalance total;
   for (const TransferBalance& part : of_slot) total += part;
@@ -196,8 +195,9 @@ double update_velocities(Particles& particles, BlockGrid& grid, double dt, doubl
                          std::span<const Vector3> acceleration) {
   std::vector<double> work_of_slot(grid.slots(), 0.0);
   for_each_particle<Shape, Node>(
-      grid, [&](std::size_t p, std::size_t slot, const BlockFrame& frame, auto& access) {
-        const Weights<Shape::count> weights = weights_at<Shape>(particles, p, frame);
+      particles, grid,
+      [&](std::size_t p, std::size_t slot, const BlockFrame&, const Weights<Shape::count>& weights,
+          auto& access) {
         const auto nodes = access.stencil(weights.first_node());
         const Lanes increment =
             gather_value<false>(weights, [&](auto... node) { return nodes(node...).second; }).value;
@@ -222,13 +222,14 @@ double update_velocities(Particles& particles, BlockGrid& grid, double dt, doubl
 template <bool with_gradient, class Take>
 void gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& grid, Take&& take) {
   with_shape(shape, [&]<class Shape>(Shape) {
-    for_each_particle<Shape, Lanes>(
-        grid, [&](std::size_t p, std::size_t, const BlockFrame& frame, auto& access) {
-          const Weights<Shape::count> weights = weights_at<Shape>(particles, p, frame);
-          const auto nodes = access.stencil(weights.first_node());
-          take(p, gather_value<with_gradient>(weights,
-                                              [&](auto... node) { return first_register(nodes(node...)); }));
-        });
+    for_each_particle<Shape, Lanes>(particles, grid,
+                                    [&](std::size_t p, std::size_t, const BlockFrame&,
+                                        const Weights<Shape::count>& weights, auto& access) {
+                                      const auto nodes = access.stencil(weights.first_node());
+                                      take(p, gather_value<with_gradient>(weights, [&](auto... node) {
+                                             return first_register(nodes(node...));
+                                           }));
+                                    });
   });
 }
 
@@ -262,12 +263,13 @@ namespace {
 template <class Shape, AffineField field>
 void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt) {
   for_each_point<Shape, Node>(
-      grid, &BlockGrid::guests_in, [&](std::size_t p, std::size_t, const BlockFrame& frame, auto& access) {
-        const Weights<Shape::count> weights = weights_at<Shape>(nodes, p, frame);
-        const Advance advance = advance_point<Shape, field>(
-            nodes, p, frame, weights, dt, {.value = broadcast(1.0)}, access.stencil(weights.first_node()));
-        store_vector(nodes.mean_velocity[p].data(), advance.new_velocity - 0.5 * advance.weighted_increment);
-        store_vector(nodes.new_velocity[p].data(), advance.new_velocity);
+      nodes, grid, &BlockGrid::guests_in,
+      [&](std::size_t p, std::size_t, const BlockFrame& frame, const Weights<Shape::count>& weights,
+          auto& access) {
+        const Advance advance =
+            advance_point<Shape, field>(nodes, p, frame, weights, dt, access.stencil(weights.first_node()));
+        store_vector(nodes.mean_velocity[p].data(), advance.velocity.value - 0.5 * advance.increment.value);
+        store_vector(nodes.new_velocity[p].data(), advance.velocity.value);
         nodes.heat[p] = nodes.mass[p] * advance.heat;
       });
 }

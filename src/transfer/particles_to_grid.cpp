@@ -87,8 +87,7 @@ void scatter(const What& what, std::span<const std::uint32_t> members, const Blo
              Access& access) {
   constexpr std::size_t count = Shape::count;
   constexpr bool affine = CarriesAffineField<Shape>;
-  for (const std::uint32_t p : members) {
-    const Weights<count> w = weights_at<Shape>(what.points, p, frame);
+  for_each_with_weights<Shape>(what.points, members, frame, [&](std::size_t p, const Weights<count>& w) {
     const Payload load = what.template load<affine>(p);
     const auto nodes = access.stencil(w.first_node());
     const std::array<Lanes, count> weight = of_direction(w.weight, 2), slope = of_direction(w.derivative, 2);
@@ -121,15 +120,14 @@ void scatter(const What& what, std::span<const std::uint32_t> members, const Blo
         }
       }
     }
-  }
+  });
 }
 
 template <class Shape, class Access>
 void scatter(const Momentum& what, std::span<const std::uint32_t> members, const BlockFrame& frame,
              Access& access) {
   constexpr std::size_t count = Shape::count;
-  for (const std::uint32_t p : members) {
-    const Weights<count> w = weights_at<Shape>(what.points, p, frame);
+  for_each_with_weights<Shape>(what.points, members, frame, [&](std::size_t p, const Weights<count>& w) {
     const double* v = what.velocity[p].data();
     const Lanes load = what.points.mass[p] * Lanes{1.0, v[0], v[1], v[2]};
     const auto nodes = access.stencil(w.first_node());
@@ -144,7 +142,7 @@ void scatter(const Momentum& what, std::span<const std::uint32_t> members, const
         for (std::size_t k = 0; k < count; ++k) first_register(nodes(i, j, k)) += weight[k] * a;
       }
     }
-  }
+  });
 }
 
 template <class Shape, class What>

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -216,14 +217,15 @@ inline Vector3 half_sizes(const SymmetricTensor& extent, double cell_size) {
 struct BlockFrame {
   Lanes lower;   ///< of the grid, m
   Lanes corner;  ///< of the block, in cells
-  double cell_size;
+  double cell_size, per_cell_size;
 
   BlockFrame(const grid::Geometry& geometry, const grid::BlockCoordinate& block)
       : lower(load_vector(geometry.lower.data())),
         corner{static_cast<double>(grid::block_edge * block[0]),
                static_cast<double>(grid::block_edge * block[1]),
                static_cast<double>(grid::block_edge * block[2]), 0.0},
-        cell_size(geometry.cell_size) {}
+        cell_size(geometry.cell_size),
+        per_cell_size(1.0 / geometry.cell_size) {}
 
   /// Position in cells from the lower corner of the block (lane = direction), below its upper one. Rounds as
   /// Geometry::in_cells does.
@@ -275,6 +277,24 @@ template <class Shape, class Points>
     return all;
   } else {
     return {Shape::weights(local, dx)};
+  }
+}
+
+/// Calls f(point, its weights) for the points of a block. The weights of a few points are made ahead: they
+/// are a long chain of dependent instructions, and too far from those of the next point for the processor to
+/// see.
+template <class Shape, class Points, class Function>
+[[gnu::always_inline]] inline void for_each_with_weights(const Points& points,
+                                                         std::span<const std::uint32_t> members,
+                                                         const BlockFrame& frame, Function&& f) {
+  constexpr std::size_t ahead = 8;
+  std::array<Weights<Shape::count>, ahead> weights;
+  for (std::size_t first = 0; first < members.size(); first += ahead) {
+    const std::size_t some = std::min(ahead, members.size() - first);
+    for (std::size_t m = 0; m < some; ++m) {
+      weights[m] = weights_at<Shape>(points, members[first + m], frame);
+    }
+    for (std::size_t m = 0; m < some; ++m) f(members[first + m], weights[m]);
   }
 }
 
