@@ -9,73 +9,12 @@
 
 #include "src/base/error.hpp"
 #include "src/base/vector_math.hpp"
+#include "src/grid/block_reach.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
 
 namespace whipple::grid {
 namespace {
-
-/// Along one direction: does something reach the block before (bit 0), after (bit 1)?
-using AxisReach = unsigned;
-
-/// Bit per neighbour that a reach given per direction touches, always with the block itself.
-constexpr std::array<std::uint32_t, 64> neighbour_masks() {
-  std::array<std::uint32_t, 64> masks{};
-  for (unsigned reach = 0; reach < 64; ++reach) {
-    for (int x = 0; x < 3; ++x) {
-      for (int y = 0; y < 3; ++y) {
-        for (int z = 0; z < 3; ++z) {
-          const auto touched = [](AxisReach axis, int offset) {
-            return offset == 1 || (offset == 0 && (axis & 1U) != 0) || (offset == 2 && (axis & 2U) != 0);
-          };
-          if (touched(reach & 3U, x) && touched(reach >> 2 & 3U, y) && touched(reach >> 4, z)) {
-            masks[reach] |= 1U << neighbour_index(x, y, z);
-          }
-        }
-      }
-    }
-  }
-  return masks;
-}
-constexpr std::array<std::uint32_t, 64> masks = neighbour_masks();
-
-/// The same by direction: bits 0 to 2 for the directions in which something reaches the block before, bits 3
-/// to 5 for those in which it reaches the block after.
-constexpr std::array<std::uint32_t, 64> masks_by_direction() {
-  std::array<std::uint32_t, 64> by_direction{};
-  for (unsigned bits = 0; bits < 64; ++bits) {
-    unsigned reach = 0;
-    for (unsigned a = 0; a < 3; ++a) reach |= ((bits >> a & 1U) | (bits >> (a + 3) & 1U) << 1U) << (2 * a);
-    by_direction[bits] = masks[reach];
-  }
-  return by_direction;
-}
-
-/// `touched_neighbours` without motion, for a position with the directions in lanes.
-std::uint32_t touched_neighbours(Lanes local, Stencil stencil) {
-  static constexpr std::array<std::uint32_t, 64> by_direction = masks_by_direction();
-  const Lanes first = Lanes(_mm256_floor_pd(__m256d(local - stencil.shift)));
-  const unsigned before = bits(first < 0.0) & 7U;
-  const unsigned after = bits(first > static_cast<double>(block_edge - stencil.count)) & 7U;
-  return by_direction[before | after << 3U];
-}
-
-/// Nodes beyond a mirror plane that the stencil of a particle before it may hold.
-constexpr std::int32_t mirror_reach = 2;
-
-/// Neighbours that the nodes of a stencil fall into when the particle is at `local` (cells from the block's
-/// lower corner), with `ahead` cells of motion before it, and `around` it on either side.
-std::uint32_t touched_neighbours(const Vector3& local, const Vector3& ahead, Stencil stencil,
-                                 double around = 0.0) {
-  unsigned reach = 0;
-  for (int a = 0; a < 3; ++a) {
-    const double first = std::floor(local[a] + std::min(ahead[a], -around) - stencil.shift);
-    const double last = std::floor(local[a] + std::max(ahead[a], around) - stencil.shift) + stencil.count - 1;
-    const AxisReach axis = (first < 0 ? 1U : 0U) | (last >= block_edge ? 2U : 0U);
-    reach |= axis << (2 * a);
-  }
-  return masks[reach];
-}
 
 BlockCoordinate shifted(const BlockCoordinate& block, int neighbour) {
   return {block[0] + neighbour / 9 - 1, block[1] + neighbour / 3 % 3 - 1, block[2] + neighbour % 3 - 1};
@@ -280,7 +219,8 @@ void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vect
       if (neighbours_[s][n] != no_slot) existing_[s] |= 1U << n;
     }
   });
-  nodes_.resize(slots() * nodes_per_block);
+  fields_.clear();
+  lay_out_nodes();
   slot_of_particle_.resize(position.size() - guests);
   for (std::size_t p = 0; p < slot_of_particle_.size(); ++p) {
     const BlockCoordinate block = *block_of(position[p]);
@@ -289,7 +229,6 @@ void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vect
     const bool same = before != no_slot && blocks_.coordinate[static_cast<std::size_t>(before)] == block;
     slot_of_particle_[p] = same ? before : table_.find(block);
   }
-  find_mirror_nodes();
 }
 
 void BlockGrid::particles_reordered(std::span<const std::uint32_t> order) {
@@ -433,115 +372,11 @@ void BlockGrid::list_points() {
   }
 }
 
-template <class Receive>
-void BlockGrid::exchange_nodes(Part part, std::vector<std::uint32_t> BlockSet::Peer::* from,
-                               std::vector<std::uint32_t> BlockSet::Peer::* to, Receive&& receive) {
-  const std::vector<BlockSet::Peer>& peers = blocks_.peers;
-  const std::size_t registers = part == Part::both ? 2 : 1;
-  const std::size_t per_block = registers * nodes_per_block;
-  constexpr int tag = 11;
-  outgoing_.resize(peers.size());
-  incoming_.resize(peers.size());
-  std::vector<MPI_Request> requests(2 * peers.size(), MPI_REQUEST_NULL);
-  for (std::size_t i = 0; i < peers.size(); ++i) {
-    incoming_[i].resize((peers[i].*to).size() * per_block);
-    MPI_Irecv(incoming_[i].data(), static_cast<int>(4 * incoming_[i].size()), MPI_DOUBLE, peers[i].rank, tag,
-              communicator_, &requests[2 * i]);
-  }
-  for (std::size_t i = 0; i < peers.size(); ++i) {
-    const std::vector<std::uint32_t>& slots_sent = peers[i].*from;
-    outgoing_[i].resize(slots_sent.size() * per_block);
-    parallel::for_each(slots_sent.size(), [&](std::size_t b) {
-      const Node* block = nodes(slots_sent[b]);
-      Lanes* out = &outgoing_[i][b * per_block];
-      for (std::size_t n = 0; n < nodes_per_block; ++n) {
-        out[registers * n] = block[n].first;
-        if (part == Part::both) out[registers * n + 1] = block[n].second;
-      }
-    });
-    MPI_Isend(outgoing_[i].data(), static_cast<int>(4 * outgoing_[i].size()), MPI_DOUBLE, peers[i].rank, tag,
-              communicator_, &requests[2 * i + 1]);
-  }
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-  for (std::size_t i = 0; i < peers.size(); ++i) {  // in the order of the ranks: sums are repeatable
-    const std::vector<std::uint32_t>& slots_received = peers[i].*to;
-    parallel::for_each(slots_received.size(), [&](std::size_t b) {
-      Node* block = nodes(slots_received[b]);
-      const Lanes* in = &incoming_[i][b * per_block];
-      for (std::size_t n = 0; n < nodes_per_block; ++n) receive(block[n], in + registers * n);
-    });
-  }
-}
-
-bool BlockGrid::is_shared() const { return parallel::size(communicator_) > 1; }
-
-void BlockGrid::sum_to_owners(Part part) {
-  exchange_nodes(part, &BlockSet::Peer::borrowed, &BlockSet::Peer::lent, [part](Node& node, const Lanes* in) {
-    node.first += in[0];
-    if (part == Part::both) node.second += in[1];
-  });
-}
-
-void BlockGrid::borrow_from_owners(Part part) {
-  exchange_nodes(part, &BlockSet::Peer::lent, &BlockSet::Peer::borrowed, [part](Node& node, const Lanes* in) {
-    node.first = in[0];
-    if (part == Part::both) node.second = in[1];
-  });
-}
-
 void BlockGrid::clear() {
-  parallel::for_each(slots(), [&](std::size_t s) {
-    Node* block = nodes(s);
-    for (int i = 0; i < nodes_per_block; ++i) block[i] = {broadcast(0.0), broadcast(0.0)};
+  parallel::for_each(nodes_.size() / nodes_per_block, [&](std::size_t b) {
+    Node* of_block = &nodes_[b * nodes_per_block];
+    for (int i = 0; i < nodes_per_block; ++i) of_block[i] = {broadcast(0.0), broadcast(0.0)};
   });
-}
-
-void BlockGrid::find_mirror_nodes() {
-  if (planes_.empty()) return;
-  outside_.assign(nodes_.size(), 0);
-  for (MirrorPlane& mirror : planes_) {
-    mirror.pairs.clear();
-    mirror.on_plane.clear();
-    mirror.near.clear();
-    const auto axis = static_cast<std::size_t>(mirror.axis);
-    const std::int32_t at = mirror.face % 2 == 0 ? 0 : geometry_.cells[axis];
-    const std::int32_t outward = mirror.face % 2 == 0 ? -1 : 1;
-    for (std::size_t s = 0; s < slots(); ++s) {
-      for (int i = 0; i < nodes_per_block; ++i) {
-        const std::array<int, 3> inside_block = {i / 16, i / 4 % 4, i % 4};
-        const std::int32_t along = blocks_.coordinate[s][axis] * block_edge + inside_block[axis];
-        const auto index = static_cast<std::uint32_t>(s * nodes_per_block + static_cast<std::size_t>(i));
-        if (along == at) mirror.on_plane.push_back(index);
-        const std::int32_t inside = (at - along) * outward;
-        if (inside > 0 && inside <= mirror_reach) mirror.near.push_back(index);
-        if (inside >= 0) continue;
-        if (mirror.kind != Boundary::separating) outside_[index] = 1;
-        std::array<std::int32_t, 3> place{};
-        for (std::size_t a = 0; a < 3; ++a)
-          place[a] = blocks_.coordinate[s][a] * block_edge + inside_block[a];
-        place[axis] = at;
-        const std::uint32_t foot = active_node(place);
-        place[axis] = 2 * at - along;
-        const std::uint32_t image = active_node(place);
-        // Without an active image no particle reaches so far beyond the plane: its stencil is symmetric.
-        if (image != no_node) mirror.pairs.push_back({index, image, foot});
-      }
-    }
-  }
-}
-
-/// Index of the node at a place of the grid, `no_node` if its block is not active.
-std::uint32_t BlockGrid::active_node(const std::array<std::int32_t, 3>& place) const {
-  BlockCoordinate block{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (place[a] < -block_edge) return no_node;
-    block[a] = (place[a] + block_edge) / block_edge - 1;  // floor for >= -4
-  }
-  const std::int32_t slot = table_.find(block);
-  if (slot == no_slot) return no_node;
-  return static_cast<std::uint32_t>(slot * nodes_per_block + node_index(place[0] - block[0] * block_edge,
-                                                                        place[1] - block[1] * block_edge,
-                                                                        place[2] - block[2] * block_edge));
 }
 
 std::size_t BlockGrid::bytes() const {

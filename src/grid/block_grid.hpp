@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -17,7 +18,7 @@ namespace whipple::grid {
 /// Payload of a node, two registers of four doubles (SI).
 /// After particles_to_grid: `first` = mass, momentum x y z;           `second` = mass * sound speed, force x
 /// y z. After the grid update:   `first` = velocity x y z, relaxation beta; `second` = velocity increment x y
-/// z, mass.
+/// z, heat per mass (J/kg) that contact gives to the particles around (docs/theory/contact.md, 4).
 struct alignas(64) Node {
   Lanes first;
   Lanes second;
@@ -62,9 +63,27 @@ struct PointList {
   }
 };
 
+/// Calls f(position) for every bit that is set, from the lowest.
+template <class Function>
+void for_each_bit(std::uint64_t bits, Function&& f) {
+  for (; bits != 0; bits &= bits - 1) f(static_cast<unsigned>(std::countr_zero(bits)));
+}
+
+/// Values that go with the contact slots of a grid: those of slot number c stand from begin[c] to begin[c +
+/// 1].
+struct ContactValues {
+  std::vector<Lanes> values;
+  std::vector<std::uint32_t> begin;
+};
+
 /// The sparse background grid: the blocks where particles are, their nodes, and the list of particles in each
 /// block. Slots number the active blocks of a rank: its own in the order of the forest's space-filling curve,
 /// then those that it borrows from other ranks because its particles reach them.
+///
+/// Particles may belong to several velocity fields. A slot that particles of more than one field reach is a
+/// contact slot and has nodes for each of them; elsewhere all fields share the one set (local multi-mesh:
+/// docs/theory/contact.md, 2). Blocks of nodes are numbered by slot, then come the further ones of the
+/// contact slots.
 class BlockGrid {
  public:
   static constexpr std::int32_t no_slot = BlockTable::none;
@@ -108,6 +127,18 @@ class BlockGrid {
   /// them.
   void release(std::span<const std::uint32_t> particles);
 
+  /// Points of the grid with the velocity field (below `maximum_fields`) of each.
+  struct FieldPoints {
+    std::span<const Vector3> position;
+    std::span<const std::uint8_t> field;
+  };
+  /// Gives every field nodes of its own in the slots that several fields reach; after `bin` and `release`,
+  /// for the lists that these made. Without a call there is one field. Collective.
+  /// @param fields      number of fields
+  /// @param everywhere  nodes of their own for all fields in all slots: for comparison
+  void separate_fields(Stencil stencil, const FieldPoints& particles, const FieldPoints& guests,
+                       unsigned fields, bool everywhere = false);
+
   /// Particles changed their order or number: the next `bin` looks every block up anew.
   void particles_reordered() { slot_of_particle_.clear(); }
   /// The same when every particle is still there: new[i] = old[order[i]]. On one rank the blocks stay known.
@@ -133,9 +164,58 @@ class BlockGrid {
   /// Slots with particles or guests whose reaches do not overlap, for each of the eight colours.
   [[nodiscard]] const std::array<std::vector<std::uint32_t>, 8>& colours() const { return colours_; }
 
-  [[nodiscard]] Node* nodes(std::size_t slot) { return &nodes_[slot * nodes_per_block]; }
-  [[nodiscard]] const Node* nodes(std::size_t slot) const { return &nodes_[slot * nodes_per_block]; }
+  enum class Points { particles, guests };
+  [[nodiscard]] std::span<const std::uint32_t> members(Points points, std::size_t slot) const {
+    return points == Points::particles ? particles_in(slot) : guests_in(slot);
+  }
+  /// Calls f(points of one field, field) for the points of a slot, in the order of their indices; once for
+  /// all of them where they reach no contact slot, and not at all where there are none.
+  template <class Function>
+  void for_each_field(Points points, std::size_t slot, Function&& f) const {
+    const std::span<const std::uint32_t> all = members(points, slot);
+    if (all.empty()) return;
+    if (!meets_contact(slot)) {
+      f(all, 0U);
+      return;
+    }
+    const std::vector<std::uint8_t>& field_of = points == Points::particles ? field_ : field_of_guest_;
+    for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
+      const std::uint8_t field = field_of[all[i]];
+      for (end = i + 1; end < all.size() && field_of[all[end]] == field;) ++end;
+      f(all.subspan(i, end - i), static_cast<unsigned>(field));
+    }
+  }
+  /// Do particles of a slot reach contact slots?
+  [[nodiscard]] bool meets_contact(std::size_t slot) const {
+    return !contact_slots_.empty() && meets_contact_[slot] != 0;
+  }
+
+  /// The nodes of a slot for a field; those of the slot itself where the field has none of its own.
+  [[nodiscard]] Node* nodes(std::size_t slot, unsigned field = 0) {
+    return &nodes_[block(slot, field) * nodes_per_block];
+  }
+  [[nodiscard]] const Node* nodes(std::size_t slot, unsigned field = 0) const {
+    return &nodes_[block(slot, field) * nodes_per_block];
+  }
   [[nodiscard]] std::span<Node> all_nodes() { return nodes_; }
+  /// Blocks of nodes of the slots that this rank owns, and the number of each.
+  [[nodiscard]] std::size_t owned_blocks() const { return blocks_.owned + owned_further_; }
+  [[nodiscard]] std::size_t owned_block(std::size_t i) const {
+    return i < blocks_.owned ? i : slots() + (i - blocks_.owned);
+  }
+  [[nodiscard]] bool is_contact_block(std::size_t block) const {
+    return !contact_slots_.empty() && (block >= slots() || contact_number_[block] != no_slot);
+  }
+
+  /// The contact slots, ascending: this rank's own first.
+  [[nodiscard]] std::span<const std::uint32_t> contact_slots() const { return contact_slots_; }
+  [[nodiscard]] std::size_t owned_contact_slots() const { return owned_contact_slots_; }
+  /// Number of a slot in that list, or `no_slot`.
+  [[nodiscard]] std::int32_t contact_number(std::size_t slot) const {
+    return contact_slots_.empty() ? no_slot : contact_number_[slot];
+  }
+  /// Bit per field that reaches a slot, since `separate_fields`.
+  [[nodiscard]] std::uint64_t fields(std::size_t slot) const { return fields_[slot]; }
 
   /// Sets every node to zero.
   void clear();
@@ -148,6 +228,11 @@ class BlockGrid {
   void sum_to_owners(Part part);
   /// Replaces the borrowed nodes by those of their owners. Collective.
   void borrow_from_owners(Part part);
+  /// The same for values at contact slots. Collective.
+  void sum_to_owners(ContactValues& values);
+  void borrow_from_owners(ContactValues& values);
+  /// Replaces the owners' values by the largest of all ranks. Collective.
+  void maximum_to_owners(ContactValues& values);
 
   /// A node beyond a mirror plane, its image inside, and the node between them on the plane (`no_node` if its
   /// block is not active), as indices into all_nodes().
@@ -174,6 +259,8 @@ class BlockGrid {
 
   [[nodiscard]] std::size_t forest_leaves() const { return forest_.leaves(); }
   [[nodiscard]] std::size_t adaptations() const { return adaptations_; }
+  /// Changes whenever nodes change their place in all_nodes().
+  [[nodiscard]] std::size_t layout() const { return layout_; }
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -185,13 +272,28 @@ class BlockGrid {
                                                        Stencil stencil, double weight) const;
   bool locate_guests(std::span<const Vector3> guests, Stencil stencil);
   void list_points();
+  void lay_out_nodes();
   void find_mirror_nodes();
-  [[nodiscard]] std::uint32_t active_node(const std::array<std::int32_t, 3>& place) const;
-  /// Sends nodes of the slots `from` of every peer, and calls receive(slot, node in it, registers) for what
-  /// comes to its slots `to`.
+  [[nodiscard]] std::uint32_t active_node(const std::array<std::int32_t, 3>& place, int field) const;
+  [[nodiscard]] std::size_t block(std::size_t slot, unsigned field) const {
+    if (contact_slots_.empty() || contact_number_[slot] == no_slot || (fields_[slot] >> field & 1U) == 0) {
+      return slot;
+    }
+    const int before = std::popcount(fields_[slot] & ((std::uint64_t{1} << field) - 1));
+    return before == 0 ? slot
+                       : further_begin_[static_cast<std::size_t>(contact_number_[slot])] +
+                             static_cast<std::size_t>(before) - 1;
+  }
+  /// Slots that a peer and this rank share, and which way what belongs to them travels.
+  using SharedSlots = std::vector<std::uint32_t> BlockSet::Peer::*;
+  /// Calls pack(peer, slots `from`, buffer), exchanges the buffers, and calls unpack(slots `to`, buffer).
+  template <class Value, class Size, class Pack, class Unpack>
+  void exchange(SharedSlots from, SharedSlots to, Size&& size, Pack&& pack, Unpack&& unpack);
   template <class Receive>
-  void exchange_nodes(Part part, std::vector<std::uint32_t> BlockSet::Peer::* from,
-                      std::vector<std::uint32_t> BlockSet::Peer::* to, Receive&& receive);
+  void exchange_nodes(Part part, SharedSlots from, SharedSlots to, Receive&& receive);
+  template <class Receive>
+  void exchange_values(ContactValues& values, SharedSlots from, SharedSlots to, Receive&& receive);
+  void join_fields_of_ranks(std::vector<std::uint64_t>& fields);
 
   MPI_Comm communicator_;
   Geometry geometry_;       // with the shift
@@ -215,7 +317,16 @@ class BlockGrid {
   std::vector<MirrorPlane> planes_;
   std::vector<std::uint8_t> outside_;
   std::size_t adaptations_ = 0;
-  std::vector<std::vector<Lanes>> outgoing_, incoming_;  // one buffer per peer
+  std::size_t layout_ = 0;
+  std::vector<std::uint8_t> field_;  // of each particle
+  std::vector<std::uint8_t> field_of_guest_;
+  std::vector<std::uint64_t> fields_;        // of each slot: bit per field that reaches it
+  std::vector<std::uint8_t> meets_contact_;  // of each slot: is one of its neighbours a contact slot?
+  std::vector<std::uint32_t> contact_slots_;
+  std::vector<std::int32_t> contact_number_;    // of each slot
+  std::vector<std::uint32_t> further_begin_;    // of each contact slot: its first further block
+  std::vector<std::uint32_t> slot_of_further_;  // of each further block
+  std::size_t owned_contact_slots_ = 0, owned_further_ = 0;
 };
 
 }  // namespace whipple::grid

@@ -12,6 +12,9 @@ namespace whipple::grid {
 constexpr int block_edge = 4;
 constexpr int nodes_per_block = block_edge * block_edge * block_edge;
 
+/// Velocity fields that bodies may have of their own (docs/theory/contact.md).
+constexpr unsigned maximum_fields = 64;
+
 /// Position of a block in units of blocks; block (0,0,0) begins at the lower corner of the domain, one layer
 /// of blocks lies outside of every face (kernels are wider than a cell, mirror planes need nodes beyond
 /// them).

@@ -140,6 +140,34 @@ ParameterTable<HeatControl> HeatControl::parameters() {
               .optional()};
 }
 
+ParameterTable<ContactControl> ContactControl::parameters() {
+  return {
+      choice("method", &ContactControl::method, {"none", "multi_field"},
+             "bodies move in one velocity field, as if bonded where they meet | each in its own where they "
+             "meet: they touch, slide and part")
+          .optional(),
+      choice("normal", &ContactControl::normal, {"collinear", "separating", "logistic_regression"},
+             "normal between two bodies: mean of those of both | of one of them or their mean, along which "
+             "they are farthest apart | of the plane that separates their particles")
+          .optional(),
+      real("friction", &ContactControl::friction, "", range::non_negative(), "Coulomb's coefficient")
+          .optional(),
+      boolean("gap_test", &ContactControl::gap_test,
+              "bodies touch where their surfaces do; false: wherever both reach a node")
+          .optional(),
+      real("gap", &ContactControl::gap, "", range::between(-1.0, 2.0),
+           "of gap_test: distance in cells below which surfaces touch")
+          .optional(),
+      boolean("everywhere", &ContactControl::everywhere,
+              "velocity fields of their own for all bodies at all nodes, not only where they meet: for "
+              "comparison of cost")
+          .optional()};
+}
+
+ParameterTable<Gravity> Gravity::parameters() {
+  return {vector("acceleration", &Gravity::acceleration, "m/s^2", range::any(), "of all matter").optional()};
+}
+
 ParameterTable<Discretization> Discretization::parameters() {
   return {choice("method", &Discretization::method, {"particles"}, "how the body is represented").optional(),
           integer("per_cell", &Discretization::per_cell, range::between(1, 1000),
@@ -162,6 +190,9 @@ ParameterTable<Body> Body::parameters() {
           vector("velocity", &Body::velocity, "m/s", range::any(), "initial velocity").optional(),
           vector("angular_velocity", &Body::angular_velocity, "rad/s", range::any(),
                  "initial rotation about the centre of the body's bounding box")
+              .optional(),
+          text("contact_group", &Body::contact_group,
+               "bodies of one group do not contact one another but are bonded where they meet; empty: none")
               .optional()};
 }
 
@@ -311,6 +342,33 @@ void check_combinations(Case& setup, input::Table& root) {
   }
 }
 
+/// What contact needs of scheme and bodies.
+void check_contact(const Case& setup, input::Table& contact) {
+  if (setup.contact.method == "none") return;
+  if (setup.transfer.particle_update == "fmpm") {
+    contact.error_at("method",
+                     "'method': the full mass matrix (transfer.particle_update = \"fmpm\") knows no contact; "
+                     "take another update");
+  }
+  const std::vector<std::uint8_t> fields = setup.contact_fields();
+  const unsigned count = fields.empty() ? 0 : *std::ranges::max_element(fields) + 1U;
+  if (count < 2) {
+    contact.error_at("method", "'method' is \"multi_field\", but all bodies are one contact group");
+  }
+  if (count > grid::maximum_fields) {
+    contact.error_at("method",
+                     fmt::format("'method': {} bodies or contact groups, at most {} can have velocity "
+                                 "fields of their own: join some with contact_group",
+                                 count, grid::maximum_fields));
+  }
+}
+
+void check_gravity(const Case& setup, input::Table& gravity) {
+  if (!setup.gravity.acceleration.isZero(0.0) && setup.transfer.free_flight) {
+    gravity.error_at("acceleration", "'acceleration': particles of transfer.free_flight would not fall");
+  }
+}
+
 /// What conduction of heat needs of the transfer and of the materials.
 void check_conduction(const Case& setup, input::Table& heat) {
   if (!setup.heat.conduction) return;
@@ -360,7 +418,12 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   if (auto table = root.optional_table("output")) table->read(OutputControl::parameters(), setup.output);
   auto heat = root.optional_table("heat");
   if (heat) heat->read(HeatControl::parameters(), setup.heat);
+  auto contact = root.optional_table("contact");
+  if (contact) contact->read(ContactControl::parameters(), setup.contact);
+  auto gravity = root.optional_table("gravity");
+  if (gravity) gravity->read(Gravity::parameters(), setup.gravity);
   check_combinations(setup, root);
+  if (gravity) check_gravity(setup, *gravity);
 
   std::set<std::string> names;
   std::map<std::string, std::shared_ptr<const Material>> materials;
@@ -374,6 +437,7 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
       bodies[fault.body].error_at("shape", fault.message);
   }
   if (heat) check_conduction(setup, *heat);
+  if (contact && !setup.bodies.empty()) check_contact(setup, *contact);
   setup.gauges = read_gauges(root);
   if (complete) {
     for (const std::string& fault : gauge_faults(setup.gauges, setup.geometry, [&](const Vector3& point) {
@@ -393,6 +457,19 @@ std::string section(const char* name, const ParameterTable<Owner>& table, Owner 
 
 }  // namespace
 
+std::vector<std::uint8_t> Case::contact_fields() const {
+  std::vector<std::uint8_t> fields;
+  std::map<std::string, unsigned> of_group;
+  unsigned next = 0;
+  for (const Body& body : bodies) {
+    unsigned field = next;
+    if (!body.contact_group.empty()) field = of_group.try_emplace(body.contact_group, next).first->second;
+    if (field == next) ++next;
+    fields.push_back(static_cast<std::uint8_t>(std::min(field, 255U)));
+  }
+  return fields;
+}
+
 Case read_case(const std::filesystem::path& path,
                const std::vector<std::pair<std::string, std::string>>& overrides) {
   return read(input::Document::from_file(path), overrides);
@@ -411,6 +488,8 @@ std::string to_toml(const Case& setup, const std::vector<std::string>& material_
   text += section("splitting", Splitting::parameters(), setup.splitting);
   text += section("artificial_viscosity", ArtificialViscosity::parameters(), setup.viscosity);
   text += section("heat", HeatControl::parameters(), setup.heat);
+  text += section("contact", ContactControl::parameters(), setup.contact);
+  text += section("gravity", Gravity::parameters(), setup.gravity);
   text += section("output", OutputControl::parameters(), setup.output);
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     Body body = setup.bodies[b];
@@ -443,6 +522,8 @@ std::string describe_case() {
   text += "\n[splitting]\n" + describe_table(Splitting::parameters());
   text += "\n[artificial_viscosity]\n" + describe_table(ArtificialViscosity::parameters());
   text += "\n[heat]\n" + describe_table(HeatControl::parameters());
+  text += "\n[contact]\n" + describe_table(ContactControl::parameters());
+  text += "\n[gravity]\n" + describe_table(Gravity::parameters());
   text += "\n[output]\n" + describe_table(OutputControl::parameters());
   text += "\n[[body]]\n" + describe_table(Body::parameters());
   text += "\n[body.discretization]\n" + describe_table(Discretization::parameters());

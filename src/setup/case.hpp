@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -63,6 +64,22 @@ struct ArtificialViscosity {
   static ParameterTable<ArtificialViscosity> parameters();
 };
 
+/// Contact of bodies (docs/theory/contact.md).
+struct ContactControl {
+  std::string method = "none";
+  std::string normal = "separating";
+  double friction = 0.0;
+  bool gap_test = true;
+  double gap = 0.0;  ///< in cells
+  bool everywhere = false;
+  static ParameterTable<ContactControl> parameters();
+};
+
+struct Gravity {
+  Vector3 acceleration = Vector3::Zero();
+  static ParameterTable<Gravity> parameters();
+};
+
 struct OutputControl {
   double snapshot_every = 0.0;
   double checkpoint_every = 600.0;
@@ -92,6 +109,7 @@ struct Body {
   double table_error = 1e-4;
   Vector3 velocity = Vector3::Zero();
   Vector3 angular_velocity = Vector3::Zero();
+  std::string contact_group;
   Discretization discretization;
   InitialState initial;
   FailureScatter failure_scatter;
@@ -109,11 +127,16 @@ struct Case {
   Splitting splitting;
   ArtificialViscosity viscosity;
   HeatControl heat;
+  ContactControl contact;
+  Gravity gravity;
   OutputControl output;
   std::vector<Body> bodies;
   Gauges gauges;
   std::vector<std::shared_ptr<const Material>> materials;  ///< of each body
   grid::Geometry geometry;
+
+  /// Velocity field of each body: bodies of one contact group share it, any other body has its own.
+  [[nodiscard]] std::vector<std::uint8_t> contact_fields() const;
 
   static ParameterTable<Case> parameters();
 };

@@ -77,6 +77,10 @@ void Ledger::add(const Ledger& step) {
   external_work += step.external_work;
   work += step.work;
   transfer_heat += step.transfer_heat;
+  contact_heat += step.contact_heat;
+  friction_heat += step.friction_heat;
+  contact_impulse += step.contact_impulse;
+  friction_impulse += step.friction_impulse;
   clamped_to_cold_curve += step.clamped_to_cold_curve;
   limited_volume_changes += step.limited_volume_changes;
   limited_domains += step.limited_domains;

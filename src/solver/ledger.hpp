@@ -58,6 +58,10 @@ struct Ledger {
   double external_work = 0.0;                  ///< J, of the same
   double work = 0.0;                           ///< J, stress on strain, into internal energy
   double transfer_heat = 0.0;                  ///< J, kinetic energy lost in transfers, into internal energy
+  double contact_heat = 0.0;      ///< J, lost by the normal impulses of contact, into internal energy
+  double friction_heat = 0.0;     ///< J, lost by its tangential impulses, into internal energy
+  double contact_impulse = 0.0;   ///< N s, sum of the normal impulses (equal and opposite on two bodies)
+  double friction_impulse = 0.0;  ///< N s, sum of the tangential impulses
   double clamped_to_cold_curve =
       0.0;  ///< evaluations below the cold curve (temperature clamped, energy kept)
   double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
@@ -86,6 +90,10 @@ void for_each_number(L& ledger, Function&& f) {
   f("external_work", ledger.external_work);
   f("work", ledger.work);
   f("transfer_heat", ledger.transfer_heat);
+  f("contact_heat", ledger.contact_heat);
+  f("friction_heat", ledger.friction_heat);
+  f("contact_impulse", ledger.contact_impulse);
+  f("friction_impulse", ledger.friction_impulse);
   f("clamped_to_cold_curve", ledger.clamped_to_cold_curve);
   f("limited_volume_changes", ledger.limited_volume_changes);
   f("limited_domains", ledger.limited_domains);

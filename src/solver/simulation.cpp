@@ -59,8 +59,7 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
   bodies_ = std::move(seeding.bodies);
   if (affine_field(setup_.transfer) == transfer::AffineField::none)
     std::ranges::fill(particles_.affine_velocity, Matrix3::Zero().eval());
-  velocity_gradient_.resize(particles_.size());
-  sum_over_ranks();
+  prepare();
   state_.ledger.initial = totals_;
 }
 
@@ -76,7 +75,16 @@ Simulation::Simulation(const setup::Case& setup, Particles particles, const RunS
   require_fields();
   sort_by_body(particles_);  // checkpoints hold the particles of several ranks one after the other
   find_bodies(particles_, bodies_);
+  prepare();
+}
+
+/// What both constructors end with.
+void Simulation::prepare() {
   velocity_gradient_.resize(particles_.size());
+  set_up_contact();
+  if (const Vector3 g = setup_.gravity.acceleration; !g.isZero(0.0)) {
+    acceleration_ = [g](const Particles&, std::size_t, double) { return g; };
+  }
   sum_over_ranks();
 }
 
@@ -191,6 +199,7 @@ void Simulation::bin_particles() {
       if (!grid_.bin(particles_.position, stencil)) follow_particles(lookahead, stencil);
     }
     if (setup_.transfer.free_flight) find_free_flight();
+    separate_fields();
     external_acceleration_.clear();
     if (!acceleration_) return;
     external_acceleration_.resize(particles_.size());
@@ -248,12 +257,14 @@ void Simulation::conduct_heat() {
 void Simulation::map_particles_to_grid() {
   profile_.time("particles to grid",
                 [&] { transfer::particles_to_grid(shape_, particles_, grid_, external_acceleration_); });
+  if (!contact_) return;
+  profile_.time("contact", [&] { contact_->find_surfaces(shape_, particles_, grid_); });
 }
 
 void Simulation::advance_grid() {
   profile_.time("grid", [&] {
     const transfer::GridBalance balance =
-        grid_update_.advance(grid_, state_.time_step, relaxation(setup_.transfer));
+        grid_update_.advance(grid_, state_.time_step, relaxation(setup_.transfer), [&] { apply_contact(); });
     step_.wall_impulse += balance.wall_impulse;
     former_velocity_ = particles_.velocity;
   });

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "src/contact/contact.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
 #include "src/setup/case.hpp"
@@ -93,7 +94,11 @@ class Simulation {
   void reflect_and_remove();
   void end_step();
 
+  void prepare();
   void require_fields() const;
+  void set_up_contact();
+  void separate_fields();
+  void apply_contact();
   void sum_over_ranks();
   void follow_particles(double lookahead, grid::Stencil stencil);
   void sort_particles();
@@ -113,6 +118,9 @@ class Simulation {
   grid::BlockGrid grid_;
   transfer::GridUpdate grid_update_;
   transfer::FullMassMatrix full_mass_matrix_;
+  std::optional<contact::Contact> contact_;  // if bodies have velocity fields of their own
+  std::vector<std::uint8_t> contact_field_of_body_;
+  std::vector<std::uint8_t> contact_field_;  // of each particle
   RunState state_;
   Ledger step_;  // what happened on this rank in the step under way
   Totals totals_;

@@ -40,14 +40,16 @@ void scatter(const Particles& particles, BlockGrid& grid, Bring&& bring) {
   for (const std::vector<std::uint32_t>& colour : grid.colours()) {
     parallel::for_each_uneven(colour.size(), [&](std::size_t i) {
       const std::size_t slot = colour[i];
-      const std::span<const std::uint32_t> members = grid.particles_in(slot);
       const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
-      add_to_nodes<Shape, Node>(grid, slot, members.size(), [&](auto& access) {
-        for (const std::uint32_t p : members) {
-          for_each_node(particles, p, frame, access,
-                        [&](Node& node, double n, const Vector3& gradient) { bring(node, p, n, gradient); });
-        }
-      });
+      add_to_nodes<Shape, Node>(grid, BlockGrid::Points::particles, slot,
+                                [&](std::span<const std::uint32_t> members, auto& access) {
+                                  for (const std::uint32_t p : members) {
+                                    for_each_node(particles, p, frame, access,
+                                                  [&](Node& node, double n, const Vector3& gradient) {
+                                                    bring(node, p, n, gradient);
+                                                  });
+                                  }
+                                });
     });
   }
 }
@@ -56,19 +58,19 @@ void scatter(const Particles& particles, BlockGrid& grid, Bring&& bring) {
 template <class Function>
 void gather(const Particles& particles, BlockGrid& grid, Function&& f) {
   parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
-    const std::span<const std::uint32_t> members = grid.particles_in(slot);
-    if (members.empty()) return;
+    if (grid.particles_in(slot).empty()) return;
     const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
-    read_nodes<Shape, Node>(grid, slot, members.size(), [&](auto& access) {
-      for (const std::uint32_t p : members) {
-        f(p, [&](auto&& of_node) { for_each_node(particles, p, frame, access, of_node); });
-      }
-    });
+    read_nodes<Shape, Node>(
+        grid, BlockGrid::Points::particles, slot, [&](std::span<const std::uint32_t> members, auto& access) {
+          for (const std::uint32_t p : members) {
+            f(p, [&](auto&& of_node) { for_each_node(particles, p, frame, access, of_node); });
+          }
+        });
   });
 }
 
 /// Scalars of the nodes beyond the mirror planes are those of their images, so what particles brought there
-/// belongs to the images.
+/// belongs to the images. Bodies that share nodes share their heat, whatever velocity fields they have.
 void fold_and_sum(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
@@ -77,6 +79,13 @@ void fold_and_sum(BlockGrid& grid) {
     });
   }
   grid.sum_to_owners(BlockGrid::Part::first);
+  for (const std::uint32_t slot : grid.contact_slots().first(grid.owned_contact_slots())) {
+    for (int i = 0; i < grid::nodes_per_block; ++i) {
+      Lanes sum = broadcast(0.0);
+      grid::for_each_bit(grid.fields(slot), [&](unsigned field) { sum += grid.nodes(slot, field)[i].first; });
+      grid::for_each_bit(grid.fields(slot), [&](unsigned field) { grid.nodes(slot, field)[i].first = sum; });
+    }
+  }
 }
 
 void share(BlockGrid& grid) {
@@ -96,7 +105,12 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt,
                   std::span<const ThermalConstants> of_body) {
   const auto constants = [&](std::size_t p) -> const ThermalConstants& { return of_body[particles.body[p]]; };
   const std::span<Node> nodes = grid.all_nodes();
-  const std::size_t owned = grid.owned_slots() * grid::nodes_per_block;
+  const auto for_each_owned_node = [&](auto&& f) {
+    parallel::for_each(grid.owned_blocks(), [&](std::size_t b) {
+      const std::size_t first = grid.owned_block(b) * grid::nodes_per_block;
+      for (std::size_t i = first; i < first + grid::nodes_per_block; ++i) f(i);
+    });
+  };
 
   grid.clear();  // (eq. 1) heat capacity and temperature of the nodes
   scatter(particles, grid, [&](Node& node, std::size_t p, double n, const Vector3&) {
@@ -104,7 +118,7 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt,
     node.first += Lanes{capacity, capacity * particles.temperature[p], 0.0, 0.0};
   });
   fold_and_sum(grid);
-  parallel::for_each(owned, [&](std::size_t i) {
+  for_each_owned_node([&](std::size_t i) {
     Lanes& first = nodes[i].first;
     first[1] = first[0] > no_capacity ? first[1] / first[0] : 0.0;
   });
@@ -125,7 +139,7 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt,
     node.first += Lanes{gradient.dot(flux[p]), 0.0, 0.0, 0.0};
   });
   fold_and_sum(grid);
-  parallel::for_each(owned, [&](std::size_t i) {
+  for_each_owned_node([&](std::size_t i) {
     const double capacity = nodes[i].second[0];
     nodes[i].first =
         capacity > no_capacity && !grid.is_image(i) ? nodes[i].first * (dt / capacity) : broadcast(0.0);

@@ -27,7 +27,7 @@ Vector3 momentum(const Particles& particles, std::span<const Vector3> velocity) 
 Vector3 FullMassMatrix::apply(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
                               GridUpdate& update, int order) {
   const std::span<grid::Node> nodes = grid.all_nodes();
-  // Node::first holds the term v*_l of the series (5.9), Node::second the sum so far with the mass in lane 3.
+  // Node::first holds the term v*_l of the series (5.9), Node::second the sum so far.
   parallel::for_each(nodes.size(), [&](std::size_t i) {
     nodes[i].second += Lanes{1.0, 1.0, 1.0, 0.0} * nodes[i].first;
     nodes[i].first = nodes[i].second;
@@ -49,9 +49,8 @@ Vector3 FullMassMatrix::apply(ShapeFunction shape, const Particles& particles, g
     });
   }
   parallel::for_each(nodes.size(), [&](std::size_t i) {
-    const double mass = nodes[i].second[3];
     nodes[i].first = Lanes{1.0, 1.0, 1.0, 0.0} * nodes[i].second;
-    nodes[i].second = Lanes{0.0, 0.0, 0.0, mass};
+    nodes[i].second = broadcast(0.0);
   });
   if (planes && order >= 2) {
     gather_velocity(shape, particles, grid, at_particles_);

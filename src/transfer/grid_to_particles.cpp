@@ -140,7 +140,8 @@ template <class Shape, AffineField field, class Access>
   }
   const double mass = particles.mass[p];
   const double work = sum3(power) * particles.volume[p] * dt;
-  particles.specific_internal_energy[p] += work / mass + advance.heat;
+  const double heat_of_contact = advance.increment.value[3];  // docs/theory/contact.md, 4.6
+  particles.specific_internal_energy[p] += work / mass + advance.heat + heat_of_contact;
   TransferBalance balance{.work = work, .heat = mass * advance.heat};
   if (!acceleration.empty()) {
     balance.external_work =
@@ -149,18 +150,14 @@ template <class Shape, AffineField field, class Access>
   return balance;
 }
 
-/// Calls f(point, slot, frame of the block, weights, access to the nodes) for the points of every block, as
-/// listed by `members_of`.
+/// Calls f(point, slot, frame of the block, weights, access to the nodes) for the points of every block.
 /// @tparam Content  what the points read of a node: grid::Node, or Lanes for its first register
 template <class Shape, class Content, class Points, class Function>
-void for_each_point(const Points& points, BlockGrid& grid,
-                    std::span<const std::uint32_t> (BlockGrid::*members_of)(std::size_t) const,
-                    Function&& f) {
+void for_each_point(const Points& points, BlockGrid& grid, BlockGrid::Points kind, Function&& f) {
   parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
-    const std::span<const std::uint32_t> members = (grid.*members_of)(slot);
-    if (members.empty()) return;
+    if (grid.members(kind, slot).empty()) return;
     const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
-    read_nodes<Shape, Content>(grid, slot, members.size(), [&](auto& access) {
+    read_nodes<Shape, Content>(grid, kind, slot, [&](std::span<const std::uint32_t> members, auto& access) {
       for_each_with_weights<Shape>(
           points, members, frame,
           [&](std::size_t p, const Weights<Shape::count>& weights) { f(p, slot, frame, weights, access); });
@@ -170,7 +167,7 @@ void for_each_point(const Points& points, BlockGrid& grid,
 
 template <class Shape, class Content, class Function>
 void for_each_particle(const Particles& particles, BlockGrid& grid, Function&& f) {
-  for_each_point<Shape, Content>(particles, grid, &BlockGrid::particles_in, f);
+  for_each_point<Shape, Content>(particles, grid, BlockGrid::Points::particles, f);
 }
 
 template <class Shape, AffineField field>
@@ -208,6 +205,7 @@ double update_velocities(Particles& particles, BlockGrid& grid, double dt, doubl
         const Lanes old = load_vector(velocity);
         store_vector(velocity, old + increment - relaxation * (old - before));
         store_vector(displacement[p].data(), dt * after.value);
+        particles.specific_internal_energy[p] += increment[3];  // of contact
         if constexpr (with_gradient) velocity_gradient[p] = matrix(after.gradient);
         if (!acceleration.empty()) {
           work_of_slot[slot] += external_work(after.value, increment, particles.mass[p], acceleration[p], dt);
@@ -263,14 +261,14 @@ namespace {
 template <class Shape, AffineField field>
 void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt) {
   for_each_point<Shape, Node>(
-      nodes, grid, &BlockGrid::guests_in,
+      nodes, grid, BlockGrid::Points::guests,
       [&](std::size_t p, std::size_t, const BlockFrame& frame, const Weights<Shape::count>& weights,
           auto& access) {
         const Advance advance =
             advance_point<Shape, field>(nodes, p, frame, weights, dt, access.stencil(weights.first_node()));
         store_vector(nodes.mean_velocity[p].data(), advance.velocity.value - 0.5 * advance.increment.value);
         store_vector(nodes.new_velocity[p].data(), advance.velocity.value);
-        nodes.heat[p] = nodes.mass[p] * advance.heat;
+        nodes.heat[p] = nodes.mass[p] * (advance.heat + advance.increment.value[3]);
       });
 }
 

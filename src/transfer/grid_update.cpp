@@ -46,10 +46,9 @@ void restrict_to_plane(Node& node, Lanes sign, bool with_forces) {
   if (with_forces) node.second *= keep;
 }
 
-/// Did a node take exactly this step from what one rank's particles brought?
+/// Is the step of a node exactly that of what this rank's particles brought, as if they were alone there?
 bool is_result_of(const Node& node, const Node& brought, double dt) {
   const double mass = brought.first[0];
-  if (node.second[3] != mass) return false;
   const Lanes velocity = brought.first / mass, increment = brought.second * (dt / mass);
   for (int c = 0; c < 3; ++c) {
     if (velocity[c + 1] != node.first[c] || increment[c + 1] != node.second[c]) return false;
@@ -69,8 +68,8 @@ struct Energies {
 }  // namespace
 
 void GridUpdate::remember_nodes_at_planes(const BlockGrid& grid) {
-  if (at_planes_of_ == grid.adaptations()) return;
-  at_planes_of_ = grid.adaptations();
+  if (at_planes_of_ == grid.layout()) return;
+  at_planes_of_ = grid.layout();
   std::map<std::uint32_t, std::uint8_t> nodes;  // node -> is it only an image?
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
     for (const BlockGrid::MirrorPair& pair : plane.pairs) nodes[pair.outside] = 0;
@@ -175,7 +174,8 @@ void GridUpdate::copy_back(BlockGrid& grid) const {
   }
 }
 
-GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& relaxation) {
+GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& relaxation,
+                                const std::function<void()>& at_contact) {
   const std::span<Node> nodes = grid.all_nodes();
   remember_nodes_at_planes(grid);
   before_.resize(at_planes_.size());
@@ -184,9 +184,11 @@ GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& re
   fold_planes(grid, true, dt);
   grid.sum_to_owners(BlockGrid::Part::both);
   const double rate = relaxation.kappa * dt / grid.geometry().cell_size;
-  std::vector<Energies> of_slot(grid.owned_slots());
-  parallel::for_each(grid.owned_slots(), [&](std::size_t slot) {
-    const std::size_t first = slot * grid::nodes_per_block;
+  std::vector<Energies> of_block(grid.owned_blocks());
+  parallel::for_each(grid.owned_blocks(), [&](std::size_t b) {
+    const std::size_t block = grid.owned_block(b);
+    const std::size_t first = block * grid::nodes_per_block;
+    const double mass_kept = grid.is_contact_block(block) ? 1.0 : 0.0;
     for (std::size_t i = first; i < first + grid::nodes_per_block; ++i) {
       Node& node = nodes[i];
       const double mass = node.first[0];
@@ -199,19 +201,20 @@ GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& re
       const Lanes velocity = node.first / mass;
       const Lanes increment = node.second * (dt / mass);
       node.first = Lanes{velocity[1], velocity[2], velocity[3], beta};
-      node.second = Lanes{increment[1], increment[2], increment[3], mass};
+      node.second = Lanes{increment[1], increment[2], increment[3], mass_kept * mass};
       const Lanes advanced = node.first + node.second;
-      of_slot[slot] +=
+      of_block[b] +=
           Energies{0.5 * mass * sum3(node.first * node.first), 0.5 * mass * sum3(advanced * advanced)};
     }
   });
+  if (at_contact) at_contact();
   grid.borrow_from_owners(BlockGrid::Part::both);
   copy_back(grid);
 
   // Sums run in the order of the blocks, where empty blocks add zero: the same bits whatever blocks happen to
   // be active.
   Energies energy;
-  for (const Energies& part : of_slot) energy += part;
+  for (const Energies& part : of_block) energy += part;
   // Momentum that the planes gave to the real particles: equation 3.6 of docs/theory/mpm.md.
   Lanes impulse = broadcast(0.0);
   for (std::size_t i = 0; i < at_planes_.size(); ++i) {
@@ -232,13 +235,16 @@ void GridUpdate::velocity_from_momentum(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
   fold_planes(grid, false, 0.0);
   grid.sum_to_owners(BlockGrid::Part::first);
-  parallel::for_each(grid.owned_slots() * grid::nodes_per_block, [&](std::size_t i) {
-    Lanes& first = nodes[i].first;
-    const double mass = first[0];
-    if (mass < no_mass || grid.is_image(i)) {
-      first = broadcast(0.0);
-    } else {
-      first = Lanes{first[1], first[2], first[3], 0.0} / mass;
+  parallel::for_each(grid.owned_blocks(), [&](std::size_t b) {
+    const std::size_t begin = grid.owned_block(b) * grid::nodes_per_block;
+    for (std::size_t i = begin; i < begin + grid::nodes_per_block; ++i) {
+      Lanes& first = nodes[i].first;
+      const double mass = first[0];
+      if (mass < no_mass || grid.is_image(i)) {
+        first = broadcast(0.0);
+      } else {
+        first = Lanes{first[1], first[2], first[3], 0.0} / mass;
+      }
     }
   });
   grid.borrow_from_owners(BlockGrid::Part::first);

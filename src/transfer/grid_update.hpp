@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct Relaxation {
 /// What a grid update knows of its own balance: the part of this rank.
 struct GridBalance {
   double kinetic_energy_before = 0.0;  ///< J, of the nodes
-  double kinetic_energy_after = 0.0;   ///< J
+  double kinetic_energy_after = 0.0;   ///< J, before contact
   Vector3 wall_impulse =
       Vector3::Zero();  ///< N s, from mirror planes and walls on the particles in this step
 };
@@ -32,7 +33,11 @@ class GridUpdate {
   /// Folds the nodes beyond the mirror planes onto their images, adds up the parts of all ranks, solves
   /// m dv/dt = f (equation 3.4), and copies the result back to the nodes beyond. Collective. Node layout
   /// changes from the first to the second form (see grid::Node).
-  GridBalance advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation);
+  /// @param at_contact  called when the nodes of this rank have their step, before others learn of it: may
+  ///                    change the velocity increments of contact slots (grid::BlockGrid), where it must
+  ///                    replace the mass in the last lane of Node::second by the heat that nodes give
+  GridBalance advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation,
+                      const std::function<void()>& at_contact = {});
 
   /// Velocity of mass and momentum in `first`, in place (second pass of MUSL, full mass matrix). Separating
   /// walls are in contact where the last `advance` found them to be. Collective.
@@ -50,7 +55,7 @@ class GridUpdate {
   std::vector<std::uint32_t> at_planes_;  // nodes that the planes may change, ascending
   std::vector<std::uint8_t>
       may_be_unchanged_;  // of each: it is only an image, which may have received nothing
-  std::size_t at_planes_of_ = static_cast<std::size_t>(-1);  // adaptation that they belong to
+  std::size_t at_planes_of_ = static_cast<std::size_t>(-1);  // layout that they belong to
   std::vector<std::uint8_t> in_contact_;  // of each node on separating walls: a bit per axis
   std::vector<grid::Node> before_;        // their content before the fold: what the real particles brought
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 
 #include "src/grid/block_grid.hpp"
@@ -11,7 +12,8 @@
 /// Two ways to the nodes that the particles of a block reach. Full blocks work on a copy of these nodes in
 /// the first-level cache, so the kernel's addresses are affine; nearly empty blocks go to the nodes directly,
 /// so that a lone particle does not pay for 343 nodes. Both give the nodes of one particle as an object that
-/// is called with the number of the node in each direction.
+/// is called with the number of the node in each direction. At contact slots the nodes are those of one
+/// velocity field.
 namespace whipple::transfer {
 
 /// Blocks with fewer particles than this use direct access.
@@ -54,14 +56,14 @@ class ReachCopy {
   void clear() {
     for (Content& node : nodes_) node = Content{};
   }
-  void load(const grid::BlockGrid& grid, std::size_t slot) {
-    for_each_owner(grid, slot, [&](const grid::Node* owner, int in_block, std::size_t here) {
+  void load(const grid::BlockGrid& grid, std::size_t slot, unsigned field) {
+    for_each_owner(grid, slot, field, [&](const grid::Node* owner, int in_block, std::size_t here) {
       copy_node(owner[in_block], nodes_[here]);
     });
   }
   /// Adds the copy to the grid. Blocks of one colour do not overlap, so no two threads meet here.
-  void add_to(grid::BlockGrid& grid, std::size_t slot) const {
-    for_each_owner(grid, slot, [&](grid::Node* owner, int in_block, std::size_t here) {
+  void add_to(grid::BlockGrid& grid, std::size_t slot, unsigned field) const {
+    for_each_owner(grid, slot, field, [&](grid::Node* owner, int in_block, std::size_t here) {
       add_node(nodes_[here], owner[in_block]);
     });
   }
@@ -74,7 +76,7 @@ class ReachCopy {
   /// Calls f(nodes of the owning block, index in it, index here) for every node of the reach whose block is
   /// active; no particle reaches the others.
   template <class Grid, class Function>
-  static void for_each_owner(Grid& grid, std::size_t slot, Function&& f) {
+  static void for_each_owner(Grid& grid, std::size_t slot, unsigned field, Function&& f) {
     static constexpr grid::ReachMap map = grid::reach_map();
     constexpr int skipped = 1 - before;  // the map begins one node before the block
     const auto& neighbours = grid.neighbours(slot);
@@ -87,7 +89,7 @@ class ReachCopy {
           const std::int32_t owner = neighbours[static_cast<std::size_t>(
               grid::neighbour_index(map.block[ux], map.block[uy], z_block))];
           if (owner == grid::BlockGrid::no_slot) return;
-          auto* nodes = grid.nodes(static_cast<std::size_t>(owner));
+          auto* nodes = grid.nodes(static_cast<std::size_t>(owner), field);
           for (int z = from; z < to; ++z) {
             f(nodes, row + map.node[static_cast<std::size_t>(z + skipped)], index(x, y, z));
           }
@@ -108,7 +110,8 @@ class ReachCopy {
 template <class Shape>
 class DirectAccess {
  public:
-  DirectAccess(grid::BlockGrid& grid, std::size_t slot) : grid_(grid), neighbours_(grid.neighbours(slot)) {}
+  DirectAccess(grid::BlockGrid& grid, std::size_t slot, unsigned field)
+      : grid_(grid), neighbours_(grid.neighbours(slot)), field_(field) {}
 
   class Stencil {
    public:
@@ -133,7 +136,7 @@ class DirectAccess {
           const auto uz = static_cast<std::size_t>(k);
           const std::int32_t owner = neighbours_[static_cast<std::size_t>(
               grid::neighbour_index(map.block[ux], map.block[uy], map.block[uz]))];
-          *next++ = grid_.nodes(static_cast<std::size_t>(owner)) + row + map.node[uz];
+          *next++ = grid_.nodes(static_cast<std::size_t>(owner), field_) + row + map.node[uz];
         }
       }
     }
@@ -143,32 +146,37 @@ class DirectAccess {
  private:
   grid::BlockGrid& grid_;
   const std::array<std::int32_t, 27>& neighbours_;
+  unsigned field_;
 };
 
-/// Calls f(access to the nodes) to read what the particles of a block reach.
+/// Calls f(points of one velocity field, access to its nodes) to read what the points of a block reach.
 template <class Shape, class Content, class Function>
-void read_nodes(grid::BlockGrid& grid, std::size_t slot, std::size_t particles, Function&& f) {
-  if (particles < direct_access_below) {
-    DirectAccess<Shape> access(grid, slot);
-    f(access);
-  } else {
-    ReachCopy<Shape, Content> copy;
-    copy.load(grid, slot);
-    f(copy);
-  }
+void read_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::size_t slot, Function&& f) {
+  grid.for_each_field(points, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
+    if (members.size() < direct_access_below) {
+      DirectAccess<Shape> access(grid, slot, field);
+      f(members, access);
+    } else {
+      ReachCopy<Shape, Content> copy;
+      copy.load(grid, slot, field);
+      f(members, copy);
+    }
+  });
 }
 /// The same to add to them.
 template <class Shape, class Content, class Function>
-void add_to_nodes(grid::BlockGrid& grid, std::size_t slot, std::size_t particles, Function&& f) {
-  if (particles < direct_access_below) {
-    DirectAccess<Shape> access(grid, slot);
-    f(access);
-  } else {
-    ReachCopy<Shape, Content> copy;
-    copy.clear();
-    f(copy);
-    copy.add_to(grid, slot);
-  }
+void add_to_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::size_t slot, Function&& f) {
+  grid.for_each_field(points, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
+    if (members.size() < direct_access_below) {
+      DirectAccess<Shape> access(grid, slot, field);
+      f(members, access);
+    } else {
+      ReachCopy<Shape, Content> copy;
+      copy.clear();
+      f(members, copy);
+      copy.add_to(grid, slot, field);
+    }
+  });
 }
 
 }  // namespace whipple::transfer

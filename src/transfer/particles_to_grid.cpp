@@ -42,9 +42,7 @@ template <bool affine, class Points>
 /// with given velocities, or everything of nodes of elements.
 struct OfParticles {
   const Particles& points;
-  static std::span<const std::uint32_t> members(const grid::BlockGrid& grid, std::size_t slot) {
-    return grid.particles_in(slot);
-  }
+  static constexpr auto kind = grid::BlockGrid::Points::particles;
 };
 struct Everything : OfParticles {
   using Content = grid::Node;
@@ -66,9 +64,7 @@ struct Everything : OfParticles {
 struct OfNodes {
   using Content = grid::Node;
   const TransitionNodes& points;
-  static std::span<const std::uint32_t> members(const grid::BlockGrid& grid, std::size_t slot) {
-    return grid.guests_in(slot);
-  }
+  static constexpr auto kind = grid::BlockGrid::Points::guests;
   template <bool affine>
   [[nodiscard]] Payload load(std::size_t p) const {
     Payload out = inertia<affine>(points, p);
@@ -150,11 +146,12 @@ void scatter_all(const What& what, grid::BlockGrid& grid) {
   for (const std::vector<std::uint32_t>& colour : grid.colours()) {
     parallel::for_each_uneven(colour.size(), [&](std::size_t i) {
       const std::size_t slot = colour[i];
-      const std::span<const std::uint32_t> members = What::members(grid, slot);
-      if (members.empty()) return;
+      if (grid.members(What::kind, slot).empty()) return;
       const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
-      add_to_nodes<Shape, typename What::Content>(
-          grid, slot, members.size(), [&](auto& access) { scatter<Shape>(what, members, frame, access); });
+      add_to_nodes<Shape, typename What::Content>(grid, What::kind, slot,
+                                                  [&](std::span<const std::uint32_t> members, auto& access) {
+                                                    scatter<Shape>(what, members, frame, access);
+                                                  });
     });
   }
 }

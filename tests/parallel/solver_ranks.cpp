@@ -136,6 +136,42 @@ TEST_F(SolverRanks, AgreeWithOneRankInEveryOption) {
   }
 }
 
+// Fields that only other ranks see at a shared block, nodes that several ranks have in contact, mirror planes
+// through the contact, three bodies.
+TEST_F(SolverRanks, AgreeWithOneRankInContact) {
+  for (const char* normal : {"\"separating\"", "\"logistic_regression\""}) {
+    const Overrides contact = {
+        {"contact.method", "\"multi_field\""}, {"contact.friction", "0.3"}, {"contact.normal", normal}};
+    Simulation together(read(contact), MPI_COMM_WORLD);
+    advance_to(together, 1.2e-6);
+    Simulation alone(read(contact), MPI_COMM_SELF);
+    advance_to(alone, 1.2e-6);
+    expect_equal(together, alone, 1e-11);
+    const Ledger &a = together.state().ledger, &b = alone.state().ledger;
+    EXPECT_GT(b.friction_heat, 0.0);
+    EXPECT_NEAR(a.contact_heat, b.contact_heat, 1e-11 * b.initial.energy());
+    EXPECT_NEAR(a.friction_heat, b.friction_heat, 1e-11 * b.initial.energy());
+    EXPECT_NEAR(a.contact_impulse, b.contact_impulse, 1e-11 * b.initial.momentum_scale);
+  }
+}
+
+// The velocity fields are found anew in every step: a checkpoint needs nothing of them.
+TEST_F(SolverRanks, GoOnFromACheckpointInContact) {
+  const Overrides contact = {{"contact.method", "\"multi_field\""}, {"contact.friction", "0.3"}};
+  Simulation together(read(contact), MPI_COMM_WORLD);
+  advance_to(together, 0.5e-6);
+  const fs::path file = io::write_checkpoint(folder_ / "contact", together.state().step, together.particles(),
+                                             to_checkpoint(together.state()), MPI_COMM_WORLD);
+  advance_to(together, 0.8e-6);
+  io::Checkpoint checkpoint = io::read_checkpoint(file, MPI_COMM_SELF);
+  Simulation alone(read(contact), std::move(checkpoint.particles), from_checkpoint(checkpoint.values),
+                   MPI_COMM_SELF);
+  advance_to(alone, 0.8e-6);
+  expect_equal(together, alone, 1e-11);
+  EXPECT_NEAR(together.state().ledger.friction_heat, alone.state().ledger.friction_heat,
+              1e-11 * alone.state().ledger.initial.energy());
+}
+
 TEST_F(SolverRanks, GaugesAgreeWithOneRankAndFollowTheSameParticles) {
   const std::vector<setup::Gauge> gauges = {{"fixed", "fixed", {1e-3, 1e-3, 1e-3}},
                                             {"moving", "moving", {2e-3, 2e-3, 2.8e-3}},

@@ -288,5 +288,30 @@ TEST(Heat, ConductionNeedsSmoothFunctionsAndAMaterialThatConducts) {
   expect_error(domain + "[heat]\nconduction = 3\n" + ofhc, {"'conduction'"});
 }
 
+TEST(Contact, OptionsAndWhatTheyExclude) {
+  const std::string on = "[contact]\nmethod = \"multi_field\"\nfriction = 0.2\n";
+  const std::string second =
+      "[[body]]\nname = \"other\"\nmaterial = \"copper.toml\"\nshape = { sphere = { center = "
+      "[\"8 mm\", \"8 mm\", \"3 mm\"], radius = \"1 mm\" } }\n";
+  const Case both = read_case_text(domain + on + sphere + second, "case.toml");
+  EXPECT_EQ(both.contact.normal, "separating");
+  EXPECT_TRUE(both.contact.gap_test);
+  EXPECT_EQ(both.contact_fields(), (std::vector<std::uint8_t>{0, 1}));
+  const std::string grouped = replaced(sphere, "[[body]]\n", "[[body]]\ncontact_group = \"a\"\n") +
+                              replaced(second, "[[body]]\n", "[[body]]\ncontact_group = \"a\"\n");
+  expect_error(domain + on + grouped, {"'method'", "all bodies are one contact group"});
+  expect_error(domain + on + sphere, {"'method'", "all bodies are one contact group"});
+  expect_error(domain + replaced(on, "multi_field", "penalty") + sphere + second,
+               {"Accepted: none, multi_field"});
+  expect_error(domain + replaced(on, "0.2", "-0.2") + sphere + second, {"'friction'"});
+  expect_error(domain + on + "normal = \"up\"\n" + sphere + second,
+               {"Accepted: collinear, separating, logistic_regression"});
+  expect_error(replaced(domain, "end =", "scheme = \"usl\"\nend =") + on +
+                   "[transfer]\nparticle_update = \"fmpm\"\n" + sphere + second,
+               {"'method'", "knows no contact"});
+  expect_error(domain + "[gravity]\nacceleration = [0, 0, -9.81]\n[transfer]\nfree_flight = true\n" + sphere,
+               {"'acceleration'", "free_flight"});
+}
+
 }  // namespace
 }  // namespace whipple::setup

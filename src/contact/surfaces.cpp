@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/contact/surfaces.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/parallel/threads.hpp"
+
+namespace whipple::contact {
+namespace {
+
+using grid::BlockGrid;
+using grid::nodes_per_block;
+
+/// Change of a body's volume per node from one node to the next, relative, below which the node lies inside
+/// and the direction of the gradient is that of the pattern of the particles.
+constexpr double least_slope = 0.02;
+
+/// Lays out values of contact slots: `per_node(fields)` lanes for each node of a slot with that many fields.
+template <class PerNode>
+void lay_out(grid::ContactValues& values, const BlockGrid& grid, Lanes initial, PerNode&& per_node) {
+  values.begin.assign(1, 0);
+  for (const std::uint32_t slot : grid.contact_slots()) {
+    const auto fields = static_cast<std::size_t>(std::popcount(grid.fields(slot)));
+    values.begin.push_back(values.begin.back() +
+                           static_cast<std::uint32_t>(per_node(fields) * nodes_per_block));
+  }
+  values.values.assign(values.begin.back(), initial);
+}
+
+std::size_t one_per_field(std::size_t fields) { return fields; }
+std::size_t one_per_pair(std::size_t fields) { return fields * (fields - 1) / 2; }
+
+/// A node of a contact slot as a particle, or its image beyond a mirror plane, sees it.
+struct Place {
+  std::size_t contact_slot;
+  std::size_t fields;  ///< of the slot
+  std::size_t field;   ///< of the particle, counted among those of the slot
+  std::size_t node;    ///< in its block
+  double weight;       ///< N
+  Vector3 gradient;    ///< of N
+  Vector3 distance;    ///< position of the particle, or its image, minus that of the node
+  Vector3 off_plane;   ///< 0 along the normals of the mirror planes that the node is on
+  Vector3 sign;        ///< of the components under the reflections that lead to the image
+
+  /// Calls f(pair, is the particle of its first field?) for the pairs that the particle's field is part of.
+  template <class Function>
+  void for_each_pair(Function&& f) const {
+    for (std::size_t other = 0; other < fields; ++other) {
+      if (other < field) f(Surfaces::pair_index(other, field, fields), false);
+      if (other > field) f(Surfaces::pair_index(field, other, fields), true);
+    }
+  }
+  [[nodiscard]] std::size_t in(const grid::ContactValues& values, std::size_t array,
+                               std::size_t lanes = 1) const {
+    return values.begin[contact_slot] + lanes * (array * nodes_per_block + node);
+  }
+};
+
+/// One direction of a stencil, folded at mirror planes: what lies beyond a plane is seen from the image of
+/// the particle at the image of the node.
+template <int count>
+struct FoldedAxis {
+  std::array<int, count> node;          ///< from the block's lower corner
+  std::array<double, count> sign;       ///< -1 beyond a plane
+  std::array<double, count> off_plane;  ///< 0 on a plane, where particle and image make up for one another
+};
+
+template <int count>
+FoldedAxis<count> fold(const BlockGrid& grid, int axis, int block, int first) {
+  FoldedAxis<count> folded;
+  const grid::Geometry& g = grid.geometry();
+  const auto a = static_cast<std::size_t>(axis);
+  const auto mirrors = [&](std::size_t face) {
+    return g.boundary[face] == grid::Boundary::symmetry || g.boundary[face] == grid::Boundary::no_slip;
+  };
+  const bool lower = mirrors(2 * a), upper = mirrors(2 * a + 1);
+  for (int i = 0; i < count; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    int place = block * grid::block_edge + first + i;
+    folded.sign[n] = 1.0;
+    const auto reflect = [&](int at) {
+      place = 2 * at - place;
+      folded.sign[n] = -folded.sign[n];
+    };
+    if (lower && place < 0) reflect(0);
+    if (upper && place > g.cells[a]) reflect(g.cells[a]);
+    folded.off_plane[n] = (lower && place == 0) || (upper && place == g.cells[a]) ? 0.0 : 1.0;
+    folded.node[n] = place - block * grid::block_edge;
+  }
+  return folded;
+}
+
+/// Calls f(p, place) for the nodes of contact slots that particles reach; no two calls at a time for one
+/// node.
+template <class Shape, class Function>
+void for_each_place(const Particles& particles, BlockGrid& grid, Function&& f) {
+  static constexpr grid::ReachMap map = grid::reach_map();
+  constexpr int count = Shape::count;
+  for (const std::vector<std::uint32_t>& colour : grid.colours()) {
+    parallel::for_each_uneven(colour.size(), [&](std::size_t c) {
+      const std::size_t slot = colour[c];
+      if (!grid.meets_contact(slot)) return;
+      const grid::BlockCoordinate& block = grid.coordinate(slot);
+      const transfer::BlockFrame frame(grid.geometry(), block);
+      const auto& neighbours = grid.neighbours(slot);
+      grid.for_each_field(
+          BlockGrid::Points::particles, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
+            for (const std::uint32_t p : members) {
+              const transfer::Weights<count> w = transfer::weights_at<Shape>(particles, p, frame);
+              const std::array<int, 3> first_node = w.first_node();
+              const std::array<FoldedAxis<count>, 3> axes = {fold<count>(grid, 0, block[0], first_node[0]),
+                                                             fold<count>(grid, 1, block[1], first_node[1]),
+                                                             fold<count>(grid, 2, block[2], first_node[2])};
+              for (std::size_t i = 0; i < count; ++i) {
+                for (std::size_t j = 0; j < count; ++j) {
+                  for (std::size_t k = 0; k < count; ++k) {
+                    const std::array<std::size_t, 3> at = {i, j, k};
+                    std::array<int, 3> owner{}, inside{};
+                    for (std::size_t a = 0; a < 3; ++a) {
+                      const auto place = static_cast<std::size_t>(axes[a].node[at[a]] + 1);
+                      owner[a] = map.block[place];
+                      inside[a] = map.node[place];
+                    }
+                    const std::int32_t of = neighbours[static_cast<std::size_t>(
+                        grid::neighbour_index(owner[0], owner[1], owner[2]))];
+                    if (of == BlockGrid::no_slot) continue;
+                    const std::int32_t number = grid.contact_number(static_cast<std::size_t>(of));
+                    const double weight = w.weight[i][0] * w.weight[j][1] * w.weight[k][2];
+                    if (number == BlockGrid::no_slot || !(weight > 0.0)) continue;
+                    const std::uint64_t fields = grid.fields(static_cast<std::size_t>(of));
+                    if ((fields >> field & 1U) == 0) continue;
+                    const Vector3 sign(axes[0].sign[i], axes[1].sign[j], axes[2].sign[k]);
+                    const Vector3 gradient(w.derivative[i][0] * w.weight[j][1] * w.weight[k][2],
+                                           w.weight[i][0] * w.derivative[j][1] * w.weight[k][2],
+                                           w.weight[i][0] * w.weight[j][1] * w.derivative[k][2]);
+                    const Vector3 distance(w.distance[i][0], w.distance[j][1], w.distance[k][2]);
+                    f(p, Place{.contact_slot = static_cast<std::size_t>(number),
+                               .fields = static_cast<std::size_t>(std::popcount(fields)),
+                               .field = static_cast<std::size_t>(
+                                   std::popcount(fields & ((std::uint64_t{1} << field) - 1))),
+                               .node = static_cast<std::size_t>(
+                                   grid::node_index(inside[0], inside[1], inside[2])),
+                               .weight = weight,
+                               .gradient = sign.cwiseProduct(gradient),
+                               .distance = -sign.cwiseProduct(distance),
+                               .off_plane =
+                                   Vector3(axes[0].off_plane[i], axes[1].off_plane[j], axes[2].off_plane[k]),
+                               .sign = sign});
+                  }
+                }
+              }
+            }
+          });
+    });
+  }
+}
+
+Lanes lanes(const Vector3& v, double last = 0.0) { return Lanes{v[0], v[1], v[2], last}; }
+Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
+
+Vector3 unit_or_zero(const Vector3& v) {
+  const double norm = v.norm();
+  return norm > 0.0 ? Vector3(v / norm) : Vector3::Zero();
+}
+
+/// Calls f(contact slot, number of fields, node) for the nodes of the contact slots that this rank owns.
+template <class Function>
+void for_each_owned_node(const BlockGrid& grid, Function&& f) {
+  parallel::for_each(grid.owned_contact_slots(), [&](std::size_t c) {
+    const auto fields = static_cast<std::size_t>(std::popcount(grid.fields(grid.contact_slots()[c])));
+    for (std::size_t node = 0; node < nodes_per_block; ++node) f(c, fields, node);
+  });
+}
+
+/// Calls f(a, b, pair) for all pairs of fields.
+template <class Function>
+void for_each_pair(std::size_t fields, Function&& f) {
+  for (std::size_t a = 0; a < fields; ++a) {
+    for (std::size_t b = a + 1; b < fields; ++b) f(a, b, Surfaces::pair_index(a, b, fields));
+  }
+}
+
+/// Distance from the centre of a particle to its surface along a unit vector: of its box of the beginning (or
+/// of its followed domain), scaled to its present volume.
+double half_thickness(const Particles& particles, std::size_t p, const Vector3& n) {
+  const SymmetricTensor& e = particles.extent[p];
+  const Matrix3 extent = e.matrix();
+  const double box = 8.0 * std::sqrt(std::max(extent.determinant(), 0.0));
+  const double volume = particles.volume[p] + particles.void_volume[p];
+  const double along = std::sqrt(std::max(n.dot(extent * n), 0.0));
+  return box > 0.0 ? along * std::cbrt(volume / box) : 0.5 * std::cbrt(volume);
+}
+
+/// Logistic regression of two sets of particles, class -1 and +1, on their positions about a node in cells
+/// and a constant: the plane of greatest likelihood, with a small penalty on the steepness that a gap would
+/// make infinite. Newton's method; the problem is convex.
+namespace regression {
+
+constexpr std::size_t lanes_per_node = 4;  // 10 numbers of the matrix, their number, 4 of the right-hand side
+constexpr int iterations = 8;
+constexpr double penalty = 1e-5;  // per particle, on the square of the plane's coefficients
+
+using Vector4 = Eigen::Vector4d;
+using Matrix4 = Eigen::Matrix4d;
+
+/// Adds one particle to the equations.
+void add(Lanes* equations, const Vector4& x, double side, const Vector4& plane) {
+  const double share = 1.0 / (1.0 + std::exp(side * plane.dot(x)));  // of doubt about its side
+  const double curvature = share * (1.0 - share);
+  const double slope = share * side;
+  const Lanes all = {x[0], x[1], x[2], x[3]};
+  equations[0] += curvature * x[0] * all;
+  equations[1] += curvature * x[1] * all;
+  equations[2] += Lanes{curvature * x[2] * x[2], curvature * x[2] * x[3], curvature * x[3] * x[3], 1.0};
+  equations[3] += slope * all;
+}
+
+Vector4 step(const Lanes* e, const Vector4& plane) {
+  Matrix4 matrix;
+  matrix << e[0][0], e[0][1], e[0][2], e[0][3], e[0][1], e[1][1], e[1][2], e[1][3], e[0][2], e[1][2], e[2][0],
+      e[2][1], e[0][3], e[1][3], e[2][1], e[2][2];
+  Vector4 slope(e[3][0], e[3][1], e[3][2], e[3][3]);
+  const double weight = penalty * std::max(e[2][3], 1.0);
+  slope -= weight * plane;
+  matrix.diagonal().array() += weight;
+  return matrix.ldlt().solve(slope);
+}
+
+}  // namespace regression
+
+}  // namespace
+
+Surfaces::Gap Surfaces::at(std::size_t contact_slot, std::size_t pair, std::size_t node) const {
+  const std::size_t first = normal_.begin[contact_slot] + candidates_ * (pair * nodes_per_block + node);
+  Gap best{.width = -std::numeric_limits<double>::infinity()};
+  for (std::size_t i = first; i < first + candidates_; ++i) {
+    const Vector3 normal = vector(normal_.values[i]);
+    const double width = -extent_.values[i][0] - extent_.values[i][1];
+    if (width > best.width && !normal.isZero(0.0)) best = {normal, width};
+  }
+  return best;
+}
+
+void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles& particles,
+                    grid::BlockGrid& grid) {
+  lay_out(gradient_, grid, broadcast(0.0), one_per_field);
+  candidates_ = kind == Normal::separating ? 3 : 1;
+  const auto per_pair = [&](std::size_t fields) { return candidates_ * one_per_pair(fields); };
+  lay_out(normal_, grid, broadcast(0.0), per_pair);
+  lay_out(extent_, grid, broadcast(-std::numeric_limits<double>::infinity()), per_pair);
+  transfer::with_shape(shape, [&]<class Shape>(Shape) {
+    if (kind == Normal::logistic_regression) {
+      lay_out(plane_, grid, broadcast(0.0), one_per_pair);
+      const double per_cell = 1.0 / grid.geometry().cell_size;
+      for (int iteration = 0; iteration < regression::iterations; ++iteration) {
+        lay_out(equations_, grid, broadcast(0.0),
+                [](std::size_t fields) { return regression::lanes_per_node * one_per_pair(fields); });
+        for_each_place<Shape>(particles, grid, [&](std::size_t, const Place& place) {
+          // A node on a mirror plane has its normal in it: then only the place along the plane matters.
+          const Vector3 cells = per_cell * place.distance.cwiseProduct(place.off_plane);
+          place.for_each_pair([&](std::size_t pair, bool first) {
+            const Lanes plane = plane_.values[place.in(plane_, pair)];
+            regression::add(&equations_.values[place.in(equations_, pair, regression::lanes_per_node)],
+                            {cells[0], cells[1], cells[2], 1.0}, first ? -1.0 : 1.0,
+                            {plane[0], plane[1], plane[2], plane[3]});
+          });
+        });
+        grid.sum_to_owners(equations_);
+        for_each_owned_node(grid, [&](std::size_t c, std::size_t fields, std::size_t node) {
+          for_each_pair(fields, [&](std::size_t, std::size_t, std::size_t pair) {
+            const std::size_t i = pair * nodes_per_block + node;
+            Lanes& plane = plane_.values[plane_.begin[c] + i];
+            const regression::Vector4 change =
+                regression::step(&equations_.values[equations_.begin[c] + regression::lanes_per_node * i],
+                                 {plane[0], plane[1], plane[2], plane[3]});
+            plane += Lanes{change[0], change[1], change[2], change[3]};
+          });
+        });
+        grid.borrow_from_owners(plane_);
+      }
+      for (std::size_t i = 0; i < normal_.values.size(); ++i) {
+        normal_.values[i] = lanes(unit_or_zero(vector(plane_.values[i])));
+      }
+    } else {
+      for_each_place<Shape>(particles, grid, [&](std::size_t p, const Place& place) {
+        const double volume = particles.volume[p] + particles.void_volume[p];
+        gradient_.values[place.in(gradient_, place.field)] +=
+            lanes(volume * place.gradient.cwiseProduct(place.off_plane), volume * place.weight);
+      });
+      grid.sum_to_owners(gradient_);
+      const double cell_size = grid.geometry().cell_size;
+      for_each_owned_node(grid, [&](std::size_t c, std::size_t fields, std::size_t node) {
+        const auto outward = [&](std::size_t field) {  // the volume of a node grows as particles come near
+          const Lanes of_field = gradient_.values[gradient_.begin[c] + field * nodes_per_block + node];
+          const Vector3 gradient = vector(of_field);
+          const bool inside = gradient.norm() * cell_size < least_slope * of_field[3];
+          return inside ? Vector3::Zero().eval() : unit_or_zero(gradient);
+        };
+        for_each_pair(fields, [&](std::size_t a, std::size_t b, std::size_t pair) {
+          Lanes* normal = &normal_.values[normal_.begin[c] + candidates_ * (pair * nodes_per_block + node)];
+          const Vector3 of_a = outward(a), of_b = -outward(b);
+          normal[0] = lanes(unit_or_zero(of_a + of_b));
+          if (kind == Normal::collinear) return;
+          normal[1] = lanes(of_a);
+          normal[2] = lanes(of_b);
+        });
+      });
+      grid.borrow_from_owners(normal_);
+    }
+    for_each_place<Shape>(particles, grid, [&](std::size_t p, const Place& place) {
+      place.for_each_pair([&](std::size_t pair, bool first) {
+        const std::size_t i = place.in(normal_, pair, candidates_);
+        for (std::size_t candidate = i; candidate < i + candidates_; ++candidate) {
+          const Vector3 n = (first ? 1.0 : -1.0) * vector(normal_.values[candidate]);
+          const double extent =
+              n.dot(place.distance) + half_thickness(particles, p, place.sign.cwiseProduct(n));
+          Lanes& largest = extent_.values[candidate];
+          const int lane = first ? 0 : 1;
+          if (extent > largest[lane]) largest[lane] = extent;
+        }
+      });
+    });
+  });
+  grid.maximum_to_owners(extent_);
+}
+
+}  // namespace whipple::contact

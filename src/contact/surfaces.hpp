@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "src/grid/block_grid.hpp"
+#include "src/particles/particles.hpp"
+#include "src/transfer/shape_function.hpp"
+
+namespace whipple::contact {
+
+/// How the normal between two bodies at a node is found (docs/theory/contact.md, 3).
+enum class Normal : std::uint8_t {
+  collinear,            ///< mean of the unit normals of both
+  separating,           ///< of one body, the other, or their mean: along which they are farthest apart
+  logistic_regression,  ///< of the plane that separates their particles best
+};
+
+/// Where the surfaces of the velocity fields are, at the nodes of the contact slots.
+class Surfaces {
+ public:
+  /// What is known of two fields, a before b, at a node.
+  struct Gap {
+    Vector3 normal = Vector3::Zero();  ///< unit, from a to b; zero where it is not defined
+    double width = 0.0;                ///< m, between their surfaces along it; negative where they overlap
+  };
+
+  /// From the particles that reach the nodes, with their images at mirror planes. Collective.
+  void find(Normal normal, transfer::ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid);
+
+  /// @param contact_slot  number of the slot among the contact slots
+  /// @param pair          of its fields: see `pair_index`
+  /// @param node          in its block
+  [[nodiscard]] Gap at(std::size_t contact_slot, std::size_t pair, std::size_t node) const;
+
+  /// Number of the pair (a, b), a < b, of `fields` fields.
+  static constexpr std::size_t pair_index(std::size_t a, std::size_t b, std::size_t fields) {
+    return a * (2 * fields - a - 1) / 2 + (b - a - 1);
+  }
+
+ private:
+  std::size_t candidates_ = 1;     // normals that are tried, for each pair
+  grid::ContactValues gradient_;   // of each field: of its volume (x y z), m^2
+  grid::ContactValues normal_;     // candidates of each pair
+  grid::ContactValues extent_;     // of each candidate: of a along it, of b against it, from the node (m)
+  grid::ContactValues equations_;  // of each pair: of the logistic regression
+  grid::ContactValues plane_;      // of each pair: its present solution
+};
+
+}  // namespace whipple::contact

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the ranks tell each other about the blocks that they share.
+#include <algorithm>
+
+#include "src/grid/block_grid.hpp"
+#include "src/parallel/mpi.hpp"
+#include "src/parallel/threads.hpp"
+
+namespace whipple::grid {
+
+bool BlockGrid::is_shared() const { return parallel::size(communicator_) > 1; }
+
+template <class Value, class Size, class Pack, class Unpack>
+void BlockGrid::exchange(SharedSlots from, SharedSlots to, Size&& size, Pack&& pack, Unpack&& unpack) {
+  static_assert(sizeof(Value) % sizeof(double) == 0);
+  constexpr int words = sizeof(Value) / sizeof(double);
+  constexpr int tag = 11;
+  const std::vector<BlockSet::Peer>& peers = blocks_.peers;
+  std::vector<std::vector<Value>> outgoing(peers.size()), incoming(peers.size());
+  std::vector<MPI_Request> requests(2 * peers.size(), MPI_REQUEST_NULL);
+  const auto begins = [&](const std::vector<std::uint32_t>& shared) {
+    std::vector<std::size_t> begin(shared.size() + 1, 0);
+    for (std::size_t i = 0; i < shared.size(); ++i) begin[i + 1] = begin[i] + size(shared[i]);
+    return begin;
+  };
+  for (std::size_t i = 0; i < peers.size(); ++i) {
+    incoming[i].resize(begins(peers[i].*to).back());
+    MPI_Irecv(incoming[i].data(), words * static_cast<int>(incoming[i].size()), MPI_DOUBLE, peers[i].rank,
+              tag, communicator_, &requests[2 * i]);
+  }
+  for (std::size_t i = 0; i < peers.size(); ++i) {
+    const std::vector<std::uint32_t>& sent = peers[i].*from;
+    const std::vector<std::size_t> begin = begins(sent);
+    outgoing[i].resize(begin.back());
+    parallel::for_each(sent.size(), [&](std::size_t s) { pack(sent[s], &outgoing[i][begin[s]]); });
+    MPI_Isend(outgoing[i].data(), words * static_cast<int>(outgoing[i].size()), MPI_DOUBLE, peers[i].rank,
+              tag, communicator_, &requests[2 * i + 1]);
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  for (std::size_t i = 0; i < peers.size(); ++i) {  // in the order of the ranks: sums are repeatable
+    const std::vector<std::uint32_t>& received = peers[i].*to;
+    const std::vector<std::size_t> begin = begins(received);
+    parallel::for_each(received.size(), [&](std::size_t s) { unpack(received[s], &incoming[i][begin[s]]); });
+  }
+}
+
+template <class Receive>
+void BlockGrid::exchange_nodes(Part part, SharedSlots from, SharedSlots to, Receive&& receive) {
+  const std::size_t registers = part == Part::both ? 2 : 1;
+  const auto blocks_of = [&](std::size_t slot) {
+    const std::int32_t number = contact_number(slot);
+    return number == no_slot ? 1 : static_cast<std::size_t>(std::popcount(fields_[slot]));
+  };
+  // The blocks of a slot: its own, then the further ones.
+  const auto block_number = [&](std::size_t slot, std::size_t i) {
+    return i == 0 ? slot : further_begin_[static_cast<std::size_t>(contact_number_[slot])] + i - 1;
+  };
+  exchange<Lanes>(
+      from, to, [&](std::size_t slot) { return blocks_of(slot) * registers * nodes_per_block; },
+      [&](std::size_t slot, Lanes* out) {
+        for (std::size_t i = 0; i < blocks_of(slot); ++i) {
+          const Node* of_block = &nodes_[block_number(slot, i) * nodes_per_block];
+          for (std::size_t n = 0; n < nodes_per_block; ++n) {
+            *out++ = of_block[n].first;
+            if (part == Part::both) *out++ = of_block[n].second;
+          }
+        }
+      },
+      [&](std::size_t slot, const Lanes* in) {
+        for (std::size_t i = 0; i < blocks_of(slot); ++i) {
+          Node* of_block = &nodes_[block_number(slot, i) * nodes_per_block];
+          for (std::size_t n = 0; n < nodes_per_block; ++n, in += registers) receive(of_block[n], in);
+        }
+      });
+}
+
+void BlockGrid::sum_to_owners(Part part) {
+  exchange_nodes(part, &BlockSet::Peer::borrowed, &BlockSet::Peer::lent, [part](Node& node, const Lanes* in) {
+    node.first += in[0];
+    if (part == Part::both) node.second += in[1];
+  });
+}
+
+void BlockGrid::borrow_from_owners(Part part) {
+  exchange_nodes(part, &BlockSet::Peer::lent, &BlockSet::Peer::borrowed, [part](Node& node, const Lanes* in) {
+    node.first = in[0];
+    if (part == Part::both) node.second = in[1];
+  });
+}
+
+template <class Receive>
+void BlockGrid::exchange_values(ContactValues& values, SharedSlots from, SharedSlots to, Receive&& receive) {
+  const auto range = [&](std::size_t slot) {
+    const std::int32_t number = contact_number(slot);
+    if (number == no_slot) return std::span<Lanes>();
+    const auto c = static_cast<std::size_t>(number);
+    return std::span(values.values).subspan(values.begin[c], values.begin[c + 1] - values.begin[c]);
+  };
+  exchange<Lanes>(
+      from, to, [&](std::size_t slot) { return range(slot).size(); },
+      [&](std::size_t slot, Lanes* out) { std::ranges::copy(range(slot), out); },
+      [&](std::size_t slot, const Lanes* in) {
+        for (Lanes& value : range(slot)) receive(value, *in++);
+      });
+}
+
+void BlockGrid::sum_to_owners(ContactValues& values) {
+  exchange_values(values, &BlockSet::Peer::borrowed, &BlockSet::Peer::lent,
+                  [](Lanes& value, const Lanes& in) { value += in; });
+}
+
+void BlockGrid::maximum_to_owners(ContactValues& values) {
+  exchange_values(values, &BlockSet::Peer::borrowed, &BlockSet::Peer::lent,
+                  [](Lanes& value, const Lanes& in) { value = value > in ? value : in; });
+}
+
+void BlockGrid::borrow_from_owners(ContactValues& values) {
+  exchange_values(values, &BlockSet::Peer::lent, &BlockSet::Peer::borrowed,
+                  [](Lanes& value, const Lanes& in) { value = in; });
+}
+
+/// Every rank that works with a slot learns the fields of all of them.
+void BlockGrid::join_fields_of_ranks(std::vector<std::uint64_t>& fields) {
+  const auto one = [](std::size_t) { return std::size_t{1}; };
+  const auto pack = [&](std::size_t slot, std::uint64_t* out) { *out = fields[slot]; };
+  exchange<std::uint64_t>(&BlockSet::Peer::borrowed, &BlockSet::Peer::lent, one, pack,
+                          [&](std::size_t slot, const std::uint64_t* in) { fields[slot] |= *in; });
+  exchange<std::uint64_t>(&BlockSet::Peer::lent, &BlockSet::Peer::borrowed, one, pack,
+                          [&](std::size_t slot, const std::uint64_t* in) { fields[slot] = *in; });
+}
+
+}  // namespace whipple::grid

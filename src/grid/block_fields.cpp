@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the nodes of the blocks lie: contact slots have a block per velocity field (docs/theory/contact.md,
+// 2); and which of the nodes mirror planes concern.
+#include <algorithm>
+
+#include "src/grid/block_grid.hpp"
+#include "src/grid/block_reach.hpp"
+#include "src/parallel/mpi.hpp"
+#include "src/parallel/threads.hpp"
+
+namespace whipple::grid {
+
+void BlockGrid::separate_fields(Stencil stencil, const FieldPoints& particles, const FieldPoints& guests,
+                                unsigned fields, bool everywhere) {
+  field_.assign(particles.field.begin(), particles.field.end());
+  field_of_guest_.assign(guests.field.begin(), guests.field.end());
+  const std::uint64_t all = fields >= maximum_fields ? ~std::uint64_t{0} : (std::uint64_t{1} << fields) - 1;
+  std::vector<std::uint64_t> present(slots(), everywhere ? all : 0);
+  if (!everywhere) {
+    // Of each slot: the fields of its points that reach each of the blocks around.
+    std::vector<std::array<std::uint64_t, 27>> reached(slots());
+    parallel::for_each_uneven(slots(), [&](std::size_t s) {
+      reached[s].fill(0);
+      const auto reach = [&](std::span<const std::uint32_t> members, const FieldPoints& points) {
+        for (const std::uint32_t p : members) {
+          const std::uint32_t touched =
+              touched_neighbours(local_position(s, points.position[p]), Vector3::Zero(), stencil);
+          for_each_bit(touched, [&](unsigned n) { reached[s][n] |= std::uint64_t{1} << points.field[p]; });
+        }
+      };
+      reach(particles_in(s), particles);
+      reach(guests_in(s), guests);
+    });
+    parallel::for_each(slots(), [&](std::size_t s) {
+      for (std::size_t n = 0; n < 27; ++n) {
+        const std::int32_t neighbour = neighbours_[s][n];
+        if (neighbour != no_slot) present[s] |= reached[static_cast<std::size_t>(neighbour)][26 - n];
+      }
+    });
+    join_fields_of_ranks(present);
+  }
+  if (present == fields_) return;
+  fields_ = std::move(present);
+  lay_out_nodes();
+}
+
+/// Numbers the blocks of nodes after `fields_` (none: one field).
+void BlockGrid::lay_out_nodes() {
+  ++layout_;
+  contact_slots_.clear();
+  contact_number_.assign(slots(), no_slot);
+  further_begin_.clear();
+  slot_of_further_.clear();
+  owned_contact_slots_ = owned_further_ = 0;
+  for (std::size_t s = 0; s < fields_.size(); ++s) {
+    const int fields = std::popcount(fields_[s]);
+    if (fields < 2) continue;
+    contact_number_[s] = static_cast<std::int32_t>(contact_slots_.size());
+    contact_slots_.push_back(static_cast<std::uint32_t>(s));
+    further_begin_.push_back(static_cast<std::uint32_t>(slots() + slot_of_further_.size()));
+    slot_of_further_.insert(slot_of_further_.end(), static_cast<std::size_t>(fields - 1),
+                            static_cast<std::uint32_t>(s));
+    if (s < blocks_.owned) {
+      owned_contact_slots_ = contact_slots_.size();
+      owned_further_ = slot_of_further_.size();
+    }
+  }
+  meets_contact_.assign(contact_slots_.empty() ? 0 : slots(), 0);
+  for (const std::uint32_t s : contact_slots_) {
+    for (const std::int32_t neighbour : neighbours_[s]) {
+      if (neighbour != no_slot) meets_contact_[static_cast<std::size_t>(neighbour)] = 1;
+    }
+  }
+  nodes_.resize((slots() + slot_of_further_.size()) * nodes_per_block);
+  find_mirror_nodes();
+}
+
+namespace {
+
+/// Nodes beyond a mirror plane that the stencil of a particle before it may hold.
+constexpr std::int32_t mirror_reach = 2;
+
+/// Position of the n-th bit that is set.
+int nth_bit(std::uint64_t bits, std::size_t n) {
+  for (; n > 0; --n) bits &= bits - 1;
+  return std::countr_zero(bits);
+}
+
+}  // namespace
+
+void BlockGrid::find_mirror_nodes() {
+  if (planes_.empty()) return;
+  outside_.assign(nodes_.size(), 0);
+  for (MirrorPlane& mirror : planes_) {
+    mirror.pairs.clear();
+    mirror.on_plane.clear();
+    mirror.near.clear();
+    const auto axis = static_cast<std::size_t>(mirror.axis);
+    const std::int32_t at = mirror.face % 2 == 0 ? 0 : geometry_.cells[axis];
+    const std::int32_t outward = mirror.face % 2 == 0 ? -1 : 1;
+    for (std::size_t b = 0; b < nodes_.size() / nodes_per_block; ++b) {
+      const std::size_t s = b < slots() ? b : slot_of_further_[b - slots()];
+      int field = -1;  // of the block's nodes; -1: of no or any field
+      if (contact_number(s) != no_slot) {
+        field =
+            nth_bit(fields_[s],
+                    b < slots() ? 0 : b - further_begin_[static_cast<std::size_t>(contact_number(s))] + 1);
+      } else if (!fields_.empty() && fields_[s] != 0) {
+        field = nth_bit(fields_[s], 0);
+      }
+      for (int i = 0; i < nodes_per_block; ++i) {
+        const std::array<int, 3> inside_block = {i / 16, i / 4 % 4, i % 4};
+        const std::int32_t along = blocks_.coordinate[s][axis] * block_edge + inside_block[axis];
+        const auto index = static_cast<std::uint32_t>(b * nodes_per_block + static_cast<std::size_t>(i));
+        if (along == at) mirror.on_plane.push_back(index);
+        const std::int32_t inside = (at - along) * outward;
+        if (inside > 0 && inside <= mirror_reach) mirror.near.push_back(index);
+        if (inside >= 0) continue;
+        if (mirror.kind != Boundary::separating) outside_[index] = 1;
+        std::array<std::int32_t, 3> place{};
+        for (std::size_t a = 0; a < 3; ++a)
+          place[a] = blocks_.coordinate[s][a] * block_edge + inside_block[a];
+        place[axis] = at;
+        const std::uint32_t foot = active_node(place, field);
+        place[axis] = 2 * at - along;
+        const std::uint32_t image = active_node(place, field);
+        // Without an active image no particle reaches so far beyond the plane: its stencil is symmetric.
+        if (image != no_node) mirror.pairs.push_back({index, image, foot});
+      }
+    }
+  }
+}
+
+/// Index of a field's node at a place of the grid; `no_node` if its block is not active or not reached by the
+/// field (-1: by whatever field is there).
+std::uint32_t BlockGrid::active_node(const std::array<std::int32_t, 3>& place, int field) const {
+  BlockCoordinate coordinate{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (place[a] < -block_edge) return no_node;
+    coordinate[a] = (place[a] + block_edge) / block_edge - 1;  // floor for >= -4
+  }
+  const std::int32_t found = table_.find(coordinate);
+  if (found == no_slot) return no_node;
+  const auto slot = static_cast<std::size_t>(found);
+  std::size_t of_field = slot;
+  if (field >= 0 && fields_[slot] != 0) {
+    if ((fields_[slot] >> field & 1U) == 0) return no_node;
+    of_field = block(slot, static_cast<unsigned>(field));
+  }
+  const int in_block =
+      node_index(place[0] - coordinate[0] * block_edge, place[1] - coordinate[1] * block_edge,
+                 place[2] - coordinate[2] * block_edge);
+  return static_cast<std::uint32_t>(of_field * nodes_per_block + static_cast<std::size_t>(in_block));
+}
+
+}  // namespace whipple::grid

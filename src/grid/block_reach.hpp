@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "src/base/vector_math.hpp"
+#include "src/grid/block_grid.hpp"
+
+/// Which blocks around its own a particle's stencil touches.
+namespace whipple::grid {
+
+/// Along one direction: does something reach the block before (bit 0), after (bit 1)?
+using AxisReach = unsigned;
+
+/// Bit per neighbour that a reach given per direction touches, always with the block itself.
+constexpr std::array<std::uint32_t, 64> neighbour_masks() {
+  std::array<std::uint32_t, 64> masks{};
+  for (unsigned reach = 0; reach < 64; ++reach) {
+    for (int x = 0; x < 3; ++x) {
+      for (int y = 0; y < 3; ++y) {
+        for (int z = 0; z < 3; ++z) {
+          const auto touched = [](AxisReach axis, int offset) {
+            return offset == 1 || (offset == 0 && (axis & 1U) != 0) || (offset == 2 && (axis & 2U) != 0);
+          };
+          if (touched(reach & 3U, x) && touched(reach >> 2 & 3U, y) && touched(reach >> 4, z)) {
+            masks[reach] |= 1U << neighbour_index(x, y, z);
+          }
+        }
+      }
+    }
+  }
+  return masks;
+}
+constexpr std::array<std::uint32_t, 64> reach_masks = neighbour_masks();
+
+/// The same by direction: bits 0 to 2 for the directions in which something reaches the block before, bits 3
+/// to 5 for those in which it reaches the block after.
+constexpr std::array<std::uint32_t, 64> masks_by_direction() {
+  std::array<std::uint32_t, 64> by_direction{};
+  for (unsigned bits = 0; bits < 64; ++bits) {
+    unsigned reach = 0;
+    for (unsigned a = 0; a < 3; ++a) reach |= ((bits >> a & 1U) | (bits >> (a + 3) & 1U) << 1U) << (2 * a);
+    by_direction[bits] = reach_masks[reach];
+  }
+  return by_direction;
+}
+
+/// `touched_neighbours` without motion, for a position with the directions in lanes.
+inline std::uint32_t touched_neighbours(Lanes local, Stencil stencil) {
+  static constexpr std::array<std::uint32_t, 64> by_direction = masks_by_direction();
+  const Lanes first = Lanes(_mm256_floor_pd(__m256d(local - stencil.shift)));
+  const unsigned before = bits(first < 0.0) & 7U;
+  const unsigned after = bits(first > static_cast<double>(block_edge - stencil.count)) & 7U;
+  return by_direction[before | after << 3U];
+}
+
+/// Neighbours that the nodes of a stencil fall into when the particle is at `local` (cells from the block's
+/// lower corner), with `ahead` cells of motion before it, and `around` it on either side.
+inline std::uint32_t touched_neighbours(const Vector3& local, const Vector3& ahead, Stencil stencil,
+                                        double around = 0.0) {
+  unsigned reach = 0;
+  for (int a = 0; a < 3; ++a) {
+    const double first = std::floor(local[a] + std::min(ahead[a], -around) - stencil.shift);
+    const double last = std::floor(local[a] + std::max(ahead[a], around) - stencil.shift) + stencil.count - 1;
+    const AxisReach axis = (first < 0 ? 1U : 0U) | (last >= block_edge ? 2U : 0U);
+    reach |= axis << (2 * a);
+  }
+  return reach_masks[reach];
+}
+
+}  // namespace whipple::grid

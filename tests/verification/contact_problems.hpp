@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "tests/verification/solver_problems.hpp"
+
+/// Bodies in contact as problems.
+namespace whipple::verification {
+
+struct ContactOptions {
+  std::string normal = "separating";
+  double friction = 0.0;
+  std::string more = {};
+  [[nodiscard]] std::string toml() const {
+    return "[contact]\nmethod = \"multi_field\"\nnormal = \"" + normal +
+           "\"\nfriction = " + std::to_string(friction) + "\n" + more;
+  }
+};
+
+inline std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", x);
+  return text;
+}
+inline std::string vector3(const Vector3& v) {
+  return "[" + number(v[0]) + ", " + number(v[1]) + ", " + number(v[2]) + "]";
+}
+
+struct BodyOptions {
+  std::string name, material, shape;
+  Vector3 velocity = Vector3::Zero();
+  [[nodiscard]] std::string toml() const {
+    return "[[body]]\nname = \"" + name + "\"\nmaterial = \"" + material +
+           "\"\nvelocity = " + vector3(velocity) + "\nshape = { " + shape + " }\n";
+  }
+};
+
+inline std::string box(const Vector3& lower, const Vector3& upper) {
+  return "box = { lower = " + vector3(lower) + ", upper = " + vector3(upper) + " }";
+}
+inline std::string sphere(const Vector3& centre, double radius) {
+  return "sphere = { center = " + vector3(centre) + ", radius = " + number(radius) + " }";
+}
+
+struct Problem {
+  Method method;
+  double end = 0.0;
+  std::string domain;
+  std::string contact;
+  std::vector<BodyOptions> bodies;
+  std::string more = {};
+  [[nodiscard]] setup::Case read() const {
+    std::string text = method.time_toml(end) + method.toml() + "[output]\nmaximum_energy_error = 10.0\n" +
+                       domain + contact + more;
+    for (const BodyOptions& body : bodies) text += body.toml();
+    return setup::read_case_text(text, "contact.toml");
+  }
+};
+
+struct BodySums {
+  double mass = 0.0;
+  Vector3 momentum = Vector3::Zero(), centre = Vector3::Zero(), spin = Vector3::Zero();
+};
+/// Mass, momentum, centre of mass and angular momentum about it of one body.
+inline BodySums sums_of(const Particles& q, std::uint32_t body, double inertia) {
+  BodySums sums;
+  for (std::size_t p = 0; p < q.size(); ++p) {
+    if (q.body[p] != body) continue;
+    sums.mass += q.mass[p];
+    sums.momentum += q.mass[p] * q.velocity[p];
+    sums.centre += q.mass[p] * q.position[p];
+  }
+  sums.centre /= sums.mass;
+  const Vector3 mean = sums.momentum / sums.mass;
+  for (std::size_t p = 0; p < q.size(); ++p) {
+    if (q.body[p] != body) continue;
+    const Matrix3& c = q.affine_velocity[p];
+    const Vector3 curl(c(2, 1) - c(1, 2), c(0, 2) - c(2, 0), c(1, 0) - c(0, 1));
+    sums.spin += q.mass[p] * ((q.position[p] - sums.centre).cross(q.velocity[p] - mean) + inertia * curl);
+  }
+  return sums;
+}
+
+}  // namespace whipple::verification

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact of bodies with velocity fields of their own (docs/theory/contact.md): conservation, independence of
+// frame, threads and planes, and bodies that touch, slide, stick and part as they must.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "src/parallel/threads.hpp"
+#include "tests/verification/contact_problems.hpp"
+
+namespace whipple::verification {
+namespace {
+
+constexpr const char* column =
+    "boundary = { y_lower = \"symmetry\", y_upper = \"symmetry\", z_lower = \"symmetry\", "
+    "z_upper = \"symmetry\" }\n";
+
+/// Two elastic bars of 20 mm meet head-on at 2 x 20 m/s; column of one cell.
+struct Rebound {
+  double restitution, heat, clearance;
+};
+Rebound rebound(int cells) {
+  constexpr double length = 0.02, speed = 20.0;
+  const double dx = length / cells, gap = 0.3 * dx;
+  Problem problem;
+  problem.method.linear_viscosity = problem.method.quadratic_viscosity = 0.0;
+  problem.end = 1.6 * 2.0 * length / 5328.0 + 0.5 * gap / speed;
+  problem.domain = "[domain]\nlower = [-0.03, 0, 0]\nupper = " + vector3({0.03, dx, dx}) +
+                   "\ncell_size = " + number(dx) + "\n" + column;
+  problem.contact = ContactOptions{}.toml();
+  problem.bodies = {
+      {"left", elastic_aluminium(), box({-length - gap / 2, 0, 0}, {-gap / 2, dx, dx}), {speed, 0, 0}},
+      {"right", elastic_aluminium(), box({gap / 2, 0, 0}, {length + gap / 2, dx, dx}), {-speed, 0, 0}}};
+  solver::Simulation simulation(problem.read(), parallel::world());
+  EnergyWatch watch;
+  double momentum = 0;
+  run_to(simulation, problem.end, [&](const solver::Simulation& s) {
+    watch(s);
+    momentum = std::max(momentum, s.state().ledger.momentum_error(s.totals()));
+  });
+  const BodySums left = sums_of(simulation.particles(), 0, 0), right = sums_of(simulation.particles(), 1, 0);
+  const solver::Ledger& ledger = simulation.state().ledger;
+  const Rebound result{right.momentum[0] / (right.mass * speed),
+                       ledger.contact_heat / ledger.initial.kinetic_energy,
+                       (right.centre[0] - left.centre[0] - length) / dx};
+  std::printf(
+      "bars of %d cells: restitution %.4f, contact heat %.2e of the kinetic energy, clearance %.2f cells, "
+      "energy "
+      "%.1e, momentum %.1e\n",
+      cells, result.restitution, result.heat, result.clearance, watch.worst, momentum);
+  EXPECT_LT(watch.worst, 1e-12);
+  EXPECT_LT(momentum, 1e-13);
+  EXPECT_NEAR(ledger.contact_impulse / (right.mass * speed), 1.0 + result.restitution, 1e-10);
+  return result;
+}
+
+// Exact: each bar leaves with its velocity reversed. What remains as vibration or heat is of first order.
+TEST(Contact, BarsReboundAndPart) {
+  const Rebound coarse = rebound(20), fine = rebound(40);
+  EXPECT_GT(coarse.restitution, 0.93);  // 0.937
+  EXPECT_GT(fine.restitution, 0.96);    // 0.962
+  EXPECT_LT(fine.heat, 0.55 * coarse.heat);
+  EXPECT_LT(fine.heat, 0.018);
+  EXPECT_GT(coarse.clearance, 0.2);
+  EXPECT_GT(fine.clearance, 0.4);
+}
+
+/// A block of 10 x 6 cells on a slab that is inclined by 30 degrees (gravity is turned, not the slab); plane
+/// strain. Gravity grows over several vibrations of the block; the second half of the time counts. The
+/// impulse of the slab is that of the weight plus the vertical momentum, which is taken out of the balance
+/// along the slope.
+struct Slide {
+  double acceleration;  ///< mean, along the slope, over that of free fall
+  double distance;      ///< m
+};
+Slide slide(double friction, const std::string& normal = "separating") {
+  constexpr double dx = 1e-3, g = 1e6, angle = std::numbers::pi / 6, duration = 50e-6;
+  Problem problem;
+  problem.end = duration;
+  problem.domain =
+      "[domain]\nlower = [0, 0, 0]\nupper = [0.028, 0.013, 0.001]\ncell_size = 0.001\n"
+      "boundary = { x_lower = \"symmetry\", x_upper = \"symmetry\", y_lower = \"no_slip\", "
+      "z_lower = \"symmetry\", z_upper = \"symmetry\" }\n";
+  problem.contact = ContactOptions{.normal = normal, .friction = friction}.toml();
+  problem.bodies = {{"slab", elastic_aluminium(), box({0, 0, 0}, {28 * dx, 4 * dx, dx})},
+                    {"block", elastic_aluminium(), box({5.3 * dx, 4 * dx, 0}, {15.3 * dx, 10 * dx, dx})}};
+  solver::Simulation simulation(problem.read(), parallel::world());
+  simulation.set_external_acceleration([](const Particles&, std::size_t, double time) {
+    return Vector3(Vector3(g * std::sin(angle), -g * std::cos(angle), 0) *
+                   std::min(time / (0.3 * duration), 1.0));
+  });
+  run_to(simulation, 0.5 * duration);
+  const BodySums start = sums_of(simulation.particles(), 1, 0);
+  run_to(simulation, duration);
+  const BodySums block = sums_of(simulation.particles(), 1, 0);
+  const double fall = 0.5 * block.mass * g * duration;
+  const Vector3 gained = block.momentum - start.momentum;
+  const Slide result{(gained[0] + friction * gained[1]) / fall, block.centre[0] - start.centre[0]};
+  const solver::Ledger& ledger = simulation.state().ledger;
+  const solver::Totals& totals = simulation.totals();
+  const double energy =
+      (totals.energy() - ledger.initial.energy() - ledger.external_work) / ledger.external_work;
+  const double momentum = (totals.momentum - ledger.wall_impulse - ledger.external_impulse).norm() /
+                          ledger.external_impulse.norm();
+  std::printf(
+      "incline, %s, friction %.1f: acceleration %.5f g, exact %.5f; distance %.3e m; friction heat %.3e J; "
+      "energy "
+      "%.1e, momentum %.1e\n",
+      normal.c_str(), friction, result.acceleration,
+      std::max(std::sin(angle) - friction * std::cos(angle), 0.0), result.distance, ledger.friction_heat,
+      energy, momentum);
+  EXPECT_LT(std::abs(energy), 1e-12);
+  EXPECT_LT(momentum, 1e-12);
+  EXPECT_GE(ledger.contact_heat, 0.0);
+  EXPECT_GE(ledger.friction_heat, 0.0);
+  return result;
+}
+
+TEST(Contact, ABlockSlidesDownAnInclineAsFrictionLetsIt) {
+  const double sine = 0.5, cosine = std::sqrt(0.75);
+  EXPECT_NEAR(slide(0.0).acceleration, sine, 2e-4 * sine);
+  EXPECT_NEAR(slide(0.2).acceleration, sine - 0.2 * cosine, 2e-4 * sine);
+}
+
+TEST(Contact, ABlockSticksToAnInclineUnderTheAngleOfFriction) {
+  const double free_fall = 0.5 * 0.5e6 * (50e-6 * 50e-6 - 25e-6 * 25e-6);  // without friction
+  EXPECT_LT(std::abs(slide(0.7).distance), 5e-4 * free_fall);
+  EXPECT_LT(std::abs(slide(2.0).distance), 5e-4 * free_fall);
+}
+
+/// A sphere of aluminium at 5 km/s, oblique, on a plate of two layers, the edge of which it overlaps: three
+/// bodies meet.
+Problem impact(const Method& method, const ContactOptions& contact, const Vector3& boost = Vector3::Zero()) {
+  Problem problem;
+  problem.method = method;
+  problem.end = 2e-6;
+  problem.domain =
+      "[domain]\nlower = [-0.012, -0.012, -0.01]\nupper = [0.012, 0.012, 0.012]\ncell_size = 0.001\n";
+  problem.contact = contact.toml();
+  const std::string material = aluminium("contact_aluminium", "0.3 GPa");
+  problem.bodies = {
+      {"sphere", material, sphere({0.1e-3, 0.2e-3, -3.2e-3}, 3.1e-3), Vector3(1000, 0, 5000) + boost},
+      {"layer", material, box({-5e-3, -6e-3, 0}, {0.3e-3, 6e-3, 2e-3}), boost},
+      {"plate", material, box({0.3e-3, -6e-3, 0}, {6e-3, 6e-3, 2e-3}), boost}};
+  return problem;
+}
+
+TEST(Gravity, GivesItsMomentumToEveryBody) {
+  Problem problem = impact({}, {});
+  problem.more = "[gravity]\nacceleration = [0, 3e8, -1e8]\n";
+  solver::Simulation simulation(problem.read(), parallel::world());
+  const solver::Totals start = simulation.totals();
+  for (int step = 0; step < 5; ++step) simulation.advance(2e-6);
+  const solver::Totals& now = simulation.totals();
+  const solver::RunState& state = simulation.state();
+  const Vector3 given = now.mass * state.time * Vector3(0, 3e8, -1e8);
+  EXPECT_LT((now.momentum - start.momentum - given).norm(), 1e-12 * start.momentum_scale);
+  EXPECT_LT(state.ledger.momentum_error(now), 1e-12);
+  EXPECT_LT(std::abs(state.ledger.energy_error(now)), 1e-12);
+}
+
+TEST(Contact, KeepsMomentumAndEnergyInEveryMethod) {
+  const auto check = [](const Method& method, const ContactOptions& contact, bool exact_energy) {
+    solver::Simulation simulation(impact(method, contact).read(), parallel::world());
+    for (int step = 0; step < 30; ++step) simulation.advance(2e-6);
+    const solver::Ledger& ledger = simulation.state().ledger;
+    const std::string what =
+        method.scheme + " " + method.shape_function + " " + method.particle_update + " " + contact.normal;
+    EXPECT_LT(ledger.momentum_error(simulation.totals()), 1e-12) << what;
+    if (exact_energy) {
+      EXPECT_LT(std::abs(ledger.energy_error(simulation.totals())), 1e-12) << what;
+    }
+    EXPECT_GT(ledger.contact_impulse, 0.05 * ledger.initial.momentum_scale) << what;
+    EXPECT_GT(ledger.contact_heat, 0.0) << what;
+    EXPECT_EQ(ledger.friction_heat > 0.0, contact.friction > 0.0) << what;
+  };
+  for (const char* normal : {"collinear", "separating", "logistic_regression"}) {
+    check({}, {.normal = normal, .friction = 0.3}, true);
+  }
+  check({}, {.more = "gap_test = false\n"}, true);
+  check({}, {.friction = 0.3, .more = "everywhere = true\n"}, true);
+  check({.shape_function = "cubic_bspline", .particle_update = "apic"}, {.friction = 0.3}, true);
+  for (const char* shape : {"linear", "gimp", "convected_gimp"}) {
+    check({.shape_function = shape, .particle_update = "flip"}, {.friction = 0.3}, true);
+  }
+  for (const char* scheme : {"musl", "usl", "usf"}) {
+    check({.scheme = scheme, .shape_function = "gimp", .particle_update = "blend", .courant = 0.3},
+          {.friction = 0.3}, false);
+  }
+}
+
+// One step of the same bodies in another frame, contact and friction included.
+TEST(Contact, IsGalileanInvariant) {
+  constexpr double dt = 20e-9;
+  const ContactOptions contact{.friction = 0.3, .more = "gap = 0.5\n"};
+  const Vector3 boost(-3700.0, 1900.0, 800.0);
+  const auto stepped = [&](const Vector3& frame) {
+    solver::Simulation simulation(impact({}, contact, frame).read(), parallel::world());
+    simulation.advance(dt);
+    EXPECT_EQ(simulation.state().time, dt);
+    return simulation;
+  };
+  const solver::Simulation rest = stepped(Vector3::Zero()), moving = stepped(boost);
+  EXPECT_GT(rest.state().ledger.friction_heat, 0.0);
+  EXPECT_NEAR(moving.state().ledger.friction_heat, rest.state().ledger.friction_heat,
+              1e-9 * rest.state().ledger.friction_heat);
+  EXPECT_NEAR(moving.state().ledger.contact_heat, rest.state().ledger.contact_heat,
+              1e-9 * rest.state().ledger.contact_heat);
+  const Particles &a = rest.particles(), &b = moving.particles();
+  for (std::size_t p = 0; p < a.size(); ++p) {
+    EXPECT_LT((b.velocity[p] - boost - a.velocity[p]).norm(), 1e-8);
+    EXPECT_NEAR(b.specific_internal_energy[p], a.specific_internal_energy[p], 1e-3);
+  }
+}
+
+// Half of the bodies with a mirror plane through the contact equals both halves.
+TEST(Contact, AMirrorPlaneEqualsRealImages) {
+  for (const char* normal : {"collinear", "separating", "logistic_regression"}) {
+    const auto run = [&](bool half) {
+      Problem problem;
+      problem.end = 2e-6;
+      problem.domain = std::string("[domain]\nlower = [") + (half ? "0" : "-0.009") +
+                       ", -0.008, -0.009]\nupper = [0.009, 0.008, 0.006]\ncell_size = 0.001\n" +
+                       (half ? "boundary = { x_lower = \"symmetry\" }\n" : "");
+      problem.contact = ContactOptions{.normal = normal, .friction = 0.2}.toml();
+      const std::string material = aluminium("contact_aluminium", "0.3 GPa");
+      problem.bodies = {{"sphere", material, sphere({0, 0.2e-3, -3.2e-3}, 3.1e-3), {0, 500, 3000}},
+                        {"plate", material, box({-5e-3, -5e-3, 0}, {5e-3, 5e-3, 2e-3})}};
+      solver::Simulation simulation(problem.read(), parallel::world());
+      for (int step = 0; step < 30; ++step) simulation.advance(1e-5);
+      return std::pair(simulation.totals(), simulation.state().ledger);
+    };
+    const auto [half, half_ledger] = run(true);
+    const auto [full, full_ledger] = run(false);
+    EXPECT_NEAR(2 * half.kinetic_energy, full.kinetic_energy, 1e-10 * full.energy()) << normal;
+    EXPECT_NEAR(2 * half_ledger.contact_heat, full_ledger.contact_heat, 1e-9 * full_ledger.contact_heat)
+        << normal;
+    EXPECT_NEAR(2 * half_ledger.friction_heat, full_ledger.friction_heat, 1e-9 * full_ledger.friction_heat)
+        << normal;
+    EXPECT_NEAR(2 * half_ledger.contact_impulse, full_ledger.contact_impulse,
+                1e-9 * full_ledger.contact_impulse);
+    EXPECT_LT(half_ledger.momentum_error(half), 1e-12);
+    EXPECT_LT(std::abs(half_ledger.energy_error(half)), 1e-12);
+  }
+}
+
+TEST(Contact, DoesNotDependOnTheNumberOfThreads) {
+  const auto run = [](int threads) {
+    parallel::set_threads(threads);
+    solver::Simulation simulation(impact({}, {.normal = "logistic_regression", .friction = 0.3}).read(),
+                                  parallel::world());
+    for (int step = 0; step < 15; ++step) simulation.advance(2e-6);
+    parallel::set_threads(1);
+    return simulation.totals();
+  };
+  const solver::Totals one = run(1), three = run(3);
+  EXPECT_EQ(one.kinetic_energy, three.kinetic_energy);
+  EXPECT_EQ(one.internal_energy, three.internal_energy);
+  EXPECT_EQ(one.momentum, three.momentum);
+}
+
+/// Two blocks with a gap of 1.5 cells approach: each reaches the nodes of the other long before they touch.
+TEST(Contact, BodiesDoNotFeelOneAnotherBeforeTheyTouch) {
+  constexpr double dx = 1e-3, speed = 200.0, gap = 1.5e-3;
+  const auto run = [&](const std::string& contact,
+                       const std::function<void(const solver::Simulation&)>& look) {
+    Problem problem;
+    problem.end = 5e-6;
+    problem.domain = "[domain]\nlower = [-0.012, 0, 0]\nupper = " + vector3({0.012, dx, dx}) +
+                     "\ncell_size = 0.001\n" + column;
+    problem.contact = contact;
+    problem.bodies = {{"left", elastic_aluminium(), box({-8e-3, 0, 0}, {0, dx, dx}), {speed, 0, 0}},
+                      {"right", elastic_aluminium(), box({gap, 0, 0}, {8e-3, dx, dx}), {-speed, 0, 0}}};
+    solver::Simulation simulation(problem.read(), parallel::world());
+    run_to(simulation, 4.5e-6, look);
+  };
+  double first_touch = 0;
+  run(ContactOptions{}.toml(), [&](const solver::Simulation& s) {
+    const double before = s.state().time - s.state().time_step;
+    if (2 * speed * s.state().time < gap * (1 - 1e-9)) {
+      EXPECT_EQ(s.state().ledger.contact_impulse, 0.0) << s.state().time;
+    }
+    if (2 * speed * before > gap * (1 + 1e-9)) {
+      EXPECT_GT(s.state().ledger.contact_impulse, 0.0);
+    }
+    if (first_touch == 0 && s.state().ledger.contact_impulse > 0) first_touch = s.state().time;
+  });
+  EXPECT_NEAR(first_touch, gap / (2 * speed), 0.12e-6);  // within a step
+  double early = 0;
+  run(ContactOptions{.more = "gap_test = false\n"}.toml(), [&](const solver::Simulation& s) {
+    if (early == 0 && s.state().ledger.contact_impulse > 0) early = s.state().time;
+  });
+  EXPECT_LT(early, 0.2 * gap / (2 * speed));
+}
+
+// Far from one another, bodies have the same bits with and without velocity fields of their own; there and
+// where they meet, it makes no difference whether only the nodes that they share have several fields.
+TEST(Contact, FieldsElsewhereChangeNothing) {
+  const auto run = [](const std::string& contact, double distance, int steps) {
+    Problem problem = impact({}, {});
+    problem.contact = contact;
+    problem.bodies.pop_back();
+    problem.bodies[0].shape = sphere({0.1e-3, 0.2e-3, -3.2e-3 - distance}, 3.1e-3);
+    solver::Simulation simulation(problem.read(), parallel::world());
+    for (int step = 0; step < steps; ++step) simulation.advance(2e-6);
+    return simulation.totals();
+  };
+  const auto expect_same = [](const solver::Totals& a, const solver::Totals& b) {
+    EXPECT_EQ(a.kinetic_energy, b.kinetic_energy);
+    EXPECT_EQ(a.internal_energy, b.internal_energy);
+    EXPECT_EQ(a.momentum, b.momentum);
+  };
+  const ContactOptions contact{.friction = 0.2}, everywhere{.friction = 0.2, .more = "everywhere = true\n"};
+  expect_same(run(contact.toml(), 3.2e-3, 3), run("", 3.2e-3, 3));
+  expect_same(run(contact.toml(), 0.0, 25), run(everywhere.toml(), 0.0, 25));
+}
+
+}  // namespace
+}  // namespace whipple::verification
