@@ -399,6 +399,30 @@ TEST(Boundary, PrescribedVelocityBooksImpulseAndWork) {
   }
 }
 
+/// An element that a step turns inside out is named. Of its neighbours, two keep their volume, but not a
+/// positive Jacobian at every Gauss point.
+TEST(Inversion, IsReportedWithItsElement) {
+  for (const Quadrature quadrature : both) {
+    Body body(Solid{}.material(), fem::make_box(Vector3::Zero(), Vector3::Constant(3.0), {3, 3, 3}),
+              quadrature);
+    body.motion.mean.assign(body.mesh.nodes.size(), Vector3::Zero());
+    body.motion.end = body.motion.mean;
+    std::size_t corner = 0;  // element at the origin: its upper face goes through the lower one
+    for (std::size_t e = 0; e < 27; ++e) corner = body.mesh.elements.id[e] == 0 ? e : corner;
+    for (std::size_t a = 0; a < 8; ++a) {
+      const std::uint32_t node = body.mesh.elements.corners[corner][a];
+      if (body.mesh.nodes.position[node].z() < 0.5) body.motion.end[node] = Vector3(0, 0, 1.5);
+    }
+    const fem::DeformationReport report = fem::deform(body.mesh, body.motion, 1.0, stiffness, body.gradients);
+    EXPECT_EQ(report.inverted, quadrature == Quadrature::one_point ? 1U : 3U) << name(quadrature);
+    EXPECT_EQ(report.first_inverted, corner);
+    const fem::DeformationReport still =
+        fem::deform(body.mesh, {body.motion.mean, body.motion.mean}, 1.0, stiffness, body.gradients);
+    EXPECT_EQ(still.inverted, 0U);
+    EXPECT_EQ(still.first_inverted, fem::DeformationReport::none);
+  }
+}
+
 TEST(Heat, GivenAtNodesGoesToTheirElementsByMass) {
   for (const Quadrature quadrature : both) {
     Body body(Solid{}.material(), distorted_box(2, 1e-3, 0.2), quadrature);
