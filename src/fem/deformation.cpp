@@ -55,6 +55,18 @@ void count_inverted(const FourElements& four, unsigned positive, DeformationRepo
   }
 }
 
+/// What the plastic strain since the last step leaves of the hourglass forces (eq. 3.7); marks it as done.
+/// @param modulus  rho c^2
+Lanes return_factor(const FourElements& four, Elements& elements, const GaussPoints& points,
+                    const Columns<Lanes>& deviator, const Lanes& modulus) {
+  const Lanes strain = four.load(points.plastic_strain);
+  const Lanes increment = strain - four.load(elements.returned_plastic_strain);
+  four.store(elements.returned_plastic_strain, strain);
+  const Lanes overshoot = 0.8 * modulus * maximum(increment, Lanes{});  // 3 G dep of metals
+  const Lanes equivalent = sqrt(1.5 * contraction(deviator, deviator));
+  return select(overshoot > Lanes{}, equivalent / (equivalent + overshoot), broadcast(1.0));
+}
+
 template <HourglassControl::Kind kind>
 struct OnePoint {
   static constexpr bool viscous = kind == HourglassControl::Kind::viscous;
@@ -71,7 +83,8 @@ struct OnePoint {
 
     // Work of the stress (eq. 2.7) and of the hourglass forces (eq. 3.6), on the mean velocity.
     Columns<Lanes> mean = mean_gradient_times_volume(mean_velocity, beta);
-    Columns<Lanes> stress = deviator_at(points, four.index);
+    const Columns<Lanes> deviator = deviator_at(points, four.index);
+    Columns<Lanes> stress = deviator;
     add_to_diagonal(stress, mean_stress_at(points, four.index));
     const Lanes work = dt * contraction(stress, mean);
     mean = scaled(mean, per_volume);
@@ -85,10 +98,20 @@ struct OnePoint {
 
     // Hourglass forces of the next step (eq. 3.3, 3.4).
     const Columns<Lanes> l = scaled(mean_gradient_times_volume(end_velocity, beta), per_volume);
-    const Lanes frequency = root8 * four.load(points.sound_speed) * sqrt(beta.squared_norm()) * per_volume;
+    const Lanes sound_speed = four.load(points.sound_speed);
+    const Lanes frequency = root8 * sound_speed * sqrt(beta.squared_norm()) * per_volume;
     const double coefficient = 0.125 * root8 * step.hourglass.coefficient;
     const Lanes resistance =
         mass * frequency * (viscous ? broadcast(2.0 * coefficient) : (coefficient * dt) * frequency);
+    Lanes heat = hourglass_work;
+    if constexpr (!viscous) {
+      const Lanes returned =
+          return_factor(four, elements, points, deviator, mass * per_volume * sound_speed * sound_speed);
+      const Lanes stored = four.load(elements.hourglass_energy) + hourglass_work;
+      heat = (1.0 - returned * returned) * maximum(stored, Lanes{});
+      four.store(elements.hourglass_energy, stored - heat);
+      for (Triple<Lanes>& force : q) force = returned * force;
+    }
     for (std::size_t m = 0; m < 4; ++m) {
       const auto mode = hourglass_modes[m];
       if constexpr (viscous) {
@@ -104,10 +127,7 @@ struct OnePoint {
     four.store(points.length, one_point_length(end));
     store_gradient(step, four, four.index, with_volume_ratio(l, end.volume * per_volume, dt));
     four.store(points.specific_internal_energy,
-               four.load(points.specific_internal_energy) + (viscous ? work + hourglass_work : work) / mass);
-    if constexpr (!viscous) {
-      four.store(elements.hourglass_energy, four.load(elements.hourglass_energy) + hourglass_work);
-    }
+               four.load(points.specific_internal_energy) + (work + heat) / mass);
     report.work += four.sum(work);
     report.hourglass_work += four.sum(hourglass_work);
     count_inverted(four, bits(end.volume > 0.0), report);

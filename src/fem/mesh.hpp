@@ -70,6 +70,7 @@ struct Elements {
   std::vector<Corners> corners;
   std::vector<HourglassForce> hourglass_force;  ///< zero with Quadrature::b_bar
   std::vector<double> hourglass_energy;         ///< J, work against the stiffness of the hourglass modes
+  std::vector<double> returned_plastic_strain;  ///< up to which hourglass forces have returned (eq. 3.7)
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
 
@@ -77,7 +78,8 @@ struct Elements {
     using E = Elements;
     return std::make_tuple(Field{"id", "1", &E::id}, Field{"corners", "1", &E::corners},
                            Field{"hourglass_force", "N", &E::hourglass_force},
-                           Field{"hourglass_energy", "J", &E::hourglass_energy});
+                           Field{"hourglass_energy", "J", &E::hourglass_energy},
+                           Field{"returned_plastic_strain", "1", &E::returned_plastic_strain});
   }
 };
 

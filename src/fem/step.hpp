@@ -69,9 +69,10 @@ inline ConstraintBalance advance_velocities(Mesh& mesh, double dt, Motion& motio
 /// What the deformation of a step did to the elements.
 struct DeformationReport {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  double work = 0.0;            ///< J, of the stresses, into internal energy
-  double hourglass_work = 0.0;  ///< J, into hourglass energy (stiffness) or internal energy (viscous)
-  std::size_t inverted = 0;     ///< elements without positive volume (or Jacobian at a Gauss point)
+  double work = 0.0;  ///< J, of the stresses, into internal energy
+  double hourglass_work =
+      0.0;  ///< J, into hourglass energy (stiffness: heat where matter yields) or heat (viscous)
+  std::size_t inverted = 0;  ///< elements without positive volume (or Jacobian at a Gauss point)
   std::size_t first_inverted = none;
   DeformationReport& operator+=(const DeformationReport& other);
 };
