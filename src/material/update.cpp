@@ -242,12 +242,19 @@ void advance_strain(Step& step, Chunk& chunk) {
 /// Artificial viscosity (eq. 8): in compression only, none in failed matter beside an open void.
 void advance_viscosity(Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
-  for (std::size_t k = 0; k < chunk.size; ++k) {
-    const double closing = -chunk.motion.divergence[k] * settings.cell_size;  // l |D|, m/s
-    const double viscosity =
-        chunk.mass[k] / chunk.volume[k] * closing *
-        (settings.quadratic_viscosity * closing + settings.linear_viscosity * chunk.sound_speed[k]);
-    chunk.artificial_viscosity[k] = closing > 0.0 ? viscosity : 0.0;
+  const auto advance = [&](const auto& length) {
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      const double closing = -chunk.motion.divergence[k] * length(k);  // l |D|, m/s
+      const double viscosity =
+          chunk.mass[k] / chunk.volume[k] * closing *
+          (settings.quadratic_viscosity * closing + settings.linear_viscosity * chunk.sound_speed[k]);
+      chunk.artificial_viscosity[k] = closing > 0.0 ? viscosity : 0.0;
+    }
+  };
+  if (settings.lengths.empty()) {
+    advance([&](std::size_t) { return settings.cell_size; });
+  } else {
+    advance([&](std::size_t k) { return settings.lengths[chunk.index[k]]; });
   }
   if (!chunk.any_failed || !chunk.any_void) return;
   for (std::size_t k = 0; k < chunk.size; ++k) {

@@ -336,6 +336,31 @@ TEST(Viscosity, ActsInCompressionOnlyWithThePublishedForm) {
   EXPECT_EQ(points.artificial_viscosity[1], 0.0);
 }
 
+/// A length for every point of the set takes the place of the cell size, in ranges and in lists.
+TEST(Viscosity, TakesTheLengthOfEachPoint) {
+  const Material material = with(taylor_copper());
+  const std::size_t n = 300;
+  std::vector<double> lengths(n);
+  for (std::size_t i = 0; i < n; ++i) lengths[i] = 1e-3 + 1e-6 * static_cast<double>(i);
+  const std::vector<Matrix3> gradients(n, Matrix3(Vector3(-1e4, 0.0, 0.0).asDiagonal()));
+  MaterialPoints range = points_of(material, n), list = range;
+  UpdateSettings settings{.time_step = 1e-8};
+  settings.lengths = lengths;
+  update_material(material, range, 10, n, std::span(gradients).subspan(10), settings);
+  const std::vector<std::uint32_t> indices = {299, 3, 150};
+  update_material(material, list, indices, std::span(gradients).first(3), settings);
+  for (const std::uint32_t i : {3U, 150U, 299U}) {
+    MaterialPoints one = points_of(material, n);
+    update_material(material, one, i, i + 1, std::span(gradients).first(1),
+                    {.time_step = 1e-8, .cell_size = lengths[i]});
+    EXPECT_GT(one.artificial_viscosity[i], 0.0);
+    EXPECT_EQ(list.artificial_viscosity[i], one.artificial_viscosity[i]);
+    if (i >= 10) {
+      EXPECT_EQ(range.artificial_viscosity[i], one.artificial_viscosity[i]);
+    }
+  }
+}
+
 TEST(Ranges, ListsChunksAndThreadsGiveBitwiseTheSamePoints) {
   const Material material = with(taylor_copper());
   constexpr std::size_t n = 1000;
