@@ -18,12 +18,15 @@ namespace whipple {
 namespace libmvec {
 extern "C" {
 [[gnu::const]] __m256d _ZGVdN4v_exp(__m256d);
+[[gnu::const]] __m256d _ZGVdN4v_expm1(__m256d);
 [[gnu::const]] __m256d _ZGVdN4v_log(__m256d);
 [[gnu::const]] __m256d _ZGVdN4vv_pow(__m256d, __m256d);
 }
 }  // namespace libmvec
 
 inline Lanes exp(Lanes x) { return Lanes(libmvec::_ZGVdN4v_exp(__m256d(x))); }
+/// exp(x) - 1
+inline Lanes exp_minus_1(Lanes x) { return Lanes(libmvec::_ZGVdN4v_expm1(__m256d(x))); }
 /// Not `log`: that is the namespace of the messages (src/base/log.hpp).
 inline Lanes natural_log(Lanes x) { return Lanes(libmvec::_ZGVdN4v_log(__m256d(x))); }
 inline Lanes pow(Lanes x, Lanes y) { return Lanes(libmvec::_ZGVdN4vv_pow(__m256d(x), __m256d(y))); }

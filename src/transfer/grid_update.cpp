@@ -2,9 +2,10 @@
 #include "src/transfer/grid_update.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <map>
 
+#include "src/base/vector_math.hpp"
 #include "src/parallel/threads.hpp"
 
 namespace whipple::transfer {
@@ -54,6 +55,29 @@ bool is_result_of(const Node& node, const Node& brought, double dt) {
     if (velocity[c + 1] != node.first[c] || increment[c + 1] != node.second[c]) return false;
   }
   return true;
+}
+
+/// beta of the nodes of a block, four at a time; 0 where there is no mass.
+std::array<double, grid::nodes_per_block> relaxation_of(const Node* nodes, const Relaxation& relaxation,
+                                                        double rate) {
+  std::array<double, grid::nodes_per_block> beta;
+  if (relaxation.fixed >= 0.0) {
+    beta.fill(relaxation.fixed);
+    return beta;
+  }
+  for (std::size_t i = 0; i < beta.size(); i += 4) {
+    const Node* n = nodes + i;
+    const Lanes mass = {n[0].first[0], n[1].first[0], n[2].first[0], n[3].first[0]};
+    const Lanes carried = {n[0].second[0], n[1].second[0], n[2].second[0], n[3].second[0]};
+    const LanesMask massive = mass >= no_mass;
+    Lanes of_four{};
+    if (any(massive)) {
+      const Lanes sound_speed = carried / select(massive, mass, broadcast(1.0));
+      of_four = select(massive, -exp_minus_1(-rate * sound_speed), Lanes{});
+    }
+    store(&beta[i], of_four);
+  }
+  return beta;
 }
 
 struct Energies {
@@ -189,6 +213,7 @@ GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& re
     const std::size_t block = grid.owned_block(b);
     const std::size_t first = block * grid::nodes_per_block;
     const double mass_kept = grid.is_contact_block(block) ? 1.0 : 0.0;
+    const std::array<double, grid::nodes_per_block> betas = relaxation_of(&nodes[first], relaxation, rate);
     for (std::size_t i = first; i < first + grid::nodes_per_block; ++i) {
       Node& node = nodes[i];
       const double mass = node.first[0];
@@ -196,8 +221,7 @@ GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& re
         node = {broadcast(0.0), broadcast(0.0)};
         continue;
       }
-      const double beta =
-          relaxation.fixed >= 0.0 ? relaxation.fixed : -std::expm1(-rate * node.second[0] / mass);
+      const double beta = betas[i - first];
       const Lanes velocity = node.first / mass;
       const Lanes increment = node.second * (dt / mass);
       node.first = Lanes{velocity[1], velocity[2], velocity[3], beta};
