@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/base/parameter_table.hpp"
+#include "src/base/vector_math.hpp"
 #include "src/material/strength/radial_return.hpp"
 #include "src/material/strength/strength.hpp"
 
@@ -60,6 +61,13 @@ struct SteinbergGuinan {
     const double thermal = std::isnan(temperature) ? 0.0 : temperature_coefficient * (temperature - 300.0);
     return std::max(1e-3, 1.0 + pressure_coefficient * pressure / compression - thermal);
   }
+  /// The same of four points.
+  [[nodiscard]] Lanes stiffness_ratio(Lanes density, Lanes pressure, Lanes temperature) const {
+    const Lanes compression = exp(natural_log(density / reference_density) / 3.0);
+    const Lanes thermal =
+        select(temperature == temperature, temperature_coefficient * (temperature - 300.0), Lanes{});
+    return maximum(1.0 + pressure_coefficient * pressure / compression - thermal, broadcast(1e-3));
+  }
   /// At 300 K and no pressure, with its slope.
   [[nodiscard]] FlowStress hardening(double plastic_strain) const {
     const double base = 1.0 + hardening_coefficient * (plastic_strain + initial_plastic_strain);
@@ -88,16 +96,25 @@ class SteinbergGuinanModel final : public Strength {
 
   [[nodiscard]] std::string_view model() const override { return SteinbergGuinan::name; }
   void shear_modulus(const State& state, std::span<double> modulus) const override {
-    for (std::size_t i = 0; i < modulus.size(); ++i) {
-      modulus[i] = constants_.shear_modulus * ratio(state, i);
+    for (std::size_t i = 0; i < modulus.size(); i += 4) {
+      const std::size_t count = std::min<std::size_t>(4, modulus.size() - i);
+      const Lanes ratio = constants_.stiffness_ratio(load(&state.density[i], count, 1.0),
+                                                     load(&state.pressure[i], count, 0.0),
+                                                     load(&state.temperature[i], count, 0.0));
+      store(&modulus[i], constants_.shear_modulus * ratio, count);
     }
   }
+  /// @param modulus  as of `shear_modulus`, times the solid fraction
   void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
                          std::span<const double> solid_fraction, double,
                          std::span<double> increment) const override {
     for (std::size_t i = 0; i < trial.size(); ++i) {
-      increment[i] = constants_.increment(trial[i], state.plastic_strain[i], ratio(state, i), modulus[i],
-                                          solid_fraction[i]);
+      increment[i] = 0.0;
+      // Y >= Y_0 G/G_0: spares the powers of most elastic points.
+      if (trial[i] <= modulus[i] / constants_.shear_modulus * constants_.yield_stress) continue;
+      const double ratio = modulus[i] / (solid_fraction[i] * constants_.shear_modulus);
+      increment[i] =
+          constants_.increment(trial[i], state.plastic_strain[i], ratio, modulus[i], solid_fraction[i]);
     }
   }
   void flow_stress(const State& state, std::span<const double>, std::span<double> stress) const override {
