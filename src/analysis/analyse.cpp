@@ -266,6 +266,7 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
   append(values, axis_measures(last, start, run.bodies));
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
     append(values, spall_measures(first, last, frame, b, run.bodies[b]));
+    append(values, rod_measures(first, last, b, run.bodies[b], run.cell_size));
   }
   const double link = options.link > 0.0 ? options.link : run.cell_size;
   const std::vector<Fragment> fragments = find_fragments(last, frame, link);

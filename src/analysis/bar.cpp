@@ -123,6 +123,62 @@ Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Fra
       {fmt::format("largest_gap.{}", input.name), "m", "largest gap between particles along the axis", gap}};
 }
 
+Quantities rod_measures(const Snapshot& first, const Snapshot& last, std::size_t body, const BodyInput& input,
+                        double cell_size) {
+  constexpr double follows = 0.9;  // of the initial speed: matter that still flies with the rod
+  const double speed = input.velocity.norm();
+  if (!(speed > 0.0)) return {};
+  const Vector3 direction = input.velocity / speed;
+  // Mass in layers of a cell along the direction of flight, from the rearmost one on, and its momentum.
+  struct Layers {
+    double rear;
+    std::vector<double> mass, momentum;
+  };
+  const auto layers = [&](const Snapshot& snapshot) {
+    Layers result{std::numeric_limits<double>::infinity(), {}, {}};
+    const auto flies = [&](std::size_t i) {
+      return snapshot.body[i] == body && snapshot.velocity[i].dot(direction) > follows * speed;
+    };
+    for (std::size_t i = 0; i < snapshot.size(); ++i) {
+      if (flies(i)) result.rear = std::min(result.rear, snapshot.position[i].dot(direction));
+    }
+    result.rear -= 0.5 * input.spacing;
+    for (std::size_t i = 0; i < snapshot.size(); ++i) {
+      if (!flies(i)) continue;
+      const auto k =
+          static_cast<std::size_t>((snapshot.position[i].dot(direction) - result.rear) / cell_size);
+      if (k >= result.mass.size()) {
+        result.mass.resize(k + 1, 0.0);
+        result.momentum.resize(k + 1, 0.0);
+      }
+      result.mass[k] += snapshot.mass[i];
+      result.momentum[k] += snapshot.mass[i] * snapshot.velocity[i].dot(direction);
+    }
+    return result;
+  };
+  const Layers whole = layers(first), now = layers(last);
+  double total = 0.0;
+  for (const double mass : whole.mass) total += mass;
+  const double half_section = 0.5 * total / static_cast<double>(whole.mass.size());
+  std::size_t begin = 0;
+  while (begin < now.mass.size() && now.mass[begin] < half_section) ++begin;
+  std::size_t end = begin;
+  double mass = 0.0, momentum = 0.0;
+  for (; end < now.mass.size() && now.mass[end] >= half_section; ++end) {
+    mass += now.mass[end];
+    momentum += now.momentum[end];
+  }
+  const auto name = [&](const char* measure) { return fmt::format("{}.{}", measure, input.name); };
+  return {
+      {name("residual_length_ratio"), "1",
+       "length of what still flies with 0.9 of the initial speed, from the rear end on as far as it has half "
+       "of "
+       "the initial section, over the initial length",
+       static_cast<double>(end - begin) / static_cast<double>(whole.mass.size())},
+      {name("residual_speed_ratio"), "1", "its mean speed along the initial direction over the initial one",
+       mass > 0.0 ? momentum / mass / speed : nan}};
+}
+
 double pullback(const std::vector<double>& velocity) {
   const auto highest = std::ranges::max_element(velocity);
   if (highest == velocity.end()) return nan;

@@ -19,6 +19,10 @@ Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_
 Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Frame& frame, std::size_t body,
                           const BodyInput& input);
 
+/// What is left of a rod behind its target, along its direction of flight.
+Quantities rod_measures(const Snapshot& first, const Snapshot& last, std::size_t body, const BodyInput& input,
+                        double cell_size);
+
 /// Fall of a velocity from its greatest value to the following minimum (pull-back); NaN if it does not rise
 /// again by 1 % of the greatest value.
 double pullback(const std::vector<double>& velocity);

@@ -34,6 +34,8 @@ struct BodyKeys {
   std::string name;
   Vector3 velocity = Vector3::Zero();
   std::int64_t per_cell = 8;
+  std::string method = "particles";
+  double element_size = 0.0;  // 0: that of the cells
 };
 
 void read_domain(input::Table domain, Run& run) {
@@ -74,13 +76,20 @@ void read_bodies(input::Table root, Run& run) {
             vector("velocity", &BodyKeys::velocity, "m/s", range::any(), "initial velocity").optional()},
         body);
     if (auto discretization = table.optional_table("discretization")) {
-      discretization->read(ParameterTable<BodyKeys>{integer("per_cell", &BodyKeys::per_cell,
-                                                            range::between(1, 1000), "particles per cell")
-                                                        .optional()},
-                           body);
+      discretization->read(
+          ParameterTable<BodyKeys>{
+              integer("per_cell", &BodyKeys::per_cell, range::between(1, 1000), "particles per cell")
+                  .optional(),
+              text("method", &BodyKeys::method, "particles or elements").optional(),
+              real("element_size", &BodyKeys::element_size, "m", range::any(), "edge of the elements")
+                  .optional()},
+          body);
     }
-    run.bodies.push_back(
-        {body.name, body.velocity, run.cell_size / std::cbrt(static_cast<double>(body.per_cell))});
+    // An element counts as the eight particles that it may become.
+    const double spacing = body.method == "particles"
+                               ? run.cell_size / std::cbrt(static_cast<double>(body.per_cell))
+                               : 0.5 * (body.element_size > 0.0 ? body.element_size : run.cell_size);
+    run.bodies.push_back({body.name, body.velocity, spacing});
   }
 }
 
@@ -174,6 +183,56 @@ std::vector<double> Snapshot::volumes() const {
   return volume;
 }
 
+namespace {
+
+/// Appends the elements of the snapshot: eight points for each, at the natural coordinates (+-0.5)^3, with
+/// shares of its mass and the fields of its particles.
+void append_elements(const fs::path& path, Snapshot& snapshot) {
+  const hdf5::File file = hdf5::File::open(path);
+  const hdf5::Group vtk = file.root.open_group("VTKHDF");
+  const hdf5::Group data = vtk.open_group("CellData");
+  const std::vector<std::uint64_t> id = data.open_dataset("id").read_all<std::uint64_t>();
+  if (id.empty()) return;
+  std::vector<std::uint32_t> order(id.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
+  const std::vector<std::int64_t> corners = vtk.open_dataset("Connectivity").read_all<std::int64_t>();
+  const std::vector<float> points = vtk.open_dataset("Points").read_all<float>();
+  const std::vector<float> velocities =
+      vtk.open_group("PointData").open_dataset("velocity").read_all<float>();
+  const std::vector<std::uint16_t> body = data.open_dataset("body").read_all<std::uint16_t>();
+  const std::vector<double> mass = as_reals(data, "mass", order);
+  const auto corner = [&](std::size_t k, std::size_t axis) {
+    constexpr std::array<std::array<int, 3>, 8> signs = {
+        {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
+    return signs[k][axis];
+  };
+  for (std::size_t e = 0; e < order.size(); ++e) {
+    for (std::size_t k = 0; k < 8; ++k) {
+      Vector3 x = Vector3::Zero(), v = Vector3::Zero();
+      for (std::size_t a = 0; a < 8; ++a) {
+        double weight = 1.0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          weight *= corner(a, axis) == corner(k, axis) ? 0.75 : 0.25;
+        const auto node = static_cast<std::size_t>(corners[8 * order[e] + a]);
+        x += weight * Eigen::Map<const Eigen::Vector3f>(points.data() + 3 * node).cast<double>();
+        v += weight * Eigen::Map<const Eigen::Vector3f>(velocities.data() + 3 * node).cast<double>();
+      }
+      snapshot.position.push_back(x);
+      snapshot.velocity.push_back(v);
+      snapshot.mass.push_back(0.125 * mass[e]);
+      snapshot.body.push_back(body[order[e]]);
+      snapshot.id.push_back(8 * id[order[e]] + k);
+    }
+  }
+  for (auto& [name, values] : snapshot.scalars) {
+    const std::vector<double> of_elements = as_reals(data, name, order);
+    for (const double value : of_elements) values.insert(values.end(), 8, value);
+  }
+}
+
+}  // namespace
+
 Snapshot read_snapshot(const SnapshotEntry& entry) {
   const hdf5::File file = hdf5::File::open(entry.file);
   const hdf5::Group vtk = file.root.open_group("VTKHDF");
@@ -193,6 +252,12 @@ Snapshot read_snapshot(const SnapshotEntry& entry) {
     if (name == "id" || name == "mass" || name == "body") continue;
     if (data.open_dataset(name).shape().size() == 1) snapshot.scalars[name] = as_reals(data, name, order);
   }
+  std::string elements = entry.file.filename().string();
+  const std::size_t kind = elements.rfind(".particles.");
+  if (kind == std::string::npos) return snapshot;
+  elements.replace(kind, 11, ".elements.");
+  const fs::path with_elements = entry.file.parent_path() / elements;
+  if (fs::exists(with_elements)) append_elements(with_elements, snapshot);
   return snapshot;
 }
 

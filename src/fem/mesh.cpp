@@ -197,6 +197,7 @@ Mesh make_mesh(const Hexahedra& hexahedra, Quadrature quadrature, std::uint32_t 
   for (auto* zero : {&mesh.nodes.velocity, &mesh.nodes.force, &mesh.nodes.prescribed}) {
     std::ranges::fill(*zero, Vector3::Zero());
   }
+  std::ranges::fill(mesh.nodes.affine_velocity, Matrix3::Zero());
   std::ranges::fill(mesh.elements.hourglass_force, HourglassForce::Zero());
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const Modes<double> x = modes(mesh.nodes.position, mesh.elements.corners[e]);

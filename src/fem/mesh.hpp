@@ -51,14 +51,21 @@ struct Nodes {
   std::vector<std::uint8_t> constrained;  ///< bits of fem::constraint
   std::vector<Vector3> prescribed;        ///< m/s, velocity along the constrained directions
 
+  // Of coupled runs (docs/theory/afemp.md); 0 by themselves.
+  std::vector<Matrix3> affine_velocity;     ///< 1/s, of nodes that move with the grid
+  std::vector<std::uint8_t> on_surface;     ///< on a face of one element only
+  std::vector<std::uint8_t> in_transition;  ///< moves with the grid in the present step
+
   [[nodiscard]] std::size_t size() const { return mass.size(); }
 
   static constexpr auto fields() {
     using N = Nodes;
-    return std::make_tuple(Field{"id", "1", &N::id}, Field{"mass", "kg", &N::mass},
-                           Field{"position", "m", &N::position}, Field{"velocity", "m/s", &N::velocity},
-                           Field{"force", "N", &N::force}, Field{"constrained", "1", &N::constrained},
-                           Field{"prescribed", "m/s", &N::prescribed});
+    return std::make_tuple(
+        Field{"id", "1", &N::id}, Field{"mass", "kg", &N::mass}, Field{"position", "m", &N::position},
+        Field{"velocity", "m/s", &N::velocity}, Field{"force", "N", &N::force},
+        Field{"constrained", "1", &N::constrained}, Field{"prescribed", "m/s", &N::prescribed},
+        Field{"affine_velocity", "1/s", &N::affine_velocity}, Field{"on_surface", "1", &N::on_surface},
+        Field{"in_transition", "1", &N::in_transition});
   }
 };
 

@@ -37,6 +37,8 @@ struct ViscosityCoefficients {
 /// the longitudinal sound speed and the element's length, xi of the artificial viscosity (eq. 5.1 to 5.4).
 /// Needs lengths (`make_mesh`, `deform`) and states. Infinite without elements.
 double critical_time_step(const Mesh& mesh, const ViscosityCoefficients& viscosity);
+/// The same for one element.
+double critical_time_step(const Mesh& mesh, std::size_t element, const ViscosityCoefficients& viscosity);
 
 /// Forces of stresses and hourglass control on the nodes, into `nodes.force` (eq. 2.6, 3.5, 4.2).
 void internal_forces(Mesh& mesh);

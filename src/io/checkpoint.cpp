@@ -43,6 +43,16 @@ struct Numbers<Matrix3> {
   using Type = double;
   static constexpr std::uint64_t columns = 9;
 };
+template <>
+struct Numbers<fem::HourglassForce> {
+  using Type = double;
+  static constexpr std::uint64_t columns = 12;
+};
+template <>
+struct Numbers<fem::Corners> {
+  using Type = std::uint32_t;
+  static constexpr std::uint64_t columns = 8;
+};
 template <class Value>
 constexpr std::uint64_t width() {
   constexpr std::uint64_t columns = Numbers<Value>::columns == 0 ? 1 : Numbers<Value>::columns;
@@ -52,14 +62,16 @@ constexpr std::uint64_t width() {
 
 const hdf5::Storage checksummed{.fletcher32 = true};
 
-void write_particles(const hdf5::Group& group, const Particles& particles, const Ranks& ranks) {
-  const std::uint64_t n = particles.size();
+/// All fields of particles, nodes, elements or Gauss points.
+template <class Points>
+void write_points(const hdf5::Group& group, const Points& points, const Ranks& ranks) {
+  const std::uint64_t n = points.size();
   const std::vector<std::uint64_t> counts = ranks.gather(n);
   const hdf5::Slab slab{std::accumulate(counts.begin(), counts.begin() + ranks.rank(), std::uint64_t{0}), n,
                         std::accumulate(counts.begin(), counts.end(), std::uint64_t{0})};
   group.set_attribute("count", static_cast<std::int64_t>(slab.total));
-  for_each_field<Particles>([&](const auto& field) {
-    const auto& values = particles.*(field.values);
+  for_each_field<Points>([&](const auto& field) {
+    const auto& values = points.*(field.values);
     using Value = typename std::decay_t<decltype(values)>::value_type;
     using Number = typename Numbers<Value>::Type;
     if (field.optional) {  // in use on some rank: on all, those without particles included
@@ -77,11 +89,12 @@ void write_particles(const hdf5::Group& group, const Particles& particles, const
 
 /// The fields of the file must be those of the program: one that is missing has no value (optional ones were
 /// not in use), one that is unknown would be lost.
+template <class Points>
 void require_fields(const hdf5::Group& group) {
   const std::vector<std::string> found = group.names();
   std::set<std::string> unknown(found.begin(), found.end());
   std::vector<std::string> missing;
-  for_each_field<Particles>([&](const auto& field) {
+  for_each_field<Points>([&](const auto& field) {
     if (unknown.erase(field.name) == 0 && !field.optional) missing.emplace_back(field.name);
   });
   if (missing.empty() && unknown.empty()) return;
@@ -92,17 +105,18 @@ void require_fields(const hdf5::Group& group) {
   throw InputError(message);
 }
 
-void read_particles(const hdf5::Group& group, Particles& particles, const Ranks& ranks) {
-  require_fields(group);
+template <class Points>
+void read_points(const hdf5::Group& group, Points& points, const Ranks& ranks) {
+  require_fields<Points>(group);
   const auto total = static_cast<std::uint64_t>(group.integer_attribute("count"));
   const auto rank = static_cast<std::uint64_t>(ranks.rank());
   const auto count = static_cast<std::uint64_t>(ranks.count());
   const std::uint64_t first = total * rank / count;
   const hdf5::Slab slab{first, total * (rank + 1) / count - first, total};
-  resize(particles, slab.count);
+  resize(points, slab.count);
   const std::vector<std::string> found = group.names();
-  for_each_field<Particles>([&](const auto& field) {
-    auto& values = particles.*(field.values);
+  for_each_field<Points>([&](const auto& field) {
+    auto& values = points.*(field.values);
     if (field.optional) {
       if (std::ranges::find(found, field.name) == found.end()) return;
       values.resize(slab.count);
@@ -117,6 +131,35 @@ void read_particles(const hdf5::Group& group, Particles& particles, const Ranks&
     array.read_rows<Number>({reinterpret_cast<Number*>(values.data()), slab.count * width<Value>()}, slab,
                             width<Value>());
   });
+}
+
+/// Groups "0", "1", ..., one per mesh.
+void write_meshes(const hdf5::Group& group, std::span<const fem::Mesh> meshes, const Ranks& ranks) {
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const fem::Mesh& mesh = meshes[m];
+    const hdf5::Group of_mesh = group.create_group(std::to_string(m));
+    of_mesh.set_attribute("body", static_cast<std::int64_t>(mesh.body));
+    of_mesh.set_attribute("points_per_element",
+                          static_cast<std::int64_t>(fem::points_per_element(mesh.quadrature)));
+    write_points(of_mesh.create_group("nodes"), mesh.nodes, ranks);
+    write_points(of_mesh.create_group("elements"), mesh.elements, ranks);
+    write_points(of_mesh.create_group("points"), mesh.points, ranks);
+  }
+}
+
+std::vector<fem::Mesh> read_meshes(const hdf5::Group& group, const Ranks& ranks) {
+  std::vector<fem::Mesh> meshes(group.names().size());
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    fem::Mesh& mesh = meshes[m];
+    const hdf5::Group of_mesh = group.open_group(std::to_string(m));
+    mesh.body = static_cast<std::uint32_t>(of_mesh.integer_attribute("body"));
+    mesh.quadrature = of_mesh.integer_attribute("points_per_element") == 1 ? fem::Quadrature::one_point
+                                                                           : fem::Quadrature::b_bar;
+    read_points(of_mesh.open_group("nodes"), mesh.nodes, ranks);
+    read_points(of_mesh.open_group("elements"), mesh.elements, ranks);
+    read_points(of_mesh.open_group("points"), mesh.points, ranks);
+  }
+  return meshes;
 }
 
 /// Texts and arrays are data sets with their name as an attribute: names may hold any character ("mass.a/b").
@@ -220,7 +263,8 @@ std::vector<fs::path> list_checkpoints(const fs::path& folder) {
 }
 
 fs::path write_checkpoint(const fs::path& folder, std::int64_t step, const Particles& particles,
-                          const CheckpointValues& values, MPI_Comm communicator) {
+                          const CheckpointValues& values, MPI_Comm communicator,
+                          std::span<const fem::Mesh> meshes) {
   const Ranks ranks(communicator);
   ranks.on_root([&] {
     std::error_code error;
@@ -233,7 +277,8 @@ fs::path write_checkpoint(const fs::path& folder, std::int64_t step, const Parti
 
   hdf5::File file =
       hdf5::File::create(partial, hdf5::File::Compatibility::checksummed, seal_size, ranks.communicator());
-  write_particles(file.root.create_group("particles"), particles, ranks);
+  write_points(file.root.create_group("particles"), particles, ranks);
+  if (!meshes.empty()) write_meshes(file.root.create_group("meshes"), meshes, ranks);
   write_values(file.root.create_group("values"), values, ranks);
   file.close();
 
@@ -251,7 +296,11 @@ Checkpoint read_checkpoint(const fs::path& path, MPI_Comm communicator) {
   const hdf5::File file = hdf5::File::open(path, hdf5::File::Access::read, ranks.communicator());
   Checkpoint checkpoint;
   checkpoint.path = path;
-  read_particles(file.root.open_group("particles"), checkpoint.particles, ranks);
+  read_points(file.root.open_group("particles"), checkpoint.particles, ranks);
+  const std::vector<std::string> groups = file.root.names();
+  if (std::ranges::find(groups, "meshes") != groups.end()) {
+    checkpoint.meshes = read_meshes(file.root.open_group("meshes"), ranks);
+  }
   checkpoint.values = read_values(file.root.open_group("values"));
   checkpoint.values.source = path.string();
   return checkpoint;

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "src/fem/mesh.hpp"
 #include "src/particles/particles.hpp"
 
 namespace whipple::io {
@@ -32,6 +34,7 @@ struct CheckpointValues {
 
 struct Checkpoint {
   Particles particles;
+  std::vector<fem::Mesh> meshes;  ///< of the bodies of elements; `fem::connect` must follow
   CheckpointValues values;
   std::filesystem::path path;
 };
@@ -42,10 +45,13 @@ struct Checkpoint {
 /// name, forced to disk, renamed; then all but the two newest checkpoints are removed. Collective. Matrices
 /// are stored column by column.
 /// @param values must be the same on every rank
+/// @param meshes of this rank; each rank's share of the nodes and elements is read back as a whole by one
+/// rank
 /// @throws InputError if the file cannot be written
 std::filesystem::path write_checkpoint(const std::filesystem::path& folder, std::int64_t step,
                                        const Particles& particles, const CheckpointValues& values,
-                                       MPI_Comm communicator = MPI_COMM_WORLD);
+                                       MPI_Comm communicator = MPI_COMM_WORLD,
+                                       std::span<const fem::Mesh> meshes = {});
 
 /// Reads one checkpoint; every rank gets an equal share of consecutive particles. The digest is compared
 /// before HDF5 sees the file, so that damage of any kind is recognised. Collective.

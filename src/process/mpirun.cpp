@@ -4,8 +4,6 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include <string_view>
-
 #include "src/base/log.hpp"
 #include "src/process/paths.hpp"
 
@@ -28,23 +26,6 @@ int mpirun(int ranks, const std::vector<std::string>& program, const Environment
   }
   log::detail("{}", fmt::join(arguments, " "));
   return run_process(arguments, all);
-}
-
-int run_alone(const std::vector<std::string>& program, const Environment& environment) {
-  std::vector<std::string> arguments = {"env"};
-  for (char** variable = environ; *variable != nullptr; ++variable) {
-    const std::string_view entry(*variable);
-    const std::string_view name = entry.substr(0, entry.find('='));
-    // What Open MPI and its runtime tell the ranks of a program about it.
-    if (name.starts_with("OMPI_") || name.starts_with("PMIX_") || name.starts_with("ORTE_") ||
-        name.starts_with("PRTE_")) {
-      arguments.insert(arguments.end(), {"-u", std::string(name)});
-    }
-  }
-  arguments.push_back(find_executable(program.front()).string());
-  arguments.insert(arguments.end(), program.begin() + 1, program.end());
-  log::detail("{}", fmt::join(arguments, " "));
-  return run_process(arguments, environment);
 }
 
 }  // namespace whipple::process

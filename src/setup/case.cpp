@@ -15,6 +15,7 @@
 #include "src/io/output_fields.hpp"
 #include "src/material/material_file.hpp"
 #include "src/setup/seeding.hpp"
+#include "src/setup/shapes/mesh_shape.hpp"
 
 namespace whipple::setup {
 
@@ -49,6 +50,10 @@ ParameterTable<TimeControl> TimeControl::parameters() {
           .optional(),
       real("acceleration_limit", &TimeControl::acceleration_limit, "", range::positive(),
            "largest acceleration * dt^2 as a share of the cell size")
+          .optional(),
+      real("element_safety", &TimeControl::element_safety, "",
+           {.lower = 0.0, .upper = 1.0, .lower_open = true},
+           "time step of finite elements as a share of their bound of stability")
           .optional(),
       choice("scheme", &TimeControl::scheme, {"symplectic", "musl", "usl", "usf"},
              "symplectic: exact energy (default); for comparison with other codes: modified update stress "
@@ -168,16 +173,6 @@ ParameterTable<Gravity> Gravity::parameters() {
   return {vector("acceleration", &Gravity::acceleration, "m/s^2", range::any(), "of all matter").optional()};
 }
 
-ParameterTable<Discretization> Discretization::parameters() {
-  return {choice("method", &Discretization::method, {"particles"}, "how the body is represented").optional(),
-          integer("per_cell", &Discretization::per_cell, range::between(1, 1000),
-                  "particles per full cell: 1, 8, 27 or 64")
-              .optional(),
-          boolean("partial_volumes", &Discretization::partial_volumes,
-                  "particles at curved surfaces take the part of their volume that lies in the body")
-              .optional()};
-}
-
 ParameterTable<Body> Body::parameters() {
   return {text("name", &Body::name, "name of the body in output files"),
           text("material", &Body::material, "material file: a path, or a name in the library"),
@@ -264,13 +259,22 @@ void read_body(Case& setup, input::Table table, std::set<std::string>& names,
       discretization->error_at("per_cell", fmt::format("'per_cell' is {}, expected a cube: 1, 8, 27, 64",
                                                        body.discretization.per_cell));
     }
+    check_elements(setup, body.discretization, *discretization);
+  }
+  if (auto conversion = table.optional_table("conversion")) {
+    conversion->read(Conversion::parameters(), body.conversion);
+  }
+  for (input::Table& condition : table.list("node_condition")) {
+    condition.read(NodeCondition::parameters(), body.node_conditions.emplace_back());
+    if (!body.discretization.has_elements()) condition.error("a body of particles has no nodes");
   }
   auto initial = table.optional_table("initial");
   if (initial) initial->read(InitialState::parameters(), body.initial);
   if (auto scatter = table.optional_table("failure_scatter")) {
     scatter->read(FailureScatter::parameters(), body.failure_scatter);
   }
-  body.shape = read_shape(table);
+  body.shape =
+      body.discretization.mesh.empty() ? read_shape(table) : read_mesh_shape(body.discretization, table);
   std::shared_ptr<const Material> material;
   if (!body.material.empty()) {
     auto& known = materials[body.material];
@@ -441,7 +445,9 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   setup.gauges = read_gauges(root);
   if (complete) {
     for (const std::string& fault : gauge_faults(setup.gauges, setup.geometry, [&](const Vector3& point) {
-           return std::ranges::any_of(setup.bodies, [&](const Body& b) { return b.shape->contains(point); });
+           return std::ranges::any_of(setup.bodies, [&](const Body& b) {
+             return !b.discretization.has_elements() && b.shape->contains(point);
+           });
          })) {
       root.error(fault);
     }
@@ -470,6 +476,10 @@ std::vector<std::uint8_t> Case::contact_fields() const {
   return fields;
 }
 
+bool Case::has_elements() const {
+  return std::ranges::any_of(bodies, [](const Body& body) { return body.discretization.has_elements(); });
+}
+
 Case read_case(const std::filesystem::path& path,
                const std::vector<std::pair<std::string, std::string>>& overrides) {
   return read(input::Document::from_file(path), overrides);
@@ -495,10 +505,17 @@ std::string to_toml(const Case& setup, const std::vector<std::string>& material_
     Body body = setup.bodies[b];
     body.material = material_of_body[b];
     text += "\n[[body]]\n" + whipple::to_toml(whipple::bind(Body::parameters(), body));
-    text += fmt::format("discretization = {{ method = {}, per_cell = {}, partial_volumes = {} }}\n",
-                        toml_string(body.discretization.method), body.discretization.per_cell,
-                        body.discretization.partial_volumes);
-    text += fmt::format("shape = {}\n", body.shape->toml());
+    if (body.discretization.mesh.empty()) text += fmt::format("shape = {}\n", body.shape->toml());
+    text += "[body.discretization]\n" +
+            whipple::to_toml(whipple::bind(Discretization::parameters(), body.discretization));
+    if (body.discretization.converts()) {
+      text +=
+          "[body.conversion]\n" + whipple::to_toml(whipple::bind(Conversion::parameters(), body.conversion));
+    }
+    for (NodeCondition& condition : body.node_conditions) {
+      text += "[[body.node_condition]]\n" +
+              whipple::to_toml(whipple::bind(NodeCondition::parameters(), condition));
+    }
     if (body.initial.given()) {
       text += "[body.initial]\n" + whipple::to_toml(whipple::bind(InitialState::parameters(), body.initial));
     }
@@ -527,6 +544,9 @@ std::string describe_case() {
   text += "\n[output]\n" + describe_table(OutputControl::parameters());
   text += "\n[[body]]\n" + describe_table(Body::parameters());
   text += "\n[body.discretization]\n" + describe_table(Discretization::parameters());
+  text += "\n[body.conversion], of adaptive bodies\n" + describe_table(Conversion::parameters());
+  text +=
+      "\n[[body.node_condition]], of bodies with elements\n" + describe_table(NodeCondition::parameters());
   text += "\n[body.initial], at most two of\n" + describe_table(InitialState::parameters());
   text += "\n[body.failure_scatter]\n" + describe_table(FailureScatter::parameters());
   text += "\n[[gauge]]\n" + describe_table(Gauge::parameters());

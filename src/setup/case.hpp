@@ -12,6 +12,7 @@
 #include "src/grid/geometry.hpp"
 #include "src/material/material.hpp"
 #include "src/setup/body_state.hpp"
+#include "src/setup/discretization.hpp"
 #include "src/setup/gauges.hpp"
 #include "src/setup/shapes/shape.hpp"
 
@@ -33,6 +34,7 @@ struct TimeControl {
   double courant = 0.5;
   double maximum_growth = 1.05;
   double acceleration_limit = 0.1;
+  double element_safety = 0.9;
   std::string scheme = "symplectic";
   std::string stress_rotation = "hughes_winget";
   static ParameterTable<TimeControl> parameters();
@@ -95,13 +97,6 @@ struct HeatControl {
   static ParameterTable<HeatControl> parameters();
 };
 
-struct Discretization {
-  std::string method = "particles";
-  std::int64_t per_cell = 8;
-  bool partial_volumes = false;
-  static ParameterTable<Discretization> parameters();
-};
-
 struct Body {
   std::string name;
   std::string material;  ///< file as written in the case
@@ -111,6 +106,8 @@ struct Body {
   Vector3 angular_velocity = Vector3::Zero();
   std::string contact_group;
   Discretization discretization;
+  Conversion conversion;
+  std::vector<NodeCondition> node_conditions;
   InitialState initial;
   FailureScatter failure_scatter;
   std::shared_ptr<const Shape> shape;
@@ -137,6 +134,7 @@ struct Case {
 
   /// Velocity field of each body: bodies of one contact group share it, any other body has its own.
   [[nodiscard]] std::vector<std::uint8_t> contact_fields() const;
+  [[nodiscard]] bool has_elements() const;
 
   static ParameterTable<Case> parameters();
 };

@@ -8,6 +8,9 @@
 #include <cmath>
 #include <optional>
 
+#include "src/base/error.hpp"
+#include "src/setup/meshing.hpp"
+
 namespace whipple::setup {
 namespace {
 
@@ -173,6 +176,13 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
                             setup.geometry.lower[a], setup.geometry.upper(a))});
       }
     }
+    if (body.discretization.has_elements()) {
+      try {
+        static_cast<void>(hexahedra_of(setup, body));
+      } catch (const InputError& error) {
+        faults.push_back({b, error.what()});
+      }
+    }
     const Lattice lattice = lattice_of(setup, body);
     if (setup.transfer.shape_function == "gimp" &&
         lattice.spacing.maxCoeff() > (1.0 + 1e-9) * setup.geometry.cell_size) {
@@ -221,6 +231,11 @@ Seeding seed(const Case& setup, int rank, int ranks) {
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Body& body = setup.bodies[b];
     const Material& material = *setup.materials[b];
+    if (body.discretization.has_elements()) {
+      use_fields(material, particles);  // of those that its elements may become
+      seeding.bodies.push_back({.first = particles.size()});
+      continue;
+    }
     const Lattice lattice = lattice_of(setup, body);
     std::size_t total = 0;
     double total_share = 0;
@@ -271,6 +286,16 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     first_id += total;
     summary.shape_mass = density * body.shape->volume();
     seeding.bodies.push_back(summary);
+  }
+  if (setup.has_elements()) {
+    seeding.meshes = make_meshes(setup, first_id, seeding.wall_impulse);
+    for (const fem::Mesh& mesh : seeding.meshes) {
+      setup::BodySummary& summary = seeding.bodies[mesh.body];
+      const Material& material = *setup.materials[mesh.body];
+      summary.mass = fem::totals(mesh).mass;
+      summary.shape_mass = body_density(material, setup.bodies[mesh.body].initial.of(material)) *
+                           setup.bodies[mesh.body].shape->volume();
+    }
   }
   return seeding;
 }

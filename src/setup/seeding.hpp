@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "src/fem/mesh.hpp"
 #include "src/particles/particles.hpp"
 #include "src/setup/case.hpp"
 
@@ -33,13 +34,15 @@ struct BodySummary {
 struct Seeding {
   Particles particles;  ///< sorted by body, ids from 0
   std::vector<BodySummary> bodies;
+  std::vector<fem::Mesh> meshes;           ///< of the bodies with finite elements
+  Vector3 wall_impulse = Vector3::Zero();  ///< N s, see `make_meshes`
 };
 
-/// Fills the bodies with particles on lattices that fit each body's bounding box, as near as possible to the
-/// wanted number per cell; a particle at the surface is whole if its centre lies in the body, or, with
-/// `partial_volumes`, the part of its box that does. Parts of a body beyond a symmetry plane or wall are left
-/// out (quarter models). Of `ranks` processes each makes an equal share of every body; ids are the same for
-/// any number of them.
+/// Fills the bodies of elements with their meshes (`make_meshes`), the others with particles on lattices that
+/// fit each body's bounding box, as near as possible to the wanted number per cell; a particle at the surface
+/// is whole if its centre lies in the body, or, with `partial_volumes`, the part of its box that does. Parts
+/// of a body beyond a symmetry plane or wall are left out (quarter models). Of `ranks` processes each makes
+/// an equal share of every body; ids are the same for any number of them.
 Seeding seed(const Case& setup, int rank = 0, int ranks = 1);
 
 }  // namespace whipple::setup

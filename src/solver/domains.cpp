@@ -101,6 +101,9 @@ void Simulation::split_particles() {
     // New particles take the numbers above all present ones, rank by rank.
     std::uint64_t largest = 0;
     for (const std::uint64_t id : particles_.id) largest = std::max(largest, id);
+    for (const fem::Mesh& mesh : meshes_) {  // whose elements may become particles, eight each
+      for (const std::uint64_t id : mesh.elements.id) largest = std::max(largest, 8 * id + 7);
+    }
     largest = static_cast<std::uint64_t>(parallel::maximum(communicator_, static_cast<double>(largest)));
     std::vector<double> count(static_cast<std::size_t>(parallel::size(communicator_)), 0.0);
     const auto rank = static_cast<std::size_t>(parallel::rank(communicator_));

@@ -47,7 +47,7 @@ void Simulation::find_free_flight() {
     return particles_.failed[p] != 0 && particles_.pressure[p] == 0.0 &&
            particles_.artificial_viscosity[p] == 0.0;
   };
-  grid_.count_cells(particles_.position);
+  grid_.count_cells(particles_.position, transition_.position);
   for (std::uint32_t p = 0; p < particles_.size(); ++p) {
     if (without_stress(p) && grid_.is_alone(p, particles_.position[p])) flying_.push_back(p);
   }

@@ -17,6 +17,7 @@ Totals& Totals::operator+=(const Totals& other) {
   kinetic_energy += other.kinetic_energy;
   affine_kinetic_energy += other.affine_kinetic_energy;
   internal_energy += other.internal_energy;
+  hourglass_energy += other.hourglass_energy;
   return *this;
 }
 
@@ -70,6 +71,23 @@ Totals totals_of(const Particles& particles, double affine_inertia) {
   });
 }
 
+Totals totals_of(const fem::Mesh& mesh, double affine_inertia) {
+  const fem::MeshTotals of_mesh = fem::totals(mesh);
+  const fem::Nodes& nodes = mesh.nodes;
+  return {.mass = of_mesh.mass,
+          .momentum = of_mesh.momentum,
+          .momentum_scale = of_mesh.momentum_scale,
+          .kinetic_energy = of_mesh.kinetic_energy,
+          .affine_kinetic_energy = parallel::sum<double>(nodes.size(),
+                                                         [&](std::size_t a) {
+                                                           if (nodes.in_transition[a] == 0) return 0.0;
+                                                           return 0.5 * nodes.mass[a] * affine_inertia *
+                                                                  nodes.affine_velocity[a].squaredNorm();
+                                                         }),
+          .internal_energy = of_mesh.internal_energy,
+          .hourglass_energy = of_mesh.hourglass_energy};
+}
+
 void Ledger::add(const Ledger& step) {
   outflow += step.outflow;
   wall_impulse += step.wall_impulse;
@@ -81,6 +99,8 @@ void Ledger::add(const Ledger& step) {
   friction_heat += step.friction_heat;
   contact_impulse += step.contact_impulse;
   friction_impulse += step.friction_impulse;
+  converted_mass += step.converted_mass;
+  conversion_heat += step.conversion_heat;
   clamped_to_cold_curve += step.clamped_to_cold_curve;
   limited_volume_changes += step.limited_volume_changes;
   limited_domains += step.limited_domains;
@@ -88,7 +108,8 @@ void Ledger::add(const Ledger& step) {
 
 double Ledger::energy_error(const Totals& now) const {
   const double scale = std::abs(initial.kinetic_energy) + std::abs(initial.affine_kinetic_energy) +
-                       std::abs(initial.internal_energy);
+                       std::abs(initial.internal_energy) + std::abs(initial.hourglass_energy) +
+                       std::abs(external_work);
   return (now.energy() + outflow.energy() - initial.energy() - external_work) / std::max(scale, 1e-300);
 }
 
@@ -103,13 +124,17 @@ PhaseMasses& PhaseMasses::operator+=(const PhaseMasses& other) {
   return *this;
 }
 
-std::vector<PhaseMasses> phase_masses(const Particles& particles, std::size_t bodies) {
+std::vector<PhaseMasses> phase_masses(const Particles& particles, std::span<const fem::Mesh> meshes,
+                                      std::size_t bodies) {
   std::vector<PhaseMasses> result(bodies);
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    PhaseMasses& of_body = result[particles.body[p]];
-    const io::Phase phase = io::phase(particles.melted_fraction[p], particles.vaporised_fraction[p]);
-    of_body.mass[static_cast<std::size_t>(phase)] += particles.mass[p];
-    if (particles.failed[p] != 0) of_body.failed += particles.mass[p];
+  const auto add = [&](const MaterialPoints& points, std::size_t p, std::size_t body) {
+    const io::Phase phase = io::phase(points.melted_fraction[p], points.vaporised_fraction[p]);
+    result[body].mass[static_cast<std::size_t>(phase)] += points.mass[p];
+    if (points.failed[p] != 0) result[body].failed += points.mass[p];
+  };
+  for (std::size_t p = 0; p < particles.size(); ++p) add(particles, p, particles.body[p]);
+  for (const fem::Mesh& mesh : meshes) {
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) add(mesh.points, i, mesh.body);
   }
   return result;
 }

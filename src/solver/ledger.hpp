@@ -8,22 +8,26 @@
 #include <type_traits>
 #include <vector>
 
+#include "src/fem/mesh.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/particles/particles.hpp"
 
 /// What is conserved, and where it went.
 namespace whipple::solver {
 
-/// Sums over a set of particles (SI).
+/// Sums over a set of particles and elements (SI).
 struct Totals {
   double mass = 0.0;
   Vector3 momentum = Vector3::Zero();
   double momentum_scale = 0.0;         ///< sum m |v|, to judge momentum errors by
-  double kinetic_energy = 0.0;         ///< of the particles' own velocities
+  double kinetic_energy = 0.0;         ///< of the particles' and nodes' own velocities
   double affine_kinetic_energy = 0.0;  ///< of their affine fields: m inertia |C|^2 / 2
   double internal_energy = 0.0;
+  double hourglass_energy = 0.0;  ///< stored in the hourglass modes of elements
 
-  [[nodiscard]] double energy() const { return kinetic_energy + affine_kinetic_energy + internal_energy; }
+  [[nodiscard]] double energy() const {
+    return kinetic_energy + affine_kinetic_energy + internal_energy + hourglass_energy;
+  }
   Totals& operator+=(const Totals& other);
 };
 
@@ -39,6 +43,7 @@ void for_each_number(T& totals, Function&& f) {
   f("kinetic_energy", totals.kinetic_energy);
   f("affine_kinetic_energy", totals.affine_kinetic_energy);
   f("internal_energy", totals.internal_energy);
+  f("hourglass_energy", totals.hourglass_energy);
 }
 
 /// Of one particle.
@@ -46,6 +51,8 @@ void for_each_number(T& totals, Function&& f) {
 Totals totals_of(const Particles& particles, std::size_t p, double affine_inertia);
 /// Of all particles of this rank; bitwise independent of the number of threads.
 Totals totals_of(const Particles& particles, double affine_inertia);
+/// Of the elements of a mesh and their nodes; bitwise independent of the number of threads.
+Totals totals_of(const fem::Mesh& mesh, double affine_inertia);
 
 /// Books everything that enters and leaves, so that at every time
 /// energy = initial - outflow + external work, momentum = initial - outflow + impulse of walls and external
@@ -55,13 +62,15 @@ struct Ledger {
   Totals outflow;
   Vector3 wall_impulse = Vector3::Zero();      ///< N s, by mirror planes and walls
   Vector3 external_impulse = Vector3::Zero();  ///< N s, by an external acceleration
-  double external_work = 0.0;                  ///< J, of the same
+  double external_work = 0.0;                  ///< J, of the same, and of nodes with prescribed velocities
   double work = 0.0;                           ///< J, stress on strain, into internal energy
   double transfer_heat = 0.0;                  ///< J, kinetic energy lost in transfers, into internal energy
   double contact_heat = 0.0;      ///< J, lost by the normal impulses of contact, into internal energy
   double friction_heat = 0.0;     ///< J, lost by its tangential impulses, into internal energy
   double contact_impulse = 0.0;   ///< N s, sum of the normal impulses (equal and opposite on two bodies)
   double friction_impulse = 0.0;  ///< N s, sum of the tangential impulses
+  double converted_mass = 0.0;    ///< kg, of elements that became particles
+  double conversion_heat = 0.0;   ///< J, kinetic energy that this took, into internal energy
   double clamped_to_cold_curve =
       0.0;  ///< evaluations below the cold curve (temperature clamped, energy kept)
   double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
@@ -94,6 +103,8 @@ void for_each_number(L& ledger, Function&& f) {
   f("friction_heat", ledger.friction_heat);
   f("contact_impulse", ledger.contact_impulse);
   f("friction_impulse", ledger.friction_impulse);
+  f("converted_mass", ledger.converted_mass);
+  f("conversion_heat", ledger.conversion_heat);
   f("clamped_to_cold_curve", ledger.clamped_to_cold_curve);
   f("limited_volume_changes", ledger.limited_volume_changes);
   f("limited_domains", ledger.limited_domains);
@@ -116,8 +127,9 @@ struct PhaseMasses {
   double failed = 0.0;           ///< kg
   PhaseMasses& operator+=(const PhaseMasses& other);
 };
-/// Of the particles of this rank, one entry per body.
-std::vector<PhaseMasses> phase_masses(const Particles& particles, std::size_t bodies);
+/// Of the particles of this rank and the elements, one entry per body.
+std::vector<PhaseMasses> phase_masses(const Particles& particles, std::span<const fem::Mesh> meshes,
+                                      std::size_t bodies);
 /// Collective.
 void sum_over_ranks(MPI_Comm communicator, std::vector<PhaseMasses>& by_body);
 

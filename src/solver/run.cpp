@@ -18,6 +18,7 @@
 #include "src/base/machine.hpp"
 #include "src/base/progress.hpp"
 #include "src/base/text.hpp"
+#include "src/io/element_series.hpp"
 #include "src/io/history.hpp"
 #include "src/io/particle_series.hpp"
 #include "src/io/run_directory.hpp"
@@ -116,17 +117,23 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
   const Totals& t = simulation.totals();
   const Particles& particles = simulation.particles();
   const std::vector<setup::Body>& bodies = simulation.setup().bodies;
-  std::vector<PhaseMasses> by_body = phase_masses(particles, bodies.size());
+  std::vector<PhaseMasses> by_body = phase_masses(particles, simulation.meshes(), bodies.size());
   sum_over_ranks(simulation.communicator(), by_body);
   PhaseMasses all;
   for (const PhaseMasses& body : by_body) all += body;
-  const auto largest = [&](const std::vector<double>& values) {
-    return parallel::maximum(values.size(), -std::numeric_limits<double>::infinity(),
-                             [&](std::size_t p) { return values[p]; });
+  const auto largest = [](const std::vector<double>& values, double so_far) {
+    return parallel::maximum(values.size(), so_far, [&](std::size_t p) { return values[p]; });
   };
-  std::array<double, 3> maxima = {
-      parallel::maximum(particles.size(), 0.0, [&](std::size_t p) { return particles.velocity[p].norm(); }),
-      largest(particles.pressure), largest(particles.temperature)};
+  const auto fastest = [](const std::vector<Vector3>& velocity, double so_far) {
+    return parallel::maximum(velocity.size(), so_far, [&](std::size_t p) { return velocity[p].norm(); });
+  };
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  std::array<double, 3> maxima = {fastest(particles.velocity, 0.0), largest(particles.pressure, none),
+                                  largest(particles.temperature, none)};
+  for (const fem::Mesh& mesh : simulation.meshes()) {
+    maxima = {fastest(mesh.nodes.velocity, maxima[0]), largest(mesh.points.pressure, maxima[1]),
+              largest(mesh.points.temperature, maxima[2])};
+  }
   parallel::maximum(simulation.communicator(), maxima);
   std::vector<io::HistoryValue> row = {
       {"step", "", static_cast<double>(state.step)},
@@ -164,6 +171,12 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
       {"limited_volume_changes", "1", state.ledger.limited_volume_changes},
       {"particles", "1", static_cast<double>(simulation.particle_count())},
   };
+  if (simulation.setup().has_elements()) {
+    row.push_back({"elements", "1", static_cast<double>(simulation.element_count())});
+    row.push_back({"converted_mass", "kg", state.ledger.converted_mass});
+    row.push_back({"conversion_heat", "J", state.ledger.conversion_heat});
+    row.push_back({"hourglass_energy", "J", t.hourglass_energy});
+  }
   static constexpr std::array<const char*, 4> phases = {"mass_solid", "mass_melting", "mass_liquid",
                                                         "mass_vapour"};
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -184,25 +197,45 @@ std::string profile_as_json(Simulation& simulation, double wall_seconds) {
                          {"threads", parallel::threads()},
                          {"steps", simulation.state().step},
                          {"particles", simulation.particle_count()},
+                         {"elements", simulation.element_count()},
                          {"bytes_of_first_rank", simulation.bytes()},
                          {"stages", stages}})
       .dump(2);
 }
 
-io::ParticleSeries open_series(const setup::Case& setup, const io::RunDirectory& directory,
-                               const fs::path& folder, MPI_Comm communicator) {
-  io::ParticleSeriesOptions options{.folder = folder,
-                                    .name = directory.name(),
-                                    .fields = setup.output.fields,
-                                    .material_of_body = {},
-                                    .provenance = {{"input", io::read_text(directory.input_file())}}};
+io::SeriesOptions series_options(const setup::Case& setup, const io::RunDirectory& directory,
+                                 const fs::path& folder) {
+  io::SeriesOptions options{.folder = folder,
+                            .name = directory.name(),
+                            .fields = setup.output.fields,
+                            .material_of_body = {},
+                            .provenance = {{"input", io::read_text(directory.input_file())}}};
   // Bodies of one material share its number: that of its first body.
   for (const auto& material : setup.materials) {
     const auto first = std::ranges::find(setup.materials, material);
     options.material_of_body.push_back(static_cast<std::uint16_t>(first - setup.materials.begin()));
   }
-  return io::ParticleSeries(std::move(options), communicator);
+  return options;
 }
+
+/// The series of snapshots of a run.
+struct Snapshots {
+  io::ParticleSeries particles;
+  std::optional<io::ElementSeries> elements;  // of cases with bodies of elements
+
+  Snapshots(const setup::Case& setup, const io::RunDirectory& directory, const fs::path& folder)
+      : particles(series_options(setup, directory, folder), parallel::world()) {
+    if (setup.has_elements()) elements.emplace(series_options(setup, directory, folder));
+  }
+  void restart(double time) {
+    particles.restart(time);
+    if (elements) elements->restart(time);
+  }
+  void write(const Simulation& simulation) {
+    particles.write(simulation.particles(), simulation.state().time);
+    if (elements) elements->write(simulation.meshes(), simulation.state().time);
+  }
+};
 
 /// The loop of a run and everything that it writes.
 class Runner {
@@ -213,7 +246,7 @@ class Runner {
         ranks_(ranks),
         wall_time_(options.wall_time),
         simulation_(setup, parallel::world()),
-        series_(open_series(setup, directory, directory.path(), parallel::world())),
+        series_(setup, directory, directory.path()),
         recorder_(setup.gauges.all(), simulation_.particles(), parallel::world()) {
     if (ranks_.is_root()) {
       history_.emplace(directory.history_file());
@@ -230,8 +263,8 @@ class Runner {
         ranks_(ranks),
         wall_time_(options.wall_time),
         simulation_(setup, std::move(checkpoint.particles), from_checkpoint(checkpoint.values),
-                    parallel::world()),
-        series_(open_series(setup, directory, directory.path(), parallel::world())),
+                    parallel::world(), std::move(checkpoint.meshes)),
+        series_(setup, directory, directory.path()),
         recorder_(setup.gauges.all(), checkpoint.values),
         snapshots_(checkpoint.values.integer("snapshots")) {
     ranks_.on_root([&] {
@@ -338,8 +371,7 @@ class Runner {
     const fs::path folder = directory_.path() / "failed";
     try {
       write_checkpoint(folder);
-      open_series(simulation_.setup(), directory_, folder, simulation_.communicator())
-          .write(simulation_.particles(), simulation_.state().time);
+      Snapshots(simulation_.setup(), directory_, folder).write(simulation_);
       return fmt::format("the state is saved in {}", folder.string());
     } catch (const InputError& error) {
       return fmt::format("the state could not be saved: {}", error.what());
@@ -347,7 +379,7 @@ class Runner {
   }
 
   void write_snapshot() {
-    series_.write(simulation_.particles(), simulation_.state().time);
+    series_.write(simulation_);
     const double every = simulation_.setup().output.snapshot_every;
     // The next multiple of the interval, also when a step was longer than it.
     snapshots_ =
@@ -360,7 +392,7 @@ class Runner {
     recorder_.to_checkpoint(values);
     values.texts["run_name"] = directory_.name();
     const fs::path path = io::write_checkpoint(folder, simulation_.state().step, simulation_.particles(),
-                                               values, simulation_.communicator());
+                                               values, simulation_.communicator(), simulation_.meshes());
     log::detail("checkpoint {}", path.string());
   }
 
@@ -380,15 +412,15 @@ class Runner {
       log::info("clamped: temperature below the cold curve {} times, volume change of a step {} times",
                 state.ledger.clamped_to_cold_curve, state.ledger.limited_volume_changes);
     }
-    log::info("wrote {} ({} snapshots: open {} in ParaView)", directory_.path().string(), series_.size(),
-              series_.index_path().string());
+    log::info("wrote {} ({} snapshots: open {} in ParaView)", directory_.path().string(),
+              series_.particles.size(), series_.particles.index_path().string());
   }
 
   io::RunDirectory directory_;
   io::Ranks ranks_;
   double wall_time_;  // s, 0: no limit
   Simulation simulation_;
-  io::ParticleSeries series_;
+  Snapshots series_;
   GaugeRecorder recorder_;
   std::optional<io::History> history_;  // on the root
   std::optional<io::History> gauges_;   // on the root
@@ -408,6 +440,7 @@ int run(const RunOptions& options) {
   if (options.restart) {
     const fs::path input = options.output_directory / "run.toml";
     setup::Case setup = setup::read_case(input, options.overrides);
+    require_runnable(setup, ranks.count());
     setup::tabulate_materials(setup, ranks);
     io::Checkpoint checkpoint =
         io::read_latest_checkpoint(options.output_directory / "checkpoint", parallel::world());
@@ -426,6 +459,7 @@ int run(const RunOptions& options) {
     return runner.run();
   }
   setup::Case setup = setup::read_case(options.case_file, options.overrides);
+  require_runnable(setup, ranks.count());
   require_memory(setup, parallel::world());
   setup::tabulate_materials(setup, ranks);
   const io::RunDirectory directory =
@@ -440,6 +474,7 @@ std::string check(const RunOptions& options) {
   const MPI_Comm communicator = parallel::world();
   set_threads(options.threads, communicator);
   const setup::Case setup = setup::read_case(options.case_file, options.overrides);
+  require_runnable(setup, parallel::size(communicator));
   require_memory(setup, communicator);
   Simulation simulation(setup, communicator);
   std::string text = fmt::format("{}\n{}\n\n", setup.file.string(), setup.title);
@@ -447,8 +482,13 @@ std::string check(const RunOptions& options) {
                       setup.geometry.cells[1], setup.geometry.cells[2], 1e3 * setup.geometry.cell_size);
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const setup::BodySummary& body = simulation.bodies()[b];
-    text += fmt::format("body \"{}\" of {}: {} particles, {:.6g} g in the domain; whole shape {:.6g} g\n",
-                        setup.bodies[b].name, setup.materials[b]->name, body.count, 1e3 * body.mass,
+    std::string parts = fmt::format("{} particles", body.count);
+    for (const fem::Mesh& mesh : simulation.meshes()) {
+      if (mesh.body == b)
+        parts = fmt::format("{} elements, {} nodes", mesh.elements.size(), mesh.nodes.size());
+    }
+    text += fmt::format("body \"{}\" of {}: {}, {:.6g} g in the domain; whole shape {:.6g} g\n",
+                        setup.bodies[b].name, setup.materials[b]->name, parts, 1e3 * body.mass,
                         1e3 * body.shape_mass);
   }
   const std::size_t particles = simulation.particle_count();
@@ -468,9 +508,11 @@ std::string check(const RunOptions& options) {
       "time step: {:.4g} ns at the start; about {:.0f} steps to t = {:.6g} us, more as shocks raise "
       "the sound speed\n",
       1e9 * simulation.state().time_step, steps, 1e6 * setup.time.end);
-  text += fmt::format("estimated time: {} on {} threads ({:.0f} ns per particle and step, measured)\n",
-                      format_duration(steps * per_step), parallel::threads(),
-                      1e9 * per_step / static_cast<double>(particles));
+  const std::size_t carriers = particles + simulation.element_count();
+  text +=
+      fmt::format("estimated time: {} on {} threads ({:.0f} ns per particle{} and step, measured)\n",
+                  format_duration(steps * per_step), parallel::threads(),
+                  1e9 * per_step / static_cast<double>(carriers), setup.has_elements() ? " or element" : "");
   return text;
 }
 

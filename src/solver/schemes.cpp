@@ -6,13 +6,16 @@
 namespace whipple::solver {
 
 void step_symplectic(Simulation& s, double until) {
-  s.begin_step(until);        // (6.1) dt from c, |v|, |a|
-  s.split_particles();        // (2.5)-(2.7) if asked for
-  s.bin_particles();          // blocks follow the matter
-  s.conduct_heat();           // e, if the case asks for it (docs/theory/conduction.md)
-  s.map_particles_to_grid();  // (3.1)-(3.3) m, (mv)^n, f^n on nodes
-  s.advance_grid();           // (3.4)-(3.5) v^{n+1} = v^n + dt f^n / m
-  s.map_grid_to_particles();  // (4.2)-(4.8) v, C, x, e at n+1; grad v^{n+1}
+  s.adapt_elements();          // distorted elements become particles (docs/theory/afemp.md)
+  s.begin_step(until);         // (6.1) dt from c, |v|, |a|
+  s.split_particles();         // (2.5)-(2.7) if asked for
+  s.compute_element_forces();  // f^n of elements on their nodes (docs/theory/fem.md)
+  s.bin_particles();           // blocks follow the matter
+  s.conduct_heat();            // e, if the case asks for it (docs/theory/conduction.md)
+  s.map_particles_to_grid();   // (3.1)-(3.3) m, (mv)^n, f^n on nodes
+  s.advance_grid();            // (3.4)-(3.5) v^{n+1} = v^n + dt f^n / m
+  s.map_grid_to_particles();   // (4.2)-(4.8) v, C, x, e at n+1; grad v^{n+1}
+  s.advance_elements();        // v, x, e and grad v^{n+1} of nodes and elements (docs/theory/afemp.md)
   s.update_material(Simulation::EnergyUpdate::by_work_identity);  // stress, p, T, phase at n+1
   s.reflect_and_remove();                                         // walls; outflow is counted
   s.end_step();                                                   // ledger of energy and momentum

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/afemp/transition.hpp"
 #include "src/base/error.hpp"
 #include "src/base/vector_math.hpp"
 #include "src/material/update.hpp"
@@ -54,24 +55,33 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
       shape_(transfer::shape_function(setup.transfer.shape_function)),
       communicator_(communicator),
       grid_(setup.geometry, communicator) {
+  require_runnable(setup_, parallel::size(communicator_));
   setup::Seeding seeding = setup::seed(setup, parallel::rank(communicator), parallel::size(communicator));
   particles_ = std::move(seeding.particles);
   bodies_ = std::move(seeding.bodies);
+  meshes_ = std::move(seeding.meshes);
+  for (fem::Mesh& mesh : meshes_) afemp::mark_surface(mesh);
   if (affine_field(setup_.transfer) == transfer::AffineField::none)
     std::ranges::fill(particles_.affine_velocity, Matrix3::Zero().eval());
   prepare();
   state_.ledger.initial = totals_;
+  // Planes have stopped the nodes on them: their momentum was there before.
+  state_.ledger.initial.momentum -= seeding.wall_impulse;
+  state_.ledger.wall_impulse += seeding.wall_impulse;
 }
 
 Simulation::Simulation(const setup::Case& setup, Particles particles, const RunState& state,
-                       MPI_Comm communicator)
+                       MPI_Comm communicator, std::vector<fem::Mesh> meshes)
     : setup_(setup),
       shape_(transfer::shape_function(setup.transfer.shape_function)),
       communicator_(communicator),
       particles_(std::move(particles)),
+      meshes_(std::move(meshes)),
       bodies_(setup.bodies.size()),
       grid_(setup.geometry, communicator),
       state_(state) {
+  require_runnable(setup_, parallel::size(communicator_));
+  for (fem::Mesh& mesh : meshes_) fem::connect(mesh);
   require_fields();
   sort_by_body(particles_);  // checkpoints hold the particles of several ranks one after the other
   find_bodies(particles_, bodies_);
@@ -109,6 +119,7 @@ void Simulation::require_fields() const {
 /// Totals of all ranks, and what the step did to them.
 void Simulation::sum_over_ranks() {
   totals_ = totals_of(particles_, affine_inertia());
+  for (const fem::Mesh& mesh : meshes_) totals_ += totals_of(mesh, affine_inertia());
   auto count = static_cast<double>(particles_.size());
   solver::sum_over_ranks(communicator_, totals_, step_);
   parallel::sum(communicator_, std::span(&count, 1));
@@ -119,6 +130,11 @@ void Simulation::sum_over_ranks() {
 
 double Simulation::affine_inertia() const {
   return transfer::affine_inertia(shape_, setup_.domain.cell_size);
+}
+
+/// Of the fields that the particles of this case carry: 0 without affine fields.
+double Simulation::particle_affine_inertia() const {
+  return affine_field(setup_.transfer) == transfer::AffineField::none ? 0.0 : affine_inertia();
 }
 
 void Simulation::advance(double until) {
@@ -133,13 +149,20 @@ void Simulation::advance(double until) {
   }
 }
 
+/// For what moves with the grid; infinite if nothing does.
+double Simulation::grid_time_step() const {
+  const auto fastest = [](const auto& points) {
+    return parallel::maximum(points.size(), 0.0, [&](std::size_t p) {
+      return points.sound_speed[p] + points.velocity[p].cwiseAbs().maxCoeff();
+    });
+  };
+  const double speed = parallel::maximum(communicator_, std::max(fastest(particles_), fastest(transition_)));
+  return setup_.time.courant * setup_.domain.cell_size / speed;
+}
+
 double Simulation::stable_time_step() const {
-  const double speed = parallel::maximum(particles_.size(), 0.0, [&](std::size_t p) {
-    return particles_.sound_speed[p] + particles_.velocity[p].cwiseAbs().maxCoeff();
-  });
   const double dx = setup_.domain.cell_size;
-  double dt = setup_.time.courant * dx / parallel::maximum(communicator_, speed);
-  dt = std::min(dt, diffusive_time_step());
+  double dt = std::min({grid_time_step(), diffusive_time_step(), element_time_step()});
   if (state_.maximum_acceleration > 0.0) {
     dt = std::min(dt, std::sqrt(setup_.time.acceleration_limit * dx / state_.maximum_acceleration));
   }
@@ -171,7 +194,7 @@ double Simulation::diffusive_time_step() const {
 
 void Simulation::begin_step(double until) {
   profile_.time("time step", [&] {
-    if (particle_count_ == 0) throw StateError("all particles have left the domain");
+    if (particle_count_ == 0 && element_count() == 0) throw StateError("all matter has left the domain");
     double dt = stable_time_step();
     if (!(dt > 0.0) || !std::isfinite(dt)) {
       throw StateError(
@@ -193,10 +216,10 @@ void Simulation::bin_particles() {
     if (setup_.transfer.random_shift) shift_grid();
     const double lookahead = lookahead_steps * state_.time_step;
     const grid::Stencil stencil = transfer::stencil(shape_);
-    if (!grid_.bin(particles_.position, stencil)) follow_particles(lookahead, stencil);
+    if (!bin(stencil)) follow_particles(lookahead, stencil);
     if (state_.step % sort_every == 0) {
       sort_particles();
-      if (!grid_.bin(particles_.position, stencil)) follow_particles(lookahead, stencil);
+      if (!bin(stencil)) follow_particles(lookahead, stencil);
     }
     if (setup_.transfer.free_flight) find_free_flight();
     separate_fields();
@@ -210,16 +233,35 @@ void Simulation::bin_particles() {
   });
 }
 
-/// Blocks where the particles are and will be; particles on the rank that owns their block.
+/// Particles, and nodes of elements as guests.
+bool Simulation::bin(grid::Stencil stencil) {
+  return grid_.bin(particles_.position, stencil, transition_.position);
+}
+
+/// Blocks where the particles and guests are and will be; particles on the rank that owns their block.
 void Simulation::follow_particles(double lookahead, grid::Stencil stencil) {
-  grid_.adapt(particles_.position, particles_.velocity, lookahead, stencil);
+  std::vector<Vector3> all_positions, all_velocities;
+  const auto with_guests = [](std::span<const Vector3> particles, std::span<const Vector3> guests,
+                              std::vector<Vector3>& all) {
+    if (guests.empty()) return particles;
+    all.assign(particles.begin(), particles.end());
+    all.insert(all.end(), guests.begin(), guests.end());
+    return std::span<const Vector3>(all);
+  };
+  const auto positions = [&] {
+    return with_guests(particles_.position, transition_.position, all_positions);
+  };
+  const auto velocities = [&] {
+    return with_guests(particles_.velocity, transition_.velocity, all_velocities);
+  };
+  grid_.adapt(positions(), velocities(), lookahead, stencil);
   const std::vector<int> owners = grid_.owners(particles_.position);
   if (migrate(particles_, owners, communicator_)) {
     velocity_gradient_.resize(particles_.size());
     find_bodies(particles_, bodies_);
   }
-  grid_.activate(particles_.position, particles_.velocity, lookahead, stencil);
-  if (!grid_.bin(particles_.position, stencil)) {
+  grid_.activate(positions(), velocities(), lookahead, stencil, transition_.size());
+  if (!bin(stencil)) {
     throw InternalError("adaptation left a particle without its blocks");
   }
 }
@@ -255,8 +297,10 @@ void Simulation::conduct_heat() {
 }
 
 void Simulation::map_particles_to_grid() {
-  profile_.time("particles to grid",
-                [&] { transfer::particles_to_grid(shape_, particles_, grid_, external_acceleration_); });
+  profile_.time("particles to grid", [&] {
+    transfer::particles_to_grid(shape_, particles_, grid_, external_acceleration_);
+    if (transition_.size() > 0) transfer::nodes_to_grid(shape_, transition_, grid_);
+  });
   if (!contact_) return;
   profile_.time("contact", [&] { contact_->find_surfaces(shape_, particles_, grid_); });
 }
@@ -283,6 +327,9 @@ void Simulation::map_grid_to_particles() {
     step_.work += balance.work;
     step_.transfer_heat += balance.heat;
     step_.external_work += balance.external_work;
+    if (transition_.size() > 0) {
+      transfer::grid_to_nodes(shape_, transition_, grid_, state_.time_step, affine_field(setup_.transfer));
+    }
     for (const std::uint32_t p : flying_) {
       particles_.position[p] += state_.time_step * particles_.velocity[p];
       velocity_gradient_[p].setZero();
@@ -330,33 +377,45 @@ void Simulation::update_material(EnergyUpdate energy) {
                                                   : material::StressRotation::hughes_winget,
                                   .time = state_.time + state_.time_step};
     std::string error;
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      const setup::BodySummary& body = bodies_[b];
-      const Material& material = *setup_.materials[b];
-      std::vector<MaterialReport> reports((body.count + parallel::chunk_size - 1) / parallel::chunk_size);
-      parallel::for_each_chunk(body.count, [&](std::size_t begin, std::size_t end) {
-        const std::span<const Matrix3> gradients =
-            std::span<const Matrix3>(velocity_gradient_).subspan(body.first + begin, end - begin);
+    // The points [first, first + count) of a set, all of one material; `describe` tells of a faulty one.
+    const auto update = [&](const Material& material, MaterialPoints& points, std::size_t first,
+                            std::size_t count, std::span<const Matrix3> gradients,
+                            const UpdateSettings& settings_of_points, auto&& describe) {
+      std::vector<MaterialReport> reports((count + parallel::chunk_size - 1) / parallel::chunk_size);
+      parallel::for_each_chunk(count, [&](std::size_t begin, std::size_t end) {
+        const std::span<const Matrix3> of_chunk = gradients.subspan(first + begin, end - begin);
         reports[begin / parallel::chunk_size] =
             energy == EnergyUpdate::by_work_identity
-                ? whipple::update_material(material, particles_, body.first + begin, body.first + end,
-                                           gradients, settings)
-                : update_material_and_energy(material, particles_, body.first + begin, body.first + end,
-                                             gradients, settings);
+                ? whipple::update_material(material, points, first + begin, first + end, of_chunk,
+                                           settings_of_points)
+                : update_material_and_energy(material, points, first + begin, first + end, of_chunk,
+                                             settings_of_points);
       });
       MaterialReport report;
       for (const MaterialReport& part : reports) report.merge(part);
       step_.clamped_to_cold_curve += static_cast<double>(report.equation_of_state.below_cold_curve);
       step_.limited_volume_changes += static_cast<double>(report.limited_volume_changes);
-      if (!error.empty()) continue;
+      if (!error.empty()) return;
       if (report.undefined != 0) {
-        error = describe_state(report.first_undefined,
-                               "the state is not defined (NaN, or a volume that is not positive)");
+        error = describe(report.first_undefined,
+                         "the state is not defined (NaN, or a volume that is not positive)");
       } else if (report.equation_of_state.out_of_range != 0) {
-        error = describe_state(report.equation_of_state.first,
-                               fmt::format("the equation of state of {} is out of range: {}", material.name,
-                                           report.equation_of_state.bound));
+        error = describe(report.equation_of_state.first,
+                         fmt::format("the equation of state of {} is out of range: {}", material.name,
+                                     report.equation_of_state.bound));
       }
+    };
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      update(*setup_.materials[b], particles_, bodies_[b].first, bodies_[b].count, velocity_gradient_,
+             settings, [&](std::size_t p, const std::string& reason) { return describe_state(p, reason); });
+    }
+    for (std::size_t m = 0; m < meshes_.size(); ++m) {
+      fem::Mesh& mesh = meshes_[m];
+      UpdateSettings of_elements = settings;
+      of_elements.lengths = mesh.points.length;
+      update(*setup_.materials[mesh.body], mesh.points, 0, mesh.points.size(), element_gradient_[m],
+             of_elements,
+             [&](std::size_t p, const std::string& reason) { return describe_element(mesh, p, reason); });
     }
     parallel::throw_together(communicator_, error);
   });
@@ -406,10 +465,18 @@ std::string Simulation::describe_state(std::size_t p, const std::string& reason)
 
 std::size_t Simulation::bytes() const {
   std::size_t bytes = grid_.bytes() + velocity_gradient_.size() * sizeof(Matrix3) + 48 * particles_.size();
-  for_each_field<Particles>([&](const auto& field) {
-    const auto& values = particles_.*(field.values);
-    bytes += values.size() * sizeof(values[0]);
-  });
+  const auto add = [&]<class Points>(const Points& points) {
+    for_each_field<Points>([&](const auto& field) {
+      const auto& values = points.*(field.values);
+      bytes += values.size() * sizeof(values[0]);
+    });
+  };
+  add(particles_);
+  for (const fem::Mesh& mesh : meshes_) {
+    add(mesh.nodes);
+    add(mesh.elements);
+    add(mesh.points);
+  }
   return bytes;
 }
 

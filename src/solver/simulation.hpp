@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "src/contact/contact.hpp"
+#include "src/fem/mesh.hpp"
+#include "src/fem/step.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
 #include "src/setup/case.hpp"
@@ -18,6 +20,7 @@
 #include "src/transfer/full_mass_matrix.hpp"
 #include "src/transfer/grid_update.hpp"
 #include "src/transfer/shape_function.hpp"
+#include "src/transfer/transition_nodes.hpp"
 
 namespace whipple::solver {
 
@@ -30,16 +33,22 @@ struct RunState {
   Ledger ledger;
 };
 
+/// @throws InputError for bodies of finite elements on several ranks
+void require_runnable(const setup::Case& setup, int ranks);
+
 /// One simulation in memory: particles, grid, materials, ledger. The schemes are functions of it. Every rank
 /// holds the particles in its own blocks; whatever concerns the whole (time step, totals, ledger, errors) is
 /// the same on all ranks. Constructors and `advance` are collective.
 class Simulation {
  public:
   /// Seeds the bodies of the case.
+  /// @throws InputError for bodies of finite elements on several ranks
   explicit Simulation(const setup::Case& setup, MPI_Comm communicator);
   /// Goes on from a checkpoint.
   /// @param particles the share of this rank, any share
-  Simulation(const setup::Case& setup, Particles particles, const RunState& state, MPI_Comm communicator);
+  /// @param meshes of the bodies of elements
+  Simulation(const setup::Case& setup, Particles particles, const RunState& state, MPI_Comm communicator,
+             std::vector<fem::Mesh> meshes = {});
 
   /// Advances one step of the case's scheme; not beyond `until` (s).
   /// @throws StateError with step, time, body, particle and state if a state is undefined or out of range, or
@@ -57,6 +66,9 @@ class Simulation {
   [[nodiscard]] const Particles& particles() const { return particles_; }
   /// Number of particles of all ranks.
   [[nodiscard]] std::size_t particle_count() const { return particle_count_; }
+  /// The bodies of elements, as far as they are still elements.
+  [[nodiscard]] const std::vector<fem::Mesh>& meshes() const { return meshes_; }
+  [[nodiscard]] std::size_t element_count() const;
   [[nodiscard]] const RunState& state() const { return state_; }
   /// Sums over all ranks.
   [[nodiscard]] const Totals& totals() const { return totals_; }
@@ -75,15 +87,20 @@ class Simulation {
   friend void step_musl(Simulation& s, double until);
 
   // The calls of the schemes, in the order of the step.
+  void adapt_elements();
   [[nodiscard]] double stable_time_step() const;
+  [[nodiscard]] double grid_time_step() const;
+  [[nodiscard]] double element_time_step() const;
   [[nodiscard]] double diffusive_time_step() const;
   void begin_step(double until);
   void split_particles();
+  void compute_element_forces();
   void bin_particles();
   void conduct_heat();
   void map_particles_to_grid();
   void advance_grid();
   void map_grid_to_particles();
+  void advance_elements();
   enum class GridGradient { unused, to_particles };
   void update_particle_velocity(GridGradient gradient);
   void map_momentum_to_grid();
@@ -99,6 +116,10 @@ class Simulation {
   void set_up_contact();
   void separate_fields();
   void apply_contact();
+  void convert_elements();
+  void remove_elements_outside();
+  void warn_of_contact() const;
+  bool bin(grid::Stencil stencil);
   void sum_over_ranks();
   void follow_particles(double lookahead, grid::Stencil stencil);
   void sort_particles();
@@ -108,12 +129,16 @@ class Simulation {
   void shift_grid();
   void find_free_flight();
   [[nodiscard]] double affine_inertia() const;
+  [[nodiscard]] double particle_affine_inertia() const;
   [[nodiscard]] std::string describe_state(std::size_t particle, const std::string& reason) const;
+  [[nodiscard]] std::string describe_element(const fem::Mesh& mesh, std::size_t point,
+                                             const std::string& reason) const;
 
   setup::Case setup_;
   transfer::ShapeFunction shape_;
   MPI_Comm communicator_;
   Particles particles_;
+  std::vector<fem::Mesh> meshes_;
   std::vector<setup::BodySummary> bodies_;
   grid::BlockGrid grid_;
   transfer::GridUpdate grid_update_;
@@ -132,6 +157,11 @@ class Simulation {
   Acceleration acceleration_;
   std::vector<Vector3> external_acceleration_;  // of this step; empty without external forces
   std::vector<std::uint32_t> flying_;           // particles that fly without the grid in this step
+  transfer::TransitionNodes transition_;        // nodes of elements that move with the grid in this step
+  // Of each mesh, in the step under way:
+  std::vector<fem::Motion> motions_;
+  std::vector<std::vector<double>> node_heat_;
+  std::vector<std::vector<Matrix3>> element_gradient_;
 };
 
 /// Symplectic scheme with exact energy (docs/theory/mpm.md, section 4).

@@ -86,11 +86,11 @@ TEST_F(RanksTest, damage_is_recognised_on_every_rank) {
 
 TEST_F(RanksTest, a_snapshot_has_one_partition_per_rank) {
   const Particles all = random_bits(100'000, 14);
-  ParticleSeriesOptions options{.folder = folder_,
-                                .name = "ranks",
-                                .fields = output_field_names(),
-                                .material_of_body = {0, 0, 0},
-                                .provenance = {{"input", std::string(100'000, 'i')}}};
+  SeriesOptions options{.folder = folder_,
+                        .name = "ranks",
+                        .fields = output_field_names(),
+                        .material_of_body = {0, 0, 0},
+                        .provenance = {{"input", std::string(100'000, 'i')}}};
   ParticleSeries series(options);
   const Particles mine = share(all);
   const fs::path path = series.write(mine, 0.0);

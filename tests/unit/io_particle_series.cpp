@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 
 class Series : public FolderTest {
  protected:
-  ParticleSeriesOptions options(std::vector<std::string> fields = {"pressure", "phase"}) const {
+  SeriesOptions options(std::vector<std::string> fields = {"pressure", "phase"}) const {
     return {.folder = folder_,
             .name = "disk",
             .fields = std::move(fields),
@@ -241,7 +241,7 @@ TEST_F(Series, unknown_fields_are_answered_with_the_nearest_name) {
 }
 
 TEST_F(Series, an_unwritable_folder_is_the_users_matter) {
-  ParticleSeriesOptions elsewhere = options();
+  SeriesOptions elsewhere = options();
   elsewhere.folder = folder_ / "none";
   ParticleSeries series(elsewhere, MPI_COMM_SELF);
   EXPECT_THAT(message_of<InputError>([&] { series.write(ramp(2), 0.0); }),

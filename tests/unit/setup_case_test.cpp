@@ -2,11 +2,14 @@
 // Case files: every mistake is named with its place, all together and before any work; the complete case that
 // a run writes reads back to the same case; bodies become particles with the right mass.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "src/base/error.hpp"
+#include "src/io/run_directory.hpp"
 #include "src/setup/case.hpp"
 #include "src/setup/seeding.hpp"
 
@@ -98,6 +101,142 @@ TEST(Case, AFaultyShapeIsNotPlaced) {
   const std::string error = error_of(text);
   EXPECT_NE(error.find("'radius' is -0.003 m"), std::string::npos) << error;
   EXPECT_EQ(error.find("reaches"), std::string::npos) << error;
+}
+
+TEST(Case, RefusesElementsThatCannotBe) {
+  const std::string elements = sphere + "discretization = { method = \"finite_elements\" }\n";
+  EXPECT_EQ(error_of(domain + elements), "");
+  expect_error(replaced(domain, "end =", "scheme = \"musl\"\nend =") + elements,
+               {"finite elements work with time.scheme = \"symplectic\" only"});
+  expect_error(domain + "[transfer]\nparticle_update = \"flip\"\nshape_function = \"linear\"\n" + elements,
+               {"finite elements work with B-splines only"});
+  expect_error(domain + "[heat]\nconduction = true\n" + elements, {"finite elements do not conduct heat"});
+  expect_error(domain + "[contact]\nmethod = \"multi_field\"\n" + elements,
+               {"contact.method must be \"none\""});
+  expect_error(domain + "[gravity]\nacceleration = [0, 0, -9.81]\n" + elements,
+               {"gravity does not act on finite"});
+  expect_error(domain + sphere + "discretization = { method = \"adaptive\", element_size = \"2.1 mm\" }\n",
+               {"'element_size' is 0.0021 m", "at most 2 cells"});
+  expect_error(domain + sphere +
+                   "[[body.node_condition]]\nlower = [0, 0, 0]\nupper = [0, 0, 0]\n"
+                   "directions = [\"x\"]\n",
+               {"a body of particles has no nodes"});
+  const std::string shape = "{ sphere = { center = [\"0 mm\", \"0 mm\", \"-4 mm\"], radius = \"3 mm\" } }";
+  expect_error(
+      domain + replaced(elements, shape,
+                        "{ cone = { base = [0, 0, 0], base_radius = \"2 mm\", height = \"1 mm\" } }"),
+      {"structured meshes of box, cylinder, tube and sphere"});
+  // A plane that does not halve a round body goes through its elements.
+  expect_error(
+      domain + replaced(elements, "[\"0 mm\", \"0 mm\", \"-4 mm\"]", "[\"0.3 mm\", \"0 mm\", \"-4 mm\"]"),
+      {"the mirror plane x = 0 m cuts through element"});
+  const std::string of_file = replaced(elements, "shape = " + shape, "");
+  expect_error(domain + replaced(of_file, "\"finite_elements\"", "\"adaptive\", mesh = \"none.msh\""),
+               {"none.msh"});
+  expect_error(domain + replaced(elements, "\"finite_elements\"", "\"adaptive\", mesh = \"none.msh\""),
+               {"'shape' or a 'discretization.mesh', not both"});
+  expect_error(domain + elements +
+                   "[[gauge]]\nname = \"inside\"\nkind = \"moving\"\nposition = [0, 0, "
+                   "\"-4 mm\"]\n",
+               {"moves with particles", "elements"});
+}
+
+// Halves and quarters of round bodies at mirror planes have their share of the whole mesh, nodes exactly on
+// the planes, and keep to them.
+TEST(Elements, AreCutAtMirrorPlanes) {
+  for (const std::string shape :
+       {"sphere = { center = [0, 0, 0], radius = \"3 mm\" }",
+        "cylinder = { center = [0, 0, 0], axis = \"x\", radius = \"3 mm\", height = \"5 mm\" }",
+        "cylinder = { center = [0, 0, 0], axis = \"z\", radius = \"3 mm\", height = \"5 mm\" }",
+        "tube = { base = [0, 0, 0], axis = \"z\", inner_radius = \"1 mm\", outer_radius = \"3 mm\", height = "
+        "\"4 mm\" }",
+        "box = { lower = [\"-3 mm\", \"-3 mm\", \"-1 mm\"], upper = [\"3 mm\", \"3 mm\", \"2 mm\"] }"}) {
+    const std::string body =
+        "[[body]]\nname = \"part\"\nmaterial = \"copper.toml\"\nvelocity = [\"100 m/s\", 0, "
+        "0]\ndiscretization = { method = \"finite_elements\" }\nshape = { " +
+        shape + " }\n";
+    const Case part = read_case_text(domain + body, "case.toml");
+    const Case whole =
+        read_case_text(replaced(replaced(domain, "[\"0 mm\", \"0 mm\", ", "[\"-12 mm\", \"-12 mm\", "),
+                                "boundary = { x_lower = \"symmetry\", y_lower = \"symmetry\" }", "") +
+                           body,
+                       "case.toml");
+    const Seeding quarter = seed(part), all = seed(whole);
+    EXPECT_NEAR(quarter.bodies[0].mass, 0.25 * all.bodies[0].mass, 0.02 * quarter.bodies[0].mass) << shape;
+    EXPECT_LT(all.bodies[0].mass, (1 + 1e-12) * all.bodies[0].shape_mass) << shape;
+    EXPECT_GT(all.bodies[0].mass, 0.85 * all.bodies[0].shape_mass) << shape;
+    const fem::Mesh& mesh = quarter.meshes[0];
+    std::size_t on_plane = 0;
+    for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
+      const Vector3& x = mesh.nodes.position[a];
+      EXPECT_GE(x.head<2>().minCoeff(), 0.0);
+      if (x[0] != 0.0) {
+        EXPECT_EQ(mesh.nodes.constrained[a] & fem::constraint::x, 0);
+        continue;
+      }
+      ++on_plane;
+      EXPECT_NE(mesh.nodes.constrained[a] & fem::constraint::x, 0);
+      EXPECT_EQ(mesh.nodes.velocity[a][0], 0.0);
+    }
+    EXPECT_GT(on_plane, 0U) << shape;
+    EXPECT_LT(quarter.wall_impulse[0], 0.0);
+    // Momentum that the plane took is booked, its energy is heat.
+    EXPECT_NEAR(fem::totals(mesh).momentum[0] - quarter.wall_impulse[0], 100.0 * quarter.bodies[0].mass,
+                1e-12 * quarter.bodies[0].mass * 100.0);
+  }
+}
+
+// A file of Gmsh gives the mesh, and the shape that overlaps are found by.
+TEST(Elements, ComeFromAGmshFile) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("whipple_" + std::to_string(::getpid()) + ".msh");
+  io::write_text_atomically(path, R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+1
+3 7 "brick"
+$EndPhysicalNames
+$Nodes
+12
+1 0 0 0
+2 2 0 0
+3 2 2 0
+4 0 2 0
+5 0 0 1
+6 2 0 1
+7 2 2 1
+8 0 2 1
+9 0 0 2.5
+10 2 0 2.5
+11 2 2 2.5
+12 0 2 2.5
+$EndNodes
+$Elements
+2
+1 5 2 7 1 1 2 3 4 5 6 7 8
+2 5 2 7 1 5 6 7 8 9 10 11 12
+$EndElements
+)");
+  const std::string body =
+      "[[body]]\nname = \"brick\"\nmaterial = \"copper.toml\"\ndiscretization = { method = "
+      "\"adaptive\", element_size = \"2 mm\", mesh_unit = \"1 mm\", mesh = \"" +
+      path.string() + "\" }\n";
+  const Case setup = read_case_text(domain + body, "case.toml");
+  const Seeding seeding = seed(setup);
+  ASSERT_EQ(seeding.meshes.size(), 1U);
+  EXPECT_EQ(seeding.meshes[0].elements.size(), 2U);
+  EXPECT_NEAR(seeding.bodies[0].mass, seeding.bodies[0].shape_mass, 1e-12 * seeding.bodies[0].mass);
+  EXPECT_NEAR(seeding.bodies[0].shape_mass / setup.materials[0]->reference.density, 10e-9, 1e-20);
+  const Shape& shape = *setup.bodies[0].shape;
+  EXPECT_TRUE(shape.contains(Vector3(1.9e-3, 0.1e-3, 2.4e-3)));
+  EXPECT_FALSE(shape.contains(Vector3(1.9e-3, 0.1e-3, 2.6e-3)));
+  // What the run writes reads back.
+  EXPECT_EQ(read_case_text(to_toml(setup, {"copper.toml"}), "run.toml").bodies[0].discretization.mesh,
+            path.string());
+  expect_error(domain + body + replaced(sphere, "\"-4 mm\"", "\"0 mm\""), {"overlaps body \"brick\""});
+  expect_error(domain + replaced(body, "mesh_unit", "group = \"stone\", mesh_unit"), {"stone", "brick"});
+  std::filesystem::remove(path);
 }
 
 TEST(Case, RefusesCombinationsThatHaveNoMeaning) {

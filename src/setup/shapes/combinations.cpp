@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/fem/structured.hpp"
 #include "src/setup/shapes/shape.hpp"
 
 namespace whipple::setup {
@@ -145,6 +146,19 @@ class Moved final : public Shape {
       keys += fmt::format("{} = {}, ", parameter.info.name, value_as_toml(parameter));
     }
     return fmt::format("{{ moved = {{ {}shape = {} }} }}", keys, shape_->toml());
+  }
+  [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
+    const Vector3 shift = motion_.translation + motion_.center - rotation_ * motion_.center;
+    const Vector3 everywhere = Vector3::Constant(std::numeric_limits<double>::infinity());
+    Bounds before{-everywhere, everywhere};  // faces across the axis of the rotation stay where they are
+    for (int a = 0; a < 3; ++a) {
+      if (std::abs(rotation_(a, a) - 1.0) > 1e-12) continue;
+      before.lower[a] = clip.lower[a] - shift[a];
+      before.upper[a] = clip.upper[a] - shift[a];
+    }
+    std::optional<fem::Hexahedra> mesh = shape_->hexahedra(size, before);
+    if (mesh) fem::transform(*mesh, rotation_, shift);
+    return mesh;
   }
 
  private:

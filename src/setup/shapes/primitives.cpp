@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "src/fem/structured.hpp"
 #include "src/setup/shapes/shape.hpp"
 
 namespace whipple::setup {
@@ -21,6 +22,41 @@ std::string shape_as_toml(const char* name, Primitive shape) {
     keys += fmt::format("{}{} = {}", keys.empty() ? "" : ", ", parameter.info.name, value_as_toml(parameter));
   }
   return fmt::format("{{ {} = {{ {} }} }}", name, keys);
+}
+
+/// Which half of a body about `center` lies within the clip, along an axis: -1, +1, or 0 for all of it.
+int half_within(const Shape::Bounds& clip, Eigen::Index axis, double center, double radius) {
+  const auto at_center = [&](double face) { return std::abs(face - center) < 1e-9 * radius; };
+  return at_center(clip.lower[axis]) ? 1 : at_center(clip.upper[axis]) ? -1 : 0;
+}
+
+/// A mesh that `make` makes about the z axis, from z = 0 on, or halves of it, brought to its place: z becomes
+/// the direction `axis`.
+template <class Make>
+fem::Hexahedra mesh_about_axis(const Vector3& base, Eigen::Index axis, double radius,
+                               const Shape::Bounds& clip, Make&& make) {
+  const Eigen::Index first = (axis + 1) % 3, second = (axis + 2) % 3;
+  const int x = half_within(clip, first, base[first], radius);
+  const int y = half_within(clip, second, base[second], radius);
+  Matrix3 turn = Matrix3::Zero();
+  turn(first, 0) = x < 0 ? -1.0 : 1.0;
+  turn(second, 1) = y < 0 ? -1.0 : 1.0;
+  turn(axis, 2) = 1.0;
+  fem::Hexahedra mesh = make(fem::Halved{x != 0, y != 0, false});
+  fem::transform(mesh, turn, base);
+  return mesh;
+}
+
+/// The part of a body of revolution along its axis, [from, to], that lies within the clip, as a mesh;
+/// `make(length, halved)` makes it.
+template <class Make>
+fem::Hexahedra mesh_of_revolution(Vector3 base, Eigen::Index axis, double height, double radius,
+                                  const Shape::Bounds& clip, Make&& make) {
+  const double from = std::max(base[axis], clip.lower[axis]);
+  const double to = std::min(base[axis] + height, clip.upper[axis]);
+  base[axis] = from;
+  return mesh_about_axis(base, axis, radius, clip,
+                         [&](const fem::Halved& halved) { return make(to - from, halved); });
 }
 
 class Sphere final : public Shape {
@@ -38,6 +74,18 @@ class Sphere final : public Shape {
   }
   [[nodiscard]] double volume() const override { return 4.0 / 3.0 * pi * radius_ * radius_ * radius_; }
   [[nodiscard]] std::string toml() const override { return shape_as_toml("sphere", *this); }
+  [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
+    fem::Halved halved{};
+    Matrix3 turn = Matrix3::Identity();
+    for (int a = 0; a < 3; ++a) {
+      const int half = half_within(clip, a, center_[a], radius_);
+      halved[static_cast<std::size_t>(a)] = half != 0;
+      if (half < 0) turn(a, a) = -1.0;
+    }
+    fem::Hexahedra mesh = fem::make_sphere(radius_, size, halved);
+    fem::transform(mesh, turn, center_);
+    return mesh;
+  }
 
  private:
   Vector3 center_ = Vector3::Zero();
@@ -56,6 +104,9 @@ class Box final : public Shape {
   [[nodiscard]] Bounds bounds() const override { return {lower_, upper_}; }
   [[nodiscard]] double volume() const override { return (upper_ - lower_).prod(); }
   [[nodiscard]] std::string toml() const override { return shape_as_toml("box", *this); }
+  [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
+    return fem::make_box(lower_.cwiseMax(clip.lower), upper_.cwiseMin(clip.upper), size);
+  }
 
  private:
   Vector3 lower_ = Vector3::Zero();
@@ -83,6 +134,14 @@ class Cylinder final : public Shape {
   }
   [[nodiscard]] double volume() const override { return pi * radius_ * radius_ * height_; }
   [[nodiscard]] std::string toml() const override { return shape_as_toml("cylinder", *this); }
+  [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
+    Vector3 base = center_;
+    base[axis()] -= 0.5 * height_;
+    return mesh_of_revolution(base, axis(), height_, radius_, clip,
+                              [&](double length, const fem::Halved& halved) {
+                                return fem::make_cylinder(radius_, length, size, halved);
+                              });
+  }
 
  private:
   [[nodiscard]] Eigen::Index axis() const { return axis_[0] - 'x'; }
@@ -138,6 +197,12 @@ class Tube final : public Shape, public Revolution {
   [[nodiscard]] Bounds bounds() const override { return Revolution::bounds(0.0, height_, outer_); }
   [[nodiscard]] double volume() const override { return pi * (outer_ * outer_ - inner_ * inner_) * height_; }
   [[nodiscard]] std::string toml() const override { return shape_as_toml("tube", *this); }
+  [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
+    return mesh_of_revolution(base, index(), height_, outer_, clip,
+                              [&](double length, const fem::Halved& halved) {
+                                return fem::make_tube(inner_, outer_, length, size, halved);
+                              });
+  }
 
  private:
   double inner_ = 0.5, outer_ = 1.0, height_ = 1.0;

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "src/base/tensor.hpp"
+#include "src/fem/mesh.hpp"
 #include "src/input/document.hpp"
 
 namespace whipple::setup {
@@ -24,6 +26,14 @@ class Shape {
   [[nodiscard]] virtual double volume() const = 0;
   /// `{ NAME = ... }` as it stands in a case file.
   [[nodiscard]] virtual std::string toml() const = 0;
+  /// Structured mesh of the shape, or of its part within `clip`, whose finite faces halve it; elements
+  /// beyond may be left. Nothing for shapes that have none.
+  /// @param size  wanted edge of the elements, m
+  /// @throws InputError if it is not positive
+  [[nodiscard]] virtual std::optional<fem::Hexahedra> hexahedra(double /*size*/,
+                                                                const Bounds& /*clip*/) const {
+    return std::nullopt;
+  }
 };
 
 /// A kind of shape: one line of the catalogue per primitive or combination.

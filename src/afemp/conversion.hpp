@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "src/fem/mesh.hpp"
+#include "src/fem/step.hpp"
+#include "src/particles/particles.hpp"
+
+/// Adaptive finite element material point method: elements that deform too much become particles
+/// (docs/theory/afemp.md, section 3).
+namespace whipple::afemp {
+
+/// An element is converted as soon as one of its values passes its threshold; infinite or 0: not asked.
+struct Thresholds {
+  double plastic_strain = std::numeric_limits<double>::infinity();  ///< at any of its Gauss points
+  double time_step_ratio = 0.0;  ///< its stable time step over that of the grid falls below this
+  double jacobian = 0.0;         ///< its least scaled Jacobian (docs/theory/fem.md) falls below this
+  bool failed = false;           ///< a Gauss point has failed
+};
+
+/// Which elements pass a threshold: one entry per element, != 0 if so.
+/// @param grid_time_step s, stable on the grid; infinite if there is nothing on it
+std::vector<std::uint8_t> distorted_elements(const fem::Mesh& mesh, const Thresholds& thresholds,
+                                             const fem::ViscosityCoefficients& viscosity,
+                                             double grid_time_step);
+
+/// What conversions did.
+struct ConversionBalance {
+  std::size_t elements = 0;
+  double mass = 0.0;              ///< kg, of the converted elements
+  double kinetic_heat = 0.0;      ///< J, kinetic energy of nodes that no particle took, into internal energy
+  double hourglass_energy = 0.0;  ///< J, released into internal energy
+};
+
+/// Takes the chosen elements out of the mesh and appends eight particles for each: at the natural coordinates
+/// (+-0.5)^3, with the state of the element (of the Gauss point in their octant), ids 8 times that of the
+/// element and following, and velocities by (3.2) to (3.6). Mass, momentum and energy stay to round-off;
+/// angular momentum too unless the affine field is capped; the heat is not negative. Nodes that lost an
+/// element lie on the surface from now on; nodes without elements vanish.
+/// @param affine_inertia of the particles' affine field per mass, m^2 (`transfer::affine_inertia`); 0: none
+ConversionBalance convert_elements(fem::Mesh& mesh, std::span<const std::uint8_t> chosen,
+                                   double affine_inertia, Particles& particles);
+
+}  // namespace whipple::afemp

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "src/fem/mesh.hpp"
+#include "src/io/particle_series.hpp"
+#include "src/io/series.hpp"
+
+namespace whipple::io {
+
+/// Every element as a point: its state (means over its Gauss points; `failed` if one of them is), at its
+/// centre with its mean velocity.
+Particles elements_as_points(std::span<const fem::Mesh> meshes);
+
+/// Snapshots of finite elements: RUN.elements.NNNNNN.hdf (VTKHDF 1.0 unstructured hexahedra; the fields of
+/// the particles as cell data, velocity, id and transition of the nodes as point data) and their index. A
+/// snapshot without elements is written as well. One rank.
+class ElementSeries {
+ public:
+  /// @throws InputError if a field is unknown
+  explicit ElementSeries(SeriesOptions options);
+
+  /// As of `Series`.
+  void restart(double time) { series_.restart(time); }
+  std::filesystem::path write(std::span<const fem::Mesh> meshes, double time);
+  [[nodiscard]] std::size_t size() const { return series_.size(); }
+  [[nodiscard]] std::filesystem::path index_path() const { return series_.index_path(); }
+
+ private:
+  void write_file(const std::filesystem::path& path, std::span<const fem::Mesh> meshes, double time) const;
+
+  SeriesOptions options_;
+  std::vector<OutputField> fields_;
+  Ranks ranks_;
+  Series series_;
+};
+
+}  // namespace whipple::io

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "src/base/parameter_table.hpp"
+#include "src/base/tensor.hpp"
+#include "src/input/document.hpp"
+
+namespace whipple::setup {
+
+struct Case;
+
+/// How a body is represented: particles, finite elements, or elements that become particles.
+struct Discretization {
+  std::string method = "particles";
+  // of particles
+  std::int64_t per_cell = 8;
+  bool partial_volumes = false;
+  // of elements
+  double element_size = std::numeric_limits<double>::infinity();  ///< m; infinite: that of the cells
+  std::string element = "one_point";
+  std::string hourglass = "stiffness";
+  double hourglass_coefficient = 0.05;
+  std::string mesh;        ///< Gmsh file instead of a shape; absolute path
+  double mesh_unit = 1.0;  ///< m per unit of its coordinates
+  std::string group;       ///< physical group in it; empty: the only one
+  static ParameterTable<Discretization> parameters();
+
+  [[nodiscard]] bool has_elements() const { return method != "particles"; }
+  [[nodiscard]] bool converts() const { return method == "adaptive"; }
+  /// Edge of the elements, m.
+  [[nodiscard]] double size(double cell_size) const;
+};
+
+/// `conversion` of an adaptive body: thresholds beyond which an element becomes particles.
+struct Conversion {
+  double plastic_strain = std::numeric_limits<double>::infinity();
+  double time_step_ratio = 0.2;
+  double jacobian = 0.2;
+  bool failed = true;
+  static ParameterTable<Conversion> parameters();
+};
+
+/// One `node_condition` of a body: nodes whose velocity is prescribed along some axes.
+struct NodeCondition {
+  Vector3 lower = Vector3::Zero();  ///< m, corners of the box that the nodes lie in at the start
+  Vector3 upper = Vector3::Zero();
+  std::vector<std::string> directions;
+  Vector3 velocity = Vector3::Zero();  ///< m/s
+  static ParameterTable<NodeCondition> parameters();
+};
+
+/// Reports in the table of a discretization what finite elements need of the rest of the case (read before),
+/// and makes the path of a mesh absolute.
+void check_elements(const Case& setup, Discretization& control, input::Table& table);
+
+}  // namespace whipple::setup

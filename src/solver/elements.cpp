@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies of finite elements in the time step (docs/theory/afemp.md).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "src/afemp/conversion.hpp"
+#include "src/afemp/transition.hpp"
+#include "src/base/error.hpp"
+#include "src/base/log.hpp"
+#include "src/parallel/mpi.hpp"
+#include "src/solver/simulation.hpp"
+
+namespace whipple::solver {
+namespace {
+
+constexpr std::int64_t conversion_every = 4;  // steps: distortion grows by a few per cent in each
+
+afemp::Thresholds thresholds(const setup::Conversion& control) {
+  return {.plastic_strain = control.plastic_strain,
+          .time_step_ratio = control.time_step_ratio,
+          .jacobian = control.jacobian,
+          .failed = control.failed};
+}
+
+fem::HourglassControl hourglass(const setup::Discretization& control) {
+  using enum fem::HourglassControl::Kind;
+  return {control.hourglass == "viscous" ? viscous : stiffness, control.hourglass_coefficient};
+}
+
+fem::ViscosityCoefficients viscosity(const setup::ArtificialViscosity& control) {
+  return {.linear = control.linear, .quadratic = control.quadratic};
+}
+
+}  // namespace
+
+void require_runnable(const setup::Case& setup, int ranks) {
+  if (!setup.has_elements() || ranks == 1) return;
+  throw InputError(
+      fmt::format("{}: bodies of finite elements run on one rank (with any number of threads), not on {}",
+                  setup.file.string(), ranks));
+}
+
+std::size_t Simulation::element_count() const {
+  std::size_t count = 0;
+  for (const fem::Mesh& mesh : meshes_) count += mesh.elements.size();
+  return count;
+}
+
+double Simulation::element_time_step() const {
+  double dt = std::numeric_limits<double>::infinity();
+  for (const fem::Mesh& mesh : meshes_) {
+    dt = std::min(dt, fem::critical_time_step(mesh, viscosity(setup_.viscosity)));
+  }
+  return setup_.time.element_safety * dt;
+}
+
+void Simulation::convert_elements() {
+  profile_.time("convert elements", [&] {
+    afemp::collect(meshes_, transition_);  // of the step before: those that limit the step of the grid
+    std::size_t converted = 0;
+    for (fem::Mesh& mesh : meshes_) {
+      const setup::Body& body = setup_.bodies[mesh.body];
+      if (!body.discretization.converts()) continue;
+      const std::vector<std::uint8_t> distorted = afemp::distorted_elements(
+          mesh, thresholds(body.conversion), viscosity(setup_.viscosity), grid_time_step());
+      const auto count = static_cast<std::size_t>(std::ranges::count(distorted, 1));
+      if (count == 0) continue;
+      if (state_.step == 0 && count == distorted.size()) {
+        log::warning(
+            "body \"{}\": its thresholds turn all of its {} elements into particles in the first step",
+            body.name, count);
+      }
+      const afemp::ConversionBalance balance =
+          afemp::convert_elements(mesh, distorted, particle_affine_inertia(), particles_);
+      converted += balance.elements;
+      step_.converted_mass += balance.mass;
+      step_.conversion_heat += balance.kinetic_heat;
+    }
+    if (converted == 0) return;
+    particle_count_ += 8 * converted;
+    particles_reallocated();
+  });
+}
+
+/// Distorted elements become particles, and nodes at particles or at other bodies move with the grid.
+void Simulation::adapt_elements() {
+  if (meshes_.empty()) return;
+  if (state_.step % conversion_every == 0) convert_elements();
+  profile_.time("transition", [&] {
+    step_.transfer_heat +=
+        afemp::mark_transition(meshes_, particles_, setup_.geometry, particle_affine_inertia());
+    afemp::collect(meshes_, transition_);
+    if (state_.step == 0) warn_of_contact();
+  });
+}
+
+/// Bodies within reach of each other at the start push each other from the first step on.
+void Simulation::warn_of_contact() const {
+  for (const fem::Mesh& mesh : meshes_) {
+    const auto count = std::ranges::count(mesh.nodes.in_transition, 1);
+    if (count == 0) continue;
+    log::warning(
+        "body \"{}\": {} nodes of its surface are within two cells of another body at the start: the bodies "
+        "are in "
+        "contact from the first step on",
+        setup_.bodies[mesh.body].name, count);
+  }
+}
+
+void Simulation::compute_element_forces() {
+  if (meshes_.empty()) return;
+  profile_.time("element forces", [&] {
+    for (fem::Mesh& mesh : meshes_) fem::internal_forces(mesh);
+    afemp::collect(meshes_, transition_);
+  });
+}
+
+/// Nodes by themselves or as the grid moved them; strain, work and heat of their elements.
+void Simulation::advance_elements() {
+  if (meshes_.empty()) return;
+  profile_.time("elements", [&] {
+    const double dt = state_.time_step;
+    motions_.resize(meshes_.size());
+    node_heat_.resize(meshes_.size());
+    element_gradient_.resize(meshes_.size());
+    afemp::distribute(transition_, meshes_, motions_, node_heat_);
+    std::string error;
+    for (std::size_t m = 0; m < meshes_.size(); ++m) {
+      fem::Mesh& mesh = meshes_[m];
+      const setup::Body& body = setup_.bodies[mesh.body];
+      const fem::ConstraintBalance balance =
+          fem::advance_velocities(mesh, dt, motions_[m], mesh.nodes.in_transition);
+      step_.wall_impulse += balance.impulse;
+      step_.external_work += balance.work;
+      step_.wall_impulse += afemp::stop_at_faces(mesh, setup_.geometry, dt, motions_[m], node_heat_[m]);
+      for (const double heat : node_heat_[m]) step_.transfer_heat += heat;
+      element_gradient_[m].resize(mesh.points.size());
+      const fem::DeformationReport report =
+          fem::deform(mesh, motions_[m], dt, hourglass(body.discretization), element_gradient_[m]);
+      step_.work += report.work;
+      fem::add_heat(mesh, node_heat_[m]);
+      fem::move_nodes(mesh, motions_[m], dt);
+      if (report.inverted == 0 || !error.empty()) continue;
+      error = describe_element(
+          mesh, report.first_inverted * fem::points_per_element(mesh.quadrature),
+          body.discretization.converts()
+              ? "is inverted: raise conversion.jacobian or conversion.time_step_ratio, or lower "
+                "conversion.plastic_strain, so that it becomes particles earlier"
+              : "is inverted: discretization.method = \"adaptive\" turns such elements into particles");
+    }
+    parallel::throw_together(communicator_, error);
+  });
+}
+
+/// Elements that lie outside of the domain as a whole are gone, and their shares of the nodes.
+void Simulation::remove_elements_outside() {
+  const grid::Geometry& g = setup_.geometry;
+  for (fem::Mesh& mesh : meshes_) {
+    std::vector<std::uint8_t> outside(mesh.nodes.size(), 0);
+    bool any = false;
+    for (std::size_t a = 0; a < outside.size(); ++a) {
+      const Vector3& x = mesh.nodes.position[a];
+      for (int axis = 0; axis < 3; ++axis) {
+        // Nodes on walls may stand beyond them by round-off.
+        const bool low = x[axis] < g.lower[axis], beyond = low || x[axis] > g.upper(axis);
+        const auto face = static_cast<std::size_t>(2 * axis + (low ? 0 : 1));
+        if (beyond && g.boundary[face] == grid::Boundary::outflow) outside[a] = 1;
+      }
+      any = any || outside[a] != 0;
+    }
+    if (!any) continue;
+    std::vector<std::uint8_t> removed(mesh.elements.size(), 0);
+    for (std::size_t e = 0; e < removed.size(); ++e) {
+      removed[e] =
+          std::ranges::all_of(mesh.elements.corners[e], [&](std::uint32_t a) { return outside[a] != 0; });
+    }
+    if (std::ranges::count(removed, 1) == 0) continue;
+    const Totals before = totals_of(mesh, particle_affine_inertia());
+    for (std::size_t e = 0; e < removed.size(); ++e) {
+      for (const std::uint32_t a : mesh.elements.corners[e]) {
+        if (removed[e] != 0) mesh.nodes.on_surface[a] = 1;
+      }
+    }
+    fem::remove_elements(mesh, removed);
+    Totals gone = totals_of(mesh, particle_affine_inertia());
+    for_each_number(gone, [](const std::string&, double& x) { x = -x; });
+    gone += before;
+    step_.outflow += gone;
+  }
+}
+
+std::string Simulation::describe_element(const fem::Mesh& mesh, std::size_t point,
+                                         const std::string& reason) const {
+  const std::size_t e = point / fem::points_per_element(mesh.quadrature);
+  Vector3 x = Vector3::Zero(), v = Vector3::Zero();
+  for (const std::uint32_t a : mesh.elements.corners[e]) {
+    x += 0.125 * mesh.nodes.position[a];
+    v += 0.125 * mesh.nodes.velocity[a];
+  }
+  const fem::GaussPoints& points = mesh.points;
+  return fmt::format(
+      "step {}, t = {} s, body \"{}\", element {}: {}\n  centre ({}, {}, {}) m, velocity ({}, {}, {}) m/s\n  "
+      "density {} kg/m^3, specific internal energy {} J/kg, pressure {} Pa, temperature {} K, plastic strain "
+      "{}, failed {}",
+      state_.step + 1, state_.time + state_.time_step, setup_.bodies[mesh.body].name, mesh.elements.id[e],
+      reason, x[0], x[1], x[2], v[0], v[1], v[2], points.mass[point] / points.volume[point],
+      points.specific_internal_energy[point], points.pressure[point], points.temperature[point],
+      points.plastic_strain[point], points.failed[point]);
+}
+
+}  // namespace whipple::solver
