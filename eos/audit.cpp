@@ -176,6 +176,7 @@ class Auditor {
     ValidRange& range = result_.range;
     range.strongest_shock.state = result_.reference;
     range.strongest_shock.shock_velocity = result_.reference.sound_speed;
+    double spreads_to = 0;
     const auto fault_at = [&](double up) -> std::string {
       ShockState s;
       try {
@@ -190,7 +191,9 @@ class Auditor {
       if (!(s.state.pressure > before.state.pressure)) return "the pressure does not rise with the velocity";
       const double entropy = s.state.specific_entropy, entropy_before = before.state.specific_entropy;
       if (entropy < entropy_before - 1e-6 * (std::abs(entropy) + std::abs(entropy_before))) {
-        return "the entropy falls";
+        // Where the pressure does not depend on the energy, the shock is a ramp there and no more is wrong.
+        if (s.state.gruneisen != 0) return "the entropy falls";
+        spreads_to = s.state.pressure;
       }
       range.strongest_shock = s;
       return {};
@@ -211,6 +214,10 @@ class Auditor {
         if (!fault.empty()) range.end_of_shocks = fault;
         (fault.empty() ? last : beyond) = middle;
       }
+    }
+    if (spreads_to > 0) {
+      object(Verdict::reservations, "shocks up to {:.4g} GPa spread into ramps: the entropy would fall",
+             spreads_to / GPa);
     }
     const double strength = range.strongest_shock.state.pressure / stiffness();
     if (range.end_of_shocks.empty() || strength > modest_strength) return;

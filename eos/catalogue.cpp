@@ -12,6 +12,7 @@
 #include "eos/models/debye_gruneisen.hpp"
 #include "eos/models/gray.hpp"
 #include "eos/models/gray_71.hpp"
+#include "eos/models/holmquist_johnson_cook.hpp"
 #include "eos/models/ideal_gas.hpp"
 #include "eos/models/jwl.hpp"
 #include "eos/models/mie_gruneisen.hpp"
@@ -78,6 +79,8 @@ std::span<const ModelEntry> catalogue() {
       entry<MieGruneisen>(),
       entry<Polynomial>(),
       entry<Murnaghan>(),
+      // Porous matter with a crush curve of its own.
+      entry<HolmquistJohnsonCook>(),
       // Liquids, gases, detonation products.
       entry<Tait>(),
       entry<StiffenedGas>(),

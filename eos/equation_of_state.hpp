@@ -85,6 +85,10 @@ class EquationOfState {
 
   /// Distension of the matter that bodies start from; 1: no pores.
   [[nodiscard]] virtual double initial_distension() const { return 1.0; }
+  /// Pressure at which matter of a distension is crushed further (Pa); infinite: never, or no pores left.
+  virtual void crush_pressure(std::span<const double> distension, std::span<double> pressure) const {
+    for (std::size_t i = 0; i < distension.size(); ++i) pressure[i] = std::numeric_limits<double>::infinity();
+  }
   /// The surface on which a state expands, if that is another one than the one it was loaded on (compacted
   /// pores do not open again); null: the same.
   [[nodiscard]] virtual std::unique_ptr<EquationOfState> unloading(const State& /*from*/) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,6 +37,7 @@ template <Model M>
 class ModelEquationOfState final : public EquationOfState {
  public:
   explicit ModelEquationOfState(const typename M::Constants& constants) : model_(constants) {}
+  explicit ModelEquationOfState(const M& model) : model_(model) {}
 
   [[nodiscard]] const M& underlying() const { return model_; }
 
@@ -65,6 +67,20 @@ class ModelEquationOfState final : public EquationOfState {
   [[nodiscard]] const VapourDome* vapour_dome() const override {
     if constexpr (requires { model_.dome(); }) {
       return &model_.dome();
+    } else {
+      return nullptr;
+    }
+  }
+  [[nodiscard]] double initial_distension() const override {
+    if constexpr (requires { model_.initial_distension(); }) {
+      return model_.initial_distension();
+    } else {
+      return 1.0;
+    }
+  }
+  [[nodiscard]] std::unique_ptr<EquationOfState> unloading(const State& from) const override {
+    if constexpr (requires { model_.unloading(from); }) {
+      return model_.unloading(from);
     } else {
       return nullptr;
     }

@@ -2,7 +2,7 @@
 whipple_test(eos_gray_test SOURCES unit/eos_gray_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_mie_gruneisen_test SOURCES unit/eos_mie_gruneisen_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_debye_test SOURCES unit/eos_debye_test.cpp DEPENDS whipple_eos LABELS fast)
-whipple_test(eos_modifiers_test SOURCES unit/eos_modifiers_test.cpp DEPENDS whipple_eos LABELS fast)
+whipple_test(eos_modifiers_test SOURCES unit/eos_modifiers_test.cpp unit/eos_concrete_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_closure_test SOURCES property/eos_closure_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_identities_test SOURCES property/eos_identities_test.cpp DEPENDS whipple_eos LABELS fast)
 whipple_test(eos_constant_heat_test SOURCES property/eos_constant_heat_test.cpp DEPENDS whipple_eos LABELS fast)

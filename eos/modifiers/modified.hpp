@@ -32,6 +32,9 @@ class Modified : public EquationOfState {
   [[nodiscard]] double least_temperature() const override { return base_->least_temperature(); }
   [[nodiscard]] const VapourDome* vapour_dome() const override { return base_->vapour_dome(); }
   [[nodiscard]] double initial_distension() const override { return base_->initial_distension(); }
+  void crush_pressure(std::span<const double> distension, std::span<double> pressure) const override {
+    base_->crush_pressure(distension, pressure);
+  }
 
  protected:
   [[nodiscard]] const EquationOfState& base() const { return *base_; }

@@ -70,11 +70,14 @@ ParameterTable<PAlphaConstants> PAlpha::parameters() {
            "alpha0, density of the matrix over that of the porous body at rest"),
       real("elastic_pressure", &C::elastic_pressure, "Pa", range::non_negative(),
            "p_e, up to which the pores resist"),
-      choice("compaction", &C::compaction, {"quadratic", "exponential"}, "crush curve alpha(p) above p_e")
+      choice("compaction", &C::compaction, {"quadratic", "power", "exponential"},
+             "crush curve alpha(p) above p_e")
           .optional(),
       real("solid_pressure", &C::solid_pressure, "Pa", range::non_negative(),
-           "p_s of the quadratic curve, at which the pores are closed")
-          .optional("none; the quadratic curve asks for it"),
+           "p_s of the quadratic curve and of the power, at which the pores are closed")
+          .optional("none; these curves ask for it"),
+      real("compaction_exponent", &C::compaction_exponent, "", range::non_negative(), "n of the power")
+          .optional("none; the power asks for it"),
       real("compaction_rate", &C::compaction_rate, "1/Pa", range::non_negative(),
            "of the exponential curve exp[-rate (p - p_e)]")
           .optional("none; the exponential curve asks for it"),
@@ -82,35 +85,44 @@ ParameterTable<PAlphaConstants> PAlpha::parameters() {
 }
 
 PAlpha::PAlpha(std::shared_ptr<const EquationOfState> base, const Constants& constants)
-    : Modified(std::move(base)), constants_(constants), quadratic_(constants.compaction == "quadratic") {
+    : Modified(std::move(base)), constants_(constants) {
   const Constants& k = constants_;
   if (this->base().initial_distension() != 1.0) {
     throw InputError("p_alpha: the equation of state has pores already");
   }
   if (!(k.distension > 1)) throw InputError("p_alpha: distension must be above 1");
-  if (quadratic_ ? k.compaction_rate != 0 : k.solid_pressure != 0) {
-    throw InputError(fmt::format("p_alpha: {} does not belong to compaction = \"{}\"",
-                                 quadratic_ ? "compaction_rate" : "solid_pressure", k.compaction));
+  const bool exponential = k.compaction == "exponential", power = k.compaction == "power";
+  exponent_ = exponential ? 0.0 : power ? k.compaction_exponent : 2.0;
+  const auto refuse = [&](bool given, const char* constant) {
+    if (!given) return;
+    throw InputError(
+        fmt::format("p_alpha: {} does not belong to compaction = \"{}\"", constant, k.compaction));
+  };
+  refuse(!exponential && k.compaction_rate != 0, "compaction_rate");
+  refuse(exponential && k.solid_pressure != 0, "solid_pressure");
+  refuse(!power && k.compaction_exponent != 0, "compaction_exponent");
+  if (power && !(k.compaction_exponent > 0)) {
+    throw InputError("p_alpha: compaction = \"power\" asks for compaction_exponent");
   }
-  if (quadratic_ && !(k.solid_pressure > k.elastic_pressure)) {
+  if (!exponential && !(k.solid_pressure > k.elastic_pressure)) {
     throw InputError(
         fmt::format("p_alpha: solid_pressure ({:.6g} Pa) must be above elastic_pressure ({:.6g} Pa)",
                     k.solid_pressure, k.elastic_pressure));
   }
-  if (!quadratic_ && !(k.compaction_rate > 0)) {
+  if (exponential && !(k.compaction_rate > 0)) {
     throw InputError("p_alpha: compaction = \"exponential\" asks for compaction_rate");
   }
   closing_pressure_ =
-      quadratic_ ? k.solid_pressure : k.elastic_pressure - std::log(open_at_the_end) / k.compaction_rate;
+      !exponential ? k.solid_pressure : k.elastic_pressure - std::log(open_at_the_end) / k.compaction_rate;
 }
 
 double PAlpha::distension_at(double pressure) const {  // (A2), (A3)
   const Constants& k = constants_;
   if (pressure <= k.elastic_pressure) return k.distension;
   if (pressure >= closing_pressure_) return 1.0;
-  if (quadratic_) {
+  if (exponent_ > 0) {
     const double open = (closing_pressure_ - pressure) / (closing_pressure_ - k.elastic_pressure);
-    return 1 + (k.distension - 1) * open * open;
+    return 1 + (k.distension - 1) * (exponent_ == 2.0 ? open * open : std::pow(open, exponent_));
   }
   const double open = std::exp(-k.compaction_rate * (pressure - k.elastic_pressure));
   return 1 + (k.distension - 1) * (open - open_at_the_end) / (1 - open_at_the_end);
@@ -121,7 +133,10 @@ double PAlpha::crush_pressure(double distension) const {
   const double open = (distension - 1) / (k.distension - 1);
   if (open >= 1) return k.elastic_pressure;
   if (open <= 0) return closing_pressure_;
-  if (quadratic_) return closing_pressure_ - (closing_pressure_ - k.elastic_pressure) * std::sqrt(open);
+  if (exponent_ > 0) {
+    const double root = exponent_ == 2.0 ? std::sqrt(open) : std::pow(open, 1 / exponent_);
+    return closing_pressure_ - (closing_pressure_ - k.elastic_pressure) * root;
+  }
   return k.elastic_pressure - std::log(open * (1 - open_at_the_end) + open_at_the_end) / k.compaction_rate;
 }
 

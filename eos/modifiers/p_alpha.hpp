@@ -10,8 +10,9 @@ namespace whipple::eos {
 struct PAlphaConstants {
   double distension = 0;                 ///< alpha0 = rho_s/rho of the matter at rest, > 1
   double elastic_pressure = 0;           ///< p_e, Pa
-  std::string compaction = "quadratic";  ///< or "exponential"
-  double solid_pressure = 0;             ///< p_s, Pa (quadratic)
+  std::string compaction = "quadratic";  ///< or "power", "exponential"
+  double solid_pressure = 0;             ///< p_s, Pa (quadratic, power)
+  double compaction_exponent = 0;        ///< n (power)
   double compaction_rate = 0;            ///< 1/Pa (exponential)
 };
 
@@ -20,8 +21,9 @@ struct PAlphaConstants {
 ///   p(rho, e, alpha) = p_s(alpha rho, e)/alpha.
 /// The distension stays while p is below the crush curve and follows it in further loading, for good:
 ///   "quadratic":    alpha = 1 + (alpha0 - 1) [(p_s - p)/(p_s - p_e)]^2,  p_e < p < p_s;
-///   "exponential":  alpha = 1 + (alpha0 - 1) exp[-rate (p - p_e)] (Boade, J. Appl. Phys. 39, 5693, 1968),
-///   ended at
+///   "power":        the same with an exponent n for 2 (Borrvall and Riedel, 8th European LS-DYNA Conf.,
+///   2011); "exponential":  alpha = 1 + (alpha0 - 1) exp[-rate (p - p_e)] (Boade, J. Appl. Phys. 39, 5693,
+///   1968), ended at
 ///                   1e-6 (alpha0 - 1).
 /// The energy is that of the matrix (pores have none). States without a past are on the virgin path: loaded
 /// once, from alpha0. Sound speed, Gamma, K_T and heat capacities are those of unloading (constant alpha);
@@ -51,6 +53,13 @@ class PAlpha final : public Modified {
   [[nodiscard]] std::unique_ptr<EquationOfState> unloading(const State& from) const override;
   [[nodiscard]] std::string constants() const override { return constants_with_table<PAlpha>(constants_); }
 
+  void crush_pressure(std::span<const double> distension, std::span<double> pressure) const override {
+    for (std::size_t i = 0; i < distension.size(); ++i) {
+      pressure[i] =
+          distension[i] > 1 ? crush_pressure(distension[i]) : std::numeric_limits<double>::infinity();
+    }
+  }
+
   /// The crush curve and its inverse (Pa).
   [[nodiscard]] double distension_at(double pressure) const;
   [[nodiscard]] double crush_pressure(double distension) const;
@@ -65,7 +74,7 @@ class PAlpha final : public Modified {
   [[nodiscard]] State virgin(double density, const MatrixState& matrix_state) const;
 
   Constants constants_;
-  bool quadratic_ = true;
+  double exponent_ = 0;  ///< of the curves of a power; 0: exponential
   double closing_pressure_ = 0;
 };
 

@@ -14,6 +14,7 @@
 /// The working set of the constitutive update (update.cpp) and its second half, failure (failing.cpp).
 namespace whipple::material {
 
+constexpr double greatest_bulking = 2.0;         ///< distension of bulked matter
 constexpr double least_sound_speed_ratio = 0.1;  ///< of the bulk sound speed of the reference state
 
 /// Scratch of one chunk, on the stack; entry k belongs to point `index[k]`.
@@ -37,6 +38,7 @@ struct Chunk {
   Lanes energy, bulk_sound_speed, vaporised;
   Lanes acting_pressure;  // after failure
   Lanes distension;       // of porous matter only
+  Lanes least_pressure;   // of brittle matter only: the tension at which its gaps open
 
   template <class Array>
   auto view(Array& array) {
@@ -94,15 +96,19 @@ inline double solid_fraction(const Step& step, const Chunk& chunk, std::size_t k
 }
 
 /// Share of a change of the whole volume that goes to the voids of a point: all of it where the point has
-/// failed, its damage where cracks open in softening matter, and that of the porosity in porous matter.
+/// failed and of brittle matter, its damage where cracks open in softening matter, and that of the porosity
+/// in porous matter.
 inline double void_share(const Step& step, const Chunk& chunk, std::size_t k) {
-  if (chunk.failed[k] != failure::intact) return 1.0;
+  if (chunk.failed[k] != failure::intact || step.material.brittle) return 1.0;
   if (step.material.softens) return chunk.damage[k];
   return chunk.void_volume[k] / (chunk.volume[k] + chunk.void_volume[k]);
 }
 
 /// Voids grow, criteria are asked: between the equation of state and `finish`.
 void apply_failure(Step& step, Chunk& chunk);
+
+/// Strength, damage and bulking of brittle matter (docs/theory/concrete_and_ceramics.md).
+void relax_brittle(Step& step, Chunk& chunk);
 
 /// Cracks and voids, loss of the deviator by melting and damage, sound speed; writes the new state, all but
 /// the energy.

@@ -40,31 +40,34 @@ void grow_voids(Step& step, Chunk& chunk, std::span<const double> bulk_modulus,
 }
 
 /// Pressure of a point with cracks or voids and the division of its volume into matter and void: the share
-/// `opening` of what exceeds the volume of zero pressure is void (eq. 12, 13, 18).
+/// `opening` of what exceeds the volume of zero pressure, or of the pressure `least` where it is all of it,
+/// is void (eq. 12, 13, 18).
 /// @param modulus  rho c^2 (Pa), bounded from below
 /// @returns the pressure that acts
-double share_volume(double pressure, double modulus, double opening, double& volume, double& void_volume) {
+double share_volume(double pressure, double modulus, double opening, double least, double& volume,
+                    double& void_volume) {
   const double total = volume + void_volume;
   const double relaxed =
-      volume + std::clamp(pressure / modulus, -greatest_void_step, greatest_void_step) * volume;
+      volume + std::clamp((pressure - least) / modulus, -greatest_void_step, greatest_void_step) * volume;
   const double excess = total - relaxed;
   if (excess > 0.0) {  // tension opens the void, pressure lets the matter grow into it
     const double matter = opening == 1.0 ? relaxed : total - opening * excess;
     const double acting = pressure + modulus * (volume - matter) / volume;
     volume = matter;
     void_volume = total - matter;
-    return opening == 1.0 ? 0.0 : std::min(acting, 0.0);
+    return opening == 1.0 ? least : std::min(acting, 0.0);
   }
   const double acting = pressure - modulus * void_volume / volume;
   volume = total;
   void_volume = 0.0;
-  return std::max(acting, 0.0);
+  return std::max(acting, least);
 }
 
 }  // namespace
 
 void apply_failure(Step& step, Chunk& chunk) {
   std::copy_n(chunk.pressure.data(), chunk.size, chunk.acting_pressure.data());
+  if (step.material.brittle) relax_brittle(step, chunk);
   if (step.material.failure.empty()) return;
   Lanes factor, volume, bulk_modulus;
   chunk.fetch(step.points.failure_threshold_factor, factor);
@@ -104,7 +107,7 @@ void apply_failure(Step& step, Chunk& chunk) {
 
 namespace {
 
-/// What a point loses that has failed or melts, or cracks open in (see `finish`).
+/// What a point loses that has failed or melts, or cracks or gaps open in (see `finish`).
 /// @param squared  of its sound speed
 /// @returns the share of the deviator that it keeps
 double lose_strength(const Step& step, Chunk& chunk, std::size_t k, double bulk, double least_sound_speed,
@@ -116,11 +119,19 @@ double lose_strength(const Step& step, Chunk& chunk, std::size_t k, double bulk,
     const double solid = solid_fraction(step, chunk, k);
     squared = bulk + 4.0 / 3.0 * solid * chunk.solid_modulus[k] / chunk.density[k];
     if (step.material.softens && chunk.damage[k] > 0.0) {
-      pressure = share_volume(pressure, modulus, chunk.damage[k], chunk.volume[k], chunk.void_volume[k]);
+      pressure = share_volume(pressure, modulus, chunk.damage[k], 0.0, chunk.volume[k], chunk.void_volume[k]);
+    }
+    if (step.material.brittle) {
+      pressure = share_volume(pressure, modulus, 1.0, chunk.least_pressure[k], chunk.volume[k],
+                              chunk.void_volume[k]);
+      if (chunk.void_volume[k] > 0.0) {
+        squared = least_sound_speed * least_sound_speed;
+        chunk.artificial_viscosity[k] = 0.0;
+      }
     }
     return !viscous && solid < chunk.solid_fraction[k] ? solid / chunk.solid_fraction[k] : 1.0;
   }
-  pressure = share_volume(pressure, modulus, 1.0, chunk.volume[k], chunk.void_volume[k]);
+  pressure = share_volume(pressure, modulus, 1.0, 0.0, chunk.volume[k], chunk.void_volume[k]);
   squared = pressure <= 0.0 ? least_sound_speed * least_sound_speed : bulk;
   const bool open = chunk.void_volume[k] > 0.0;
   if (open) chunk.artificial_viscosity[k] = 0.0;  // opened in this step
@@ -132,7 +143,7 @@ double lose_strength(const Step& step, Chunk& chunk, std::size_t k, double bulk,
 void finish(Step& step, Chunk& chunk) {
   MaterialPoints& points = step.points;
   const double least_sound_speed = least_sound_speed_ratio * step.material.reference.sound_speed;
-  const bool has_pores = step.material.eos->initial_distension() > 1.0;
+  const bool has_pores = step.material.porous;
   const bool kinematic = step.material.strength->kinematic_modulus() > 0.0;
   Lanes bulk, squared, maximum_pressure, maximum_temperature;
   double melted = 0.0;
@@ -143,7 +154,7 @@ void finish(Step& step, Chunk& chunk) {
     melted = std::max(melted, chunk.melted[k]);
   }
   // What melts or cracks takes its share of the stress with it; what freezes is free of stress.
-  if (melted > 0.0 || chunk.any_failed || step.material.softens) {
+  if (melted > 0.0 || chunk.any_failed || step.material.softens || step.material.brittle) {
     for (std::size_t k = 0; k < chunk.size; ++k) {
       const double carried = lose_strength(step, chunk, k, bulk[k], least_sound_speed, squared[k]);
       if (carried == 1.0) continue;

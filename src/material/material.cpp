@@ -8,8 +8,10 @@
 #include <cmath>
 
 #include "eos/inversions.hpp"
+#include "eos/modifiers/distended.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
+#include "src/material/strength/brittle.hpp"
 #include "src/material/strength/none.hpp"
 
 namespace whipple {
@@ -52,12 +54,18 @@ eos::State state_at_pressure(const eos::EquationOfState& model, double pressure,
 /// @throws InputError if parts do not go together
 void require_parts_agree(const Material& material) {
   std::string with_past;
+  if (const strength::Brittle* brittle = material.strength->brittle()) {
+    with_past = material.strength->model();
+    if (brittle->bulks() && material.eos->initial_distension() > 1.0) {
+      throw InputError(fmt::format(
+          "strength model \"{}\" with 'bulking' takes an equation of state without pores", with_past));
+    }
+  }
   for (const auto& criterion : material.failure) {
     if (criterion->accumulates()) {
       if (!with_past.empty()) {
-        throw InputError(
-            fmt::format("failure models \"{}\" and \"{}\" both accumulate damage: one of them may", with_past,
-                        criterion->model()));
+        throw InputError(fmt::format("models \"{}\" and \"{}\" both accumulate damage: one of them may",
+                                     with_past, criterion->model()));
       }
       with_past = criterion->model();
     }
@@ -102,7 +110,15 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
     material.needs_strain |= criterion->needs_strain();
     if (criterion->grows_voids()) material.void_growth = criterion.get();
   }
+  if (const strength::Brittle* brittle = material.strength->brittle()) {
+    material.brittle = true;
+    if (brittle->bulks()) material.eos = std::make_shared<const eos::Distended>(material.eos);
+    material.porous = brittle->bulks();
+  }
+  material.porous |= material.eos->initial_distension() > 1.0;
   material.reference = initial_state(material);
+  const double sound_speed = material.reference.sound_speed;
+  material.reference_bulk_modulus = material.reference.density * sound_speed * sound_speed;
   return material;
 }
 

@@ -39,6 +39,9 @@ struct Material {
   std::vector<std::shared_ptr<const failure::Criterion>> failure;  ///< in the order of the file; may be empty
   bool softens = false;       ///< some criterion takes stress away before it fails (eq. 18, 19)
   bool needs_strain = false;  ///< some criterion asks for the strain
+  bool brittle = false;       ///< the strength follows the pressure of the step (strength/brittle.hpp)
+  bool porous = false;        ///< the equation of state takes the distension of the points
+  double reference_bulk_modulus = 0.0;              ///< Pa, rho c^2 of the reference state
   const failure::Criterion* void_growth = nullptr;  ///< the one of `failure` that grows voids; null: none
   eos::State reference;  ///< the state that bodies start from: p = 0 at the reference temperature
 

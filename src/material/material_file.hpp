@@ -11,8 +11,9 @@
 namespace whipple {
 
 /// Groups of the library, in the order in which it is listed.
-inline constexpr std::array<const char*, 6> material_groups = {
-    "metals", "explosives", "polymers", "rocks and ices", "liquids and gases", "verification"};
+inline constexpr std::array<const char*, 7> material_groups = {
+    "metals",         "explosives",        "polymers",    "concretes and ceramics",
+    "rocks and ices", "liquids and gases", "verification"};
 
 /// Reads a material file (TOML: name, source, note, group, [eos], [strength], [[failure]], [measured]; the
 /// tables [provenance], [covariance] and [defaults] are kept free).

@@ -55,7 +55,7 @@ void gather(Step& step, Chunk& chunk) {
   chunk.fetch(points.sound_speed, chunk.sound_speed);
   chunk.fetch(points.melted_fraction, chunk.melted);
   chunk.fetch(points.failed, chunk.failed);
-  if (step.material.failure.empty() && !step.material.softens) {
+  if (step.material.failure.empty() && !step.material.brittle) {
     std::fill_n(chunk.damage.data(), chunk.size, 0.0);
   } else {
     chunk.fetch(points.damage, chunk.damage);
@@ -239,7 +239,7 @@ void advance_strain(Step& step, Chunk& chunk) {
   }
 }
 
-/// Artificial viscosity (eq. 8): in compression only, none in failed matter beside an open void.
+/// Artificial viscosity (eq. 8): in compression only, none in failed or brittle matter beside an open void.
 void advance_viscosity(Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
   const auto advance = [&](const auto& length) {
@@ -256,9 +256,11 @@ void advance_viscosity(Step& step, Chunk& chunk) {
   } else {
     advance([&](std::size_t k) { return settings.lengths[chunk.index[k]]; });
   }
-  if (!chunk.any_failed || !chunk.any_void) return;
+  const bool brittle = step.material.brittle;
+  if (!(chunk.any_failed || brittle) || !chunk.any_void) return;
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    if (chunk.failed[k] != failure::intact && chunk.void_volume[k] > 0.0) chunk.artificial_viscosity[k] = 0.0;
+    const bool loose = brittle || chunk.failed[k] != failure::intact;
+    if (loose && chunk.void_volume[k] > 0.0) chunk.artificial_viscosity[k] = 0.0;
   }
 }
 
@@ -283,8 +285,6 @@ void prepare_energy(const Step& step, Chunk& chunk) {
   }
 }
 
-bool porous(const Step& step) { return step.material.eos->initial_distension() > 1.0; }
-
 /// One call for the chunk; density, pressure and temperature become the new ones.
 eos::RangeReport evaluate(Step& step, Chunk& chunk) {
   for (std::size_t k = 0; k < chunk.size; ++k) chunk.density[k] = chunk.mass[k] / chunk.volume[k];
@@ -292,7 +292,7 @@ eos::RangeReport evaluate(Step& step, Chunk& chunk) {
                    chunk.view(chunk.pressure),         chunk.view(chunk.temperature),
                    chunk.view(chunk.bulk_sound_speed), chunk.view(chunk.melted),
                    chunk.view(chunk.vaporised)};
-  if (porous(step)) {  // always from the distension before the step, which `finish` replaces
+  if (step.material.porous) {  // always from the distension before the step, which `finish` replaces
     chunk.fetch(step.points.distension, chunk.distension);
     batch.distension = chunk.view(chunk.distension);
   }

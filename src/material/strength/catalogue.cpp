@@ -6,9 +6,12 @@
 #include <array>
 
 #include "src/material/strength/elastic.hpp"
+#include "src/material/strength/holmquist_johnson_cook.hpp"
 #include "src/material/strength/johnson_cook.hpp"
+#include "src/material/strength/johnson_holmquist_2.hpp"
 #include "src/material/strength/none.hpp"
 #include "src/material/strength/power_law.hpp"
+#include "src/material/strength/riedel_hiermaier_thoma.hpp"
 #include "src/material/strength/steinberg_guinan.hpp"
 #include "src/material/strength/viscous_fluid.hpp"
 #include "src/material/strength/voce.hpp"
@@ -51,6 +54,12 @@ std::span<const ModelEntry> catalogue() {
           [](const SteinbergGuinan& c) { return std::make_unique<const SteinbergGuinanModel>(c); }),
       entry<ZerilliArmstrong>(
           [](const ZerilliArmstrong& c) { return std::make_unique<const ZerilliArmstrongModel>(c); }),
+      entry<HolmquistJohnsonCook>(
+          [](const HolmquistJohnsonCook& c) { return std::make_unique<const HolmquistJohnsonCookModel>(c); }),
+      entry<RiedelHiermaierThoma>(
+          [](const RiedelHiermaierThoma& c) { return std::make_unique<const RiedelHiermaierThomaModel>(c); }),
+      entry<JohnsonHolmquist2>(
+          [](const JohnsonHolmquist2& c) { return std::make_unique<const JohnsonHolmquist2Model>(c); }),
   };
   return entries;
 }

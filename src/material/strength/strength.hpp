@@ -18,6 +18,8 @@ struct State {
   [[nodiscard]] std::size_t size() const { return density.size(); }
 };
 
+class Brittle;
+
 /// The run-time face of the strength models: one virtual call per chunk of points, never per point.
 /// Every model is isotropic with a von Mises surface, so a step is a radial return (docs/theory/material.md,
 /// eq. 7): the trial equivalent stress q and the flow stress Y fix the increment of the equivalent plastic
@@ -37,6 +39,10 @@ class Strength {
 
   /// Viscosity of a fluid without deviatoric strength (Pa s): s = 2 eta dev D; 0: none.
   [[nodiscard]] virtual double viscosity() const { return 0.0; }
+
+  /// What acts once the pressure of the step is known, of brittle matter (strength/brittle.hpp); null:
+  /// nothing.
+  [[nodiscard]] virtual const Brittle* brittle() const { return nullptr; }
 
   /// Shear modulus of the solid (Pa); the loss by melting is applied by the caller.
   virtual void shear_modulus(const State& state, std::span<double> modulus) const = 0;

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/material/strength/brittle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/material/chunk.hpp"
+#include "src/material/principal.hpp"
+
+namespace whipple::material {
+namespace {
+
+/// Pressure that the matter would have if it filled its gap as well.
+void fill_gaps(const Chunk& chunk, Lanes& pressure) {
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double modulus = chunk.density[k] * chunk.bulk_sound_speed[k] * chunk.bulk_sound_speed[k];
+    pressure[k] = chunk.pressure[k] - modulus * chunk.void_volume[k] / chunk.volume[k];
+  }
+}
+
+/// sqrt(2/3 e:e) of the deviator e of the strain rate.
+void equivalent_rate(const Step& step, const Chunk& chunk, Lanes& rate) {
+  const SymmetricLanes& e = chunk.motion.strain;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double mean = (e[0][k] + e[1][k] + e[2][k]) / 3.0;
+    const double x = e[0][k] - mean, y = e[1][k] - mean, z = e[2][k] - mean;
+    const double shear = e[3][k] * e[3][k] + e[4][k] * e[4][k] + e[5][k] * e[5][k];
+    rate[k] = std::sqrt(2.0 / 3.0 * (x * x + y * y + z * z + 2.0 * shear)) / step.settings.time_step;
+  }
+}
+
+}  // namespace
+
+void relax_brittle(Step& step, Chunk& chunk) {
+  const strength::Brittle& law = *step.material.strength->brittle();
+  const double grains = step.material.eos->initial_distension();
+  Lanes pressure, rate, lode, compaction, crush, factor, equivalent, gained, before;
+  fill_gaps(chunk, pressure);
+  equivalent_rate(step, chunk, rate);
+  chunk.fetch(step.points.failure_threshold_factor, factor);
+  std::fill_n(compaction.data(), chunk.size, 0.0);
+  std::fill_n(crush.data(), chunk.size, std::numeric_limits<double>::infinity());
+  if (grains > 1.0) {
+    chunk.fetch(step.points.distension, before);
+    for (std::size_t k = 0; k < chunk.size; ++k)
+      compaction[k] = grains / chunk.distension[k] - grains / before[k];
+    step.material.eos->crush_pressure(chunk.view(chunk.distension), chunk.view(crush));
+  }
+  if (law.needs_lode_angle()) {
+    for (std::size_t k = 0; k < chunk.size; ++k) lode[k] = lode_cosine(tensor(chunk.motion.deviator, k));
+  }
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    equivalent[k] = chunk.motion.trial[k];
+    gained[k] = 0.0;
+  }
+  law.relax({.bulk_modulus = step.material.reference_bulk_modulus,
+             .pressure = chunk.view(pressure),
+             .modulus = chunk.view(chunk.motion.modulus),
+             .solid_fraction = chunk.view(chunk.solid_fraction),
+             .trial = chunk.view(chunk.motion.trial),
+             .rate = chunk.view(rate),
+             .lode_cosine = std::span<const double>(lode.data(), law.needs_lode_angle() ? chunk.size : 0),
+             .compaction = chunk.view(compaction),
+             .crush_pressure = chunk.view(crush),
+             .threshold_factor = chunk.view(factor),
+             .equivalent = chunk.view(equivalent),
+             .plastic_increment = chunk.view(chunk.increment),
+             .plastic_strain = chunk.view(chunk.plastic_strain),
+             .damage = chunk.view(chunk.damage),
+             .least_pressure = chunk.view(chunk.least_pressure),
+             .bulking_pressure = chunk.view(gained)});
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    if (chunk.failed[k] != failure::intact) continue;
+    if (equivalent[k] < chunk.motion.trial[k]) {
+      scale(chunk.motion.deviator, k, equivalent[k] / chunk.motion.trial[k]);
+    }
+    if (gained[k] > 0.0) {  // (12): 1/alpha falls by the gain over K1
+      const double closeness = 1.0 / chunk.distension[k] - gained[k] / step.material.reference_bulk_modulus;
+      chunk.distension[k] = std::min(greatest_bulking, 1.0 / std::max(closeness, 1.0 / greatest_bulking));
+      chunk.acting_pressure[k] += gained[k];
+    }
+  }
+  chunk.deposit(chunk.damage, step.points.damage);
+}
+
+}  // namespace whipple::material

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/base/parameter_table.hpp"
+#include "src/material/strength/elastic_constants.hpp"
+#include "src/material/strength/strength.hpp"
+
+/// Brittle matter: strength that follows the pressure and falls with damage (docs/theory/
+/// concrete_and_ceramics.md).
+namespace whipple::strength {
+
+/// A chunk of points after the equation of state (SI), one entry per point.
+struct BrittleState {
+  double bulk_modulus;                       ///< Pa, rho c^2 of the reference state
+  std::span<const double> pressure;          ///< Pa, of the equation of state; no gaps left if there were any
+  std::span<const double> modulus;           ///< Pa, shear, with melting
+  std::span<const double> solid_fraction;    ///< 1 - melted fraction
+  std::span<const double> trial;             ///< Pa, equivalent trial stress of the deviator
+  std::span<const double> rate;              ///< 1/s, equivalent strain rate
+  std::span<const double> lode_cosine;       ///< cos 3 theta of the trial deviator; empty unless asked for
+  std::span<const double> compaction;        ///< growth of the compression at rest by crushed pores
+  std::span<const double> crush_pressure;    ///< Pa, at which the pores give way; infinite: none left
+  std::span<const double> threshold_factor;  ///< scatter of the failure strain (1: none)
+  std::span<double> equivalent;              ///< Pa, equivalent stress: out
+  std::span<double> plastic_increment;       ///< out
+  std::span<double> plastic_strain;          ///< in and out
+  std::span<double> damage;                  ///< in and out
+  std::span<double> least_pressure;          ///< Pa, tension at which gaps open: out
+  std::span<double> bulking_pressure;        ///< Pa, gained by bulking: out
+};
+
+/// The part of a strength model that acts once the pressure of the step is known; one virtual call per chunk.
+class Brittle {
+ public:
+  virtual ~Brittle() = default;
+  /// Returns the deviator to the strength, lets damage grow, says at which tension gaps open.
+  virtual void relax(const BrittleState& state) const = 0;
+  /// Does lost shear energy become pressure?
+  [[nodiscard]] virtual bool bulks() const { return false; }
+  /// Does the strength depend on the Lode angle?
+  [[nodiscard]] virtual bool needs_lode_angle() const { return false; }
+};
+
+/// What a point meets in a step.
+struct BrittlePoint {
+  double pressure;  ///< Pa, tension at most that at which gaps open
+  double rate;      ///< 1/s
+  double lode_cosine = 1.0;
+  double plastic_strain = 0.0;
+  double damage = 0.0;
+  double compaction = 0.0;
+  double crush_pressure = std::numeric_limits<double>::infinity();
+};
+
+/// Strength at a pressure and a rate, linear in the damage up to a bound, Y = min(whole - D fall, greatest),
+/// not below 0,
+/// and the plastic strain over which the damage goes from 0 to 1.
+struct BrittleSurface {
+  double whole;     ///< Pa, at D = 0
+  double fall;      ///< Pa, >= 0
+  double greatest;  ///< Pa
+  double failure_strain;
+
+  [[nodiscard]] double strength(double damage) const {
+    return std::clamp(whole - damage * fall, 0.0, std::max(greatest, 0.0));
+  }
+};
+
+struct BrittleReturn {
+  double increment;  ///< of the equivalent plastic strain
+  double damage;     ///< after it
+};
+
+/// Closed solution of q - 3 G x = Y(D + x/eps_f), the return to a surface that falls while it is returned to
+/// (docs/theory/concrete_and_ceramics.md, eq. 8). Where it falls faster than the stress, the point breaks at
+/// once: D = 1.
+inline BrittleReturn brittle_return(double trial, double stiffness, const BrittleSurface& y, double damage) {
+  if (trial <= y.strength(damage)) return {0.0, damage};
+  if (damage < 1.0 && y.failure_strain > 0.0) {
+    const double excess = trial - (y.whole - damage * y.fall), slope = stiffness - y.fall / y.failure_strain;
+    double x = std::max(0.0, (trial - y.greatest) / stiffness);
+    if (excess > 0.0) x = slope > 0.0 ? std::max(x, excess / slope) : std::numeric_limits<double>::infinity();
+    const double grown = damage + x / y.failure_strain;
+    if (grown < 1.0) return {std::min(x, trial / stiffness), grown};
+  }
+  return {std::max(0.0, trial - y.strength(1.0)) / stiffness, 1.0};
+}
+
+/// The run-time face of a brittle law. A law is a plain struct of constants that derives from
+/// ElasticConstants, with name, summary, theory, parameters(), require_consistent() and
+///   surface(point) -> BrittleSurface              strength and failure strain at point.pressure, point.rate
+///   least_pressure(point) -> double               Pa, <= 0, at point.damage
+///   crushed_strain(point) -> double               strain that crushed pores add to the damage
+/// and, where it does more, bulking (share of the lost shear energy that becomes pressure), or
+/// hardening(trial, stiffness, surface, point) -> BrittleReturn (strain hardening before any damage).
+template <class Law>
+class BrittleModel final : public Strength, public Brittle {
+ public:
+  /// @throws InputError if the constants contradict one another
+  explicit BrittleModel(const Law& law) : law_(law), modulus_(law.stiffness()) { law.require_consistent(); }
+
+  [[nodiscard]] const Law& law() const { return law_; }
+  [[nodiscard]] std::string_view model() const override { return Law::name; }
+  [[nodiscard]] const Brittle* brittle() const override { return this; }
+  void shear_modulus(const State&, std::span<double> modulus) const override {
+    std::ranges::fill(modulus, modulus_);
+  }
+  /// None before the pressure is known: the trial deviator goes through to `relax`.
+  void plastic_increment(const State&, std::span<const double>, std::span<const double>,
+                         std::span<const double>, double, std::span<double> increment) const override {
+    std::ranges::fill(increment, 0.0);
+  }
+  /// Of undamaged matter.
+  void flow_stress(const State& state, std::span<const double> rate,
+                   std::span<double> stress) const override {
+    for (std::size_t i = 0; i < stress.size(); ++i) {
+      stress[i] = law_.surface({.pressure = state.pressure[i], .rate = rate[i]}).strength(0.0);
+    }
+  }
+  [[nodiscard]] bool bulks() const override {
+    if constexpr (requires { law_.bulking; }) return law_.bulking > 0.0;
+    return false;
+  }
+  [[nodiscard]] bool needs_lode_angle() const override {
+    return requires { Law::needs_lode_angle; };
+  }
+  void relax(const BrittleState& state) const override {
+    for (std::size_t i = 0; i < state.trial.size(); ++i) relax_point(state, i);
+  }
+  [[nodiscard]] std::string constants() const override {
+    Law copy = law_;
+    return fmt::format("model = \"{}\"\n{}", Law::name, to_toml(whipple::bind(Law::parameters(), copy)));
+  }
+
+ private:
+  void relax_point(const BrittleState& state, std::size_t i) const {
+    BrittlePoint point{.pressure = state.pressure[i],
+                       .rate = state.rate[i],
+                       .plastic_strain = state.plastic_strain[i],
+                       .damage = state.damage[i],
+                       .compaction = state.compaction[i],
+                       .crush_pressure = state.crush_pressure[i]};
+    if (!state.lode_cosine.empty()) point.lode_cosine = state.lode_cosine[i];
+    point.pressure = std::max(point.pressure, law_.least_pressure(point));
+    BrittleSurface y = law_.surface(point);
+    const double solid = state.solid_fraction[i], stiffness = 3.0 * state.modulus[i];
+    y.whole *= solid;
+    y.fall *= solid;
+    y.greatest *= solid;
+    y.failure_strain *= state.threshold_factor[i];
+    const double crushed = law_.crushed_strain(point);
+    if (crushed > 0.0) {
+      point.damage = y.failure_strain > 0.0 ? std::min(1.0, point.damage + crushed / y.failure_strain) : 1.0;
+    }
+    double increment = 0.0;
+    if (stiffness > 0.0) {
+      const double before = y.strength(point.damage);
+      const BrittleReturn r = step(state.trial[i], stiffness, y, point);
+      increment = r.increment;
+      point.damage = r.damage;
+      state.equivalent[i] = state.trial[i] - stiffness * increment;
+      if (increment > 0.0) state.bulking_pressure[i] = bulking_pressure(state, i, point, before, y);
+    }
+    state.plastic_increment[i] = increment;
+    state.plastic_strain[i] += increment;
+    state.damage[i] = point.damage;
+    state.least_pressure[i] = law_.least_pressure(point);
+  }
+  BrittleReturn step(double trial, double stiffness, const BrittleSurface& y,
+                     const BrittlePoint& point) const {
+    if constexpr (requires { law_.hardening(trial, stiffness, y, point); }) {
+      return law_.hardening(trial, stiffness, y, point);
+    } else {
+      return brittle_return(trial, stiffness, y, point.damage);
+    }
+  }
+  /// What the share `bulking` of the shear energy that is lost with the strength adds to a pressure
+  /// (docs/theory/concrete_and_ceramics.md, eq. 12).
+  double bulking_pressure(const BrittleState& state, std::size_t i, const BrittlePoint& point, double before,
+                          const BrittleSurface& y) const {
+    if constexpr (requires { law_.bulking; }) {
+      if (!(point.pressure > 0.0)) return 0.0;
+      const double after = y.strength(point.damage), p = point.pressure;
+      const double lost = (before * before - after * after) / (6.0 * state.modulus[i]);
+      return lost > 0.0 ? std::sqrt(p * p + 2.0 * law_.bulking * state.bulk_modulus * lost) - p : 0.0;
+    }
+    return 0.0;
+  }
+
+  Law law_;
+  double modulus_;
+};
+
+/// 1 + C ln max(1, rate/rate_0), the rate factor of Johnson and his co-authors; 1 below the reference rate.
+inline double logarithmic_rate_factor(double coefficient, double rate, double reference_rate) {
+  if (coefficient == 0.0 || !(rate > reference_rate)) return 1.0;
+  return 1.0 + coefficient * std::log(rate / reference_rate);
+}
+
+}  // namespace whipple::strength
