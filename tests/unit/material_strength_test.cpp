@@ -241,7 +241,7 @@ TEST(StrengthModels, CatalogueDescribesEveryModelWithItsConstants) {
     EXPECT_THAT(entry.describe(), ::testing::HasSubstr(entry.name));
     EXPECT_FALSE(entry.summary.empty());
   }
-  EXPECT_EQ(strength::catalogue().size(), 9U);
+  EXPECT_EQ(strength::catalogue().size(), 12U);
 }
 
 }  // namespace
