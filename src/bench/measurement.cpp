@@ -37,12 +37,16 @@ solver::Simulation thinned(const setup::Case& setup, const solver::Simulation& f
   return {setup, std::move(particles), formed.state(), formed.communicator()};
 }
 
-/// Nodes and particles of all ranks.
-std::array<double, 2> nodes_and_particles(const solver::Simulation& simulation) {
-  std::array<double, 2> counts = {static_cast<double>(simulation.grid().slots()) * grid::nodes_per_block,
-                                  static_cast<double>(simulation.particles().size())};
-  parallel::sum(simulation.communicator(), counts);
-  return counts;
+/// Particles and elements of all ranks: what the time of a step is divided by.
+double point_count(const solver::Simulation& simulation) {
+  return static_cast<double>(simulation.particle_count() + simulation.element_count());
+}
+
+/// Nodes of the grid of all ranks.
+double node_count(const solver::Simulation& simulation) {
+  std::array<double, 1> nodes = {static_cast<double>(simulation.grid().slots()) * grid::nodes_per_block};
+  parallel::sum(simulation.communicator(), nodes);
+  return nodes[0];
 }
 
 struct Part {
@@ -58,7 +62,7 @@ Part time_steps(solver::Simulation& simulation, std::size_t steps) {
   simulation.profile().clear();
   const Clock::time_point begin = Clock::now();
   for (std::size_t i = 0; i < steps && simulation.state().time < end; ++i) {
-    part.particle_steps += static_cast<double>(simulation.particle_count());
+    part.particle_steps += point_count(simulation);
     simulation.advance(end);
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -96,7 +100,7 @@ Measurement measure(const Problem& problem, int threads, Length length) {
     if (part.nanoseconds < best.nanoseconds) best = std::move(part);
   }
 
-  const auto [nodes, particles] = nodes_and_particles(*simulation);
+  const double nodes = node_count(*simulation), points = point_count(*simulation);
   std::array<double, 1> memory = {static_cast<double>(simulation->bytes())};
   parallel::sum(world, memory);
   std::array<double, 1> peak = {peak_memory()};
@@ -104,15 +108,15 @@ Measurement measure(const Problem& problem, int threads, Length length) {
   Measurement result{.problem = problem.name,
                      .ranks = parallel::size(world),
                      .threads = threads,
-                     .particles = simulation->particle_count(),
+                     .particles = static_cast<std::size_t>(points),
                      .steps = static_cast<std::size_t>(simulation->state().step - first_step),
                      .nanoseconds = best.nanoseconds,
-                     .particles_per_block = particles / nodes * grid::nodes_per_block,
-                     .bytes_per_particle = memory[0] / particles,
+                     .particles_per_block = points / nodes * grid::nodes_per_block,
+                     .bytes_per_particle = memory[0] / points,
                      .peak_memory = peak[0],
                      .stages = {}};
   for (const solver::Profile::Stage& stage : best.stages) {
-    const StageCost cost = stage_cost(stage.name, setup, nodes / particles);
+    const StageCost cost = stage_cost(stage.name, setup, nodes / points);
     result.stages.push_back({stage.name, 1e9 * stage.seconds / best.particle_steps, cost.bytes, cost.flops});
   }
   return result;

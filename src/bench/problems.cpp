@@ -87,6 +87,12 @@ std::vector<Problem> all_problems() {
        .steps_before = 200,
        .steps = 30,
        .thinning = 20e-6},
+      {.name = "long_rod",
+       .what = "tungsten rod on steel plate: elements, and particles that come from them",
+       .case_file = "cases/long_rod_oblique_plate/case.toml",
+       .overrides = {{"domain.cell_size", "1 mm"}},
+       .steps_before = 400,
+       .steps = 100},
   };
 }
 

@@ -200,8 +200,9 @@ void Simulation::begin_step(double until) {
       throw StateError(
           fmt::format("step {}, t = {} s: the stable time step is {} s", state_.step, state_.time, dt));
     }
-    // The last step before `until` lands on it; the one before is halved rather than leaving a sliver.
     const double left = until - state_.time;
+    if (!(left > 0.0)) throw InternalError(fmt::format("t = {} s has been reached already", until));
+    // The last step before `until` lands on it; the one before is halved rather than leaving a sliver.
     if (dt >= left) {
       dt = left;
     } else if (2.0 * dt > left) {
