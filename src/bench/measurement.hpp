@@ -23,7 +23,7 @@ struct StageMeasurement {
 struct Measurement {
   std::string problem;
   int ranks = 1;
-  int threads = 1;  ///< of each rank
+  int threads = 1;            ///< of each rank
   std::size_t particles = 0;  ///< and elements
   std::size_t steps = 0;
   double nanoseconds = 0.0;  ///< wall clock per particle and step, best of several parts of the run
