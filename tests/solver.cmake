@@ -5,7 +5,7 @@ whipple_test(test_run STARTS_MPI SOURCES parallel/solver_restart_test.cpp DEPEND
 whipple_test(test_planar_impact STARTS_MPI SOURCES verification/solver_planar_impact_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_taylor_bar STARTS_MPI SOURCES verification/solver_taylor_bar_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_elastic STARTS_MPI SOURCES verification/solver_elastic_test.cpp DEPENDS whipple_solver LABELS fast)
-whipple_test(test_contact STARTS_MPI SOURCES verification/solver_contact_test.cpp DEPENDS whipple_solver LABELS fast)
+whipple_test(test_contact STARTS_MPI SOURCES verification/solver_contact_test.cpp verification/solver_element_contact_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.cpp DEPENDS whipple_solver LABELS long)
 whipple_test(test_orders STARTS_MPI SOURCES verification/solver_orders_test.cpp DEPENDS whipple_solver LABELS fast)
 # Writes docs/orders_of_convergence.md; a program of its own, as it takes minutes.

@@ -11,9 +11,6 @@
 namespace whipple::afemp {
 namespace {
 
-constexpr std::array<std::array<std::size_t, 4>, 6> faces_of_element = {
-    {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
-
 constexpr double on_plane = 1e-6;  ///< cells, distance from a face that still is on it
 
 /// Who is in a cell: nobody, the surface of one body, or somebody that every body meets.
@@ -122,6 +119,22 @@ bool keeps_to_planes_only(const fem::Nodes& nodes, std::size_t a, const grid::Ge
   return true;
 }
 
+bool lies_on_mirror(const fem::Mesh& mesh, const fem::Facet& facet, const grid::Geometry& geometry) {
+  const double tolerance = on_plane * geometry.cell_size;
+  for (int face = 0; face < 6; ++face) {
+    const grid::Boundary kind = geometry.boundary[static_cast<std::size_t>(face)];
+    if (kind != grid::Boundary::symmetry && kind != grid::Boundary::no_slip) continue;
+    const int axis = face / 2;
+    const double plane = face % 2 == 0 ? geometry.lower[axis] : geometry.upper(axis);
+    if (std::ranges::all_of(facet, [&](std::uint32_t a) {
+          return std::abs(mesh.nodes.position[a][axis] - plane) < tolerance;
+        })) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Calls f(mesh index, node, index among the transition nodes) for every marked node.
 template <class Meshes, class Function>
 void for_each_marked(Meshes& meshes, Function&& f) {
@@ -148,23 +161,16 @@ double sound_speed_at(const fem::Mesh& mesh, std::size_t node) {
 
 }  // namespace
 
-void mark_surface(fem::Mesh& mesh) {
-  std::vector<std::array<std::uint32_t, 4>> faces;
-  faces.reserve(6 * mesh.elements.size());
-  for (const fem::Corners& corners : mesh.elements.corners) {
-    for (const auto& face : faces_of_element) {
-      auto& nodes = faces.emplace_back();
-      for (std::size_t i = 0; i < 4; ++i) nodes[i] = corners[face[i]];
-      std::ranges::sort(nodes);
-    }
-  }
-  std::ranges::sort(faces);
+std::vector<fem::Facet> free_facets(const fem::Mesh& mesh, const grid::Geometry& geometry) {
+  std::vector<fem::Facet> facets = fem::surface_facets(mesh);
+  std::erase_if(facets, [&](const fem::Facet& facet) { return lies_on_mirror(mesh, facet, geometry); });
+  return facets;
+}
+
+void mark_surface(fem::Mesh& mesh, const grid::Geometry& geometry) {
   std::ranges::fill(mesh.nodes.on_surface, std::uint8_t{0});
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const bool shared =
-        (i > 0 && faces[i] == faces[i - 1]) || (i + 1 < faces.size() && faces[i] == faces[i + 1]);
-    if (shared) continue;
-    for (const std::uint32_t node : faces[i]) mesh.nodes.on_surface[node] = 1;
+  for (const fem::Facet& facet : free_facets(mesh, geometry)) {
+    for (const std::uint32_t node : facet) mesh.nodes.on_surface[node] = 1;
   }
 }
 
@@ -232,7 +238,7 @@ void distribute(const transfer::TransitionNodes& nodes, std::vector<fem::Mesh>& 
     to.affine_velocity[a] = nodes.affine_velocity[i];
     motions[m].mean[a] = nodes.mean_velocity[i];
     motions[m].end[a] = nodes.new_velocity[i];
-    heat[m][a] = nodes.heat[i];
+    heat[m][a] = nodes.heat[i] + nodes.contact_heat[i];
     for (int axis = 0; axis < 3; ++axis) {  // on mirror planes the grid gives 0 but for round-off
       if ((to.constrained[a] & fem::constraint::axis(axis)) == 0) continue;
       to.velocity[a][axis] = motions[m].end[a][axis] = to.prescribed[a][axis];

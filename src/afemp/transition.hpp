@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "src/fem/facets.hpp"
 #include "src/fem/mesh.hpp"
 #include "src/fem/step.hpp"
 #include "src/grid/geometry.hpp"
@@ -14,8 +15,12 @@
 /// Transition between finite elements and the grid (docs/theory/afemp.md, section 2).
 namespace whipple::afemp {
 
-/// Marks the nodes of faces that belong to one element only (`Nodes::on_surface`).
-void mark_surface(fem::Mesh& mesh);
+/// Faces that belong to one element only, but for those on mirror planes and walls that matter sticks to,
+/// behind which the body goes on as its own image.
+std::vector<fem::Facet> free_facets(const fem::Mesh& mesh, const grid::Geometry& geometry);
+
+/// Marks their nodes (`Nodes::on_surface`).
+void mark_surface(fem::Mesh& mesh, const grid::Geometry& geometry);
 
 /// Marks the nodes that move with the grid (`Nodes::in_transition`): nodes on the surface of a mesh, inside
 /// of the domain, in the same cell as, or in a cell next to that of, a particle or a surface node of another

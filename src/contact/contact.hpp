@@ -39,8 +39,9 @@ class Contact {
   explicit Contact(const Settings& settings) : settings_(settings) {}
 
   /// Finds the surfaces of the bodies around the contact slots. Collective.
-  void find_surfaces(transfer::ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid) {
-    surfaces_.find(settings_.normal, shape, particles, grid);
+  void find_surfaces(transfer::ShapeFunction shape, const Particles& particles, const SurfacePoints& elements,
+                     grid::BlockGrid& grid) {
+    surfaces_.find(settings_.normal, shape, particles, elements, grid);
   }
 
   /// Adds the impulses of contact to the velocity increments of the contact slots of this rank, and leaves

@@ -93,68 +93,88 @@ FoldedAxis<count> fold(const BlockGrid& grid, int axis, int block, int first) {
   return folded;
 }
 
-/// Calls f(p, place) for the nodes of contact slots that particles reach; no two calls at a time for one
-/// node.
-template <class Shape, class Function>
-void for_each_place(const Particles& particles, BlockGrid& grid, Function&& f) {
+/// Calls f(p, place) for the nodes of contact slots that a point of the field, in the block of a slot,
+/// reaches.
+template <class Shape, class Points, class Function>
+void for_each_place_of(const Points& points, std::uint32_t p, unsigned field, std::size_t slot,
+                       const BlockGrid& grid, Function&& f) {
   static constexpr grid::ReachMap map = grid::reach_map();
   constexpr int count = Shape::count;
+  const grid::BlockCoordinate& block = grid.coordinate(slot);
+  const auto& neighbours = grid.neighbours(slot);
+  const transfer::Weights<count> w =
+      transfer::weights_at<Shape>(points, p, transfer::BlockFrame(grid.geometry(), block));
+  const std::array<int, 3> first_node = w.first_node();
+  const std::array<FoldedAxis<count>, 3> axes = {fold<count>(grid, 0, block[0], first_node[0]),
+                                                 fold<count>(grid, 1, block[1], first_node[1]),
+                                                 fold<count>(grid, 2, block[2], first_node[2])};
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < count; ++j) {
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::array<std::size_t, 3> at = {i, j, k};
+        std::array<int, 3> owner{}, inside{};
+        for (std::size_t a = 0; a < 3; ++a) {
+          const auto place = static_cast<std::size_t>(axes[a].node[at[a]] + 1);
+          owner[a] = map.block[place];
+          inside[a] = map.node[place];
+        }
+        const std::int32_t of =
+            neighbours[static_cast<std::size_t>(grid::neighbour_index(owner[0], owner[1], owner[2]))];
+        if (of == BlockGrid::no_slot) continue;
+        const std::int32_t number = grid.contact_number(static_cast<std::size_t>(of));
+        const double weight = w.weight[i][0] * w.weight[j][1] * w.weight[k][2];
+        if (number == BlockGrid::no_slot || !(weight > 0.0)) continue;
+        const std::uint64_t fields = grid.fields(static_cast<std::size_t>(of));
+        if ((fields >> field & 1U) == 0) continue;
+        const Vector3 sign(axes[0].sign[i], axes[1].sign[j], axes[2].sign[k]);
+        const Vector3 gradient(w.derivative[i][0] * w.weight[j][1] * w.weight[k][2],
+                               w.weight[i][0] * w.derivative[j][1] * w.weight[k][2],
+                               w.weight[i][0] * w.weight[j][1] * w.derivative[k][2]);
+        const Vector3 distance(w.distance[i][0], w.distance[j][1], w.distance[k][2]);
+        f(p,
+          Place{.contact_slot = static_cast<std::size_t>(number),
+                .fields = static_cast<std::size_t>(std::popcount(fields)),
+                .field = static_cast<std::size_t>(std::popcount(fields & ((std::uint64_t{1} << field) - 1))),
+                .node = static_cast<std::size_t>(grid::node_index(inside[0], inside[1], inside[2])),
+                .weight = weight,
+                .gradient = sign.cwiseProduct(gradient),
+                .distance = -sign.cwiseProduct(distance),
+                .off_plane = Vector3(axes[0].off_plane[i], axes[1].off_plane[j], axes[2].off_plane[k]),
+                .sign = sign});
+      }
+    }
+  }
+}
+
+/// The same for all particles; no two calls at a time for one node.
+template <class Shape, class Function>
+void for_each_place(const Particles& particles, const BlockGrid& grid, Function&& f) {
   for (const std::vector<std::uint32_t>& colour : grid.colours()) {
     parallel::for_each_uneven(colour.size(), [&](std::size_t c) {
       const std::size_t slot = colour[c];
       if (!grid.meets_contact(slot)) return;
-      const grid::BlockCoordinate& block = grid.coordinate(slot);
-      const transfer::BlockFrame frame(grid.geometry(), block);
-      const auto& neighbours = grid.neighbours(slot);
-      grid.for_each_field(
-          BlockGrid::Points::particles, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
-            for (const std::uint32_t p : members) {
-              const transfer::Weights<count> w = transfer::weights_at<Shape>(particles, p, frame);
-              const std::array<int, 3> first_node = w.first_node();
-              const std::array<FoldedAxis<count>, 3> axes = {fold<count>(grid, 0, block[0], first_node[0]),
-                                                             fold<count>(grid, 1, block[1], first_node[1]),
-                                                             fold<count>(grid, 2, block[2], first_node[2])};
-              for (std::size_t i = 0; i < count; ++i) {
-                for (std::size_t j = 0; j < count; ++j) {
-                  for (std::size_t k = 0; k < count; ++k) {
-                    const std::array<std::size_t, 3> at = {i, j, k};
-                    std::array<int, 3> owner{}, inside{};
-                    for (std::size_t a = 0; a < 3; ++a) {
-                      const auto place = static_cast<std::size_t>(axes[a].node[at[a]] + 1);
-                      owner[a] = map.block[place];
-                      inside[a] = map.node[place];
-                    }
-                    const std::int32_t of = neighbours[static_cast<std::size_t>(
-                        grid::neighbour_index(owner[0], owner[1], owner[2]))];
-                    if (of == BlockGrid::no_slot) continue;
-                    const std::int32_t number = grid.contact_number(static_cast<std::size_t>(of));
-                    const double weight = w.weight[i][0] * w.weight[j][1] * w.weight[k][2];
-                    if (number == BlockGrid::no_slot || !(weight > 0.0)) continue;
-                    const std::uint64_t fields = grid.fields(static_cast<std::size_t>(of));
-                    if ((fields >> field & 1U) == 0) continue;
-                    const Vector3 sign(axes[0].sign[i], axes[1].sign[j], axes[2].sign[k]);
-                    const Vector3 gradient(w.derivative[i][0] * w.weight[j][1] * w.weight[k][2],
-                                           w.weight[i][0] * w.derivative[j][1] * w.weight[k][2],
-                                           w.weight[i][0] * w.weight[j][1] * w.derivative[k][2]);
-                    const Vector3 distance(w.distance[i][0], w.distance[j][1], w.distance[k][2]);
-                    f(p, Place{.contact_slot = static_cast<std::size_t>(number),
-                               .fields = static_cast<std::size_t>(std::popcount(fields)),
-                               .field = static_cast<std::size_t>(
-                                   std::popcount(fields & ((std::uint64_t{1} << field) - 1))),
-                               .node = static_cast<std::size_t>(
-                                   grid::node_index(inside[0], inside[1], inside[2])),
-                               .weight = weight,
-                               .gradient = sign.cwiseProduct(gradient),
-                               .distance = -sign.cwiseProduct(distance),
-                               .off_plane =
-                                   Vector3(axes[0].off_plane[i], axes[1].off_plane[j], axes[2].off_plane[k]),
-                               .sign = sign});
-                  }
-                }
-              }
-            }
-          });
+      grid.for_each_field(BlockGrid::Points::particles, slot,
+                          [&](std::span<const std::uint32_t> members, unsigned field) {
+                            for (const std::uint32_t p : members) {
+                              for_each_place_of<Shape>(particles, p, field, slot, grid, f);
+                            }
+                          });
     });
+  }
+}
+
+/// The same for points on surfaces of elements, which work with B-splines only.
+template <class Shape, class Function>
+void for_each_place(const PlacedPoints& placed, const BlockGrid& grid, Function&& f) {
+  if constexpr (transfer::CarriesAffineField<Shape>) {
+    for (const std::vector<std::uint32_t>& colour : placed.colours) {
+      parallel::for_each_uneven(colour.size(), [&](std::size_t c) {
+        const std::size_t slot = colour[c];
+        for (const std::uint32_t p : placed.in_slot.in(slot)) {
+          for_each_place_of<Shape>(*placed.points, p, placed.points->field[p], slot, grid, f);
+        }
+      });
+    }
   }
 }
 
@@ -245,7 +265,8 @@ Surfaces::Gap Surfaces::at(std::size_t contact_slot, std::size_t pair, std::size
 }
 
 void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles& particles,
-                    grid::BlockGrid& grid) {
+                    const SurfacePoints& elements, grid::BlockGrid& grid) {
+  const PlacedPoints placed(elements, grid);
   lay_out(gradient_, grid, broadcast(0.0), one_per_field);
   candidates_ = kind == Normal::separating ? 3 : 1;
   const auto per_pair = [&](std::size_t fields) { return candidates_ * one_per_pair(fields); };
@@ -258,7 +279,7 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
       for (int iteration = 0; iteration < regression::iterations; ++iteration) {
         lay_out(equations_, grid, broadcast(0.0),
                 [](std::size_t fields) { return regression::lanes_per_node * one_per_pair(fields); });
-        for_each_place<Shape>(particles, grid, [&](std::size_t, const Place& place) {
+        const auto add = [&](std::size_t, const Place& place) {
           // A node on a mirror plane has its normal in it: then only the place along the plane matters.
           const Vector3 cells = per_cell * place.distance.cwiseProduct(place.off_plane);
           place.for_each_pair([&](std::size_t pair, bool first) {
@@ -267,7 +288,9 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
                             {cells[0], cells[1], cells[2], 1.0}, first ? -1.0 : 1.0,
                             {plane[0], plane[1], plane[2], plane[3]});
           });
-        });
+        };
+        for_each_place<Shape>(particles, grid, add);
+        for_each_place<Shape>(placed, grid, add);
         grid.sum_to_owners(equations_);
         for_each_owned_node(grid, [&](std::size_t c, std::size_t fields, std::size_t node) {
           for_each_pair(fields, [&](std::size_t, std::size_t, std::size_t pair) {
@@ -290,8 +313,13 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
         gradient_.values[place.in(gradient_, place.field)] +=
             lanes(volume * place.gradient.cwiseProduct(place.off_plane), volume * place.weight);
       });
-      grid.sum_to_owners(gradient_);
       const double cell_size = grid.geometry().cell_size;
+      for_each_place<Shape>(placed, grid, [&](std::size_t p, const Place& place) {  // (3.6)
+        const Vector3 area = place.sign.cwiseProduct(elements.area[p]).cwiseProduct(place.off_plane);
+        gradient_.values[place.in(gradient_, place.field)] +=
+            place.weight * lanes(area, elements.size[p] * cell_size);
+      });
+      grid.sum_to_owners(gradient_);
       for_each_owned_node(grid, [&](std::size_t c, std::size_t fields, std::size_t node) {
         const auto outward = [&](std::size_t field) {  // the volume of a node grows as particles come near
           const Lanes of_field = gradient_.values[gradient_.begin[c] + field * nodes_per_block + node];
@@ -310,18 +338,23 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
       });
       grid.borrow_from_owners(normal_);
     }
-    for_each_place<Shape>(particles, grid, [&](std::size_t p, const Place& place) {
+    const auto extend = [&](const Place& place, auto&& half_thickness_along) {
       place.for_each_pair([&](std::size_t pair, bool first) {
         const std::size_t i = place.in(normal_, pair, candidates_);
         for (std::size_t candidate = i; candidate < i + candidates_; ++candidate) {
           const Vector3 n = (first ? 1.0 : -1.0) * vector(normal_.values[candidate]);
-          const double extent =
-              n.dot(place.distance) + half_thickness(particles, p, place.sign.cwiseProduct(n));
+          const double extent = n.dot(place.distance) + half_thickness_along(place.sign.cwiseProduct(n));
           Lanes& largest = extent_.values[candidate];
           const int lane = first ? 0 : 1;
           if (extent > largest[lane]) largest[lane] = extent;
         }
       });
+    };
+    for_each_place<Shape>(particles, grid, [&](std::size_t p, const Place& place) {
+      extend(place, [&](const Vector3& n) { return half_thickness(particles, p, n); });
+    });
+    for_each_place<Shape>(placed, grid, [&](std::size_t, const Place& place) {
+      extend(place, [](const Vector3&) { return 0.0; });
     });
   });
   grid.maximum_to_owners(extent_);

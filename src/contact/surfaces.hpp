@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "src/contact/surface_points.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
 #include "src/transfer/shape_function.hpp"
@@ -28,8 +29,10 @@ class Surfaces {
     double width = 0.0;                ///< m, between their surfaces along it; negative where they overlap
   };
 
-  /// From the particles that reach the nodes, with their images at mirror planes. Collective.
-  void find(Normal normal, transfer::ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid);
+  /// From the particles and the surfaces of elements that reach the nodes, with their images at mirror
+  /// planes. Collective.
+  void find(Normal normal, transfer::ShapeFunction shape, const Particles& particles,
+            const SurfacePoints& elements, grid::BlockGrid& grid);
 
   /// @param contact_slot  number of the slot among the contact slots
   /// @param pair          of its fields: see `pair_index`

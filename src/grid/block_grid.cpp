@@ -95,8 +95,7 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
 bool BlockGrid::locate_guests(std::span<const Vector3> guests, Stencil stencil) {
   slot_of_guest_.resize(guests.size());
   for (std::size_t g = 0; g < guests.size(); ++g) {
-    const std::optional<BlockCoordinate> block = block_of(guests[g]);
-    const std::int32_t slot = block ? table_.find(*block) : no_slot;
+    const std::int32_t slot = slot_at(guests[g]);
     if (slot == no_slot) return false;
     slot_of_guest_[g] = slot;
     const auto at = static_cast<std::size_t>(slot);

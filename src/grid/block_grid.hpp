@@ -257,6 +257,12 @@ class BlockGrid {
   /// Is a node an image in any case: beyond a plane that is no separating wall?
   [[nodiscard]] bool is_image(std::size_t node) const { return !outside_.empty() && outside_[node] != 0; }
 
+  /// Slot of the block around a position, `no_slot` if there is none.
+  [[nodiscard]] std::int32_t slot_at(const Vector3& position) const {
+    const std::optional<BlockCoordinate> block = block_of(position);
+    return block ? table_.find(*block) : no_slot;
+  }
+
   [[nodiscard]] std::size_t forest_leaves() const { return forest_.leaves(); }
   [[nodiscard]] std::size_t adaptations() const { return adaptations_; }
   /// Changes whenever nodes change their place in all_nodes().

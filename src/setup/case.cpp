@@ -170,7 +170,10 @@ ParameterTable<ContactControl> ContactControl::parameters() {
 }
 
 ParameterTable<Gravity> Gravity::parameters() {
-  return {vector("acceleration", &Gravity::acceleration, "m/s^2", range::any(), "of all matter").optional()};
+  return {vector("acceleration", &Gravity::acceleration, "m/s^2", range::any(), "of all matter").optional(),
+          real("rise_time", &Gravity::rise_time, "s", range::non_negative(),
+               "time over which it grows from 0, so that bodies at rest do not begin to vibrate")
+              .optional()};
 }
 
 ParameterTable<Body> Body::parameters() {

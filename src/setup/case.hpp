@@ -79,6 +79,10 @@ struct ContactControl {
 
 struct Gravity {
   Vector3 acceleration = Vector3::Zero();
+  double rise_time = 0.0;  ///< s
+  [[nodiscard]] Vector3 at(double time) const {
+    return rise_time > time ? Vector3(time / rise_time * acceleration) : acceleration;
+  }
   static ParameterTable<Gravity> parameters();
 };
 

@@ -84,14 +84,6 @@ void check_elements(const Case& setup, Discretization& control, input::Table& ta
   if (setup.heat.conduction) {
     table.error_at("method", "finite elements do not conduct heat: heat.conduction must be off");
   }
-  if (setup.contact.method != "none") {
-    table.error_at("method",
-                   "finite elements move in the one velocity field of the grid: contact.method must be "
-                   "\"none\"");
-  }
-  if (!setup.gravity.acceleration.isZero(0.0)) {
-    table.error_at("method", "gravity does not act on finite elements: gravity.acceleration must be 0");
-  }
   if (control.partial_volumes) {
     table.error_at("partial_volumes", "'partial_volumes' belongs to bodies of particles");
   }

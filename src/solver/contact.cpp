@@ -2,6 +2,7 @@
 // Contact of bodies in the step (docs/theory/contact.md).
 #include <algorithm>
 
+#include "src/afemp/transition.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {
@@ -30,8 +31,31 @@ void Simulation::separate_fields() {
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     contact_field_[p] = contact_field_of_body_[particles_.body[p]];
   }
-  grid_.separate_fields(transfer::stencil(shape_), {particles_.position, contact_field_}, {},
+  std::vector<std::uint8_t> field_of_node;
+  for (const fem::Mesh& mesh : meshes_) {
+    const auto count = static_cast<std::size_t>(std::ranges::count(mesh.nodes.in_transition, 1));
+    field_of_node.insert(field_of_node.end(), count, contact_field_of_body_[mesh.body]);
+  }
+  grid_.separate_fields(transfer::stencil(shape_), {particles_.position, contact_field_},
+                        {transition_.position, field_of_node},
                         *std::ranges::max_element(contact_field_of_body_) + 1U, setup_.contact.everywhere);
+}
+
+void Simulation::find_surfaces() {
+  if (!contact_) return;
+  profile_.time("contact", [&] {
+    surface_points_.clear();
+    surface_facets_.resize(meshes_.size());
+    for (std::size_t m = 0; m < meshes_.size(); ++m) {
+      const fem::Mesh& mesh = meshes_[m];
+      if (surface_facets_[m].elements != mesh.elements.size()) {  // elements go, none come
+        surface_facets_[m] = {mesh.elements.size(), afemp::free_facets(mesh, setup_.geometry)};
+      }
+      surface_points_.add(mesh, surface_facets_[m].facets, contact_field_of_body_[mesh.body],
+                          setup_.domain.cell_size);
+    }
+    contact_->find_surfaces(shape_, particles_, surface_points_, grid_);
+  });
 }
 
 void Simulation::apply_contact() {

@@ -92,7 +92,7 @@ void Simulation::adapt_elements() {
     step_.transfer_heat +=
         afemp::mark_transition(meshes_, particles_, setup_.geometry, particle_affine_inertia());
     afemp::collect(meshes_, transition_);
-    if (state_.step == 0) warn_of_contact();
+    if (state_.step == 0 && !contact_) warn_of_contact();
   });
 }
 
@@ -112,9 +112,26 @@ void Simulation::warn_of_contact() const {
 void Simulation::compute_element_forces() {
   if (meshes_.empty()) return;
   profile_.time("element forces", [&] {
-    for (fem::Mesh& mesh : meshes_) fem::internal_forces(mesh);
+    const Vector3 g = setup_.gravity.at(state_.time);
+    for (fem::Mesh& mesh : meshes_) {
+      fem::internal_forces(mesh);
+      if (g.isZero(0.0)) continue;
+      for (std::size_t a = 0; a < mesh.nodes.size(); ++a) mesh.nodes.force[a] += mesh.nodes.mass[a] * g;
+    }
     afemp::collect(meshes_, transition_);
   });
+}
+
+/// Momentum and work of gravity on the nodes of a mesh.
+void Simulation::book_gravity(const fem::Mesh& mesh, const fem::Motion& motion) {
+  const Vector3 g = setup_.gravity.at(state_.time);
+  if (g.isZero(0.0)) return;
+  const double dt = state_.time_step;
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
+    const Vector3 impulse = dt * mesh.nodes.mass[a] * g;
+    step_.external_impulse += impulse;
+    step_.external_work += impulse.dot(motion.mean[a]);
+  }
 }
 
 /// Nodes by themselves or as the grid moved them; strain, work and heat of their elements.
@@ -126,6 +143,7 @@ void Simulation::advance_elements() {
     node_heat_.resize(meshes_.size());
     element_gradient_.resize(meshes_.size());
     afemp::distribute(transition_, meshes_, motions_, node_heat_);
+    for (const double heat : transition_.contact_heat) step_.transfer_heat -= heat;  // booked by contact
     std::string error;
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
       fem::Mesh& mesh = meshes_[m];
@@ -136,6 +154,7 @@ void Simulation::advance_elements() {
       step_.external_work += balance.work;
       step_.wall_impulse += afemp::stop_at_faces(mesh, setup_.geometry, dt, motions_[m], node_heat_[m]);
       for (const double heat : node_heat_[m]) step_.transfer_heat += heat;
+      book_gravity(mesh, motions_[m]);
       element_gradient_[m].resize(mesh.points.size());
       const fem::DeformationReport report =
           fem::deform(mesh, motions_[m], dt, hourglass(body.discretization), element_gradient_[m]);

@@ -60,7 +60,7 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
   particles_ = std::move(seeding.particles);
   bodies_ = std::move(seeding.bodies);
   meshes_ = std::move(seeding.meshes);
-  for (fem::Mesh& mesh : meshes_) afemp::mark_surface(mesh);
+  for (fem::Mesh& mesh : meshes_) afemp::mark_surface(mesh, setup_.geometry);
   if (affine_field(setup_.transfer) == transfer::AffineField::none)
     std::ranges::fill(particles_.affine_velocity, Matrix3::Zero().eval());
   prepare();
@@ -92,8 +92,8 @@ Simulation::Simulation(const setup::Case& setup, Particles particles, const RunS
 void Simulation::prepare() {
   velocity_gradient_.resize(particles_.size());
   set_up_contact();
-  if (const Vector3 g = setup_.gravity.acceleration; !g.isZero(0.0)) {
-    acceleration_ = [g](const Particles&, std::size_t, double) { return g; };
+  if (const setup::Gravity g = setup_.gravity; !g.acceleration.isZero(0.0)) {
+    acceleration_ = [g](const Particles&, std::size_t, double time) { return g.at(time); };
   }
   sum_over_ranks();
 }
@@ -302,8 +302,7 @@ void Simulation::map_particles_to_grid() {
     transfer::particles_to_grid(shape_, particles_, grid_, external_acceleration_);
     if (transition_.size() > 0) transfer::nodes_to_grid(shape_, transition_, grid_);
   });
-  if (!contact_) return;
-  profile_.time("contact", [&] { contact_->find_surfaces(shape_, particles_, grid_); });
+  find_surfaces();
 }
 
 void Simulation::advance_grid() {

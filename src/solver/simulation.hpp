@@ -115,8 +115,10 @@ class Simulation {
   void require_fields() const;
   void set_up_contact();
   void separate_fields();
+  void find_surfaces();
   void apply_contact();
   void convert_elements();
+  void book_gravity(const fem::Mesh& mesh, const fem::Motion& motion);
   void remove_elements_outside();
   void warn_of_contact() const;
   bool bin(grid::Stencil stencil);
@@ -146,6 +148,12 @@ class Simulation {
   std::optional<contact::Contact> contact_;  // if bodies have velocity fields of their own
   std::vector<std::uint8_t> contact_field_of_body_;
   std::vector<std::uint8_t> contact_field_;  // of each particle
+  struct SurfaceOfMesh {
+    std::size_t elements = 0;  // that it was found for
+    std::vector<fem::Facet> facets;
+  };
+  std::vector<SurfaceOfMesh> surface_facets_;
+  contact::SurfacePoints surface_points_;
   RunState state_;
   Ledger step_;  // what happened on this rank in the step under way
   Totals totals_;

@@ -251,7 +251,7 @@ TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, Blo
 }
 
 void TransitionNodes::resize(std::size_t n) {
-  for (auto* values : {&mass, &sound_speed, &heat}) values->resize(n);
+  for (auto* values : {&mass, &sound_speed, &heat, &contact_heat}) values->resize(n);
   for (auto* values : {&position, &velocity, &force, &mean_velocity, &new_velocity}) values->resize(n);
   affine_velocity.resize(n);
 }
@@ -268,7 +268,8 @@ void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt) {
             advance_point<Shape, field>(nodes, p, frame, weights, dt, access.stencil(weights.first_node()));
         store_vector(nodes.mean_velocity[p].data(), advance.velocity.value - 0.5 * advance.increment.value);
         store_vector(nodes.new_velocity[p].data(), advance.velocity.value);
-        nodes.heat[p] = nodes.mass[p] * (advance.heat + advance.increment.value[3]);
+        nodes.heat[p] = nodes.mass[p] * advance.heat;
+        nodes.contact_heat[p] = nodes.mass[p] * advance.increment.value[3];
       });
 }
 

@@ -23,7 +23,8 @@ struct TransitionNodes {
   // What the grid makes of them:
   std::vector<Vector3> mean_velocity;  ///< m/s, of the grid at the node, mean of before and after the forces
   std::vector<Vector3> new_velocity;   ///< m/s, the same after the forces: strains elements, moves the node
-  std::vector<double> heat;            ///< J, kinetic energy lost in the transfer and in contact, >= 0
+  std::vector<double> heat;            ///< J, kinetic energy lost in the transfer, >= 0
+  std::vector<double> contact_heat;    ///< J, the same in contact with other bodies
 
   [[nodiscard]] std::size_t size() const { return mass.size(); }
   void resize(std::size_t n);

@@ -37,7 +37,7 @@ fem::Mesh random_mesh(fem::Quadrature quadrature, double size, double distortion
   fem::set_density(mesh, 8000.0);
   for (auto& e : mesh.points.specific_internal_energy) e = 1e5 * (1.5 + uniform(random));
   for (auto& h : mesh.elements.hourglass_energy) h = 1e-4 * (1.5 + uniform(random));
-  mark_surface(mesh);
+  mark_surface(mesh, {});
   return mesh;
 }
 
@@ -216,7 +216,7 @@ TEST(Transition, NodesNearParticlesAndOtherBodiesMoveWithTheGrid) {
   fem::Hexahedra other = fem::make_box(Vector3(0, 0, 6.5) * dx, Vector3(4, 3, 8) * dx, dx);
   meshes.push_back(fem::make_mesh(other, fem::Quadrature::one_point, 2));
   fem::set_density(meshes[1], 8000.0);
-  mark_surface(meshes[1]);
+  mark_surface(meshes[1], geometry);
   const auto marked = [&](std::size_t m) {
     std::size_t count = 0;
     for (const std::uint8_t flag : meshes[m].nodes.in_transition) count += flag;

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -10,6 +12,7 @@
 #include <sstream>
 
 #include "src/base/error.hpp"
+#include "src/fem/facets.hpp"
 #include "src/fem/gmsh.hpp"
 #include "tests/unit/fem_support.hpp"
 #include "tests/unit/folder_test.hpp"
@@ -123,6 +126,34 @@ TEST(Meshes, RoundBodies) {
       for (const Vector3& x : part.nodes) EXPECT_GT(x[axis], -1e-12);
     }
   }
+}
+
+// Facets close the body, are turned outwards, and bound its volume, also after elements are gone.
+TEST(Meshes, FacetsAreTheSurface) {
+  fem::Mesh mesh = fem::make_mesh(fem::make_box({0, 0, 0}, {3, 2, 2}, {3, 2, 2}), Quadrature::one_point);
+  fem::set_density(mesh, 1.0);
+  const auto expect_surface = [&](std::size_t faces, double volume) {
+    const std::vector<fem::Facet> facets = fem::surface_facets(mesh);
+    EXPECT_EQ(facets.size(), faces);
+    Vector3 sum = Vector3::Zero();
+    double enclosed = 0.0;  // divergence theorem
+    for (const fem::Facet& facet : facets) {
+      const auto x = [&](std::size_t i) { return mesh.nodes.position[facet[i]]; };
+      const Vector3 area = 0.5 * (x(2) - x(0)).cross(x(3) - x(1));
+      sum += area;
+      enclosed += area.dot(0.25 * (x(0) + x(1) + x(2) + x(3))) / 3.0;
+    }
+    EXPECT_LT(sum.norm(), 1e-14);
+    EXPECT_NEAR(enclosed, volume, 1e-13);
+  };
+  expect_surface(32, 12.0);
+  std::vector<std::uint8_t> removed(mesh.elements.size(), 0);
+  for (std::size_t e = 0; e < removed.size(); ++e) {  // the corner at the origin
+    removed[e] = std::ranges::any_of(mesh.elements.corners[e],
+                                     [&](std::uint32_t a) { return mesh.nodes.position[a].norm() < 0.1; });
+  }
+  fem::remove_elements(mesh, removed);
+  expect_surface(32, 11.0);
 }
 
 TEST(Meshes, TransformKeepsElementsUpright) {

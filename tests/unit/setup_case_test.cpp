@@ -111,10 +111,6 @@ TEST(Case, RefusesElementsThatCannotBe) {
   expect_error(domain + "[transfer]\nparticle_update = \"flip\"\nshape_function = \"linear\"\n" + elements,
                {"finite elements work with B-splines only"});
   expect_error(domain + "[heat]\nconduction = true\n" + elements, {"finite elements do not conduct heat"});
-  expect_error(domain + "[contact]\nmethod = \"multi_field\"\n" + elements,
-               {"contact.method must be \"none\""});
-  expect_error(domain + "[gravity]\nacceleration = [0, 0, -9.81]\n" + elements,
-               {"gravity does not act on finite"});
   expect_error(domain + sphere + "discretization = { method = \"adaptive\", element_size = \"2.1 mm\" }\n",
                {"'element_size' is 0.0021 m", "at most 2 cells"});
   expect_error(domain + sphere +

@@ -34,9 +34,10 @@ inline std::string vector3(const Vector3& v) {
 struct BodyOptions {
   std::string name, material, shape;
   Vector3 velocity = Vector3::Zero();
+  std::string more = {};  ///< further lines, such as those of its discretization
   [[nodiscard]] std::string toml() const {
     return "[[body]]\nname = \"" + name + "\"\nmaterial = \"" + material +
-           "\"\nvelocity = " + vector3(velocity) + "\nshape = { " + shape + " }\n";
+           "\"\nvelocity = " + vector3(velocity) + "\nshape = { " + shape + " }\n" + more;
   }
 };
 
@@ -84,6 +85,27 @@ inline BodySums sums_of(const Particles& q, std::uint32_t body, double inertia) 
     sums.spin += q.mass[p] * ((q.position[p] - sums.centre).cross(q.velocity[p] - mean) + inertia * curl);
   }
   return sums;
+}
+
+/// The same of a body of elements, without angular momentum.
+inline BodySums sums_of(const fem::Mesh& mesh) {
+  BodySums sums;
+  const fem::Nodes& q = mesh.nodes;
+  for (std::size_t a = 0; a < q.size(); ++a) {
+    sums.mass += q.mass[a];
+    sums.momentum += q.mass[a] * q.velocity[a];
+    sums.centre += q.mass[a] * q.position[a];
+  }
+  sums.centre /= sums.mass;
+  return sums;
+}
+
+/// Of a body of either kind.
+inline BodySums sums_of(const solver::Simulation& simulation, std::uint32_t body) {
+  for (const fem::Mesh& mesh : simulation.meshes()) {
+    if (mesh.body == body) return sums_of(mesh);
+  }
+  return sums_of(simulation.particles(), body, 0.0);
 }
 
 }  // namespace whipple::verification

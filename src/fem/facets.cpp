@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/fem/facets.hpp"
+
+#include <algorithm>
+
+#include "src/parallel/threads.hpp"
+
+namespace whipple::fem {
+namespace {
+
+/// Corners of the six faces, round the outward normal.
+constexpr std::array<std::array<std::size_t, 4>, 6> corners_of_face = {
+    {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+
+Facet face(const Corners& corners, std::size_t number) {
+  Facet facet;
+  for (std::size_t i = 0; i < 4; ++i) facet[i] = corners[corners_of_face[number][i]];
+  return facet;
+}
+
+/// Three common nodes make a common face.
+bool is_shared(const Mesh& mesh, std::size_t element, const Facet& facet) {
+  return std::ranges::any_of(mesh.corners_at(facet[0]), [&](std::uint32_t corner) {
+    const std::size_t other = corner / 8;
+    const auto has = [&](std::uint32_t node) {
+      return std::ranges::find(mesh.elements.corners[other], node) != mesh.elements.corners[other].end();
+    };
+    return other != element && has(facet[1]) && has(facet[2]);
+  });
+}
+
+}  // namespace
+
+std::vector<Facet> surface_facets(const Mesh& mesh) {
+  std::vector<std::uint8_t> free(mesh.elements.size(), 0);  // of each element: a bit per face
+  parallel::for_each(free.size(), [&](std::size_t e) {
+    for (std::size_t f = 0; f < 6; ++f) {
+      if (!is_shared(mesh, e, face(mesh.elements.corners[e], f))) {
+        free[e] = static_cast<std::uint8_t>(free[e] | 1U << f);
+      }
+    }
+  });
+  std::vector<Facet> facets;
+  for (std::size_t e = 0; e < free.size(); ++e) {
+    for (std::size_t f = 0; f < 6; ++f) {
+      if ((free[e] >> f & 1U) != 0) facets.push_back(face(mesh.elements.corners[e], f));
+    }
+  }
+  return facets;
+}
+
+}  // namespace whipple::fem

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact of bodies of elements with one another and with particles (docs/theory/contact.md, 3 and 5).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "src/parallel/threads.hpp"
+#include "tests/verification/contact_problems.hpp"
+
+namespace whipple::verification {
+namespace {
+
+constexpr const char* column =
+    "boundary = { y_lower = \"symmetry\", y_upper = \"symmetry\", z_lower = \"symmetry\", "
+    "z_upper = \"symmetry\" }\n";
+const std::string elements = "discretization = { method = \"finite_elements\" }\n";
+const std::string particles = "";
+
+/// Largest errors of energy and momentum so far.
+struct Watch {
+  double energy = 0.0, momentum = 0.0;
+  void operator()(const solver::Simulation& s) {
+    energy = std::max(energy, std::abs(s.state().ledger.energy_error(s.totals())));
+    momentum = std::max(momentum, s.state().ledger.momentum_error(s.totals()));
+  }
+};
+
+/// Two elastic bars of 20 mm meet head-on at 2 x 20 m/s; column of one cell. Exact: each leaves with its
+/// velocity reversed.
+double restitution(int cells, const std::string& of_left, const std::string& of_right) {
+  constexpr double length = 0.02, speed = 20.0;
+  const double dx = length / cells, gap = 0.3 * dx;
+  Problem problem;
+  problem.method.linear_viscosity = problem.method.quadratic_viscosity = 0.0;
+  problem.end = 1.6 * 2.0 * length / 5328.0 + 0.5 * gap / speed;
+  problem.domain = "[domain]\nlower = [-0.03, 0, 0]\nupper = " + vector3({0.03, dx, dx}) +
+                   "\ncell_size = " + number(dx) + "\n" + column;
+  problem.contact = ContactOptions{}.toml();
+  problem.bodies = {{"left",
+                     elastic_aluminium(),
+                     box({-length - gap / 2, 0, 0}, {-gap / 2, dx, dx}),
+                     {speed, 0, 0},
+                     of_left},
+                    {"right",
+                     elastic_aluminium(),
+                     box({gap / 2, 0, 0}, {length + gap / 2, dx, dx}),
+                     {-speed, 0, 0},
+                     of_right}};
+  solver::Simulation simulation(problem.read(), parallel::world());
+  Watch watch;
+  run_to(simulation, problem.end, [&](const solver::Simulation& s) {
+    watch(s);
+    if (s.state().time < 0.5 * gap / speed * (1 - 1e-9)) {  // the gap test holds for surfaces of elements
+      EXPECT_EQ(s.state().ledger.contact_impulse, 0.0);
+    }
+  });
+  const BodySums left = sums_of(simulation, 0), right = sums_of(simulation, 1);
+  const solver::Ledger& ledger = simulation.state().ledger;
+  const double result = right.momentum[0] / (right.mass * speed);
+  std::printf(
+      "bars of %d cells, %s on %s: restitution %.4f, contact heat %.2e, transfer heat %.2e of the kinetic "
+      "energy, clearance %.2f cells, energy %.1e, momentum %.1e\n",
+      cells, of_left.empty() ? "particles" : "elements", of_right.empty() ? "particles" : "elements", result,
+      ledger.contact_heat / ledger.initial.kinetic_energy,
+      ledger.transfer_heat / ledger.initial.kinetic_energy, (right.centre[0] - left.centre[0] - length) / dx,
+      watch.energy, watch.momentum);
+  EXPECT_LT(watch.energy, 1e-12);
+  EXPECT_LT(watch.momentum, 1e-13);
+  EXPECT_GE(ledger.contact_heat, 0.0);
+  EXPECT_GE(ledger.transfer_heat, 0.0);
+  EXPECT_NEAR(left.momentum[0], -right.momentum[0], 1e-12 * right.mass * speed);
+  EXPECT_GT(right.centre[0] - left.centre[0], length);
+  return result;
+}
+
+TEST(ElementContact, BarsReboundAndPart) {
+  for (const auto& [left, right] : {std::pair(elements, elements), std::pair(elements, particles)}) {
+    const double coarse = restitution(20, left, right), fine = restitution(40, left, right);
+    EXPECT_GT(coarse, 0.92);
+    EXPECT_GT(fine, coarse);
+    EXPECT_LT(1.0 - fine, 0.75 * (1.0 - coarse));
+  }
+}
+
+/// A block of 10 x 6 cells on a slab that is inclined by 30 degrees (gravity is turned, not the slab); plane
+/// strain. Gravity grows over several vibrations of the block; the second half of the time counts.
+/// @returns mean acceleration along the slope over that of free fall
+double slide(double friction, const std::string& of_slab, const std::string& of_block,
+             double duration = 36e-6) {
+  constexpr double dx = 1e-3, g = 1e6, angle = std::numbers::pi / 6;
+  Problem problem;
+  problem.end = duration;
+  problem.domain =
+      "[domain]\nlower = [0, 0, 0]\nupper = [0.028, 0.013, 0.001]\ncell_size = 0.001\n"
+      "boundary = { x_lower = \"symmetry\", x_upper = \"symmetry\", y_lower = \"no_slip\", "
+      "z_lower = \"symmetry\", z_upper = \"symmetry\" }\n";
+  problem.contact = ContactOptions{.friction = friction}.toml();
+  problem.more = "[gravity]\nacceleration = " + vector3(g * Vector3(std::sin(angle), -std::cos(angle), 0)) +
+                 "\nrise_time = " + number(0.3 * duration) + "\n";
+  problem.bodies = {
+      {"slab", elastic_aluminium(), box({0, 0, 0}, {28 * dx, 4 * dx, dx}), Vector3::Zero(), of_slab},
+      {"block", elastic_aluminium(), box({5.3 * dx, 4 * dx, 0}, {15.3 * dx, 10 * dx, dx}), Vector3::Zero(),
+       of_block}};
+  solver::Simulation simulation(problem.read(), parallel::world());
+  run_to(simulation, 0.5 * duration);
+  const BodySums start = sums_of(simulation, 1);
+  run_to(simulation, duration);
+  const BodySums block = sums_of(simulation, 1);
+  const double fall = 0.5 * block.mass * g * duration;
+  const Vector3 gained = block.momentum - start.momentum;
+  const double result = (gained[0] + friction * gained[1]) / fall;
+  const solver::Ledger& ledger = simulation.state().ledger;
+  const solver::Totals& totals = simulation.totals();
+  const double energy =
+      (totals.energy() - ledger.initial.energy() - ledger.external_work) / ledger.external_work;
+  const double momentum = (totals.momentum - ledger.wall_impulse - ledger.external_impulse).norm() /
+                          ledger.external_impulse.norm();
+  std::printf(
+      "incline, block of %s on slab of %s, friction %.1f: acceleration %.5f g, exact %.5f; distance %.2e m, "
+      "friction heat %.3e J; energy %.1e, momentum %.1e\n",
+      of_block.empty() ? "particles" : "elements", of_slab.empty() ? "particles" : "elements", friction,
+      result, std::max(std::sin(angle) - friction * std::cos(angle), 0.0), block.centre[0] - start.centre[0],
+      ledger.friction_heat, energy, momentum);
+  EXPECT_LT(std::abs(energy), 1e-12);
+  EXPECT_LT(momentum, 1e-12);
+  EXPECT_GE(ledger.contact_heat, 0.0);
+  EXPECT_GE(ledger.friction_heat, 0.0);
+  return result;
+}
+
+TEST(ElementContact, ABlockSlidesDownAnInclineAsFrictionLetsIt) {
+  const double sine = 0.5, cosine = std::sqrt(0.75);
+  for (const auto& [slab, block] :
+       {std::pair(particles, elements), std::pair(elements, particles), std::pair(elements, elements)}) {
+    EXPECT_NEAR(slide(0.2, slab, block), sine - 0.2 * cosine, 2e-4 * sine);
+  }
+  EXPECT_NEAR(slide(0.0, elements, elements), sine, 2e-4 * sine);
+}
+
+/// An adaptive sphere of aluminium at 2 km/s, oblique, on an adaptive layer beside a plate of particles.
+/// Nodes do not stand on faces of cells, where one of two cells would have to take them.
+Problem impact(const ContactOptions& contact, bool half = false) {
+  Problem problem;
+  problem.end = 2e-6;
+  problem.domain = std::string("[domain]\nlower = [-0.01, ") + (half ? "0" : "-0.009") +
+                   ", -0.01]\nupper = [0.01, 0.009, 0.012]\ncell_size = 0.001\n" +
+                   (half ? "boundary = { y_lower = \"symmetry\" }\n" : "");
+  problem.contact = contact.toml();
+  const std::string material = aluminium("element_contact", "0.3 GPa");
+  const std::string adaptive =
+      "discretization = { method = \"adaptive\" }\nconversion = { plastic_strain = 0.3 }\n";
+  problem.bodies = {
+      {"sphere", material, sphere({0, 0, -3.2e-3}, 3.1e-3), {500, 0, 2000}, adaptive},
+      {"layer", material, box({-5e-3, -5.8e-3, 0}, {-1e-3, 5.8e-3, 2e-3}), Vector3::Zero(), adaptive},
+      {"plate", material, box({-1e-3, -6e-3, 0}, {6e-3, 6e-3, 2e-3})}};
+  return problem;
+}
+
+TEST(ElementContact, KeepsMomentumAndEnergyWhileElementsBecomeParticles) {
+  for (const char* normal : {"collinear", "separating", "logistic_regression"}) {
+    solver::Simulation simulation(impact({.normal = normal, .friction = 0.3}).read(), parallel::world());
+    Watch watch;
+    run_to(simulation, 1.2e-6, watch);
+    const solver::Ledger& ledger = simulation.state().ledger;
+    EXPECT_LT(watch.energy, 1e-12) << normal;
+    EXPECT_LT(watch.momentum, 1e-12) << normal;
+    EXPECT_GT(ledger.converted_mass, 0.0) << normal;
+    EXPECT_GT(simulation.element_count(), 0U) << normal;
+    EXPECT_GT(ledger.contact_impulse, 0.05 * ledger.initial.momentum_scale) << normal;
+    EXPECT_GT(ledger.contact_heat, 0.0) << normal;
+    EXPECT_GT(ledger.friction_heat, 0.0) << normal;
+  }
+}
+
+TEST(ElementContact, AMirrorPlaneEqualsRealImages) {
+  const auto run = [&](bool half) {
+    solver::Simulation simulation(impact({.friction = 0.2}, half).read(), parallel::world());
+    for (int step = 0; step < 20; ++step) simulation.advance(2e-8 * (step + 1));
+    return std::pair(simulation.totals(), simulation.state().ledger);
+  };
+  const auto [half, half_ledger] = run(true);
+  const auto [full, full_ledger] = run(false);
+  EXPECT_GT(full_ledger.friction_heat, 0.0);
+  EXPECT_NEAR(2 * half.kinetic_energy, full.kinetic_energy, 1e-10 * full.energy());
+  EXPECT_NEAR(2 * half_ledger.contact_heat, full_ledger.contact_heat, 1e-9 * full_ledger.contact_heat);
+  EXPECT_NEAR(2 * half_ledger.friction_heat, full_ledger.friction_heat, 1e-9 * full_ledger.friction_heat);
+}
+
+TEST(ElementContact, DoesNotDependOnTheNumberOfThreads) {
+  const auto run = [](int threads) {
+    const int before = parallel::threads();
+    parallel::set_threads(threads);
+    solver::Simulation simulation(impact({.friction = 0.3}).read(), parallel::world());
+    for (int step = 0; step < 40; ++step) simulation.advance(2e-6);
+    parallel::set_threads(before);
+    return simulation.totals();
+  };
+  const solver::Totals one = run(1), three = run(3);
+  EXPECT_EQ(one.kinetic_energy, three.kinetic_energy);
+  EXPECT_EQ(one.internal_energy, three.internal_energy);
+  EXPECT_EQ(one.momentum, three.momentum);
+}
+
+}  // namespace
+}  // namespace whipple::verification
