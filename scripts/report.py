@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures and tables of a run: one self-contained HTML page with its PNG files beside it.
 
-usage: report.py RUN_DIR [--output DIR] [--figure TITLE=FILE.png]... [--times N]
+usage: report.py RUN_DIR [--output DIR] [--figure TITLE=FILE.png]... [--times N] [--dpi N]
 
 Reads run.toml, history.csv, the snapshots of RUN.particles.hdf.series and analysis.h5 in the folder of the report, which
 `whipple analyse` makes (`whipple report` calls both; docs/output.md). Columns and fields that the run did not write are
@@ -46,8 +46,9 @@ def number(value, digits=4):
 
 
 class Report:
-    def __init__(self, run, output, picture_times):
+    def __init__(self, run, output, picture_times, dots_per_inch):
         self.run, self.output, self.picture_times = run, output, picture_times
+        self.dots_per_inch = dots_per_inch
         output.mkdir(parents=True, exist_ok=True)
         origin = run.input.get("provenance", {})
         facts = [origin[key] for key in ("program", "machine", "started") if key in origin]
@@ -58,7 +59,7 @@ class Report:
         if figure is None:
             return
         path = self.output / name
-        report_pictures.save(figure, path)
+        report_pictures.save(figure, path, self.dots_per_inch)
         self.page.image(path, caption)
 
     def summary(self):
@@ -70,6 +71,8 @@ class Report:
             tiles.append(("steps", f"{history.last('step'):.0f}"))
         if history.last("particles") is not None:
             tiles.append(("particles", f"{history.last('particles'):,.0f}"))
+        if history.last("elements"):
+            tiles.append(("elements", f"{history.last('elements'):,.0f}"))
         if history.last("mass") is not None:
             tiles.append(("mass" + (", full problem" if run.multiplicity > 1 else ""),
                           report_curves.format_mass(run.multiplicity * history.last("mass"))))
@@ -130,14 +133,15 @@ class Report:
         analysis = report_metrics.Analysis(path)
         shown = [Snapshot(*run.entries[i]) for i in run.spread(self.picture_times)]
         if not any(len(snapshot) for snapshot in shown):
-            self.page.note("The snapshots hold no particles: no pictures and no measures of the cloud.")
+            self.page.note("The snapshots hold no particles and no elements: no pictures and no measures of the cloud.")
             return
         self.page.heading("Debris cloud")
-        for name, caption, figure in report_pictures.cloud_figures(run, analysis.geometry, shown):
+        view = report_pictures.View(run, analysis.geometry, shown, self.dots_per_inch)
+        for name, caption, figure in report_pictures.cloud_figures(run, view, shown):
             self.add_figure(name, caption, figure)
         self.add_figure("radiograph.png", f"Transmission along the line of sight through the complete problem, blurred "
                         f"over a spot of {1e3 * analysis.spot:.3g} mm: what a flash radiograph shows, without the response "
-                        f"of a film.", report_pictures.radiograph_figure(analysis))
+                        f"of a film.", report_pictures.radiograph_figure(analysis, view))
         self.extent(analysis)
         self.add_figure("surfaces.png", "Depth of the crater on the axis and diameter at the original surface; diameter "
                         "within which less than half of a plate is left.", report_curves.surface_figure(analysis))
@@ -263,11 +267,12 @@ def main(words=None):
     parser.add_argument("--figure", metavar="TITLE=FILE.png", action="append", default=[], type=parse_figure,
                         help="a figure to show before the pictures (Hugoniot, isotherm, ...); may be repeated")
     parser.add_argument("--times", metavar="N", type=int, default=6, help="pictures at so many times (default 6)")
+    parser.add_argument("--dpi", metavar="N", type=int, default=180, help="dots per inch of the pictures (default 180)")
     arguments = parser.parse_args(words)
     try:
         run = Run(arguments.run)
         output = pathlib.Path(arguments.output) if arguments.output else run.folder / "report"
-        report = Report(run, output, max(arguments.times, 1))
+        report = Report(run, output, max(arguments.times, 1), max(arguments.dpi, 20))
         report.summary()
         report.input()
         report.given_figures(arguments.figure)

@@ -63,15 +63,22 @@ class History:
 
 
 class Snapshot:
-    """The particles at one time: arrays by the names of the fields, `position` included; None if not written."""
+    """The particles at one time, then the finite elements: arrays by the names of the fields, `position` included;
+    None if not written. The elements have `connectivity` to the places of their `nodes`."""
 
     def __init__(self, path, time):
         self.path, self.time = path, time
+        self.nodes, self.connectivity = np.zeros((0, 3)), np.zeros((0, 8), int)
         try:
             with h5py.File(path, "r") as file:
                 vtk = file["VTKHDF"]
                 self.fields = {name: vtk["PointData"][name][:] for name in vtk["PointData"]}
                 self.fields["position"] = vtk["Points"][:].astype(float)
+            self.particles = len(self.fields["position"])
+            of_elements = path.with_name(path.name.replace(".particles.", ".elements."))
+            if of_elements != path and of_elements.is_file():
+                with h5py.File(of_elements, "r") as file:
+                    self._append_elements(file["VTKHDF"])
         except (OSError, KeyError) as error:
             raise NotARun(f"{path}: {error}") from None
         for name in ("velocity", "mass"):
@@ -79,6 +86,14 @@ class Snapshot:
                 raise NotARun(f"{path}: the field {name!r} is missing")
         self.fields["velocity"] = self.fields["velocity"].astype(float)
         self.fields["mass"] = self.fields["mass"].astype(float)
+
+    def _append_elements(self, vtk):
+        self.nodes = vtk["Points"][:].astype(float)
+        self.connectivity = vtk["Connectivity"][:].reshape(-1, 8)
+        at = self.connectivity
+        own = {"position": self.nodes[at].mean(axis=1), "velocity": vtk["PointData"]["velocity"][:][at].mean(axis=1)}
+        for name, values in self.fields.items():
+            self.fields[name] = np.concatenate([values, own[name] if name in own else vtk["CellData"][name][:]])
 
     def __getattr__(self, name):
         return self.__dict__.get("fields", {}).get(name)

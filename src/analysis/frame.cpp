@@ -65,8 +65,9 @@ Frame find_frame(const Run& run, const Snapshot& first) {
     frame.planes.push_back({a, *plane});
     frame.centre[a] = *plane;
   }
-  mirrored.insert(mirrored.end(), other.begin(), other.end());
-  frame.transverse = {mirrored[0], mirrored[1]};
+  // A half model is seen across its mirror plane, which may hold an oblique flight.
+  other.insert(other.end(), mirrored.begin(), mirrored.end());
+  frame.transverse = {other[0], other[1]};
   return frame;
 }
 

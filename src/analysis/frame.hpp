@@ -20,8 +20,7 @@ struct Frame {
   std::optional<double> wall;        ///< axial coordinate of a mirror plane that a body flies against
   std::size_t projectile = 0;        ///< the fastest body
   double impact_speed = 0.0;  ///< difference of the axial speeds of the fastest and the slowest body, m/s
-  std::array<int, 2> transverse = {
-      0, 1};  ///< upward in pictures (normal to a mirror plane if there is one), sight
+  std::array<int, 2> transverse = {0, 1};  ///< upward in pictures; sight, across the only mirror plane
 
   /// How many models make the full problem: 4 for a quarter model.
   [[nodiscard]] double copies() const { return static_cast<double>(1U << planes.size()); }

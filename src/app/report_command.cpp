@@ -22,6 +22,7 @@ struct Options {
   std::vector<std::string> figures;
   AnalysisWords analysis;
   int times = 6;
+  int dots_per_inch = 180;
 };
 
 int run_report(const Options& options) {
@@ -32,7 +33,12 @@ int run_report(const Options& options) {
   const std::filesystem::path output = options.output.empty() ? options.run + "/report" : options.output;
   // A run that has not come to its first snapshot has its input and history to show.
   if (!analysis::read_run(options.run).snapshots.empty()) run_analysis(options.run, options.analysis, output);
-  std::vector<std::string> arguments = {options.run, "--times", std::to_string(options.times), "--output",
+  std::vector<std::string> arguments = {options.run,
+                                        "--times",
+                                        std::to_string(options.times),
+                                        "--dpi",
+                                        std::to_string(options.dots_per_inch),
+                                        "--output",
                                         output.string()};
   for (const std::string& figure : options.figures) arguments.insert(arguments.end(), {"--figure", figure});
   return process::run_script("scripts/report.py", arguments);
@@ -52,6 +58,9 @@ void add_report_command(CLI::App& app) {
   add_analysis_options(*command, options->analysis);
   command->add_option("--times", options->times, "Pictures at so many times")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--dpi", options->dots_per_inch, "Dots per inch of the pictures")
+      ->check(CLI::Range(20, 1200))
       ->capture_default_str();
   command->footer("Example:\n  whipple report run/copper_disk_on_aluminium --figure Hugoniot=compare.png");
   command->callback([options] {

@@ -295,6 +295,21 @@ TEST(Bar, SpallLayerAndPullback) {
   EXPECT_TRUE(std::isnan(pullback({0, 100, 500, 499, 498})));
 }
 
+TEST(Frame, AHalfModelIsSeenAcrossItsMirrorPlane) {
+  analysis::Run rod;
+  rod.bodies = {{"rod", Vector3(2000, 0, -1000), 1e-3}, {"plate", Vector3::Zero(), 1e-3}};
+  rod.mirror_planes[1] = 0.0;
+  Maker maker(1e-3);
+  maker.add(Vector3(1e-3, 2e-3, 5e-3), rod.bodies[0].velocity);
+  const Frame half = find_frame(rod, maker.snapshot);
+  EXPECT_EQ(half.axis, 0);
+  EXPECT_EQ(half.transverse, (std::array<int, 2>{2, 1}));
+  EXPECT_TRUE(half.centre.isApprox(Vector3(0, 0, 5e-3)));
+  EXPECT_EQ(half.copies(), 2.0);
+  rod.mirror_planes[2] = 0.0;
+  EXPECT_EQ(find_frame(rod, maker.snapshot).transverse, (std::array<int, 2>{1, 2}));
+}
+
 TEST(Radiograph, ArealDensityOfASlabAndTheMassOfAll) {
   // Slab of 4 mm in the line of sight (y), quarter model cut at x = 0 and y = 0: 2 mm of it are in the model.
   Maker maker(0.25e-3);

@@ -39,7 +39,7 @@ def run(*arguments):
     import report
     output, errors = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
-        code = report.main([str(argument) for argument in arguments])
+        code = report.main([str(argument) for argument in arguments] + ["--dpi", "50"])
     return types.SimpleNamespace(returncode=code, stdout=output.getvalue(), stderr=errors.getvalue())
 
 
@@ -85,7 +85,7 @@ def report_of_the_cloud(work):
     require(not checker.open, f"elements left open: {checker.open}")
     require(not checker.foreign, f"not self-contained: {checker.foreign}")
     pictures = list((work / "report").glob("*.png"))
-    require(checker.images == len(pictures) == 13, f"{checker.images} images, {len(pictures)} files")
+    require(checker.images == len(pictures) == 14, f"{checker.images} images, {len(pictures)} files")
     for word in ("Synthetic cloud", "Hugoniot of &lt;copper&gt;", "copper_gray_md.toml", "full problem",
                  "residual velocity of disk"):
         require(word in text, f"{word!r} is not in the page")
@@ -139,12 +139,32 @@ def report_of_the_cloud(work):
 
 def spheres_hide_what_is_behind():
     """Two spheres in one line of sight: the nearer one is seen, whichever comes first in memory."""
-    import report_pictures
+    import report_render
     for z in ([0.0, 50.0], [50.0, 0.0]):
-        seen, _ = report_pictures.draw_spheres(np.array([20.0, 22.0]), np.array([20.0, 20.0]), np.array(z),
-                                               np.array([8.0, 5.0]), (40, 40))
+        canvas = report_render.Canvas((40, 40))
+        canvas.spheres(np.array([20.0, 22.0]), np.array([20.0, 20.0]), np.array(z), np.array([8.0, 5.0]), np.arange(2))
+        seen, _ = canvas.picture()
         require(seen[20, 21] == int(np.argmax(z)), f"of depths {z} the nearer is not seen")
         require(seen[0, 0] == -1, "empty pixel")
+
+
+def elements_are_drawn_by_their_faces():
+    """Two hexahedra side by side, the right one with a slanted front, and a sphere between viewer and the left one."""
+    import report_render
+    nodes = np.array([[x, y, z - (4 if x == 30 else 0)] for z in (0, 20) for y in (10, 30) for x in (10, 20, 30)], float)
+    hexahedra = np.array([[0, 1, 4, 3, 6, 7, 10, 9], [1, 2, 5, 4, 7, 8, 11, 10]])
+    owner, faces = report_render.surface_faces(hexahedra)
+    require(len(faces) == 10 and np.array_equal(np.bincount(owner), [5, 5]), "the face between both is no surface")
+    canvas = report_render.Canvas((40, 40))
+    canvas.quadrilaterals(nodes[faces], owner)
+    canvas.spheres(np.array([14.0]), np.array([20.0]), np.array([22.0]), np.array([2.0]), np.array([7]))
+    canvas.spheres(np.array([26.0]), np.array([20.0]), np.array([10.0]), np.array([2.0]), np.array([8]))
+    seen, light = canvas.picture()
+    require((seen >= 0).sum() == 400, f"20 by 20 pixels are covered, not {(seen >= 0).sum()}")
+    require(seen[12, 12] == 0 and seen[12, 28] == 1 and seen[20, 14] == 7, "what is in front is seen")
+    require(not (seen == 8).any(), "a sphere inside of an element is not seen")
+    edge = report_render.EDGE_DARKNESS * light[15, 15]
+    require(abs(light[10, 15] - edge) < 1e-12 and light[15, 25] != light[15, 15], "edges are darker, light by the slope")
 
 
 def incomplete_runs_give_reports(work):
@@ -192,7 +212,7 @@ def incomplete_runs_give_reports(work):
             vtk.create_dataset("Points", (0, 3), "float32")
     analyse(folder, folder / "report")
     result = run(folder)
-    require(result.returncode == 0 and "no particles" in (folder / "report/report.html").read_text(), result.stderr)
+    require(result.returncode == 0 and "no particles and no elements" in (folder / "report/report.html").read_text(), result.stderr)
 
 
 def other_folders_are_refused(work):
@@ -222,6 +242,7 @@ def other_folders_are_refused(work):
 with tempfile.TemporaryDirectory() as temporary:
     base = pathlib.Path(temporary)
     spheres_hide_what_is_behind()
+    elements_are_drawn_by_their_faces()
     report_of_the_cloud(base)
     incomplete_runs_give_reports(base)
     other_folders_are_refused(base)
