@@ -51,18 +51,16 @@ constexpr NamedDefault hot_liquid = {"hot_liquid_ratio", "GRAY", 9.38, gray_univ
 constexpr NamedDefault covolume = {"covolume_ratio", "GRAY", 0.5, gray_universal};
 constexpr NamedDefault shape = {"join_shape", "GRAY", 1.0, gray_universal};
 
+/// All constants: those that metals share, where the thin vapour joins, and what sets its attraction.
+constexpr std::array<NamedDefault, 10> constants_of_metal(const NamedDefault& join,
+                                                          const NamedDefault& vapour) {
+  return {quadratic, cubic, free_electrons, entropy, liquid_heat, hot_liquid, covolume, shape, join, vapour};
+}
+
 /// A metal whose vapour boils at the measured temperature.
-constexpr std::array<NamedDefault, 10> boiling_metal(double join, double boiling_temperature) {
-  return {quadratic,
-          cubic,
-          free_electrons,
-          entropy,
-          liquid_heat,
-          hot_liquid,
-          covolume,
-          shape,
-          NamedDefault{"join_volume_ratio", "library", join, join_choice},
-          NamedDefault{"boiling_temperature", "measured", boiling_temperature, boiling}};
+constexpr std::array<NamedDefault, 10> boiling_metal(double join, double temperature) {
+  return constants_of_metal({"join_volume_ratio", "library", join, join_choice},
+                            {"boiling_temperature", "measured", temperature, boiling});
 }
 
 constexpr std::array copper_electronic = {
@@ -79,36 +77,16 @@ constexpr std::array nickel_electronic = {electrons("none", 0.0, not_when_hot),
 constexpr std::array tantalum_electronic = {electrons("none", 0.0, not_when_hot),
                                             electrons("measured", 5.9e-3, sommerfeld)};
 
-constexpr std::array copper_constants = {
-    quadratic,
-    cubic,
-    free_electrons,
-    entropy,
-    liquid_heat,
-    hot_liquid,
-    covolume,
-    shape,
-    NamedDefault{"join_volume_ratio", "critical", 1.3,
-                 "chosen with the attraction below: critical temperature near 8500 K (docs/theory/gray.md)"},
-    NamedDefault{
-        "vapour_attraction", "critical", 620.0,
-        "Young-Alder fluid, R T_c V_b = 0.0943 a_y (Young & Alder, Phys. Rev. A 3 (1971) 364), T_c = 8000 K"},
-};
-constexpr std::array aluminium_constants = {
-    quadratic,
-    cubic,
-    free_electrons,
-    entropy,
-    liquid_heat,
-    hot_liquid,
-    covolume,
-    shape,
-    NamedDefault{"join_volume_ratio", "critical", 1.3,
-                 "chosen with the attraction below: critical temperature near 6600 K (docs/theory/gray.md)"},
-    NamedDefault{
-        "vapour_attraction", "critical", 3600.0,
-        "as in the aluminium of the library: critical temperature near 6600 K (docs/theory/gray.md)"},
-};
+constexpr auto copper_constants = constants_of_metal(
+    {"join_volume_ratio", "critical", 1.3,
+     "chosen with the attraction below: critical temperature near 8500 K (docs/theory/gray.md)"},
+    {"vapour_attraction", "critical", 620.0,
+     "Young-Alder fluid, R T_c V_b = 0.0943 a_y (Young & Alder, Phys. Rev. A 3 (1971) 364), T_c = 8000 K"});
+constexpr auto aluminium_constants = constants_of_metal(
+    {"join_volume_ratio", "critical", 1.3,
+     "chosen with the attraction below: critical temperature near 6600 K (docs/theory/gray.md)"},
+    {"vapour_attraction", "critical", 3600.0,
+     "as in the aluminium of the library: critical temperature near 6600 K (docs/theory/gray.md)"});
 constexpr auto lead_constants = boiling_metal(1.2, 2022.0);
 constexpr auto nickel_constants = boiling_metal(1.15, 3186.0);
 constexpr auto tantalum_constants = boiling_metal(1.25, 5728.0);

@@ -5,17 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
-#include <map>
-#include <set>
 
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
 #include "src/io/output_fields.hpp"
-#include "src/material/material_file.hpp"
 #include "src/setup/seeding.hpp"
-#include "src/setup/shapes/mesh_shape.hpp"
 
 namespace whipple::setup {
 
@@ -145,52 +140,10 @@ ParameterTable<HeatControl> HeatControl::parameters() {
               .optional()};
 }
 
-ParameterTable<ContactControl> ContactControl::parameters() {
-  return {
-      choice("method", &ContactControl::method, {"none", "multi_field"},
-             "bodies move in one velocity field, as if bonded where they meet | each in its own where they "
-             "meet: they touch, slide and part")
-          .optional(),
-      choice("normal", &ContactControl::normal, {"collinear", "separating", "logistic_regression"},
-             "normal between two bodies: mean of those of both | of one of them or their mean, along which "
-             "they are farthest apart | of the plane that separates their particles")
-          .optional(),
-      real("friction", &ContactControl::friction, "", range::non_negative(), "Coulomb's coefficient")
-          .optional(),
-      boolean("gap_test", &ContactControl::gap_test,
-              "bodies touch where their surfaces do; false: wherever both reach a node")
-          .optional(),
-      real("gap", &ContactControl::gap, "", range::between(-1.0, 2.0),
-           "of gap_test: distance in cells below which surfaces touch")
-          .optional(),
-      boolean("everywhere", &ContactControl::everywhere,
-              "velocity fields of their own for all bodies at all nodes, not only where they meet: for "
-              "comparison of cost")
-          .optional()};
-}
-
 ParameterTable<Gravity> Gravity::parameters() {
   return {vector("acceleration", &Gravity::acceleration, "m/s^2", range::any(), "of all matter").optional(),
           real("rise_time", &Gravity::rise_time, "s", range::non_negative(),
                "time over which it grows from 0, so that bodies at rest do not begin to vibrate")
-              .optional()};
-}
-
-ParameterTable<Body> Body::parameters() {
-  return {text("name", &Body::name, "name of the body in output files"),
-          text("material", &Body::material, "material file: a path, or a name in the library"),
-          choice("equation_of_state", &Body::equation_of_state, {"model", "table"},
-                 "how it is evaluated: by the model itself, or by a table of it, faster for costly models")
-              .optional(),
-          real("table_error", &Body::table_error, "", range::between(1e-8, 0.05),
-               "of the table: relative error of temperature and pressure")
-              .optional(),
-          vector("velocity", &Body::velocity, "m/s", range::any(), "initial velocity").optional(),
-          vector("angular_velocity", &Body::angular_velocity, "rad/s", range::any(),
-                 "initial rotation about the centre of the body's bounding box")
-              .optional(),
-          text("contact_group", &Body::contact_group,
-               "bodies of one group do not contact one another but are bonded where they meet; empty: none")
               .optional()};
 }
 
@@ -242,66 +195,6 @@ void make_geometry(Case& setup, input::Table& domain) {
   }
 }
 
-void read_body(Case& setup, input::Table table, std::set<std::string>& names,
-               std::map<std::string, std::shared_ptr<const Material>>& materials) {
-  Body body;
-  table.read(Body::parameters(), body);
-  if (!std::ranges::all_of(body.name,
-                           [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; })) {
-    table.error_at(
-        "name", fmt::format("'name' is \"{}\": letters, digits, '_' and '-' only, it names columns of output",
-                            body.name));
-  }
-  if (!body.name.empty() && !names.insert(body.name).second) {
-    table.error_at("name", fmt::format("two bodies are called \"{}\"", body.name));
-  }
-  if (auto discretization = table.optional_table("discretization")) {
-    discretization->read(Discretization::parameters(), body.discretization);
-    const double edge = std::cbrt(static_cast<double>(body.discretization.per_cell));
-    if (std::abs(edge - std::round(edge)) > 1e-9) {
-      discretization->error_at("per_cell", fmt::format("'per_cell' is {}, expected a cube: 1, 8, 27, 64",
-                                                       body.discretization.per_cell));
-    }
-    check_elements(setup, body.discretization, *discretization);
-  }
-  if (auto conversion = table.optional_table("conversion")) {
-    conversion->read(Conversion::parameters(), body.conversion);
-  }
-  for (input::Table& condition : table.list("node_condition")) {
-    condition.read(NodeCondition::parameters(), body.node_conditions.emplace_back());
-    if (!body.discretization.has_elements()) condition.error("a body of particles has no nodes");
-  }
-  auto initial = table.optional_table("initial");
-  if (initial) initial->read(InitialState::parameters(), body.initial);
-  if (auto scatter = table.optional_table("failure_scatter")) {
-    scatter->read(FailureScatter::parameters(), body.failure_scatter);
-  }
-  body.shape =
-      body.discretization.mesh.empty() ? read_shape(table) : read_mesh_shape(body.discretization, table);
-  std::shared_ptr<const Material> material;
-  if (!body.material.empty()) {
-    auto& known = materials[body.material];
-    if (!known) {
-      try {
-        known = std::make_shared<const Material>(read_material(body.material, table.folder()));
-        require_usable(*known);
-      } catch (const InputError& error) {
-        table.error_at("material", fmt::format("'{}.material':\n  {}", table.name(), error.what()));
-      }
-    }
-    material = known;
-  }
-  if (initial && material) {
-    try {
-      static_cast<void>(body.initial.of(*material));
-    } catch (const InputError& error) {
-      initial->error(error.what());
-    }
-  }
-  setup.bodies.push_back(std::move(body));
-  setup.materials.push_back(std::move(material));
-}
-
 /// What the schemes, particle updates and shape functions can do together (docs/theory/mpm.md, section 5).
 void check_transfer(Case& setup, input::Table* transfer) {
   const std::string& scheme = setup.time.scheme;
@@ -335,47 +228,6 @@ void check_transfer(Case& setup, input::Table* transfer) {
   }
 }
 
-void check_combinations(Case& setup, input::Table& root) {
-  auto transfer = root.optional_table("transfer");
-  check_transfer(setup, transfer ? &*transfer : nullptr);
-  const bool separating = std::ranges::count(faces(setup.domain), "separating") > 0;
-  if (separating && setup.time.scheme == "usf") {
-    if (auto domain = root.optional_table("domain")) {
-      domain->error_at("boundary",
-                       "a separating wall is found to be in contact by the forces on the grid, which scheme "
-                       "\"usf\" does not know yet where it needs them: take \"symplectic\", \"musl\" or "
-                       "\"usl\"");
-    }
-  }
-}
-
-/// What contact needs of scheme and bodies.
-void check_contact(const Case& setup, input::Table& contact) {
-  if (setup.contact.method == "none") return;
-  if (setup.transfer.particle_update == "fmpm") {
-    contact.error_at("method",
-                     "'method': the full mass matrix (transfer.particle_update = \"fmpm\") knows no contact; "
-                     "take another update");
-  }
-  const std::vector<std::uint8_t> fields = setup.contact_fields();
-  const unsigned count = fields.empty() ? 0 : *std::ranges::max_element(fields) + 1U;
-  if (count < 2) {
-    contact.error_at("method", "'method' is \"multi_field\", but all bodies are one contact group");
-  }
-  if (count > grid::maximum_fields) {
-    contact.error_at("method",
-                     fmt::format("'method': {} bodies or contact groups, at most {} can have velocity "
-                                 "fields of their own: join some with contact_group",
-                                 count, grid::maximum_fields));
-  }
-}
-
-void check_gravity(const Case& setup, input::Table& gravity) {
-  if (!setup.gravity.acceleration.isZero(0.0) && setup.transfer.free_flight) {
-    gravity.error_at("acceleration", "'acceleration': particles of transfer.free_flight would not fall");
-  }
-}
-
 /// What conduction of heat needs of the transfer and of the materials.
 void check_conduction(const Case& setup, input::Table& heat) {
   if (!setup.heat.conduction) return;
@@ -396,6 +248,26 @@ void check_conduction(const Case& setup, input::Table& heat) {
   }
   if (!conducts) {
     heat.error_at("conduction", "'conduction' is on, but no material has a conductivity ([thermal])");
+  }
+}
+
+void check_combinations(Case& setup, input::Table& root) {
+  auto transfer = root.optional_table("transfer");
+  check_transfer(setup, transfer ? &*transfer : nullptr);
+  const bool separating = std::ranges::count(faces(setup.domain), "separating") > 0;
+  if (separating && setup.time.scheme == "usf") {
+    if (auto domain = root.optional_table("domain")) {
+      domain->error_at("boundary",
+                       "a separating wall is found to be in contact by the forces on the grid, which scheme "
+                       "\"usf\" does not know yet where it needs them: take \"symplectic\", \"musl\" or "
+                       "\"usl\"");
+    }
+  }
+}
+
+void check_gravity(const Case& setup, input::Table& gravity) {
+  if (!setup.gravity.acceleration.isZero(0.0) && setup.transfer.free_flight) {
+    gravity.error_at("acceleration", "'acceleration': particles of transfer.free_flight would not fall");
   }
 }
 
@@ -432,11 +304,9 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   check_combinations(setup, root);
   if (gravity) check_gravity(setup, *gravity);
 
-  std::set<std::string> names;
-  std::map<std::string, std::shared_ptr<const Material>> materials;
   std::vector<input::Table> bodies = root.list("body");
   if (bodies.empty()) root.error("no bodies: expected at least one [[body]]");
-  for (const input::Table& body : bodies) read_body(setup, body, names, materials);
+  read_bodies(setup, bodies);
   const bool complete =
       domain && std::ranges::all_of(setup.bodies, [](const Body& b) { return b.shape != nullptr; });
   if (complete && setup.geometry.cells[0] > 0 && setup.geometry.cells[1] > 0 && setup.geometry.cells[2] > 0) {
@@ -466,19 +336,6 @@ std::string section(const char* name, const ParameterTable<Owner>& table, Owner 
 
 }  // namespace
 
-std::vector<std::uint8_t> Case::contact_fields() const {
-  std::vector<std::uint8_t> fields;
-  std::map<std::string, unsigned> of_group;
-  unsigned next = 0;
-  for (const Body& body : bodies) {
-    unsigned field = next;
-    if (!body.contact_group.empty()) field = of_group.try_emplace(body.contact_group, next).first->second;
-    if (field == next) ++next;
-    fields.push_back(static_cast<std::uint8_t>(std::min(field, 255U)));
-  }
-  return fields;
-}
-
 bool Case::has_elements() const {
   return std::ranges::any_of(bodies, [](const Body& body) { return body.discretization.has_elements(); });
 }
@@ -505,27 +362,7 @@ std::string to_toml(const Case& setup, const std::vector<std::string>& material_
   text += section("gravity", Gravity::parameters(), setup.gravity);
   text += section("output", OutputControl::parameters(), setup.output);
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
-    Body body = setup.bodies[b];
-    body.material = material_of_body[b];
-    text += "\n[[body]]\n" + whipple::to_toml(whipple::bind(Body::parameters(), body));
-    if (body.discretization.mesh.empty()) text += fmt::format("shape = {}\n", body.shape->toml());
-    text += "[body.discretization]\n" +
-            whipple::to_toml(whipple::bind(Discretization::parameters(), body.discretization));
-    if (body.discretization.converts()) {
-      text +=
-          "[body.conversion]\n" + whipple::to_toml(whipple::bind(Conversion::parameters(), body.conversion));
-    }
-    for (NodeCondition& condition : body.node_conditions) {
-      text += "[[body.node_condition]]\n" +
-              whipple::to_toml(whipple::bind(NodeCondition::parameters(), condition));
-    }
-    if (body.initial.given()) {
-      text += "[body.initial]\n" + whipple::to_toml(whipple::bind(InitialState::parameters(), body.initial));
-    }
-    if (body.failure_scatter.given()) {
-      text += "[body.failure_scatter]\n" +
-              whipple::to_toml(whipple::bind(FailureScatter::parameters(), body.failure_scatter));
-    }
+    text += body_to_toml(setup.bodies[b], material_of_body[b]);
   }
   return text + setup.gauges.toml();
 }
@@ -545,13 +382,7 @@ std::string describe_case() {
   text += "\n[contact]\n" + describe_table(ContactControl::parameters());
   text += "\n[gravity]\n" + describe_table(Gravity::parameters());
   text += "\n[output]\n" + describe_table(OutputControl::parameters());
-  text += "\n[[body]]\n" + describe_table(Body::parameters());
-  text += "\n[body.discretization]\n" + describe_table(Discretization::parameters());
-  text += "\n[body.conversion], of adaptive bodies\n" + describe_table(Conversion::parameters());
-  text +=
-      "\n[[body.node_condition]], of bodies with elements\n" + describe_table(NodeCondition::parameters());
-  text += "\n[body.initial], at most two of\n" + describe_table(InitialState::parameters());
-  text += "\n[body.failure_scatter]\n" + describe_table(FailureScatter::parameters());
+  text += describe_body();
   text += "\n[[gauge]]\n" + describe_table(Gauge::parameters());
   text += "\n[[tracers]]\n" + describe_table(Tracers::parameters());
   for (const ShapeEntry& entry : shape_catalogue()) {

@@ -11,10 +11,9 @@
 #include "src/base/parameter_table.hpp"
 #include "src/grid/geometry.hpp"
 #include "src/material/material.hpp"
-#include "src/setup/body_state.hpp"
-#include "src/setup/discretization.hpp"
+#include "src/setup/body.hpp"
+#include "src/setup/contact.hpp"
 #include "src/setup/gauges.hpp"
-#include "src/setup/shapes/shape.hpp"
 
 namespace whipple::setup {
 
@@ -66,17 +65,6 @@ struct ArtificialViscosity {
   static ParameterTable<ArtificialViscosity> parameters();
 };
 
-/// Contact of bodies (docs/theory/contact.md).
-struct ContactControl {
-  std::string method = "none";
-  std::string normal = "separating";
-  double friction = 0.0;
-  bool gap_test = true;
-  double gap = 0.0;  ///< in cells
-  bool everywhere = false;
-  static ParameterTable<ContactControl> parameters();
-};
-
 struct Gravity {
   Vector3 acceleration = Vector3::Zero();
   double rise_time = 0.0;  ///< s
@@ -99,23 +87,6 @@ struct OutputControl {
 struct HeatControl {
   bool conduction = false;
   static ParameterTable<HeatControl> parameters();
-};
-
-struct Body {
-  std::string name;
-  std::string material;  ///< file as written in the case
-  std::string equation_of_state = "model";
-  double table_error = 1e-4;
-  Vector3 velocity = Vector3::Zero();
-  Vector3 angular_velocity = Vector3::Zero();
-  std::string contact_group;
-  Discretization discretization;
-  Conversion conversion;
-  std::vector<NodeCondition> node_conditions;
-  InitialState initial;
-  FailureScatter failure_scatter;
-  std::shared_ptr<const Shape> shape;
-  static ParameterTable<Body> parameters();
 };
 
 /// One simulation: everything that stands in a case file, in SI, with its materials.

@@ -106,16 +106,40 @@ void Ledger::add(const Ledger& step) {
   limited_domains += step.limited_domains;
 }
 
+namespace {
+
+double moving_energy(const Totals& totals) {
+  return totals.kinetic_energy + totals.affine_kinetic_energy + totals.hourglass_energy;
+}
+
+// The round-off of an internal energy at rest is no error of what little the run exchanges.
+constexpr double round_off_of_internal_energy = 1e-10;
+
+}  // namespace
+
+void Ledger::observe(const Totals& now) {
+  largest_kinetic_energy = std::max(largest_kinetic_energy, moving_energy(now) + moving_energy(outflow));
+  largest_heating = std::max(
+      largest_heating, std::abs(now.internal_energy + outflow.internal_energy - initial.internal_energy));
+  largest_momentum = std::max(largest_momentum, now.momentum_scale + outflow.momentum_scale);
+}
+
 double Ledger::energy_error(const Totals& now) const {
-  const double scale = std::abs(initial.kinetic_energy) + std::abs(initial.affine_kinetic_energy) +
-                       std::abs(initial.internal_energy) + std::abs(initial.hourglass_energy) +
-                       std::abs(external_work);
+  Ledger so_far = *this;
+  so_far.observe(now);
+  const double scale = std::max(
+      std::max(so_far.largest_kinetic_energy, moving_energy(initial)) + so_far.largest_heating +
+          std::abs(external_work),
+      round_off_of_internal_energy * (std::abs(initial.internal_energy) + std::abs(now.internal_energy)));
   return (now.energy() + outflow.energy() - initial.energy() - external_work) / std::max(scale, 1e-300);
 }
 
 double Ledger::momentum_error(const Totals& now) const {
   const Vector3 error = now.momentum + outflow.momentum - wall_impulse - external_impulse - initial.momentum;
-  return error.norm() / std::max(initial.momentum_scale, 1e-300);
+  const double scale =
+      std::max({largest_momentum, initial.momentum_scale, now.momentum_scale + outflow.momentum_scale}) +
+      external_impulse.norm();
+  return error.norm() / std::max(scale, 1e-300);
 }
 
 PhaseMasses& PhaseMasses::operator+=(const PhaseMasses& other) {

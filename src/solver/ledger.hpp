@@ -76,11 +76,19 @@ struct Ledger {
   double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
   double limited_domains = 0.0;  ///< steps of particles whose domain was larger than its shape function takes
 
-  /// Books what happened in a step (its `initial` is not used).
+  double largest_kinetic_energy =
+      0.0;                        ///< J, with affine and hourglass energies, at the ends of the steps so far
+  double largest_heating = 0.0;   ///< J, the same of the change of internal energy
+  double largest_momentum = 0.0;  ///< kg m/s, the same of the sum of m |v|
+
+  /// Books what happened in a step (its `initial` and what was largest are not used).
   void add(const Ledger& step);
-  /// Relative error of the total energy.
+  /// Notes what is largest so far.
+  void observe(const Totals& now);
+  /// Error of the total energy relative to the energies that the run exchanges: largest kinetic energy and
+  /// change of internal energy so far, and external work (docs/theory/mpm.md, section 4).
   [[nodiscard]] double energy_error(const Totals& now) const;
-  /// Error of the momentum relative to the initial sum of m |v|.
+  /// Error of the momentum relative to the largest sum of m |v| so far and the external impulse.
   [[nodiscard]] double momentum_error(const Totals& now) const;
 };
 
@@ -108,6 +116,9 @@ void for_each_number(L& ledger, Function&& f) {
   f("clamped_to_cold_curve", ledger.clamped_to_cold_curve);
   f("limited_volume_changes", ledger.limited_volume_changes);
   f("limited_domains", ledger.limited_domains);
+  f("largest_kinetic_energy", ledger.largest_kinetic_energy);
+  f("largest_heating", ledger.largest_heating);
+  f("largest_momentum", ledger.largest_momentum);
 }
 
 /// Replaces every number by its sum over all ranks. Collective.

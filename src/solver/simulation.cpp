@@ -437,6 +437,7 @@ void Simulation::end_step() {
     const double acceleration = std::sqrt(squared_change) / state_.time_step;
     state_.maximum_acceleration = parallel::maximum(communicator_, acceleration);
     sum_over_ranks();
+    state_.ledger.observe(totals_);
     ++state_.step;
     state_.time += state_.time_step;
     const double error = state_.ledger.energy_error(totals_);

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "src/base/error.hpp"
+#include "src/base/machine.hpp"
+#include "src/base/text.hpp"
+#include "src/parallel/threads.hpp"
+#include "src/solver/preparation.hpp"
+#include "src/solver/run.hpp"
+#include "src/solver/simulation.hpp"
+
+namespace whipple::solver {
+
+void set_threads(int threads, MPI_Comm communicator) {
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int share = std::max(1, cores / parallel::ranks_on_machine(communicator));
+  parallel::set_threads(threads > 0 ? threads : share);
+}
+
+void require_memory(const setup::Case& setup, MPI_Comm communicator) {
+  const double needed = setup::expected_memory(setup);
+  const double available = physical_memory() * parallel::size(communicator) /
+                           static_cast<double>(parallel::ranks_on_machine(communicator));
+  if (needed <= available) return;
+  throw InputError(fmt::format(
+      "{}: the particles of all bodies take up to {}, and there are {}: enlarge 'domain.cell_size' or reduce "
+      "'per_cell', or take more machines",
+      setup.file.string(), format_bytes(needed), format_bytes(available)));
+}
+
+std::string check(const RunOptions& options) {
+  const MPI_Comm communicator = parallel::world();
+  set_threads(options.threads, communicator);
+  const setup::Case setup = setup::read_case(options.case_file, options.overrides);
+  require_runnable(setup, parallel::size(communicator));
+  require_memory(setup, communicator);
+  Simulation simulation(setup, communicator);
+  std::string text = fmt::format("{}\n{}\n\n", setup.file.string(), setup.title);
+  text += fmt::format("grid: {} x {} x {} cells of {:.6g} mm\n", setup.geometry.cells[0],
+                      setup.geometry.cells[1], setup.geometry.cells[2], 1e3 * setup.geometry.cell_size);
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const setup::BodySummary& body = simulation.bodies()[b];
+    std::string parts = fmt::format("{} particles", body.count);
+    for (const fem::Mesh& mesh : simulation.meshes()) {
+      if (mesh.body == b)
+        parts = fmt::format("{} elements, {} nodes", mesh.elements.size(), mesh.nodes.size());
+    }
+    text += fmt::format("body \"{}\" of {}: {}, {:.6g} g in the domain; whole shape {:.6g} g\n",
+                        setup.bodies[b].name, setup.materials[b]->name, parts, 1e3 * body.mass,
+                        1e3 * body.shape_mass);
+  }
+  const std::size_t particles = simulation.particle_count();
+  simulation.advance(setup.time.end);  // activates the blocks
+  int measured_steps = 0;
+  const auto begin = std::chrono::steady_clock::now();
+  while (measured_steps < 2 && simulation.state().time < setup.time.end) {
+    simulation.advance(setup.time.end);
+    ++measured_steps;
+  }
+  const double per_step = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() /
+                          std::max(measured_steps, 1);
+  const double steps = std::ceil(setup.time.end / simulation.state().time_step);
+  text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", particles,
+                      simulation.grid().slots(), format_bytes(static_cast<double>(simulation.bytes())));
+  text += fmt::format(
+      "time step: {:.4g} ns at the start; about {:.0f} steps to t = {:.6g} us, more as shocks raise "
+      "the sound speed\n",
+      1e9 * simulation.state().time_step, steps, 1e6 * setup.time.end);
+  const std::size_t carriers = particles + simulation.element_count();
+  text +=
+      fmt::format("estimated time: {} on {} threads ({:.0f} ns per particle{} and step, measured)\n",
+                  format_duration(steps * per_step), parallel::threads(),
+                  1e9 * per_step / static_cast<double>(carriers), setup.has_elements() ? " or element" : "");
+  return text;
+}
+
+}  // namespace whipple::solver

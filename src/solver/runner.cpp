@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/runner.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "src/base/error.hpp"
+#include "src/base/log.hpp"
+#include "src/base/progress.hpp"
+#include "src/base/text.hpp"
+#include "src/io/element_series.hpp"
+#include "src/io/history.hpp"
+#include "src/io/particle_series.hpp"
+#include "src/parallel/threads.hpp"
+#include "src/solver/checkpointing.hpp"
+#include "src/solver/gauges.hpp"
+#include "src/solver/signals.hpp"
+#include "src/solver/simulation.hpp"
+
+namespace whipple::solver {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
+
+constexpr int out_of_time_code = 124;  // that of timeout(1)
+
+/// Figures of all ranks. Collective.
+std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
+  const RunState& state = simulation.state();
+  const Totals& t = simulation.totals();
+  const Particles& particles = simulation.particles();
+  const std::vector<setup::Body>& bodies = simulation.setup().bodies;
+  std::vector<PhaseMasses> by_body = phase_masses(particles, simulation.meshes(), bodies.size());
+  sum_over_ranks(simulation.communicator(), by_body);
+  PhaseMasses all;
+  for (const PhaseMasses& body : by_body) all += body;
+  const auto largest = [](const std::vector<double>& values, double so_far) {
+    return parallel::maximum(values.size(), so_far, [&](std::size_t p) { return values[p]; });
+  };
+  const auto fastest = [](const std::vector<Vector3>& velocity, double so_far) {
+    return parallel::maximum(velocity.size(), so_far, [&](std::size_t p) { return velocity[p].norm(); });
+  };
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  std::array<double, 3> maxima = {fastest(particles.velocity, 0.0), largest(particles.pressure, none),
+                                  largest(particles.temperature, none)};
+  for (const fem::Mesh& mesh : simulation.meshes()) {
+    maxima = {fastest(mesh.nodes.velocity, maxima[0]), largest(mesh.points.pressure, maxima[1]),
+              largest(mesh.points.temperature, maxima[2])};
+  }
+  parallel::maximum(simulation.communicator(), maxima);
+  std::vector<io::HistoryValue> row = {
+      {"step", "", static_cast<double>(state.step)},
+      {"time", "s", state.time},
+      {"dt", "s", state.time_step},
+      {"mass", "kg", t.mass},
+      {"kinetic_energy", "J", t.kinetic_energy},
+      {"affine_kinetic_energy", "J", t.affine_kinetic_energy},
+      {"internal_energy", "J", t.internal_energy},
+      {"total_energy", "J", t.energy()},
+      {"energy_error", "1", state.ledger.energy_error(t)},
+      {"momentum_x", "kg m/s", t.momentum[0]},
+      {"momentum_y", "kg m/s", t.momentum[1]},
+      {"momentum_z", "kg m/s", t.momentum[2]},
+      {"momentum_error", "1", state.ledger.momentum_error(t)},
+      {"transfer_heat", "J", state.ledger.transfer_heat},
+      {"contact_heat", "J", state.ledger.contact_heat},
+      {"friction_heat", "J", state.ledger.friction_heat},
+      {"contact_impulse", "N s", state.ledger.contact_impulse},
+      {"friction_impulse", "N s", state.ledger.friction_impulse},
+      {"outflow_mass", "kg", state.ledger.outflow.mass},
+      {"outflow_energy", "J", state.ledger.outflow.energy()},
+      {"wall_impulse_x", "N s", state.ledger.wall_impulse[0]},
+      {"wall_impulse_y", "N s", state.ledger.wall_impulse[1]},
+      {"wall_impulse_z", "N s", state.ledger.wall_impulse[2]},
+      {"mass_solid", "kg", all.mass[0]},
+      {"mass_melting", "kg", all.mass[1]},
+      {"mass_liquid", "kg", all.mass[2]},
+      {"mass_vapour", "kg", all.mass[3]},
+      {"failed_mass", "kg", all.failed},
+      {"maximum_speed", "m/s", maxima[0]},
+      {"maximum_pressure", "Pa", maxima[1]},
+      {"maximum_temperature", "K", maxima[2]},
+      {"below_cold_curve", "1", state.ledger.clamped_to_cold_curve},
+      {"limited_volume_changes", "1", state.ledger.limited_volume_changes},
+      {"particles", "1", static_cast<double>(simulation.particle_count())},
+  };
+  if (simulation.setup().has_elements()) {
+    row.push_back({"elements", "1", static_cast<double>(simulation.element_count())});
+    row.push_back({"converted_mass", "kg", state.ledger.converted_mass});
+    row.push_back({"conversion_heat", "J", state.ledger.conversion_heat});
+    row.push_back({"hourglass_energy", "J", t.hourglass_energy});
+  }
+  static constexpr std::array<const char*, 4> phases = {"mass_solid", "mass_melting", "mass_liquid",
+                                                        "mass_vapour"};
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    for (std::size_t i = 0; i < phases.size(); ++i) {
+      row.push_back({fmt::format("{}.{}", phases[i], bodies[b].name), "kg", by_body[b].mass[i]});
+    }
+  }
+  return row;
+}
+
+std::string profile_as_json(Simulation& simulation, double wall_seconds) {
+  nlohmann::json stages = nlohmann::json::array();
+  for (const Profile::Stage& stage : simulation.profile().stages()) {
+    stages.push_back({{"stage", stage.name}, {"seconds", stage.seconds}, {"calls", stage.calls}});
+  }
+  return nlohmann::json({{"wall_seconds", wall_seconds},
+                         {"ranks", parallel::size(simulation.communicator())},
+                         {"threads", parallel::threads()},
+                         {"steps", simulation.state().step},
+                         {"particles", simulation.particle_count()},
+                         {"elements", simulation.element_count()},
+                         {"bytes_of_first_rank", simulation.bytes()},
+                         {"stages", stages}})
+      .dump(2);
+}
+
+io::SeriesOptions series_options(const setup::Case& setup, const io::RunDirectory& directory,
+                                 const fs::path& folder) {
+  io::SeriesOptions options{.folder = folder,
+                            .name = directory.name(),
+                            .fields = setup.output.fields,
+                            .material_of_body = {},
+                            .provenance = {{"input", io::read_text(directory.input_file())}}};
+  // Bodies of one material share its number: that of its first body.
+  for (const auto& material : setup.materials) {
+    const auto first = std::ranges::find(setup.materials, material);
+    options.material_of_body.push_back(static_cast<std::uint16_t>(first - setup.materials.begin()));
+  }
+  return options;
+}
+
+/// The series of snapshots of a run.
+struct Snapshots {
+  io::ParticleSeries particles;
+  std::optional<io::ElementSeries> elements;  // of cases with bodies of elements
+
+  Snapshots(const setup::Case& setup, const io::RunDirectory& directory, const fs::path& folder)
+      : particles(series_options(setup, directory, folder), parallel::world()) {
+    if (setup.has_elements()) elements.emplace(series_options(setup, directory, folder));
+  }
+  void restart(double time) {
+    particles.restart(time);
+    if (elements) elements->restart(time);
+  }
+  void write(const Simulation& simulation) {
+    particles.write(simulation.particles(), simulation.state().time);
+    if (elements) elements->write(simulation.meshes(), simulation.state().time);
+  }
+};
+
+/// The loop of a run and everything that it writes.
+class Runner {
+ public:
+  Runner(const setup::Case& setup, const io::RunDirectory& directory, const RunOptions& options,
+         const io::Ranks& ranks)
+      : directory_(directory),
+        ranks_(ranks),
+        wall_time_(options.wall_time),
+        simulation_(setup, parallel::world()),
+        series_(setup, directory, directory.path()),
+        recorder_(setup.gauges.all(), simulation_.particles(), parallel::world()) {
+    if (ranks_.is_root()) {
+      history_.emplace(directory.history_file());
+      gauges_.emplace(gauges_file());
+    }
+    write_snapshot();
+    append_history();
+    append_gauges();
+  }
+
+  Runner(const setup::Case& setup, const io::RunDirectory& directory, io::Checkpoint checkpoint,
+         const RunOptions& options, const io::Ranks& ranks)
+      : directory_(directory),
+        ranks_(ranks),
+        wall_time_(options.wall_time),
+        simulation_(setup, std::move(checkpoint.particles), from_checkpoint(checkpoint.values),
+                    parallel::world(), std::move(checkpoint.meshes)),
+        series_(setup, directory, directory.path()),
+        recorder_(setup.gauges.all(), checkpoint.values),
+        snapshots_(checkpoint.values.integer("snapshots")) {
+    ranks_.on_root([&] {
+      history_.emplace(io::History::restart(directory.history_file(), simulation_.state().step));
+      gauges_.emplace(io::History::restart(gauges_file(), simulation_.state().step));
+    });
+    series_.restart(simulation_.state().time);
+    log::info("restarted from {} at step {}, t = {:.6g} s", checkpoint.path.string(),
+              simulation_.state().step, simulation_.state().time);
+  }
+
+  int run() {
+    const setup::Case& setup = simulation_.setup();
+    const double end = setup.time.end;
+    const Signals signals;
+    std::optional<Progress> progress;
+    if (ranks_.is_root()) {
+      progress.emplace("run", end);
+      progress->start_from(simulation_.state().time);
+    }
+    const Clock::time_point begin = Clock::now();
+    Clock::time_point last_checkpoint = begin;
+    Requests requests;
+    while (simulation_.state().time < end && !requests.end()) {
+      advance(end);
+      const RunState& state = simulation_.state();
+      const bool last = state.time >= end;
+      if (last || state.step % setup.output.history_every == 0) append_history();
+      if (last || state.step % setup.output.gauges_every == 0) append_gauges();
+      const double next_snapshot = setup.output.snapshot_every * static_cast<double>(snapshots_);
+      if (last || (setup.output.snapshot_every > 0.0 && state.time >= next_snapshot)) write_snapshot();
+      const double since = seconds_since(last_checkpoint);
+      const bool due = setup.output.checkpoint_every > 0.0 && since >= setup.output.checkpoint_every;
+      requests = agree({.signal = signals.end_requested(),
+                        .checkpoint = due || signals.checkpoint_requested(),
+                        .out_of_time = wall_time_ > 0.0 && seconds_since(begin) >= wall_time_});
+      if (last || requests.checkpoint || requests.end()) {
+        write_checkpoint(directory_.checkpoint_folder());
+        last_checkpoint = Clock::now();
+      }
+      if (progress) {
+        progress->update(
+            state.time,
+            fmt::format("step {}, t = {:.3f} us, dt = {:.2f} ns, {} particles, dE/E = {:.1e}", state.step,
+                        1e6 * state.time, 1e9 * state.time_step, simulation_.particle_count(),
+                        state.ledger.energy_error(simulation_.totals())));
+      }
+    }
+    progress.reset();  // ends its line before the summary
+    const double wall = seconds_since(begin);
+    ranks_.on_root([&] {
+      io::write_text_atomically(directory_.profile_file(), profile_as_json(simulation_, wall));
+      report_end(requests, wall);
+    });
+    if (simulation_.state().time >= end) return 0;
+    return requests.signal != 0 ? 128 + requests.signal : out_of_time_code;
+  }
+
+ private:
+  /// What asks the loop for something, on any rank.
+  struct Requests {
+    int signal = 0;
+    bool checkpoint = false;
+    bool out_of_time = false;
+    [[nodiscard]] bool end() const { return signal != 0 || out_of_time; }
+  };
+
+  /// A signal may reach the ranks in different steps, and clocks differ: all do what one of them asks for.
+  [[nodiscard]] Requests agree(const Requests& own) const {
+    std::array<double, 3> numbers = {static_cast<double>(own.signal), own.checkpoint ? 1.0 : 0.0,
+                                     own.out_of_time ? 1.0 : 0.0};
+    parallel::maximum(simulation_.communicator(), numbers);
+    return {static_cast<int>(numbers[0]), numbers[1] > 0.0, numbers[2] > 0.0};
+  }
+
+  static double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
+  void append_history() {
+    const std::vector<io::HistoryValue> row = history_row(simulation_);
+    ranks_.on_root([&] { history_->append(row); });
+  }
+
+  [[nodiscard]] fs::path gauges_file() const { return directory_.path() / "gauges.csv"; }
+
+  void append_gauges() {
+    if (recorder_.empty()) return;
+    const std::vector<io::HistoryValue> row = recorder_.row(simulation_);
+    ranks_.on_root([&] { gauges_->append(row); });
+  }
+
+  void advance(double end) {
+    try {
+      simulation_.advance(end);
+    } catch (const StateError& error) {
+      throw StateError(fmt::format("{}\n  {}", error.what(), save_failed_state()));
+    }
+  }
+
+  /// The state as the failing step left it, in a folder of its own: checkpoints and snapshots of the run stay
+  /// good.
+  std::string save_failed_state() {
+    const fs::path folder = directory_.path() / "failed";
+    try {
+      write_checkpoint(folder);
+      Snapshots(simulation_.setup(), directory_, folder).write(simulation_);
+      return fmt::format("the state is saved in {}", folder.string());
+    } catch (const InputError& error) {
+      return fmt::format("the state could not be saved: {}", error.what());
+    }
+  }
+
+  void write_snapshot() {
+    series_.write(simulation_);
+    const double every = simulation_.setup().output.snapshot_every;
+    // The next multiple of the interval, also when a step was longer than it.
+    snapshots_ =
+        every > 0.0 ? static_cast<std::int64_t>(std::floor(simulation_.state().time / every)) + 1 : 1;
+  }
+
+  void write_checkpoint(const fs::path& folder) {
+    io::CheckpointValues values = to_checkpoint(simulation_.state());
+    values.integers["snapshots"] = snapshots_;
+    recorder_.to_checkpoint(values);
+    values.texts["run_name"] = directory_.name();
+    const fs::path path = io::write_checkpoint(folder, simulation_.state().step, simulation_.particles(),
+                                               values, simulation_.communicator(), simulation_.meshes());
+    log::detail("checkpoint {}", path.string());
+  }
+
+  void report_end(const Requests& requests, double wall) {
+    const RunState& state = simulation_.state();
+    const Totals& totals = simulation_.totals();
+    if (requests.end() && state.time < simulation_.setup().time.end) {
+      const std::string by =
+          requests.signal != 0 ? fmt::format("signal {}", requests.signal) : "the limit of wall time";
+      log::info("stopped by {} at step {}, t = {:.6g} s; go on with: whipple run --restart {}", by,
+                state.step, state.time, directory_.path().string());
+    }
+    log::info("{} steps to t = {:.6g} s in {}; energy error {:.2e}, momentum error {:.2e}, outflow {:.3g} kg",
+              state.step, state.time, format_duration(wall), state.ledger.energy_error(totals),
+              state.ledger.momentum_error(totals), state.ledger.outflow.mass);
+    if (state.ledger.clamped_to_cold_curve > 0 || state.ledger.limited_volume_changes > 0) {
+      log::info("clamped: temperature below the cold curve {} times, volume change of a step {} times",
+                state.ledger.clamped_to_cold_curve, state.ledger.limited_volume_changes);
+    }
+    log::info("wrote {} ({} snapshots: open {} in ParaView)", directory_.path().string(),
+              series_.particles.size(), series_.particles.index_path().string());
+  }
+
+  io::RunDirectory directory_;
+  io::Ranks ranks_;
+  double wall_time_;  // s, 0: no limit
+  Simulation simulation_;
+  Snapshots series_;
+  GaugeRecorder recorder_;
+  std::optional<io::History> history_;  // on the root
+  std::optional<io::History> gauges_;   // on the root
+  std::int64_t snapshots_ = 0;          // multiple of the interval at which the next snapshot is due
+};
+
+}  // namespace
+
+int run_steps(const setup::Case& setup, const io::RunDirectory& directory, const RunOptions& options,
+              const io::Ranks& ranks) {
+  return Runner(setup, directory, options, ranks).run();
+}
+
+int run_steps(const setup::Case& setup, const io::RunDirectory& directory, io::Checkpoint checkpoint,
+              const RunOptions& options, const io::Ranks& ranks) {
+  return Runner(setup, directory, std::move(checkpoint), options, ranks).run();
+}
+
+}  // namespace whipple::solver

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "src/io/checkpoint.hpp"
+#include "src/io/ranks.hpp"
+#include "src/io/run_directory.hpp"
+#include "src/solver/run.hpp"
+
+namespace whipple::solver {
+
+/// The steps of a new run and everything that it writes into its folder. Collective.
+/// @returns the exit code of `run`
+int run_steps(const setup::Case& setup, const io::RunDirectory& directory, const RunOptions& options,
+              const io::Ranks& ranks);
+
+/// The same from a checkpoint on.
+int run_steps(const setup::Case& setup, const io::RunDirectory& directory, io::Checkpoint checkpoint,
+              const RunOptions& options, const io::Ranks& ranks);
+
+}  // namespace whipple::solver
