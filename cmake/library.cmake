@@ -1,8 +1,14 @@
 # Flags of every target of the project.
+# Headers are read and their templates instantiated once for several files. Off: each file stands by itself (preset dev).
+option(WHIPPLE_UNITY_BUILD "Compile several files of a target together" ON)
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 6)
+
 add_library(whipple_flags INTERFACE)
 target_include_directories(whipple_flags INTERFACE ${PROJECT_SOURCE_DIR})
-target_compile_options(whipple_flags INTERFACE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
-                       $<$<BOOL:${WHIPPLE_WERROR}>:-Werror>)
+target_compile_options(whipple_flags INTERFACE -Wall -Wextra -Wconversion -Wno-sign-conversion
+                       $<$<BOOL:${WHIPPLE_WERROR}>:-Werror>
+                       # of two files that are compiled together neither shadows the other
+                       $<$<NOT:$<BOOL:${WHIPPLE_UNITY_BUILD}>>:-Wshadow>)
 # Contraction into fused multiply-adds is part of the speed; errno and traps of the mathematical functions are not needed.
 target_compile_options(whipple_flags INTERFACE -fno-math-errno -fno-trapping-math -fopenmp)
 target_link_options(whipple_flags INTERFACE -fopenmp)
@@ -54,10 +60,14 @@ if(WHIPPLE_PRECOMPILED_HEADERS)
   whipple_precompiled_headers(whipple_precompiled HEADERS ${whipple_heavy_headers} DEPENDS Eigen3::Eigen)
 endif()
 
-# whipple_library(NAME SOURCES a.cpp ... DEPENDS lib ... PRECOMPILED target): one folder, one static library whipple_NAME.
+# whipple_library(NAME [UNITY] SOURCES a.cpp ... DEPENDS lib ... PRECOMPILED target): one folder, one static library
+# whipple_NAME. UNITY where no kernel is: GCC's limits of inlining count by what is compiled together.
 function(whipple_library name)
-  cmake_parse_arguments(ARG "" "PRECOMPILED" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "UNITY" "PRECOMPILED" "SOURCES;DEPENDS" ${ARGN})
   add_library(whipple_${name} STATIC ${ARG_SOURCES})
+  if(ARG_UNITY)
+    set_target_properties(whipple_${name} PROPERTIES UNITY_BUILD ${WHIPPLE_UNITY_BUILD})
+  endif()
   target_link_libraries(whipple_${name} PUBLIC whipple_flags ${ARG_DEPENDS})
   if(NOT ARG_PRECOMPILED)
     set(ARG_PRECOMPILED whipple_precompiled)
@@ -79,6 +89,7 @@ endif()
 function(whipple_test name)
   cmake_parse_arguments(ARG "STARTS_MPI" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${WHIPPLE_UNITY_BUILD})
   target_link_libraries(${name} PRIVATE whipple_flags ${ARG_DEPENDS} GTest::gtest_main)
   target_compile_options(${name} PRIVATE ${whipple_test_options})
   if(WHIPPLE_PRECOMPILED_HEADERS)

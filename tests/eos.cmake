@@ -1,28 +1,20 @@
 # Tests of the equations of state.
-whipple_test(eos_gray_test SOURCES unit/eos_gray_test.cpp DEPENDS whipple_eos LABELS fast)
-whipple_test(eos_mie_gruneisen_test SOURCES unit/eos_mie_gruneisen_test.cpp DEPENDS whipple_eos LABELS fast)
-whipple_test(eos_debye_test SOURCES unit/eos_debye_test.cpp DEPENDS whipple_eos LABELS fast)
-whipple_test(eos_modifiers_test SOURCES unit/eos_modifiers_test.cpp unit/eos_concrete_test.cpp DEPENDS whipple_eos LABELS fast)
-whipple_test(eos_closure_test SOURCES property/eos_closure_test.cpp DEPENDS whipple_eos LABELS fast)
-whipple_test(eos_identities_test SOURCES property/eos_identities_test.cpp DEPENDS whipple_eos LABELS fast)
-whipple_test(eos_constant_heat_test SOURCES property/eos_constant_heat_test.cpp DEPENDS whipple_eos LABELS fast)
-whipple_test(eos_loci_test SOURCES verification/eos_loci_test.cpp DEPENDS whipple_eos LABELS fast)
-whipple_test(eos_models_test SOURCES verification/eos_models_test.cpp DEPENDS whipple_eos LABELS fast)
-whipple_test(eos_shock_test SOURCES verification/eos_shock_test.cpp DEPENDS whipple_eos GTest::gmock LABELS fast)
-whipple_test(eos_gas_loci_test SOURCES verification/eos_gas_loci_test.cpp DEPENDS whipple_eos GTest::gmock LABELS fast)
-whipple_test(eos_inversions_test SOURCES property/eos_inversions_test.cpp DEPENDS whipple_material LABELS fast)
-whipple_test(eos_audit_test SOURCES property/eos_audit_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
-whipple_test(eos_copper_test SOURCES validation/eos_copper_test.cpp DEPENDS whipple_eos LABELS fast)
-whipple_test(eos_gray_71_test SOURCES unit/eos_gray_71_test.cpp DEPENDS whipple_eos LABELS fast)
-whipple_test(eos_gray_melting_test SOURCES verification/eos_gray_melting_test.cpp DEPENDS whipple_eos LABELS fast)
-whipple_test(eos_gray_metals_test SOURCES verification/eos_gray_metals_test.cpp DEPENDS whipple_eos LABELS fast)
-whipple_test(eos_table_test SOURCES unit/eos_table_test.cpp DEPENDS whipple_eos GTest::gmock LABELS fast)
-whipple_test(eos_table_error_test SOURCES verification/eos_table_error_test.cpp DEPENDS whipple_eos LABELS fast)
-add_test(NAME eos_table_error_test.at_a_million_states COMMAND eos_table_error_test --gtest_filter=-*Isochoric*)
-set_tests_properties(eos_table_error_test.at_a_million_states PROPERTIES
+whipple_test(eos_test
+  SOURCES unit/eos_gray_test.cpp unit/eos_gray_71_test.cpp verification/eos_gray_melting_test.cpp
+          verification/eos_gray_metals_test.cpp unit/eos_mie_gruneisen_test.cpp unit/eos_debye_test.cpp
+          unit/eos_modifiers_test.cpp unit/eos_concrete_test.cpp property/eos_closure_test.cpp property/eos_identities_test.cpp
+          property/eos_constant_heat_test.cpp verification/eos_loci_test.cpp verification/eos_models_test.cpp
+          verification/eos_shock_test.cpp verification/eos_gas_loci_test.cpp validation/eos_copper_test.cpp
+          unit/eos_table_test.cpp verification/eos_table_error_test.cpp
+  DEPENDS whipple_eos GTest::gmock LABELS fast)
+# The catalogue of materials is read by whipple_material.
+whipple_test(eos_library_test
+  SOURCES property/eos_inversions_test.cpp property/eos_audit_test.cpp validation/eos_library_test.cpp
+          unit/eos_table_file_test.cpp unit/eos_sesame_test.cpp
+  DEPENDS whipple_material GTest::gmock LABELS fast)
+add_test(NAME eos_table_error.at_a_million_states COMMAND eos_test --gtest_filter=EosTableError*:-*Isochoric*)
+set_tests_properties(eos_table_error.at_a_million_states PROPERTIES
   ENVIRONMENT "WHIPPLE_TABLE_STATES=1000000;OMP_NUM_THREADS=1" LABELS long)
-whipple_test(eos_table_file_test SOURCES unit/eos_table_file_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
-whipple_test(eos_sesame_test SOURCES unit/eos_sesame_test.cpp DEPENDS whipple_material GTest::gmock LABELS fast)
 
 add_executable(eos_benchmark EXCLUDE_FROM_ALL benchmark/eos_benchmark.cpp)
 target_link_libraries(eos_benchmark PRIVATE whipple_eos benchmark::benchmark)

@@ -1,8 +1,8 @@
 # Tests of the fit of equations of state and of the comparison with experiments.
-whipple_test(fit_least_squares_test SOURCES unit/fit_least_squares_test.cpp DEPENDS whipple_fit LABELS fast)
-whipple_test(fit_recovery_test SOURCES property/fit_recovery_test.cpp DEPENDS whipple_fit LABELS fast)
-whipple_test(fit_methods_test SOURCES unit/fit_methods_test.cpp property/fit_adaptive_test.cpp DEPENDS whipple_fit LABELS fast)
-whipple_test(fit_models_test SOURCES property/fit_models_test.cpp DEPENDS whipple_fit LABELS fast)
+whipple_test(fit_test
+  SOURCES unit/fit_least_squares_test.cpp unit/fit_methods_test.cpp property/fit_adaptive_test.cpp
+          property/fit_recovery_test.cpp property/fit_models_test.cpp
+  DEPENDS whipple_fit LABELS fast)
 whipple_test(fit_error_statistics_test SOURCES property/fit_error_statistics_test.cpp DEPENDS whipple_fit LABELS long)
 whipple_test(fit_material_test SOURCES unit/fit_material_test.cpp DEPENDS whipple_fit whipple_material GTest::gmock LABELS fast)
 add_dependencies(fit_material_test whipple-fit)

@@ -1,10 +1,9 @@
 # Output and restart: unit tests of src/io, damage of files, ranks, the files as other programs see them.
 whipple_test(hdf5_test SOURCES unit/hdf5_test.cpp DEPENDS whipple_hdf5 GTest::gmock LABELS fast)
 whipple_test(test_io
-  SOURCES unit/io_history.cpp unit/io_run_directory.cpp unit/io_checkpoint.cpp
-          unit/io_particle_series.cpp
+  SOURCES unit/io_history.cpp unit/io_run_directory.cpp unit/io_checkpoint.cpp unit/io_particle_series.cpp
+          fuzz/io_checkpoint_damage.cpp
   DEPENDS whipple_io GTest::gmock LABELS fast)
-whipple_test(test_io_damage SOURCES fuzz/io_checkpoint_damage.cpp DEPENDS whipple_io GTest::gmock LABELS fast)
 
 # Written and read by several ranks.
 add_executable(test_io_ranks parallel/io_ranks.cpp)

@@ -1,18 +1,10 @@
 # Tests of the molecular-dynamics side: md_fitting/data_set, plan, lammps, protocols and whipple-md.
-whipple_test(md_data_set_test SOURCES unit/md_data_set_test.cpp DEPENDS whipple_md_data_set LABELS fast)
-whipple_test(md_potential_test SOURCES unit/md_potential_test.cpp DEPENDS whipple_md_lammps LABELS fast)
-whipple_test(md_plan_test SOURCES unit/md_plan_test.cpp DEPENDS whipple_md_plan LABELS fast)
-whipple_test(md_lammps_test SOURCES unit/md_lammps_test.cpp DEPENDS whipple_md_protocols LABELS fast)
-whipple_test(md_tasks_test SOURCES unit/md_tasks_test.cpp DEPENDS whipple_md_protocols LABELS fast)
-whipple_test(md_statistics_test SOURCES unit/md_statistics_test.cpp DEPENDS whipple_md_protocols LABELS fast)
-whipple_test(md_hugoniot_test SOURCES unit/md_hugoniot_test.cpp DEPENDS whipple_md_protocols LABELS fast)
-whipple_test(md_campaign_test SOURCES unit/md_campaign_test.cpp DEPENDS whipple_md_protocols LABELS fast)
-whipple_test(md_potential_fuzz SOURCES fuzz/md_potential_fuzz.cpp DEPENDS whipple_md_lammps LABELS fast)
-whipple_test(md_copper_test SOURCES validation/md_copper_test.cpp DEPENDS whipple_md_protocols LABELS fast)
-whipple_test(md_static_test SOURCES validation/md_static_test.cpp DEPENDS whipple_md_protocols LABELS fast)
-whipple_test(md_analysis_test SOURCES unit/md_analysis_test.cpp DEPENDS whipple_md_protocols LABELS fast)
-whipple_test(md_refinement_test SOURCES unit/md_refinement_test.cpp DEPENDS whipple_md_protocols LABELS fast)
-whipple_test(md_critical_point_test SOURCES unit/md_critical_point_test.cpp DEPENDS whipple_md_protocols LABELS fast)
+whipple_test(md_test
+  SOURCES unit/md_data_set_test.cpp unit/md_plan_test.cpp unit/md_potential_test.cpp fuzz/md_potential_fuzz.cpp
+          unit/md_lammps_test.cpp unit/md_tasks_test.cpp unit/md_campaign_test.cpp unit/md_statistics_test.cpp
+          unit/md_hugoniot_test.cpp unit/md_analysis_test.cpp unit/md_refinement_test.cpp unit/md_critical_point_test.cpp
+          validation/md_copper_test.cpp validation/md_static_test.cpp
+  DEPENDS whipple_md_protocols LABELS fast)
 whipple_test(md_shock_test SOURCES validation/md_shock_test.cpp DEPENDS whipple_md_protocols LABELS long)
 # Programs under mpirun, started by the test itself.
 add_executable(md_guard_abort parallel/md_guard_abort.cpp)

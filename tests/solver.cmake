@@ -1,25 +1,20 @@
 # Tests of grid, transfer, setup and solver.
-whipple_test(test_grid STARTS_MPI SOURCES unit/solver_grid_test.cpp DEPENDS whipple_grid LABELS fast)
-whipple_test(test_transfer STARTS_MPI SOURCES property/solver_transfer_test.cpp DEPENDS whipple_transfer LABELS fast)
-whipple_test(test_run STARTS_MPI SOURCES parallel/solver_restart_test.cpp DEPENDS whipple_solver LABELS fast)
-whipple_test(test_planar_impact STARTS_MPI SOURCES verification/solver_planar_impact_test.cpp DEPENDS whipple_solver LABELS fast)
-whipple_test(test_taylor_bar STARTS_MPI SOURCES verification/solver_taylor_bar_test.cpp DEPENDS whipple_solver LABELS fast)
-whipple_test(test_elastic STARTS_MPI SOURCES verification/solver_elastic_test.cpp DEPENDS whipple_solver LABELS fast)
-whipple_test(test_contact STARTS_MPI SOURCES verification/solver_contact_test.cpp verification/solver_element_contact_test.cpp DEPENDS whipple_solver LABELS fast)
+whipple_test(test_transfer STARTS_MPI
+  SOURCES unit/solver_grid_test.cpp property/solver_transfer_test.cpp verification/transfer_conduction_test.cpp
+  DEPENDS whipple_transfer LABELS fast)
+whipple_test(test_solver STARTS_MPI
+  SOURCES parallel/solver_restart_test.cpp verification/solver_planar_impact_test.cpp
+          verification/solver_taylor_bar_test.cpp verification/solver_elastic_test.cpp
+          verification/solver_contact_test.cpp verification/solver_element_contact_test.cpp verification/solver_orders_test.cpp
+          verification/solver_methods_test.cpp verification/solver_failure_test.cpp
+          verification/solver_viscous_test.cpp validation/solver_debris_cloud_test.cpp
+          validation/solver_table_test.cpp regression/solver_regression_test.cpp fuzz/case_fuzz.cpp
+  DEPENDS whipple_solver GTest::gmock LABELS fast)
 whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.cpp DEPENDS whipple_solver LABELS long)
-whipple_test(test_orders STARTS_MPI SOURCES verification/solver_orders_test.cpp DEPENDS whipple_solver LABELS fast)
 # Writes docs/orders_of_convergence.md; a program of its own, as it takes minutes.
 add_executable(orders_of_convergence EXCLUDE_FROM_ALL verification/solver_orders.cpp)
 target_link_libraries(orders_of_convergence PRIVATE whipple_flags whipple_solver)
-whipple_test(test_methods STARTS_MPI SOURCES verification/solver_methods_test.cpp DEPENDS whipple_solver LABELS fast)
-whipple_test(test_conduction STARTS_MPI SOURCES verification/transfer_conduction_test.cpp DEPENDS whipple_transfer LABELS fast)
-whipple_test(test_failure STARTS_MPI SOURCES verification/solver_failure_test.cpp DEPENDS whipple_solver LABELS fast)
-whipple_test(test_viscous STARTS_MPI SOURCES verification/solver_viscous_test.cpp DEPENDS whipple_solver LABELS fast)
 whipple_test(test_setup SOURCES unit/setup_case_test.cpp unit/setup_shape_test.cpp DEPENDS whipple_setup LABELS fast)
-whipple_test(test_case_fuzz STARTS_MPI SOURCES fuzz/case_fuzz.cpp DEPENDS whipple_solver LABELS fast)
-whipple_test(test_debris_cloud STARTS_MPI SOURCES validation/solver_debris_cloud_test.cpp DEPENDS whipple_solver LABELS fast)
-whipple_test(test_solver_table STARTS_MPI SOURCES validation/solver_table_test.cpp DEPENDS whipple_solver LABELS fast)
-whipple_test(test_solver_regression STARTS_MPI SOURCES regression/solver_regression_test.cpp DEPENDS whipple_solver LABELS fast)
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
 add_executable(test_solver_ranks parallel/solver_ranks.cpp)

@@ -8,7 +8,7 @@
 #include "tests/unit/material_support.hpp"
 
 namespace whipple {
-namespace {
+namespace failure_test {
 
 using namespace material_test;
 
@@ -275,5 +275,5 @@ TEST(FreeLiquid, CopperMeltedByTheEquationOfStateFailsAtTheFirstTension) {
   EXPECT_GT(points.void_volume[0], 0.0);
 }
 
-}  // namespace
+}  // namespace failure_test
 }  // namespace whipple

@@ -12,7 +12,7 @@
 #include "tests/unit/material_support.hpp"
 
 namespace whipple {
-namespace {
+namespace hardening_test {
 
 using namespace material_test;
 
@@ -194,5 +194,5 @@ TEST(ViscousFluid, PureExpansionHasNoViscousStress) {
   EXPECT_NEAR(std::sqrt(points.deviatoric_stress[0].squared_norm()), 0.0, 1e-9);
 }
 
-}  // namespace
+}  // namespace hardening_test
 }  // namespace whipple

@@ -18,7 +18,7 @@
 #include "tests/unit/folder_test.hpp"
 
 namespace whipple::eos {
-namespace {
+namespace sesame_test {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
@@ -367,5 +367,5 @@ TEST_F(SesameModel, is_a_model_of_materials) {
               HasSubstr("holds no material 3337; it holds 90029"));
 }
 
-}  // namespace
+}  // namespace sesame_test
 }  // namespace whipple::eos

@@ -11,7 +11,7 @@
 #include "src/setup/shapes/shape.hpp"
 
 namespace whipple::setup {
-namespace {
+namespace shape_test {
 
 std::unique_ptr<Shape> shape_of(const std::string& text) {
   input::Document document = input::Document::from_text("shape = " + text + "\n", "case.toml");
@@ -146,5 +146,5 @@ TEST(Shapes, WhatHasNoMeaningIsRefused) {
                  "is empty");
 }
 
-}  // namespace
+}  // namespace shape_test
 }  // namespace whipple::setup

@@ -127,7 +127,7 @@ Plan small_plan() {
 
 // The whole way from plan to store, twice: the same numbers to the last bit, and other ones with another
 // seed.
-TEST(Campaign, SamePlanGivesTheSameNumbersBitwise) {
+TEST(CopperCampaign, SamePlanGivesTheSameNumbersBitwise) {
   log::set_level(log::Level::quiet);
   const TemporaryFolder folder;
   Plan plan = small_plan();
@@ -162,7 +162,7 @@ TEST(Campaign, SamePlanGivesTheSameNumbersBitwise) {
 }
 
 // A real LAMMPS failure (an absurd time step) in one point of a plan: named, stored, the others done.
-TEST(Campaign, LammpsFailureInOnePointLeavesTheOthers) {
+TEST(CopperCampaign, LammpsFailureInOnePointLeavesTheOthers) {
   log::set_level(log::Level::quiet);
   const TemporaryFolder folder;
   const auto store = folder.path() / "points.md.h5";
@@ -185,7 +185,7 @@ TEST(Campaign, LammpsFailureInOnePointLeavesTheOthers) {
 }
 
 // States beyond the density table are refused before anything runs, all of them at once.
-TEST(Campaign, RefusesStatesOutsideThePotential) {
+TEST(CopperCampaign, RefusesStatesOutsideThePotential) {
   Plan plan = small_plan();
   plan.potential = "Cu_mishin1.eam.alloy";
   plan.isotherms[0].volume_ratio = {1.0, 0.65, 0.6};

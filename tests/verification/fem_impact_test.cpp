@@ -9,7 +9,7 @@
 #include "tests/unit/fem_support.hpp"
 
 namespace whipple::fem_test {
-namespace {
+namespace impact_test {
 
 /// Aluminium (material and exact energies after release: solver_planar_impact_test.cpp) against a rigid wall:
 /// a slab of 5 mm, 100 elements, one row.
@@ -171,5 +171,5 @@ TEST(FiniteElementTaylorBar, MatchesTheExperiment) {
   }
 }
 
-}  // namespace
+}  // namespace impact_test
 }  // namespace whipple::fem_test
