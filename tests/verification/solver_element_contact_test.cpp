@@ -11,7 +11,7 @@
 #include "tests/verification/contact_problems.hpp"
 
 namespace whipple::verification {
-namespace {
+namespace element_contact_test {
 
 constexpr const char* column =
     "boundary = { y_lower = \"symmetry\", y_upper = \"symmetry\", z_lower = \"symmetry\", "
@@ -207,5 +207,5 @@ TEST(ElementContact, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(one.momentum, three.momentum);
 }
 
-}  // namespace
+}  // namespace element_contact_test
 }  // namespace whipple::verification
