@@ -7,58 +7,53 @@
 
 #include "src/grid/block_grid.hpp"
 #include "src/grid/block_table.hpp"
+#include "src/parallel/threads.hpp"
 
 namespace whipple::afemp {
 namespace {
 
 constexpr double on_plane = 1e-6;  ///< cells, distance from a face that still is on it
 
-/// Who is in a cell: nobody, the surface of one body, or somebody that every body meets.
-class Occupants {
+/// The cells in or next to which (27 cells) somebody is, as bits of blocks of 4 x 4 x 4 cells.
+class Neighbourhood {
  public:
-  explicit Occupants(const grid::Geometry& geometry) : geometry_(geometry) { table_.reserve(1024); }
+  explicit Neighbourhood(const grid::Geometry& geometry) : geometry_(geometry) { table_.reserve(1024); }
 
-  void add_particle(const Vector3& position) { at(position) = anybody; }
-  void add_surface(const Vector3& position, std::int32_t body) {
-    std::int32_t& cell = at(position);
-    if (cell == nobody) cell = body;
-    if (cell != body) cell = anybody;
+  void add(const Vector3& position) {
+    const Cell cell = cell_of(position);
+    at(block_of(cell)) |= bit(cell);
   }
-  /// Does a body meet another one or particles in the cell of a point or one of the 26 around it?
-  [[nodiscard]] bool meets(const Vector3& position, std::int32_t body) const {
-    const Cell center = cell_of(position);
-    const auto block = [](int cell) { return cell >> 2; };
-    for (int x = block(center[0] - 1); x <= block(center[0] + 1); ++x) {
-      for (int y = block(center[1] - 1); y <= block(center[1] + 1); ++y) {
-        for (int z = block(center[2] - 1); z <= block(center[2] + 1); ++z) {
-          const std::int32_t found = table_.find({x, y, z});
-          if (found != grid::BlockTable::none && meets_in({x, y, z}, found, center, body)) return true;
-        }
+
+  /// After the last one: adds the cells around theirs, direction by direction.
+  void widen() {
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::vector<std::uint64_t> cells = cells_;
+      for (std::size_t b = 0; b < cells.size(); ++b) {
+        if (cells[b] == 0) continue;
+        const int stride = stride_of(axis);
+        const std::uint64_t first = first_layer(axis), last = first << 3 * stride;
+        cells_[b] |= (cells[b] & ~last) << stride | (cells[b] & ~first) >> stride;
+        grid::BlockCoordinate neighbour = coordinates_[b];
+        const auto spill = [&](int step, std::uint64_t layer) {
+          if (layer == 0) return;
+          neighbour[static_cast<std::size_t>(axis)] = coordinates_[b][static_cast<std::size_t>(axis)] + step;
+          at(neighbour) |= layer;
+        };
+        spill(+1, (cells[b] & last) >> 3 * stride);
+        spill(-1, (cells[b] & first) << 3 * stride);
       }
     }
-    return false;
+  }
+
+  [[nodiscard]] bool contains(const Vector3& position) const {
+    const Cell cell = cell_of(position);
+    const std::int32_t found = table_.find(block_of(cell));
+    return found != grid::BlockTable::none && (cells_[static_cast<std::size_t>(found)] & bit(cell)) != 0;
   }
 
  private:
-  static constexpr std::int32_t nobody = -1, anybody = -2;
   using Cell = std::array<int, 3>;
-
-  /// The same, of the cells in one block.
-  [[nodiscard]] bool meets_in(const Cell& block, std::int32_t number, const Cell& center,
-                              std::int32_t body) const {
-    const auto first = [&](std::size_t a) { return std::max(center[a] - 1, 4 * block[a]); };
-    const auto last = [&](std::size_t a) { return std::min(center[a] + 1, 4 * block[a] + 3); };
-    const auto& cells = cells_[static_cast<std::size_t>(number)];
-    for (int i = first(0); i <= last(0); ++i) {
-      for (int j = first(1); j <= last(1); ++j) {
-        for (int k = first(2); k <= last(2); ++k) {
-          const std::int32_t occupant = cells[index_in_block({i, j, k})];
-          if (occupant != nobody && occupant != body) return true;
-        }
-      }
-    }
-    return false;
-  }
+  static_assert(grid::block_edge == 4 && grid::nodes_per_block == 64);
 
   [[nodiscard]] Cell cell_of(const Vector3& position) const {
     const Vector3 cells = geometry_.in_cells(position);
@@ -69,25 +64,38 @@ class Occupants {
     // Shifts of negative numbers round down, as wanted.
     return {cell[0] >> 2, cell[1] >> 2, cell[2] >> 2};
   }
-  static std::size_t index_in_block(const Cell& cell) {
-    return static_cast<std::size_t>(grid::node_index(cell[0] & 3, cell[1] & 3, cell[2] & 3));
+  static std::uint64_t bit(const Cell& cell) {
+    return std::uint64_t{1} << grid::node_index(cell[0] & 3, cell[1] & 3, cell[2] & 3);
   }
-  static_assert(grid::block_edge == 4);
 
-  std::int32_t& at(const Vector3& position) {
-    const Cell cell = cell_of(position);
-    const grid::BlockCoordinate block = block_of(cell);
-    if (block != last_block_ || last_ == grid::BlockTable::none) {
+  static int stride_of(int axis) { return grid::node_index(axis == 0, axis == 1, axis == 2); }
+  /// The cells with the coordinate 0 along an axis.
+  static std::uint64_t first_layer(int axis) {
+    std::uint64_t layer = 0;
+    for (int i = 0; i < grid::block_edge; ++i) {
+      for (int j = 0; j < grid::block_edge; ++j) {
+        layer |= bit(axis == 0 ? Cell{0, i, j} : axis == 1 ? Cell{i, 0, j} : Cell{i, j, 0});
+      }
+    }
+    return layer;
+  }
+
+  std::uint64_t& at(const grid::BlockCoordinate& block) {
+    if (block != last_block_ || last_ == grid::BlockTable::none) {  // particles are sorted by blocks
       last_block_ = block;
       last_ = table_.find_or_insert(block, static_cast<std::int32_t>(cells_.size()));
-      if (static_cast<std::size_t>(last_) == cells_.size()) cells_.emplace_back().fill(nobody);
+      if (static_cast<std::size_t>(last_) == cells_.size()) {
+        cells_.push_back(0);
+        coordinates_.push_back(block);
+      }
     }
-    return cells_[static_cast<std::size_t>(last_)][index_in_block(cell)];
+    return cells_[static_cast<std::size_t>(last_)];
   }
 
   const grid::Geometry& geometry_;
   grid::BlockTable table_;
-  std::vector<std::array<std::int32_t, grid::nodes_per_block>> cells_;
+  std::vector<std::uint64_t> cells_;                // by block
+  std::vector<grid::BlockCoordinate> coordinates_;  // of the blocks
   grid::BlockCoordinate last_block_{};
   std::int32_t last_ = grid::BlockTable::none;
 };
@@ -176,35 +184,45 @@ void mark_surface(fem::Mesh& mesh, const grid::Geometry& geometry) {
 
 double mark_transition(std::vector<fem::Mesh>& meshes, const Particles& particles,
                        const grid::Geometry& geometry, double affine_inertia) {
-  Occupants occupants(geometry);
-  for (const Vector3& position : particles.position) occupants.add_particle(position);
-  if (meshes.size() > 1) {
-    for (const fem::Mesh& mesh : meshes) {
-      for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
-        if (mesh.nodes.on_surface[a] == 0 || !inside(geometry, mesh.nodes.position[a])) continue;
-        occupants.add_surface(mesh.nodes.position[a], static_cast<std::int32_t>(mesh.body));
-      }
-    }
-  }
-  double total_heat = 0.0;
-  for (fem::Mesh& mesh : meshes) {
-    fem::Nodes& nodes = mesh.nodes;
-    std::vector<double> heat;
+  Neighbourhood of_particles(geometry);
+  for (const Vector3& position : particles.position) of_particles.add(position);
+  of_particles.widen();
+  std::vector<Neighbourhood> of_surfaces(meshes.size() > 1 ? meshes.size() : 0, Neighbourhood(geometry));
+  for (std::size_t m = 0; m < of_surfaces.size(); ++m) {
+    const fem::Nodes& nodes = meshes[m].nodes;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
-      const Vector3& x = nodes.position[a];
+      if (nodes.on_surface[a] != 0 && inside(geometry, nodes.position[a]))
+        of_surfaces[m].add(nodes.position[a]);
+    }
+    of_surfaces[m].widen();
+  }
+  const auto meets = [&](std::size_t body, const Vector3& position) {
+    if (of_particles.contains(position)) return true;
+    for (std::size_t m = 0; m < of_surfaces.size(); ++m) {
+      if (m != body && of_surfaces[m].contains(position)) return true;
+    }
+    return false;
+  };
+  double total_heat = 0.0;
+  std::vector<double> heat;
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    fem::Nodes& nodes = meshes[m].nodes;
+    heat.assign(nodes.size(), 0.0);
+    const double mesh_heat = parallel::sum<double>(nodes.size(), [&](std::size_t a) {
+      if (nodes.on_surface[a] == 0 && nodes.in_transition[a] == 0) return 0.0;
       const bool now =
-          nodes.on_surface[a] != 0 && inside(geometry, x) &&
-          occupants.meets(x, static_cast<std::int32_t>(mesh.body)) &&
+          nodes.on_surface[a] != 0 && inside(geometry, nodes.position[a]) && meets(m, nodes.position[a]) &&
           (nodes.constrained[a] == fem::constraint::none || keeps_to_planes_only(nodes, a, geometry));
       if (nodes.in_transition[a] != 0 && !now) {
-        heat.resize(nodes.size(), 0.0);
         heat[a] = 0.5 * nodes.mass[a] * affine_inertia * nodes.affine_velocity[a].squaredNorm();
-        total_heat += heat[a];
         nodes.affine_velocity[a].setZero();
       }
       nodes.in_transition[a] = now ? 1 : 0;
-    }
-    if (!heat.empty()) fem::add_heat(mesh, heat);
+      return heat[a];
+    });
+    if (mesh_heat == 0.0) continue;
+    fem::add_heat(meshes[m], heat);
+    total_heat += mesh_heat;
   }
   return total_heat;
 }
