@@ -60,20 +60,34 @@ if(WHIPPLE_PRECOMPILED_HEADERS)
   whipple_precompiled_headers(whipple_precompiled HEADERS ${whipple_heavy_headers} DEPENDS Eigen3::Eigen)
 endif()
 
-# whipple_library(NAME [UNITY] SOURCES a.cpp ... DEPENDS lib ... PRECOMPILED target): one folder, one static library
+# whipple_library(NAME [UNITY] [COMMAND_LINE] SOURCES a.cpp ... DEPENDS lib ...): one folder, one static library
 # whipple_NAME. UNITY where no kernel is: GCC's limits of inlining count by what is compiled together.
 function(whipple_library name)
-  cmake_parse_arguments(ARG "UNITY" "PRECOMPILED" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "UNITY;COMMAND_LINE" "" "SOURCES;DEPENDS" ${ARGN})
   add_library(whipple_${name} STATIC ${ARG_SOURCES})
   if(ARG_UNITY)
     set_target_properties(whipple_${name} PROPERTIES UNITY_BUILD ${WHIPPLE_UNITY_BUILD})
   endif()
   target_link_libraries(whipple_${name} PUBLIC whipple_flags ${ARG_DEPENDS})
-  if(NOT ARG_PRECOMPILED)
-    set(ARG_PRECOMPILED whipple_precompiled)
+  if(ARG_COMMAND_LINE)
+    whipple_command_line(whipple_${name})
+  elseif(WHIPPLE_PRECOMPILED_HEADERS)
+    target_precompile_headers(whipple_${name} REUSE_FROM whipple_precompiled)
   endif()
+endfunction()
+
+# Command lines need no optimisation, and CLI11 is slow to compile.
+set(whipple_command_line_options $<$<CONFIG:Release>:-O0>)
+if(WHIPPLE_PRECOMPILED_HEADERS)
+  whipple_precompiled_headers(whipple_precompiled_command_line
+    HEADERS ${whipple_heavy_headers} <nlohmann/json.hpp> <CLI/CLI.hpp>
+    DEPENDS Eigen3::Eigen nlohmann_json::nlohmann_json CLI11::CLI11 OPTIONS ${whipple_command_line_options})
+endif()
+function(whipple_command_line target)
+  target_link_libraries(${target} PRIVATE whipple_flags CLI11::CLI11)
+  target_compile_options(${target} PRIVATE ${whipple_command_line_options})
   if(WHIPPLE_PRECOMPILED_HEADERS)
-    target_precompile_headers(whipple_${name} REUSE_FROM ${ARG_PRECOMPILED})
+    target_precompile_headers(${target} REUSE_FROM whipple_precompiled_command_line)
   endif()
 endfunction()
 
