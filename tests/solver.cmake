@@ -19,10 +19,15 @@ whipple_test(test_setup SOURCES unit/setup_case_test.cpp unit/setup_shape_test.c
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
 add_executable(test_solver_ranks parallel/solver_ranks.cpp)
 target_link_libraries(test_solver_ranks PRIVATE whipple_flags whipple_solver GTest::gtest)
-foreach(ranks 1 2 4)
+foreach(ranks 1 2 4 8)
+  if(ranks GREATER 4)
+    set(label long)
+  else()
+    set(label fast)
+  endif()
   add_test(NAME test_solver_ranks.${ranks}
            COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:test_solver_ranks>)
-  set_tests_properties(test_solver_ranks.${ranks} PROPERTIES LABELS fast TIMEOUT 300 PROCESSORS 2
+  set_tests_properties(test_solver_ranks.${ranks} PROPERTIES LABELS ${label} TIMEOUT 900 PROCESSORS 2
     ENVIRONMENT "${mpi_environment}")
 endforeach()
 if(WHIPPLE_PYTHON)

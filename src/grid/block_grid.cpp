@@ -107,7 +107,7 @@ bool BlockGrid::locate_guests(std::span<const Vector3> guests, Stencil stencil) 
 
 std::vector<WantedBlock> BlockGrid::wanted_blocks(std::span<const Vector3> position,
                                                   std::span<const Vector3> velocity, double lookahead,
-                                                  Stencil stencil, double weight) const {
+                                                  Stencil stencil, const Work& work) const {
   // Blocks with particles, and for each the neighbours that its particles reach now and within the
   // look-ahead.
   BlockTable homes;
@@ -129,10 +129,10 @@ std::vector<WantedBlock> BlockGrid::wanted_blocks(std::span<const Vector3> posit
     }
     const std::int32_t i = last;
     if (static_cast<std::size_t>(i) == home.size()) {
-      home.push_back({*block, 0.0});
+      home.push_back({*block, work.of_block});
       wanted_mask.push_back(0);
     }
-    home[static_cast<std::size_t>(i)].weight += weight;
+    home[static_cast<std::size_t>(i)].weight += p < work.of_particle.size() ? work.of_particle[p] : 1.0;
     Vector3 local = geometry_.in_cells(position[p]);
     for (std::size_t a = 0; a < 3; ++a) local[static_cast<Eigen::Index>(a)] -= (*block)[a] * block_edge;
     const Vector3 ahead = (velocity[p] * (lookahead / geometry_.cell_size)).cwiseMax(-2.0).cwiseMin(2.0);
@@ -162,9 +162,9 @@ std::vector<WantedBlock> BlockGrid::wanted_blocks(std::span<const Vector3> posit
 }
 
 void BlockGrid::adapt(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
-                      Stencil stencil, double weight) {
+                      Stencil stencil, const Work& work) {
   ++adaptations_;
-  wanted_ = wanted_blocks(position, velocity, lookahead, stencil, weight);
+  wanted_ = wanted_blocks(position, velocity, lookahead, stencil, work);
   forest_.adapt(wanted_);
 }
 
@@ -187,7 +187,7 @@ void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vect
                          double lookahead, Stencil stencil, std::size_t guests) {
   // Particles may have come and gone since `adapt`, unless there is no other rank.
   if (parallel::size(communicator_) > 1) {
-    wanted_ = wanted_blocks(position, velocity, lookahead, stencil, 0.0);
+    wanted_ = wanted_blocks(position, velocity, lookahead, stencil, {});
   }
   blocks_ = forest_.claim(wanted_);
   table_.reserve(slots());

@@ -31,6 +31,12 @@ struct Stencil {
   int count = 3;
 };
 
+/// Work of a step, in any unit that all ranks share.
+struct Work {
+  std::span<const double> of_particle;  ///< of this rank; those that are not listed count as 1
+  double of_block = 0.0;                ///< of the nodes of a block with particles, whatever their number
+};
+
 /// Edge of the region of nodes that the particles of one block reach: one before, four inside, two behind.
 constexpr int reach_edge = block_edge + 3;
 
@@ -101,11 +107,11 @@ class BlockGrid {
   /// `lookahead` seconds, so that it need not be adapted every step; and divides the blocks anew among the
   /// ranks if their work has drifted apart. Collective.
   /// @param position of the particles, then of the guests
-  /// @param weight  work of one particle of this rank, in any unit that all ranks share
+  /// @param work  by what the blocks are shared out among the ranks
   /// @throws StateError on every rank if a particle is outside of the domain and its outer layer (names the
   /// index)
   void adapt(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
-             Stencil stencil, double weight = 1.0);
+             Stencil stencil, const Work& work = {});
   /// Rank that owns the block of each particle, which is where the particle must be before `activate`.
   [[nodiscard]] std::vector<int> owners(std::span<const Vector3> position) const;
   /// Activates the blocks that the particles of this rank reach, own ones and those that it borrows from
@@ -275,7 +281,7 @@ class BlockGrid {
   bool locate(std::span<const Vector3> position, Stencil stencil);
   [[nodiscard]] std::vector<WantedBlock> wanted_blocks(std::span<const Vector3> position,
                                                        std::span<const Vector3> velocity, double lookahead,
-                                                       Stencil stencil, double weight) const;
+                                                       Stencil stencil, const Work& work) const;
   bool locate_guests(std::span<const Vector3> guests, Stencil stencil);
   void list_points();
   void lay_out_nodes();

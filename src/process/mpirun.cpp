@@ -4,6 +4,11 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstring>
+
 #include "src/base/log.hpp"
 #include "src/process/paths.hpp"
 
@@ -25,7 +30,17 @@ int mpirun(int ranks, const std::vector<std::string>& program, const Environment
     all.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   }
   log::detail("{}", fmt::join(arguments, " "));
-  return run_process(arguments, all);
+  const int code = run_process(arguments, all);
+  // A rank that was killed cannot say so, and mpirun --quiet does not.
+  if (const int signal = code - 128;
+      std::ranges::count(std::array{SIGKILL, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}, signal) > 0) {
+    fmt::print(
+        stderr,
+        "{}: error: a rank was ended by signal {} ({}), and the others with it; a run goes on from its last "
+        "checkpoint with --restart\n",
+        program.front(), signal, strsignal(signal));
+  }
+  return code;
 }
 
 }  // namespace whipple::process

@@ -14,6 +14,7 @@
 #include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
 #include "src/particles/migrate.hpp"
+#include "src/solver/work.hpp"
 #include "src/transfer/conduction.hpp"
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/particles_to_grid.hpp"
@@ -255,7 +256,8 @@ void Simulation::follow_particles(double lookahead, grid::Stencil stencil) {
   const auto velocities = [&] {
     return with_guests(particles_.velocity, transition_.velocity, all_velocities);
   };
-  grid_.adapt(positions(), velocities(), lookahead, stencil);
+  const std::vector<double> work = work_of_particles(setup_, bodies_);
+  grid_.adapt(positions(), velocities(), lookahead, stencil, {work, work_of_block});
   const std::vector<int> owners = grid_.owners(particles_.position);
   if (migrate(particles_, owners, communicator_)) {
     velocity_gradient_.resize(particles_.size());

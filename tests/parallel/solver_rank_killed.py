@@ -51,8 +51,9 @@ def main():
     ranks = [child for child in children_of(job.pid) if name_of(child) == "whipple"]
     assert len(ranks) == 3, f"expected three ranks, found {ranks}"
     os.kill(ranks[1], signal.SIGKILL)
-    code = job.wait(timeout=60)
-    assert code != 0, "a job with a killed rank must not end with 0"
+    _, message = job.communicate(timeout=60)
+    assert job.returncode != 0, "a job with a killed rank must not end with 0"
+    assert "signal 9" in message, f"the message does not say that a rank was killed: {message!r}"
 
     subprocess.run([whipple, "run", "--restart", killed, "--ranks", "2", "--threads", "1", "--quiet"], check=True)
     subprocess.run([whipple, "run", case, "-o", folder / "whole", *options], check=True)

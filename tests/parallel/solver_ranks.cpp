@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -104,12 +106,51 @@ TEST_F(SolverRanks, AgreeWithOneRank) {
   EXPECT_EQ(together.particles().size() < together.particle_count(), ranks_.is_parallel());
 }
 
+// Work is counted, not timed: the partition and with it every bit are the same in every run.
+TEST_F(SolverRanks, GiveTheSameBitsEveryTime) {
+  Simulation first(read(), MPI_COMM_WORLD), second(read(), MPI_COMM_WORLD);
+  advance_to(first, 1e-6);
+  advance_to(second, 1e-6);
+  ASSERT_EQ(first.particles().size(), second.particles().size());
+  for_each_field<Particles>([&](const auto& field) {
+    const auto &a = first.particles().*(field.values), &b = second.particles().*(field.values);
+    EXPECT_TRUE(a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0) << field.name;
+  });
+}
+
+// Particles that are three times the work on one side: the ranks share the work, not the particles.
+TEST_F(SolverRanks, ShareOutTheWork) {
+  const grid::Geometry geometry{
+      .lower = Vector3::Zero(), .cells = {128, 32, 32}, .cell_size = 1.0, .boundary = {}};
+  std::vector<Vector3> x;
+  std::vector<double> work;
+  for (int i = ranks_.rank(); i < 128 * 32 * 32; i += ranks_.count()) {
+    x.emplace_back(i % 128 + 0.5, i / 128 % 32 + 0.5, i / 4096 + 0.5);
+    work.push_back(i % 128 < 64 ? 3.0 : 1.0);
+  }
+  const auto heaviest = [&](const grid::Work& by) {
+    grid::BlockGrid blocks(geometry, MPI_COMM_WORLD);
+    blocks.adapt(x, std::vector<Vector3>(x.size(), Vector3::Zero()), 0.0, {}, by);
+    const std::vector<int> owner = blocks.owners(x);
+    std::vector<double> load(static_cast<std::size_t>(ranks_.count()), 0.0);
+    for (std::size_t p = 0; p < x.size(); ++p) load[static_cast<std::size_t>(owner[p])] += work[p];
+    parallel::sum(MPI_COMM_WORLD, load);
+    return *std::ranges::max_element(load) * ranks_.count() / (2.0 * 128 * 32 * 32);
+  };
+  EXPECT_LT(heaviest({work, 0.0}), 1.15);
+  if (ranks_.is_parallel()) {
+    EXPECT_GT(heaviest({}), 1.3);  // by number
+  }
+}
+
 // The options whose decisions ranks must take alike: contact of a separating wall, divisions with new
 // numbers, particles that fly without the grid, shifts of the grid, wide kernels with domains.
 TEST_F(SolverRanks, AgreeWithOneRankInEveryOption) {
   const Overrides options = {{"domain.upper", R"(["12 mm", "12 mm", "3.6 mm"])"},
                              {"domain.boundary.z_upper", "separating"},
                              {"splitting.length", "0.7"},
+                             {"heat.conduction", "true"},
+                             {"body.0.material", "\"copper_ofhc.toml\""},
                              {"transfer.free_flight", "true"},
                              {"transfer.random_shift", "true"},
                              {"transfer.shape_function", "cubic_bspline"}};

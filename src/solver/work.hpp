@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "src/setup/case.hpp"
+#include "src/setup/seeding.hpp"
+
+/// Work of a step, by which the blocks are shared out among the ranks: counted, not timed, so that a run on
+/// so many ranks gives the same bits every time (docs/architecture.md). Unit: the transfers of one particle.
+namespace whipple::solver {
+
+/// Of the nodes of a block that holds particles.
+constexpr double work_of_block = 45.0;
+
+/// Of every particle: its transfers and its material.
+/// @param bodies  the ranges of this rank's particles
+std::vector<double> work_of_particles(const setup::Case& setup, std::span<const setup::BodySummary> bodies);
+
+}  // namespace whipple::solver
