@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "eos/state.hpp"
 #include "eos/vapour_dome.hpp"
@@ -82,6 +83,10 @@ class EquationOfState {
 
   /// The dome of liquid and vapour in equilibrium; null if the model has none.
   [[nodiscard]] virtual const VapourDome* vapour_dome() const { return nullptr; }
+
+  /// Densities at which the edges of the phases on isochores have kinks, beside those at which a phase
+  /// appears or ends (kg/m^3): a table begins anew there.
+  [[nodiscard]] virtual std::vector<double> kinks() const { return {}; }
 
   /// Distension of the matter that bodies start from; 1: no pores.
   [[nodiscard]] virtual double initial_distension() const { return 1.0; }

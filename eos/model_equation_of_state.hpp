@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "eos/equation_of_state.hpp"
 #include "src/base/parameter_table.hpp"
@@ -69,6 +70,13 @@ class ModelEquationOfState final : public EquationOfState {
       return &model_.dome();
     } else {
       return nullptr;
+    }
+  }
+  [[nodiscard]] std::vector<double> kinks() const override {
+    if constexpr (requires { model_.kinks(); }) {
+      return model_.kinks();
+    } else {
+      return {};
     }
   }
   [[nodiscard]] double initial_distension() const override {

@@ -157,6 +157,7 @@ Gray::Point Gray::equilibrium_point(double V, double E) const {
       p.T = melting_curve_->temperature(V, E, edges);
       fill_from_tangent(p, *melting_curve_);
     } else {
+      p.phase = Phase::isochoric_melting;
       p.T = edges.T1;
       fill_from_band(p, edges, surface_.band_slopes(iso, edges), (E - edges.E1) / (edges.E2 - edges.E1));
     }
@@ -407,7 +408,8 @@ State Gray::full_state(const Point& p) const {
     const GrayIsochore iso = surface_.isochore(p.V);
     const double tau = p.T / iso.melting_temperature;
     switch (p.phase) {
-      case Phase::melting: {
+      case Phase::melting:
+      case Phase::isochoric_melting: {
         if (p.tangent) {
           s.specific_entropy = melting_curve_->mixture(p.V, p.T).entropy;
           s.isothermal_bulk_modulus = 0.0;
@@ -440,7 +442,7 @@ State Gray::full_state(const Point& p) const {
       }
     }
   }
-  static constexpr std::string_view names[] = {"solid",      "melting", "liquid",
+  static constexpr std::string_view names[] = {"solid",      "melting", "isochoric melting", "liquid",
                                                "hot liquid", "vapour",  "hot vapour"};
   s.phase = names[static_cast<int>(p.phase)];
   s.vaporised_fraction = p.phase == Phase::solid ? 0.0 : dome_.vaporised_fraction(p.V, p.E);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "eos/equation_of_state.hpp"
 #include "eos/models/gray_free_energy.hpp"
@@ -49,6 +50,12 @@ class Gray {
   [[nodiscard]] double reference_energy() const { return constants().reference_energy; }
   [[nodiscard]] double maximum_density() const { return 1.0 / least_volume_; }
 
+  /// The density of the solid of the last tie line, where equilibrium melting ends.
+  [[nodiscard]] std::vector<double> kinks() const {
+    if (!melting_curve_) return {};
+    return {1.0 / melting_curve_->coldest().solid_volume};
+  }
+
   /// Energy of the coldest state at a density.
   /// @throws StateError above the compression limit
   [[nodiscard]] double minimum_energy(double density) const {
@@ -71,7 +78,9 @@ class Gray {
   [[nodiscard]] double gamma(double V) const { return surface_.gamma(V); }
 
  private:
-  enum class Phase { solid, melting, liquid, hot_liquid, vapour, hot_vapour };
+  /// Isochoric melting: of stretched metal, beside equilibrium melting. A phase of its own, as its states do
+  /// not meet those of the melting curve.
+  enum class Phase { solid, melting, isochoric_melting, liquid, hot_liquid, vapour, hot_vapour };
   struct Point;
   struct FourPoints;
   /// Edges of the melting region on one isochore.

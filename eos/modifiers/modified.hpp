@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "eos/equation_of_state.hpp"
 #include "src/base/error.hpp"
@@ -31,6 +32,7 @@ class Modified : public EquationOfState {
   }
   [[nodiscard]] double least_temperature() const override { return base_->least_temperature(); }
   [[nodiscard]] const VapourDome* vapour_dome() const override { return base_->vapour_dome(); }
+  [[nodiscard]] std::vector<double> kinks() const override { return base_->kinks(); }
   [[nodiscard]] double initial_distension() const override { return base_->initial_distension(); }
   void crush_pressure(std::span<const double> distension, std::span<double> pressure) const override {
     base_->crush_pressure(distension, pressure);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "eos/modifiers/modified.hpp"
 
@@ -41,6 +42,11 @@ class Scale final : public Modified {
   }
   [[nodiscard]] double maximum_density() const override {
     return base().maximum_density() * constants_.density;
+  }
+  [[nodiscard]] std::vector<double> kinks() const override {
+    std::vector<double> densities = base().kinks();
+    for (double& density : densities) density *= constants_.density;
+    return densities;
   }
   [[nodiscard]] double minimum_energy(double density) const override {
     return base().minimum_energy(density / constants_.density) / constants_.density;

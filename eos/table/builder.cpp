@@ -121,6 +121,15 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
     scan.split(x_of(i), isochores[i].phases, x_of(i + 1), isochores[i + 1].phases, segments);
   }
   segments.back().last = end;
+  for (const double density : eos.kinks()) {
+    const double x = std::log(density);
+    const auto at =
+        std::ranges::find_if(segments, [&](const Segment& s) { return s.first < x && x < s.last; });
+    if (at == segments.end()) continue;
+    const Segment rest = {x, at->last};
+    at->last = x;
+    segments.insert(at + 1, rest);
+  }
 
   // Strips: halved until each reaches the error.
   std::vector<table::StripTask> tasks;

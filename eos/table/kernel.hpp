@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
+#include <tuple>
 
 #include "eos/table/table.hpp"
 #include "src/base/vector_math.hpp"
@@ -39,40 +41,44 @@ inline Piece piece(double position, std::uint32_t n) {
   return {index, scaled - index};
 }
 
-/// Value and derivatives by x = ln rho of the four curves of a strip.
+constexpr std::string_view density_bound = "density outside the table";
+constexpr std::string_view energy_bound = "specific internal energy above the table";
+
+/// Numbers of the curves of a strip, or of its edges from the bottom to the top; the rest is idle.
+using CurveNumbers = std::array<double, 12>;
+static_assert(std::tuple_size_v<CurveNumbers> > TableData::greatest_regions);
+
+/// Value and derivatives by x = ln rho of e_0 and of the edges between the regions of a strip.
 struct Curves {
-  Lanes value, slope, curvature;
+  alignas(32) CurveNumbers value, slope, curvature;
 };
 
 /// @param tx  place in the strip, from 0 to 1
 inline Curves curves(const TableData& data, const TableData::Strip& strip, double tx) {
   const Piece at = piece(tx, strip.intervals);
-  const TableData::Interval& c = data.intervals[strip.first_interval + at.index];
-  Curves result;
-  horner([&](std::size_t i) { return c[i]; }, broadcast(at.local), result.value, result.slope,
-         result.curvature);
   const double scale = strip.intervals * strip.inverse_length;
-  result.slope *= scale;
-  result.curvature *= 2 * scale * scale;
+  Curves result{};
+  for (std::uint32_t block = 0; block < strip.blocks(); ++block) {
+    const TableData::Interval& c = data.intervals[strip.first_interval + at.index * strip.blocks() + block];
+    Lanes value, slope, half_curvature;
+    horner([&](std::size_t i) { return c[i]; }, broadcast(at.local), value, slope, half_curvature);
+    store(&result.value[4 * block], value);
+    store(&result.slope[4 * block], slope * scale);
+    store(&result.curvature[4 * block], half_curvature * (2 * scale * scale));
+  }
   return result;
 }
 
 /// The edges of the regions, from the bottom to the top of a strip, with their derivatives by x.
-struct Edges {
-  alignas(32) std::array<double, 8> value, slope, curvature;
-};
-
-inline void edges(const TableData::Strip& strip, double x, double bottom, const Curves& curves,
-                  Edges& result) {
+inline Curves edges(const TableData::Strip& strip, double x, double bottom, const Curves& curves) {
   const auto last = strip.region_count;
-  _mm256_store_pd(result.value.data(), __m256d(curves.value));
-  _mm256_store_pd(result.slope.data(), __m256d(curves.slope));
-  _mm256_store_pd(result.curvature.data(), __m256d(curves.curvature));
+  Curves result = curves;
   result.value[0] = bottom;
   result.slope[0] = result.curvature[0] = 0;
   result.value[last] = strip.top + strip.top_slope * (x - strip.begin);
   result.slope[last] = strip.top_slope;
   result.curvature[last] = 0;
+  return result;
 }
 
 /// Derivatives of S by two coordinates. Number is double or Lanes.
@@ -132,17 +138,6 @@ inline Polynomial<Lanes> along_y(const AlongX* sums, Lanes ty) {
   horner([&](std::size_t i) { return i < 4 ? h[i] : hs[i - 4]; }, ty, result.xx, value, half);
   result.xx *= 2.0;
   return result;
-}
-
-/// Pieces of four positions, each among its own number of pieces; NaN lies in the first.
-struct Pieces {
-  __m128i index;
-  Lanes local;
-};
-inline Pieces pieces(Lanes position, Lanes n) {
-  const Lanes scaled = position * n;
-  const __m128i index = _mm256_cvttpd_epi32(__m256d(minimum(maximum(scaled, Lanes{}), n - 1.0)));
-  return {index, scaled - Lanes(_mm256_cvtepi32_pd(index))};
 }
 
 /// Value of S in a cell.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include "eos/table/hermite_fit.hpp"
 #include "eos/table/kernel.hpp"
@@ -19,6 +20,8 @@ constexpr std::uint32_t greatest_nx = 8, greatest_ny = 32;
 constexpr std::uint32_t greatest_fraction_nx = 64, greatest_fraction_ny = 128;
 /// Share of a region that a cut parts from it, where the resolution falls short.
 constexpr double cut_share = 0.1;
+/// Cuts part no strip into more regions than a point finds by one comparison.
+constexpr std::size_t greatest_cut_regions = 4;
 /// A strip is not halved below this length of ln rho: what remains is reported by the verification.
 constexpr double least_length = 0.01;
 constexpr double edge_tolerance = 4e-13;  ///< of z
@@ -89,27 +92,36 @@ class StripFit {
     return {all.begin() + 1, all.end() - 1};
   }
 
+  static constexpr std::size_t row_length = std::tuple_size_v<CurveNumbers>;
+
+  /// Edges at infinity.
+  static TableData::Interval no_curves() {
+    TableData::Interval interval{};
+    interval[0] = broadcast(1e300);
+    return interval;
+  }
+
   [[nodiscard]] std::vector<TableData::Interval> curve_intervals(std::size_t cells) const {
     const std::size_t samples = HermiteFit::sample_intervals(cells);
-    std::vector<std::array<double, 4>> values;
+    std::vector<CurveNumbers> values;
     for (std::size_t i = 0; i <= samples; ++i) {
       const Isochore isochore =
           sampler_.isochore(x_at(static_cast<double>(i) / static_cast<double>(samples)));
       // Where a region ends at the rim of a segment, it is missing on the rim itself: the strip is halved.
       if (isochore.phases != isochore_phases_) return {};
-      std::array<double, 4> row = {isochore.base_energy, 1e300, 1e300, 1e300};
+      CurveNumbers& row = values.emplace_back();
+      row[0] = isochore.base_energy;
       std::ranges::copy(inner_edges(isochore), row.begin() + 1);
-      values.push_back(row);
     }
-    std::vector<TableData::Interval> intervals(cells);
+    const std::size_t blocks = result_.strip.blocks();
+    std::vector<TableData::Interval> intervals(blocks * cells, no_curves());
     const HermiteFit fit(cells);
     std::vector<double> coefficients(6 * cells);
-    for (std::size_t curve = 0; curve < 4; ++curve) {
-      const bool present = curve < result_.phases.size();
-      if (present) fit(values[0].data() + curve, 4, coefficients.data(), 1);
+    for (std::size_t curve = 0; curve < result_.phases.size(); ++curve) {
+      fit(values[0].data() + curve, row_length, coefficients.data(), 1);
       for (std::size_t i = 0; i < cells; ++i) {
         for (std::size_t j = 0; j < 6; ++j)
-          intervals[i][j][curve] = present ? coefficients[6 * i + j] : (j == 0 ? 1e300 : 0.0);
+          intervals[blocks * i + curve / 4][j][curve % 4] = coefficients[6 * i + j];
       }
     }
     return intervals;
@@ -158,12 +170,12 @@ class StripFit {
     const Isochore isochore = sampler_.isochore(0.5 * (task_.first_sample + task_.last_sample));
     const double low = sampler_.base_energy(task_.first_sample),
                  high = sampler_.base_energy(task_.last_sample);
-    TableData::Interval interval{};
-    interval[0] = Lanes{low, 1e300, 1e300, 1e300};
-    interval[1][0] = high - low;
+    std::vector<TableData::Interval> blocks(result_.strip.blocks(), no_curves());
+    blocks[0][0][0] = low;
+    blocks[0][1][0] = high - low;
     const std::vector<double> inner = inner_edges(isochore);
-    for (std::size_t k = 0; k < inner.size(); ++k) interval[0][k + 1] = inner[k];
-    result_.intervals = data_.intervals = {interval};
+    for (std::size_t k = 1; k <= inner.size(); ++k) blocks[k / 4][0][k % 4] = inner[k - 1];
+    result_.intervals = data_.intervals = blocks;
     result_.strip.intervals = 1;
     return true;
   }
@@ -175,11 +187,22 @@ class StripFit {
     std::vector<double> cells;
   };
 
-  [[nodiscard]] Edges edges_at(double x, Curves& base) const {
-    Edges result;
+  [[nodiscard]] Curves edges_at(double x, Curves& base) const {
     base = curves(data_, result_.strip, (x - task_.begin) / (task_.end - task_.begin));
-    edges(result_.strip, x, bottom_, base, result);
-    return result;
+    return edges(result_.strip, x, bottom_, base);
+  }
+
+  /// Entropy at z in a region. The curves lie beside the edges by their error, and s may jump there (a model
+  /// whose phases do not meet): a state of another phase is replaced by one a little nearer to the middle.
+  [[nodiscard]] double entropy(std::size_t region, double x, double base, double z, double middle) const {
+    const double energy = std::exp(z);
+    for (double share = 0; share < 0.01; share = std::max(1e-12, 4 * share)) {
+      const double near = base + std::exp(z + share * (middle - z));
+      const State s = sampler_.state(x, near);
+      if (s.phase == result_.phases[region])
+        return s.specific_entropy + (base + energy - near) / s.temperature;
+    }
+    return sampler_.state(x, base + energy).specific_entropy;
   }
 
   [[nodiscard]] Patch fit_patch(std::size_t region, std::uint32_t nx, std::uint32_t ny) const {
@@ -188,11 +211,11 @@ class StripFit {
     for (std::size_t i = 0; i <= mx; ++i) {
       const double x = x_at(static_cast<double>(i) / static_cast<double>(mx));
       Curves base;
-      const Edges edge = edges_at(x, base);
+      const Curves edge = edges_at(x, base);
       const double low = edge.value[region], width = edge.value[region + 1] - low;
       for (std::size_t j = 0; j <= my; ++j) {
         const double z = low + width * static_cast<double>(j) / static_cast<double>(my);
-        samples[i * (my + 1) + j] = sampler_.state(x, base.value[0] + std::exp(z)).specific_entropy;
+        samples[i * (my + 1) + j] = entropy(region, x, base.value[0], z, low + 0.5 * width);
       }
     }
     // Along x for every energy, then along y for every coefficient.
@@ -215,7 +238,7 @@ class StripFit {
   }
 
   [[nodiscard]] Thermal<double> evaluate(const Patch& patch, std::size_t region, double tx, double y,
-                                         const Curves& base, const Edges& edge, double rho) const {
+                                         const Curves& base, const Curves& edge, double rho) const {
     const double px = tx * patch.nx, py = y * patch.ny;
     const auto i = static_cast<std::size_t>(std::clamp(px, 0.0, patch.nx - 1.0));
     const auto j = static_cast<std::size_t>(std::clamp(py, 0.0, patch.ny - 1.0));
@@ -250,7 +273,7 @@ class StripFit {
       const double tx = place(i, nx);
       const double x = x_at(tx), rho = std::exp(x);
       Curves base;
-      const Edges edge = edges_at(x, base);
+      const Curves edge = edges_at(x, base);
       for (std::size_t j = 0; j < probes.size() * ny; ++j) {
         const double y = place(j, ny);
         const auto sa = evaluate(a, region, tx, y, base, edge, rho),
@@ -277,7 +300,7 @@ class StripFit {
       const Difference along_y = difference(present, fine_y, region);
       const double by_x = difference(present, fine_x, region).worst, by_y = along_y.worst;
       if (by_x < safety && by_y < safety) break;
-      if (by_y >= safety && !higher && may_split_ && result_.phases.size() < TableData::greatest_regions) {
+      if (by_y >= safety && !higher && may_split_ && result_.phases.size() < greatest_cut_regions) {
         result_.cut = Cut{region, along_y.y > 0.5 ? 1 - cut_share : cut_share};
         return false;
       }
@@ -303,7 +326,7 @@ class StripFit {
   [[nodiscard]] std::array<double, 2> fractions_at(std::size_t region, double tx, double y) const {
     const double x = x_at(tx);
     Curves base;
-    const Edges edge = edges_at(x, base);
+    const Curves edge = edges_at(x, base);
     const double z =
         edge.value[region] + std::clamp(y, inset, 1 - inset) * (edge.value[region + 1] - edge.value[region]);
     const State s = sampler_.state(x, base.value[0] + std::exp(z));

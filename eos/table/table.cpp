@@ -17,19 +17,13 @@ namespace {
 using Strip = TableData::Strip;
 using Region = TableData::Region;
 
-/// Points that pass through the stages of an evaluation together.
-constexpr std::size_t block_size = 32;
-constexpr std::size_t least_bins = 256;
 constexpr double fraction_unit = 1.0 / 65535;
 
-constexpr std::string_view density_bound = "density outside the table";
-constexpr std::string_view energy_bound = "specific internal energy above the table";
-constexpr std::string_view number_bound = "density and specific internal energy must be finite";
-
-/// Region of a strip that holds z: edges that the strip does not have lie at infinity.
-std::size_t region_of(const Lanes& edges, double z) {
-  const int above = _mm256_movemask_pd(_mm256_cmp_pd(_mm256_set1_pd(z), __m256d(edges), _CMP_GT_OQ));
-  return static_cast<std::size_t>(__builtin_popcount(static_cast<unsigned>(above) & 0xeU));
+/// Region of a strip that holds z.
+std::size_t region_of(const Strip& strip, const table::Curves& edges, double z) {
+  std::size_t k = 0;
+  while (k + 1 < strip.region_count && z > edges.value[k + 1]) ++k;
+  return k;
 }
 
 /// Melted and vaporised fraction.
@@ -68,7 +62,7 @@ Table::Table(TableData data) : data_(std::move(data)) {
   for (std::size_t i = 0; i < data_.strips.size(); ++i) {
     const Strip& s = data_.strips[i];
     if (!(s.begin < s.end) || (i > 0 && s.begin != data_.strips[i - 1].end)) refuse("its strips have gaps");
-    if (s.intervals == 0 || s.first_interval + std::size_t{s.intervals} > data_.intervals.size())
+    if (s.intervals == 0 || s.first_interval + std::size_t{s.intervals} * s.blocks() > data_.intervals.size())
       refuse("a strip names curves that are not there");
     if (s.region_count == 0 || s.region_count > TableData::greatest_regions)
       refuse("a strip has no regions, or too many");
@@ -83,44 +77,23 @@ Table::Table(TableData data) : data_(std::move(data)) {
       if (r.phase >= data_.phases.size()) refuse("a region names a phase that is not there");
     }
   }
-  begin_ = data_.strips.front().begin;
-  end_ = data_.strips.back().end;
-  // Bins so narrow that each holds the ends of at most two strips.
-  double shortest = end_ - begin_;
-  for (Strip& s : data_.strips) {
-    s.inverse_length = 1 / (s.end - s.begin);
-    shortest = std::min(shortest, s.end - s.begin);
-  }
-  std::size_t bins = least_bins;
-  while ((end_ - begin_) / static_cast<double>(bins) > 0.9 * shortest) bins *= 2;
-  bins_per_length_ = static_cast<double>(bins) / (end_ - begin_);
-  for (std::size_t bin = 0, s = 0; bin < bins; ++bin) {
-    // A little less than the lower end of the bin: it may be rounded.
-    const double lower = begin_ + (static_cast<double>(bin) - 1e-6) / bins_per_length_;
-    while (s + 1 < data_.strips.size() && data_.strips[s].end <= lower) ++s;
-    strip_of_bin_.push_back(static_cast<std::uint32_t>(s));
-  }
+  for (Strip& s : data_.strips) s.inverse_length = 1 / (s.end - s.begin);
+  layout_ = table::Layout(data_);
 }
 
-double Table::minimum_density() const { return std::exp(begin_); }
-double Table::maximum_density() const { return std::exp(end_) * (1 - 1e-14); }
+double Table::minimum_density() const { return std::exp(layout_.begin); }
+double Table::maximum_density() const { return std::exp(layout_.end) * (1 - 1e-14); }
 
-inline const Strip& Table::strip(double x) const {
-  const double last_bin = static_cast<double>(strip_of_bin_.size() - 1);
-  const auto bin =
-      static_cast<std::int32_t>(std::min(std::max(0.0, (x - begin_) * bins_per_length_), last_bin));
-  const Strip* s = &data_.strips[strip_of_bin_[static_cast<std::size_t>(bin)]];
-  const Strip* last = &data_.strips.back();
-  s += static_cast<int>(x >= s->end) & static_cast<int>(s < last);
-  s += static_cast<int>(x >= s->end) & static_cast<int>(s < last);
-  return *s;
+const Strip& Table::strip(double x) const {
+  const auto above = std::ranges::upper_bound(data_.strips, x, {}, &Strip::begin);
+  return above == data_.strips.begin() ? *above : *(above - 1);
 }
 
 double Table::base_energy(double density) const {
   const double x = std::log(density);
-  if (!(x >= begin_ && x <= end_)) {
+  if (!(x >= layout_.begin && x <= layout_.end)) {
     throw StateError(fmt::format("table of {}: {} ({:.6g} kg/m^3; {:.6g} to {:.6g} kg/m^3)", data_.origin,
-                                 density_bound, density, minimum_density(), maximum_density()));
+                                 table::density_bound, density, minimum_density(), maximum_density()));
   }
   const Strip& s = strip(x);
   return table::curves(data_, s, (x - s.begin) * s.inverse_length).value[0];
@@ -145,133 +118,6 @@ std::string Table::constants() const {
   return text;
 }
 
-RangeReport Table::evaluate(const Batch& batch) const {
-  using Numbers = std::array<double, block_size>;
-  RangeReport report;
-  const auto broken = [&](std::size_t point, std::string_view bound) {
-    if (report.out_of_range++ == 0) {
-      report.first = point;
-      report.bound = bound;
-    }
-  };
-  const std::size_t n = batch.density.size();
-  const bool with_fractions = !batch.melted_fraction.empty() || !batch.vaporised_fraction.empty();
-  const double bottom = std::log(data_.thermal_energy), coldest = data_.thermal_energy;
-  const Lanes least_squared = broadcast(data_.least_sound_speed * data_.least_sound_speed);
-  std::array<const Strip*, block_size> strips;
-  std::array<const Region*, block_size> regions;
-  std::array<table::Curves, block_size> base;
-  alignas(32) Numbers rho, x, inside, tx, thermal, z, y, low, width, inverse_width, inverse_thermal;
-  alignas(32) Numbers e1, e2, l1, l2, w1, w2, nx, ny, local_x, local_y, inverse_length, p, T, c;
-  alignas(32) std::array<std::int32_t, block_size> rows, cells;
-  std::array<table::AlongX, block_size> sums;
-  const double* all_cells = data_.cells.data();
-
-  for (std::size_t first = 0; first < n; first += block_size) {
-    const std::size_t count = std::min(block_size, n - first), padded = (count + 3) / 4 * 4;
-    for (std::size_t i = 0; i < padded; ++i) rho[i] = batch.density[first + std::min(i, count - 1)];
-    for (std::size_t i = 0; i < padded; i += 4) store(&x[i], natural_log(load(&rho[i])));
-
-    for (std::size_t i = 0; i < padded; ++i) {
-      inside[i] = std::min(std::max(begin_, x[i]), end_);  // begin_ for NaN
-      strips[i] = &strip(inside[i]);
-      inverse_length[i] = strips[i]->inverse_length;
-      tx[i] = (inside[i] - strips[i]->begin) * inverse_length[i];
-    }
-    for (std::size_t i = 0; i < padded; ++i) base[i] = table::curves(data_, *strips[i], tx[i]);
-    for (std::size_t i = 0; i < padded; ++i) {
-      double e = batch.specific_internal_energy[first + std::min(i, count - 1)] - base[i].value[0];
-      // One test for the usual point; NaN fails it.
-      if (!(x[i] >= begin_ && x[i] <= end_ && e >= coldest)) {
-        const bool bad = !std::isfinite(x[i]) || !std::isfinite(e), outside = bad || x[i] != inside[i];
-        if (i < count && outside) broken(first + i, bad ? number_bound : density_bound);
-        if (i < count && !outside) ++report.below_cold_curve;
-        e = outside ? State::unknown : coldest;
-      }
-      thermal[i] = e;
-    }
-    for (std::size_t i = 0; i < padded; i += 4) {
-      store(&z[i], natural_log(load(&thermal[i])));
-      store(&inverse_thermal[i], 1.0 / load(&thermal[i]));
-    }
-    for (std::size_t i = 0; i < padded; ++i) {
-      const Strip& s = *strips[i];
-      table::Curves& edge = base[i];
-      const std::size_t k = region_of(edge.value, z[i]);
-      e1[i] = edge.slope[0];
-      e2[i] = edge.curvature[0];
-      // The lowest edge is the bottom, the uppermost the top; as in table::edges, without its stores.
-      edge.value[0] = bottom;
-      edge.slope[0] = edge.curvature[0] = 0;
-      const bool uppermost = k + 1 == s.region_count;
-      const std::size_t above = uppermost ? k : k + 1;
-      const double top = s.top + s.top_slope * (inside[i] - s.begin);
-      const double high = uppermost ? top : edge.value[above];
-      const double high_slope = uppermost ? s.top_slope : edge.slope[above];
-      const double high_curvature = uppermost ? 0.0 : edge.curvature[above];
-      if (uppermost && z[i] > top) {
-        if (i < count) broken(first + i, energy_bound);
-        inverse_thermal[i] = State::unknown;  // spreads to all results
-        z[i] = top;
-      }
-      const Region& region = s.regions[k];
-      regions[i] = &region;
-      nx[i] = region.nx;
-      ny[i] = region.ny;
-      rows[i] = static_cast<std::int32_t>(region.ny);
-      cells[i] = static_cast<std::int32_t>(region.first_cell);
-      low[i] = edge.value[k];
-      width[i] = high - edge.value[k];
-      l1[i] = edge.slope[k];
-      l2[i] = edge.curvature[k];
-      w1[i] = high_slope - edge.slope[k];
-      w2[i] = high_curvature - edge.curvature[k];
-    }
-    for (std::size_t i = 0; i < padded; i += 4) {
-      const Lanes inverse = 1.0 / maximum(load(&width[i]), broadcast(table::least_width));
-      store(&inverse_width[i], inverse);
-      const Lanes height = (load(&z[i]) - load(&low[i])) * inverse;
-      store(&y[i], height);
-      const table::Pieces px = table::pieces(load(&tx[i]), load(&nx[i])),
-                          py = table::pieces(height, load(&ny[i]));
-      store(&local_x[i], px.local);
-      store(&local_y[i], py.local);
-      const auto integers = [&](auto& values) { return reinterpret_cast<__m128i*>(&values[i]); };
-      const __m128i row = _mm_mullo_epi32(px.index, _mm_load_si128(integers(rows)));
-      _mm_store_si128(integers(cells),
-                      _mm_add_epi32(_mm_load_si128(integers(cells)), _mm_add_epi32(row, py.index)));
-    }
-    for (std::size_t i = 0; i < padded; ++i)
-      table::along_x(all_cells + TableData::cell_size * static_cast<std::size_t>(cells[i]), local_x[i],
-                     sums[i]);
-    for (std::size_t i = 0; i < padded; i += 4) {
-      const table::Polynomial<Lanes> s = table::along_y(&sums[i], load(&local_y[i]));
-      const Lanes by_x = load(&nx[i]) * load(&inverse_length[i]), by_y = load(&ny[i]);
-      const auto slopes = table::slopes<Lanes>(
-          {s.x * by_x, s.y * by_y, s.xx * by_x * by_x, s.xy * by_x * by_y, s.yy * by_y * by_y},
-          {load(&y[i]), load(&inverse_width[i]), load(&inverse_thermal[i]), load(&e1[i]), load(&e2[i]),
-           load(&l1[i]), load(&l2[i]), load(&w1[i]), load(&w2[i])});
-      const auto result = table::thermal<Lanes>(load(&rho[i]), slopes);
-      store(&p[i], result.pressure);
-      store(&T[i], result.temperature);
-      // The floor comes first: a NaN in the second operand stays.
-      store(&c[i], sqrt(maximum(least_squared, result.squared_sound_speed)));
-    }
-    const auto at = static_cast<std::ptrdiff_t>(first);
-    std::copy_n(p.begin(), count, batch.pressure.begin() + at);
-    std::copy_n(T.begin(), count, batch.temperature.begin() + at);
-    std::copy_n(c.begin(), count, batch.sound_speed.begin() + at);
-    if (!with_fractions) continue;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Fractions f = std::isnan(T[i]) ? Fractions{State::unknown, State::unknown}
-                                           : fractions(data_, *regions[i], tx[i], y[i]);
-      if (!batch.melted_fraction.empty()) batch.melted_fraction[first + i] = f.melted;
-      if (!batch.vaporised_fraction.empty()) batch.vaporised_fraction[first + i] = f.vaporised;
-    }
-  }
-  return report;
-}
-
 State Table::state(double density, double e) const {
   const double base_value = base_energy(density), x = std::log(density);
   const Strip& s = strip(x);
@@ -280,13 +126,12 @@ State Table::state(double density, double e) const {
   const double top = maximum_energy(density);
   if (!(e <= top)) {
     throw StateError(fmt::format("table of {}: {} ({:.6g} J/kg at {:.6g} kg/m^3; at most {:.6g} J/kg)",
-                                 data_.origin, energy_bound, e, density, top));
+                                 data_.origin, table::energy_bound, e, density, top));
   }
   const double thermal = std::max(e - base_value, data_.thermal_energy);
-  table::Edges edges;
-  table::edges(s, x, std::log(data_.thermal_energy), base, edges);
+  const table::Curves edges = table::edges(s, x, std::log(data_.thermal_energy), base);
   const double z = std::log(thermal);
-  const std::size_t k = region_of(base.value, z);
+  const std::size_t k = region_of(s, edges, z);
   const Region& region = s.regions[k];
   const double inverse_width = 1 / std::max(edges.value[k + 1] - edges.value[k], table::least_width);
   const double y = (z - edges.value[k]) * inverse_width;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "eos/equation_of_state.hpp"
+#include "eos/table/layout.hpp"
 #include "src/base/simd.hpp"
 
 /// A complete equation of state as a table of its entropy (docs/theory/equations_of_state.md, section
@@ -16,11 +17,11 @@
 /// lines: the second derivatives of s jump there, and no polynomial crosses them.
 namespace whipple::eos {
 
-/// Everything of a table that is stored; plain data. Each strip of densities holds up to four regions above
+/// Everything of a table that is stored; plain data. Each strip of densities holds up to eight regions above
 /// one another, parted by the edges of the phases. A region has nx * ny cells, each a polynomial of degree
 /// (5, 5) in its local coordinates.
 struct TableData {
-  static constexpr std::size_t greatest_regions = 4;
+  static constexpr std::size_t greatest_regions = 8;
   static constexpr std::size_t cell_size = 36;  ///< coefficients; those of one power of x side by side
 
   struct Region {
@@ -35,9 +36,13 @@ struct TableData {
     std::uint32_t first_interval = 0, intervals = 1;
     std::uint32_t region_count = 1;
     std::array<Region, greatest_regions> regions;
+
+    /// Groups of four curves: e_0 and the edges between the regions.
+    [[nodiscard]] std::uint32_t blocks() const { return region_count > 4 ? 2 : 1; }
   };
   /// Quintic polynomials in the local coordinate of an interval of ln rho, for four curves at once: e_0 and
-  /// the edges between the regions as values of z. Edges that a strip does not have lie at infinity.
+  /// the edges between the regions as values of z. A strip of more than four regions has two of them for each
+  /// interval, one after the other. Edges that a strip does not have lie at infinity.
   using Interval = std::array<Lanes, 6>;
 
   std::vector<Strip> strips;  ///< in the order of the density, without gaps
@@ -97,8 +102,7 @@ class Table final : public EquationOfState {
   [[nodiscard]] double base_energy(double density) const;
 
   TableData data_;
-  double begin_ = 0, end_ = 0, bins_per_length_ = 0;
-  std::vector<std::uint32_t> strip_of_bin_;  ///< the strip that holds the lower end of a bin of ln rho
+  table::Layout layout_;
 };
 
 }  // namespace whipple::eos

@@ -42,6 +42,12 @@ TEST(EosTableError, CopperWithTheMeltingBand) {
   expect_requested_error(eos, {}, "melting");
 }
 
+TEST(EosTableError, CopperWithEquilibriumMeltingInAllPhases) {
+  // Six phases on an isochore in strong tension, a kink at the last tie line and jumps across it.
+  const test::GrayEos eos(test::copper("equilibrium"));
+  expect_requested_error(eos, {});
+}
+
 TEST(EosTableError, CopperWithIsochoricMeltingInAllPhases) {
   const test::GrayEos eos(test::copper("isochoric"));
   expect_requested_error(eos, {.error = 3e-4});
