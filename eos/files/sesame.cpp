@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "src/base/error.hpp"
+#include "src/base/log.hpp"
 
 namespace whipple::eos {
 namespace {
@@ -23,9 +24,11 @@ namespace fs = std::filesystem;
 constexpr double Mg_m3 = 1e3, GPa = 1e9, MJ_kg = 1e6, g_mol = 1e-3, K = 1;
 
 constexpr std::size_t words_per_line = 5, comment_width = 80;
-/// Columns of a word: E15.8, or E22.15 in files of double precision.
-constexpr std::size_t word_width = 15, long_word_width = 22;
-constexpr std::size_t most_words = 999999;  ///< six columns of the header
+/// Columns of a word that this program writes: E15.8. Read: those of the first word of a table (E16.8,
+/// E22.15).
+constexpr std::size_t word_width = 15;
+constexpr std::size_t least_word_width = 8;  ///< less is no column of numbers
+constexpr std::size_t most_words = 999999;   ///< six columns of the header
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(' ');
@@ -42,21 +45,40 @@ std::optional<int> integer_in(std::string_view line, std::size_t first, std::siz
   return value;
 }
 
-/// A Fortran number: the E may be a D, or be missing before the sign of three digits of exponent.
-std::optional<double> real_of(std::string_view word) {
-  std::string text(trimmed(word));
-  std::ranges::replace(text, 'D', 'E');
-  std::ranges::replace(text, 'd', 'E');
-  if (const std::size_t sign = text.find_last_of("+-");
-      sign != std::string::npos && sign > 0 && text[sign - 1] != 'E' && text[sign - 1] != 'e') {
-    text.insert(sign, 1, 'E');
-  }
-  if (!text.empty() && text.front() == '+') text.erase(0, 1);
+/// A Fortran number at the begin of a text: the E may be a D, or be missing before the sign of the exponent.
+struct Real {
   double value = 0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || fault != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
+  std::size_t end = 0;  ///< characters that it takes with the blanks before it; 0: there is none
+};
+
+Real real_at(std::string_view text) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto is_sign = [](char c) { return c == '+' || c == '-'; };
+  const auto at = [&](std::size_t i) { return i < text.size() ? text[i] : ' '; };
+  std::size_t i = std::min(text.find_first_not_of(' '), text.size());
+  std::string number;
+  if (is_sign(at(i))) number += at(i++);
+  const std::size_t first = i;
+  while (is_digit(at(i)) || at(i) == '.') number += at(i++);
+  if (i == first) return {};
+  const bool marked = at(i) == 'E' || at(i) == 'e' || at(i) == 'D' || at(i) == 'd';
+  if (const std::size_t sign = marked ? i + 1 : i;
+      is_digit(at(sign + is_sign(at(sign)))) && (marked || is_sign(at(sign)))) {
+    number += 'E';
+    for (i = sign, number += at(i++); is_digit(at(i));) number += at(i++);
+  }
+  const char* const begin = number.data() + (number.front() == '+' ? 1 : 0);
+  Real result;
+  const auto [end, fault] = std::from_chars(begin, number.data() + number.size(), result.value);
+  if (fault != std::errc() || end != number.data() + number.size() || !std::isfinite(result.value)) return {};
+  result.end = i;
+  return result;
+}
+
+std::optional<double> real_of(std::string_view word) {
+  const Real real = real_at(word);
+  if (real.end == 0 || !trimmed(word.substr(real.end)).empty()) return std::nullopt;
+  return real.value;
 }
 
 struct Header {
@@ -69,7 +91,8 @@ struct Header {
 struct Words {
   std::vector<double> values;
   std::size_t first_line = 0;
-  [[nodiscard]] std::size_t line(std::size_t word) const { return first_line + word / words_per_line; }
+  std::size_t per_line = words_per_line;
+  [[nodiscard]] std::size_t line(std::size_t word) const { return first_line + word / per_line; }
 };
 
 class Reader {
@@ -80,8 +103,11 @@ class Reader {
 
   /// The header of the next table; none at the record that ends the file.
   std::optional<Header> header() {
-    if (!next())
-      refuse(line_ + 1, "the file ends without its last record: expected ' 2', or the header of a table");
+    if (!next()) {
+      if (line_ == 0) refuse(1, "the file is empty: expected the header of a table");
+      log::warning("{}: ends without its last record ' 2': tables may be missing", path_.string());
+      return std::nullopt;
+    }
     const std::optional<int> flag = integer_in(text_, 0, 2);
     if (flag == 2) return std::nullopt;
     const auto material = integer_in(text_, 2, 6), table = integer_in(text_, 8, 6),
@@ -98,9 +124,11 @@ class Reader {
 
   std::string comment(const Header& header) {
     std::string text;
-    for_each_line(header, comment_width, [&](std::size_t count) {
+    for_each_line(header, [&](std::size_t left) {
+      const std::size_t count = std::min(comment_width, left);
       text_.resize(count, ' ');
       text += text_;
+      return count;
     });
     text.resize(text.find_last_not_of(' ') + 1);
     return text;
@@ -109,9 +137,8 @@ class Reader {
   Words words(const Header& header) {
     Words words;
     words.first_line = line_ + 1;
-    for_each_line(header, words_per_line, [&](std::size_t count) {
-      if (words.values.empty())
-        width_ = text_.size() >= words_per_line * long_word_width ? long_word_width : word_width;
+    for_each_line_of_numbers(header, [&](std::size_t count) {
+      words.per_line = per_line_;
       for (std::size_t i = 0; i < count; ++i) {
         const std::string_view word = text_.size() > i * width_
                                           ? std::string_view(text_).substr(i * width_, width_)
@@ -128,8 +155,11 @@ class Reader {
   }
 
   void skip(const Header& header) {
-    // The tables 101 to 199 are text.
-    for_each_line(header, header.table < 200 ? comment_width : words_per_line, [](std::size_t) {});
+    if (header.table < 200) {  // the tables 101 to 199 are text
+      for_each_line(header, [](std::size_t left) { return std::min(comment_width, left); });
+    } else {
+      for_each_line_of_numbers(header, [](std::size_t) {});
+    }
   }
 
   [[noreturn]] void refuse(std::size_t line, const std::string& what) const {
@@ -144,24 +174,39 @@ class Reader {
     return true;
   }
 
-  /// Calls visit(number of entries in it) with each line of a table in `text_`.
+  /// Calls visit(entries left) with each line of a table in `text_`; it returns how many of them it took.
   template <class Visit>
-  void for_each_line(const Header& header, std::size_t per_line, Visit&& visit) {
+  void for_each_line(const Header& header, Visit&& visit) {
     for (std::size_t left = header.words; left > 0;) {
       if (!next()) {
         refuse(line_, fmt::format("the file ends in table {} of material {}: expected {} more of {} words",
                                   header.table, header.material, left, header.words));
       }
-      const std::size_t count = std::min(per_line, left);
-      visit(count);
-      left -= count;
+      left -= visit(left);
     }
+  }
+
+  /// Calls visit(number of words) with each line. The first word of a table ends where its column does, and
+  /// as many words fit into a line as columns; what is less than a column at its end are flags.
+  template <class Visit>
+  void for_each_line_of_numbers(const Header& header, Visit&& visit) {
+    width_ = 0;
+    for_each_line(header, [&](std::size_t left) {
+      if (width_ == 0) {
+        const std::size_t first = real_at(text_).end;
+        width_ = first >= least_word_width ? first : word_width;
+        per_line_ = std::max<std::size_t>(1, (text_.find_last_not_of(' ') + 1) / width_);
+      }
+      const std::size_t count = std::min(per_line_, left);
+      visit(count);
+      return count;
+    });
   }
 
   fs::path path_;
   std::ifstream file_;
   std::string text_;
-  std::size_t line_ = 0, width_ = word_width;
+  std::size_t line_ = 0, width_ = 0, per_line_ = words_per_line;
 };
 
 /// Takes a table apart: a count, then columns.
@@ -351,9 +396,9 @@ SesameMaterial read_sesame(const fs::path& path, std::optional<int> number) {
         break;
       case 201: {
         const Words words = reader.words(*header);
-        if (header->words != 5) {
+        if (header->words < 5) {
           reader.refuse(words.first_line,
-                        fmt::format("table 201 of material {}: expected 5 words, the header says {}",
+                        fmt::format("table 201 of material {}: expected 5 words or more, the header says {}",
                                     header->material, header->words));
         }
         result.atomic_number = words.values[0];

@@ -148,6 +148,48 @@ TEST_F(SesameFiles, of_double_precision_and_with_other_tables_are_read) {
   EXPECT_EQ(read.total.density.back(), 2000);
 }
 
+/// The numbers of a written file in other columns.
+std::vector<std::string> in_columns(const std::vector<std::string>& lines, std::size_t width,
+                                    std::size_t per_line) {
+  std::vector<std::string> result;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    result.push_back(lines[i]);
+    if (lines[i].substr(20, 4) != "   r" || lines[i].substr(8, 6) < "   201") continue;
+    std::vector<std::string> words;
+    std::size_t left = std::stoul(lines[i].substr(14, 6));
+    while (left > 0) {
+      ++i;
+      for (std::size_t j = 0; j < 5 && left > 0; ++j, --left)
+        words.push_back(std::string(width - 15, ' ') + lines[i].substr(15 * j, 15));
+    }
+    for (std::size_t j = 0; j < words.size(); ++j) {
+      if (j % per_line == 0) result.emplace_back();
+      result.back() += words[j];
+    }
+  }
+  return result;
+}
+
+TEST_F(SesameFiles, with_other_columns_and_without_a_last_record_are_read) {
+  write(small());
+  const std::vector<std::string> text = lines();
+  const SesameMaterial expected = read_sesame(path_);
+  struct Columns {
+    std::size_t width, per_line;
+  };
+  for (const auto [width, per_line] : {Columns{16, 5}, {22, 3}, {22, 5}, {24, 4}, {15, 5}}) {
+    SCOPED_TRACE(std::to_string(per_line) + " words of " + std::to_string(width));
+    std::vector<std::string> changed = in_columns(text, width, per_line);
+    changed.pop_back();
+    put(changed);
+    const SesameMaterial read = read_sesame(path_);
+    EXPECT_EQ(read.total.density, expected.total.density);
+    EXPECT_EQ(read.total.pressure, expected.total.pressure);
+    EXPECT_EQ(read.total.energy, expected.total.energy);
+    EXPECT_EQ(read.vaporisation.liquid_energy, expected.vaporisation.liquid_energy);
+  }
+}
+
 TEST_F(SesameFiles, that_are_bad_are_refused_with_file_and_line) {
   write(small());
   const std::vector<std::string> good = lines();
@@ -161,14 +203,14 @@ TEST_F(SesameFiles, that_are_bad_are_refused_with_file_and_line) {
   put({good.begin(), good.begin() + 8});
   EXPECT_THAT(refusal(), AllOf(HasSubstr(file + ":8: the file ends in table 301 of material 77"),
                                HasSubstr("expected 9 more of 19 words")));
-  put({good.begin(), good.end() - 1});
-  EXPECT_THAT(refusal(), HasSubstr(file + ":15: the file ends without its last record"));
+  put({});
+  EXPECT_THAT(refusal(), HasSubstr(file + ":1: the file is empty"));
   EXPECT_THAT(changed(6, " 1    77   301    18   r        0        0   1"),
               AllOf(HasSubstr(file + ":7: table 301"), HasSubstr("expected 19 words (p, e), or 25")));
   EXPECT_THAT(changed(11, " 1    77   401    12   r        0        0   1"),
               AllOf(HasSubstr(file + ":12: table 401"), HasSubstr("expected 13 words, or 17")));
   EXPECT_THAT(changed(4, " 1    77   201     4   r        0        0   1"),
-              AllOf(HasSubstr(file + ":5: table 201"), HasSubstr("expected 5 words")));
+              AllOf(HasSubstr(file + ":5: table 201"), HasSubstr("expected 5 words or more")));
   EXPECT_THAT(changed(6, "no header"),
               AllOf(HasSubstr(file + ":6: expected the header"), HasSubstr("no header")));
   EXPECT_THAT(
