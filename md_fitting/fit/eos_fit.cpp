@@ -238,7 +238,7 @@ int main_program(int argc, char** argv) {
       ->check(CLI::Range(1, 100000));
   app.add_option("--seed", options.seed, "Of the samples")->capture_default_str();
   app.add_option("--melting", options.melting, "Melting transition of the material, and of the fit of T_m0")
-      ->check(CLI::IsMember({"band", "isochoric"}))
+      ->check(CLI::IsMember({"band", "isochoric", "equilibrium"}))
       ->capture_default_str();
   app.add_option("--reference-temperature", options.reference_temperature,
                  "Temperature of the reference volume and ahead of the simulated shocks")

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "eos/root.hpp"
 #include "src/base/error.hpp"
 
 namespace whipple::fit {
@@ -46,13 +47,16 @@ double melting_temperature(const eos::GrayConstants& c, double V) {
 }
 
 namespace {
-/// Melting rests on Delta S - alpha alone, up to the square of T/T_m - 1. Without the fall of the liquid's
-/// heat capacity (alpha = 0) the surface exists for every g, also where liquid or vapour of the complete
-/// model would have no positive heat capacity. Nor does the attraction of the vapour matter: one is as good
-/// as another.
+/// At one volume melting rests on Delta S - alpha alone, up to the square of T/T_m - 1. Without the fall of
+/// the liquid's heat capacity (alpha = 0) the surface exists for every g, also where liquid or vapour of the
+/// complete model would have no positive heat capacity. In equilibrium the liquid has another volume, T/T_m
+/// of which is some 1.15: there the square counts, and alpha stays. The attraction of the vapour does not
+/// matter: one is as good as another.
 eos::GrayConstants for_melting(eos::GrayConstants constants) {
-  constants.melting_entropy -= constants.liquid_heat_coefficient;
-  constants.liquid_heat_coefficient = 0.0;
+  if (constants.melting != "equilibrium") {
+    constants.melting_entropy -= constants.liquid_heat_coefficient;
+    constants.liquid_heat_coefficient = 0.0;
+  }
   constants.vapour = "attraction";
   if (!std::isfinite(constants.vapour_attraction)) {
     constants.vapour_attraction =
@@ -64,7 +68,20 @@ eos::GrayConstants for_melting(eos::GrayConstants constants) {
 
 Melting::Melting(eos::GrayConstants constants) : surface_(for_melting(std::move(constants))) {}
 
-double Melting::solidus(double V) const { return surface_.band(surface_.isochore(V)).T1; }
+double Melting::solidus(double V) const {
+  const double T_m = surface_.melting_temperature(V);
+  if (surface_.constants().melting != "equilibrium") return surface_.band(surface_.isochore(V)).T1;
+  // Equal pressure and Gibbs energy of the solid of this volume and a liquid of another one (G27).
+  const auto excess = [&](double T) {
+    const eos::GrayPoint solid = surface_.solid(V, T);
+    const double volume = condensed_volume(surface_, true, solid.pressure, T);
+    return surface_.liquid(volume, T).gibbs(volume, T) - solid.gibbs(V, T);
+  };
+  // The solid of V melts below T_m(V), where the liquid of the same volume has the same free energy.
+  double low = T_m;
+  while (low > 0.5 * T_m && excess(low) < 0.0) low *= 0.98;
+  return eos::find_root(excess, low, T_m, "melting temperature of the solid's volume");
+}
 
 double Melting::latent_heat(double pressure, double temperature) const {
   const auto enthalpy = [&](bool liquid) {

@@ -31,7 +31,8 @@ class Melting {
   /// @throws InputError if the constants contradict each other
   explicit Melting(eos::GrayConstants constants);
   /// Temperature at which the solid of a volume begins to melt: the lower edge of the model's melting band,
-  /// or T_m(V) if it melts isochorically.
+  /// T_m(V) if it melts isochorically, or where it is in equilibrium with a liquid of another volume.
+  /// @throws StateError if there is none
   [[nodiscard]] double solidus(double V) const;
   /// Enthalpy of the liquid over that of the solid at a pressure and a temperature, J/kg.
   /// @throws StateError if one of them does not exist there

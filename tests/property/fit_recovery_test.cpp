@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eos/models/gray_melting_curve.hpp"
+
 namespace whipple::fit {
 namespace {
 
@@ -51,6 +53,31 @@ TEST(FitRecovery, IsochoricMeltingFollowsTheSolidVolume) {
   EXPECT_GT(band.value("melting_temperature"), truth.melting_temperature + 50.0);
   // The constants of the other law shift gamma a little, and the reading of the points with it.
   EXPECT_NEAR(*band.isochoric_melting_temperature, truth.melting_temperature, 0.1);
+}
+
+// The solid of a coexistence point is in equilibrium with a liquid of another volume: the constants come
+// back, and the complete model melts at the points' own temperatures and pressures.
+TEST(FitRecovery, EquilibriumMeltingFollowsTheCommonTangent) {
+  eos::GrayConstants truth = true_constants();
+  truth.melting = "equilibrium";
+  Noise noise;
+  noise.silent = true;
+  const SyntheticStore store(truth, noise, 1);
+  FitSettings settings = noise_only();
+  settings.melting = "equilibrium";
+  const GrayFit fit = fit_gray(store.points, settings, "synthetic");
+  EXPECT_NEAR(fit.value("melting_temperature"), truth.melting_temperature, 0.01);
+  EXPECT_EQ(fit.gray.melting, "equilibrium");
+  const eos::GrayFreeEnergy surface(truth);
+  const eos::GrayMeltingCurve curve(surface);
+  int points = 0;
+  for (const md::PointRecord& point : store.points) {
+    if (point.protocol != "coexistence") continue;
+    const double T = point.results.at("melting_temperature").value;
+    EXPECT_NEAR(curve.at_pressure(point.conditions.at("pressure")).temperature, T, 1e-6 * T);
+    ++points;
+  }
+  EXPECT_GT(points, 3);
 }
 
 // With model errors the total error exceeds the noise, and data that obey the laws leave chi^2 below its

@@ -85,10 +85,11 @@ class SyntheticStore {
     for (const double ratio : {0.98, 0.93, 0.88}) add_state("isotherm", ratio * v0, 293.0, surface);
     const Melting melting(constants);
     for (const double ratio : {1.06, 1.02, 0.98, 0.94}) {
-      const eos::GrayBand band = surface.band(surface.isochore(ratio * v0));
-      const double heat = melting.latent_heat(band.P1, band.T1);
-      add("coexistence", {{"pressure", band.P1}},
-          {{"melting_temperature", noisy(band.T1, noise.melting)},
+      const double temperature = melting.solidus(ratio * v0);
+      const double pressure = surface.solid(ratio * v0, temperature).pressure;
+      const double heat = melting.latent_heat(pressure, temperature);
+      add("coexistence", {{"pressure", pressure}},
+          {{"melting_temperature", noisy(temperature, noise.melting)},
            {"solid_specific_volume", {ratio * v0, 0.0}},
            {"latent_heat", noisy(heat, noise.latent_heat * heat)}});
     }
