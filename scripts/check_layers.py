@@ -32,7 +32,7 @@ MAY_USE = {
     "src/solver": ["src/base", "src/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
                    "src/fem", "src/contact", "src/afemp", "src/io", "src/setup"],
     # Times the solver.
-    "src/bench": ["src/base", "src/parallel", "src/process", "src/particles", "src/grid", "src/transfer", "src/setup", "src/solver"],
+    "src/bench": ["src/base", "src/parallel", "src/process", "src/particles", "src/grid", "src/transfer", "src/io", "src/setup", "src/solver"],
     # Reads what runs wrote; knows no solver.
     "src/analysis": ["src/base", "src/input", "src/parallel", "src/hdf5"],
     "md_fitting/data_set": ["src/base", "src/hdf5"],

@@ -31,6 +31,7 @@ except ImportError as missing:
 
 # Clamps are counted by the solver and shown if there were any.
 COUNTED = (("below_cold_curve", "points clamped to the cold curve"),
+           ("at_pressure_floor", "points held at the floor of their pressure"),
            ("limited_volume_changes", "limited changes of volume"))
 # Columns of the table of bodies: heading and factor.
 BODY_COLUMNS = {"mass": ("mass (g)", 1e3), "axial_momentum": ("axial momentum (kg m/s)", 1),

@@ -12,9 +12,11 @@
 
 #include "src/base/error.hpp"
 #include "src/bench/stage_cost.hpp"
+#include "src/io/ranks.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
 #include "src/process/paths.hpp"
+#include "src/setup/tables.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::bench {
@@ -76,8 +78,8 @@ Part time_steps(solver::Simulation& simulation, std::size_t steps) {
 Measurement measure(const Problem& problem, int threads, Length length) {
   const MPI_Comm world = parallel::world();
   parallel::set_threads(threads);
-  const setup::Case setup =
-      setup::read_case(process::find_data(problem.case_file).string(), problem.overrides);
+  setup::Case setup = setup::read_case(process::find_data(problem.case_file).string(), problem.overrides);
+  setup::tabulate_materials(setup, io::Ranks(world));
   std::optional<solver::Simulation> simulation(std::in_place, setup, world);
   const bool whole = length == Length::whole;
   const int share = length == Length::quick ? 5 : 1;

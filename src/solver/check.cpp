@@ -6,10 +6,13 @@
 #include <cmath>
 #include <thread>
 
+#include "eos/table/table.hpp"
 #include "src/base/error.hpp"
 #include "src/base/machine.hpp"
 #include "src/base/text.hpp"
+#include "src/io/ranks.hpp"
 #include "src/parallel/threads.hpp"
+#include "src/setup/tables.hpp"
 #include "src/solver/preparation.hpp"
 #include "src/solver/run.hpp"
 #include "src/solver/simulation.hpp"
@@ -36,9 +39,10 @@ void require_memory(const setup::Case& setup, MPI_Comm communicator) {
 std::string check(const RunOptions& options) {
   const MPI_Comm communicator = parallel::world();
   set_threads(options.threads, communicator);
-  const setup::Case setup = setup::read_case(options.case_file, options.overrides);
+  setup::Case setup = setup::read_case(options.case_file, options.overrides);
   require_runnable(setup, parallel::size(communicator));
   require_memory(setup, communicator);
+  setup::tabulate_materials(setup, io::Ranks(communicator));
   Simulation simulation(setup, communicator);
   std::string text = fmt::format("{}\n{}\n\n", setup.file.string(), setup.title);
   text += fmt::format("grid: {} x {} x {} cells of {:.6g} mm\n", setup.geometry.cells[0],
@@ -53,6 +57,11 @@ std::string check(const RunOptions& options) {
     text += fmt::format("body \"{}\" of {}: {}, {:.6g} g in the domain; whole shape {:.6g} g\n",
                         setup.bodies[b].name, setup.materials[b]->name, parts, 1e3 * body.mass,
                         1e3 * body.shape_mass);
+    if (const auto* table = dynamic_cast<const eos::Table*>(setup.materials[b]->eos.get())) {
+      text += fmt::format("  equation of state: table of {}, {} kB, error {:.2g}, {:.4g} to {:.6g} kg/m^3\n",
+                          table->data().origin, table->data().size() / 1000, table->data().requested_error,
+                          table->minimum_density(), table->maximum_density());
+    }
   }
   const std::size_t particles = simulation.particle_count();
   simulation.advance(setup.time.end);  // activates the blocks

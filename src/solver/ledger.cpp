@@ -102,6 +102,7 @@ void Ledger::add(const Ledger& step) {
   converted_mass += step.converted_mass;
   conversion_heat += step.conversion_heat;
   clamped_to_cold_curve += step.clamped_to_cold_curve;
+  held_at_pressure_floor += step.held_at_pressure_floor;
   limited_volume_changes += step.limited_volume_changes;
   limited_domains += step.limited_domains;
 }

@@ -73,6 +73,7 @@ struct Ledger {
   double conversion_heat = 0.0;   ///< J, kinetic energy that this took, into internal energy
   double clamped_to_cold_curve =
       0.0;  ///< evaluations below the cold curve (temperature clamped, energy kept)
+  double held_at_pressure_floor = 0.0;  ///< evaluations at the least pressure of a modifier `floor`
   double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
   double limited_domains = 0.0;  ///< steps of particles whose domain was larger than its shape function takes
 
@@ -114,6 +115,7 @@ void for_each_number(L& ledger, Function&& f) {
   f("converted_mass", ledger.converted_mass);
   f("conversion_heat", ledger.conversion_heat);
   f("clamped_to_cold_curve", ledger.clamped_to_cold_curve);
+  f("held_at_pressure_floor", ledger.held_at_pressure_floor);
   f("limited_volume_changes", ledger.limited_volume_changes);
   f("limited_domains", ledger.limited_domains);
   f("largest_kinetic_energy", ledger.largest_kinetic_energy);

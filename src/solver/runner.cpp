@@ -87,6 +87,7 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
       {"maximum_pressure", "Pa", maxima[1]},
       {"maximum_temperature", "K", maxima[2]},
       {"below_cold_curve", "1", state.ledger.clamped_to_cold_curve},
+      {"at_pressure_floor", "1", state.ledger.held_at_pressure_floor},
       {"limited_volume_changes", "1", state.ledger.limited_volume_changes},
       {"particles", "1", static_cast<double>(simulation.particle_count())},
   };
@@ -327,9 +328,14 @@ class Runner {
     log::info("{} steps to t = {:.6g} s in {}; energy error {:.2e}, momentum error {:.2e}, outflow {:.3g} kg",
               state.step, state.time, format_duration(wall), state.ledger.energy_error(totals),
               state.ledger.momentum_error(totals), state.ledger.outflow.mass);
-    if (state.ledger.clamped_to_cold_curve > 0 || state.ledger.limited_volume_changes > 0) {
-      log::info("clamped: temperature below the cold curve {} times, volume change of a step {} times",
-                state.ledger.clamped_to_cold_curve, state.ledger.limited_volume_changes);
+    if (state.ledger.clamped_to_cold_curve > 0 || state.ledger.held_at_pressure_floor > 0 ||
+        state.ledger.limited_volume_changes > 0) {
+      log::info(
+          "clamped: temperature below the cold curve {} times, pressure at its floor {} times, volume change "
+          "of a "
+          "step {} times",
+          state.ledger.clamped_to_cold_curve, state.ledger.held_at_pressure_floor,
+          state.ledger.limited_volume_changes);
     }
     log::info("wrote {} ({} snapshots: open {} in ParaView)", directory_.path().string(),
               series_.particles.size(), series_.particles.index_path().string());

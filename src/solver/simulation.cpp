@@ -396,6 +396,7 @@ void Simulation::update_material(EnergyUpdate energy) {
       MaterialReport report;
       for (const MaterialReport& part : reports) report.merge(part);
       step_.clamped_to_cold_curve += static_cast<double>(report.equation_of_state.below_cold_curve);
+      step_.held_at_pressure_floor += static_cast<double>(report.equation_of_state.at_pressure_floor);
       step_.limited_volume_changes += static_cast<double>(report.limited_volume_changes);
       if (!error.empty()) return;
       if (report.undefined != 0) {
