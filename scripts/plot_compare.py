@@ -16,7 +16,7 @@ def numbers(values):
 
 
 def label(quantity, unit):
-    names = {"up": "particle velocity", "Us": "shock velocity", "P": "pressure", "V/V0": "$V/V_0$"}
+    names = {"up": "particle velocity", "Us": "shock velocity", "P": "pressure", "V/V0": "$V/V_0$", "T": "temperature"}
     name = names.get(quantity, quantity)
     return f"{name} ({unit})" if unit else name
 

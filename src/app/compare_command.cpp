@@ -52,6 +52,8 @@ Style style(ExperimentKind kind) {
       return {"Hugoniot", "GPa", 1e9, "V/V0", "", 1.0, "P", "GPa", 1e9};
     case ExperimentKind::isotherm:
       return {"isotherm", "GPa", 1e9, "V/V0", "", 1.0, "P", "GPa", 1e9};
+    case ExperimentKind::melting:
+      return {"melting line", "% of T", 1.0, "P", "GPa", 1e9, "T", "K", 1.0};
   }
   throw InternalError("unknown kind of experiment");
 }
@@ -172,6 +174,12 @@ void run(const Options& options) {
   std::vector<Row> rows;
   for (const Experiment& experiment : experiments) {
     for (const Material& material : materials) {
+      // The data of copper are not for what the data of aluminium are for; a material that none of the data
+      // name is compared with all.
+      const bool of_others = std::ranges::any_of(experiments, [&](const Experiment& other) {
+        return !other.material.empty() && belongs_to(other, material);
+      });
+      if (of_others && !belongs_to(experiment, material)) continue;
       rows.push_back({&experiment, &material, material.file.stem().string(), compare(material, experiment)});
     }
   }
@@ -187,12 +195,13 @@ void run(const Options& options) {
 
 void add_compare_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("compare", "Compare equations of state with measured Hugoniots and isotherms");
+  CLI::App* command = app.add_subcommand(
+      "compare", "Compare equations of state with measured Hugoniots, isotherms and melting lines");
   command->add_option("materials", options->materials, "Material files, or names of the library")->required();
   command
       ->add_option("--with", options->experiments,
-                   "CSV files of experiments, or names of those that come with the program (eos/data)")
+                   "CSV files of experiments, or names of those that come with the program (eos/data); a "
+                   "material that some of them were measured on is compared with those only")
       ->required();
   command->add_option("--temperature", options->temperature,
                       "Temperature of the isotherms (default: what the file says)");

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -146,6 +147,27 @@ bool says_hugoniot(const Csv& csv, const std::filesystem::path& path) {
                      [](const std::string& comment) { return std::regex_search(comment, word); });
 }
 
+/// The temperature of a file that has no volumes: a melting line.
+std::optional<std::size_t> melting_column(const Csv& csv) {
+  for (const char* volume : {"V", "atomic_volume", "rho"}) {
+    if (find_column(csv, volume)) return std::nullopt;
+  }
+  if (find_exact(csv, "V_over_V0")) return std::nullopt;
+  const auto temperature = find_column(csv, "Tm");
+  return temperature ? temperature : find_column(csv, "T");
+}
+
+std::string measured_material(const Csv& csv) {
+  constexpr std::string_view key = "material:";
+  for (const std::string& comment : csv.comments) {
+    if (!comment.starts_with(key)) continue;
+    const std::size_t first = comment.find_first_not_of(' ', key.size());
+    return first == std::string::npos ? ""
+                                      : comment.substr(first, comment.find_last_not_of(" \r") + 1 - first);
+  }
+  return "";
+}
+
 double isotherm_temperature(const Csv& csv, const std::filesystem::path& path) {
   static const std::regex in_name("(^|_)([0-9]+)K(_|$)");
   static const std::regex in_comment("(^|[ (,])([0-9]+(\\.[0-9]+)?) K([ ,.;)]|$)");
@@ -280,6 +302,7 @@ Experiment read_experiment(const std::filesystem::path& file, std::optional<doub
   experiment.file = file;
   experiment.name = file.stem().string();
   experiment.source = csv.comments.empty() ? "" : csv.comments.front();
+  experiment.material = measured_material(csv);
   const auto us = find_column(csv, "us");
   const auto up = find_column(csv, "up");
   if (us && up) {
@@ -291,11 +314,18 @@ Experiment read_experiment(const std::filesystem::path& file, std::optional<doub
   const auto p = pressure_column(csv);
   if (!p) {
     throw InputError(
-        fmt::format("{}: neither a Hugoniot (columns us_km_s, up_km_s) nor pressures (P_GPa) with volumes; "
+        fmt::format("{}: neither a Hugoniot (columns us_km_s, up_km_s) nor pressures (P_GPa) with volumes or "
+                    "melting temperatures (T_K); "
                     "the columns are {}",
                     file.string(), fmt::join(csv.names, ", ")));
   }
   const std::vector<double> pressure = column(csv, *p, "Pa", file);
+  if (const auto melting = melting_column(csv)) {
+    experiment.kind = ExperimentKind::melting;
+    const std::vector<double> melting_temperature = column(csv, *melting, "K", file);
+    set_points(experiment, pressure, melting_temperature, melting_temperature);
+    return experiment;
+  }
   const std::vector<double> ratios = volume_ratios(csv, pressure, experiment);
   if (says_hugoniot(csv, file)) {
     experiment.kind = ExperimentKind::shock_pressure;
@@ -305,6 +335,16 @@ Experiment read_experiment(const std::filesystem::path& file, std::optional<doub
   }
   set_points(experiment, ratios, pressure, pressure);
   return experiment;
+}
+
+bool belongs_to(const Experiment& experiment, const Material& material) {
+  const auto lower = [](std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+  };
+  const std::string word = lower(experiment.material);
+  return lower(material.name).find(word) != std::string::npos ||
+         lower(material.file.stem().string()).find(word) != std::string::npos;
 }
 
 std::vector<double> curve(const Material& material, const Experiment& experiment,
@@ -321,6 +361,13 @@ std::vector<double> curve(const Material& material, const Experiment& experiment
       }
     }
   };
+  if (experiment.kind == ExperimentKind::melting) {
+    guarded([&](double pressure) {
+      const auto melting = eos::melting_point(eos, pressure);
+      return melting ? 0.5 * (melting->solidus.temperature + melting->liquidus.temperature) : nan;
+    });
+    return values;
+  }
   if (experiment.kind == ExperimentKind::isotherm) {
     const double density = eos::density_at_pressure(eos, 0.0, experiment.temperature);
     guarded([&](double ratio) {
@@ -344,8 +391,9 @@ Comparison compare(const Material& material, const Experiment& experiment) {
   for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
     const double measured = experiment.ordinate[i];
     const double difference = result.model[i] - measured;
-    const double deviation =
-        experiment.kind == ExperimentKind::shock_velocity ? 100.0 * difference / measured : difference;
+    const bool relative =
+        experiment.kind == ExperimentKind::shock_velocity || experiment.kind == ExperimentKind::melting;
+    const double deviation = relative ? 100.0 * difference / measured : difference;
     result.deviation.push_back(deviation);
     if (std::isnan(deviation)) {
       ++result.out_of_range;

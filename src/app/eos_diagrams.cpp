@@ -195,13 +195,22 @@ void densities(Diagram& diagram, const EquationOfState& eos, double greatest,
   if (dome == nullptr) return;
   const eos::CriticalPoint& critical = dome->critical_point();
   std::vector<double> branch;  // up the liquid, down the vapour: negative pressures
-  const std::vector<double> pressures = geometric(lowest_pressure, 0.9999 * critical.pressure, curve_points);
+  // The densities meet at the critical point like square roots: points closer to each other towards it.
+  std::vector<double> pressures;
+  for (const double x : spaced(1, 0, curve_points))
+    pressures.push_back(critical.pressure * std::pow(lowest_pressure / critical.pressure, x * x));
   for (const double p : pressures) branch.push_back(p);
   for (auto p = pressures.rbegin(); p != pressures.rend(); ++p) branch.push_back(-*p);
   diagram.add("liquid and vapour", "dashed", branch, [&](double p) {
+    State s;
+    if (std::abs(p) == critical.pressure) {
+      s.pressure = critical.pressure;
+      s.temperature = critical.temperature;
+      s.density = 1 / critical.specific_volume;
+      return s;
+    }
     const auto saturation = dome->at_pressure(std::abs(p));
     if (!saturation) throw StateError("outside of the dome");
-    State s;
     s.pressure = saturation->pressure;
     s.temperature = saturation->temperature;
     s.density = 1 / (p > 0 ? saturation->liquid_volume : saturation->vapour_volume);

@@ -92,7 +92,15 @@ State state_from(const EosOptions& o, const EquationOfState& eos) {
                     pressure.has_value() + entropy.has_value();
   if (given == 0) return eos.state(eos.reference_density(), eos.reference_energy());
   if (given == 2 && density && temperature) return eos.state_at_temperature(*density, *temperature);
-  if (given == 2 && density && energy) return eos.state(*density, *energy);
+  if (given == 2 && density && energy) {
+    const State state = eos.state(*density, *energy);  // of the coldest state, if there is less energy
+    if (const double least = eos.minimum_energy(*density); *energy < least) {
+      throw StateError(fmt::format(
+          "{}: no state with {:.6g} J/kg at {:.6g} kg/m^3: the coldest one, of {} K, has {:.6g} J/kg",
+          eos.model(), *energy, *density, eos.least_temperature(), least));
+    }
+    return state;
+  }
   if (given == 2 && density && pressure) return eos::state_at_pressure(eos, *density, *pressure);
   if (given == 2 && density && entropy) return eos::state_at_entropy(eos, *density, *entropy);
   if (given == 2 && pressure && temperature) {

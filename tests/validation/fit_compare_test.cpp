@@ -40,6 +40,30 @@ Material copper(bool measured) {
                        std::make_shared<eos::ModelEquationOfState<eos::Gray>>(c));
 }
 
+// Brand et al., High Press. Res. 26 (2006) 185, to 16 GPa; X-ray absorption plateau and other points beyond.
+TEST(Compare, CopperMeltingLine) {
+  const Experiment melting = read_experiment(data / "cu_melting.csv");
+  EXPECT_EQ(melting.kind, ExperimentKind::melting);
+  ASSERT_EQ(melting.abscissa.size(), 12u);
+  EXPECT_NEAR(melting.ordinate.front(), 1355.0, 1e-9);
+  const Comparison measured = compare(copper(true), melting);
+  EXPECT_EQ(measured.points, 12);
+  EXPECT_NEAR(measured.rms, 3.39, 0.05);             // % of T
+  EXPECT_NEAR(measured.model.front(), 1331.0, 1.0);  // between solidus and liquidus
+}
+
+TEST(Compare, DataNameTheirMaterial) {
+  const Experiment copper_data = read_experiment(data / "cu_hugoniot_marsh1980.csv"),
+                   aluminium_data = read_experiment(data / "al_hugoniot_mitchell_nellis1981.csv");
+  Material material = copper(true);
+  material.name = "Copper, drawn";
+  EXPECT_TRUE(belongs_to(copper_data, material));
+  EXPECT_FALSE(belongs_to(aluminium_data, material));
+  material.name = "unknown";
+  material.file = "copper_x.toml";
+  EXPECT_TRUE(belongs_to(copper_data, material));
+}
+
 // Marsh (ed.), LASL Shock Hugoniot Data (1980): 144 shocks up to 366 GPa.
 TEST(Compare, CopperHugoniotOfMarsh) {
   const Experiment marsh = read_experiment(data / "cu_hugoniot_marsh1980.csv");
