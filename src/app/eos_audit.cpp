@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "eos/audit.hpp"
+#include "eos/detonation.hpp"
+#include "eos/models/jwl.hpp"
 #include "src/base/error.hpp"
 #include "src/base/text_table.hpp"
 
@@ -92,6 +94,14 @@ void print_audit(const Material& material) {
                           audit.boiling->latent_heat() * 1e-6);
     }
     lines.push_back({"vapour", text});
+  }
+  if (material.eos->model() == eos::Jwl::name) {
+    const eos::ChapmanJouguet wave = eos::chapman_jouguet(*material.eos);
+    lines.push_back(
+        {"detonation",
+         fmt::format("Chapman-Jouguet: {:.4g} km/s, {:.4g} GPa, {:.5g} kg/m^3, particles {:.4g} km/s",
+                     wave.detonation_velocity * 1e-3, wave.state.pressure * 1e-9, wave.state.density,
+                     wave.particle_velocity * 1e-3)});
   }
   const bool usable = audit.verdict() != eos::Verdict::not_usable;
   if (usable) lines.push_back({"valid", audit.range_text()});
