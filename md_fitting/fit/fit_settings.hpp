@@ -31,7 +31,8 @@ struct FitSettings {
   double least_particle_velocity = 300.0;  ///< m/s, window of the Hugoniot states
   double most_particle_velocity = 2500.0;  ///< m/s
   /// "band": the lower edge of the model's melting band runs through the coexistence points; "isochoric":
-  /// T_m(V) itself does; "equilibrium": the common tangent of solid and liquid. It is also the melting transition of the material.
+  /// T_m(V) itself does; "equilibrium": the common tangent of solid and liquid. It is also the melting
+  /// transition of the material.
   std::string melting = "band";
   ModelErrors model_errors;
   std::string electrons;  ///< name of a choice of the element's table, or a quantity; empty: the first choice

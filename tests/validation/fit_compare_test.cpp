@@ -174,7 +174,7 @@ TEST(Compare, ReportsFilesThatItCannotUse) {
   EXPECT_THAT(refusal("# no temperature\nP_GPa,V_over_V0\n1,0.99\n"), HasSubstr("give --temperature"));
   EXPECT_THAT(refusal("T_K,alpha\n1,2\n"), HasSubstr("the columns are T_K, alpha"));
   EXPECT_THAT(refusal("# 298 K\nP_GPa,atomic_volume_A3\n1,11.7\n"), HasSubstr("add a row with P = 0"));
-  EXPECT_THAT(refusal("# 298 K\nP_GPa,T_K\n1,2\n"), HasSubstr("no column of volume"));
+  EXPECT_THAT(refusal("# 298 K\nP_GPa,c_km_s\n1,2\n"), HasSubstr("no column of volume"));
   EXPECT_THAT(refusal("us_km_s,up_km_s\n5,x\n"),
               HasSubstr("measurement.csv:2: 'x' in column up_km_s is not a number"));
   EXPECT_THAT(refusal("us_km_s,up_km_s\n5\n"), HasSubstr("measurement.csv:2: 1 cells, the header has 2"));
