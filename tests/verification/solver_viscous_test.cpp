@@ -2,10 +2,12 @@
 // Viscous fluid: the decaying vortex of Taylor and Green, an exact solution of the Navier-Stokes equations
 // between frictionless walls, v = U (sin kx cos ky, -cos kx sin ky) exp(-2 nu k^2 t), k = pi/L. Proves the
 // viscosity, its heat, and the bound of the time step. Source: G. I. Taylor, A. E. Green, Proc. R. Soc. A 158
-// (1937) 499, its plane form in G. K. Batchelor (1967).
+// (1937) 499, its plane form in G. K. Batchelor (1967). And the flow of Poiseuille as it begins between
+// no-slip walls: proves the walls, and the order of convergence with them.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "tests/verification/solver_problems.hpp"
@@ -97,6 +99,64 @@ TEST(ViscousFluid, TaylorGreenVortexDecaysAtTheExactRateAndItsEnergyIsHeat) {
     EXPECT_LT(d.energy_error, 1e-11);
     EXPECT_LT(d.largest_step, 1.0 / 18.0 + 1e-12);
   }
+}
+
+/// A body force drives fluid at rest between no-slip walls at y = 0 and y = H; parallel to them the fluid is
+/// five times as long as the channel is wide, with free ends, and only its middle counts.
+struct Channel {
+  static constexpr double width = 0.01, nu = 0.004, largest = 0.5, time = 0.1 * width * width / nu;
+  static constexpr double force = 8.0 * nu * largest / (width * width);  // per mass
+
+  /// Start-up of the plane flow (Batchelor, An Introduction to Fluid Dynamics (1967), section 4.3).
+  static double exact(double y) {
+    double u = 0.5 * force / nu * y * (width - y);
+    for (int n = 1; n < 40; n += 2) {
+      const double k = n * std::numbers::pi / width;
+      u -= 4.0 * force * width * width / (nu * std::pow(n * std::numbers::pi, 3)) *
+           std::exp(-nu * k * k * time) * std::sin(k * y);
+    }
+    return u;
+  }
+
+  /// Root mean square error of the velocity over its largest value.
+  static double error(int cells) {
+    const double dx = width / cells;
+    const std::string thickness = std::to_string(1e3 * dx) + " mm";
+    const setup::Case setup = setup::read_case_text(
+        "[domain]\nlower = [0, 0, 0]\nupper = [\"70 mm\", \"10 mm\", \"" + thickness + "\"]\ncell_size = \"" +
+            thickness +
+            "\"\nboundary = { y_lower = \"no_slip\", y_upper = \"no_slip\", z_lower = \"symmetry\", z_upper "
+            "= "
+            "\"symmetry\" }\n[time]\nend = 1\n[transfer]\nkappa = 0\n[artificial_viscosity]\nlinear = "
+            "0\nquadratic "
+            "= 0\n[gravity]\nacceleration = [" +
+            std::to_string(force) + ", 0, 0]\n[[body]]\nname = \"fluid\"\nmaterial = \"" + fluid() +
+            "\"\nshape = { box = { lower = [\"10 mm\", 0, 0], upper = [\"60 mm\", \"10 mm\", \"" + thickness +
+            "\"] } }\n",
+        "channel.toml");
+    solver::Simulation simulation(setup, parallel::world());
+    double energy_error = 0;
+    verification::run_to(simulation, time, [&](const solver::Simulation& s) {
+      energy_error = std::max(energy_error, std::abs(s.state().ledger.energy_error(s.totals())));
+    });
+    EXPECT_LT(energy_error, 1e-11);
+    const Particles& q = simulation.particles();
+    double squares = 0, count = 0;
+    for (std::size_t p = 0; p < q.size(); ++p) {
+      if (std::abs(q.position[p][0] - 0.035) > 0.005) continue;
+      squares += std::pow(q.velocity[p][0] - exact(q.position[p][1]), 2);
+      ++count;
+    }
+    const double result = std::sqrt(squares / count) / exact(0.5 * width);
+    std::printf("channel of %d cells: error %.3e, energy error %.1e\n", cells, result, energy_error);
+    return result;
+  }
+};
+
+TEST(ViscousFluid, PoiseuilleFlowBeginsBetweenNoSlipWallsAsTheExactSolution) {
+  const double coarse = Channel::error(8), fine = Channel::error(16);
+  EXPECT_LT(fine, 0.01);
+  EXPECT_GT(std::log2(coarse / fine), 1.7);  // order
 }
 
 }  // namespace
