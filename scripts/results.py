@@ -5,8 +5,9 @@
 usage: results.py [CASE[:RUN]]... [--resolution coarse|normal|fine] [--run] [--threads N] [--write] [--list]
 
 Without --run, runs that are there are compared. A run lies in run/results/CASE/RUN.RESOLUTION and is repeated only if
-its command line changed (after a change of case.toml or of a material, remove its folder). --write replaces the part of docs/results.md between the markers; everything that has been
-run, in any resolution, is in it. Format of expected.toml: docs/how_to/expected_results.md.
+its command line changed (after a change of case.toml or of a material, remove its folder). --write renews the part of
+docs/results.md between the markers: everything that has been run, in any resolution, is in it; cases that have no run
+here keep their tables. Format of expected.toml: docs/how_to/expected_results.md.
 Exit code 1 if a run failed, 2 for bad input; a quantity outside of its tolerance is a result, not an error.
 """
 import argparse
@@ -73,14 +74,26 @@ def analyse(whipple, folder, run, threads):
     return done.returncode == 0
 
 
-def write_document(text):
+def sections(text):
+    """The tables of the cases by their headings, in order."""
+    parts = text.split("\n### ")
+    return {part.split("\n", 1)[0]: "### " + part.strip("\n") for part in parts[1:]}
+
+
+def write_document(compared):
     path = ROOT / "docs" / "results.md"
     old = path.read_text()
     if not all(marker in old for marker in MARKERS):
         raise BadExpectation(f"{path}: the markers of the generated part are missing")
     head, rest = old.split(MARKERS[0])
-    tail = rest.split(MARKERS[1])[1]
-    path.write_text(head + MARKERS[0] + "\n\n" + text + "\n" + MARKERS[1] + tail)
+    former, tail = rest.split(MARKERS[1])
+    titles = [Case(case).title for case in sorted((ROOT / "cases").glob("*/expected.toml"))]
+    known = sections(former) | sections("\n" + results_table.as_markdown(compared))
+    body = "\n\n".join(known[title] for title in titles if title in known)
+    passed, failed = body.count(" pass |"), body.count("**FAIL** |")
+    summary = (f"{passed} of {passed + failed} compared quantities pass. Coarse runs are there to show the convergence; "
+               f"failures are named with what is known of their cause.")
+    path.write_text(f"{head}{MARKERS[0]}\n\n{summary}\n\n{body}\n\n{MARKERS[1]}{tail}")
     print(f"wrote {path}")
 
 
@@ -134,7 +147,7 @@ def main():
                 compared.append(results_table.compare(case, run, resolution, folder))
         print(results_table.as_text(compared))
         if arguments.write:
-            write_document(results_table.as_markdown(compared))
+            write_document(compared)
     except BadExpectation as error:
         print(f"results.py: error: {error}", file=sys.stderr)
         return 2
