@@ -264,10 +264,9 @@ void distribute(const transfer::TransitionNodes& nodes, std::vector<fem::Mesh>& 
   });
 }
 
-Vector3 stop_at_faces(fem::Mesh& mesh, const grid::Geometry& geometry, double dt, fem::Motion& motion,
+Vector3 stop_at_faces(fem::Nodes& nodes, const grid::Geometry& geometry, double dt, fem::Motion& motion,
                       std::span<double> heat) {
   Vector3 impulse = Vector3::Zero();
-  fem::Nodes& nodes = mesh.nodes;
   for (std::size_t a = 0; a < nodes.size(); ++a) {
     for (int axis = 0; axis < 3; ++axis) {
       const double next = nodes.position[a][axis] + dt * motion.end[a][axis];

@@ -45,7 +45,7 @@ void distribute(const transfer::TransitionNodes& nodes, std::vector<fem::Mesh>& 
 /// on it, a perfectly inelastic impact whose energy becomes heat at the node (2.5). `motion` and velocities
 /// as `fem::advance_velocities` left them.
 /// @returns impulse of the faces on the body, N s
-Vector3 stop_at_faces(fem::Mesh& mesh, const grid::Geometry& geometry, double dt, fem::Motion& motion,
+Vector3 stop_at_faces(fem::Nodes& nodes, const grid::Geometry& geometry, double dt, fem::Motion& motion,
                       std::span<double> heat);
 
 }  // namespace whipple::afemp

@@ -137,6 +137,40 @@ double deform(Bars& bars, const Motion& motion, double dt) {
   });
 }
 
+void add_heat(Bars& bars, std::span<const double> node_heat) {
+  parallel::for_each(bars.elements.size(), [&](std::size_t b) {
+    for (const std::uint32_t a : bars.elements.ends[b]) {
+      bars.elements.internal_energy[b] += 0.5 * bars.elements.mass[b] / bars.nodes.mass[a] * node_heat[a];
+    }
+  });
+}
+
+void remove_bars(Bars& bars, std::span<const std::uint8_t> removed) {
+  std::vector<std::uint32_t> kept_bars, kept_nodes, number(bars.nodes.size(), 0);
+  std::ranges::fill(bars.nodes.mass, 0.0);
+  for (std::uint32_t b = 0; b < removed.size(); ++b) {
+    if (removed[b] != 0) continue;
+    kept_bars.push_back(b);
+    for (const std::uint32_t a : bars.elements.ends[b]) bars.nodes.mass[a] += 0.5 * bars.elements.mass[b];
+  }
+  for (std::uint32_t a = 0; a < bars.nodes.size(); ++a) {
+    if (!(bars.nodes.mass[a] > 0.0)) continue;
+    number[a] = static_cast<std::uint32_t>(kept_nodes.size());
+    kept_nodes.push_back(a);
+  }
+  const auto keep = [](auto& points, const std::vector<std::uint32_t>& kept) {
+    for_each_field<std::decay_t<decltype(points)>>([&](const auto& field) {
+      auto& values = points.*(field.values);
+      for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
+      values.resize(kept.size());
+    });
+  };
+  keep(bars.elements, kept_bars);
+  keep(bars.nodes, kept_nodes);
+  for (auto& ends : bars.elements.ends) ends = {number[ends[0]], number[ends[1]]};
+  connect(bars);
+}
+
 double internal_energy(const Bars& bars) {
   return parallel::sum<double>(bars.elements.size(),
                                [&](std::size_t b) { return bars.elements.internal_energy[b]; });

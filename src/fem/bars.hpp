@@ -87,4 +87,10 @@ double deform(Bars& bars, const Motion& motion, double dt);
 
 double internal_energy(const Bars& bars);
 
+/// Shares heat given at the nodes (J) among their bars by mass.
+void add_heat(Bars& bars, std::span<const double> node_heat);
+
+/// Takes bars (`removed` != 0) away, with the mass that they gave to their nodes; nodes without bars vanish.
+void remove_bars(Bars& bars, std::span<const std::uint8_t> removed);
+
 }  // namespace whipple::fem

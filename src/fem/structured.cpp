@@ -183,6 +183,19 @@ Hexahedra make_cylinder(double radius, double length, double size, const Halved&
   return mesh;
 }
 
+Hexahedra make_ogive(double radius, double nose, double shank, double size, const Halved& halved) {
+  require_positive("ogive", "the length of the nose", nose);
+  Hexahedra mesh = make_cylinder(radius, shank + nose, size, halved);
+  const double arc = (radius * radius + nose * nose) / (2.0 * radius), depth = arc - radius;
+  for (Vector3& x : mesh.nodes) {
+    const double along = std::clamp(x[2] - shank, 0.0, nose);
+    const double share = std::max((std::sqrt(arc * arc - along * along) - depth) / radius, ogive_tip);
+    x[0] *= share;
+    x[1] *= share;
+  }
+  return mesh;
+}
+
 Hexahedra make_tube(double inner_radius, double outer_radius, double length, double size,
                     const Halved& halved) {
   require_positive("tube", "the inner radius", inner_radius);

@@ -26,6 +26,15 @@ Hexahedra make_box(const Vector3& lower, const Vector3& upper, double size);
 /// @throws InputError if a length is not positive
 Hexahedra make_cylinder(double radius, double length, double size, const Halved& halved = {});
 
+/// Radius of the flat end that meshes of ogives have in the place of a tip, over that of the shank: elements
+/// do not become arbitrarily small.
+constexpr double ogive_tip = 0.25;
+
+/// Tangent ogive about the z axis: a shank from z = 0 to `shank`, then a nose of the length `nose` that ends
+/// in a disc of `ogive_tip`; a butterfly mesh as that of a cylinder. `halved[2]` is not used.
+/// @throws InputError if radius or nose is not positive
+Hexahedra make_ogive(double radius, double nose, double shank, double size, const Halved& halved = {});
+
 /// Tube about the z axis from z = 0 to `length`; `halved[2]` is not used.
 /// @throws InputError if a length is not positive or the inner radius not below the outer one
 Hexahedra make_tube(double inner_radius, double outer_radius, double length, double size,

@@ -53,6 +53,11 @@ struct Numbers<fem::Corners> {
   using Type = std::uint32_t;
   static constexpr std::uint64_t columns = 8;
 };
+template <>
+struct Numbers<std::array<std::uint32_t, 2>> {
+  using Type = std::uint32_t;
+  static constexpr std::uint64_t columns = 2;
+};
 template <class Value>
 constexpr std::uint64_t width() {
   constexpr std::uint64_t columns = Numbers<Value>::columns == 0 ? 1 : Numbers<Value>::columns;
@@ -145,6 +150,26 @@ void write_meshes(const hdf5::Group& group, std::span<const fem::Mesh> meshes, c
     write_points(of_mesh.create_group("elements"), mesh.elements, ranks);
     write_points(of_mesh.create_group("points"), mesh.points, ranks);
   }
+}
+
+void write_bars(const hdf5::Group& group, std::span<const fem::Bars> all, const Ranks& ranks) {
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    const hdf5::Group of_bars = group.create_group(std::to_string(m));
+    of_bars.set_attribute("body", static_cast<std::int64_t>(all[m].body));
+    write_points(of_bars.create_group("nodes"), all[m].nodes, ranks);
+    write_points(of_bars.create_group("bars"), all[m].elements, ranks);
+  }
+}
+
+std::vector<fem::Bars> read_bars(const hdf5::Group& group, const Ranks& ranks) {
+  std::vector<fem::Bars> all(group.names().size());
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    const hdf5::Group of_bars = group.open_group(std::to_string(m));
+    all[m].body = static_cast<std::uint32_t>(of_bars.integer_attribute("body"));
+    read_points(of_bars.open_group("nodes"), all[m].nodes, ranks);
+    read_points(of_bars.open_group("bars"), all[m].elements, ranks);
+  }
+  return all;
 }
 
 std::vector<fem::Mesh> read_meshes(const hdf5::Group& group, const Ranks& ranks) {
@@ -264,7 +289,7 @@ std::vector<fs::path> list_checkpoints(const fs::path& folder) {
 
 fs::path write_checkpoint(const fs::path& folder, std::int64_t step, const Particles& particles,
                           const CheckpointValues& values, MPI_Comm communicator,
-                          std::span<const fem::Mesh> meshes) {
+                          std::span<const fem::Mesh> meshes, std::span<const fem::Bars> bars) {
   const Ranks ranks(communicator);
   ranks.on_root([&] {
     std::error_code error;
@@ -279,6 +304,7 @@ fs::path write_checkpoint(const fs::path& folder, std::int64_t step, const Parti
       hdf5::File::create(partial, hdf5::File::Compatibility::checksummed, seal_size, ranks.communicator());
   write_points(file.root.create_group("particles"), particles, ranks);
   if (!meshes.empty()) write_meshes(file.root.create_group("meshes"), meshes, ranks);
+  if (!bars.empty()) write_bars(file.root.create_group("bars"), bars, ranks);
   write_values(file.root.create_group("values"), values, ranks);
   file.close();
 
@@ -300,6 +326,9 @@ Checkpoint read_checkpoint(const fs::path& path, MPI_Comm communicator) {
   const std::vector<std::string> groups = file.root.names();
   if (std::ranges::find(groups, "meshes") != groups.end()) {
     checkpoint.meshes = read_meshes(file.root.open_group("meshes"), ranks);
+  }
+  if (std::ranges::find(groups, "bars") != groups.end()) {
+    checkpoint.bars = read_bars(file.root.open_group("bars"), ranks);
   }
   checkpoint.values = read_values(file.root.open_group("values"));
   checkpoint.values.source = path.string();

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "src/fem/bars.hpp"
 #include "src/fem/mesh.hpp"
 #include "src/particles/particles.hpp"
 
@@ -35,6 +36,7 @@ struct CheckpointValues {
 struct Checkpoint {
   Particles particles;
   std::vector<fem::Mesh> meshes;  ///< of the bodies of elements; `fem::connect` must follow
+  std::vector<fem::Bars> bars;    ///< of the bodies of bars, without their material; the same
   CheckpointValues values;
   std::filesystem::path path;
 };
@@ -51,7 +53,8 @@ struct Checkpoint {
 std::filesystem::path write_checkpoint(const std::filesystem::path& folder, std::int64_t step,
                                        const Particles& particles, const CheckpointValues& values,
                                        MPI_Comm communicator = MPI_COMM_WORLD,
-                                       std::span<const fem::Mesh> meshes = {});
+                                       std::span<const fem::Mesh> meshes = {},
+                                       std::span<const fem::Bars> bars = {});
 
 /// Reads one checkpoint; every rank gets an equal share of consecutive particles. The digest is compared
 /// before HDF5 sees the file, so that damage of any kind is recognised. Collective.

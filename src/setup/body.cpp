@@ -11,6 +11,7 @@
 
 #include "src/base/error.hpp"
 #include "src/material/material_file.hpp"
+#include "src/setup/bars.hpp"
 #include "src/setup/case.hpp"
 #include "src/setup/shapes/mesh_shape.hpp"
 
@@ -65,13 +66,25 @@ void read_body(Case& setup, input::Table table, std::set<std::string>& names,
     condition.read(NodeCondition::parameters(), body.node_conditions.emplace_back());
     if (!body.discretization.has_elements()) condition.error("a body of particles has no nodes");
   }
+  for (input::Table& row : table.list("bar")) {
+    row.read(BarRow::parameters(), body.bars.emplace_back());
+    if (!body.discretization.is_bars()) {
+      row.error("bars belong to bodies with discretization.method = \"bars\"");
+    }
+  }
+  if (body.discretization.is_bars() && setup.contact.method != "none" && body.contact_group.empty()) {
+    table.error_at(
+        "contact_group",
+        "bars have no surface of their own: 'contact_group' must be that of the body that they reinforce");
+  }
   auto initial = table.optional_table("initial");
   if (initial) initial->read(InitialState::parameters(), body.initial);
   if (auto scatter = table.optional_table("failure_scatter")) {
     scatter->read(FailureScatter::parameters(), body.failure_scatter);
   }
   body.shape =
-      body.discretization.mesh.empty() ? read_shape(table) : read_mesh_shape(body.discretization, table);
+      body.discretization.is_bars()      ? read_bar_shape(body, table)
+      : body.discretization.mesh.empty() ? read_shape(table) : read_mesh_shape(body.discretization, table);
   std::shared_ptr<const Material> material;
   if (!body.material.empty()) {
     auto& known = materials[body.material];
@@ -112,12 +125,13 @@ void read_bodies(Case& setup, const std::vector<input::Table>& tables) {
 std::string body_to_toml(Body body, const std::string& material) {
   body.material = material;
   std::string text = table_of("\n[[body]]", body);
-  if (body.discretization.mesh.empty()) text += fmt::format("shape = {}\n", body.shape->toml());
+  if (body.discretization.mesh.empty() && !body.discretization.is_bars()) text += fmt::format("shape = {}\n", body.shape->toml());
   text += table_of("[body.discretization]", body.discretization);
   if (body.discretization.converts()) text += table_of("[body.conversion]", body.conversion);
   for (const NodeCondition& condition : body.node_conditions) {
     text += table_of("[[body.node_condition]]", condition);
   }
+  for (const BarRow& row : body.bars) text += table_of("[[body.bar]]", row);
   if (body.initial.given()) text += table_of("[body.initial]", body.initial);
   if (body.failure_scatter.given()) text += table_of("[body.failure_scatter]", body.failure_scatter);
   return text;
@@ -129,6 +143,7 @@ std::string describe_body() {
   text += "\n[body.conversion], of adaptive bodies\n" + describe_table(Conversion::parameters());
   text +=
       "\n[[body.node_condition]], of bodies with elements\n" + describe_table(NodeCondition::parameters());
+  text += "\n[[body.bar]], of bodies of bars\n" + describe_table(BarRow::parameters());
   text += "\n[body.initial], at most two of\n" + describe_table(InitialState::parameters());
   text += "\n[body.failure_scatter]\n" + describe_table(FailureScatter::parameters());
   return text;

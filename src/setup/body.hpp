@@ -27,6 +27,7 @@ struct Body {
   Discretization discretization;
   Conversion conversion;
   std::vector<NodeCondition> node_conditions;
+  std::vector<BarRow> bars;
   InitialState initial;
   FailureScatter failure_scatter;
   std::shared_ptr<const Shape> shape;

@@ -336,6 +336,10 @@ std::string section(const char* name, const ParameterTable<Owner>& table, Owner 
 
 }  // namespace
 
+bool Case::has_bars() const {
+  return std::ranges::any_of(bodies, [](const Body& body) { return body.discretization.is_bars(); });
+}
+
 bool Case::has_elements() const {
   return std::ranges::any_of(bodies, [](const Body& body) { return body.discretization.has_elements(); });
 }

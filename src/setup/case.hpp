@@ -110,6 +110,7 @@ struct Case {
   /// Velocity field of each body: bodies of one contact group share it, any other body has its own.
   [[nodiscard]] std::vector<std::uint8_t> contact_fields() const;
   [[nodiscard]] bool has_elements() const;
+  [[nodiscard]] bool has_bars() const;
 
   static ParameterTable<Case> parameters();
 };

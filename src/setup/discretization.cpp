@@ -13,9 +13,11 @@ ParameterTable<Discretization> Discretization::parameters() {
   using D = Discretization;
   return {
       choice(
-          "method", &D::method, {"particles", "finite_elements", "adaptive"},
+          "method", &D::method, {"particles", "finite_elements", "adaptive", "bars"},
           "how the body is represented: particles | eight-node hexahedra | hexahedra that become particles "
-          "where they are distorted ([body.conversion])")
+          "where they are distorted ([body.conversion]) | bars that carry axial forces and move with the "
+          "matter "
+          "around ([[body.bar]])")
           .optional(),
       integer("per_cell", &D::per_cell, range::between(1, 1000), "particles per full cell: 1, 8, 27 or 64")
           .optional(),
@@ -37,7 +39,11 @@ ParameterTable<Discretization> Discretization::parameters() {
       text("mesh", &D::mesh, "Gmsh file (2.2 or 4.1) with the hexahedra of the body instead of a shape")
           .optional(),
       real("mesh_unit", &D::mesh_unit, "m", range::positive(), "length of a unit of that file").optional(),
-      text("group", &D::group, "physical group of that file; empty: the only one").optional()};
+      text("group", &D::group, "physical group of that file; empty: the only one").optional(),
+      real("bar_diameter", &D::bar_diameter, "m", range::non_negative(), "of bars").optional(),
+      real("bar_failure_strain", &D::bar_failure_strain, "", range::positive(),
+           "plastic strain at which a bar breaks")
+          .optional("never")};
 }
 
 double Discretization::size(double cell_size) const {
@@ -58,6 +64,15 @@ ParameterTable<Conversion> Conversion::parameters() {
           boolean("failed", &C::failed, "the same when its material has failed").optional()};
 }
 
+ParameterTable<BarRow> BarRow::parameters() {
+  using B = BarRow;
+  return {vector("from", &B::from, "m", range::any(), "one end"),
+          vector("to", &B::to, "m", range::any(),
+                 "the other end; on a mirror plane for a bar that goes through it"),
+          integer("count", &B::count, range::between(1, 100000), "how many parallel bars").optional(),
+          vector("step", &B::step, "m", range::any(), "from one of them to the next").optional()};
+}
+
 ParameterTable<NodeCondition> NodeCondition::parameters() {
   using N = NodeCondition;
   return {vector("lower", &N::lower, "m", range::any(), "corner of a box: the nodes in it at the start"),
@@ -67,7 +82,7 @@ ParameterTable<NodeCondition> NodeCondition::parameters() {
 }
 
 void check_elements(const Case& setup, Discretization& control, input::Table& table) {
-  if (!control.has_elements()) {
+  if (!control.has_elements() && !control.is_bars()) {
     if (!control.mesh.empty()) table.error_at("mesh", "'mesh' belongs to bodies with finite elements");
     return;
   }
@@ -83,6 +98,10 @@ void check_elements(const Case& setup, Discretization& control, input::Table& ta
   }
   if (setup.heat.conduction) {
     table.error_at("method", "finite elements do not conduct heat: heat.conduction must be off");
+  }
+  if (control.is_bars()) {
+    if (!(control.bar_diameter > 0.0)) table.error_at("method", "bars need a 'bar_diameter'");
+    if (!control.mesh.empty()) table.error_at("mesh", "bars stand in [[body.bar]], not in a 'mesh'");
   }
   if (control.partial_volumes) {
     table.error_at("partial_volumes", "'partial_volumes' belongs to bodies of particles");

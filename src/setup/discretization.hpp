@@ -27,9 +27,14 @@ struct Discretization {
   std::string mesh;        ///< Gmsh file instead of a shape; absolute path
   double mesh_unit = 1.0;  ///< m per unit of its coordinates
   std::string group;       ///< physical group in it; empty: the only one
+  // of bars
+  double bar_diameter = 0.0;                                            ///< m
+  double bar_failure_strain = std::numeric_limits<double>::infinity();  ///< plastic
   static ParameterTable<Discretization> parameters();
 
-  [[nodiscard]] bool has_elements() const { return method != "particles"; }
+  /// Hexahedra.
+  [[nodiscard]] bool has_elements() const { return method == "finite_elements" || converts(); }
+  [[nodiscard]] bool is_bars() const { return method == "bars"; }
   [[nodiscard]] bool converts() const { return method == "adaptive"; }
   /// Edge of the elements, m.
   [[nodiscard]] double size(double cell_size) const;
@@ -51,6 +56,15 @@ struct NodeCondition {
   std::vector<std::string> directions;
   Vector3 velocity = Vector3::Zero();  ///< m/s
   static ParameterTable<NodeCondition> parameters();
+};
+
+/// One `bar` of a body of bars: a row of parallel ones.
+struct BarRow {
+  Vector3 from = Vector3::Zero();  ///< m
+  Vector3 to = Vector3::Zero();    ///< m
+  std::int64_t count = 1;
+  Vector3 step = Vector3::Zero();  ///< m, from one to the next
+  static ParameterTable<BarRow> parameters();
 };
 
 /// Reports in the table of a discretization what finite elements need of the rest of the case (read before),

@@ -135,10 +135,11 @@ fem::Hexahedra hexahedra_of(const Case& setup, const Body& body) {
   const double size = body.discretization.size(setup.domain.cell_size);
   std::optional<fem::Hexahedra> mesh = body.shape->hexahedra(size, before_planes(setup));
   if (!mesh) {
-    throw InputError(fmt::format(
-        "body \"{}\": there are structured meshes of box, cylinder, tube and sphere, turned or moved ones "
-        "included; for other shapes give a Gmsh file, discretization.mesh",
-        body.name));
+    throw InputError(
+        fmt::format("body \"{}\": there are structured meshes of box, cylinder, tube, sphere and ogive, "
+                    "turned or moved ones "
+                    "included; for other shapes give a Gmsh file, discretization.mesh",
+                    body.name));
   }
   const double tolerance = plane_tolerance * setup.geometry.cell_size;
   for (const Plane& plane : planes_of(setup)) cut(*mesh, plane, tolerance, body.name);

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "src/base/error.hpp"
+#include "src/setup/bars.hpp"
 #include "src/setup/meshing.hpp"
 
 namespace whipple::setup {
@@ -140,6 +142,7 @@ double expected_memory(const Case& setup) {
   constexpr double bytes_per_particle = 500.0;  // in full blocks: docs/performance.md
   double particles = 0.0;
   for (const Body& body : setup.bodies) {
+    if (body.discretization.is_bars()) continue;
     const Shape::Bounds bounds = body.shape->bounds();
     Vector3 upper = bounds.upper;
     for (int a = 0; a < 3; ++a) upper[a] = std::min(upper[a], setup.geometry.upper(a));
@@ -153,6 +156,7 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
   constexpr double most_points = 1e9;  // some 500 GB of particles
   std::vector<PlacementFault> faults;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    if (setup.bodies[b].discretization.is_bars()) continue;
     const double points = lattice_size(setup, setup.bodies[b]);
     if (points <= most_points) continue;
     faults.push_back({b, fmt::format("body \"{}\" takes a lattice of {:.2g} particles, more than {:.0e}: "
@@ -176,6 +180,7 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
                             setup.geometry.lower[a], setup.geometry.upper(a))});
       }
     }
+    if (body.discretization.is_bars()) continue;
     if (body.discretization.has_elements()) {
       try {
         static_cast<void>(hexahedra_of(setup, body));
@@ -207,7 +212,8 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
     });
     for (std::size_t other = 0; other < b; ++other) {  // a body inside the gaps of this one's lattice
       const Body& former = setup.bodies[other];
-      if (overlaps[other] || !boxes_meet(bounds, former.shape->bounds())) continue;
+      if (former.discretization.is_bars() || overlaps[other] || !boxes_meet(bounds, former.shape->bounds()))
+        continue;
       bool found = false;
       for_each_site(setup, former, lattice_of(setup, former),
                     [&](const Site& site) { found = found || body.shape->contains(site.position); });
@@ -231,6 +237,10 @@ Seeding seed(const Case& setup, int rank, int ranks) {
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Body& body = setup.bodies[b];
     const Material& material = *setup.materials[b];
+    if (body.discretization.is_bars()) {
+      seeding.bodies.push_back({.first = particles.size()});
+      continue;
+    }
     if (body.discretization.has_elements()) {
       use_fields(material, particles);  // of those that its elements may become
       seeding.bodies.push_back({.first = particles.size()});
@@ -296,6 +306,12 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       summary.shape_mass = body_density(material, setup.bodies[mesh.body].initial.of(material)) *
                            setup.bodies[mesh.body].shape->volume();
     }
+  }
+  seeding.bars = make_bars(setup);
+  for (const fem::Bars& bars : seeding.bars) {
+    setup::BodySummary& summary = seeding.bodies[bars.body];
+    summary.mass = std::accumulate(bars.nodes.mass.begin(), bars.nodes.mass.end(), 0.0);
+    summary.shape_mass = bars.material.density * setup.bodies[bars.body].shape->volume();
   }
   return seeding;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "src/fem/bars.hpp"
 #include "src/fem/mesh.hpp"
 #include "src/particles/particles.hpp"
 #include "src/setup/case.hpp"
@@ -35,6 +36,7 @@ struct Seeding {
   Particles particles;  ///< sorted by body, ids from 0
   std::vector<BodySummary> bodies;
   std::vector<fem::Mesh> meshes;           ///< of the bodies with finite elements
+  std::vector<fem::Bars> bars;             ///< of the bodies of bars
   Vector3 wall_impulse = Vector3::Zero();  ///< N s, see `make_meshes`
 };
 

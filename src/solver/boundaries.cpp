@@ -7,6 +7,7 @@ namespace whipple::solver {
 void Simulation::reflect_and_remove() {
   profile_.time("boundaries", [&] {
     remove_elements_outside();
+    remove_bars_outside();
     const grid::Geometry& g = setup_.geometry;
     const Lanes lower = {g.lower[0], g.lower[1], g.lower[2], 0.0};
     const Lanes upper = {g.upper(0), g.upper(1), g.upper(2), 0.0};

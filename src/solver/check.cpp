@@ -54,6 +54,9 @@ std::string check(const RunOptions& options) {
       if (mesh.body == b)
         parts = fmt::format("{} elements, {} nodes", mesh.elements.size(), mesh.nodes.size());
     }
+    for (const fem::Bars& bars : simulation.bars()) {
+      if (bars.body == b) parts = fmt::format("{} bars", bars.elements.size());
+    }
     text += fmt::format("body \"{}\" of {}: {}, {:.6g} g in the domain; whole shape {:.6g} g\n",
                         setup.bodies[b].name, setup.materials[b]->name, parts, 1e3 * body.mass,
                         1e3 * body.shape_mass);

@@ -36,6 +36,9 @@ void Simulation::separate_fields() {
     const auto count = static_cast<std::size_t>(std::ranges::count(mesh.nodes.in_transition, 1));
     field_of_node.insert(field_of_node.end(), count, contact_field_of_body_[mesh.body]);
   }
+  for (const fem::Bars& bars : bars_) {
+    field_of_node.insert(field_of_node.end(), bars.nodes.size(), contact_field_of_body_[bars.body]);
+  }
   grid_.separate_fields(transfer::stencil(shape_), {particles_.position, contact_field_},
                         {transition_.position, field_of_node},
                         *std::ranges::max_element(contact_field_of_body_) + 1U, setup_.contact.everywhere);

@@ -36,10 +36,10 @@ fem::ViscosityCoefficients viscosity(const setup::ArtificialViscosity& control) 
 }  // namespace
 
 void require_runnable(const setup::Case& setup, int ranks) {
-  if (!setup.has_elements() || ranks == 1) return;
-  throw InputError(
-      fmt::format("{}: bodies of finite elements run on one rank (with any number of threads), not on {}",
-                  setup.file.string(), ranks));
+  if (!(setup.has_elements() || setup.has_bars()) || ranks == 1) return;
+  throw InputError(fmt::format(
+      "{}: bodies of finite elements and bars run on one rank (with any number of threads), not on {}",
+      setup.file.string(), ranks));
 }
 
 std::size_t Simulation::element_count() const {
@@ -53,12 +53,13 @@ double Simulation::element_time_step() const {
   for (const fem::Mesh& mesh : meshes_) {
     dt = std::min(dt, fem::critical_time_step(mesh, viscosity(setup_.viscosity)));
   }
+  for (const fem::Bars& bars : bars_) dt = std::min(dt, fem::critical_time_step(bars));
   return setup_.time.element_safety * dt;
 }
 
 void Simulation::convert_elements() {
   profile_.time("convert elements", [&] {
-    afemp::collect(meshes_, transition_);  // of the step before: those that limit the step of the grid
+    collect_nodes();  // of the step before: those that limit the step of the grid
     std::size_t converted = 0;
     for (fem::Mesh& mesh : meshes_) {
       const setup::Body& body = setup_.bodies[mesh.body];
@@ -86,12 +87,15 @@ void Simulation::convert_elements() {
 
 /// Distorted elements become particles, and nodes at particles or at other bodies move with the grid.
 void Simulation::adapt_elements() {
-  if (meshes_.empty()) return;
+  if (meshes_.empty()) {
+    if (!bars_.empty()) collect_nodes();
+    return;
+  }
   if (state_.step % conversion_every == 0) convert_elements();
   profile_.time("transition", [&] {
     step_.transfer_heat +=
         afemp::mark_transition(meshes_, particles_, setup_.geometry, particle_affine_inertia());
-    afemp::collect(meshes_, transition_);
+    collect_nodes();
     if (state_.step == 0 && !contact_) warn_of_contact();
   });
 }
@@ -109,26 +113,31 @@ void Simulation::warn_of_contact() const {
   }
 }
 
+void Simulation::add_gravity(fem::Nodes& nodes) const {
+  const Vector3 g = setup_.gravity.at(state_.time);
+  if (g.isZero(0.0)) return;
+  for (std::size_t a = 0; a < nodes.size(); ++a) nodes.force[a] += nodes.mass[a] * g;
+}
+
 void Simulation::compute_element_forces() {
-  if (meshes_.empty()) return;
+  if (meshes_.empty() && bars_.empty()) return;
   profile_.time("element forces", [&] {
-    const Vector3 g = setup_.gravity.at(state_.time);
     for (fem::Mesh& mesh : meshes_) {
       fem::internal_forces(mesh);
-      if (g.isZero(0.0)) continue;
-      for (std::size_t a = 0; a < mesh.nodes.size(); ++a) mesh.nodes.force[a] += mesh.nodes.mass[a] * g;
+      add_gravity(mesh.nodes);
     }
-    afemp::collect(meshes_, transition_);
+    compute_bar_forces();
+    collect_nodes();
   });
 }
 
-/// Momentum and work of gravity on the nodes of a mesh.
-void Simulation::book_gravity(const fem::Mesh& mesh, const fem::Motion& motion) {
+/// Momentum and work of gravity on nodes.
+void Simulation::book_gravity(const fem::Nodes& nodes, const fem::Motion& motion) {
   const Vector3 g = setup_.gravity.at(state_.time);
   if (g.isZero(0.0)) return;
   const double dt = state_.time_step;
-  for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
-    const Vector3 impulse = dt * mesh.nodes.mass[a] * g;
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    const Vector3 impulse = dt * nodes.mass[a] * g;
     step_.external_impulse += impulse;
     step_.external_work += impulse.dot(motion.mean[a]);
   }
@@ -136,14 +145,13 @@ void Simulation::book_gravity(const fem::Mesh& mesh, const fem::Motion& motion) 
 
 /// Nodes by themselves or as the grid moved them; strain, work and heat of their elements.
 void Simulation::advance_elements() {
-  if (meshes_.empty()) return;
+  if (meshes_.empty() && bars_.empty()) return;
   profile_.time("elements", [&] {
     const double dt = state_.time_step;
     motions_.resize(meshes_.size());
     node_heat_.resize(meshes_.size());
     element_gradient_.resize(meshes_.size());
     afemp::distribute(transition_, meshes_, motions_, node_heat_);
-    for (const double heat : transition_.contact_heat) step_.transfer_heat -= heat;  // booked by contact
     std::string error;
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
       fem::Mesh& mesh = meshes_[m];
@@ -152,9 +160,9 @@ void Simulation::advance_elements() {
           fem::advance_velocities(mesh, dt, motions_[m], mesh.nodes.in_transition);
       step_.wall_impulse += balance.impulse;
       step_.external_work += balance.work;
-      step_.wall_impulse += afemp::stop_at_faces(mesh, setup_.geometry, dt, motions_[m], node_heat_[m]);
+      step_.wall_impulse += afemp::stop_at_faces(mesh.nodes, setup_.geometry, dt, motions_[m], node_heat_[m]);
       for (const double heat : node_heat_[m]) step_.transfer_heat += heat;
-      book_gravity(mesh, motions_[m]);
+      book_gravity(mesh.nodes, motions_[m]);
       element_gradient_[m].resize(mesh.points.size());
       const fem::DeformationReport report =
           fem::deform(mesh, motions_[m], dt, hourglass(body.discretization), element_gradient_[m]);
@@ -169,6 +177,12 @@ void Simulation::advance_elements() {
                 "conversion.plastic_strain, so that it becomes particles earlier"
               : "is inverted: discretization.method = \"adaptive\" turns such elements into particles");
     }
+    const auto of_bars = static_cast<std::ptrdiff_t>(bar_node_count());
+    for (auto heat = transition_.contact_heat.begin(); heat != transition_.contact_heat.end() - of_bars;
+         ++heat) {
+      step_.transfer_heat -= *heat;  // booked by contact
+    }
+    advance_bars();
     parallel::throw_together(communicator_, error);
   });
 }

@@ -88,6 +88,20 @@ Totals totals_of(const fem::Mesh& mesh, double affine_inertia) {
           .hourglass_energy = of_mesh.hourglass_energy};
 }
 
+Totals totals_of(const fem::Bars& bars, double affine_inertia) {
+  const fem::Nodes& nodes = bars.nodes;
+  Totals sums = parallel::sum<Totals>(nodes.size(), [&](std::size_t a) {
+    const double m = nodes.mass[a], speed2 = nodes.velocity[a].squaredNorm();
+    return Totals{.mass = m,
+                  .momentum = m * nodes.velocity[a],
+                  .momentum_scale = m * std::sqrt(speed2),
+                  .kinetic_energy = 0.5 * m * speed2,
+                  .affine_kinetic_energy = 0.5 * m * affine_inertia * nodes.affine_velocity[a].squaredNorm()};
+  });
+  sums.internal_energy = fem::internal_energy(bars);
+  return sums;
+}
+
 void Ledger::add(const Ledger& step) {
   outflow += step.outflow;
   wall_impulse += step.wall_impulse;
@@ -150,7 +164,7 @@ PhaseMasses& PhaseMasses::operator+=(const PhaseMasses& other) {
 }
 
 std::vector<PhaseMasses> phase_masses(const Particles& particles, std::span<const fem::Mesh> meshes,
-                                      std::size_t bodies) {
+                                      std::span<const fem::Bars> all_bars, std::size_t bodies) {
   std::vector<PhaseMasses> result(bodies);
   const auto add = [&](const MaterialPoints& points, std::size_t p, std::size_t body) {
     const io::Phase phase = io::phase(points.melted_fraction[p], points.vaporised_fraction[p]);
@@ -160,6 +174,12 @@ std::vector<PhaseMasses> phase_masses(const Particles& particles, std::span<cons
   for (std::size_t p = 0; p < particles.size(); ++p) add(particles, p, particles.body[p]);
   for (const fem::Mesh& mesh : meshes) {
     for (std::size_t i = 0; i < mesh.points.size(); ++i) add(mesh.points, i, mesh.body);
+  }
+  for (const fem::Bars& bars : all_bars) {
+    for (std::size_t b = 0; b < bars.elements.size(); ++b) {
+      result[bars.body].mass[static_cast<std::size_t>(io::Phase::solid)] += bars.elements.mass[b];
+      if (bars.elements.broken[b] != 0) result[bars.body].failed += bars.elements.mass[b];
+    }
   }
   return result;
 }

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "src/fem/bars.hpp"
 #include "src/fem/mesh.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/particles/particles.hpp"
@@ -53,6 +54,7 @@ Totals totals_of(const Particles& particles, std::size_t p, double affine_inerti
 Totals totals_of(const Particles& particles, double affine_inertia);
 /// Of the elements of a mesh and their nodes; bitwise independent of the number of threads.
 Totals totals_of(const fem::Mesh& mesh, double affine_inertia);
+Totals totals_of(const fem::Bars& bars, double affine_inertia);
 
 /// Books everything that enters and leaves, so that at every time
 /// energy = initial - outflow + external work, momentum = initial - outflow + impulse of walls and external
@@ -140,9 +142,9 @@ struct PhaseMasses {
   double failed = 0.0;           ///< kg
   PhaseMasses& operator+=(const PhaseMasses& other);
 };
-/// Of the particles of this rank and the elements, one entry per body.
+/// Of the particles of this rank, the elements and the bars, one entry per body.
 std::vector<PhaseMasses> phase_masses(const Particles& particles, std::span<const fem::Mesh> meshes,
-                                      std::size_t bodies);
+                                      std::span<const fem::Bars> all_bars, std::size_t bodies);
 /// Collective.
 void sum_over_ranks(MPI_Comm communicator, std::vector<PhaseMasses>& by_body);
 

@@ -36,7 +36,7 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
   const Totals& t = simulation.totals();
   const Particles& particles = simulation.particles();
   const std::vector<setup::Body>& bodies = simulation.setup().bodies;
-  std::vector<PhaseMasses> by_body = phase_masses(particles, simulation.meshes(), bodies.size());
+  std::vector<PhaseMasses> by_body = phase_masses(particles, simulation.meshes(), simulation.bars(), bodies.size());
   sum_over_ranks(simulation.communicator(), by_body);
   PhaseMasses all;
   for (const PhaseMasses& body : by_body) all += body;
@@ -96,6 +96,17 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
     row.push_back({"converted_mass", "kg", state.ledger.converted_mass});
     row.push_back({"conversion_heat", "J", state.ledger.conversion_heat});
     row.push_back({"hourglass_energy", "J", t.hourglass_energy});
+  }
+  if (simulation.setup().has_bars()) {
+    double count = 0.0, broken = 0.0, energy = 0.0;
+    for (const fem::Bars& bars : simulation.bars()) {
+      count += static_cast<double>(bars.elements.size());
+      broken += static_cast<double>(std::ranges::count(bars.elements.broken, 1));
+      energy += fem::internal_energy(bars);
+    }
+    row.push_back({"bars", "1", count});
+    row.push_back({"broken_bars", "1", broken});
+    row.push_back({"bar_energy", "J", energy});
   }
   static constexpr std::array<const char*, 4> phases = {"mass_solid", "mass_melting", "mass_liquid",
                                                         "mass_vapour"};
@@ -183,7 +194,7 @@ class Runner {
         ranks_(ranks),
         wall_time_(options.wall_time),
         simulation_(setup, std::move(checkpoint.particles), from_checkpoint(checkpoint.values),
-                    parallel::world(), std::move(checkpoint.meshes)),
+                    parallel::world(), std::move(checkpoint.meshes), std::move(checkpoint.bars)),
         series_(setup, directory, directory.path()),
         recorder_(setup.gauges.all(), checkpoint.values),
         snapshots_(checkpoint.values.integer("snapshots")) {
@@ -312,7 +323,8 @@ class Runner {
     recorder_.to_checkpoint(values);
     values.texts["run_name"] = directory_.name();
     const fs::path path = io::write_checkpoint(folder, simulation_.state().step, simulation_.particles(),
-                                               values, simulation_.communicator(), simulation_.meshes());
+                                               values, simulation_.communicator(), simulation_.meshes(),
+                                               simulation_.bars());
     log::detail("checkpoint {}", path.string());
   }
 

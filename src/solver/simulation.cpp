@@ -61,6 +61,7 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
   particles_ = std::move(seeding.particles);
   bodies_ = std::move(seeding.bodies);
   meshes_ = std::move(seeding.meshes);
+  bars_ = std::move(seeding.bars);
   for (fem::Mesh& mesh : meshes_) afemp::mark_surface(mesh, setup_.geometry);
   if (affine_field(setup_.transfer) == transfer::AffineField::none)
     std::ranges::fill(particles_.affine_velocity, Matrix3::Zero().eval());
@@ -72,12 +73,13 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
 }
 
 Simulation::Simulation(const setup::Case& setup, Particles particles, const RunState& state,
-                       MPI_Comm communicator, std::vector<fem::Mesh> meshes)
+                       MPI_Comm communicator, std::vector<fem::Mesh> meshes, std::vector<fem::Bars> bars)
     : setup_(setup),
       shape_(transfer::shape_function(setup.transfer.shape_function)),
       communicator_(communicator),
       particles_(std::move(particles)),
       meshes_(std::move(meshes)),
+      bars_(std::move(bars)),
       bodies_(setup.bodies.size()),
       grid_(setup.geometry, communicator),
       state_(state) {
@@ -92,6 +94,7 @@ Simulation::Simulation(const setup::Case& setup, Particles particles, const RunS
 /// What both constructors end with.
 void Simulation::prepare() {
   velocity_gradient_.resize(particles_.size());
+  set_up_bars();
   set_up_contact();
   if (const setup::Gravity g = setup_.gravity; !g.acceleration.isZero(0.0)) {
     acceleration_ = [g](const Particles&, std::size_t, double time) { return g.at(time); };
@@ -121,6 +124,7 @@ void Simulation::require_fields() const {
 void Simulation::sum_over_ranks() {
   totals_ = totals_of(particles_, affine_inertia());
   for (const fem::Mesh& mesh : meshes_) totals_ += totals_of(mesh, affine_inertia());
+  for (const fem::Bars& bars : bars_) totals_ += totals_of(bars, affine_inertia());
   auto count = static_cast<double>(particles_.size());
   solver::sum_over_ranks(communicator_, totals_, step_);
   parallel::sum(communicator_, std::span(&count, 1));
@@ -480,6 +484,10 @@ std::size_t Simulation::bytes() const {
     add(mesh.nodes);
     add(mesh.elements);
     add(mesh.points);
+  }
+  for (const fem::Bars& bars : bars_) {
+    add(bars.nodes);
+    add(bars.elements);
   }
   return bytes;
 }

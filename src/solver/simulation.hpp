@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/contact/contact.hpp"
+#include "src/fem/bars.hpp"
 #include "src/fem/mesh.hpp"
 #include "src/fem/step.hpp"
 #include "src/grid/block_grid.hpp"
@@ -47,8 +48,9 @@ class Simulation {
   /// Goes on from a checkpoint.
   /// @param particles the share of this rank, any share
   /// @param meshes of the bodies of elements
+  /// @param bars   of the bodies of bars
   Simulation(const setup::Case& setup, Particles particles, const RunState& state, MPI_Comm communicator,
-             std::vector<fem::Mesh> meshes = {});
+             std::vector<fem::Mesh> meshes = {}, std::vector<fem::Bars> bars = {});
 
   /// Advances one step of the case's scheme; not beyond `until` (s).
   /// @throws StateError with step, time, body, particle and state if a state is undefined or out of range, or
@@ -69,6 +71,7 @@ class Simulation {
   /// The bodies of elements, as far as they are still elements.
   [[nodiscard]] const std::vector<fem::Mesh>& meshes() const { return meshes_; }
   [[nodiscard]] std::size_t element_count() const;
+  [[nodiscard]] const std::vector<fem::Bars>& bars() const { return bars_; }
   [[nodiscard]] const RunState& state() const { return state_; }
   /// Sums over all ranks.
   [[nodiscard]] const Totals& totals() const { return totals_; }
@@ -118,7 +121,14 @@ class Simulation {
   void find_surfaces();
   void apply_contact();
   void convert_elements();
-  void book_gravity(const fem::Mesh& mesh, const fem::Motion& motion);
+  void add_gravity(fem::Nodes& nodes) const;
+  void book_gravity(const fem::Nodes& nodes, const fem::Motion& motion);
+  void set_up_bars();
+  [[nodiscard]] std::size_t bar_node_count() const;
+  void collect_nodes();
+  void compute_bar_forces();
+  void advance_bars();
+  void remove_bars_outside();
   void remove_elements_outside();
   void warn_of_contact() const;
   bool bin(grid::Stencil stencil);
@@ -141,6 +151,7 @@ class Simulation {
   MPI_Comm communicator_;
   Particles particles_;
   std::vector<fem::Mesh> meshes_;
+  std::vector<fem::Bars> bars_;
   std::vector<setup::BodySummary> bodies_;
   grid::BlockGrid grid_;
   transfer::GridUpdate grid_update_;

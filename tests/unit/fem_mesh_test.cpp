@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -125,6 +126,25 @@ TEST(Meshes, RoundBodies) {
       EXPECT_NEAR(volume_of(part), share * volume_of(coarse), 1e-12 * round.volume) << round.name;
       for (const Vector3& x : part.nodes) EXPECT_GT(x[axis], -1e-12);
     }
+  }
+}
+
+// A shank as that of a cylinder, a nose within the arc but for its blunt tip, sound elements; the volume of
+// the ogive.
+TEST(Meshes, Ogive) {
+  const double radius = 2.0, nose = 6.6, shank = 5.0, arc = (radius * radius + nose * nose) / (2 * radius);
+  const double depth = arc - radius;
+  const double volume =
+      pi * (radius * radius * shank + arc * arc * nose - nose * nose * nose / 3 + depth * depth * nose -
+            depth * (nose * depth + arc * arc * std::asin(nose / arc)));
+  const Hexahedra mesh = fem::make_ogive(radius, nose, shank, 0.5);
+  fem::check(mesh, "ogive");
+  EXPECT_GT(quality(mesh), 0.2);
+  EXPECT_NEAR(volume_of(mesh), volume, 0.04 * volume);
+  for (const Vector3& x : mesh.nodes) {
+    const double along = std::max(x[2] - shank, 0.0);
+    const double bound = std::max(std::sqrt(arc * arc - along * along) - depth, fem::ogive_tip * radius);
+    EXPECT_LE(std::hypot(x[0], x[1]), bound * (1 + 1e-12));
   }
 }
 

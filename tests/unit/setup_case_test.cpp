@@ -121,7 +121,7 @@ TEST(Case, RefusesElementsThatCannotBe) {
   expect_error(
       domain + replaced(elements, shape,
                         "{ cone = { base = [0, 0, 0], base_radius = \"2 mm\", height = \"1 mm\" } }"),
-      {"structured meshes of box, cylinder, tube and sphere"});
+      {"structured meshes of box, cylinder, tube, sphere and ogive"});
   // A plane that does not halve a round body goes through its elements.
   expect_error(
       domain + replaced(elements, "[\"0 mm\", \"0 mm\", \"-4 mm\"]", "[\"0.3 mm\", \"0 mm\", \"-4 mm\"]"),

@@ -264,6 +264,13 @@ class Ogive final : public Shape, public Revolution {
     return pi * (nose + radius_ * radius_ * shank_);
   }
   [[nodiscard]] std::string toml() const override { return shape_as_toml("ogive", *this); }
+  [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
+    Vector3 rear = base;
+    rear[index()] -= shank_;
+    return mesh_about_axis(rear, index(), radius_, clip, [&](const fem::Halved& halved) {
+      return fem::make_ogive(radius_, nose_, shank_, size, halved);
+    });
+  }
 
  private:
   [[nodiscard]] double arc() const { return (radius_ * radius_ + nose_ * nose_) / (2.0 * radius_); }

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "src/fem/bars.hpp"
+#include "src/setup/case.hpp"
+
+namespace whipple::setup {
+
+/// What the bars of a body fill: holds no point, has bounds and a volume.
+/// Reports errors in the document and returns null then.
+std::unique_ptr<Shape> read_bar_shape(const Body& body, input::Table& table);
+
+/// Constants of bars of a material: elastic or von Mises with linear hardening.
+/// @throws InputError for other models of strength, and for failure criteria, which bars do not know
+fem::BarMaterial bar_material(const Material& material, const Body& body);
+
+/// Bars of all bodies that are made of them, with their initial velocities.
+/// @throws InputError if bars are too short to be divided or the material is not one of bars
+std::vector<fem::Bars> make_bars(const Case& setup);
+
+}  // namespace whipple::setup
