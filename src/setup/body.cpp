@@ -82,9 +82,9 @@ void read_body(Case& setup, input::Table table, std::set<std::string>& names,
   if (auto scatter = table.optional_table("failure_scatter")) {
     scatter->read(FailureScatter::parameters(), body.failure_scatter);
   }
-  body.shape =
-      body.discretization.is_bars()      ? read_bar_shape(body, table)
-      : body.discretization.mesh.empty() ? read_shape(table) : read_mesh_shape(body.discretization, table);
+  body.shape = body.discretization.is_bars()      ? read_bar_shape(body, table)
+               : body.discretization.mesh.empty() ? read_shape(table)
+                                                  : read_mesh_shape(body.discretization, table);
   std::shared_ptr<const Material> material;
   if (!body.material.empty()) {
     auto& known = materials[body.material];
@@ -125,7 +125,8 @@ void read_bodies(Case& setup, const std::vector<input::Table>& tables) {
 std::string body_to_toml(Body body, const std::string& material) {
   body.material = material;
   std::string text = table_of("\n[[body]]", body);
-  if (body.discretization.mesh.empty() && !body.discretization.is_bars()) text += fmt::format("shape = {}\n", body.shape->toml());
+  if (body.discretization.mesh.empty() && !body.discretization.is_bars())
+    text += fmt::format("shape = {}\n", body.shape->toml());
   text += table_of("[body.discretization]", body.discretization);
   if (body.discretization.converts()) text += table_of("[body.conversion]", body.conversion);
   for (const NodeCondition& condition : body.node_conditions) {

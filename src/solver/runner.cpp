@@ -36,7 +36,8 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
   const Totals& t = simulation.totals();
   const Particles& particles = simulation.particles();
   const std::vector<setup::Body>& bodies = simulation.setup().bodies;
-  std::vector<PhaseMasses> by_body = phase_masses(particles, simulation.meshes(), simulation.bars(), bodies.size());
+  std::vector<PhaseMasses> by_body =
+      phase_masses(particles, simulation.meshes(), simulation.bars(), bodies.size());
   sum_over_ranks(simulation.communicator(), by_body);
   PhaseMasses all;
   for (const PhaseMasses& body : by_body) all += body;
@@ -322,9 +323,9 @@ class Runner {
     values.integers["snapshots"] = snapshots_;
     recorder_.to_checkpoint(values);
     values.texts["run_name"] = directory_.name();
-    const fs::path path = io::write_checkpoint(folder, simulation_.state().step, simulation_.particles(),
-                                               values, simulation_.communicator(), simulation_.meshes(),
-                                               simulation_.bars());
+    const fs::path path =
+        io::write_checkpoint(folder, simulation_.state().step, simulation_.particles(), values,
+                             simulation_.communicator(), simulation_.meshes(), simulation_.bars());
     log::detail("checkpoint {}", path.string());
   }
 
