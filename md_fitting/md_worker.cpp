@@ -95,9 +95,18 @@ int run_plan(const Options& options) {
               tasks.size(), potential.name(), potential.file().filename().string(), ranks,
               ranks == 1 ? "" : "s");
     log::detail(
-        "density table of {} ends at V/V0 = {:.3f}, usable down to {:.3f}; static a0 = {:.4f} angstrom",
-        potential.name(), potential.table_end(), potential.least_volume_ratio(),
-        potential.lattice_constant());
+        "{} of {} ends at V/V0 = {:.3f}, usable down to {:.3f}; static {} with a0 = {:.4f} angstrom, cutoff "
+        "{:.2f} angstrom",
+        potential.has_tables() ? "density table" : "range", potential.name(), potential.table_end(),
+        potential.least_volume_ratio(), potential.structure(), potential.lattice_constant(),
+        potential.cutoff());
+    if (!potential.has_tables() && potential.table_end() == 0.0) {
+      log::warning(
+          "{}: the functions of a KIM model are not open, so that nothing is known of where their fit ends; "
+          "its "
+          "static crystal resists compression down to V/V0 = {:.2f}",
+          potential.name(), potential.least_volume_ratio());
+    }
   }
   const CampaignSummary summary = run_campaign(tasks, options.store, MPI_COMM_WORLD, options.retry_failed,
                                                static_cast<int>(plan.ranks_per_point));

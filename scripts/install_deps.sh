@@ -5,8 +5,9 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: scripts/install_deps.sh [--dev] [--paraview] [--list]
+usage: scripts/install_deps.sh [--dev] [--kim] [--paraview] [--list]
   --dev        also clang-format-19 and clang-tidy-19 (scripts/lint.sh, format check of scripts/test.sh)
+  --kim        also the models of OpenKIM (250 MB): more interatomic potentials for `whipple md`
   --paraview   also ParaView with its Python interface and a virtual screen (tests of the output files)
   --list       print the packages and whether each is installed; install nothing
 TEXT
@@ -25,6 +26,7 @@ list=false
 for argument in "$@"; do
   case $argument in
     --dev) packages+=(clang-format-19 clang-tidy-19) ;;
+    --kim) packages+=(openkim-models) ;;
     --paraview) packages+=(paraview python3-paraview xvfb xauth) ;;
     --list) list=true ;;
     -h | --help) usage; exit 0 ;;

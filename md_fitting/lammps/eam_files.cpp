@@ -11,19 +11,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "md_fitting/lammps/elements.hpp"
 #include "src/base/error.hpp"
 
 namespace whipple::md {
 namespace {
-
-constexpr std::array<const char*, 103> symbols = {
-    "H",  "He", "Li", "Be", "B",  "C",  "N",  "O",  "F",  "Ne", "Na", "Mg", "Al", "Si", "P",
-    "S",  "Cl", "Ar", "K",  "Ca", "Sc", "Ti", "V",  "Cr", "Mn", "Fe", "Co", "Ni", "Cu", "Zn",
-    "Ga", "Ge", "As", "Se", "Br", "Kr", "Rb", "Sr", "Y",  "Zr", "Nb", "Mo", "Tc", "Ru", "Rh",
-    "Pd", "Ag", "Cd", "In", "Sn", "Sb", "Te", "I",  "Xe", "Cs", "Ba", "La", "Ce", "Pr", "Nd",
-    "Pm", "Sm", "Eu", "Gd", "Tb", "Dy", "Ho", "Er", "Tm", "Yb", "Lu", "Hf", "Ta", "W",  "Re",
-    "Os", "Ir", "Pt", "Au", "Hg", "Tl", "Pb", "Bi", "Po", "At", "Rn", "Fr", "Ra", "Ac", "Th",
-    "Pa", "U",  "Np", "Pu", "Am", "Cm", "Bk", "Cf", "Es", "Fm", "Md", "No", "Lr"};
 
 // Hartree and Bohr as the authors of the funcfl format rounded them; LAMMPS converts effective charges with
 // these.
@@ -116,12 +108,6 @@ int read_element_line(Reader& reader, EamTables& tables) {
   return atomic_number;
 }
 
-std::string symbol(int atomic_number) {
-  return atomic_number >= 1 && atomic_number <= static_cast<int>(symbols.size())
-             ? symbols[static_cast<std::size_t>(atomic_number) - 1]
-             : std::string("unknown");
-}
-
 std::vector<std::string> read_element_names(Reader& reader) {
   for (int comment = 0; comment < 3; ++comment) reader.line();
   auto words = reader.words();
@@ -143,7 +129,7 @@ EamTables read_funcfl(const std::filesystem::path& path, const std::string& elem
   Reader reader(path);
   reader.line();
   EamTables tables;
-  tables.element = symbol(read_element_line(reader, tables));
+  tables.element = element_symbol(read_element_line(reader, tables));
   if (tables.element != element) {
     throw InputError(
         fmt::format("the potential file {} is for {}, not for {}", path.string(), tables.element, element));
@@ -227,7 +213,7 @@ std::vector<std::string> elements_in(const std::filesystem::path& path) {
   if (eam_format(path) != EamFormat::funcfl) return read_element_names(reader);
   reader.line();
   EamTables tables;
-  return {symbol(read_element_line(reader, tables))};
+  return {element_symbol(read_element_line(reader, tables))};
 }
 
 EamTables read_eam(const std::filesystem::path& path, const std::string& element) {
@@ -246,7 +232,8 @@ std::string to_setfl(const EamTables& tables, const std::string& comment) {
   std::string text = fmt::format("{}\nwritten by whipple-md\nUNITS: metal\n1 {}\n", comment, tables.element);
   text += fmt::format("{} {:.17g} {} {:.17g} {:.17g}\n", tables.embedding.size(), tables.density_step,
                       tables.density.size(), tables.radius_step, tables.cutoff);
-  const auto number = std::find(symbols.begin(), symbols.end(), tables.element) - symbols.begin() + 1;
+  // An unknown symbol has the number after the last: LAMMPS does not use it.
+  const int number = atomic_number(tables.element).value_or(104);
   text += fmt::format("{} {:.17g} {:.17g} {}\n", number, tables.mass, tables.header_lattice_constant,
                       tables.structure);
   for (const auto* table : {&tables.embedding, &tables.density, &tables.radius_times_pair}) {

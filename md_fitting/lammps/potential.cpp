@@ -154,6 +154,11 @@ Potential Potential::load(const std::string& name, const std::string& element,
                           const std::filesystem::path& folder) {
   Potential potential;
   potential.name_ = name;
+  potential.element_ = element;
+  if (KimModel::is_identifier(name)) {
+    potential.read_kim();
+    return potential;
+  }
   if (name == zhou_2004_name) {
     potential.tables_ = zhou_2004(element);
     potential.file_ = name;
@@ -162,11 +167,30 @@ Potential Potential::load(const std::string& name, const std::string& element,
   } else {
     potential.read_file(element, folder);
   }
+  potential.structure_ = potential.tables_.structure;
+  potential.mass_ = potential.tables_.mass;
+  potential.cutoff_ = potential.tables_.cutoff;
   potential.lattice_constant_ = potential.tables_.static_lattice_constant();
   const double end = potential.tables_.density_end();
   potential.table_end_ = potential.tables_.volume_ratio_at(end);
   potential.least_volume_ratio_ = potential.tables_.volume_ratio_at(end / (1.0 + density_margin));
   return potential;
+}
+
+void Potential::read_kim() {
+  kim_ = std::make_shared<const KimModel>(name_, element_);
+  style_ = "kim";
+  file_ = name_;
+  source_ = "OpenKIM, https://openkim.org/id/" + name_;
+  // The identifier with its version stands for the model's content: KIM never changes one without the other.
+  hash_ = sha256("KIM model " + name_);
+  structure_ = kim_->structure();
+  mass_ = kim_->mass();
+  cutoff_ = kim_->cutoff();
+  lattice_constant_ = kim_->lattice_constant();
+  table_end_ = kim_->end();
+  least_volume_ratio_ =
+      table_end_ > 0.0 ? (1.0 + volume_margin) * table_end_ : KimModel::least_scanned_ratio + 0.01;
 }
 
 void Potential::read_file(const std::string& element, const std::filesystem::path& folder) {
@@ -196,7 +220,20 @@ void Potential::write_tables(const std::string& comment) {
   written_ = std::make_shared<TemporaryFile>(element() + ".eam.alloy", to_setfl(tables_, comment));
 }
 
+void Potential::begin(Lammps& lammps) const {
+  if (kim_) {
+    kim_->begin(lammps);
+    return;
+  }
+  lammps.command("units metal");
+  lammps.command("atom_style atomic");
+}
+
 void Potential::apply(Lammps& lammps) const {
+  if (kim_) {
+    kim_->apply(lammps);
+    return;
+  }
   if (!lammps.has_style("pair", style_)) {
     throw InputError(
         fmt::format("LAMMPS was built without the pair style {}, which {} needs", style_, name_));
@@ -212,6 +249,19 @@ void Potential::apply(Lammps& lammps) const {
 
 void Potential::require_range(double volume_ratio) const {
   if (volume_ratio >= least_volume_ratio_) return;
+  if (kim_ && table_end_ > 0.0) {
+    throw InputError(fmt::format(
+        "potential {}: at V/V0 = {:.3f} {} ({}); V/V0 = {:.3f} is refused, the least that leaves {:.0f} % of "
+        "volume for thermal motion is {:.3f}",
+        name_, table_end_, kim_->reason_of_end(), structure_, volume_ratio, 100 * volume_margin,
+        least_volume_ratio_));
+  }
+  if (kim_) {
+    throw InputError(
+        fmt::format("potential {}: the static crystal was tried down to V/V0 = {:.2f}; {:.3f} is "
+                    "refused",
+                    name_, least_volume_ratio_, volume_ratio));
+  }
   throw InputError(
       fmt::format("potential {}: density table ends at V/V0 = {:.3f} (static {} crystal of {}); V/V0 = "
                   "{:.3f} is refused, the least "
@@ -222,7 +272,20 @@ void Potential::require_range(double volume_ratio) const {
 
 double Potential::static_volume() const {
   const double a = lattice_constant_;
-  return metal::specific_volume(a * a * a / tables_.atoms_per_cell(), mass());
+  return metal::specific_volume(a * a * a / atoms_per_cell(), mass());
+}
+
+const EamTables& Potential::tables() const {
+  if (kim_) throw InternalError("a KIM model has no tables");
+  return tables_;
+}
+
+double Potential::crystal_energy(double a) const {
+  return kim_ ? kim_->crystal_energy(a * a * a / atoms_per_cell()) : tables_.crystal_energy(a);
+}
+
+double Potential::least_known_volume() const {
+  return kim_ ? metal::specific_volume(kim_->least_volume(), mass()) : 0.0;
 }
 
 }  // namespace whipple::md

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "md_fitting/lammps/eam_tables.hpp"
+#include "md_fitting/lammps/kim_model.hpp"
 #include "md_fitting/lammps/lammps.hpp"
 
 namespace whipple::md {
@@ -14,24 +15,28 @@ namespace whipple::md {
 /// first.
 std::filesystem::path potential_folder();
 
-/// An embedded-atom potential of one element, checked before LAMMPS sees it.
+/// The interatomic potential of one element, checked before a simulation uses it: an embedded-atom potential
+/// whose tables the program reads itself, or a model of OpenKIM.
 class Potential {
  public:
-  /// Loads a potential by the name of a known one ("zhou_2004" for each of its elements), or by a file name:
-  /// a path, a file beside the plan (`folder`), or a file in LAMMPS' folder.
-  /// @throws InputError if there is no such file (listing the ones for the element), if the element is not in
-  /// it, or if the file is damaged.
+  /// Loads a potential by the name of a known one ("zhou_2004" for each of its elements), by the extended
+  /// identifier of a KIM model, or by a file name: a path, a file beside the plan (`folder`), or a file in
+  /// LAMMPS' folder.
+  /// @throws InputError if there is no such file or model (listing the ones for the element), if the element
+  /// is not in it, or if the file is damaged.
   static Potential load(const std::string& name, const std::string& element,
                         const std::filesystem::path& folder = {});
 
+  /// Units and atom style of an instance that has no box yet.
+  void begin(Lammps& lammps) const;
   /// Gives an instance with a defined box the pair style, the tables and the mass of atom type 1.
   /// @throws InputError if LAMMPS was built without the pair style.
   void apply(Lammps& lammps) const;
 
   /// Refuses a state whose density leaves the embedding table, where LAMMPS would silently continue it by a
-  /// straight line.
+  /// straight line, or the range in which a KIM model was found to bear compression.
   /// @param volume_ratio V/V0, V0 that of the static crystal at zero pressure
-  /// @throws InputError naming the potential, the end of its table and the state.
+  /// @throws InputError naming the potential, the end of its range and the state.
   void require_range(double volume_ratio) const;
 
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -39,23 +44,39 @@ class Potential {
   [[nodiscard]] const std::string& source() const { return source_; }
   /// SHA-256 of the tables as LAMMPS reads them.
   [[nodiscard]] const std::string& hash() const { return hash_; }
-  [[nodiscard]] const EamTables& tables() const { return tables_; }
-  [[nodiscard]] const std::string& element() const { return tables_.element; }
-  [[nodiscard]] double mass() const { return tables_.mass; }  ///< g/mol
+  /// Whether its functions are those of tables that the program read.
+  [[nodiscard]] bool has_tables() const { return kim_ == nullptr; }
+  /// @throws InternalError for a KIM model.
+  [[nodiscard]] const EamTables& tables() const;
+  [[nodiscard]] const std::string& element() const { return element_; }
+  [[nodiscard]] double mass() const { return mass_; }                        ///< g/mol
+  [[nodiscard]] const std::string& structure() const { return structure_; }  ///< "fcc" or "bcc"
+  [[nodiscard]] int atoms_per_cell() const { return structure_ == "fcc" ? 4 : 2; }
+  [[nodiscard]] double cutoff() const { return cutoff_; }  ///< A
+  /// Energy per atom (eV) of the static crystal with lattice constant a (A).
+  /// @throws StateError for a KIM model beyond the volumes that were scanned.
+  [[nodiscard]] double crystal_energy(double a) const;
+  /// Least specific volume (m^3/kg) with a known `crystal_energy`; 0: all.
+  [[nodiscard]] double least_known_volume() const;
   /// Lattice constant (A) of the static crystal at zero pressure.
   [[nodiscard]] double lattice_constant() const { return lattice_constant_; }
   /// Specific volume (m^3/kg) of the static crystal at zero pressure: the V0 of all volume ratios.
   [[nodiscard]] double static_volume() const;
-  /// V/V0 at which the static crystal reaches the end of the density table; 0: never.
+  /// V/V0 at which the static crystal reaches the end of the density table, or of the range of a KIM model;
+  /// 0: never.
   [[nodiscard]] double table_end() const { return table_end_; }
-  /// Least admissible V/V0: there the static crystal still keeps `density_margin` to the end of the table.
+  /// Least admissible V/V0: there the static crystal still keeps `density_margin` to the end of the table, or
+  /// `volume_margin` to the end of a KIM model.
   [[nodiscard]] double least_volume_ratio() const { return least_volume_ratio_; }
 
   /// Thermal motion raises the density of single atoms above that of the static crystal at the same volume.
   static constexpr double density_margin = 0.10;
+  /// The same for models whose density is not known: electron densities of metals grow about as 1/V^2.
+  static constexpr double volume_margin = 0.05;
 
  private:
   class TemporaryFile;
+  void read_kim();
   void read_file(const std::string& element, const std::filesystem::path& folder);
   /// Tables that LAMMPS reads from a file made for it.
   void write_tables(const std::string& comment);
@@ -65,7 +86,12 @@ class Potential {
   std::string source_;
   std::string hash_;
   std::string style_;
+  std::string element_;
+  std::string structure_;
+  double mass_ = 0.0;
+  double cutoff_ = 0.0;
   EamTables tables_;
+  std::shared_ptr<const KimModel> kim_;
   double lattice_constant_ = 0.0;
   double table_end_ = 0.0;
   double least_volume_ratio_ = 0.0;

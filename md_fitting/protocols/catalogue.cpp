@@ -7,19 +7,19 @@ namespace whipple::md {
 
 std::span<const Protocol> protocols() {
   static constexpr std::array all = {
-      Protocol{"zero_pressure_volume", 1, add_zero_pressure},
+      Protocol{"zero_pressure_volume", 2, add_zero_pressure},
       Protocol{"lattice", 1, add_lattice},
-      Protocol{"coexistence", 1, add_coexistence},
-      Protocol{"isotherm", 1, add_isotherms},
-      Protocol{"isochore", 1, add_isochores},
-      Protocol{"hugoniot", 1, add_hugoniot},
+      Protocol{"coexistence", 2, add_coexistence},
+      Protocol{"isotherm", 2, add_isotherms},
+      Protocol{"isochore", 2, add_isochores},
+      Protocol{"hugoniot", 2, add_hugoniot},
       Protocol{"cold_curve", 1, add_cold_curve},
       Protocol{"elastic", 1, add_elastic},
-      Protocol{"hugoniostat", 1, add_hugoniostat},
-      Protocol{"liquid", 1, add_liquid},
+      Protocol{"hugoniostat", 2, add_hugoniostat},
+      Protocol{"liquid", 2, add_liquid},
       Protocol{"piston", 1, add_piston},
       Protocol{"spall", 1, add_spall},
-      Protocol{"liquid_vapour", 1, add_liquid_vapour},
+      Protocol{"liquid_vapour", 2, add_liquid_vapour},
   };
   return all;
 }

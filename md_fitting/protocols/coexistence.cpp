@@ -52,7 +52,7 @@ class TwoPhaseCell {
     lammps.command("fix whole all {}", npt(guess, "iso"));
     lammps.command("run 1500");
     lammps.command("unfix whole");
-    const double a = std::cbrt(crystal_.lammps().variable("volume") * potential.tables().atoms_per_cell());
+    const double a = std::cbrt(crystal_.lammps().variable("volume") * potential.atoms_per_cell());
     lammps.command("compute order all orientorder/atom degrees 1 6 nnn 12 cutoff {:.17g}", 0.85 * a);
     lammps.command("variable is_crystal atom c_order[1]>{}", crystal_order);
     lammps.command("compute share all reduce ave v_is_crystal");
@@ -104,8 +104,8 @@ class TwoPhaseCell {
     const std::span<const double> t(temperature);
     const std::span<const double> x(share);
     const auto extremes = std::minmax_element(share.begin(), share.end());
-    return {block_average(t.first(t.size() / 2)),
-            block_average(t.last(t.size() / 2)),
+    return {series_mean(t.first(t.size() / 2)),
+            series_mean(t.last(t.size() / 2)),
             mean(x.first(x.size() / 2)),
             mean(x.last(x.size() / 2)),
             *extremes.first,
@@ -143,9 +143,9 @@ std::string refusal(const CoexistenceRun& run) {
 
 CoexistenceResult measure_coexistence(const Potential& potential, double pressure, double first_guess,
                                       std::int64_t attempts, const RunSize& size, std::int64_t seed) {
-  if (potential.tables().structure != "fcc") {
+  if (potential.structure() != "fcc") {
     throw InputError(fmt::format("coexistence is measured for fcc crystals, {} of {} is {}",
-                                 potential.element(), potential.name(), potential.tables().structure));
+                                 potential.element(), potential.name(), potential.structure()));
   }
   // The melting line that is meant here lies below a few 10 GPa: the temperature of the crystal decides, not
   // the guess.

@@ -79,7 +79,7 @@ void add_cold_curve(const Plan& plan, TaskList& list) {
              [&potential = list.potential(), volume](std::int64_t, const PointRecord*) {
                TaskResult result;
                for (const std::string structure : {"fcc", "bcc", "hcp"}) {
-                 const bool own = structure == potential.tables().structure;
+                 const bool own = structure == potential.structure();
                  ColdState state;
                  try {
                    state = measure_cold(potential, structure, volume, result.transcript);

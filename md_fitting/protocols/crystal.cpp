@@ -14,10 +14,9 @@ namespace whipple::md {
 Crystal::Crystal(const Potential& potential, double lattice_constant, std::int64_t nx, std::int64_t ny,
                  std::int64_t nz, const std::string& structure)
     : nx_(nx), ny_(ny), nz_(nz), lammps_(point_communicator()) {
-  lammps_.command("units metal");
-  lammps_.command("atom_style atomic");
+  potential.begin(lammps_);
   lammps_.command("boundary p p p");
-  lammps_.command("lattice {} {:.17g}", structure.empty() ? potential.tables().structure : structure,
+  lammps_.command("lattice {} {:.17g}", structure.empty() ? potential.structure() : structure,
                   lattice_constant);
   lammps_.command("region box block 0 {} 0 {} 0 {}", nx, ny, nz);
   lammps_.command("create_box 1 box");

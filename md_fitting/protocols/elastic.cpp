@@ -79,8 +79,8 @@ Estimate extrapolate_to_zero(std::span<const double> x, std::span<const double> 
 
 ElasticResult measure_elastic(const Potential& potential, double specific_volume, double largest_strain,
                               std::int64_t strains) {
-  const double a = std::cbrt(metal::volume_per_atom(specific_volume, potential.mass()) *
-                             potential.tables().atoms_per_cell());
+  const double a =
+      std::cbrt(metal::volume_per_atom(specific_volume, potential.mass()) * potential.atoms_per_cell());
   StrainedCrystal crystal(potential, a);
   ElasticResult result;
   const Stress rest = crystal.stress();

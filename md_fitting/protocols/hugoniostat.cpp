@@ -38,14 +38,13 @@ HugoniostatResult run_hugoniostat(const Potential& potential, const ReferenceSta
   const double ratio = guess.specific_volume / potential.static_volume();
   potential.require_range(ratio);
   const double mass = potential.mass();
-  const std::string& structure = potential.tables().structure;
+  const std::string& structure = potential.structure();
   const double dt = time_step(potential, ratio, guess.temperature, size);
   HugoniostatResult result;
 
   // The centre of mass of the simulated crystal rests, that of the reference was corrected for it (equations
   // 4 and 7): the thermostat needs the reference of a crystal of its own size.
-  const double n =
-      4.0 * std::pow(static_cast<double>(size.cells), 3) * (potential.tables().atoms_per_cell() / 4.0);
+  const double n = 4.0 * std::pow(static_cast<double>(size.cells), 3) * (potential.atoms_per_cell() / 4.0);
   const double modes = n / (n - 1.0);
   const ColdState rest = measure_cold(potential, structure, potential.static_volume(), result.transcript);
   const double reference_energy =
@@ -56,7 +55,7 @@ HugoniostatResult run_hugoniostat(const Potential& potential, const ReferenceSta
   const double electron_volt = metal::specific_energy(1.0, mass);  // J/kg of 1 eV per atom
 
   const double a =
-      std::cbrt(metal::volume_per_atom(guess.specific_volume, mass) * potential.tables().atoms_per_cell());
+      std::cbrt(metal::volume_per_atom(guess.specific_volume, mass) * potential.atoms_per_cell());
   Crystal crystal(potential, a, size.cells, size.cells, size.cells);
   Lammps& lammps = crystal.lammps();
   lammps.command("variable total_energy equal (pe+ke)/{:.17g}", n);
@@ -94,22 +93,22 @@ HugoniostatResult run_hugoniostat(const Potential& potential, const ReferenceSta
   };
   for (result.parts = 1; result.parts <= most_parts; ++result.parts) {
     const auto series = sample(size.equilibration_steps);
-    if (settled(block_average(series[4]), block_average(series[3]).value)) break;
+    if (settled(series_mean(series[4]), series_mean(series[3]).value)) break;
   }
   const auto series = sample(size.steps);
-  result.residual_temperature = block_average(series[4]);
-  result.temperature = block_average(series[3]);
+  result.residual_temperature = series_mean(series[4]);
+  result.temperature = series_mean(series[3]);
   result.converged = settled(result.residual_temperature, result.temperature.value);
 
   // Energy and pressure of a crystal without the effect of its size, relative to the static one at the mean
   // volume.
-  result.specific_volume = block_average(series[2]);
+  result.specific_volume = series_mean(series[2]);
   const double v = result.specific_volume.value;
   const ColdState cold = measure_cold(potential, structure, v, result.transcript);
-  const Estimate energy = block_average(series[0]);
+  const Estimate energy = series_mean(series[0]);
   result.specific_internal_energy = {
       cold.specific_internal_energy + modes * (energy.value - cold.specific_internal_energy), energy.error};
-  const Estimate mean_pressure = block_average(series[1]);
+  const Estimate mean_pressure = series_mean(series[1]);
   result.pressure = {cold.pressure + modes * (mean_pressure.value - cold.pressure), mean_pressure.error};
 
   // Jump conditions (equation 9). Pressure and volume fluctuate against each other, so their errors are taken
@@ -124,7 +123,7 @@ HugoniostatResult run_hugoniostat(const Potential& potential, const ReferenceSta
   const double particle = std::sqrt(jump * compression);
   const auto relative_error = [&](double sign) {
     const double noise =
-        block_average(combine(0.0, 0.5 / jump, series[1], sign * 0.5 / compression, series[2])).error;
+        series_mean(combine(0.0, 0.5 / jump, series[1], sign * 0.5 / compression, series[2])).error;
     const double of_reference = 0.5 * reference.specific_volume.error / compression;
     return std::sqrt(noise * noise + of_reference * of_reference + 0.25 * heated * heated);
   };
@@ -143,8 +142,8 @@ void add_hugoniostat(const Plan& plan, TaskList& list) {
     const Potential& potential = list.potential();
     ReferenceState at_rest;
     at_rest.specific_volume.value = potential.static_volume();
-    at_rest.specific_internal_energy.value = metal::specific_energy(
-        potential.tables().crystal_energy(potential.lattice_constant()), potential.mass());
+    at_rest.specific_internal_energy.value =
+        metal::specific_energy(potential.crystal_energy(potential.lattice_constant()), potential.mass());
     try {
       list.require_range(guess_hugoniot_at_pressure(potential, at_rest, pressure).specific_volume /
                          potential.static_volume());

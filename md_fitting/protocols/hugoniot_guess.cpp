@@ -12,10 +12,10 @@ namespace whipple::md {
 
 HugoniotGuess guess_hugoniot(const Potential& potential, const ReferenceState& reference, double volume) {
   const double mass = potential.mass();
-  const int atoms = potential.tables().atoms_per_cell();
+  const int atoms = potential.atoms_per_cell();
   const auto cold_energy = [&](double v) {
     return metal::specific_energy(
-        potential.tables().crystal_energy(std::cbrt(metal::volume_per_atom(v, mass) * atoms)), mass);
+        potential.crystal_energy(std::cbrt(metal::volume_per_atom(v, mass) * atoms)), mass);
   };
   const double dv = 1e-3 * volume;
   const double cold_pressure = -(cold_energy(volume + dv) - cold_energy(volume - dv)) / (2 * dv);
@@ -28,12 +28,18 @@ HugoniotGuess guess_hugoniot(const Potential& potential, const ReferenceState& r
   return {volume, temperature, cold_pressure + gruneisen * heat * temperature / volume};
 }
 
+double least_guess_volume(const Potential& potential, const ReferenceState& reference) {
+  // A KIM model's cold curve ends somewhere, and (10) differentiates it.
+  return std::fmax(0.3 * reference.specific_volume.value, 1.005 * potential.least_known_volume());
+}
+
 HugoniotGuess guess_hugoniot_at_pressure(const Potential& potential, const ReferenceState& reference,
                                          double pressure) {
   double larger = reference.specific_volume.value;
-  double smaller = 0.3 * larger;
+  double smaller = least_guess_volume(potential, reference);
   if (guess_hugoniot(potential, reference, smaller).pressure < pressure) {
-    throw StateError(fmt::format("no shock of {:.4g} GPa found down to V/V0 = 0.3", 1e-9 * pressure));
+    throw StateError(
+        fmt::format("no shock of {:.4g} GPa found down to V/V0 = {:.2f}", 1e-9 * pressure, smaller / larger));
   }
   while (larger - smaller > 1e-5 * larger) {
     const double middle = 0.5 * (larger + smaller);

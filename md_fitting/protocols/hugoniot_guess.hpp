@@ -18,8 +18,12 @@ struct HugoniotGuess {
 HugoniotGuess guess_hugoniot(const Potential& potential, const ReferenceState& reference,
                              double specific_volume);
 
+/// Where searches along the guessed Hugoniot end: 0.3 of the reference volume, or earlier if the energy of
+/// the static crystal is not known so far. m^3/kg
+double least_guess_volume(const Potential& potential, const ReferenceState& reference);
+
 /// The same for a pressure.
-/// @throws StateError if the pressure is not reached down to V/V0 = 0.3.
+/// @throws StateError if the pressure is not reached down to `least_guess_volume`.
 HugoniotGuess guess_hugoniot_at_pressure(const Potential& potential, const ReferenceState& reference,
                                          double pressure);
 

@@ -165,14 +165,14 @@ LiquidVapourResult measure_liquid_vapour(const Potential& potential, double temp
   }
   const double density = 1.0 / metal::specific_volume(1.0, mass);  // kg/m^3 of one atom per A^3
   const auto scaled = [&](const std::vector<double>& series) {
-    const Estimate e = block_average(series);
+    const Estimate e = series_mean(series);
     return Estimate{density * e.value, density * e.error};
   };
   LiquidVapourResult result;
   result.liquid_density = scaled(liquid);
   result.vapour_density = scaled(vapour);
-  result.vapour_pressure = block_average(normal);
-  result.surface_energy = block_average(surface);
+  result.vapour_pressure = series_mean(normal);
+  result.surface_energy = series_mean(surface);
   result.width = interface.width * metal::angstrom;
   result.transcript = lammps.transcript();
   return result;

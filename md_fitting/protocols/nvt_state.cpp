@@ -29,7 +29,7 @@ State NvtStateSource::state(double specific_volume, double temperature, Effort e
   potential_.require_range(ratio);
   const double mass = potential_.mass();
   const double atomic_volume = metal::volume_per_atom(specific_volume, mass);
-  const double a = std::cbrt(atomic_volume * potential_.tables().atoms_per_cell());
+  const double a = std::cbrt(atomic_volume * potential_.atoms_per_cell());
   const double dt = time_step(potential_, ratio, temperature, size_);
   const bool search = effort == Effort::search;
   const std::int64_t steps = search ? std::max<std::int64_t>(200, size_.steps / search_share) : size_.steps;
@@ -57,7 +57,7 @@ State NvtStateSource::state(double specific_volume, double temperature, Effort e
   const auto tail = static_cast<std::ptrdiff_t>(displacement.size() / 10 + 1);
   const double last_displacement =
       std::accumulate(displacement.end() - tail, displacement.end(), 0.0) / static_cast<double>(tail);
-  const double neighbour = potential_.tables().structure == "fcc" ? a * std::sqrt(0.5) : a * std::sqrt(0.75);
+  const double neighbour = potential_.structure() == "fcc" ? a * std::sqrt(0.5) : a * std::sqrt(0.75);
   state.solid = std::sqrt(last_displacement) < melting_displacement * neighbour &&
                 state.crystal_share > solid_share_limit;
 
@@ -70,8 +70,8 @@ State NvtStateSource::state(double specific_volume, double temperature, Effort e
       metal::boltzmann * temperature / atomic_volume * metal::pressure_from_energy;  // bar
   for (double& energy : series[0]) energy = cold_energy + modes * (energy - cold_energy) + kinetic_energy;
   for (double& virial : series[1]) virial = cold_virial + modes * (virial - cold_virial) + kinetic_pressure;
-  const Estimate energy = block_average(series[0]);
-  const Estimate pressure = block_average(series[1]);
+  const Estimate energy = series_mean(series[0]);
+  const Estimate pressure = series_mean(series[1]);
   state.specific_internal_energy = {metal::specific_energy(energy.value, mass),
                                     metal::specific_energy(energy.error, mass)};
   state.pressure = {pressure.value * metal::bar, pressure.error * metal::bar};
@@ -81,7 +81,7 @@ State NvtStateSource::state(double specific_volume, double temperature, Effort e
   }
   for (const double mean : block_means(series[1])) state.pressure_blocks.push_back(mean * metal::bar);
   const double square = metal::angstrom * metal::angstrom;
-  state.mean_square_displacement = {last_displacement * square, block_average(displacement).error * square};
+  state.mean_square_displacement = {last_displacement * square, series_mean(displacement).error * square};
   return state;
 }
 

@@ -35,11 +35,11 @@ Phase measure_phase(const Potential& potential, bool liquid, double pressure, do
   lammps.command("run {} post no", size.equilibration_steps);
   auto series = crystal.sample({"volume", "energy"}, sampling_interval(size.steps), size.steps);
   Phase phase;
-  phase.volume = block_average(series[0]);
-  phase.energy = block_average(series[1]);
+  phase.volume = series_mean(series[0]);
+  phase.energy = series_mean(series[1]);
   const double work = pressure / metal::bar / metal::pressure_from_energy;  // eV/A^3
   for (std::size_t i = 0; i < series[0].size(); ++i) series[1][i] += work * series[0][i];
-  phase.enthalpy = block_average(series[1]);
+  phase.enthalpy = series_mean(series[1]);
   phase.crystal_share = crystal_share(crystal, potential);
   transcript += lammps.transcript();
   return phase;

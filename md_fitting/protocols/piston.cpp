@@ -37,13 +37,14 @@ double slope(std::span<const double> x, std::span<const double> y) {
 HugoniotGuess guess_at_velocity(const Potential& potential, const ReferenceState& reference,
                                 double velocity) {
   double larger = reference.specific_volume.value;
-  double smaller = 0.3 * larger;
+  double smaller = least_guess_volume(potential, reference);
   const auto particle = [&](double volume) {
     return std::sqrt(std::fmax(0.0, guess_hugoniot(potential, reference, volume).pressure) *
                      (reference.specific_volume.value - volume));
   };
   if (particle(smaller) < velocity) {
-    throw StateError(fmt::format("no shock with a particle velocity of {} m/s down to V/V0 = 0.3", velocity));
+    throw StateError(fmt::format("no shock with a particle velocity of {} m/s down to V/V0 = {:.2f}",
+                                 velocity, smaller / larger));
   }
   while (larger - smaller > 1e-5 * larger) {
     const double middle = 0.5 * (larger + smaller);
@@ -137,7 +138,7 @@ PistonResult measure_piston(const Potential& potential, const ReferenceState& re
   potential.require_range(guess.specific_volume / potential.static_volume());
   const double dt = time_step(potential, guess.specific_volume / potential.static_volume(), guess.temperature,
                               section.size);
-  const double a = std::cbrt(metal::volume_per_atom(v0, mass) * potential.tables().atoms_per_cell());
+  const double a = std::cbrt(metal::volume_per_atom(v0, mass) * potential.atoms_per_cell());
   const double spacing = 0.5 * a;  // of the layers of fcc and bcc along [001]
   const double length = a * static_cast<double>(section.length);
 
@@ -246,8 +247,8 @@ void add_piston(const Plan& plan, TaskList& list) {
   for (const double velocity : section.particle_velocity) {
     ReferenceState at_rest;
     at_rest.specific_volume.value = potential.static_volume();
-    at_rest.specific_internal_energy.value = metal::specific_energy(
-        potential.tables().crystal_energy(potential.lattice_constant()), potential.mass());
+    at_rest.specific_internal_energy.value =
+        metal::specific_energy(potential.crystal_energy(potential.lattice_constant()), potential.mass());
     try {
       list.require_range(guess_at_velocity(potential, at_rest, velocity).specific_volume /
                          potential.static_volume());

@@ -37,6 +37,45 @@ double error_with_blocks(std::span<const double> series, std::size_t length) {
   return std::sqrt(squares / static_cast<double>(blocks * (blocks - 1)));
 }
 
+constexpr double window_in_times = 5.0;
+/// An alternating series has a mean better than its samples tell, but not without limit.
+constexpr double least_time = 0.05;
+
+/// Mean product of deviations that are `lag` samples apart, over all of them.
+double autocovariance(std::span<const double> deviations, std::size_t lag) {
+  return std::inner_product(deviations.begin(), deviations.end() - static_cast<std::ptrdiff_t>(lag),
+                            deviations.begin() + static_cast<std::ptrdiff_t>(lag), 0.0) /
+         static_cast<double>(deviations.size());
+}
+
+/// Period (samples) of a series whose variance is mostly that of a vibration: half a period later the
+/// deviations have turned round. Zero: it is none. The first two sign changes of the autocovariance are half
+/// a period apart.
+double vibration_period(std::span<const double> deviations, double variance) {
+  constexpr std::size_t longest_lag = 256;
+  double former = variance;
+  double least = 0.0;
+  double first_change = 0.0;
+  for (std::size_t lag = 1; lag <= std::min(longest_lag, deviations.size() / 4); ++lag) {
+    const double present = autocovariance(deviations, lag);
+    if ((former > 0.0) != (present > 0.0)) {
+      const double change = static_cast<double>(lag) - present / (present - former);
+      if (first_change > 0.0) return least < -0.5 * variance ? 2.0 * (change - first_change) : 0.0;
+      first_change = change;
+    }
+    least = std::min(least, present);
+    former = present;
+  }
+  return 0.0;
+}
+
+/// Length of about 1/16 of a series that holds whole periods, so that a vibration leaves nothing in the
+/// means.
+std::size_t length_of_whole_periods(std::size_t samples, double period) {
+  const double periods = std::fmax(1.0, std::round(static_cast<double>(samples / least_blocks) / period));
+  return static_cast<std::size_t>(std::lround(periods * period));
+}
+
 void require_blocks(std::span<const double> series) {
   if (series.size() >= least_blocks) return;
   throw InternalError(
@@ -52,22 +91,35 @@ std::vector<double> block_means(std::span<const double> series) {
   return means;
 }
 
-Estimate block_average(std::span<const double> series) {
+Estimate series_mean(std::span<const double> series) {
   require_blocks(series);
   if (!std::all_of(series.begin(), series.end(), [](double value) { return std::isfinite(value); })) {
     throw StateError("a sample of the simulation is not finite");
   }
-  Estimate estimate;
-  estimate.value = std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
-  for (std::size_t length = 1; series.size() / length >= least_blocks; length *= 2) {
-    estimate.error = std::max(estimate.error, error_with_blocks(series, length));
+  const auto n = static_cast<double>(series.size());
+  const double mean = std::accumulate(series.begin(), series.end(), 0.0) / n;
+  std::vector<double> deviations(series.begin(), series.end());
+  for (double& value : deviations) value -= mean;
+  const double variance = autocovariance(deviations, 0);
+  // A constant series, up to the rounding of its mean.
+  if (variance <= 1e-28 * mean * mean) return {mean, 0.0};
+  if (const double period = vibration_period(deviations, variance); period > 0.0) {
+    return {mean, error_with_blocks(series, length_of_whole_periods(series.size(), period))};
   }
-  return estimate;
+  double time = 0.5;  // of correlation, in samples
+  std::size_t lag = 1;
+  for (const std::size_t longest = series.size() / 8; lag <= longest; ++lag) {
+    time += autocovariance(deviations, lag) / variance;
+    if (static_cast<double>(lag) >= window_in_times * time) break;
+  }
+  time = std::max(time, least_time);
+  const double bias = 1.0 + (2.0 * static_cast<double>(lag) + 1.0) / n;
+  return {mean, std::sqrt(2.0 * time * bias * variance / (n - 1.0))};
 }
 
 double error_correlation(std::span<const double> first, std::span<const double> second) {
-  const double first_error = block_average(first).error;
-  const double second_error = block_average(second).error;
+  const double first_error = series_mean(first).error;
+  const double second_error = series_mean(second).error;
   if (first.size() != second.size())
     throw InternalError("two series of different length have no correlation");
   if (first_error == 0.0 || second_error == 0.0) return 0.0;
@@ -78,8 +130,8 @@ double error_correlation(std::span<const double> first, std::span<const double> 
     sum[i] = first[i] / first_error + second[i] / second_error;
     difference[i] = first[i] / first_error - second[i] / second_error;
   }
-  const double plus = block_average(sum).error;
-  const double minus = block_average(difference).error;
+  const double plus = series_mean(sum).error;
+  const double minus = series_mean(difference).error;
   return std::clamp(0.25 * (plus * plus - minus * minus), -1.0, 1.0);
 }
 

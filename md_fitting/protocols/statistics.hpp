@@ -8,12 +8,14 @@
 
 namespace whipple::md {
 
-/// Mean of a correlated series with its standard error by block averages: the series is cut into blocks of
-/// growing length, and the largest error over all lengths that leave at least 16 blocks is taken (Flyvbjerg
-/// and Petersen, J. Chem. Phys. 91 (1989) 461, who read the plateau; the largest is a little conservative and
-/// needs no reader).
+/// Mean of a correlated series with its standard error. The variance of the mean is that of independent
+/// samples times 2 tau, tau the integrated autocorrelation time over a window of five tau (Sokal, in
+/// Functional Integration, NATO ASI B 361 (1997) 131), corrected for the mean being the series' own (Wolff,
+/// Comput. Phys. Commun. 156 (2004) 143, equation 49). A series that mostly oscillates, as the volume does
+/// under a barostat, has no such window: there the error is that of the means of about 16 blocks of whole
+/// periods. docs/theory/molecular_dynamics.md, "Errors".
 /// @throws InternalError for fewer than 16 samples; StateError if a sample is not finite.
-Estimate block_average(std::span<const double> series);
+Estimate series_mean(std::span<const double> series);
 
 /// Means over the 16 longest blocks of equal length; what is left over at the beginning is dropped. They are
 /// what a bootstrap over blocks draws from.

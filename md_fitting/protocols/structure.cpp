@@ -7,9 +7,9 @@ namespace whipple::md {
 
 double crystal_share(Crystal& crystal, const Potential& potential) {
   Lammps& lammps = crystal.lammps();
-  const double a = std::cbrt(lammps.variable("volume") * potential.tables().atoms_per_cell());
+  const double a = std::cbrt(lammps.variable("volume") * potential.atoms_per_cell());
   // Between the first and second shell of fcc (0.71 and 1 a), the second and third of bcc (1 and 1.41 a).
-  const bool fcc = potential.tables().structure == "fcc";
+  const bool fcc = potential.structure() == "fcc";
   lammps.command("compute order all orientorder/atom degrees 1 6 nnn {} cutoff {:.17g}", fcc ? 12 : 14,
                  (fcc ? 0.85 : 1.2) * a);
   lammps.command("variable is_crystal atom c_order[1]>{}", crystal_order);

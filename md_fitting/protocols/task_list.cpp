@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "src/base/error.hpp"
 #include "src/base/hash.hpp"
@@ -19,7 +20,7 @@ std::map<std::string, std::string> common_settings(const Plan& plan, const Poten
           {"potential_file", potential.file().filename().string()},
           {"potential_sha256", potential.hash()},
           {"potential_source", potential.source()},
-          {"structure", potential.tables().structure},
+          {"structure", potential.structure()},
           {"static_specific_volume", fmt::format("{}", potential.static_volume())},
           {"density_table_end", fmt::format("{}", potential.table_end())},
           {"lammps_version", std::to_string(lammps_release())},
@@ -62,7 +63,22 @@ void TaskList::require_range(double volume_ratio) {
   }
 }
 
+void TaskList::require_box(const PointRequest& request) {
+  const auto cells = request.settings.find("cells");
+  if (cells == request.settings.end()) return;
+  const auto volume = request.conditions.find("specific_volume");
+  const double ratio = volume == request.conditions.end() ? 1.0 : volume->second / potential_.static_volume();
+  const double width = std::stod(cells->second) * potential_.lattice_constant() * std::cbrt(ratio);
+  if (width >= potential_.cutoff()) return;
+  fault(fmt::format(
+      "a box of {} cells is {:.2f} angstrom wide at V/V0 = {:.3f}, less than the cutoff of {}, {:.2f} "
+      "angstrom: atoms would feel their own images; use cells = {} or more",
+      cells->second, width, ratio, potential_.name(), potential_.cutoff(),
+      static_cast<int>(std::ceil(std::stod(cells->second) * potential_.cutoff() / width))));
+}
+
 std::string TaskList::add(const PointRequest& request, Compute compute) {
+  require_box(request);
   Task task;
   task.protocol = protocol_;
   task.conditions = request.conditions;

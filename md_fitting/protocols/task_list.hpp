@@ -38,7 +38,8 @@ class TaskList {
   void fault(const std::string& text);
   /// Notes an error unless the potential covers the volume ratio.
   void require_range(double volume_ratio);
-  /// Adds a point, unless the plan asked for the same one before. Returns its key.
+  /// Adds a point, unless the plan asked for the same one before. Returns its key. Notes an error if its box
+  /// is narrower than the cutoff: atoms would feel their own images.
   std::string add(const PointRequest& request, Compute compute);
   /// Key of the first point of a protocol; empty: there is none yet.
   [[nodiscard]] std::string first_key(const std::string& protocol) const;
@@ -47,6 +48,8 @@ class TaskList {
   std::vector<Task> take();
 
  private:
+  void require_box(const PointRequest& request);
+
   const Potential& potential_;
   std::map<std::string, std::string> common_;
   std::string protocol_;

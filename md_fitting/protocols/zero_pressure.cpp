@@ -34,7 +34,7 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
   lammps.command("run {} post no", size.equilibration_steps);
   auto series =
       crystal.sample({"energy", "volume", "displacement"}, sampling_interval(size.steps), size.steps);
-  const double neighbour = potential.tables().structure == "fcc" ? a * std::sqrt(0.5) : a * std::sqrt(0.75);
+  const double neighbour = potential.structure() == "fcc" ? a * std::sqrt(0.5) : a * std::sqrt(0.75);
   if (std::sqrt(series[2].back()) > melting_displacement * neighbour) {
     throw StateError(
         fmt::format("the crystal melted at {} K and zero pressure: atoms moved {:.2f} A from their sites",
@@ -51,8 +51,8 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
   const double kinetic_energy = 1.5 * metal::boltzmann * temperature;
   for (double& energy : series[0]) energy = cold_energy + modes * (energy - cold_energy) + kinetic_energy;
   for (double& volume : series[1]) volume = cold_volume + modes * (volume - cold_volume);
-  const Estimate energy = block_average(series[0]);
-  const Estimate volume = block_average(series[1]);
+  const Estimate energy = series_mean(series[0]);
+  const Estimate volume = series_mean(series[1]);
   std::vector<double> blocks;
   for (const double mean : block_means(series[1])) blocks.push_back(metal::specific_volume(mean, mass));
   return {{metal::specific_volume(volume.value, mass), metal::specific_volume(volume.error, mass)},
@@ -64,14 +64,14 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
 
 Estimate thermal_expansion(std::span<const double> volume, std::span<const double> energy, double atoms,
                            double temperature) {
-  const double mean_volume = block_average(volume).value;
-  const double mean_energy = block_average(energy).value;
+  const double mean_volume = series_mean(volume).value;
+  const double mean_energy = series_mean(energy).value;
   std::vector<double> product(volume.size());
   const double scale = atoms / (metal::boltzmann * temperature * temperature * mean_volume);
   for (std::size_t i = 0; i < product.size(); ++i) {
     product[i] = scale * (volume[i] - mean_volume) * (energy[i] - mean_energy);
   }
-  return block_average(product);
+  return series_mean(product);
 }
 
 void add_zero_pressure(const Plan& plan, TaskList& list) {

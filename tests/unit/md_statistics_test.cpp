@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Block averages find the error of the mean of correlated data, where the naive formula is several times too
+// The error of the mean of the mean of correlated data, where the naive formula is several times too
 // small.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "md_fitting/protocols/statistics.hpp"
@@ -27,14 +28,14 @@ std::vector<double> autoregressive(unsigned seed) {
 }
 
 // The mean of an AR(1) series with unit noise has the standard error 1/((1 - c) sqrt(n)) for long series.
-TEST(BlockAverage, FindsTheErrorOfAnAutoregressiveSeries) {
+TEST(SeriesMean, FindsTheErrorOfAnAutoregressiveSeries) {
   const double exact = 1.0 / ((1.0 - correlation) * std::sqrt(static_cast<double>(samples)));
   const double naive = exact * std::sqrt((1 - correlation) / (1 + correlation));
   double mean_error = 0.0;
   int within = 0;
   constexpr int realisations = 200;
   for (unsigned seed = 0; seed < realisations; ++seed) {
-    const Estimate estimate = block_average(autoregressive(seed));
+    const Estimate estimate = series_mean(autoregressive(seed));
     mean_error += estimate.error / realisations;
     if (std::abs(estimate.value) < 2.0 * estimate.error) ++within;
   }
@@ -52,18 +53,58 @@ TEST(BlockMeans, AreSixteenAndCarryTheError) {
   ASSERT_EQ(blocks.size(), 16u);
   double mean = 0.0;
   for (const double value : blocks) mean += value / 16.0;
-  EXPECT_NEAR(mean, block_average(series).value, 1e-12);  // a power of two of samples: nothing is dropped
-  EXPECT_LE(block_average(blocks).error, block_average(series).error * (1 + 1e-12));
+  EXPECT_NEAR(mean, series_mean(series).value, 1e-12);  // a power of two of samples: nothing is dropped
+  double squares = 0.0;
+  for (const double value : blocks) squares += (value - mean) * (value - mean);
+  EXPECT_NEAR(std::sqrt(squares / (16.0 * 15.0)) / series_mean(series).error, 1.0, 0.5);
   EXPECT_EQ(block_means(std::vector<double>(33, 2.0)), std::vector<double>(16, 2.0));
   EXPECT_THROW(block_means(std::vector<double>(15, 1.0)), InternalError);
 }
 
-TEST(BlockAverage, RefusesWhatHasNoError) {
-  EXPECT_THROW(block_average(std::vector<double>(15, 1.0)), InternalError);
+// Short series: 200 samples are about ten times of correlation of 19 samples each. Without the correction for
+// the series' own mean the error would be a fifth too small.
+TEST(SeriesMean, IsHonestForShortSeries) {
+  constexpr std::size_t length = 200;
+  double squared_error = 0.0;
+  double squared_mean = 0.0;
+  int count = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const std::vector<double> series = autoregressive(seed);
+    for (std::size_t begin = 0; begin + length <= series.size(); begin += length) {
+      const Estimate estimate = series_mean(std::span(series).subspan(begin, length));
+      squared_error += estimate.error * estimate.error;
+      squared_mean += estimate.value * estimate.value;
+      ++count;
+    }
+  }
+  EXPECT_NEAR(std::sqrt(squared_mean / squared_error), 1.0, 0.2) << count;
+}
+
+// A barostat's volume: an undamped oscillation of random phase on a slow correlated part ten times smaller.
+// The largest error over block lengths would be that of blocks of half a period.
+TEST(SeriesMean, DoesNotTakeAnOscillationForSlowMotion) {
+  constexpr std::size_t length = 1000;
+  double squared_error = 0.0;
+  double squared_mean = 0.0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    std::vector<double> series = autoregressive(seed);
+    series.resize(length);
+    for (std::size_t i = 0; i < length; ++i) {
+      series[i] += 23.0 * std::sqrt(2.0) * std::cos(2.0 * M_PI * static_cast<double>(i) / 18.0 + seed);
+    }
+    const Estimate estimate = series_mean(series);
+    squared_error += estimate.error * estimate.error;
+    squared_mean += estimate.value * estimate.value;
+  }
+  EXPECT_NEAR(std::sqrt(squared_mean / squared_error), 1.0, 0.35);
+}
+
+TEST(SeriesMean, RefusesWhatHasNoError) {
+  EXPECT_THROW(series_mean(std::vector<double>(15, 1.0)), InternalError);
   std::vector<double> series(100, 1.0);
-  EXPECT_EQ(block_average(series).error, 0.0);
+  EXPECT_EQ(series_mean(series).error, 0.0);
   series[50] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(block_average(series), StateError);
+  EXPECT_THROW(series_mean(series), StateError);
 }
 
 TEST(ErrorCorrelation, SeesCommonNoise) {
