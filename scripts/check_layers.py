@@ -18,10 +18,13 @@ MAY_USE = {
     "src/process": ["src/base"],
     "src/hdf5": ["src/base"],
     "eos": ["src/base"],
-    "eos/files": ["src/base", "src/hdf5", "eos"],
+    "md_fitting/data_set": ["src/base", "src/hdf5"],
+    # Reads the store and starts whipple-md as a process: no LAMMPS on the solver's side.
+    "eos/md": ["src/base", "src/process", "eos", "md_fitting/data_set"],
+    "eos/files": ["src/base", "src/hdf5", "eos", "eos/md"],
     "src/particles": ["src/base", "src/parallel"],
     "src/grid": ["src/base", "src/parallel"],
-    "src/material": ["src/base", "src/input", "eos", "eos/files", "src/particles"],
+    "src/material": ["src/base", "src/input", "eos", "eos/md", "eos/files", "src/particles"],
     "src/transfer": ["src/base", "src/parallel", "src/particles", "src/grid"],
     "src/fem": ["src/base", "src/parallel", "src/particles", "src/material"],
     "src/contact": ["src/base", "src/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
@@ -35,7 +38,6 @@ MAY_USE = {
     "src/bench": ["src/base", "src/parallel", "src/process", "src/particles", "src/grid", "src/transfer", "src/io", "src/setup", "src/solver"],
     # Reads what runs wrote; knows no solver.
     "src/analysis": ["src/base", "src/input", "src/parallel", "src/hdf5"],
-    "md_fitting/data_set": ["src/base", "src/hdf5"],
     "md_fitting/plan": ["src/base", "src/input"],
     "md_fitting/lammps": ["src/base", "md_fitting/data_set"],
     "md_fitting/protocols": ["src/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],
@@ -50,7 +52,8 @@ MAY_USE = {
 # CMake library -> module, where the name is not the last part of the folder.
 LIBRARY_OF = {"whipple_md_data_set": "md_fitting/data_set", "whipple_md_plan": "md_fitting/plan",
               "whipple_md_lammps": "md_fitting/lammps", "whipple_md_protocols": "md_fitting/protocols",
-              "whipple_fit": "md_fitting/fit", "whipple_eos": "eos", "whipple_eos_files": "eos/files"}
+              "whipple_fit": "md_fitting/fit", "whipple_eos": "eos", "whipple_eos_files": "eos/files",
+              "whipple_eos_md": "eos/md"}
 
 VERSION_QUERY = "src/app/version_command.cpp"  # asks the libraries for their version, nothing else
 

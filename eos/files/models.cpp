@@ -11,6 +11,7 @@
 
 #include "eos/files/sesame.hpp"
 #include "eos/files/table_file.hpp"
+#include "eos/md/worker_source.hpp"
 #include "eos/table/sesame.hpp"
 #include "src/base/error.hpp"
 
@@ -86,12 +87,34 @@ ModelEntry sesame_entry(const fs::path& folder, std::vector<fs::path>* used) {
           }};
 }
 
+ModelEntry simulated_entry() {
+  return {std::string(SimulatedCrystal::name), "crystal simulated by whipple-md when a state is asked for",
+          [] { return describe_table(SimulatedConstants::parameters()); },
+          [](const ParameterReader& read) -> std::function<std::unique_ptr<EquationOfState>()> {
+            SimulatedConstants constants;
+            read(whipple::bind(SimulatedConstants::parameters(), constants));
+            return [constants] {
+              const fs::path store =
+                  constants.store.empty() ? default_store(constants) : fs::path(constants.store);
+              if (!store.is_absolute()) {
+                throw InputError(
+                    fmt::format("store = \"{}\": expected an absolute path: copies of the material "
+                                "share it",
+                                constants.store));
+              }
+              return std::make_unique<SimulatedCrystal>(constants,
+                                                        std::make_unique<WorkerSource>(constants, store));
+            };
+          }};
+}
+
 }  // namespace
 
 std::vector<ModelEntry> all_models(const fs::path& folder, std::vector<fs::path>* used) {
   std::vector<ModelEntry> entries(catalogue().begin(), catalogue().end());
   entries.push_back(table_entry(folder, used));
   entries.push_back(sesame_entry(folder, used));
+  entries.push_back(simulated_entry());
   return entries;
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <csignal>
 #include <cstring>
+#include <string_view>
 
 #include "src/base/log.hpp"
 #include "src/process/paths.hpp"
@@ -41,6 +42,23 @@ int mpirun(int ranks, const std::vector<std::string>& program, const Environment
         program.front(), signal, strsignal(signal));
   }
   return code;
+}
+
+int run_alone(const std::vector<std::string>& program, const Environment& environment) {
+  std::vector<std::string> arguments = {"env"};
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view entry(*variable);
+    const std::string_view name = entry.substr(0, entry.find('='));
+    // What Open MPI and its runtime tell the ranks of a program about it.
+    if (name.starts_with("OMPI_") || name.starts_with("PMIX_") || name.starts_with("ORTE_") ||
+        name.starts_with("PRTE_")) {
+      arguments.insert(arguments.end(), {"-u", std::string(name)});
+    }
+  }
+  arguments.push_back(find_executable(program.front()).string());
+  arguments.insert(arguments.end(), program.begin() + 1, program.end());
+  log::detail("{}", fmt::join(arguments, " "));
+  return run_process(arguments, environment);
 }
 
 }  // namespace whipple::process

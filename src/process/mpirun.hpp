@@ -15,4 +15,8 @@ namespace whipple::process {
 /// @returns the exit code of mpirun
 int mpirun(int ranks, const std::vector<std::string>& program, const Environment& environment = {});
 
+/// Runs a program of the project that uses MPI as a single process of its own, also from a rank of another
+/// MPI program: it is not told of that one, whose place it would take. @returns its exit code
+int run_alone(const std::vector<std::string>& program, const Environment& environment = {});
+
 }  // namespace whipple::process

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "eos/md/isochore_source.hpp"
+
+namespace whipple::eos {
+
+/// Free energy of a crystal between simulated isochores (docs/theory/equations_of_state.md, "Simulated
+/// crystals"):
+///   F = phi(V) + c T [psi(V) - ln(T/T0)] - g T^2/2,    V psi' = -gamma(V),    c = 3 R/M.
+/// phi is a cubic through energy and pressure of the static crystal at both ends of an interval of volumes,
+/// gamma a straight line between theirs. Intervals are worked out when they are first asked for, and only
+/// those; each depends on its own volumes alone, so that the surface is the same whoever asks first.
+class CrystalSurface {
+ public:
+  struct Settings {
+    double least_ratio = 0.0, greatest_ratio = 0.0;  ///< range of V over that of the static crystal
+    double spacing = 0.0;                            ///< width of the intervals before any division
+    double greatest_temperature = 0.0;               ///< K: the error is estimated up to there
+    double tolerance = 0.0;  ///< Pa: estimated error of the pressure that is not exceeded
+    int divisions = 0;       ///< largest number of halvings of an interval
+  };
+  /// What is known at one volume.
+  struct Point {
+    double cold_energy = 0.0;                       ///< phi
+    double first = 0.0, second = 0.0;               ///< phi', phi''
+    double gruneisen = 0.0, gruneisen_slope = 0.0;  ///< gamma, d gamma/dV
+  };
+  /// One interval between two simulated isochores.
+  struct Leaf {
+    double begin = 0.0, end = 0.0;                                   ///< m^3/kg
+    double energy = 0.0, slope = 0.0, quadratic = 0.0, cubic = 0.0;  ///< phi in powers of (V - begin)
+    double gruneisen = 0.0, gruneisen_slope = 0.0;
+    [[nodiscard]] Point at(double volume) const {
+      const double h = volume - begin;
+      return {energy + h * (slope + h * (quadratic + h * cubic)),
+              slope + h * (2.0 * quadratic + 3.0 * h * cubic), 2.0 * quadratic + 6.0 * h * cubic,
+              gruneisen + h * gruneisen_slope, gruneisen_slope};
+    }
+  };
+  struct Cell {
+    std::vector<Leaf> leaves;  ///< by rising volume
+    double error = 0.0;        ///< Pa, the largest estimate of the leaves
+    std::string fault;         ///< why there is no surface here; empty: there is
+    [[nodiscard]] const Leaf& leaf(double volume) const {
+      std::size_t i = 0;
+      while (i + 1 < leaves.size() && volume > leaves[i].end) ++i;
+      return leaves[i];
+    }
+  };
+
+  /// Asks for the isochore of the static crystal's volume, which gives g.
+  /// @throws StateError if there is none
+  CrystalSurface(std::unique_ptr<IsochoreSource> source, const Settings& settings);
+  ~CrystalSurface();
+
+  /// The cell of a volume, worked out if this is the first call for it; null outside of the range. Safe from
+  /// several threads.
+  [[nodiscard]] const Cell* cell(double volume) const;
+
+  [[nodiscard]] double least_volume() const { return settings_.least_ratio * static_volume_; }
+  [[nodiscard]] double greatest_volume() const { return settings_.greatest_ratio * static_volume_; }
+  [[nodiscard]] double heat_capacity() const { return heat_capacity_; }        ///< c, J/(kg K)
+  [[nodiscard]] double anharmonic_coefficient() const { return anharmonic_; }  ///< g, J/(kg K^2)
+
+ private:
+  struct Node {
+    double volume = 0.0, cold_energy = 0.0, cold_pressure = 0.0, gruneisen = 0.0;
+    double misfit = 0.0;  ///< Pa: what the law leaves of the simulated states
+  };
+  void fetch(const std::vector<double>& ratios) const;
+  [[nodiscard]] Node node_of(const SimulatedIsochore& isochore) const;
+  [[nodiscard]] Leaf leaf_between(const Node& a, const Node& b) const;
+  void divide(double low, double high, int level, Cell& cell) const;
+  [[nodiscard]] std::unique_ptr<Cell> work_out(std::size_t index) const;
+
+  std::unique_ptr<IsochoreSource> source_;
+  Settings settings_;
+  double static_volume_, heat_capacity_, anharmonic_ = 0.0;
+  // Lazily filled; the entries of `cells_` are published once and stay.
+  mutable std::mutex mutex_;
+  mutable std::map<double, Node> nodes_;
+  mutable std::vector<std::atomic<const Cell*>> cells_;
+  mutable std::vector<std::unique_ptr<Cell>> owned_;
+};
+
+}  // namespace whipple::eos

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eos/md/worker_source.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+
+#include "src/base/error.hpp"
+#include "src/base/log.hpp"
+#include "src/base/text.hpp"
+#include "src/process/mpirun.hpp"
+
+namespace whipple::eos {
+namespace {
+
+bool same(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); }
+
+}  // namespace
+
+WorkerSource::WorkerSource(const SimulatedConstants& constants, const std::filesystem::path& store)
+    : constants_(constants), store_(store) {
+  compute({});
+  std::set<std::string> tables;
+  for (const md::PointRecord& point : md::read_store(store_)) {
+    if (point.protocol != "lattice" || !mine(point)) continue;
+    tables.insert(point.origin("potential_sha256"));
+    static_volume_ = point.origin_number("static_specific_volume");
+    molar_mass_ = point.origin_number("molar_mass");
+  }
+  if (tables.size() != 1) {
+    throw InputError(fmt::format(
+        "{}: the store holds {} different tables under the name of the potential '{}': take another store",
+        store_.string(), tables.size(), constants_.potential));
+  }
+}
+
+bool WorkerSource::mine(const md::PointRecord& point) const {
+  const auto is = [&](const char* entry, const std::string& value) {
+    const auto found = point.provenance.find(entry);
+    return found != point.provenance.end() && found->second == value;
+  };
+  if (!is("element", constants_.element) || !is("potential", constants_.potential)) return false;
+  if (point.protocol == "lattice" || point.protocol == "cold_curve") return true;
+  return is("cells", std::to_string(constants_.cells)) && is("steps", std::to_string(constants_.steps)) &&
+         is("equilibration_steps", std::to_string(constants_.equilibration_steps)) &&
+         is("plan_seed", std::to_string(constants_.seed)) && is("ranks", "1");
+}
+
+std::string WorkerSource::plan_of(std::span<const double> volume_ratios) const {
+  std::string text = fmt::format("element = {}\npotential = {}\nseed = {}\n", toml_string(constants_.element),
+                                 toml_string(constants_.potential), constants_.seed);
+  if (volume_ratios.empty()) return text;
+  text += fmt::format("[cold_curve]\nvolume_ratio = [{}]\n", fmt::join(volume_ratios, ", "));
+  for (const double ratio : volume_ratios) {
+    text += fmt::format(
+        "[[isochore]]\nvolume_ratio = {}\ntemperature = [{}]\ncells = {}\nequilibration_steps = {}\nsteps = "
+        "{}\n",
+        ratio, fmt::join(constants_.temperature, ", "), constants_.cells, constants_.equilibration_steps,
+        constants_.steps);
+  }
+  return text;
+}
+
+void WorkerSource::compute(std::span<const double> volume_ratios) const {
+  std::error_code ignored;
+  std::filesystem::create_directories(store_.parent_path(), ignored);
+  const std::filesystem::path plan =
+      store_.parent_path() / fmt::format(".{}.{}.toml", store_.filename().string(), getpid());
+  {
+    std::ofstream file(plan);
+    file << plan_of(volume_ratios);
+    if (!file.flush()) throw InputError(fmt::format("cannot write {}", plan.string()));
+  }
+  std::vector<std::string> program = {"whipple-md", plan.string(), "-o", store_.string()};
+  if (log::level() != log::Level::verbose) program.emplace_back("--quiet");
+  const int code = process::run_alone(program, {{"OMP_NUM_THREADS", "1"}});
+  std::filesystem::remove(plan, ignored);
+  // A point that failed is in the store with its message.
+  if (code != 0 && code != static_cast<int>(ExitCode::state)) {
+    throw InputError(fmt::format("whipple-md ended with code {} for potential '{}' of {}", code,
+                                 constants_.potential, constants_.element));
+  }
+}
+
+bool WorkerSource::find(const std::vector<md::PointRecord>& points, double volume_ratio,
+                        SimulatedIsochore& isochore) const {
+  isochore = {};
+  isochore.volume = volume_ratio * static_volume_;
+  bool cold = false;
+  for (const double temperature : constants_.temperature) {
+    bool found = false;
+    for (const md::PointRecord& point : points) {
+      const bool crystal = point.protocol == "cold_curve";
+      if ((!crystal && point.protocol != "isochore") || !mine(point) ||
+          !same(point.condition("specific_volume"), isochore.volume)) {
+        continue;
+      }
+      if (!crystal && !same(point.condition("temperature"), temperature)) continue;
+      if (!point.done()) throw StateError(fmt::format("{}: {}", point.label(), point.message));
+      if (crystal) {
+        isochore.cold_pressure = point.result("pressure").value;
+        isochore.cold_energy = point.result("specific_internal_energy").value;
+        cold = true;
+        continue;
+      }
+      constexpr double whole = 0.9;  // share of crystal: a cavity or a fault takes more than a tenth
+      if (point.result("solid").value < 0.5 || point.result("crystal_share").value < whole) {
+        throw StateError(fmt::format("{}: {}", point.label(), point.message));
+      }
+      const md::Estimate pressure = point.result("pressure");
+      const md::Estimate energy = point.result("specific_internal_energy");
+      isochore.states.push_back({temperature, pressure.value, pressure.error, energy.value, energy.error});
+      found = true;
+      break;
+    }
+    if (!found) return false;
+  }
+  return cold;
+}
+
+std::vector<SimulatedIsochore> WorkerSource::isochores(std::span<const double> volume_ratios) {
+  std::vector<SimulatedIsochore> isochores(volume_ratios.size());
+  std::vector<double> missing;
+  std::vector<md::PointRecord> points = md::read_store(store_);
+  for (std::size_t i = 0; i < volume_ratios.size(); ++i) {
+    if (!find(points, volume_ratios[i], isochores[i])) missing.push_back(volume_ratios[i]);
+  }
+  if (missing.empty()) return isochores;
+  log::info("{}: simulating {} states at V/Vs = {}", constants_.potential,
+            missing.size() * constants_.temperature.size(), fmt::join(missing, ", "));
+  compute(missing);
+  points = md::read_store(store_);
+  for (std::size_t i = 0; i < volume_ratios.size(); ++i) {
+    if (!find(points, volume_ratios[i], isochores[i])) {
+      throw StateError(fmt::format("whipple-md brought no complete isochore at V/Vs = {}", volume_ratios[i]));
+    }
+  }
+  return isochores;
+}
+
+}  // namespace whipple::eos
