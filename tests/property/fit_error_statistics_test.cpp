@@ -90,6 +90,7 @@ TEST(Adaptive, StatedErrorsAreMade) {
 // The other outcomes beside those of the quick tests.
 TEST(Adaptive, ChosenPointsTellMoreThanAnEvenPlanOfTheSameCost) {
   testing::expect_less_error_than_even_plan("hugoniot_pressure");
+  testing::expect_less_error_than_even_plan("shock_melting_pressure");
   testing::expect_less_error_than_even_plan("release_melting_pressure");
 }
 
