@@ -8,6 +8,7 @@
 #include <set>
 
 #include "md_fitting/protocols/catalogue.hpp"
+#include "src/base/error.hpp"
 #include "src/base/hash.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
 
@@ -26,7 +27,7 @@ class Keys : public ::testing::Test {
                                                   {"plan_seed", "1"},
                                                   {"potential_sha256", potential.hash()},
                                                   {"ranks", "1"},
-                                                  {"revision", "1"},
+                                                  {"revision", protocol == "lattice" ? "1" : "2"},
                                                   {"structure", "fcc"}};
     for (std::size_t at = 0; at < sizes.size();) {
       const std::size_t end = sizes.find('\n', at);
@@ -74,6 +75,29 @@ TEST_F(Keys, OfTheShippedPlansAreThoseOfTheFirstStores) {
           section.size.steps));
   EXPECT_TRUE(std::any_of(melting_tasks.begin(), melting_tasks.end(),
                           [&](const Task& task) { return task.key == wanted; }));
+}
+
+// The cutoff of u3 is 4.95 A, its lattice constant 3.615 A: one cell is too narrow, two are not, but at half
+// the volume again.
+TEST_F(Keys, BoxesNarrowerThanTheCutoffAreRefused) {
+  Plan plan;
+  plan.element = "Cu";
+  plan.potential = "copper_universal_3";
+  plan.isotherms = {{293.0, {0.9}, {.cells = 1, .equilibration_steps = 100, .steps = 1000}}};
+  const auto fault = [&] {
+    try {
+      make_tasks(plan, potential);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(fault().find("a box of 1 cells is 3.49 angstrom wide at V/V0 = 0.900, less than the cutoff"),
+            std::string::npos)
+      << fault();
+  EXPECT_NE(fault().find("use cells = 2 or more"), std::string::npos) << fault();
+  plan.isotherms[0].size.cells = 2;
+  EXPECT_EQ(fault(), "");
 }
 
 TEST_F(Keys, ChangeWithWhatChangesTheNumbersOnly) {
