@@ -3,7 +3,10 @@
 """Constants of all metals and potentials from molecular dynamics: runs what is missing of the short plans, fits every store,
 compares with experiments, and writes the tables of docs/results_md.md.
 
-Usage: scripts/md_results.py [--bin build/release/bin] [--stores run/md] [--ranks N] [-o docs/results_md.md]
+Usage: scripts/md_results.py [--bin build/release/bin] [--stores run/md] [--ranks N] [--metal NAME ...]
+                             [-o docs/results_md.md]
+
+Models of OpenKIM need scripts/install_deps.sh --kim. With --metal only the sections of these metals are written anew.
 """
 import argparse
 import pathlib
@@ -32,12 +35,14 @@ METALS = {
             "aluminium_zhou": "Zhou et al. 2004",
             "aluminium_voter": "Voter, Chen 1987",
             "aluminium_mendelev": "Mendelev et al. 2008",
+            "aluminium_winey": "Winey et al. 2010 (KIM)",
+            "aluminium_zhakhovsky": "Zhakhovsky et al. 2009 (KIM)",
         },
         ["al_hugoniot_mitchell_nellis1981", "al_isotherm_298K_dewaele2004"],
     ),
-    "lead": ({"lead_zhou": "Zhou et al. 2004"}, []),
+    "lead": ({"lead_zhou": "Zhou et al. 2004", "lead_landa": "Landa et al. 2000 (KIM)"}, []),
     "nickel": ({"nickel_u3": "Foiles et al. 1986, universal 3", "nickel_zhou": "Zhou et al. 2004"}, []),
-    "tantalum": ({"tantalum_zhou": "Zhou et al. 2004"}, ["ta_isotherm_298K_dewaele2004"]),
+    "tantalum": ({"tantalum_zhou": "Zhou et al. 2004", "tantalum_ravelo": "Ravelo et al. 2013 (KIM)"}, ["ta_isotherm_298K_dewaele2004"]),
     "tungsten": ({"tungsten_zhou": "Zhou et al. 2004"}, ["w_isotherm_298K_dewaele2004"]),
 }
 
@@ -182,13 +187,21 @@ def main():
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/release/bin")
     parser.add_argument("--stores", type=pathlib.Path, default=ROOT / "run/md")
     parser.add_argument("--ranks", type=int, default=0)
+    parser.add_argument("--metal", nargs="+", choices=METALS, default=list(METALS))
     parser.add_argument("--no-md", action="store_true", help="take the stores as they are")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "docs/results_md.md")
     options = parser.parse_args()
     binaries, stores = options.bin.resolve(), options.stores.resolve()
     stores.mkdir(parents=True, exist_ok=True)
-    sections = []
-    for metal, (potentials, experiments) in METALS.items():
+    text = options.output.read_text(encoding="utf-8") if options.output.exists() else ""
+    begin, end = "<!-- tables: begin -->", "<!-- tables: end -->"
+    if begin not in text:
+        text = f"{begin}\n{end}\n"
+    head, rest = text.split(begin)
+    former, tail = rest.split(end)
+    sections = {part.split("\n", 1)[0].lower(): f"## {part.strip()}\n" for part in former.split("## ")[1:]}
+    for metal in options.metal:
+        potentials, experiments = METALS[metal]
         fits = []
         for name, label in potentials.items():
             store = stores / f"{name}.md.h5"
@@ -199,14 +212,9 @@ def main():
                     call([binaries / "whipple", "md", plan, "-o", store, *ranks], allowed=(0, 3))
             fits.append(Fitted(name, label, binaries, stores))
         compare(fits, experiments, binaries)
-        sections.append(metal_section(metal, fits, experiments))
+        sections[metal] = metal_section(metal, fits, experiments)
         print(f"{metal}: {len(fits)} potentials", flush=True)
-    text = options.output.read_text(encoding="utf-8") if options.output.exists() else ""
-    begin, end = "<!-- tables: begin -->", "<!-- tables: end -->"
-    if begin not in text:
-        text = f"{begin}\n{end}\n"
-    head, tail = text.split(begin)[0], text.split(end)[1]
-    body = "\n".join(sections)
+    body = "\n".join(sections[metal] for metal in METALS if metal in sections)
     options.output.write_text(f"{head}{begin}\n\n{body}\n{end}{tail}", encoding="utf-8")
     print(f"written: {options.output}")
 

@@ -135,13 +135,24 @@ std::string profile_as_json(Simulation& simulation, double wall_seconds) {
       .dump(2);
 }
 
+/// The run's input as it stands in every snapshot: without the time of the start, so that a run that is
+/// repeated writes the same bytes.
+std::string input_without_start(const fs::path& file) {
+  std::string text = io::read_text(file);
+  constexpr std::string_view key = "\nstarted = ";
+  if (const std::size_t begin = text.rfind(key); begin != std::string::npos) {
+    text.erase(begin, text.find('\n', begin + 1) - begin);
+  }
+  return text;
+}
+
 io::SeriesOptions series_options(const setup::Case& setup, const io::RunDirectory& directory,
                                  const fs::path& folder) {
   io::SeriesOptions options{.folder = folder,
                             .name = directory.name(),
                             .fields = setup.output.fields,
                             .material_of_body = {},
-                            .provenance = {{"input", io::read_text(directory.input_file())}}};
+                            .provenance = {{"input", input_without_start(directory.input_file())}}};
   // Bodies of one material share its number: that of its first body.
   for (const auto& material : setup.materials) {
     const auto first = std::ranges::find(setup.materials, material);
