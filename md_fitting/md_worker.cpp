@@ -44,6 +44,11 @@ void require_writable_on_all(const std::filesystem::path& store, int rank) {
 }
 
 void report(const CampaignSummary& summary, const std::string& store) {
+  if (summary.molten > 0) {
+    log::warning(
+        "{} states of isotherms and isochores melted: they are stored as such and are no data for a solid",
+        summary.molten);
+  }
   if (summary.computed + summary.failed + summary.blocked == 0 && summary.left == 0) {
     log::info("nothing to compute: all {} points are in {}", summary.present, store);
     return;
@@ -118,7 +123,7 @@ int run_plan(const Options& options) {
     if (rank == 0) log::warning("the plan is incomplete; the same call goes on with what is missing");
     return summary.code;
   }
-  const bool complete = summary.failed + summary.blocked + summary.left == 0;
+  const bool complete = summary.failed + summary.blocked + summary.left + summary.molten == 0;
   return static_cast<int>(complete ? ExitCode::success : ExitCode::state);
 }
 

@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -376,6 +377,30 @@ void put_in_order(const std::filesystem::path& store, MPI_Comm communicator) {
   }
 }
 
+/// What the store holds of the isotherms and isochores of a plan without being a crystal; the same on all
+/// ranks. A shock may melt, so points of the Hugoniot do not count.
+int count_molten(std::span<const Task> tasks, const std::filesystem::path& store, MPI_Comm communicator) {
+  int rank = 0;
+  MPI_Comm_rank(communicator, &rank);
+  int count = 0;
+  if (rank == 0 && std::filesystem::exists(store)) {
+    std::set<std::string> solids;
+    for (const Task& task : tasks) {
+      if (task.protocol == "isotherm" || task.protocol == "isochore") solids.insert(task.key);
+    }
+    try {
+      for (const PointRecord& point : read_store(store)) {
+        const auto solid = point.results.find("solid");
+        if (solids.contains(point.key) && solid != point.results.end() && solid->second.value < 0.5) ++count;
+      }
+    } catch (const InputError& error) {
+      log::warning("{}", error.what());
+    }
+  }
+  MPI_Bcast(&count, 1, MPI_INT, 0, communicator);
+  return count;
+}
+
 }  // namespace
 
 CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem::path& store,
@@ -397,6 +422,7 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
   }
   if (queue.empty()) {
     put_in_order(store, communicator);  // an earlier call may have been killed before it did so
+    summary.molten = count_molten(tasks, store, communicator);
     return summary;
   }
 
@@ -425,6 +451,7 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
   summary.computed = total[0];
   summary.failed = total[1];
   summary.blocked = total[2];
+  summary.molten = count_molten(tasks, store, communicator);
   return summary;
 }
 

@@ -17,6 +17,7 @@ struct CampaignSummary {
   int failed = 0;    ///< points that failed now
   int left = 0;      ///< points that failed in an earlier call and were left alone
   int blocked = 0;   ///< points whose dependency failed
+  int molten = 0;    ///< states of isotherms and isochores, of this call or earlier, whose crystal melted
   int code = 0;      ///< exit code of what stopped the work before its end; 0: nothing did
 };
 

@@ -62,6 +62,21 @@ TEST_F(Campaign, SecondCallComputesNothing) {
   EXPECT_EQ(read_store(store).at(0).origin("lammps_commands"), "units metal\n");
 }
 
+TEST_F(Campaign, CountsSolidsThatMelted) {
+  const auto state = [&](const std::string& name, const std::string& protocol, double solid) {
+    Task made = task(name);
+    made.protocol = protocol;
+    made.compute = [solid](const PointRecord*) {
+      return TaskResult{{{"pressure", {1.0, 0.25}}, {"solid", {solid, 0.0}}}, "", "units metal\n"};
+    };
+    return made;
+  };
+  const std::vector<Task> tasks = {state("a", "isochore", 0.0), state("bb", "isotherm", 0.0),
+                                   state("ccc", "isochore", 1.0), state("dddd", "hugoniot", 0.0)};
+  EXPECT_EQ(run(tasks).molten, 2);
+  EXPECT_EQ(run(tasks).molten, 2);  // found in the store
+}
+
 /// The greatest size of a file that this process may write, while the object lives no more than `bytes`.
 class FileSizeLimit {
  public:
