@@ -17,7 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::string read_text(const std::filesystem::path& path) {
+std::string content_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   text << file.rdbuf();
@@ -52,7 +52,7 @@ steps = 400
             .c_str());
     return WEXITSTATUS(status);
   }
-  [[nodiscard]] std::string output() const { return read_text(folder.path() / "output.txt"); }
+  [[nodiscard]] std::string output() const { return content_of(folder.path() / "output.txt"); }
 
   md::TemporaryFolder folder;
 };
@@ -61,11 +61,11 @@ TEST_F(SimulatedMaterial, SimulatesOnceAndAnswersTheSame) {
   write("copper_universal_3");
   ASSERT_EQ(run(), 0) << output();
   EXPECT_THAT(output(), HasSubstr("simulating"));
-  const std::string first = read_text(folder.path() / "points.csv");
+  const std::string first = content_of(folder.path() / "points.csv");
   EXPECT_THAT(first, HasSubstr("400"));
   ASSERT_EQ(run(), 0) << output();
   EXPECT_THAT(output(), Not(HasSubstr("simulating")));
-  EXPECT_EQ(read_text(folder.path() / "points.csv"), first);
+  EXPECT_EQ(content_of(folder.path() / "points.csv"), first);
 }
 
 TEST_F(SimulatedMaterial, UnknownPotentialIsAnInputError) {
