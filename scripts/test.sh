@@ -71,7 +71,7 @@ fi
 stage tests
 log=build/$preset/test.log
 status=0
-ctest --test-dir "build/$preset" --output-on-failure --parallel "$(nproc)" "${exclude[@]}" "$@" 2>&1 | tee "$log" || status=$?
+ctest --test-dir "build/$preset" --output-on-failure --parallel "$(($(nproc) + 1))" "${exclude[@]}" "$@" 2>&1 | tee "$log" || status=$?
 # "97% tests passed, 3 tests failed out of 120"
 if [[ $(grep -E 'tests passed, .* out of' "$log" | tail -n 1) =~ ([0-9]+)\ tests?\ failed\ out\ of\ ([0-9]+) ]]; then
   failed=$((failed + BASH_REMATCH[1]))

@@ -23,8 +23,6 @@ namespace whipple::analysis {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// What the first snapshot says of the bodies.
 struct Start {
   Frame frame;

@@ -13,8 +13,6 @@
 namespace whipple::analysis {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// Diameters of circles with the cross-sections of the layers of thickness `size` above `lower`.
 std::vector<double> diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body, double size,
                               double lower, double upper, bool wall_at_upper) {

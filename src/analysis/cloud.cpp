@@ -13,7 +13,6 @@
 namespace whipple::analysis {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<const char*, 4> phases = {"solid", "melting", "liquid", "vapour"};
 
 /// Sums over particles; momentum along the axis.

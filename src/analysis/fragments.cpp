@@ -15,8 +15,6 @@
 namespace whipple::analysis {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// Union-find with the least index as root: roots only ever get a smaller parent, so a failed exchange is
 /// tried again from the new root and the final components are the same whatever the order.
 class DisjointSets {

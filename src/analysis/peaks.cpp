@@ -78,7 +78,6 @@ Quantities PeakDecay::measures(double diameter) const {
     xx += (x - x_mean) * (x - x_mean);
     xy += (x - x_mean) * (y - y_mean);
   });
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const double slope = n > 2.0 ? xy / xx : nan;
   return {
       {"peak_pressure_contact", "Pa", "mean peak over depths of 0 to 0.6 radii of the projectile",

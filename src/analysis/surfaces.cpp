@@ -11,8 +11,6 @@
 namespace whipple::analysis {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 std::size_t bins(double length, double size) {
   return static_cast<std::size_t>(std::max(std::ceil(length / size - 1e-9), 1.0));
 }

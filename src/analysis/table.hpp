@@ -2,12 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "src/hdf5/hdf5.hpp"
 
 namespace whipple::analysis {
+
+/// What is not there to be measured.
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// One measured number.
 struct Quantity {

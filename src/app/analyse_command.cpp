@@ -13,7 +13,7 @@
 namespace whipple::app {
 namespace {
 
-struct Options {
+struct AnalyseOptions {
   std::string run;
   std::string output;
   AnalysisWords words;
@@ -81,7 +81,7 @@ void run_analysis(const std::filesystem::path& run, const AnalysisWords& words,
 }
 
 void add_analyse_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AnalyseOptions>();
   CLI::App* command = app.add_subcommand(
       "analyse", "Measures of a run: cloud, fragments, crater, hole, radiographs, witness plate");
   command->add_option("run", options->run, "The run directory")->required();

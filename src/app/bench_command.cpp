@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using bench::Measurement;
 
-struct Options {
+struct BenchOptions {
   std::vector<std::string> problems;
   std::vector<int> threads = {1};
   std::vector<int> ranks = {1};
@@ -41,12 +41,12 @@ struct Options {
   std::string worker;  // the file that one measurement goes to
 };
 
-bench::Length length(const Options& options) {
+bench::Length length(const BenchOptions& options) {
   return options.whole ? bench::Length::whole : options.quick ? bench::Length::quick : bench::Length::normal;
 }
 
 /// The ranks that measure: each problem has processes of its own, so that its peak memory is its own.
-void run_worker(const Options& options) {
+void run_worker(const BenchOptions& options) {
   const Measurement measurement =
       bench::measure(bench::find_problem(options.problems.front()), options.threads.front(), length(options));
   if (parallel::rank(parallel::world()) == 0) {
@@ -54,7 +54,7 @@ void run_worker(const Options& options) {
   }
 }
 
-Measurement measure_in_own_processes(const Options& options, const std::string& problem, int ranks,
+Measurement measure_in_own_processes(const BenchOptions& options, const std::string& problem, int ranks,
                                      int threads) {
   const fs::path file = fs::temp_directory_path() / fmt::format("whipple_bench_{}.json", getpid());
   std::vector<std::string> program = {"whipple",  "bench",      problem, "--threads", std::to_string(threads),
@@ -150,7 +150,7 @@ void print_comparison(const Record& now, const Record& before, const std::string
   fmt::print("\nbeside {}:\n{}", file, text_table(rows, "lr"));
 }
 
-nlohmann::json to_json(const Record& record, const Options& options) {
+nlohmann::json to_json(const Record& record, const BenchOptions& options) {
   nlohmann::json measurements = nlohmann::json::array();
   for (const Measurement& m : record.measurements) measurements.push_back(bench::to_json(m));
   return {{"version", build_info().version},
@@ -163,7 +163,7 @@ nlohmann::json to_json(const Record& record, const Options& options) {
           {"measurements", measurements}};
 }
 
-void run_bench(Options options) {
+void run_bench(BenchOptions options) {
   if (!options.worker.empty()) return run_worker(options);
   require_new_file(options.json, options.force);
   std::optional<Record> before;
@@ -196,7 +196,7 @@ void run_bench(Options options) {
 }  // namespace
 
 void add_bench_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchOptions>();
   CLI::App* command = app.add_subcommand(
       "bench",
       "Time standard problems: nanoseconds per particle and step, by stage, beside the machine's limits");

@@ -22,7 +22,7 @@
 namespace whipple::app {
 namespace {
 
-struct Options {
+struct CompareOptions {
   std::vector<std::string> materials;
   std::vector<std::string> experiments;
   std::string temperature;
@@ -160,7 +160,7 @@ void draw(const std::vector<Row>& rows, const std::string& path) {
   process::draw_json("scripts/plot_compare.py", panels.dump(1), path);
 }
 
-void run(const Options& options) {
+void run(const CompareOptions& options) {
   require_new_file(options.csv, options.force);
   require_new_figure(options.plot, options.force);
   std::optional<double> temperature;
@@ -194,7 +194,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_compare_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareOptions>();
   CLI::App* command = app.add_subcommand(
       "compare", "Compare equations of state with measured Hugoniots, isotherms and melting lines");
   command->add_option("materials", options->materials, "Material files, or names of the library")->required();

@@ -131,13 +131,13 @@ std::string manual() {
   return page;
 }
 
-struct Options {
+struct DescribeOptions {
   std::string topic;
   std::string name;
   bool markdown = false;
 };
 
-void describe_inputs(const Options& options) {
+void describe_inputs(const DescribeOptions& options) {
   if (options.markdown) {
     if (!options.topic.empty()) throw InputError("--markdown writes everything: leave the topic out");
     fmt::print("{}", manual());
@@ -152,7 +152,7 @@ void describe_inputs(const Options& options) {
 }  // namespace
 
 void add_describe_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DescribeOptions>();
   CLI::App* command =
       app.add_subcommand("describe", "Every key of the inputs: unit, range, default, meaning");
   command->add_option("topic", options->topic, "One of case, shape, eos, modifier, strength, failure, md");

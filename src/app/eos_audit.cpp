@@ -20,7 +20,7 @@ using eos::Audit;
 using Lines = std::vector<std::vector<std::string>>;
 
 /// "name 1.234 unit", or nothing for a quantity that the model does not carry.
-std::string quantity(const char* name, double value, double size, const char* unit) {
+std::string written(const char* name, double value, double size, const char* unit) {
   if (std::isnan(value)) return {};
   return fmt::format(" {} {:.5g}{}{},", name, value / size, *unit == '\0' ? "" : " ", unit);
 }
@@ -33,10 +33,10 @@ std::string without_last_comma(std::string text) {
 std::string reference_text(const eos::State& s) {
   return without_last_comma(
       fmt::format("{:.6g} kg/m^3, {:.4g} K:", s.density, s.temperature) +
-      quantity("c", s.sound_speed, 1e3, "km/s") + quantity("K_S", s.isentropic_bulk_modulus, 1e9, "GPa") +
-      quantity("K_T", s.isothermal_bulk_modulus, 1e9, "GPa") +
-      quantity("C_v", s.heat_capacity, 1, "J/(kg K)") + quantity("Gamma", s.gruneisen, 1, "") +
-      quantity("volume expansion", s.thermal_expansion, 1e-6, "1e-6/K"));
+      written("c", s.sound_speed, 1e3, "km/s") + written("K_S", s.isentropic_bulk_modulus, 1e9, "GPa") +
+      written("K_T", s.isothermal_bulk_modulus, 1e9, "GPa") + written("C_v", s.heat_capacity, 1, "J/(kg K)") +
+      written("Gamma", s.gruneisen, 1, "") +
+      written("volume expansion", s.thermal_expansion, 1e-6, "1e-6/K"));
 }
 
 std::string cold_text(const eos::ColdCurve& cold) {

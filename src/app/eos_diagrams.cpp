@@ -18,7 +18,6 @@ using eos::Hugoniot;
 using eos::State;
 
 constexpr int curve_points = 160;
-constexpr double GPa = 1e9;
 /// Lowest pressure of the logarithmic diagram.
 constexpr double lowest_pressure = 1e5;
 

@@ -18,8 +18,6 @@ using eos::EquationOfState;
 using eos::Hugoniot;
 using eos::State;
 
-constexpr double GPa = 1e9;
-
 const Column up_column = {"up_km_s", "km/s", 1e3, "particle velocity"};
 const Column us_column = {"us_km_s", "km/s", 1e3, "shock velocity"};
 const Column riemann_column = {"u_km_s", "km/s", 1e3, "Riemann velocity"};

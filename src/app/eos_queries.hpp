@@ -12,6 +12,8 @@
 /// What `whipple eos` computes: tables of states and curves of one or more materials.
 namespace whipple::app {
 
+constexpr double GPa = 1e9;  ///< Pa
+
 /// Quantities of the command line as the user wrote them; empty: not given.
 struct EosOptions {
   std::string density, temperature, energy, pressure, entropy, particle_velocity;

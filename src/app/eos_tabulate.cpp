@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t verification_states = 1000000;
 
-struct Options {
+struct TabulateOptions {
   std::string material, file;
   double error = 1e-4;
   std::vector<std::string> densities, temperatures;
@@ -35,7 +35,7 @@ struct Options {
 
 /// A request with the range that the user asked for.
 template <class Request>
-Request ranged(const Options& o) {
+Request ranged(const TabulateOptions& o) {
   Request request;
   if (!o.densities.empty()) {
     request.minimum_density = units::parse_quantity(o.densities[0], "kg/m^3");
@@ -48,7 +48,7 @@ Request ranged(const Options& o) {
   return request;
 }
 
-void write_sesame(const Options& o) {
+void write_sesame(const TabulateOptions& o) {
   require_new_file(o.sesame_file, o.force);
   const Material material = read_material(o.material);
   eos::SesameMaterial table = eos::sesame_of(*material.eos, ranged<eos::SesameRequest>(o));
@@ -73,7 +73,7 @@ void write_sesame(const Options& o) {
       o.sesame_file);
 }
 
-void write_table(const Options& o) {
+void write_table(const TabulateOptions& o) {
   require_new_file(o.file, o.force);
   const Material material = read_material(o.material);
   auto request = ranged<eos::TableRequest>(o);
@@ -115,7 +115,7 @@ void write_table(const Options& o) {
 }  // namespace
 
 void add_eos_tabulate(CLI::App& eos_command) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<TabulateOptions>();
   CLI::App* command = eos_command.add_subcommand(
       "table", "Write the equation of state as a table, a file that materials and runs can use");
   command->add_option("material", o->material, "Material file, or name of the library")->required();

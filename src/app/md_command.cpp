@@ -22,7 +22,7 @@
 namespace whipple::app {
 namespace {
 
-struct Options {
+struct MdOptions {
   std::string plan;
   std::string store;
   int ranks = 0;
@@ -40,7 +40,7 @@ int usual_ranks(const std::string& plan) {
 }
 
 /// Computes what is missing of a plan.
-int compute(const Options& options, const std::string& plan, int ranks) {
+int compute(const MdOptions& options, const std::string& plan, int ranks) {
   const log::Level level = log::level();
   std::vector<std::string> program = {"whipple-md", plan};
   if (!options.store.empty()) program.insert(program.end(), {"-o", options.store});
@@ -66,7 +66,7 @@ std::string content_of(const std::filesystem::path& path) {
 }
 
 /// Rounds of proposal (whipple-fit) and computation (whipple-md) until the proposer has no more points.
-int run_adaptive(Options options, int ranks) {
+int run_adaptive(MdOptions options, int ranks) {
   const std::filesystem::path plan = options.plan;
   if (options.store.empty()) options.store = plan.stem().string() + ".md.h5";
   const std::filesystem::path store = options.store;
@@ -95,7 +95,7 @@ int run_adaptive(Options options, int ranks) {
   }
 }
 
-int run_md(const Options& options) {
+int run_md(const MdOptions& options) {
   if (!std::filesystem::exists(options.plan)) {
     throw InputError(fmt::format("{}: error: cannot open the file", options.plan));
   }
@@ -106,7 +106,7 @@ int run_md(const Options& options) {
 }  // namespace
 
 void add_md_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MdOptions>();
   CLI::App* command =
       app.add_subcommand("md", "Run what is missing of a plan of molecular-dynamics state points");
   command->add_option("plan", options->plan, "The plan (PLAN.toml)")->required();

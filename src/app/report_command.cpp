@@ -16,7 +16,7 @@
 namespace whipple::app {
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::string run;
   std::string output;
   std::vector<std::string> figures;
@@ -25,7 +25,7 @@ struct Options {
   int dots_per_inch = 180;
 };
 
-int run_report(const Options& options) {
+int run_report(const ReportOptions& options) {
   if (!std::filesystem::is_directory(options.run)) {
     throw InputError(
         fmt::format("{}: error: is not a folder; expected the output of whipple run", options.run));
@@ -47,7 +47,7 @@ int run_report(const Options& options) {
 }  // namespace
 
 void add_report_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportOptions>();
   CLI::App* command = app.add_subcommand("report", "Measures, figures and tables of a run, as one HTML page");
   command->add_option("run", options->run, "The run directory")->required();
   command->add_option("-o,--output", options->output,

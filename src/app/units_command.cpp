@@ -59,11 +59,11 @@ void print_table() {
 }  // namespace
 
 void add_units_command(CLI::App& app) {
-  struct Options {
+  struct UnitsOptions {
     std::string quantity;
     std::string unit;
   };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<UnitsOptions>();
   CLI::App* command = app.add_subcommand("units", "Accepted units with examples; converts a quantity");
   command->add_option("quantity", options->quantity, "A quantity to convert, for example \"6.58 km/s\"");
   command->add_option("--to", options->unit, "The unit to convert to");
