@@ -15,6 +15,8 @@ namespace {
 using md::Estimate;
 using md::PointRecord;
 
+/// What a series of some hundred independent values can tell at most; 1 would leave nothing to weigh.
+constexpr double most_correlated = 0.999;
 constexpr double same_volume = 1e-6;      // relative: states of one isochore
 constexpr double same_temperature = 0.5;  // K: a volume at the reference temperature itself
 constexpr std::size_t least_states = 3;   // of the Hugoniot window, of an isochore
@@ -68,7 +70,9 @@ std::vector<Isochore> isochores(std::span<const PointRecord> points) {
                          point.result("specific_internal_energy")};
       // Both are means over the same trajectory.
       const auto correlation = point.results.find("error_correlation");
-      if (correlation != point.results.end()) state.correlation = correlation->second.value;
+      if (correlation != point.results.end()) {
+        state.correlation = std::clamp(correlation->second.value, -most_correlated, most_correlated);
+      }
       const auto place = std::find_if(found.begin(), found.end(), [&](const Isochore& isochore) {
         return std::abs(isochore.volume - volume) <= same_volume * volume;
       });
