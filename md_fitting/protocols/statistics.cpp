@@ -118,21 +118,24 @@ Estimate series_mean(std::span<const double> series) {
 }
 
 double error_correlation(std::span<const double> first, std::span<const double> second) {
-  const double first_error = series_mean(first).error;
-  const double second_error = series_mean(second).error;
   if (first.size() != second.size())
     throw InternalError("two series of different length have no correlation");
-  if (first_error == 0.0 || second_error == 0.0) return 0.0;
-  // var(x + y) - var(x - y) = 4 cov(x, y), with both series in units of their errors.
-  std::vector<double> sum(first.size());
-  std::vector<double> difference(first.size());
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    sum[i] = first[i] / first_error + second[i] / second_error;
-    difference[i] = first[i] / first_error - second[i] / second_error;
+  const std::vector<double> x = block_means(first);
+  const std::vector<double> y = block_means(second);
+  const auto n = static_cast<double>(x.size());
+  const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / n;
+  const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / n;
+  double xx = 0.0;
+  double yy = 0.0;
+  double xy = 0.0;
+  for (std::size_t b = 0; b < x.size(); ++b) {
+    xx += (x[b] - mean_x) * (x[b] - mean_x);
+    yy += (y[b] - mean_y) * (y[b] - mean_y);
+    xy += (x[b] - mean_x) * (y[b] - mean_y);
   }
-  const double plus = series_mean(sum).error;
-  const double minus = series_mean(difference).error;
-  return std::clamp(0.25 * (plus * plus - minus * minus), -1.0, 1.0);
+  // A constant series, up to the rounding of its mean, has no error that another could share.
+  if (xx <= 1e-28 * n * mean_x * mean_x || yy <= 1e-28 * n * mean_y * mean_y) return 0.0;
+  return std::clamp(xy / std::sqrt(xx * yy), -1.0, 1.0);  // within rounding by Cauchy and Schwarz
 }
 
 }  // namespace whipple::md

@@ -22,7 +22,11 @@ Estimate series_mean(std::span<const double> series);
 /// @throws InternalError for fewer than 16 samples.
 std::vector<double> block_means(std::span<const double> series);
 
-/// Correlation (-1 ... 1) of the errors of the means of two series that were sampled together.
+/// Correlation of the errors of the means of two series that were sampled together: that of their 16 block
+/// means. Covariance and both variances come from the same blocks, so that by Cauchy's and Schwarz's
+/// inequality it is +-1 only for series that are proportional; one standard error of the result r is (1 -
+/// r^2)/sqrt(15). Zero if one of the series is constant.
+/// @throws InternalError for fewer than 16 samples or different lengths.
 double error_correlation(std::span<const double> first, std::span<const double> second);
 
 }  // namespace whipple::md

@@ -34,6 +34,31 @@ TEST(FitRecovery, ExactDataGiveTheirConstants) {
   EXPECT_LT(fit.chi_squared, 1e-6);
 }
 
+// Errors of pressure and energy that are wholly shared (two proportional series) leave a matrix of errors
+// that can be inverted: the constants come back from exact data, and from noise as well as with half of it
+// shared.
+TEST(FitRecovery, WhollyCorrelatedErrorsAreFitted) {
+  const eos::GrayConstants truth = true_constants();
+  const std::vector<double> expected = values(truth);
+  for (const double correlation : {1.0, -1.0}) {
+    Noise noise;
+    noise.correlation = correlation;
+    noise.silent = true;
+    const GrayFit exact = fit_gray(SyntheticStore(truth, noise, 1).points, noise_only(), "synthetic");
+    for (std::size_t i = 0; i < fitted.size(); ++i) {
+      EXPECT_NEAR(exact.value(fitted[i]), expected[i], 1e-6 * expected[i]) << fitted[i] << " " << correlation;
+    }
+    noise.silent = false;
+    const GrayFit noisy = fit_gray(SyntheticStore(truth, noise, 5).points, noise_only(), "synthetic");
+    for (std::size_t i = 0; i < fitted.size(); ++i) {
+      const auto place = static_cast<Eigen::Index>(i);
+      const double error = std::sqrt(noisy.covariance(place, place));
+      EXPECT_GT(error, 0.0) << fitted[i];
+      EXPECT_NEAR(noisy.value(fitted[i]), expected[i], 4.0 * error) << fitted[i];
+    }
+  }
+}
+
 // The isochoric melting law is the other reading of T_m0: same data, and the Lindemann curve through them.
 TEST(FitRecovery, IsochoricMeltingFollowsTheSolidVolume) {
   eos::GrayConstants truth = true_constants();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A material that is simulated when a state is asked for, with molecular dynamics behind it: the second call
-// simulates nothing and says the same; a potential that does not exist is an input error.
+// From a plan to a material by the commands of the users. A material that is simulated when a state is asked
+// for, with molecular dynamics behind it: the second call simulates nothing and says the same; a potential
+// that does not exist is an input error.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -72,6 +73,64 @@ TEST_F(SimulatedMaterial, UnknownPotentialIsAnInputError) {
   write("copper_universal_33");
   EXPECT_EQ(run(), 2) << output();
   EXPECT_THAT(output(), HasSubstr("there is no potential 'copper_universal_33'"));
+}
+
+// What `whipple md` stores, `whipple fit` reads: a plan as small as a fit can bear (108 atoms, half a
+// picosecond or two per point), its constants near those of long runs (docs/results_md.md: V0 = 0.1135
+// cm^3/g, C = 3.90 km/s, S = 1.32, gamma0 = 1.86), and the same bytes from a second fit.
+TEST(PlanToMaterial, SmallestPlanIsSimulatedAndFitted) {
+  const md::TemporaryFolder folder;
+  std::ofstream(folder.path() / "small.toml") << R"(
+element = "Cu"
+potential = "copper_universal_3"
+[zero_pressure_volume]
+temperature = ["293 K"]
+cells = 3
+equilibration_steps = 500
+steps = 3000
+[[isochore]]
+volume_ratio = 1.0
+temperature = ["150 K", "600 K", "1000 K"]
+cells = 3
+equilibration_steps = 300
+steps = 800
+[[isochore]]
+volume_ratio = 0.85
+temperature = ["150 K", "700 K", "1400 K"]
+cells = 3
+equilibration_steps = 300
+steps = 800
+[hugoniot]
+volume_ratio = [0.9, 0.84, 0.78]
+cells = 3
+equilibration_steps = 300
+steps = 800
+)";
+  const auto whipple = [&](const std::string& arguments) {
+    const int status =
+        std::system(fmt::format("cd '{}' && OMP_NUM_THREADS=1 OMPI_MCA_rmaps_base_oversubscribe=1 '{}' {} >> "
+                                "output.txt 2>&1",
+                                folder.path().string(), WHIPPLE_EXECUTABLE, arguments)
+                        .c_str());
+    return WEXITSTATUS(status);
+  };
+  const auto output = [&] { return content_of(folder.path() / "output.txt"); };
+  ASSERT_EQ(whipple("md small.toml -o small.md.h5 --ranks 2"), 0) << output();
+  ASSERT_EQ(whipple("fit small.md.h5 -o first.toml"), 0) << output();
+  ASSERT_EQ(whipple("fit small.md.h5 -o second.toml"), 0) << output();
+  const std::string material = content_of(folder.path() / "first.toml");
+  const auto constant = [&](const std::string& key) {
+    const std::size_t at = material.find(key + " = ");
+    if (at == std::string::npos) return 0.0;
+    const std::size_t first = material.find_first_of("-0123456789", at + key.size());
+    return std::stod(material.substr(first));
+  };
+  EXPECT_NEAR(constant("reference_specific_volume"), 0.1135, 0.0004) << material;
+  EXPECT_NEAR(constant("hugoniot_intercept"), 3.90, 0.08) << material;
+  EXPECT_NEAR(constant("hugoniot_slope"), 1.32, 0.06) << material;
+  EXPECT_NEAR(constant("gruneisen"), 1.86, 0.25) << material;
+  EXPECT_EQ(content_of(folder.path() / "second.toml").substr(material.find("[eos]")),
+            material.substr(material.find("[eos]")));
 }
 
 }  // namespace

@@ -15,6 +15,12 @@
 namespace whipple::md {
 namespace {
 
+/// Of the algorithm of a protocol.
+std::string revision(const std::string& protocol) {
+  if (protocol == "lattice") return "1";
+  return protocol == "isotherm" || protocol == "isochore" || protocol == "hugoniot" ? "3" : "2";
+}
+
 /// The key of docs/theory/molecular_dynamics.md, "The store", written out: format 1 of the store.
 class Keys : public ::testing::Test {
  protected:
@@ -27,7 +33,7 @@ class Keys : public ::testing::Test {
                                                   {"plan_seed", "1"},
                                                   {"potential_sha256", potential.hash()},
                                                   {"ranks", "1"},
-                                                  {"revision", protocol == "lattice" ? "1" : "2"},
+                                                  {"revision", revision(protocol)},
                                                   {"structure", "fcc"}};
     for (std::size_t at = 0; at < sizes.size();) {
       const std::size_t end = sizes.find('\n', at);
