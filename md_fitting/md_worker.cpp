@@ -54,6 +54,12 @@ void report(const CampaignSummary& summary, const std::string& store) {
     return;
   }
   log::info("{}: {} points computed, {} were there", store, summary.computed, summary.present);
+  if (summary.elapsed > 0.0) {
+    log::info(
+        "time of the workers: {:.1f} % in points, {:.2f} % waiting for each other, {:.2f} % for the rest",
+        100.0 * summary.busy / summary.elapsed, 100.0 * summary.waiting / summary.elapsed,
+        100.0 * (1.0 - (summary.busy + summary.waiting) / summary.elapsed));
+  }
   if (summary.failed > 0) log::warning("{} points failed; their messages are in the store", summary.failed);
   if (summary.blocked > 0) log::warning("{} points wait for a point that failed", summary.blocked);
   if (summary.left > 0) {

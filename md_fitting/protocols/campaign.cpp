@@ -26,6 +26,11 @@ namespace whipple::md {
 namespace {
 
 using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
 
 /// Whole numbers that all ranks can change at any time (one-sided communication), kept by rank 0.
 class SharedNumbers {
@@ -119,7 +124,7 @@ PointRecord unfinished(const Task& task) {
 /// Computes one task, or one more segment of it (> 0); what goes wrong in it becomes a failed point.
 PointRecord compute_point(const Task& task, const PointRecord* dependency, int segment) {
   PointRecord point = unfinished(task);
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   try {
     TaskResult result = segment > 0 ? task.extend(dependency, segment) : task.compute(dependency);
     for (const auto& [name, estimate] : result.results) {
@@ -142,7 +147,7 @@ PointRecord compute_point(const Task& task, const PointRecord* dependency, int s
     point.status = "failed";
     point.message = error.what();
   }
-  point.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  point.wall_seconds = seconds_since(begin);
   return point;
 }
 
@@ -281,6 +286,7 @@ class Leader {
       shared_.add(SharedNumbers::stop, 1);
       throw;
     }
+    finished_ = Clock::now();
     // The first one goes on showing the progress of the others.
     while (rank_ == 0 && shared_.read(SharedNumbers::stop) == 0 &&
            shared_.read(SharedNumbers::finished) < static_cast<long>(queue_.size())) {
@@ -290,6 +296,9 @@ class Leader {
     show("done");
   }
   [[nodiscard]] const Counts& counts() const { return counts_; }
+  [[nodiscard]] double busy() const { return busy_; }  ///< s, in points
+  /// s, waiting for other teams until now: this one has no more points.
+  [[nodiscard]] double waiting() const { return waiting_ + seconds_since(finished_); }
 
  private:
   void show(const std::string& remark) {
@@ -303,7 +312,9 @@ class Leader {
   std::optional<PointRecord> needed_by(const Task& task, bool& stopped) {
     const auto place = std::find_if(queue_.begin(), queue_.end(),
                                     [&](std::size_t i) { return tasks_[i].key == task.dependency; });
+    const auto begin = Clock::now();
     stopped = place != queue_.end() && !wait_for(*place, shared_);
+    waiting_ += seconds_since(begin);
     if (stopped) return std::nullopt;
     std::optional<PointRecord> found = find_point(store_, task.dependency);
     if (found && !found->done()) found.reset();
@@ -333,7 +344,9 @@ class Leader {
     }
     const auto compute = [&](int segment) {
       team_.announce({static_cast<long>(index), segment});
-      return compute_point(task, dependency ? &*dependency : nullptr, segment);
+      PointRecord part = compute_point(task, dependency ? &*dependency : nullptr, segment);
+      busy_ += part.wall_seconds;
+      return part;
     };
     std::optional<PointRecord> present;
     if (status_[index] == 'c') present = find_point(store_, task.key);
@@ -361,6 +374,8 @@ class Leader {
   SharedNumbers shared_;
   std::optional<Progress> progress_;
   Counts counts_;
+  double busy_ = 0.0, waiting_ = 0.0;
+  Clock::time_point finished_ = Clock::now();
   int rank_ = 0;
 };
 
@@ -405,6 +420,7 @@ int count_molten(std::span<const Task> tasks, const std::filesystem::path& store
 
 CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem::path& store,
                              MPI_Comm communicator, bool retry_failed, int ranks_per_point) {
+  const auto begin = Clock::now();
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
   const PointTeam team(communicator, ranks_per_point);
@@ -427,6 +443,7 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
   }
 
   Counts own;
+  std::array<double, 3> times{};
   int code = 0;
   if (team.leads()) {
     Leader leader(tasks, status, std::move(queue), store, team);
@@ -440,10 +457,14 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
     }
     own = leader.counts();
     team.dismiss();
+    MPI_Barrier(communicator);
+    times = {leader.busy(), leader.waiting(), 0.0};
   } else {
     follow(tasks, store, team);
+    MPI_Barrier(communicator);
   }
   put_in_order(store, communicator);
+  if (team.leads()) times[2] = seconds_since(begin);
   const std::array<int, 3> counts = {own.computed, own.failed, own.blocked};
   std::array<int, 3> total{};
   MPI_Allreduce(counts.data(), total.data(), 3, MPI_INT, MPI_SUM, communicator);
@@ -451,6 +472,9 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
   summary.computed = total[0];
   summary.failed = total[1];
   summary.blocked = total[2];
+  std::array<double, 3> all{};
+  MPI_Allreduce(times.data(), all.data(), 3, MPI_DOUBLE, MPI_SUM, communicator);
+  summary.busy = all[0], summary.waiting = all[1], summary.elapsed = all[2];
   summary.molten = count_molten(tasks, store, communicator);
   return summary;
 }

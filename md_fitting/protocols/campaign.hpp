@@ -19,6 +19,9 @@ struct CampaignSummary {
   int blocked = 0;   ///< points whose dependency failed
   int molten = 0;    ///< states of isotherms and isochores, of this call or earlier, whose crystal melted
   int code = 0;      ///< exit code of what stopped the work before its end; 0: nothing did
+  /// s, all teams together: in points; waiting for points of other teams; the whole call. What is missing is
+  /// the cost of queue and store.
+  double busy = 0.0, waiting = 0.0, elapsed = 0.0;
 };
 
 /// Computes what is missing of the tasks, one task per rank (or team of ranks) at a time from a common queue,

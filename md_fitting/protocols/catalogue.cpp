@@ -9,7 +9,7 @@ std::span<const Protocol> protocols() {
   static constexpr std::array all = {
       Protocol{"zero_pressure_volume", 2, add_zero_pressure},
       Protocol{"lattice", 1, add_lattice},
-      Protocol{"coexistence", 2, add_coexistence},
+      Protocol{"coexistence", 3, add_coexistence},
       Protocol{"isotherm", 3, add_isotherms},
       Protocol{"isochore", 3, add_isochores},
       Protocol{"hugoniot", 3, add_hugoniot},

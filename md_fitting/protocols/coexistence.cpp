@@ -104,12 +104,14 @@ class TwoPhaseCell {
     const std::span<const double> t(temperature);
     const std::span<const double> x(share);
     const auto extremes = std::minmax_element(share.begin(), share.end());
+    const SeriesMean whole = series_statistics(t);
     return {series_mean(t.first(t.size() / 2)),
             series_mean(t.last(t.size() / 2)),
             mean(x.first(x.size() / 2)),
             mean(x.last(x.size() / 2)),
             *extremes.first,
-            *extremes.second};
+            *extremes.second,
+            {whole.estimate.value, coexistence_error(whole, crystal_.atoms())}};
   }
   [[nodiscard]] const std::string& transcript() { return crystal_.lammps().transcript(); }
 
@@ -121,9 +123,19 @@ class TwoPhaseCell {
 
 }  // namespace
 
+double coexistence_error(const SeriesMean& temperature, double atoms) {
+  constexpr double clearly = 1.3;  // standard errors of the variance
+  const Estimate& mean = temperature.estimate;
+  const double own = mean.error * mean.error;
+  const double whole = 2.0 * mean.value * mean.value / (3.0 * atoms);
+  const double lacking = whole - temperature.variance;
+  return lacking > own + clearly * temperature.spread * whole ? std::sqrt(lacking) : mean.error;
+}
+
 std::string refusal(const CoexistenceRun& run) {
   const double difference = std::abs(run.first_half.value - run.second_half.value);
-  const double sigma = std::hypot(run.first_half.error, run.second_half.error);
+  const double sigma =
+      std::fmax(std::hypot(run.first_half.error, run.second_half.error), 2.0 * run.whole.error);
   if (run.largest_share > 1.0 - least_accepted_share) {
     return fmt::format("the melt froze (share of crystal up to {:.2f})", run.largest_share);
   }
@@ -162,27 +174,22 @@ CoexistenceResult measure_coexistence(const Potential& potential, double pressur
     for (int part = 0; part < 3; ++part) {
       const CoexistenceRun run = cell.run(size.steps);
       const std::string reason = refusal(run);
-      const double average = 0.5 * (run.first_half.value + run.second_half.value);
       const double half_difference = 0.5 * std::abs(run.first_half.value - run.second_half.value);
       guess = run.second_half.value;
       log::detail(
-          "coexistence at {} GPa, attempt {}.{}: {:.1f} +- {:.1f} K, then {:.1f} +- {:.1f} K, share of "
-          "crystal {:.2f} "
-          "... {:.2f}: {}",
-          1e-9 * pressure, attempt, part + 1, run.first_half.value, run.first_half.error,
-          run.second_half.value, run.second_half.error, run.least_share, run.largest_share,
-          reason.empty() ? "accepted" : reason);
+          "coexistence at {} GPa, attempt {}.{}: {:.1f} K, then {:.1f} K, mean {:.1f} +- {:.1f} K, share of "
+          "crystal {:.2f} ... {:.2f}: {}",
+          1e-9 * pressure, attempt, part + 1, run.first_half.value, run.second_half.value, run.whole.value,
+          run.whole.error, run.least_share, run.largest_share, reason.empty() ? "accepted" : reason);
       if (reason.empty()) {
-        temperature = average;
-        result.melting_temperature = {
-            average,
-            std::max(0.5 * std::hypot(run.first_half.error, run.second_half.error), half_difference)};
+        temperature = run.whole.value;
+        result.melting_temperature = {temperature, std::max(run.whole.error, half_difference)};
         result.solid_share = {0.5 * (run.first_share + run.second_share),
                               0.5 * std::abs(run.first_share - run.second_share)};
         break;
       }
       report += fmt::format("{}attempt {}.{} at {:.1f} K: {}", report.empty() ? "" : "; ", attempt, part + 1,
-                            average, reason);
+                            run.whole.value, reason);
       const bool both_phases =
           run.least_share > least_accepted_share && run.largest_share < 1 - least_accepted_share;
       if (!both_phases) break;
@@ -195,7 +202,7 @@ CoexistenceResult measure_coexistence(const Potential& potential, double pressur
   }
   const RunSize phase_size{.cells = std::max<std::int64_t>(4, 3 * size.cells / 4),
                            .equilibration_steps = size.equilibration_steps / 2,
-                           .steps = size.steps};
+                           .steps = size.steps / 2};
   const Phase solid = measure_phase(potential, false, pressure, temperature, phase_size, dt,
                                     next_seed(seed, "solid"), result.transcript);
   const Phase liquid = measure_phase(potential, true, pressure, temperature, phase_size, dt,

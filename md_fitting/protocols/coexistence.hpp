@@ -7,6 +7,7 @@
 #include "md_fitting/data_set/data_set.hpp"
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/plan/plan.hpp"
+#include "md_fitting/protocols/statistics.hpp"
 
 namespace whipple::md {
 
@@ -29,12 +30,20 @@ struct CoexistenceRun {
   double second_share = 0.0;
   double least_share = 0.0;  ///< over both halves
   double largest_share = 0.0;
+  Estimate whole{};  ///< K, mean temperature of both halves; its error holds the slow exchange of the phases
 };
 
-/// Whether a run is two phases at rest with each other: the halves agree within three standard errors, the
-/// share of crystal stays between 0.15 and 0.85 and drifts by less than 0.12. A cell that has become all
-/// crystal or all melt looks just as steady in its temperature, so the share decides. Returns the reason for
-/// a refusal, or an empty text.
+/// Standard error of the mean temperature of crystal and melt at constant enthalpy. A run shorter than some
+/// ten times of relaxation of the phases' slow exchange does not show that part of the fluctuations; but
+/// their whole variance is known, 2 T^2/(3 N) (the effective heat capacity of coexistence has no bound), and
+/// what the run lacks of it is the variance of its mean. Taken where it exceeds the error of the series
+/// clearly. docs/theory/molecular_dynamics.md, "Melting by coexistence".
+double coexistence_error(const SeriesMean& temperature, double atoms);
+
+/// Whether a run is two phases at rest with each other: the halves agree within three standard errors of
+/// their difference (twice that of the whole), the share of crystal stays between 0.15 and 0.85 and drifts by
+/// less than 0.12. A cell that has become all crystal or all melt looks just as steady in its temperature, so
+/// the share decides. Returns the reason for a refusal, or an empty text.
 std::string refusal(const CoexistenceRun& run);
 
 /// The melting temperature at a pressure from a crystal in contact with its melt at constant enthalpy and

@@ -91,7 +91,9 @@ std::vector<double> block_means(std::span<const double> series) {
   return means;
 }
 
-Estimate series_mean(std::span<const double> series) {
+Estimate series_mean(std::span<const double> series) { return series_statistics(series).estimate; }
+
+SeriesMean series_statistics(std::span<const double> series) {
   require_blocks(series);
   if (!std::all_of(series.begin(), series.end(), [](double value) { return std::isfinite(value); })) {
     throw StateError("a sample of the simulation is not finite");
@@ -102,9 +104,11 @@ Estimate series_mean(std::span<const double> series) {
   for (double& value : deviations) value -= mean;
   const double variance = autocovariance(deviations, 0);
   // A constant series, up to the rounding of its mean.
-  if (variance <= 1e-28 * mean * mean) return {mean, 0.0};
+  if (variance <= 1e-28 * mean * mean) return {{mean, 0.0}, variance, 0.0};
   if (const double period = vibration_period(deviations, variance); period > 0.0) {
-    return {mean, error_with_blocks(series, length_of_whole_periods(series.size(), period))};
+    return {{mean, error_with_blocks(series, length_of_whole_periods(series.size(), period))},
+            variance,
+            std::sqrt(2.0 * period / n)};
   }
   double time = 0.5;  // of correlation, in samples
   std::size_t lag = 1;
@@ -114,7 +118,7 @@ Estimate series_mean(std::span<const double> series) {
   }
   time = std::max(time, least_time);
   const double bias = 1.0 + (2.0 * static_cast<double>(lag) + 1.0) / n;
-  return {mean, std::sqrt(2.0 * time * bias * variance / (n - 1.0))};
+  return {{mean, std::sqrt(2.0 * time * bias * variance / (n - 1.0))}, variance, std::sqrt(4.0 * time / n)};
 }
 
 double error_correlation(std::span<const double> first, std::span<const double> second) {

@@ -17,6 +17,14 @@ namespace whipple::md {
 /// @throws InternalError for fewer than 16 samples; StateError if a sample is not finite.
 Estimate series_mean(std::span<const double> series);
 
+/// The same with what a judgement of the error needs.
+struct SeriesMean {
+  Estimate estimate;
+  double variance = 0.0;  ///< of the samples about their own mean
+  double spread = 0.0;    ///< standard error of the variance over the variance
+};
+SeriesMean series_statistics(std::span<const double> series);
+
 /// Means over the 16 longest blocks of equal length; what is left over at the beginning is dropped. They are
 /// what a bootstrap over blocks draws from.
 /// @throws InternalError for fewer than 16 samples.

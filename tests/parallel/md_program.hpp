@@ -123,17 +123,26 @@ inline std::vector<pid_t> children_of(pid_t parent) {
   return found;
 }
 
-/// Starts the plan on two ranks and ends a worker or mpirun itself with SIGKILL at a random moment, `kills`
-/// times with one store; then lets it finish. The store must have the bytes of an undisturbed one.
+inline std::size_t points_in(const std::string& store) {
+  return std::filesystem::exists(store) ? read_store(store).size() : 0;
+}
+
+/// Starts the plan on two ranks and ends a worker or mpirun itself with SIGKILL, `kills` times with one
+/// store; then lets it finish. Half of the kills come at a random moment after the start, half at a random
+/// moment after one more point was stored, however busy the machine. The store must have the bytes of an
+/// undisturbed one.
 inline void kill_at_random(WhippleMd& test, int kills) {
   ASSERT_EQ(run(test.command("whole.md.h5")).code, 0);
   set_mpi_environment();
   std::mt19937 generator(20);
-  std::uniform_real_distribution<double> moment(0.2, 2.0);
+  std::uniform_real_distribution<double> moment(0.0, 1.0);
   const std::string plan = test.path("plan.toml");
   const std::string store = test.path("killed.md.h5");
+  const std::size_t all = points_in(test.path("whole.md.h5"));
   std::size_t stored = 0;
+  int at_work = 0;
   for (int i = 0; i < kills; ++i) {
+    std::fflush(stdout);  // or the child would print it again
     const pid_t driver = fork();
     if (driver == 0) {
       if (std::freopen("/dev/null", "w", stderr) == nullptr ||
@@ -143,16 +152,27 @@ inline void kill_at_random(WhippleMd& test, int kills) {
             nullptr);
       _exit(1);
     }
-    std::this_thread::sleep_for(std::chrono::duration<double>(moment(generator)));
+    const auto pause = [](double seconds) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    };
+    if (i % 2 == 1) {
+      pause(0.2 + 1.2 * moment(generator));
+    } else {
+      for (int k = 0; k < 6000 && points_in(store) == stored && stored < all; ++k) pause(0.01);
+      pause(0.2 * moment(generator));
+    }
     const std::vector<pid_t> workers = children_of(driver);
-    const bool kill_worker = i % 2 == 0 && !workers.empty();
-    kill(kill_worker ? workers[static_cast<std::size_t>(i / 2) % workers.size()] : driver, SIGKILL);
+    const bool kill_worker = i % 4 < 2 && !workers.empty();
+    kill(kill_worker ? workers[static_cast<std::size_t>(i / 4) % workers.size()] : driver, SIGKILL);
     int status = 0;
     waitpid(driver, &status, 0);
     for (const pid_t worker : workers) kill(worker, SIGKILL);  // what mpirun leaves behind when it is killed
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     if (!std::filesystem::exists(store)) continue;
     const std::vector<PointRecord> points = read_store(store);
+    std::printf("  SIGKILL %d, %s: %zu of %zu points in the store\n", i + 1,
+                kill_worker ? "a worker" : "mpirun", points.size(), all);
+    if (!points.empty() && points.size() < all) ++at_work;
     EXPECT_GE(points.size(), stored) << "a point was lost";
     stored = points.size();
     std::vector<std::string> keys;
@@ -160,6 +180,7 @@ inline void kill_at_random(WhippleMd& test, int kills) {
     std::sort(keys.begin(), keys.end());
     EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end()) << "a point was doubled";
   }
+  EXPECT_GE(at_work, kills / 2 - 1) << "the kills did not hit a plan at work";
   const Outcome rest = run(mpirun(2, test.command("killed.md.h5")));
   EXPECT_EQ(rest.code, 0) << rest.text;
   EXPECT_EQ(bytes_of(store), bytes_of(test.path("whole.md.h5")));
