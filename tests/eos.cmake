@@ -10,7 +10,7 @@ whipple_test(eos_test
 # The catalogue of materials is read by whipple_material.
 whipple_test(eos_library_test
   SOURCES property/eos_inversions_test.cpp property/eos_audit_test.cpp validation/eos_library_test.cpp
-          unit/eos_table_file_test.cpp unit/eos_sesame_test.cpp
+          unit/eos_table_file_test.cpp unit/eos_sesame_test.cpp verification/eos_table_metals_test.cpp
   DEPENDS whipple_material GTest::gmock LABELS fast)
 add_test(NAME eos_table_error.at_a_million_states COMMAND eos_test --gtest_filter=EosTableError*:-*Isochoric*)
 set_tests_properties(eos_table_error.at_a_million_states PROPERTIES

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* format_name = "whipple-eos-table";
-constexpr std::int64_t format_version = 2;
+constexpr std::int64_t format_version = 3;
 
 /// The numbers of a table, one attribute each.
 struct Number {
@@ -157,6 +157,7 @@ void write_table(const fs::path& path, const TableFile& table) {
   for (const auto& [phase, error] : table.verification) {
     const hdf5::Group group = verification.create_group(phase);
     group.set_attribute("states", static_cast<std::int64_t>(error.states));
+    group.set_attribute("beyond", static_cast<std::int64_t>(error.beyond));
     for (const ErrorNumber& number : error_numbers) group.set_attribute(number.name, error.*number.member);
   }
   file.close();
@@ -222,6 +223,7 @@ TableFile read_table(const fs::path& path) {
     const hdf5::Group group = verification.open_group(phase);
     TableError& error = result.verification[phase];
     error.states = static_cast<std::size_t>(group.integer_attribute("states"));
+    error.beyond = static_cast<std::size_t>(group.integer_attribute("beyond"));
     for (const ErrorNumber& number : error_numbers) error.*number.member = group.real_attribute(number.name);
   }
   return result;

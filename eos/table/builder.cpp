@@ -21,6 +21,9 @@ constexpr std::size_t consistency_states = 4096;
 /// Of p on the scale of TableError: GRAY's melting band has 0.1.
 constexpr double greatest_contradiction = 0.5;
 constexpr double default_thinness = 1e-5;  ///< least density over the reference density
+/// Greatest density over the compression limit, where the bulk modulus of the cold solid vanishes and the
+/// melting band of GRAY, whose width goes with 1/K_T, contradicts itself most.
+constexpr double default_density_share = 0.99;
 
 /// Densities between which every isochore crosses the same phases; sampled from `first` to `last`.
 struct Segment {
@@ -85,7 +88,7 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
   const double thinnest =
       request.minimum_density > 0 ? request.minimum_density : default_thinness * data.reference_density;
   const double densest =
-      request.maximum_density > 0 ? request.maximum_density : eos.maximum_density() * (1 - 1e-9);
+      request.maximum_density > 0 ? request.maximum_density : default_density_share * eos.maximum_density();
   if (!(request.error > 1e-9 && request.error < 0.1))
     throw InputError("table: the error must lie between 1e-9 and 0.1");
   if (!(thinnest < densest && densest <= eos.maximum_density())) {
@@ -159,6 +162,7 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
         next.back().cuts.push_back(*results[i].cut);
       } else {
         const double middle = 0.5 * (tasks[i].begin + tasks[i].end);
+        tasks[i].miss_of_whole = results[i].miss;
         table::StripTask lower = tasks[i], upper = tasks[i];
         lower.end = lower.last_sample = upper.begin = upper.first_sample = middle;
         next.push_back(lower);
@@ -221,10 +225,12 @@ std::map<std::string, TableError> verify(const Table& table, const EquationOfSta
       const auto raise = [](double& greatest, double value) {
         if (!(value <= greatest)) greatest = value;  // NaN counts
       };
-      raise(error.temperature, std::abs(T[i] / s.temperature - 1));
-      raise(error.pressure,
-            std::abs(p[i] - s.pressure) /
-                table::pressure_scale(s.pressure, rho[i], s.sound_speed * s.sound_speed, soft));
+      const double dT = std::abs(T[i] / s.temperature - 1);
+      const double dp = std::abs(p[i] - s.pressure) /
+                        table::pressure_scale(s.pressure, rho[i], s.sound_speed * s.sound_speed, soft);
+      raise(error.temperature, dT);
+      raise(error.pressure, dp);
+      error.beyond += dT <= table.data().requested_error && dp <= table.data().requested_error ? 0 : 1;
       const double dc = 0.5 * std::abs(c[i] * c[i] - s.sound_speed * s.sound_speed) /
                         (s.sound_speed * s.sound_speed + soft);
       raise(error.sound_speed, dc);
@@ -243,6 +249,7 @@ std::map<std::string, TableError> verify(const Table& table, const EquationOfSta
     for (const auto& [phase, error] : part) {
       TableError& t = total[phase];
       t.states += error.states;
+      t.beyond += error.beyond;
       t.temperature = std::max(t.temperature, error.temperature);
       t.pressure = std::max(t.pressure, error.pressure);
       t.sound_speed = std::max(t.sound_speed, error.sound_speed);

@@ -36,6 +36,7 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request,
 /// Differences between a table and its model over random states.
 struct TableError {
   std::size_t states = 0;
+  std::size_t beyond = 0;  ///< of them, with more than the requested error in T or p
   double temperature = 0;  ///< |dT|/T, greatest
   double pressure = 0;     ///< |dp|/[|p| + rho (c^2 + c_0^2/100)/100], greatest; c_0 of the reference state
   double sound_speed = 0;  ///< |d(c^2)|/[2 (c^2 + c_0^2/100)]: greatest, and mean

@@ -21,7 +21,7 @@ constexpr std::uint32_t greatest_fraction_nx = 64, greatest_fraction_ny = 128;
 /// Share of a region that a cut parts from it, where the resolution falls short.
 constexpr double cut_share = 0.1;
 /// Cuts part no strip into more regions than a point finds by one comparison.
-constexpr std::size_t greatest_cut_regions = 4;
+constexpr std::size_t greatest_cut_regions = 6;
 /// A strip is not halved below this length of ln rho: what remains is reported by the verification.
 constexpr double least_length = 0.01;
 constexpr double edge_tolerance = 4e-13;  ///< of z
@@ -75,6 +75,7 @@ class StripFit {
   [[nodiscard]] FittedStrip without_convergence() const {
     FittedStrip none;
     none.cut = result_.cut;
+    none.miss = result_.miss;
     return none;
   }
 
@@ -255,7 +256,8 @@ class StripFit {
                            edge.curvature[region + 1] - edge.curvature[region]}));
   }
 
-  /// Greatest difference of two patches over the tolerance, and where in y it lies.
+  /// Greatest difference of two patches over the tolerance, and where in y it lies. Where p passes through
+  /// zero between two probes, the tolerance is that of p = 0.
   struct Difference {
     double worst = 0, y = 0;
   };
@@ -274,16 +276,21 @@ class StripFit {
       const double x = x_at(tx), rho = std::exp(x);
       Curves base;
       const Curves edge = edges_at(x, base);
+      double below = INFINITY;  // pressure at the probe before
       for (std::size_t j = 0; j < probes.size() * ny; ++j) {
         const double y = place(j, ny);
         const auto sa = evaluate(a, region, tx, y, base, edge, rho),
                    sb = evaluate(b, region, tx, y, base, edge, rho);
         const double ca = std::max(sa.squared_sound_speed, least * least);
         const double cb = std::max(sb.squared_sound_speed, least * least);
-        const double miss = std::max(
-            {std::abs(sa.temperature / sb.temperature - 1) / error_,
-             std::abs(sa.pressure - sb.pressure) / (error_ * pressure_scale(sb.pressure, rho, cb, soft)),
-             std::abs(ca - cb) / (20 * error_ * (cb + soft))});
+        const double p = sb.pressure;
+        if (j == 0) below = p;
+        const double least_pressure = p * below > 0 ? std::min(std::abs(p), std::abs(below)) : 0.0;
+        const double miss =
+            std::max({std::abs(sa.temperature / sb.temperature - 1) / error_,
+                      std::abs(sa.pressure - p) / (error_ * pressure_scale(least_pressure, rho, cb, soft)),
+                      std::abs(ca - cb) / (20 * error_ * (cb + soft))});
+        below = p;
         if (!(miss <= result.worst)) result = {miss, y};
       }
     }
@@ -291,26 +298,37 @@ class StripFit {
   }
 
   bool fit_region(std::size_t region) {
-    constexpr double safety = 0.3;
+    constexpr double safety = 0.2;
     std::uint32_t nx = 1, ny = 1;
     Patch present = fit_patch(region, nx, ny);
+    double last_x = INFINITY, last_y = INFINITY;  // differences before the last doubling in that direction
+    // In a thin region the rounding of the entropies, divided by its height, ends the gain of a finer one.
+    const auto good = [&](double now, double last) {
+      return now < safety || (now < 0.5 && now > 0.5 * last);
+    };
     for (;;) {
       const bool wider = nx < greatest_nx, higher = ny < greatest_ny;
       const Patch fine_x = fit_patch(region, 2 * nx, ny), fine_y = fit_patch(region, nx, 2 * ny);
       const Difference along_y = difference(present, fine_y, region);
       const double by_x = difference(present, fine_x, region).worst, by_y = along_y.worst;
-      if (by_x < safety && by_y < safety) break;
-      if (by_y >= safety && !higher && may_split_ && result_.phases.size() < greatest_cut_regions) {
+      const bool good_x = good(by_x, last_x), good_y = good(by_y, last_y);
+      if (good_x && good_y) break;
+      if (by_y >= 1 && !higher && may_split_ && result_.phases.size() < greatest_cut_regions) {
         result_.cut = Cut{region, along_y.y > 0.5 ? 1 - cut_share : cut_share};
         return false;
       }
-      if (by_x >= safety && !wider && may_split_) return false;
-      if (by_y >= safety && !higher && may_split_) return false;
-      const bool double_x = by_x >= safety && wider && by_x >= 0.1 * by_y;
-      const bool double_y = by_y >= safety && higher && by_y >= 0.1 * by_x;
+      if (by_x >= 1 && !wider && may_split_) return false;
+      // Shorter strips help along y only if edges bend; where the halves of a strip fare no better, they are
+      // left as they are and the verification counts what is beyond the request.
+      if (by_y >= 1 && !higher && may_split_ && by_y < 0.5 * task_.miss_of_whole) {
+        result_.miss = by_y;
+        return false;
+      }
+      const bool double_x = !good_x && wider && by_x >= 0.1 * by_y;
+      const bool double_y = !good_y && higher && by_y >= 0.1 * by_x;
       if (!double_x && !double_y) break;
-      if (double_x) nx *= 2;
-      if (double_y) ny *= 2;
+      if (double_x) nx *= 2, last_x = by_x;
+      if (double_y) ny *= 2, last_y = by_y;
       present = double_x && double_y ? fit_patch(region, nx, ny) : double_x ? fine_x : fine_y;
     }
     TableData::Region& r = result_.strip.regions[region];

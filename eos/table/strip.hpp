@@ -67,12 +67,14 @@ struct Cut {
 struct StripTask {
   double begin, end, first_sample, last_sample;
   std::vector<Cut> cuts = {};
-  bool last_attempt = false;  ///< what does not converge stands, and shows in the verification
+  double miss_of_whole = INFINITY;  ///< what remained along y, over the request, in the strip that was halved
+  bool last_attempt = false;        ///< what does not converge stands, and shows in the verification
 };
 
 struct FittedStrip {
   bool converged = false;  ///< otherwise: to be cut once more, or else to be halved
   std::optional<Cut> cut;
+  double miss = INFINITY;  ///< what remains along y, over the request, if that is why it did not converge
   TableData::Strip strip;  ///< its indices count from the vectors below
   std::vector<TableData::Interval> intervals;
   std::vector<double> cells;

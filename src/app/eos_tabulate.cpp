@@ -102,9 +102,9 @@ void write_table(const TabulateOptions& o) {
   fmt::print("Greatest differences from the model over {} random states; requested {:.2g} in T and p:\n",
              verification_states, request.error);
   std::vector<std::vector<std::string>> rows = {
-      {"phase", "states", "T", "p", "c", "mean c", "fractions", "mean fractions"}};
+      {"phase", "states", "beyond", "T", "p", "c", "mean c", "fractions", "mean fractions"}};
   for (const auto& [phase, e] : file.verification) {
-    rows.push_back({phase, fmt::format("{}", e.states)});
+    rows.push_back({phase, fmt::format("{}", e.states), fmt::format("{}", e.beyond)});
     for (const double value :
          {e.temperature, e.pressure, e.sound_speed, e.mean_sound_speed, e.fraction, e.mean_fraction})
       rows.back().push_back(fmt::format("{:.2g}", value));

@@ -78,7 +78,7 @@ TEST_F(TableFiles, of_another_version_are_refused) {
   H5Adelete(file.root.id(), "version");
   file.root.set_attribute("version", std::int64_t{99});
   file.close();
-  EXPECT_THAT(refusal(), HasSubstr("version 99, this program reads version 2"));
+  EXPECT_THAT(refusal(), HasSubstr("version 99, this program reads version 3"));
 }
 
 TEST_F(TableFiles, that_were_changed_are_refused) {
