@@ -15,7 +15,8 @@ target_link_options(whipple_flags INTERFACE -fopenmp)
 # The C interface of MPI only: Open MPI's C++ bindings do not pass our warnings.
 target_compile_definitions(whipple_flags INTERFACE OMPI_SKIP_MPICXX)
 if(WHIPPLE_NATIVE)
-  target_compile_options(whipple_flags INTERFACE -march=native)
+  # -Wno-maybe-uninitialized: GCC 12 warns of its own AVX-512 header where Eigen uses it (GCC bug 105593).
+  target_compile_options(whipple_flags INTERFACE -march=native -Wno-maybe-uninitialized)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   target_compile_options(whipple_flags INTERFACE -march=x86-64-v3)
 endif()
