@@ -89,7 +89,11 @@ class Snapshot:
 
     def _append_elements(self, vtk):
         self.nodes = vtk["Points"][:].astype(float)
-        self.connectivity = vtk["Connectivity"][:].reshape(-1, 8)
+        # The corners of each rank count from its first point; a node that ranks share is one of them from here on.
+        points, cells = vtk["NumberOfPoints"][:], vtk["NumberOfCells"][:]
+        first = np.repeat(np.cumsum(points) - points, cells)
+        _, same, place = np.unique(vtk["PointData"]["node_id"][:], return_index=True, return_inverse=True)
+        self.connectivity = same[place][vtk["Connectivity"][:].reshape(-1, 8) + first[:, None]]
         at = self.connectivity
         own = {"position": self.nodes[at].mean(axis=1), "velocity": vtk["PointData"]["velocity"][:][at].mean(axis=1)}
         for name, values in self.fields.items():

@@ -7,6 +7,7 @@
 
 #include "src/grid/block_grid.hpp"
 #include "src/grid/block_table.hpp"
+#include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
 
 namespace whipple::afemp {
@@ -23,6 +24,13 @@ class Neighbourhood {
     const Cell cell = cell_of(position);
     at(block_of(cell)) |= bit(cell);
   }
+  /// Cells of a block, as `cells_in` gives them.
+  void add(const grid::BlockCoordinate& block, std::uint64_t cells) { at(block) |= cells; }
+  [[nodiscard]] std::uint64_t cells_in(const grid::BlockCoordinate& block) const {
+    const std::int32_t found = table_.find(block);
+    return found == grid::BlockTable::none ? 0 : cells_[static_cast<std::size_t>(found)];
+  }
+  [[nodiscard]] const std::vector<grid::BlockCoordinate>& blocks() const { return coordinates_; }
 
   /// After the last one: adds the cells around theirs, direction by direction.
   void widen() {
@@ -155,7 +163,46 @@ void for_each_marked(Meshes& meshes, Function&& f) {
   }
 }
 
-/// Greatest sound speed of the elements around a node.
+/// Adds what other ranks have in the blocks around the surfaces of this rank's meshes.
+/// @param sets  the same number on all ranks, not widened yet
+void add_of_other_ranks(const std::vector<fem::Mesh>& meshes, const grid::Geometry& geometry,
+                        std::span<Neighbourhood* const> sets, MPI_Comm communicator) {
+  const auto ranks = static_cast<std::size_t>(parallel::size(communicator));
+  if (ranks == 1) return;
+  Neighbourhood near(geometry);
+  for (const fem::Mesh& mesh : meshes) {
+    for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
+      if (mesh.nodes.on_surface[a] != 0 && inside(geometry, mesh.nodes.position[a])) {
+        near.add(mesh.nodes.position[a]);
+      }
+    }
+  }
+  near.widen();
+  struct Cells {
+    std::uint64_t cells;
+    grid::BlockCoordinate block;
+    std::uint32_t set;
+  };
+  std::vector<std::vector<grid::BlockCoordinate>> asked(ranks, near.blocks());
+  const auto own = static_cast<std::size_t>(parallel::rank(communicator));
+  asked[own].clear();
+  const auto questions = parallel::exchange(communicator, asked);
+  std::vector<std::vector<Cells>> answers(ranks);
+  for (std::size_t r = 0; r < ranks; ++r) {
+    for (const grid::BlockCoordinate& block : questions[r]) {
+      for (std::uint32_t i = 0; i < sets.size(); ++i) {
+        const std::uint64_t cells = sets[i]->cells_in(block);
+        if (cells != 0) answers[r].push_back({cells, block, i});
+      }
+    }
+  }
+  for (const std::vector<Cells>& part : parallel::exchange(communicator, answers)) {
+    for (const Cells& of_block : part) sets[of_block.set]->add(of_block.block, of_block.cells);
+  }
+}
+
+}  // namespace
+
 double sound_speed_at(const fem::Mesh& mesh, std::size_t node) {
   const std::size_t rows = fem::points_per_element(mesh.quadrature);
   double speed = 0.0;
@@ -166,8 +213,6 @@ double sound_speed_at(const fem::Mesh& mesh, std::size_t node) {
   }
   return speed;
 }
-
-}  // namespace
 
 std::vector<fem::Facet> free_facets(const fem::Mesh& mesh, const grid::Geometry& geometry) {
   std::vector<fem::Facet> facets = fem::surface_facets(mesh);
@@ -183,10 +228,9 @@ void mark_surface(fem::Mesh& mesh, const grid::Geometry& geometry) {
 }
 
 double mark_transition(std::vector<fem::Mesh>& meshes, const Particles& particles,
-                       const grid::Geometry& geometry, double affine_inertia) {
+                       const grid::Geometry& geometry, double affine_inertia, MPI_Comm communicator) {
   Neighbourhood of_particles(geometry);
   for (const Vector3& position : particles.position) of_particles.add(position);
-  of_particles.widen();
   std::vector<Neighbourhood> of_surfaces(meshes.size() > 1 ? meshes.size() : 0, Neighbourhood(geometry));
   for (std::size_t m = 0; m < of_surfaces.size(); ++m) {
     const fem::Nodes& nodes = meshes[m].nodes;
@@ -194,8 +238,11 @@ double mark_transition(std::vector<fem::Mesh>& meshes, const Particles& particle
       if (nodes.on_surface[a] != 0 && inside(geometry, nodes.position[a]))
         of_surfaces[m].add(nodes.position[a]);
     }
-    of_surfaces[m].widen();
   }
+  std::vector<Neighbourhood*> sets = {&of_particles};
+  for (Neighbourhood& of_surface : of_surfaces) sets.push_back(&of_surface);
+  add_of_other_ranks(meshes, geometry, sets, communicator);
+  for (Neighbourhood* set : sets) set->widen();
   const auto meets = [&](std::size_t body, const Vector3& position) {
     if (of_particles.contains(position)) return true;
     for (std::size_t m = 0; m < of_surfaces.size(); ++m) {

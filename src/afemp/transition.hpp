@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mpi.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,12 +26,17 @@ void mark_surface(fem::Mesh& mesh, const grid::Geometry& geometry);
 
 /// Marks the nodes that move with the grid (`Nodes::in_transition`): nodes on the surface of a mesh, inside
 /// of the domain, in the same cell as, or in a cell next to that of, a particle or a surface node of another
-/// body. Nodes that leave the transition give up their affine field: its energy becomes heat of their
-/// elements. Nodes with a prescribed velocity stay out of it, unless they only keep to a mirror plane.
+/// body, on whatever rank. Nodes that leave the transition give up their affine field: its energy becomes
+/// heat of their elements. Nodes with a prescribed velocity stay out of it, unless they only keep to a mirror
+/// plane.
 /// @param affine_inertia of the affine field per mass, m^2
-/// @returns that heat, J
+/// Collective.
+/// @returns that heat on this rank, J
 double mark_transition(std::vector<fem::Mesh>& meshes, const Particles& particles,
-                       const grid::Geometry& geometry, double affine_inertia);
+                       const grid::Geometry& geometry, double affine_inertia, MPI_Comm communicator);
+
+/// Greatest sound speed of the elements around a node, m/s.
+double sound_speed_at(const fem::Mesh& mesh, std::size_t node);
 
 /// The marked nodes of all meshes as the transfers see them, in the order of the meshes and nodes, with the
 /// forces of `fem::internal_forces`.

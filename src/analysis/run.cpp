@@ -196,7 +196,16 @@ void append_elements(const fs::path& path, Snapshot& snapshot) {
   std::vector<std::uint32_t> order(id.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
-  const std::vector<std::int64_t> corners = vtk.open_dataset("Connectivity").read_all<std::int64_t>();
+  std::vector<std::int64_t> corners = vtk.open_dataset("Connectivity").read_all<std::int64_t>();
+  // Those of each rank count from its first point.
+  const auto points_of = vtk.open_dataset("NumberOfPoints").read_all<std::int64_t>();
+  const auto cells_of = vtk.open_dataset("NumberOfCells").read_all<std::int64_t>();
+  auto corner_at = corners.begin();
+  for (std::int64_t rank = 0, first = 0; rank < std::ssize(points_of); ++rank) {
+    const auto r = static_cast<std::size_t>(rank);
+    for (const auto end = corner_at + 8 * cells_of[r]; corner_at != end; ++corner_at) *corner_at += first;
+    first += points_of[r];
+  }
   const std::vector<float> points = vtk.open_dataset("Points").read_all<float>();
   const std::vector<float> velocities =
       vtk.open_group("PointData").open_dataset("velocity").read_all<float>();

@@ -5,6 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <unordered_map>
+
+#include "src/grid/block_table.hpp"
+#include "src/parallel/mpi.hpp"
 
 namespace whipple::contact {
 
@@ -13,17 +18,19 @@ void SurfacePoints::clear() {
   area.clear();
   size.clear();
   field.clear();
+  node.clear();
 }
 
 void SurfacePoints::add(const fem::Mesh& mesh, std::span<const fem::Facet> facets, std::uint8_t of_body,
                         double spacing) {
   constexpr auto none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> point_of_node(mesh.nodes.size(), none);
-  const auto new_point = [&](const Vector3& x) {
+  const auto new_point = [&](const Vector3& x, std::uint64_t id) {
     position.push_back(x);
     area.push_back(Vector3::Zero());
     size.push_back(0.0);
     field.push_back(of_body);
+    node.push_back(id);
     return static_cast<std::uint32_t>(position.size() - 1);
   };
   for (const fem::Facet& facet : facets) {
@@ -45,10 +52,10 @@ void SurfacePoints::add(const fem::Mesh& mesh, std::span<const fem::Facet> facet
         if (at_end_u && at_end_v) {
           const std::size_t corner = j == 0 ? (i == 0 ? 0U : 1U) : (i == 0 ? 3U : 2U);
           std::uint32_t& of_node = point_of_node[facet[corner]];
-          if (of_node == none) of_node = new_point(x[corner]);
+          if (of_node == none) of_node = new_point(x[corner], mesh.nodes.id[facet[corner]]);
           point = of_node;
         } else {
-          point = new_point((1 - v) * ((1 - u) * x[0] + u * x[1]) + v * ((1 - u) * x[3] + u * x[2]));
+          point = new_point((1 - v) * ((1 - u) * x[0] + u * x[1]) + v * ((1 - u) * x[3] + u * x[2]), no_node);
         }
         area[point] += part;
         size[point] += part.norm();
@@ -57,32 +64,80 @@ void SurfacePoints::add(const fem::Mesh& mesh, std::span<const fem::Facet> facet
   }
 }
 
+void SurfacePoints::send_to_owners(const grid::BlockGrid& grid, grid::Stencil stencil,
+                                   MPI_Comm communicator) {
+  const auto ranks = static_cast<std::size_t>(parallel::size(communicator));
+  if (ranks == 1) return;
+  struct Point {
+    Vector3 position, area;
+    double size;
+    std::uint64_t field, node;
+  };
+  std::vector<std::vector<std::byte>> outgoing(ranks);
+  std::vector<int> reached;
+  for (std::size_t p = 0; p < count(); ++p) {
+    reached.clear();
+    grid.owners_reached(position[p], stencil, reached);
+    const Point point{position[p], area[p], size[p], field[p], node[p]};
+    const auto* bytes = reinterpret_cast<const std::byte*>(&point);
+    for (const int r : reached) {
+      std::vector<std::byte>& to = outgoing[static_cast<std::size_t>(r)];
+      to.insert(to.end(), bytes, bytes + sizeof(Point));
+    }
+  }
+  clear();
+  std::unordered_map<std::uint64_t, std::size_t> point_of_node;
+  for (const std::vector<std::byte>& part : parallel::exchange_bytes(communicator, outgoing)) {
+    for (std::size_t at = 0; at < part.size(); at += sizeof(Point)) {
+      Point point;
+      std::copy_n(part.data() + at, sizeof(Point), reinterpret_cast<std::byte*>(&point));
+      if (point.node != no_node) {
+        const auto [same, is_new] = point_of_node.emplace(point.node, count());
+        if (!is_new) {
+          area[same->second] += point.area;
+          size[same->second] += point.size;
+          continue;
+        }
+      }
+      position.push_back(point.position);
+      area.push_back(point.area);
+      size.push_back(point.size);
+      field.push_back(static_cast<std::uint8_t>(point.field));
+      node.push_back(point.node);
+    }
+  }
+}
+
 PlacedPoints::PlacedPoints(const SurfacePoints& surface, const grid::BlockGrid& grid) : points(&surface) {
-  in_slot.begin.assign(grid.slots() + 1, 0);
-  std::vector<std::int32_t> slot_of(surface.count());
+  if (grid.contact_slots().empty()) return;
+  constexpr std::int32_t nowhere = -2;  // blocks that reach no contact slot
+  grid::BlockTable known;
+  known.reserve(64);
   for (std::size_t p = 0; p < surface.count(); ++p) {
-    slot_of[p] = grid.slot_at(surface.position[p]);
-    if (slot_of[p] == grid::BlockGrid::no_slot) continue;
-    const auto slot = static_cast<std::size_t>(slot_of[p]);
-    if (grid.meets_contact(slot)) {
-      ++in_slot.begin[slot + 1];
-    } else {
-      slot_of[p] = grid::BlockGrid::no_slot;
+    const std::optional<grid::BlockCoordinate> block = grid.block_of(surface.position[p]);
+    if (!block) continue;
+    std::int32_t& place = known.find_or_insert(*block, grid::BlockTable::none);
+    if (place == grid::BlockTable::none) {
+      Block added{.coordinate = *block, .slots = {}, .points = {}};
+      bool meets = false;
+      for (int n = 0; n < 27; ++n) {
+        const std::int32_t slot =
+            grid.slot_of({(*block)[0] + n / 9 - 1, (*block)[1] + n / 3 % 3 - 1, (*block)[2] + n % 3 - 1});
+        const bool own = slot != grid::BlockGrid::no_slot &&
+                         static_cast<std::size_t>(slot) < grid.owned_slots() &&
+                         grid.contact_number(static_cast<std::size_t>(slot)) != grid::BlockGrid::no_slot;
+        added.slots[static_cast<std::size_t>(n)] = own ? slot : grid::BlockGrid::no_slot;
+        meets = meets || own;
+      }
+      place = meets ? static_cast<std::int32_t>(blocks.size()) : nowhere;
+      if (meets) blocks.push_back(std::move(added));
     }
+    if (place != nowhere)
+      blocks[static_cast<std::size_t>(place)].points.push_back(static_cast<std::uint32_t>(p));
   }
-  for (std::size_t s = 0; s < grid.slots(); ++s) {
-    if (in_slot.begin[s + 1] > 0) {
-      const grid::BlockCoordinate& c = grid.coordinate(s);
-      colours[static_cast<std::size_t>((c[0] & 1) << 2 | (c[1] & 1) << 1 | (c[2] & 1))].push_back(
-          static_cast<std::uint32_t>(s));
-    }
-    in_slot.begin[s + 1] += in_slot.begin[s];
-  }
-  in_slot.points.resize(in_slot.begin.back());
-  std::vector<std::uint32_t> next(in_slot.begin.begin(), in_slot.begin.end() - 1);
-  for (std::size_t p = 0; p < surface.count(); ++p) {
-    if (slot_of[p] == grid::BlockGrid::no_slot) continue;
-    in_slot.points[next[static_cast<std::size_t>(slot_of[p])]++] = static_cast<std::uint32_t>(p);
+  for (std::uint32_t b = 0; b < blocks.size(); ++b) {
+    const grid::BlockCoordinate& c = blocks[b].coordinate;
+    colours[static_cast<std::size_t>((c[0] & 1) << 2 | (c[1] & 1) << 1 | (c[2] & 1))].push_back(b);
   }
 }
 

@@ -93,15 +93,15 @@ FoldedAxis<count> fold(const BlockGrid& grid, int axis, int block, int first) {
   return folded;
 }
 
-/// Calls f(p, place) for the nodes of contact slots that a point of the field, in the block of a slot,
-/// reaches.
+/// Calls f(p, place) for the nodes of contact slots that a point of the field reaches.
+/// @param block       where the point is
+/// @param neighbours  slots of the 27 blocks around it, as far as they count
 template <class Shape, class Points, class Function>
-void for_each_place_of(const Points& points, std::uint32_t p, unsigned field, std::size_t slot,
+void for_each_place_of(const Points& points, std::uint32_t p, unsigned field,
+                       const grid::BlockCoordinate& block, const std::array<std::int32_t, 27>& neighbours,
                        const BlockGrid& grid, Function&& f) {
   static constexpr grid::ReachMap map = grid::reach_map();
   constexpr int count = Shape::count;
-  const grid::BlockCoordinate& block = grid.coordinate(slot);
-  const auto& neighbours = grid.neighbours(slot);
   const transfer::Weights<count> w =
       transfer::weights_at<Shape>(points, p, transfer::BlockFrame(grid.geometry(), block));
   const std::array<int, 3> first_node = w.first_node();
@@ -156,7 +156,8 @@ void for_each_place(const Particles& particles, const BlockGrid& grid, Function&
       grid.for_each_field(BlockGrid::Points::particles, slot,
                           [&](std::span<const std::uint32_t> members, unsigned field) {
                             for (const std::uint32_t p : members) {
-                              for_each_place_of<Shape>(particles, p, field, slot, grid, f);
+                              for_each_place_of<Shape>(particles, p, field, grid.coordinate(slot),
+                                                       grid.neighbours(slot), grid, f);
                             }
                           });
     });
@@ -169,9 +170,10 @@ void for_each_place(const PlacedPoints& placed, const BlockGrid& grid, Function&
   if constexpr (transfer::CarriesAffineField<Shape>) {
     for (const std::vector<std::uint32_t>& colour : placed.colours) {
       parallel::for_each_uneven(colour.size(), [&](std::size_t c) {
-        const std::size_t slot = colour[c];
-        for (const std::uint32_t p : placed.in_slot.in(slot)) {
-          for_each_place_of<Shape>(*placed.points, p, placed.points->field[p], slot, grid, f);
+        const PlacedPoints::Block& block = placed.blocks[colour[c]];
+        for (const std::uint32_t p : block.points) {
+          for_each_place_of<Shape>(*placed.points, p, placed.points->field[p], block.coordinate, block.slots,
+                                   grid, f);
         }
       });
     }

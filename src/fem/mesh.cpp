@@ -59,32 +59,16 @@ std::string inversion(const Modes<double>& x) {
   return {};
 }
 
-/// Elements along a Morton curve of cells of their mean size: neighbours in space become neighbours in
-/// memory.
-std::vector<std::uint32_t> spatial_order(const Hexahedra& hexahedra) {
+/// Of the hexahedra, in cells of their mean size.
+std::vector<std::uint32_t> order_of(const Hexahedra& hexahedra) {
   const std::size_t n = hexahedra.elements.size();
   std::vector<Vector3> centre(n, Vector3::Zero());
-  Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity());
   double volume = 0.0;
   for (std::size_t e = 0; e < n; ++e) {
     for (const std::uint32_t node : hexahedra.elements[e]) centre[e] += 0.125 * hexahedra.nodes[node];
-    lower = lower.cwiseMin(centre[e]);
     volume += volume_of(modes(hexahedra.nodes, hexahedra.elements[e]));
   }
-  const double cell = std::cbrt(volume / static_cast<double>(n));
-  std::vector<std::uint64_t> key(n, 0);
-  for (std::size_t e = 0; e < n; ++e) {
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      const double steps =
-          std::min((centre[e][static_cast<int>(axis)] - lower[static_cast<int>(axis)]) / cell, 2e6);
-      const auto coordinate = static_cast<std::uint64_t>(steps + 0.5);
-      for (unsigned bit = 0; bit < 21; ++bit) key[e] |= (coordinate >> bit & 1U) << (3 * bit + axis);
-    }
-  }
-  std::vector<std::uint32_t> order(n);
-  std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t e) { return key[e]; });
-  return order;
+  return spatial_order(centre, std::cbrt(volume / static_cast<double>(n)));
 }
 
 void make_blocks(Mesh& mesh) {
@@ -128,6 +112,24 @@ void keep(Points& points, std::span<const std::uint32_t> kept, std::size_t rows_
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> spatial_order(std::span<const Vector3> points, double cell) {
+  Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity());
+  for (const Vector3& point : points) lower = lower.cwiseMin(point);
+  std::vector<std::uint64_t> key(points.size(), 0);
+  for (std::size_t e = 0; e < points.size(); ++e) {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const double steps =
+          std::min((points[e][static_cast<int>(axis)] - lower[static_cast<int>(axis)]) / cell, 2e6);
+      const auto coordinate = static_cast<std::uint64_t>(steps + 0.5);
+      for (unsigned bit = 0; bit < 21; ++bit) key[e] |= (coordinate >> bit & 1U) << (3 * bit + axis);
+    }
+  }
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t e) { return key[e]; });
+  return order;
+}
 
 std::optional<Fault> first_fault(const Hexahedra& hexahedra) {
   for (std::size_t e = 0; e < hexahedra.elements.size(); ++e) {
@@ -180,7 +182,7 @@ Mesh make_mesh(const Hexahedra& hexahedra, Quadrature quadrature, std::uint32_t 
   constexpr std::uint32_t unnumbered = 0xffffffff;
   std::vector<std::uint32_t> number(hexahedra.nodes.size(), unnumbered);
   std::uint32_t next = 0;
-  const std::vector<std::uint32_t> order = spatial_order(hexahedra);
+  const std::vector<std::uint32_t> order = order_of(hexahedra);
   for (std::size_t e = 0; e < order.size(); ++e) {
     mesh.elements.id[e] = first_element_id + order[e];
     for (std::size_t a = 0; a < 8; ++a) {

@@ -147,6 +147,10 @@ std::optional<Fault> first_fault(const Hexahedra& hexahedra);
 /// @throws InputError for the first fault, for a mesh without elements, for nodes of no element
 void check(const Hexahedra& hexahedra, const std::string& name);
 
+/// Indices of points along a Morton curve of cells of the given size (m): neighbours in space become
+/// neighbours in memory.
+std::vector<std::uint32_t> spatial_order(std::span<const Vector3> points, double cell);
+
 /// Nodes, elements and Gauss points with their volumes, in an order that keeps neighbours together; the ids
 /// count from the given numbers in the order of the hexahedra. Without mass, velocity and state:
 /// `set_density`, then `initialise` (src/material/material.hpp) with `mesh.points`. The hexahedra must have

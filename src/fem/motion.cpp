@@ -60,29 +60,42 @@ ConstraintBalance& ConstraintBalance::operator+=(const ConstraintBalance& other)
   return *this;
 }
 
+namespace {
+
+/// From the velocity before to that after the forces.
+ConstraintBalance advance_to(Nodes& nodes, std::size_t a, Vector3 after, Motion& motion) {
+  ConstraintBalance balance;
+  const Vector3 before = nodes.velocity[a];
+  if (nodes.constrained[a] != constraint::none) {
+    for (int i = 0; i < 3; ++i) {
+      if ((nodes.constrained[a] & constraint::axis(i)) == 0) continue;
+      const double impulse = nodes.mass[a] * (nodes.prescribed[a][i] - after[i]);
+      after[i] = nodes.prescribed[a][i];
+      balance.impulse[i] = impulse;
+      balance.work += impulse * 0.5 * (before[i] + after[i]);
+    }
+  }
+  nodes.velocity[a] = after;
+  motion.mean[a] = 0.5 * (before + after);
+  motion.end[a] = after;
+  return balance;
+}
+
+}  // namespace
+
 ConstraintBalance advance_velocities(Nodes& nodes, double dt, Motion& motion,
                                      std::span<const std::uint8_t> elsewhere) {
   motion.mean.resize(nodes.size());
   motion.end.resize(nodes.size());
   return parallel::sum<ConstraintBalance>(nodes.size(), [&](std::size_t a) {
-    ConstraintBalance balance;
-    if (!elsewhere.empty() && elsewhere[a] != 0) return balance;
-    const Vector3 before = nodes.velocity[a];
-    Vector3 after = before + dt / nodes.mass[a] * nodes.force[a];
-    if (nodes.constrained[a] != constraint::none) {
-      for (int i = 0; i < 3; ++i) {
-        if ((nodes.constrained[a] & constraint::axis(i)) == 0) continue;
-        const double impulse = nodes.mass[a] * (nodes.prescribed[a][i] - after[i]);
-        after[i] = nodes.prescribed[a][i];
-        balance.impulse[i] = impulse;
-        balance.work += impulse * 0.5 * (before[i] + after[i]);
-      }
-    }
-    nodes.velocity[a] = after;
-    motion.mean[a] = 0.5 * (before + after);
-    motion.end[a] = after;
-    return balance;
+    if (!elsewhere.empty() && elsewhere[a] != 0) return ConstraintBalance{};
+    return advance_to(nodes, a, nodes.velocity[a] + dt / nodes.mass[a] * nodes.force[a], motion);
   });
+}
+
+ConstraintBalance advance_velocity(Nodes& nodes, std::size_t node, const Vector3& acceleration, double dt,
+                                   Motion& motion) {
+  return advance_to(nodes, node, nodes.velocity[node] + dt * acceleration, motion);
 }
 
 void move_nodes(Nodes& nodes, const Motion& motion, double dt) {

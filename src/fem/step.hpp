@@ -68,6 +68,10 @@ inline ConstraintBalance advance_velocities(Mesh& mesh, double dt, Motion& motio
   return advance_velocities(mesh.nodes, dt, motion, elsewhere);
 }
 
+/// The same for one node, by its acceleration (m/s^2): of a node whose force is shared among ranks.
+ConstraintBalance advance_velocity(Nodes& nodes, std::size_t node, const Vector3& acceleration, double dt,
+                                   Motion& motion);
+
 /// What the deformation of a step did to the elements.
 struct DeformationReport {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();

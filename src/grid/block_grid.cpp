@@ -37,7 +37,6 @@ BlockGrid::BlockGrid(const Geometry& geometry, MPI_Comm communicator)
                            [](const MirrorPlane& plane) { return plane.kind == Boundary::separating; });
 }
 
-/// Nothing for a position beyond the outer layer, or NaN.
 std::optional<BlockCoordinate> BlockGrid::block_of(const Vector3& position) const {
   BlockCoordinate block{};
   const Vector3 in_cells = geometry_.in_cells(position);
@@ -128,11 +127,13 @@ std::vector<WantedBlock> BlockGrid::wanted_blocks(std::span<const Vector3> posit
       last = homes.find_or_insert(*block, static_cast<std::int32_t>(home.size()));
     }
     const std::int32_t i = last;
+    const bool on_grid = p + work.apart < position.size();
     if (static_cast<std::size_t>(i) == home.size()) {
-      home.push_back({*block, work.of_block});
-      wanted_mask.push_back(0);
+      home.push_back({*block, on_grid ? work.of_block : 0.0});
+      wanted_mask.push_back(1U << neighbour_index(1, 1, 1));
     }
     home[static_cast<std::size_t>(i)].weight += p < work.of_particle.size() ? work.of_particle[p] : 1.0;
+    if (!on_grid) continue;
     Vector3 local = geometry_.in_cells(position[p]);
     for (std::size_t a = 0; a < 3; ++a) local[static_cast<Eigen::Index>(a)] -= (*block)[a] * block_edge;
     const Vector3 ahead = (velocity[p] * (lookahead / geometry_.cell_size)).cwiseMax(-2.0).cwiseMin(2.0);
@@ -181,6 +182,21 @@ std::vector<int> BlockGrid::owners(std::span<const Vector3> position) const {
     owner[p] = rank;
   }
   return owner;
+}
+
+void BlockGrid::owners_reached(const Vector3& position, Stencil stencil, std::vector<int>& ranks) const {
+  const std::optional<BlockCoordinate> block = block_of(position);
+  if (!block) return;
+  Vector3 local = geometry_.in_cells(position);
+  for (std::size_t a = 0; a < 3; ++a) local[static_cast<Eigen::Index>(a)] -= (*block)[a] * block_edge;
+  for_each_bit(touched_neighbours(local, Vector3::Zero(), stencil), [&](unsigned n) {
+    const BlockCoordinate reached = shifted(*block, static_cast<int>(n));
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (reached[a] < -1 || reached[a] > geometry_.blocks(static_cast<int>(a))) return;
+    }
+    const int rank = forest_.owner(reached);
+    if (std::ranges::find(ranks, rank) == ranks.end()) ranks.push_back(rank);
+  });
 }
 
 void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vector3> velocity,

@@ -35,6 +35,7 @@ struct Stencil {
 struct Work {
   std::span<const double> of_particle;  ///< of this rank; those that are not listed count as 1
   double of_block = 0.0;                ///< of the nodes of a block with particles, whatever their number
+  std::size_t apart = 0;  ///< of the points listed, the last so many are work but reach no nodes
 };
 
 /// Edge of the region of nodes that the particles of one block reach: one before, four inside, two behind.
@@ -106,7 +107,7 @@ class BlockGrid {
   /// Lets the forest follow the particles: finest leaves where stencils reach, now and along the motion over
   /// `lookahead` seconds, so that it need not be adapted every step; and divides the blocks anew among the
   /// ranks if their work has drifted apart. Collective.
-  /// @param position of the particles, then of the guests
+  /// @param position of the particles, then of the guests, then of what is work apart from the grid
   /// @param work  by what the blocks are shared out among the ranks
   /// @throws StateError on every rank if a particle is outside of the domain and its outer layer (names the
   /// index)
@@ -114,6 +115,9 @@ class BlockGrid {
              Stencil stencil, const Work& work = {});
   /// Rank that owns the block of each particle, which is where the particle must be before `activate`.
   [[nodiscard]] std::vector<int> owners(std::span<const Vector3> position) const;
+  /// Adds to `ranks` those that own a block that a stencil at the position reaches, each once; nothing for a
+  /// position outside of the domain and its outer layer.
+  void owners_reached(const Vector3& position, Stencil stencil, std::vector<int>& ranks) const;
   /// Activates the blocks that the particles of this rank reach, own ones and those that it borrows from
   /// other ranks; drops the others. Collective.
   /// @param guests how many of the positions, the last ones, are guests
@@ -269,6 +273,10 @@ class BlockGrid {
     return block ? table_.find(*block) : no_slot;
   }
 
+  [[nodiscard]] std::int32_t slot_of(const BlockCoordinate& block) const { return table_.find(block); }
+  /// Block around a position: nothing for a position beyond the outer layer, or NaN.
+  [[nodiscard]] std::optional<BlockCoordinate> block_of(const Vector3& position) const;
+
   [[nodiscard]] std::size_t forest_leaves() const { return forest_.leaves(); }
   [[nodiscard]] std::size_t adaptations() const { return adaptations_; }
   /// Changes whenever nodes change their place in all_nodes().
@@ -276,7 +284,6 @@ class BlockGrid {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  [[nodiscard]] std::optional<BlockCoordinate> block_of(const Vector3& position) const;
   [[nodiscard]] Vector3 local_position(std::size_t slot, const Vector3& position) const;
   bool locate(std::span<const Vector3> position, Stencil stencil);
   [[nodiscard]] std::vector<WantedBlock> wanted_blocks(std::span<const Vector3> position,

@@ -12,6 +12,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Rows of this rank among those of all ranks.
+hdf5::Slab slab_of(std::uint64_t count, const Ranks& ranks) {
+  const std::vector<std::uint64_t> counts = ranks.gather(count);
+  return {std::accumulate(counts.begin(), counts.begin() + ranks.rank(), std::uint64_t{0}), count,
+          std::accumulate(counts.begin(), counts.end(), std::uint64_t{0})};
+}
+
 template <class Value>
 Value mean_of(const std::vector<Value>& values, std::size_t first, std::size_t count) {
   if constexpr (std::is_same_v<Value, double>) {
@@ -60,10 +67,10 @@ Particles elements_as_points(std::span<const fem::Mesh> meshes) {
   return points;
 }
 
-ElementSeries::ElementSeries(SeriesOptions options)
+ElementSeries::ElementSeries(SeriesOptions options, MPI_Comm communicator)
     : options_(std::move(options)),
       fields_(select_output_fields(options_.fields)),
-      ranks_(MPI_COMM_SELF),
+      ranks_(communicator),
       series_(options_.folder, options_.name, "elements", ranks_) {}
 
 fs::path ElementSeries::write(std::span<const fem::Mesh> meshes, double time) {
@@ -88,24 +95,28 @@ void ElementSeries::write_file(const fs::path& path, std::span<const fem::Mesh> 
   }
   const Particles elements = elements_as_points(meshes);
   const std::uint64_t n = elements.size(), nodes = position.size();
-  const hdf5::Slab of_cells{0, n, n}, of_nodes{0, nodes, nodes};
+  const auto rank = static_cast<std::uint64_t>(ranks_.rank()),
+             partitions = static_cast<std::uint64_t>(ranks_.count());
+  const hdf5::Slab of_cells = slab_of(n, ranks_), of_nodes = slab_of(nodes, ranks_);
   const hdf5::Storage compressed{.deflate = options_.deflate};
 
   hdf5::File file = hdf5::File::create(path, hdf5::File::Compatibility::vtk, 0, ranks_.communicator());
   const hdf5::Group vtk = create_unstructured_grid(file);
   const auto write_count = [&](const char* name, std::uint64_t count) {
     const std::array<std::int64_t, 1> value = {static_cast<std::int64_t>(count)};
-    vtk.write<std::int64_t>(name, value, {0, 1, 1});
+    vtk.write<std::int64_t>(name, value, {rank, 1, partitions});
   };
   write_count("NumberOfPoints", nodes);
   write_count("NumberOfCells", n);
   write_count("NumberOfConnectivityIds", connectivity.size());
   write_array<Vector3>(vtk, "Points", of_nodes, options_.deflate,
                        [&](std::size_t i) -> const Vector3& { return position[i]; });
-  vtk.write<std::int64_t>("Connectivity", connectivity, {0, 8 * n, 8 * n}, compressed);
+  vtk.write<std::int64_t>("Connectivity", connectivity, {8 * of_cells.first, 8 * n, 8 * of_cells.total},
+                          compressed);
   std::vector<std::int64_t> offsets(n + 1);
   for (std::size_t e = 0; e <= n; ++e) offsets[e] = static_cast<std::int64_t>(8 * e);
-  vtk.write<std::int64_t>("Offsets", offsets, {0, n + 1, n + 1}, compressed);
+  vtk.write<std::int64_t>("Offsets", offsets, {of_cells.first + rank, n + 1, of_cells.total + partitions},
+                          compressed);
   constexpr std::uint8_t hexahedron = 12;  // VTK_HEXAHEDRON
   vtk.write<std::uint8_t>("Types", std::vector<std::uint8_t>(n, hexahedron), of_cells, compressed);
 

@@ -17,11 +17,12 @@ Particles elements_as_points(std::span<const fem::Mesh> meshes);
 
 /// Snapshots of finite elements: RUN.elements.NNNNNN.hdf (VTKHDF 1.0 unstructured hexahedra; the fields of
 /// the particles as cell data, velocity, id and transition of the nodes as point data) and their index. A
-/// snapshot without elements is written as well. One rank.
+/// snapshot without elements is written as well. One partition per rank; a node that ranks share stands in
+/// the partition of each.
 class ElementSeries {
  public:
   /// @throws InputError if a field is unknown
-  explicit ElementSeries(SeriesOptions options);
+  explicit ElementSeries(SeriesOptions options, MPI_Comm communicator = MPI_COMM_SELF);
 
   /// As of `Series`.
   void restart(double time) { series_.restart(time); }

@@ -40,22 +40,27 @@ std::string check(const RunOptions& options) {
   const MPI_Comm communicator = parallel::world();
   set_threads(options.threads, communicator);
   setup::Case setup = setup::read_case(options.case_file, options.overrides);
-  require_runnable(setup, parallel::size(communicator));
   require_memory(setup, communicator);
   setup::tabulate_materials(setup, io::Ranks(communicator));
   Simulation simulation(setup, communicator);
   std::string text = fmt::format("{}\n{}\n\n", setup.file.string(), setup.title);
   text += fmt::format("grid: {} x {} x {} cells of {:.6g} mm\n", setup.geometry.cells[0],
                       setup.geometry.cells[1], setup.geometry.cells[2], 1e3 * setup.geometry.cell_size);
+  const std::vector<fem::Mesh> meshes = simulation.meshes_for_checkpoint();
+  const auto total = [&](std::size_t of_rank) {
+    auto count = static_cast<double>(of_rank);
+    parallel::sum(communicator, std::span(&count, 1));
+    return static_cast<std::size_t>(count);
+  };
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const setup::BodySummary& body = simulation.bodies()[b];
-    std::string parts = fmt::format("{} particles", body.count);
-    for (const fem::Mesh& mesh : simulation.meshes()) {
+    std::string parts = fmt::format("{} particles", total(body.count));
+    for (const fem::Mesh& mesh : meshes) {
       if (mesh.body == b)
-        parts = fmt::format("{} elements, {} nodes", mesh.elements.size(), mesh.nodes.size());
+        parts = fmt::format("{} elements, {} nodes", total(mesh.elements.size()), total(mesh.nodes.size()));
     }
     for (const fem::Bars& bars : simulation.bars()) {
-      if (bars.body == b) parts = fmt::format("{} bars", bars.elements.size());
+      if (bars.body == b) parts = fmt::format("{} bars", total(bars.elements.size()));
     }
     text += fmt::format("body \"{}\" of {}: {}, {:.6g} g in the domain; whole shape {:.6g} g\n",
                         setup.bodies[b].name, setup.materials[b]->name, parts, 1e3 * body.mass,

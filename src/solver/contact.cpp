@@ -48,15 +48,19 @@ void Simulation::find_surfaces() {
   if (!contact_) return;
   profile_.time("contact", [&] {
     surface_points_.clear();
-    surface_facets_.resize(meshes_.size());
-    for (std::size_t m = 0; m < meshes_.size(); ++m) {
-      const fem::Mesh& mesh = meshes_[m];
-      if (surface_facets_[m].elements != mesh.elements.size()) {  // elements go, none come
-        surface_facets_[m] = {mesh.elements.size(), afemp::free_facets(mesh, setup_.geometry)};
+    if (surfaces_changed_) {
+      surface_facets_.clear();
+      for (const fem::Mesh& mesh : meshes_) {
+        surface_facets_.push_back(afemp::free_facets(mesh, setup_.geometry));
       }
-      surface_points_.add(mesh, surface_facets_[m].facets, contact_field_of_body_[mesh.body],
+      shared_nodes_.drop_inner_facets(meshes_, surface_facets_);
+      surfaces_changed_ = false;
+    }
+    for (std::size_t m = 0; m < meshes_.size(); ++m) {
+      surface_points_.add(meshes_[m], surface_facets_[m], contact_field_of_body_[meshes_[m].body],
                           setup_.domain.cell_size);
     }
+    surface_points_.send_to_owners(grid_, transfer::stencil(shape_), communicator_);
     contact_->find_surfaces(shape_, particles_, surface_points_, grid_);
   });
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "src/afemp/conversion.hpp"
@@ -35,52 +36,47 @@ fem::ViscosityCoefficients viscosity(const setup::ArtificialViscosity& control) 
 
 }  // namespace
 
-void require_runnable(const setup::Case& setup, int ranks) {
-  if (!(setup.has_elements() || setup.has_bars()) || ranks == 1) return;
-  throw InputError(fmt::format(
-      "{}: bodies of finite elements and bars run on one rank (with any number of threads), not on {}",
-      setup.file.string(), ranks));
-}
-
-std::size_t Simulation::element_count() const {
-  std::size_t count = 0;
-  for (const fem::Mesh& mesh : meshes_) count += mesh.elements.size();
-  return count;
-}
-
 double Simulation::element_time_step() const {
   double dt = std::numeric_limits<double>::infinity();
   for (const fem::Mesh& mesh : meshes_) {
     dt = std::min(dt, fem::critical_time_step(mesh, viscosity(setup_.viscosity)));
   }
   for (const fem::Bars& bars : bars_) dt = std::min(dt, fem::critical_time_step(bars));
-  return setup_.time.element_safety * dt;
+  return setup_.time.element_safety * -parallel::maximum(communicator_, -dt);
 }
 
 void Simulation::convert_elements() {
   profile_.time("convert elements", [&] {
     collect_nodes();  // of the step before: those that limit the step of the grid
-    std::size_t converted = 0;
+    const double grid_step = grid_time_step();
+    double converted = 0.0;
     for (fem::Mesh& mesh : meshes_) {
       const setup::Body& body = setup_.bodies[mesh.body];
       if (!body.discretization.converts()) continue;
       const std::vector<std::uint8_t> distorted = afemp::distorted_elements(
-          mesh, thresholds(body.conversion), viscosity(setup_.viscosity), grid_time_step());
-      const auto count = static_cast<std::size_t>(std::ranges::count(distorted, 1));
-      if (count == 0) continue;
-      if (state_.step == 0 && count == distorted.size()) {
-        log::warning(
-            "body \"{}\": its thresholds turn all of its {} elements into particles in the first step",
-            body.name, count);
+          mesh, thresholds(body.conversion), viscosity(setup_.viscosity), grid_step);
+      const auto count = static_cast<double>(std::ranges::count(distorted, 1));
+      if (state_.step == 0) {
+        std::array<double, 2> counts = {count, static_cast<double>(distorted.size())};
+        parallel::sum(communicator_, counts);
+        if (counts[0] > 0.0 && counts[0] == counts[1]) {
+          log::warning(
+              "body \"{}\": its thresholds turn all of its {} elements into particles in the first step",
+              body.name, static_cast<std::size_t>(counts[0]));
+        }
       }
+      if (count == 0.0) continue;
       const afemp::ConversionBalance balance =
           afemp::convert_elements(mesh, distorted, particle_affine_inertia(), particles_);
-      converted += balance.elements;
+      converted += count;
       step_.converted_mass += balance.mass;
       step_.conversion_heat += balance.kinetic_heat;
     }
-    if (converted == 0) return;
-    particle_count_ += 8 * converted;
+    parallel::sum(communicator_, std::span(&converted, 1));
+    if (converted == 0.0) return;
+    particle_count_ += 8 * static_cast<std::size_t>(converted);
+    element_count_ -= static_cast<std::size_t>(converted);
+    elements_removed();
     particles_reallocated();
   });
 }
@@ -91,10 +87,11 @@ void Simulation::adapt_elements() {
     if (!bars_.empty()) collect_nodes();
     return;
   }
+  share_out_elements();
   if (state_.step % conversion_every == 0) convert_elements();
   profile_.time("transition", [&] {
-    step_.transfer_heat +=
-        afemp::mark_transition(meshes_, particles_, setup_.geometry, particle_affine_inertia());
+    step_.transfer_heat += afemp::mark_transition(meshes_, particles_, setup_.geometry,
+                                                  particle_affine_inertia(), communicator_);
     collect_nodes();
     if (state_.step == 0 && !contact_) warn_of_contact();
   });
@@ -103,13 +100,15 @@ void Simulation::adapt_elements() {
 /// Bodies within reach of each other at the start push each other from the first step on.
 void Simulation::warn_of_contact() const {
   for (const fem::Mesh& mesh : meshes_) {
-    const auto count = std::ranges::count(mesh.nodes.in_transition, 1);
-    if (count == 0) continue;
+    double count =
+        shared_nodes_.count(static_cast<std::size_t>(&mesh - meshes_.data()), mesh.nodes.in_transition);
+    parallel::sum(communicator_, std::span(&count, 1));
+    if (count == 0.0) continue;
     log::warning(
         "body \"{}\": {} nodes of its surface are within two cells of another body at the start: the bodies "
         "are in "
         "contact from the first step on",
-        setup_.bodies[mesh.body].name, count);
+        setup_.bodies[mesh.body].name, static_cast<std::size_t>(count));
   }
 }
 
@@ -128,6 +127,7 @@ void Simulation::compute_element_forces() {
     }
     compute_bar_forces();
     collect_nodes();
+    join_shared_nodes();
   });
 }
 
@@ -156,8 +156,7 @@ void Simulation::advance_elements() {
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
       fem::Mesh& mesh = meshes_[m];
       const setup::Body& body = setup_.bodies[mesh.body];
-      const fem::ConstraintBalance balance =
-          fem::advance_velocities(mesh, dt, motions_[m], mesh.nodes.in_transition);
+      const fem::ConstraintBalance balance = advance_free_nodes(m);
       step_.wall_impulse += balance.impulse;
       step_.external_work += balance.work;
       step_.wall_impulse += afemp::stop_at_faces(mesh.nodes, setup_.geometry, dt, motions_[m], node_heat_[m]);
@@ -190,6 +189,7 @@ void Simulation::advance_elements() {
 /// Elements that lie outside of the domain as a whole are gone, and their shares of the nodes.
 void Simulation::remove_elements_outside() {
   const grid::Geometry& g = setup_.geometry;
+  bool gone_any = false;
   for (fem::Mesh& mesh : meshes_) {
     std::vector<std::uint8_t> outside(mesh.nodes.size(), 0);
     bool any = false;
@@ -217,11 +217,13 @@ void Simulation::remove_elements_outside() {
       }
     }
     fem::remove_elements(mesh, removed);
+    gone_any = true;
     Totals gone = totals_of(mesh, particle_affine_inertia());
     for_each_number(gone, [](const std::string&, double& x) { x = -x; });
     gone += before;
     step_.outflow += gone;
   }
+  if (!meshes_.empty() && parallel::any(communicator_, gone_any)) elements_removed();
 }
 
 std::string Simulation::describe_element(const fem::Mesh& mesh, std::size_t point,

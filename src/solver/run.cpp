@@ -94,7 +94,6 @@ int run(const RunOptions& options) {
   if (options.restart) {
     const fs::path input = options.output_directory / "run.toml";
     setup::Case setup = setup::read_case(input, options.overrides);
-    require_runnable(setup, ranks.count());
     setup::tabulate_materials(setup, ranks);
     io::Checkpoint checkpoint =
         io::read_latest_checkpoint(options.output_directory / "checkpoint", parallel::world());
@@ -112,7 +111,6 @@ int run(const RunOptions& options) {
     return run_steps(setup, directory, std::move(checkpoint), options, ranks);
   }
   setup::Case setup = setup::read_case(options.case_file, options.overrides);
-  require_runnable(setup, ranks.count());
   require_memory(setup, parallel::world());
   setup::tabulate_materials(setup, ranks);
   const io::RunDirectory directory =

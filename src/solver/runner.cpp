@@ -168,7 +168,7 @@ struct Snapshots {
 
   Snapshots(const setup::Case& setup, const io::RunDirectory& directory, const fs::path& folder)
       : particles(series_options(setup, directory, folder), parallel::world()) {
-    if (setup.has_elements()) elements.emplace(series_options(setup, directory, folder));
+    if (setup.has_elements()) elements.emplace(series_options(setup, directory, folder), parallel::world());
   }
   void restart(double time) {
     particles.restart(time);
@@ -334,9 +334,9 @@ class Runner {
     values.integers["snapshots"] = snapshots_;
     recorder_.to_checkpoint(values);
     values.texts["run_name"] = directory_.name();
-    const fs::path path =
-        io::write_checkpoint(folder, simulation_.state().step, simulation_.particles(), values,
-                             simulation_.communicator(), simulation_.meshes(), simulation_.bars());
+    const fs::path path = io::write_checkpoint(folder, simulation_.state().step, simulation_.particles(),
+                                               values, simulation_.communicator(),
+                                               simulation_.meshes_for_checkpoint(), simulation_.bars());
     log::detail("checkpoint {}", path.string());
   }
 

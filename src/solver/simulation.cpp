@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,8 +14,6 @@
 #include "src/material/update.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
-#include "src/particles/migrate.hpp"
-#include "src/solver/work.hpp"
 #include "src/transfer/conduction.hpp"
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/particles_to_grid.hpp"
@@ -23,7 +22,6 @@ namespace whipple::solver {
 namespace {
 
 constexpr std::int64_t sort_every = 20;  // steps between sorts of the particle arrays
-constexpr double lookahead_steps = 8.0;  // motion that the active blocks foresee
 
 transfer::AffineField affine_field(const setup::TransferControl& control) {
   using enum transfer::AffineField;
@@ -40,15 +38,6 @@ transfer::Relaxation relaxation(const setup::TransferControl& control) {
   return {.kappa = control.kappa, .fixed = -1.0};
 }
 
-/// Particles are sorted by body: the ranges follow from where the bodies change.
-void find_bodies(const Particles& particles, std::vector<setup::BodySummary>& bodies) {
-  for (setup::BodySummary& body : bodies) body.first = body.count = 0;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    setup::BodySummary& body = bodies[particles.body[p]];
-    if (body.count++ == 0) body.first = p;
-  }
-}
-
 }  // namespace
 
 Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
@@ -56,13 +45,13 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
       shape_(transfer::shape_function(setup.transfer.shape_function)),
       communicator_(communicator),
       grid_(setup.geometry, communicator) {
-  require_runnable(setup_, parallel::size(communicator_));
   setup::Seeding seeding = setup::seed(setup, parallel::rank(communicator), parallel::size(communicator));
   particles_ = std::move(seeding.particles);
   bodies_ = std::move(seeding.bodies);
   meshes_ = std::move(seeding.meshes);
   bars_ = std::move(seeding.bars);
   for (fem::Mesh& mesh : meshes_) afemp::mark_surface(mesh, setup_.geometry);
+  keep_own_elements();
   if (affine_field(setup_.transfer) == transfer::AffineField::none)
     std::ranges::fill(particles_.affine_velocity, Matrix3::Zero().eval());
   prepare();
@@ -83,12 +72,20 @@ Simulation::Simulation(const setup::Case& setup, Particles particles, const RunS
       bodies_(setup.bodies.size()),
       grid_(setup.geometry, communicator),
       state_(state) {
-  require_runnable(setup_, parallel::size(communicator_));
-  for (fem::Mesh& mesh : meshes_) fem::connect(mesh);
+  gather_elements();
   require_fields();
   sort_by_body(particles_);  // checkpoints hold the particles of several ranks one after the other
-  find_bodies(particles_, bodies_);
+  find_bodies();
   prepare();
+}
+
+/// Particles are sorted by body: the ranges follow from where the bodies change.
+void Simulation::find_bodies() {
+  for (setup::BodySummary& body : bodies_) body.first = body.count = 0;
+  for (std::size_t p = 0; p < particles_.size(); ++p) {
+    setup::BodySummary& body = bodies_[particles_.body[p]];
+    if (body.count++ == 0) body.first = p;
+  }
 }
 
 /// What both constructors end with.
@@ -125,10 +122,12 @@ void Simulation::sum_over_ranks() {
   totals_ = totals_of(particles_, affine_inertia());
   for (const fem::Mesh& mesh : meshes_) totals_ += totals_of(mesh, affine_inertia());
   for (const fem::Bars& bars : bars_) totals_ += totals_of(bars, affine_inertia());
-  auto count = static_cast<double>(particles_.size());
+  std::array<double, 2> counts = {static_cast<double>(particles_.size()), 0.0};
+  for (const fem::Mesh& mesh : meshes_) counts[1] += static_cast<double>(mesh.elements.size());
   solver::sum_over_ranks(communicator_, totals_, step_);
-  parallel::sum(communicator_, std::span(&count, 1));
-  particle_count_ = static_cast<std::size_t>(count);
+  parallel::sum(communicator_, counts);
+  particle_count_ = static_cast<std::size_t>(counts[0]);
+  element_count_ = static_cast<std::size_t>(counts[1]);
   state_.ledger.add(step_);
   step_ = {};
 }
@@ -199,7 +198,7 @@ double Simulation::diffusive_time_step() const {
 
 void Simulation::begin_step(double until) {
   profile_.time("time step", [&] {
-    if (particle_count_ == 0 && element_count() == 0) throw StateError("all matter has left the domain");
+    if (particle_count_ == 0 && element_count_ == 0) throw StateError("all matter has left the domain");
     double dt = stable_time_step();
     if (!(dt > 0.0) || !std::isfinite(dt)) {
       throw StateError(
@@ -220,12 +219,11 @@ void Simulation::begin_step(double until) {
 void Simulation::bin_particles() {
   profile_.time("bin particles", [&] {
     if (setup_.transfer.random_shift) shift_grid();
-    const double lookahead = lookahead_steps * state_.time_step;
     const grid::Stencil stencil = transfer::stencil(shape_);
-    if (!bin(stencil)) follow_particles(lookahead, stencil);
+    if (!bin(stencil)) follow_particles(stencil);
     if (state_.step % sort_every == 0) {
       sort_particles();
-      if (!bin(stencil)) follow_particles(lookahead, stencil);
+      if (!bin(stencil)) follow_particles(stencil);
     }
     if (setup_.transfer.free_flight) find_free_flight();
     separate_fields();
@@ -244,35 +242,6 @@ bool Simulation::bin(grid::Stencil stencil) {
   return grid_.bin(particles_.position, stencil, transition_.position);
 }
 
-/// Blocks where the particles and guests are and will be; particles on the rank that owns their block.
-void Simulation::follow_particles(double lookahead, grid::Stencil stencil) {
-  std::vector<Vector3> all_positions, all_velocities;
-  const auto with_guests = [](std::span<const Vector3> particles, std::span<const Vector3> guests,
-                              std::vector<Vector3>& all) {
-    if (guests.empty()) return particles;
-    all.assign(particles.begin(), particles.end());
-    all.insert(all.end(), guests.begin(), guests.end());
-    return std::span<const Vector3>(all);
-  };
-  const auto positions = [&] {
-    return with_guests(particles_.position, transition_.position, all_positions);
-  };
-  const auto velocities = [&] {
-    return with_guests(particles_.velocity, transition_.velocity, all_velocities);
-  };
-  const std::vector<double> work = work_of_particles(setup_, bodies_);
-  grid_.adapt(positions(), velocities(), lookahead, stencil, {work, work_of_block});
-  const std::vector<int> owners = grid_.owners(particles_.position);
-  if (migrate(particles_, owners, communicator_)) {
-    velocity_gradient_.resize(particles_.size());
-    find_bodies(particles_, bodies_);
-  }
-  grid_.activate(positions(), velocities(), lookahead, stencil, transition_.size());
-  if (!bin(stencil)) {
-    throw InternalError("adaptation left a particle without its blocks");
-  }
-}
-
 /// By body (so that a material is a range), then by block.
 void Simulation::sort_particles() {
   std::vector<std::uint32_t> next;
@@ -287,7 +256,7 @@ void Simulation::sort_particles() {
 void Simulation::particles_reallocated() {
   sort_by_body(particles_);
   velocity_gradient_.resize(particles_.size());
-  find_bodies(particles_, bodies_);
+  find_bodies();
   grid_.particles_reordered();
 }
 

@@ -3,6 +3,7 @@
 
 #include <mpi.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -10,6 +11,7 @@
 
 #include "src/contact/contact.hpp"
 #include "src/fem/bars.hpp"
+#include "src/fem/distribution.hpp"
 #include "src/fem/mesh.hpp"
 #include "src/fem/step.hpp"
 #include "src/grid/block_grid.hpp"
@@ -34,21 +36,18 @@ struct RunState {
   Ledger ledger;
 };
 
-/// @throws InputError for bodies of finite elements on several ranks
-void require_runnable(const setup::Case& setup, int ranks);
-
 /// One simulation in memory: particles, grid, materials, ledger. The schemes are functions of it. Every rank
-/// holds the particles in its own blocks; whatever concerns the whole (time step, totals, ledger, errors) is
-/// the same on all ranks. Constructors and `advance` are collective.
+/// holds the particles in its own blocks and a share of the elements; whatever concerns the whole (time step,
+/// totals, ledger, errors) is the same on all ranks. Constructors and `advance` are collective.
 class Simulation {
  public:
   /// Seeds the bodies of the case.
-  /// @throws InputError for bodies of finite elements on several ranks
   explicit Simulation(const setup::Case& setup, MPI_Comm communicator);
   /// Goes on from a checkpoint.
   /// @param particles the share of this rank, any share
-  /// @param meshes of the bodies of elements
-  /// @param bars   of the bodies of bars
+  /// @param meshes of the bodies of elements: on each rank any share of nodes and elements, the corners being
+  /// numbers of the nodes of all ranks
+  /// @param bars   of the bodies of bars, the same
   Simulation(const setup::Case& setup, Particles particles, const RunState& state, MPI_Comm communicator,
              std::vector<fem::Mesh> meshes = {}, std::vector<fem::Bars> bars = {});
 
@@ -68,9 +67,14 @@ class Simulation {
   [[nodiscard]] const Particles& particles() const { return particles_; }
   /// Number of particles of all ranks.
   [[nodiscard]] std::size_t particle_count() const { return particle_count_; }
-  /// The bodies of elements, as far as they are still elements.
+  /// The bodies of elements, as far as they are still elements: the share of this rank, with copies of the
+  /// nodes that it shares with other ranks (src/fem/distribution.hpp).
   [[nodiscard]] const std::vector<fem::Mesh>& meshes() const { return meshes_; }
-  [[nodiscard]] std::size_t element_count() const;
+  /// The same as a checkpoint holds them. Collective.
+  [[nodiscard]] std::vector<fem::Mesh> meshes_for_checkpoint() const;
+  /// Number of elements of all ranks.
+  [[nodiscard]] std::size_t element_count() const { return element_count_; }
+  /// All of them on the first rank.
   [[nodiscard]] const std::vector<fem::Bars>& bars() const { return bars_; }
   [[nodiscard]] const RunState& state() const { return state_; }
   /// Sums over all ranks.
@@ -133,7 +137,14 @@ class Simulation {
   void warn_of_contact() const;
   bool bin(grid::Stencil stencil);
   void sum_over_ranks();
-  void follow_particles(double lookahead, grid::Stencil stencil);
+  void follow_particles(grid::Stencil stencil);
+  void find_bodies();
+  void keep_own_elements();
+  void gather_elements();
+  void share_out_elements();
+  void elements_removed();
+  void join_shared_nodes();
+  fem::ConstraintBalance advance_free_nodes(std::size_t mesh);
   void sort_particles();
   void particles_reallocated();
   void deform_domains();
@@ -158,17 +169,14 @@ class Simulation {
   transfer::FullMassMatrix full_mass_matrix_;
   std::optional<contact::Contact> contact_;  // if bodies have velocity fields of their own
   std::vector<std::uint8_t> contact_field_of_body_;
-  std::vector<std::uint8_t> contact_field_;  // of each particle
-  struct SurfaceOfMesh {
-    std::size_t elements = 0;  // that it was found for
-    std::vector<fem::Facet> facets;
-  };
-  std::vector<SurfaceOfMesh> surface_facets_;
+  std::vector<std::uint8_t> contact_field_;              // of each particle
+  std::vector<std::vector<fem::Facet>> surface_facets_;  // of each mesh
+  bool surfaces_changed_ = true;                         // since they were found
   contact::SurfacePoints surface_points_;
   RunState state_;
   Ledger step_;  // what happened on this rank in the step under way
   Totals totals_;
-  std::size_t particle_count_ = 0;
+  std::size_t particle_count_ = 0, element_count_ = 0;
   Profile profile_;
   std::vector<Matrix3> velocity_gradient_;
   std::vector<Vector3> displacement_;
@@ -177,6 +185,9 @@ class Simulation {
   std::vector<Vector3> external_acceleration_;  // of this step; empty without external forces
   std::vector<std::uint32_t> flying_;           // particles that fly without the grid in this step
   transfer::TransitionNodes transition_;        // nodes of elements that move with the grid in this step
+  fem::SharedNodes shared_nodes_;
+  std::vector<std::array<double, 5>> shared_;  // force (N), mass (kg), sound speed of all copies of each
+  bool elements_astray_ = false;               // the forest was divided anew since elements were
   // Of each mesh, in the step under way:
   std::vector<fem::Motion> motions_;
   std::vector<std::vector<double>> node_heat_;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "src/fem/mesh.hpp"
 #include "src/setup/case.hpp"
 #include "src/setup/seeding.hpp"
 
@@ -13,6 +14,11 @@ namespace whipple::solver {
 
 /// Of the nodes of a block that holds particles.
 constexpr double work_of_block = 45.0;
+
+/// Of an element with its material: 235 and 1380 ns against 233 ns (docs/theory/fem.md, 9).
+constexpr double work_of_element(fem::Quadrature quadrature) {
+  return quadrature == fem::Quadrature::one_point ? 1.0 : 6.0;
+}
 
 /// Of every particle: its transfers and its material.
 /// @param bodies  the ranges of this rank's particles

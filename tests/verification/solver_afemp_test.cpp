@@ -10,10 +10,9 @@
 #include "src/afemp/transition.hpp"
 #include "src/base/error.hpp"
 #include "src/fem/step.hpp"
-#include "src/io/checkpoint.hpp"
 #include "src/material/update.hpp"
 #include "src/parallel/threads.hpp"
-#include "src/solver/checkpointing.hpp"
+#include "tests/verification/same_state.hpp"
 #include "tests/verification/solver_problems.hpp"
 
 namespace whipple::verification {
@@ -100,27 +99,6 @@ TEST(Adaptive, WarnsOfThresholdsThatConvertEverythingAndOfContactAtTheStart) {
               testing::HasSubstr("turn all of its 54 elements into particles"));
 }
 
-template <class Points>
-void expect_same(const Points& a, const Points& b) {
-  for_each_field<Points>([&](const auto& field) {
-    const auto& x = a.*(field.values);
-    const auto& y = b.*(field.values);
-    ASSERT_EQ(x.size(), y.size()) << field.name;
-    EXPECT_TRUE(x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0) << field.name;
-  });
-}
-
-void expect_same(const Simulation& a, const Simulation& b) {
-  EXPECT_EQ(a.state().time, b.state().time);
-  expect_same(a.particles(), b.particles());
-  ASSERT_EQ(a.meshes().size(), b.meshes().size());
-  for (std::size_t m = 0; m < a.meshes().size(); ++m) {
-    expect_same(a.meshes()[m].nodes, b.meshes()[m].nodes);
-    expect_same(a.meshes()[m].elements, b.meshes()[m].elements);
-    expect_same(a.meshes()[m].points, b.meshes()[m].points);
-  }
-}
-
 TEST(Adaptive, ResultIsBitwiseTheSameForOneAndTwoThreads) {
   const setup::Case setup = read(impact("adaptive", "one_point"));
   const int threads = parallel::threads();
@@ -142,12 +120,7 @@ TEST(Adaptive, RestartIsBitwiseTheRunThatGoesOn) {
     Simulation whole(setup, parallel::world());
     // In the middle of contact and conversion; steps, as times would shorten them.
     for (int step = 0; step < 15; ++step) whole.advance(2e-6);
-    const auto path =
-        io::write_checkpoint(folder, whole.state().step, whole.particles(),
-                             solver::to_checkpoint(whole.state()), parallel::world(), whole.meshes());
-    io::Checkpoint checkpoint = io::read_checkpoint(path, parallel::world());
-    Simulation restarted(setup, std::move(checkpoint.particles), solver::from_checkpoint(checkpoint.values),
-                         parallel::world(), std::move(checkpoint.meshes));
+    Simulation restarted = restored(setup, save(whole, folder), parallel::world());
     for (int step = 0; step < 15; ++step) {
       whole.advance(2e-6);
       restarted.advance(2e-6);

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact of bodies of elements with one another and with particles (docs/theory/contact.md, 3 and 5).
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "src/parallel/threads.hpp"
 #include "tests/verification/contact_problems.hpp"
+#include "tests/verification/same_state.hpp"
 
 namespace whipple::verification {
 namespace element_contact_test {
@@ -205,6 +210,26 @@ TEST(ElementContact, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(one.kinetic_energy, three.kinetic_energy);
   EXPECT_EQ(one.internal_energy, three.internal_energy);
   EXPECT_EQ(one.momentum, three.momentum);
+}
+
+// Contact finds everything anew in each step; the checkpoint holds nothing of it.
+TEST(ElementContact, ARestartIsBitwiseTheRunThatGoesOn) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("whipple_element_contact_" + std::to_string(::getpid()));
+  const setup::Case setup = impact({.friction = 0.3}, ball).read();
+  solver::Simulation whole(setup, parallel::world());
+  for (int step = 0; step < 25; ++step) whole.advance(2e-6);
+  solver::Simulation restarted = restored(setup, save(whole, folder), parallel::world());
+  std::filesystem::remove_all(folder);
+  const double before = whole.state().ledger.contact_impulse;
+  for (int step = 0; step < 15; ++step) {
+    whole.advance(2e-6);
+    restarted.advance(2e-6);
+  }
+  EXPECT_GT(whole.state().ledger.converted_mass, 0.0);
+  EXPECT_GT(whole.state().ledger.contact_impulse, 1.1 * before);
+  expect_same(whole, restarted);
+  EXPECT_EQ(whole.state().ledger.friction_heat, restarted.state().ledger.friction_heat);
 }
 
 }  // namespace element_contact_test

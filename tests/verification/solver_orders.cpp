@@ -2,14 +2,13 @@
 // Writes docs/orders_of_convergence.md: errors and orders of every scheme, shape function and particle update
 // on problems with exact solutions.
 //   build/release/tests/bin/orders_of_convergence docs/orders_of_convergence.md
-#include "tests/verification/solver_orders.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
 #include <iostream>
 
 #include "src/base/error.hpp"
+#include "tests/verification/element_orders.hpp"
 
 namespace whipple::verification {
 namespace {
@@ -56,14 +55,15 @@ std::vector<Row> rows() {
 }
 
 /// Error on the finest grid and the orders between the resolutions.
-std::string cell(const ExactMotion& motion, const Method& method) {
+template <class Error>
+std::string cell(const ExactMotion& motion, Error&& error_of) {
   const std::array<int, 4> cells =
       motion.dimensions() == 2 ? std::array{8, 16, 32, 64} : std::array{16, 32, 64, 128};
   std::string orders;
   double before = 0, error = 0;
   for (const int n : cells) {
     try {
-      error = motion_error(motion, method, n);
+      error = error_of(n);
     } catch (const StateError&) {
       return fmt::format("unstable at {} cells", n);
     }
@@ -71,6 +71,34 @@ std::string cell(const ExactMotion& motion, const Method& method) {
     before = error;
   }
   return fmt::format("{:.1e} ({})", error, orders);
+}
+
+std::string cell(const ExactMotion& motion, const Method& method) {
+  return cell(motion, [&](int n) { return motion_error(motion, method, n); });
+}
+
+/// Of finite elements and of those that become particles.
+std::string elements() {
+  std::string text = R"(
+Finite elements as wide as a cell. In the last row the left half of the elements become particles in the middle of the run, so that both
+meet in the middle of the body (docs/theory/afemp.md).
+
+| elements | vibrating bar | simple wave |
+| --- | --- | --- |
+)";
+  const VibratingBar bar;
+  const SimpleWave pulse;
+  const std::array<std::pair<const char*, ElementMethod>, 3> methods = {
+      {{"one point", {"one_point", false}},
+       {"B-bar", {"b_bar", false}},
+       {"one point, half becomes particles", {"one_point", true}}}};
+  for (const auto& [name, method] : methods) {
+    const auto of = [&](const ExactMotion& motion) {
+      return cell(motion, [&](int n) { return element_motion_error(motion, method, n); });
+    };
+    text += fmt::format("| {} | {} | {} |\n", name, of(bar), of(pulse));
+  }
+  return text;
 }
 
 void write_table(const std::string& path) {
@@ -105,7 +133,7 @@ before the positions (leapfrog), with `usf` stresses start a step before. Proble
                         cell(bar, m), cell(waves, m), cell(pulse, m));
     std::cerr << text.substr(text.rfind('\n', text.size() - 2) + 1) << std::flush;
   }
-  io::write_text_atomically(path, text);
+  io::write_text_atomically(path, text + elements());
 }
 
 }  // namespace

@@ -195,8 +195,9 @@ class SimpleWave : public ExactMotion {
   }
 };
 
-/// Relative error (rms over the mass) of velocity and displacement of a motion on a grid of n cells.
-inline double motion_error(const ExactMotion& motion, const Method& method, int n) {
+/// A grid of n cells with one body that fills it, and how the body is discretised.
+inline setup::Case motion_case(const ExactMotion& motion, const Method& method, int n,
+                               const std::string& discretization = {}) {
   const double dx = 1.0 / n;
   char text[2048];
   const bool plane = motion.dimensions() == 2;
@@ -212,15 +213,25 @@ boundary = { x_lower = "symmetry", x_upper = "symmetry", y_lower = "symmetry", y
 name = "body"
 material = "%s"
 shape = { box = { lower = [0, 0, 0], upper = [1, %.17g, %.17g] } }
-)",
-                plane ? 1.0 : dx, dx, dx, barotropic_material(motion.solid()).c_str(), plane ? 1.0 : dx, dx);
+%s)",
+                plane ? 1.0 : dx, dx, dx, barotropic_material(motion.solid()).c_str(), plane ? 1.0 : dx, dx,
+                discretization.c_str());
   Method chosen = method;
-  chosen.courant = 1.0;  // the time step is set below
+  chosen.courant = 1.0;  // the time step is set by who advances
   chosen.linear_viscosity = chosen.quadratic_viscosity = 0;
-  const setup::Case setup =
-      setup::read_case_text(chosen.time_toml(motion.end()) + chosen.toml() + text, "motion.toml");
+  return setup::read_case_text(chosen.time_toml(motion.end()) + chosen.toml() + text, "motion.toml");
+}
 
-  const auto steps = static_cast<long>(std::ceil(motion.end() * motion.largest_speed() / (0.4 * dx)));
+/// Steps of a run on n cells.
+inline long motion_steps(const ExactMotion& motion, int n) {
+  return static_cast<long>(std::ceil(motion.end() * motion.largest_speed() * n / 0.4));
+}
+
+/// Relative error (rms over the mass) of velocity and displacement of a motion on a grid of n cells.
+inline double motion_error(const ExactMotion& motion, const Method& method, int n) {
+  const double dx = 1.0 / n;
+  const setup::Case setup = motion_case(motion, method, n);
+  const long steps = motion_steps(motion, n);
   const double dt = motion.end() / static_cast<double>(steps);
   // Velocities belong half a step before the positions (leapfrog); with stresses updated first, stresses a
   // whole step.

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/verification/element_orders.hpp"
+
 namespace whipple::verification {
 namespace {
 
@@ -61,6 +63,26 @@ TEST(Order, WithCrossingsBelongsToTheShapeFunction) {
     EXPECT_GT(order(waves, method(scheme, "convected_gimp", "flip"), 8), 1.7);
     EXPECT_LT(order(waves, method(scheme, "linear", "flip"), 8), 0.0);  // gradients jump at faces of cells
   }
+}
+
+double order(const ExactMotion& motion, const ElementMethod& method, int cells) {
+  const double coarse = element_motion_error(motion, method, cells);
+  const double fine = element_motion_error(motion, method, 2 * cells);
+  std::printf("%s, %s%s: errors %.2e %.2e, order %.2f\n", motion.name().c_str(), method.element.c_str(),
+              method.converted ? ", half becomes particles" : "", coarse, fine, order_of(coarse, fine));
+  return order_of(coarse, fine);
+}
+
+// By themselves, and with half of the body becoming particles in the middle of the run: the transition costs
+// no order.
+TEST(Order, OfElementsIsTwoWithAndWithoutConversion) {
+  const VibratingBar bar;
+  const SimpleWave pulse;
+  EXPECT_GT(order(bar, {"one_point", false}, 32), 1.9);
+  EXPECT_GT(order(bar, {"b_bar", false}, 32), 1.9);
+  EXPECT_GT(order(pulse, {"one_point", false}, 64), 1.8);
+  EXPECT_GT(order(bar, {"one_point", true}, 32), 1.8);
+  EXPECT_GT(order(pulse, {"one_point", true}, 32), 1.0);
 }
 
 TEST(Order, OfTheParticleUpdateIsOneForPicAndTwoForTheFullMassMatrix) {
