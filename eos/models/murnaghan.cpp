@@ -20,12 +20,6 @@ ParameterTable<MurnaghanConstants> MurnaghanCurve::parameters() {
 }
 
 MurnaghanCurve::MurnaghanCurve(const Constants& k)
-    : constants_(k),
-      isentrope_{.density = k.reference_density,
-                 .temperature = k.reference_temperature,
-                 .bulk_modulus = k.bulk_modulus,
-                 .exponent = k.bulk_modulus_slope,
-                 .gruneisen = k.gruneisen,
-                 .heat_capacity = k.heat_capacity} {}
+    : PowerIsentropeCurve(k, k.bulk_modulus, k.bulk_modulus_slope) {}
 
 }  // namespace whipple::eos

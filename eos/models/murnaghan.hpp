@@ -20,9 +20,8 @@ struct MurnaghanConstants {
 /// Murnaghan's equation as the isentrope through the reference state (Proc. Natl. Acad. Sci. 30 (1944) 244;
 /// docs/theory/equations_of_state.md, section 2.3): p_s = K0/K0' [(rho/rho0)^K0' - 1], p = p_s + rho Gamma (e
 /// - e_s).
-class MurnaghanCurve {
+class MurnaghanCurve : public PowerIsentropeCurve<MurnaghanConstants> {
  public:
-  using Constants = MurnaghanConstants;
   static constexpr std::string_view name = "murnaghan";
   static constexpr std::string_view summary =
       "Murnaghan isentrope with a constant Grueneisen parameter; no phases";
@@ -30,24 +29,7 @@ class MurnaghanCurve {
 
   explicit MurnaghanCurve(const Constants& constants);
 
-  [[nodiscard]] const Constants& constants() const { return constants_; }
-  [[nodiscard]] double reference_density() const { return constants_.reference_density; }
-  [[nodiscard]] double reference_temperature() const { return constants_.reference_temperature; }
-  [[nodiscard]] double reference_energy() const { return 0.0; }
-  [[nodiscard]] double reference_sound_speed() const { return isentrope_.sound_speed(); }
-  [[nodiscard]] double heat_capacity() const { return constants_.heat_capacity; }
-  [[nodiscard]] bool condensed() const { return true; }
-  [[nodiscard]] double maximum_density() const { return isentrope_.maximum_density(); }
   [[nodiscard]] std::string_view phase(double, double) const { return "solid"; }
-
-  [[nodiscard]] LinearIsochore isochore(Lanes rho) const { return isentrope_.isochore(rho); }
-  [[nodiscard]] double log_isentrope_temperature(double rho) const {
-    return isentrope_.log_isentrope_temperature(rho);
-  }
-
- private:
-  Constants constants_;
-  PowerIsentrope isentrope_;
 };
 
 using Murnaghan = ConstantHeatCapacity<MurnaghanCurve>;

@@ -30,4 +30,35 @@ struct PowerIsentrope {
   [[nodiscard]] double maximum_density() const { return greatest_compression_ratio * density; }
 };
 
+/// What models on such an isentrope share.
+template <class ConstantsOfModel>
+class PowerIsentropeCurve {
+ public:
+  using Constants = ConstantsOfModel;
+
+  [[nodiscard]] const Constants& constants() const { return constants_; }
+  [[nodiscard]] double reference_density() const { return isentrope_.density; }
+  [[nodiscard]] double reference_temperature() const { return isentrope_.temperature; }
+  [[nodiscard]] double reference_energy() const { return 0.0; }
+  [[nodiscard]] double reference_sound_speed() const { return isentrope_.sound_speed(); }
+  [[nodiscard]] double heat_capacity() const { return isentrope_.heat_capacity; }
+  [[nodiscard]] bool condensed() const { return true; }
+  [[nodiscard]] double maximum_density() const { return isentrope_.maximum_density(); }
+
+  [[nodiscard]] LinearIsochore isochore(Lanes rho) const { return isentrope_.isochore(rho); }
+  [[nodiscard]] double log_isentrope_temperature(double rho) const {
+    return isentrope_.log_isentrope_temperature(rho);
+  }
+
+ protected:
+  PowerIsentropeCurve(const Constants& constants, double bulk_modulus, double exponent)
+      : constants_(constants),
+        isentrope_{constants.reference_density, constants.reference_temperature, bulk_modulus, exponent,
+                   constants.gruneisen,         constants.heat_capacity} {}
+
+ private:
+  Constants constants_;
+  PowerIsentrope isentrope_;
+};
+
 }  // namespace whipple::eos

@@ -20,12 +20,6 @@ ParameterTable<TaitConstants> TaitCurve::parameters() {
 }
 
 TaitCurve::TaitCurve(const Constants& k)
-    : constants_(k),
-      isentrope_{.density = k.reference_density,
-                 .temperature = k.reference_temperature,
-                 .bulk_modulus = k.reference_density * k.sound_speed * k.sound_speed,
-                 .exponent = k.exponent,
-                 .gruneisen = k.gruneisen,
-                 .heat_capacity = k.heat_capacity} {}
+    : PowerIsentropeCurve(k, k.reference_density * k.sound_speed * k.sound_speed, k.exponent) {}
 
 }  // namespace whipple::eos

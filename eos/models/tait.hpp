@@ -21,33 +21,15 @@ struct TaitConstants {
 /// (docs/theory/equations_of_state.md, section 2.3): p_s = rho0 c0^2/n [(rho/rho0)^n - 1], p = p_s + rho
 /// Gamma (e - e_s). It bears tension, down to -rho0 c0^2/n: cavitation is a failure criterion of the
 /// material.
-class TaitCurve {
+class TaitCurve : public PowerIsentropeCurve<TaitConstants> {
  public:
-  using Constants = TaitConstants;
   static constexpr std::string_view name = "tait";
   static constexpr std::string_view summary = "Tait liquid (water) with a constant Grueneisen parameter";
   static ParameterTable<Constants> parameters();
 
   explicit TaitCurve(const Constants& constants);
 
-  [[nodiscard]] const Constants& constants() const { return constants_; }
-  [[nodiscard]] double reference_density() const { return constants_.reference_density; }
-  [[nodiscard]] double reference_temperature() const { return constants_.reference_temperature; }
-  [[nodiscard]] double reference_energy() const { return 0.0; }
-  [[nodiscard]] double reference_sound_speed() const { return isentrope_.sound_speed(); }
-  [[nodiscard]] double heat_capacity() const { return constants_.heat_capacity; }
-  [[nodiscard]] bool condensed() const { return true; }
-  [[nodiscard]] double maximum_density() const { return isentrope_.maximum_density(); }
   [[nodiscard]] std::string_view phase(double, double) const { return "liquid"; }
-
-  [[nodiscard]] LinearIsochore isochore(Lanes rho) const { return isentrope_.isochore(rho); }
-  [[nodiscard]] double log_isentrope_temperature(double rho) const {
-    return isentrope_.log_isentrope_temperature(rho);
-  }
-
- private:
-  Constants constants_;
-  PowerIsentrope isentrope_;
 };
 
 using Tait = ConstantHeatCapacity<TaitCurve>;
