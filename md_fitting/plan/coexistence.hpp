@@ -16,7 +16,7 @@ struct CoexistencePlan {
   std::vector<double> pressure;
   std::vector<double> first_guess;  ///< K, one per pressure
   std::int64_t attempts = 4;
-  RunSize size{.cells = 5, .equilibration_steps = 15000, .steps = 60000};
+  RunSize size{.cells = 8, .equilibration_steps = 10000, .steps = 12000};
   Target target{};
 };
 

@@ -15,7 +15,7 @@ std::span<const Protocol> protocols() {
       Protocol{"hugoniot", 3, add_hugoniot},
       Protocol{"cold_curve", 1, add_cold_curve},
       Protocol{"elastic", 1, add_elastic},
-      Protocol{"hugoniostat", 2, add_hugoniostat},
+      Protocol{"hugoniostat", 3, add_hugoniostat},
       Protocol{"liquid", 2, add_liquid},
       Protocol{"piston", 1, add_piston},
       Protocol{"spall", 1, add_spall},

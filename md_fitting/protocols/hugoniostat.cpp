@@ -22,14 +22,6 @@ constexpr int most_parts = 10;
 /// Residual, as a share of the shock's heating, up to which a point counts as converged.
 constexpr double accepted_residual = 0.02;
 
-/// Two numbers with one error series: mean of a + b x over the samples, with the error of the sum.
-std::vector<double> combine(double base, double first, const std::vector<double>& x, double second,
-                            const std::vector<double>& y) {
-  std::vector<double> sum(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) sum[i] = base + first * x[i] + second * y[i];
-  return sum;
-}
-
 }  // namespace
 
 HugoniostatResult run_hugoniostat(const Potential& potential, const ReferenceState& reference,
@@ -111,24 +103,22 @@ HugoniostatResult run_hugoniostat(const Potential& potential, const ReferenceSta
   const Estimate mean_pressure = series_mean(series[1]);
   result.pressure = {cold.pressure + modes * (mean_pressure.value - cold.pressure), mean_pressure.error};
 
-  // Jump conditions (equation 9). Pressure and volume fluctuate against each other, so their errors are taken
-  // from one series; what the residual, read as heat at constant volume, would change is added.
+  // Jump conditions (equation 9) at the imposed pressure, which the mean approaches with 1/t. The noise of
+  // the volume holds what the noise of the residual does at that pressure; the residual of a run that has not
+  // settled, read as heat at constant volume, is added.
   const double compression = reference.specific_volume.value - v;
-  const double jump = result.pressure.value - reference.pressure;
+  const double jump = cold.pressure + modes * (pressure - cold.pressure) - reference.pressure;
   if (!(compression > 0.0 && jump > 0.0)) throw StateError("the Hugoniostat did not compress the crystal");
   const double gruneisen = 2.0 * v / reference.specific_volume.value;
-  const double heated = std::abs(result.residual_temperature.value) * heat * gruneisen / v /
-                        (1.0 - 0.5 * gruneisen * compression / v) / jump;
+  const double missed = result.converged ? 0.0 : std::abs(result.residual_temperature.value);
+  const double heated = missed * heat * gruneisen / v / (1.0 - 0.5 * gruneisen * compression / v) / jump;
+  const double noise =
+      std::hypot(result.specific_volume.error, reference.specific_volume.error) / compression;
+  const double relative_error = 0.5 * std::hypot(noise, heated);
   const double shock = reference.specific_volume.value * std::sqrt(jump / compression);
   const double particle = std::sqrt(jump * compression);
-  const auto relative_error = [&](double sign) {
-    const double noise =
-        series_mean(combine(0.0, 0.5 / jump, series[1], sign * 0.5 / compression, series[2])).error;
-    const double of_reference = 0.5 * reference.specific_volume.error / compression;
-    return std::sqrt(noise * noise + of_reference * of_reference + 0.25 * heated * heated);
-  };
-  result.shock_velocity = {shock, shock * relative_error(1.0)};
-  result.particle_velocity = {particle, particle * relative_error(-1.0)};
+  result.shock_velocity = {shock, shock * relative_error};
+  result.particle_velocity = {particle, particle * relative_error};
   result.crystal_share = inherent_crystal_share(crystal, potential);
   result.transcript += lammps.transcript();
   return result;
