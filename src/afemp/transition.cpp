@@ -278,6 +278,7 @@ void collect(const std::vector<fem::Mesh>& meshes, transfer::TransitionNodes& no
   std::size_t count = 0;
   for_each_marked(meshes, [&](std::size_t, std::size_t, std::size_t) { ++count; });
   nodes.resize(count);
+  nodes.unrelaxed = count;
   for_each_marked(meshes, [&](std::size_t m, std::size_t a, std::size_t i) {
     const fem::Nodes& from = meshes[m].nodes;
     nodes.mass[i] = from.mass[a];

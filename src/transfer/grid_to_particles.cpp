@@ -264,8 +264,11 @@ void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt) {
       nodes, grid, BlockGrid::Points::guests,
       [&](std::size_t p, std::size_t, const BlockFrame& frame, const Weights<Shape::count>& weights,
           auto& access) {
+        const auto around = access.stencil(weights.first_node());
         const Advance advance =
-            advance_point<Shape, field>(nodes, p, frame, weights, dt, access.stencil(weights.first_node()));
+            p < nodes.unrelaxed
+                ? advance_point<Shape, AffineField::none>(nodes, p, frame, weights, dt, around)
+                : advance_point<Shape, field>(nodes, p, frame, weights, dt, around);
         store_vector(nodes.mean_velocity[p].data(), advance.velocity.value - 0.5 * advance.increment.value);
         store_vector(nodes.new_velocity[p].data(), advance.velocity.value);
         nodes.heat[p] = nodes.mass[p] * advance.heat;

@@ -57,7 +57,8 @@ bool is_result_of(const Node& node, const Node& brought, double dt) {
   return true;
 }
 
-/// beta of the nodes of a block, four at a time; 0 where there is no mass.
+/// beta of the nodes of a block, four at a time; 0 where there is no mass, and where nodes of elements made
+/// the sum of the sound speeds negative (docs/theory/afemp.md, 2).
 std::array<double, grid::nodes_per_block> relaxation_of(const Node* nodes, const Relaxation& relaxation,
                                                         double rate) {
   std::array<double, grid::nodes_per_block> beta;
@@ -72,7 +73,7 @@ std::array<double, grid::nodes_per_block> relaxation_of(const Node* nodes, const
     const LanesMask massive = mass >= no_mass;
     Lanes of_four{};
     if (any(massive)) {
-      const Lanes sound_speed = carried / select(massive, mass, broadcast(1.0));
+      const Lanes sound_speed = maximum(carried, Lanes{}) / select(massive, mass, broadcast(1.0));
       of_four = select(massive, -exp_minus_1(-rate * sound_speed), Lanes{});
     }
     store(&beta[i], of_four);

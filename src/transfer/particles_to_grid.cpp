@@ -62,6 +62,8 @@ struct Everything : OfParticles {
   }
 };
 struct OfNodes {
+  /// In the place of the sound speed: no sum that it enters is positive, and beta vanishes there.
+  static constexpr double holds_relaxation = -1e40;  // m/s
   using Content = grid::Node;
   const TransitionNodes& points;
   static constexpr auto kind = grid::BlockGrid::Points::guests;
@@ -69,6 +71,7 @@ struct OfNodes {
   [[nodiscard]] Payload load(std::size_t p) const {
     Payload out = inertia<affine>(points, p);
     out.b0 += times(1.0, points.force[p].data());
+    if (p < points.unrelaxed) out.b0[0] = holds_relaxation * points.mass[p];
     out.bx = out.by = out.bz = Lanes{};
     return out;
   }

@@ -14,6 +14,9 @@ namespace whipple::transfer {
 /// have mass, velocity and affine field, but instead of a stress the force that their elements exert on them.
 /// They are the guests of the grid, in the order in which `BlockGrid::bin` was given them.
 struct TransitionNodes {
+  /// The first so many carry no affine field, and no node of the grid that they reach relaxes anybody
+  /// (docs/theory/afemp.md, 2); the others are relaxed as particles are.
+  std::size_t unrelaxed = 0;
   std::vector<double> mass;              ///< kg
   std::vector<double> sound_speed;       ///< m/s, of the elements around
   std::vector<Vector3> position;         ///< m
@@ -35,7 +38,8 @@ struct TransitionNodes {
 void nodes_to_grid(ShapeFunction shape, const TransitionNodes& nodes, grid::BlockGrid& grid);
 
 /// Velocity, affine field and position of the nodes by the transfer of the particles (docs/theory/mpm.md,
-/// equations 4.3 to 4.5, 4.8), and what their elements need of the grid. B-splines only.
+/// equations 4.3 to 4.5, 4.8; docs/theory/afemp.md, 2), and what their elements need of the grid. B-splines
+/// only.
 /// @param affine as of `grid_to_particles`
 void grid_to_nodes(ShapeFunction shape, TransitionNodes& nodes, grid::BlockGrid& grid, double dt,
                    AffineField affine);
