@@ -10,6 +10,10 @@ whipple_test(test_solver STARTS_MPI
           verification/solver_viscous_test.cpp validation/solver_debris_cloud_test.cpp
           validation/solver_table_test.cpp regression/solver_regression_test.cpp fuzz/case_fuzz.cpp
   DEPENDS whipple_solver GTest::gmock LABELS fast)
+# Files alone, for many trials with sanitizers (docs/testing.md); the tests above hold the same.
+add_executable(fuzz EXCLUDE_FROM_ALL fuzz/case_fuzz.cpp fuzz/io_checkpoint_damage.cpp)
+target_link_libraries(fuzz PRIVATE whipple_flags whipple_solver GTest::gmock GTest::gtest_main)
+target_compile_definitions(fuzz PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.cpp DEPENDS whipple_solver LABELS long)
 # Writes docs/orders_of_convergence.md; a program of its own, as it takes minutes.
 add_executable(orders_of_convergence EXCLUDE_FROM_ALL verification/solver_orders.cpp)

@@ -38,10 +38,38 @@ double wanted_spacing(const Case& setup, const Body& body) {
   return setup.geometry.cell_size / std::cbrt(static_cast<double>(body.discretization.per_cell));
 }
 
-/// Points of the lattice of a body, before it is made: the number may be beyond any integer.
+Shape::Bounds common_part(const Shape::Bounds& a, const Shape::Bounds& b) {
+  return {a.lower.cwiseMax(b.lower), a.upper.cwiseMin(b.upper)};
+}
+
+Shape::Bounds domain_of(const Case& setup) {
+  const grid::Geometry& g = setup.geometry;
+  return {g.lower, Vector3(g.upper(0), g.upper(1), g.upper(2))};
+}
+
+/// Points of the lattice of a body inside the domain, before it is made: the number may be beyond any
+/// integer.
 double lattice_size(const Case& setup, const Body& body) {
-  const Shape::Bounds bounds = body.shape->bounds();
-  return ((bounds.upper - bounds.lower) / wanted_spacing(setup, body)).prod();
+  const Shape::Bounds inside = common_part(body.shape->bounds(), domain_of(setup));
+  return ((inside.upper - inside.lower).cwiseMax(0.0) / wanted_spacing(setup, body)).prod();
+}
+
+/// Why the particles or elements of a body are too many to be made.
+std::optional<std::string> too_many(const Case& setup, const Body& body) {
+  constexpr double most_particles = 1e9;  // some 500 GB
+  constexpr double most_elements = 2e7;   // some 10 GB: every rank makes the whole mesh
+  constexpr double longest_edge = 1e12;   // beyond it round-off joins neighbours
+  const bool elements = body.discretization.has_elements();
+  const Vector3 edges =
+      (body.shape->bounds().upper - body.shape->bounds().lower) /
+      (elements ? body.discretization.size(setup.domain.cell_size) : wanted_spacing(setup, body));
+  const double count = elements ? edges.prod() : lattice_size(setup, body);
+  const double most = elements ? most_elements : most_particles;
+  if (count <= most && edges.maxCoeff() <= longest_edge) return std::nullopt;
+  return fmt::format(
+      "body \"{}\" takes a lattice of {:.2g} {}, {:.2g} along an edge; at most {:.0e} and {:.0e}: "
+      "enlarge 'cell_size' or reduce 'per_cell'",
+      body.name, count, elements ? "elements" : "particles", edges.maxCoeff(), most, longest_edge);
 }
 
 /// The lattice divides the bounding box evenly, so that faces of boxes and ends of cylinders are met exactly;
@@ -119,21 +147,67 @@ std::optional<Site> partial_site(const Case& setup, const Body& body, const Latt
   return Site{point + center, count / all, SymmetricTensor::from(extent)};
 }
 
-/// Calls f(site) for every particle of the body inside the domain.
+/// Whether f(site) holds for some particle of the body inside the domain; asks those in and near a box only,
+/// up to the first one.
 template <class Function>
-void for_each_site(const Case& setup, const Body& body, const Lattice& lattice, Function&& f) {
+bool any_site(const Case& setup, const Body& body, const Lattice& lattice, const Shape::Bounds& box,
+              Function&& f) {
+  const Shape::Bounds part = common_part(box, domain_of(setup));
+  std::array<long, 3> first{}, end{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<Eigen::Index>(a);
+    const auto cell = [&](double x, double margin) {
+      const double at = std::floor((x - lattice.lower[axis]) / lattice.spacing[axis]) + margin;
+      return static_cast<long>(std::clamp(at, 0.0, static_cast<double>(lattice.count[a])));
+    };
+    first[a] = cell(part.lower[axis], -1.0);
+    end[a] = cell(part.upper[axis], 2.0);
+  }
   const auto site_at = body.discretization.partial_volumes ? partial_site : whole_site;
-  for (long i = 0; i < lattice.count[0]; ++i) {
-    for (long j = 0; j < lattice.count[1]; ++j) {
-      for (long k = 0; k < lattice.count[2]; ++k) {
-        if (const std::optional<Site> site = site_at(setup, body, lattice, lattice.point(i, j, k))) f(*site);
+  for (long i = first[0]; i < end[0]; ++i) {
+    for (long j = first[1]; j < end[1]; ++j) {
+      for (long k = first[2]; k < end[2]; ++k) {
+        const std::optional<Site> site = site_at(setup, body, lattice, lattice.point(i, j, k));
+        if (site && f(*site)) return true;
       }
     }
   }
+  return false;
+}
+
+/// Calls f(site) for every particle of the body inside the domain.
+template <class Function>
+void for_each_site(const Case& setup, const Body& body, const Lattice& lattice, Function&& f) {
+  any_site(setup, body, lattice, domain_of(setup), [&](const Site& site) {
+    f(site);
+    return false;
+  });
 }
 
 bool boxes_meet(const Shape::Bounds& a, const Shape::Bounds& b) {
   return (a.lower.array() < b.upper.array()).all() && (b.lower.array() < a.upper.array()).all();
+}
+
+/// A fault where a particle of one of two bodies lies in the other: the one may lie between the particles of
+/// the other.
+std::optional<std::string> overlap(const Case& setup, const Body& body, const Body& former) {
+  const Shape::Bounds bounds = body.shape->bounds(), theirs = former.shape->bounds();
+  if (!boxes_meet(bounds, theirs)) return std::nullopt;
+  const Shape::Bounds both = common_part(bounds, theirs);
+  Vector3 at;
+  const auto lies_in = [&](const Shape& shape) {
+    return [&](const Site& site) {
+      at = site.position;
+      return shape.contains(site.position);
+    };
+  };
+  if (!any_site(setup, body, lattice_of(setup, body), both, lies_in(*former.shape)) &&
+      (former.discretization.is_bars() ||
+       !any_site(setup, former, lattice_of(setup, former), both, lies_in(*body.shape)))) {
+    return std::nullopt;
+  }
+  return fmt::format("body \"{}\" overlaps body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m", body.name, former.name,
+                     at[0], at[1], at[2]);
 }
 
 }  // namespace
@@ -142,26 +216,16 @@ double expected_memory(const Case& setup) {
   constexpr double bytes_per_particle = 500.0;  // in full blocks: docs/performance.md
   double particles = 0.0;
   for (const Body& body : setup.bodies) {
-    if (body.discretization.is_bars()) continue;
-    const Shape::Bounds bounds = body.shape->bounds();
-    Vector3 upper = bounds.upper;
-    for (int a = 0; a < 3; ++a) upper[a] = std::min(upper[a], setup.geometry.upper(a));
-    const Vector3 inside = (upper - bounds.lower.cwiseMax(setup.geometry.lower)).cwiseMax(0.0);
-    particles += (inside / wanted_spacing(setup, body)).prod();
+    if (!body.discretization.is_bars()) particles += lattice_size(setup, body);
   }
   return bytes_per_particle * particles;
 }
 
 std::vector<PlacementFault> placement_faults(const Case& setup) {
-  constexpr double most_points = 1e9;  // some 500 GB of particles
   std::vector<PlacementFault> faults;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     if (setup.bodies[b].discretization.is_bars()) continue;
-    const double points = lattice_size(setup, setup.bodies[b]);
-    if (points <= most_points) continue;
-    faults.push_back({b, fmt::format("body \"{}\" takes a lattice of {:.2g} particles, more than {:.0e}: "
-                                     "enlarge 'cell_size' or reduce 'per_cell'",
-                                     setup.bodies[b].name, points, most_points)});
+    if (const auto fault = too_many(setup, setup.bodies[b])) faults.push_back({b, *fault});
   }
   if (!faults.empty()) return faults;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
@@ -196,31 +260,10 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
                                        "'per_cell' to 8, or take \"convected_gimp\" or a B-spline",
                                        body.name, lattice.spacing.maxCoeff() / setup.geometry.cell_size)});
     }
-    std::vector<bool> overlaps(b, false);
-    std::size_t count = 0;
-    for_each_site(setup, body, lattice, [&](const Site& site) {
-      const Vector3& point = site.position;
-      ++count;
-      for (std::size_t other = 0; other < b; ++other) {
-        if (!overlaps[other] && setup.bodies[other].shape->contains(point)) {
-          overlaps[other] = true;
-          faults.push_back(
-              {b, fmt::format("body \"{}\" overlaps body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m", body.name,
-                              setup.bodies[other].name, point[0], point[1], point[2])});
-        }
-      }
-    });
-    for (std::size_t other = 0; other < b; ++other) {  // a body inside the gaps of this one's lattice
-      const Body& former = setup.bodies[other];
-      if (former.discretization.is_bars() || overlaps[other] || !boxes_meet(bounds, former.shape->bounds()))
-        continue;
-      bool found = false;
-      for_each_site(setup, former, lattice_of(setup, former),
-                    [&](const Site& site) { found = found || body.shape->contains(site.position); });
-      if (found)
-        faults.push_back({b, fmt::format("body \"{}\" overlaps body \"{}\"", body.name, former.name)});
+    for (std::size_t other = 0; other < b; ++other) {
+      if (const auto fault = overlap(setup, body, setup.bodies[other])) faults.push_back({b, *fault});
     }
-    if (count == 0) {
+    if (!any_site(setup, body, lattice, bounds, [](const Site&) { return true; })) {
       faults.push_back(
           {b, fmt::format("body \"{}\" holds no particle: it is outside of the domain or thinner than a "
                           "particle spacing",
