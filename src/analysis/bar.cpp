@@ -66,8 +66,8 @@ Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_
   const std::size_t n = d.size();
   Quantities row = {
       {name("length"), "m", "from the wall to the far end", wall - extent.lower},
-      {name("foot_diameter"), "m", "at the wall, continued from the two layers of a cell above it",
-       n < 2 ? nan : 1.5 * d[n - 1] - 0.5 * d[n - 2]}};
+      {name("foot_diameter"), "m", "at the wall, continued from the three layers of a cell above it",
+       n < 3 ? nan : (15.0 * d[n - 1] - 10.0 * d[n - 2] + 3.0 * d[n - 3]) / 8.0}};  // parabola
   if (diameter_at > 0.0) {
     const double x = diameter_at / size - 0.5;  // in layers from the wall
     const double k = std::clamp(std::floor(x), 0.0, static_cast<double>(n) - 2.0);

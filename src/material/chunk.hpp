@@ -36,9 +36,10 @@ struct Chunk {
   SymmetricLanes back_stress, strain;  // of materials that need them only
   Lanes solid_modulus, increment;
   Lanes energy, bulk_sound_speed, vaporised;
-  Lanes acting_pressure;  // after failure
-  Lanes distension;       // of porous matter only
-  Lanes least_pressure;   // of brittle matter only: the tension at which its gaps open
+  Lanes acting_pressure;   // after failure
+  Lanes distension;        // of porous matter only
+  Lanes least_pressure;    // of brittle matter only: the tension at which its gaps open
+  Lanes stored_cold_work;  // of materials that store some only
 
   template <class Array>
   auto view(Array& array) {

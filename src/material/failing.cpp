@@ -138,6 +138,16 @@ double lose_strength(const Step& step, Chunk& chunk, std::size_t k, double bulk,
   return viscous && !open ? 1.0 : 0.0;
 }
 
+/// What melts gives back as heat what its dislocations held.
+void release_cold_work(Step& step, Chunk& chunk) {
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double solid_before = 1.0 - step.points.melted_fraction[chunk.index[k]],
+                 solid = 1.0 - chunk.melted[k];
+    if (solid < solid_before) chunk.stored_cold_work[k] *= solid / solid_before;
+  }
+  chunk.deposit(chunk.stored_cold_work, step.points.stored_cold_work);
+}
+
 }  // namespace
 
 void finish(Step& step, Chunk& chunk) {
@@ -163,6 +173,7 @@ void finish(Step& step, Chunk& chunk) {
     }
     chunk.any_void = true;
   }
+  if (step.material.stores_cold_work()) release_cold_work(step, chunk);
   for (std::size_t k = 0; k < chunk.size; ++k) chunk.sound_speed[k] = std::sqrt(squared[k]);
   chunk.fetch(points.maximum_pressure, maximum_pressure);
   chunk.fetch(points.maximum_temperature, maximum_temperature);

@@ -122,6 +122,17 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
   return material;
 }
 
+void set_taylor_quinney(Material& material, double share) {
+  if (share < 1.0 &&
+      (material.brittle || material.void_growth != nullptr || !material.strength->carries_deviator())) {
+    const std::string_view model =
+        material.void_growth != nullptr ? material.void_growth->model() : material.strength->model();
+    throw InputError(fmt::format(
+        "'taylor_quinney' below 1 needs the plastic work of a metal, not that of model \"{}\"", model));
+  }
+  material.taylor_quinney = share;
+}
+
 eos::State initial_state(const Material& material, std::optional<double> density,
                          std::optional<double> temperature, std::optional<double> pressure) {
   const eos::EquationOfState& model = *material.eos;
@@ -148,6 +159,7 @@ void use_fields(const Material& material, MaterialPoints& points) {
   const std::size_t n = points.mass.size();
   if (material.strength->kinematic_modulus() > 0.0) points.back_stress.resize(n);
   if (material.needs_strain) points.strain.resize(n);
+  if (material.stores_cold_work()) points.stored_cold_work.resize(n);
 }
 
 void initialise(const Material& material, MaterialPoints& points, std::size_t begin, std::size_t end) {
@@ -186,6 +198,7 @@ void initialise(const Material& material, MaterialPoints& points, std::size_t be
     points.melting_time[i] = state.melted_fraction >= melted_share ? 0.0 : never;
     if (!points.back_stress.empty()) points.back_stress[i] = {};
     if (!points.strain.empty()) points.strain[i] = {};
+    if (!points.stored_cold_work.empty()) points.stored_cold_work[i] = 0.0;
   }
 }
 
@@ -195,9 +208,9 @@ std::string Material::constants() const {
   if (!note.empty()) text += fmt::format("note = {}\n", toml_string(note));
   text += fmt::format("[eos]\nmodel = {}\n{}\n[strength]\n{}", toml_string(eos->model()), eos->constants(),
                       strength->constants());
-  if (conductivity > 0.0) {
-    text += fmt::format("\n[thermal]\nsource = {}\nconductivity = \"{} W/(m K)\"\n", toml_string(source),
-                        conductivity);
+  if (conductivity > 0.0 || stores_cold_work()) {
+    text += fmt::format("\n[thermal]\nsource = {}\nconductivity = \"{} W/(m K)\"\ntaylor_quinney = {}\n",
+                        toml_string(source), conductivity, taylor_quinney);
   }
   for (const auto& criterion : failure) text += fmt::format("\n[[failure]]\n{}", criterion->constants());
   return text;

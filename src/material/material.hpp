@@ -34,6 +34,7 @@ struct Material {
   std::string group;  ///< where the library lists it: "metals", "explosives", ...; may be empty
   Measured measured;
   double conductivity = 0.0;                           ///< W/(m K); used by runs with conduction of heat
+  double taylor_quinney = 1.0;                         ///< share of the plastic work that becomes heat
   std::shared_ptr<const eos::EquationOfState> eos;     ///< never null
   std::shared_ptr<const strength::Strength> strength;  ///< never null
   std::vector<std::shared_ptr<const failure::Criterion>> failure;  ///< in the order of the file; may be empty
@@ -45,9 +46,15 @@ struct Material {
   const failure::Criterion* void_growth = nullptr;  ///< the one of `failure` that grows voids; null: none
   eos::State reference;  ///< the state that bodies start from: p = 0 at the reference temperature
 
+  /// Whether some plastic work does not become heat.
+  [[nodiscard]] bool stores_cold_work() const { return taylor_quinney < 1.0; }
   /// The material as a material file with every default written out (provenance in output files).
   [[nodiscard]] std::string constants() const;
 };
+
+/// Sets the share of the plastic work that becomes heat, in (0, 1].
+/// @throws InputError if it is less than 1 and the parts of the material do not count plastic work apart
+void set_taylor_quinney(Material& material, double share);
 
 /// Puts the parts together and computes the reference state. A null strength means none.
 /// @throws InputError if the equation of state has no state of zero pressure near its reference density, or

@@ -69,13 +69,20 @@ ParameterTable<MeasuredTable> measured_values() {
 
 struct ThermalTable {
   double conductivity = 0.0;
+  double taylor_quinney = 1.0;
   std::string source;
 };
 
 ParameterTable<ThermalTable> thermal_constants() {
   return {text("source", &ThermalTable::source, "where the values come from"),
           real("conductivity", &ThermalTable::conductivity, "W/(m K)", range::non_negative(),
-               "heat conductivity, for runs with conduction of heat")};
+               "heat conductivity, for runs with conduction of heat")
+              .optional(),
+          real("taylor_quinney", &ThermalTable::taylor_quinney, "",
+               Range{.lower = 0.0, .upper = 1.0, .lower_open = true},
+               "share of the plastic work that becomes heat; the rest is stored as cold work until the "
+               "matter melts")
+              .optional()};
 }
 
 template <class Entry>
@@ -257,6 +264,7 @@ Material read_changed_material(const fs::path& file,
     material.group = declared.head.group;
     material.measured = declared.measured;
     material.conductivity = declared.thermal.conductivity;
+    set_taylor_quinney(material, declared.thermal.taylor_quinney);
     return material;
   } catch (const InputError& fault) {
     throw InputError(fmt::format("{}: error: {}", file.string(), fault.what()));

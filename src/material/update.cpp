@@ -55,6 +55,7 @@ void gather(Step& step, Chunk& chunk) {
   chunk.fetch(points.sound_speed, chunk.sound_speed);
   chunk.fetch(points.melted_fraction, chunk.melted);
   chunk.fetch(points.failed, chunk.failed);
+  if (step.material.stores_cold_work()) chunk.fetch(points.stored_cold_work, chunk.stored_cold_work);
   if (step.material.failure.empty() && !step.material.brittle) {
     std::fill_n(chunk.damage.data(), chunk.size, 0.0);
   } else {
@@ -180,6 +181,11 @@ void shift_by_back_stress(Step& step, Chunk& chunk, Lanes& modulus) {
   }
 }
 
+/// Books the share of the plastic work per volume (J/m^3) that does not become heat (eq. 24).
+void store_cold_work(const Step& step, Chunk& chunk, std::size_t k, double work) {
+  chunk.stored_cold_work[k] += (1.0 - step.material.taylor_quinney) * work * chunk.volume[k] / chunk.mass[k];
+}
+
 /// Deviatoric stress: rotation, elastic trial, radial return (eq. 3 to 7, 16).
 void advance_deviator(Step& step, Chunk& chunk) {
   material::Kinematics& motion = chunk.motion;
@@ -199,7 +205,8 @@ void advance_deviator(Step& step, Chunk& chunk) {
   chunk.fetch(step.points.deviatoric_stress, motion.deviator);
   mask_to_solids(chunk, motion.deviator);
   material::elastic_trial(padded, dt, step.settings.rotation, motion);
-  const bool kinematic = step.material.strength->kinematic_modulus() > 0.0;
+  const bool kinematic = step.material.strength->kinematic_modulus() > 0.0,
+             stores = step.material.stores_cold_work();
   Lanes shifted_modulus;
   if (kinematic) shift_by_back_stress(step, chunk, shifted_modulus);
   step.material.strength->plastic_increment(chunk.strength_state(), chunk.view(motion.trial),
@@ -212,16 +219,21 @@ void advance_deviator(Step& step, Chunk& chunk) {
     chunk.plastic_strain[k] += increment;
     const double stiffness = 3.0 * motion.modulus[k];
     if (!kinematic) {
-      material::scale(motion.deviator, k, std::max(0.0, 1.0 - stiffness * increment / motion.trial[k]));
+      const double kept = std::max(0.0, 1.0 - stiffness * increment / motion.trial[k]);
+      material::scale(motion.deviator, k, kept);
+      if (stores) store_cold_work(step, chunk, k, kept * motion.trial[k] * increment);
       continue;
     }
     const double per_trial = increment / motion.trial[k];
     const double hardening = step.material.strength->kinematic_modulus() * chunk.solid_fraction[k];
+    double work = 0.0;  // stress : plastic strain increment
     for (std::size_t j = 0; j < 6; ++j) {
       const double shifted = motion.deviator[j][k] - chunk.back_stress[j][k];
       motion.deviator[j][k] -= stiffness * per_trial * shifted;
       chunk.back_stress[j][k] += hardening * per_trial * shifted;
+      work += (j < 3 ? 1.5 : 3.0) * per_trial * motion.deviator[j][k] * shifted;
     }
+    if (stores) store_cold_work(step, chunk, k, work);
   }
 }
 
@@ -283,6 +295,8 @@ void prepare_energy(const Step& step, Chunk& chunk) {
     chunk.energy[k] = chunk.specific_internal_energy[k] +
                       (half_step * power - (modulus > 0.0 ? elastic : 0.0)) * specific_volume;
   }
+  if (!step.material.stores_cold_work()) return;
+  for (std::size_t k = 0; k < chunk.size; ++k) chunk.energy[k] -= chunk.stored_cold_work[k];
 }
 
 /// One call for the chunk; density, pressure and temperature become the new ones.
@@ -316,7 +330,8 @@ eos::RangeReport integrate_energy(Step& step, Chunk& chunk) {
     const double work = strain_work * 0.5 * (chunk.volume[k] + chunk.old_volume[k]) -
                         chunk.volume_change[k] * (0.5 * chunk.pressure[k] + chunk.artificial_viscosity[k]);
     half_change[k] = h;
-    without_new_pressure[k] = chunk.specific_internal_energy[k] + work * per_mass;
+    const double stored = step.material.stores_cold_work() ? chunk.stored_cold_work[k] : 0.0;
+    without_new_pressure[k] = chunk.specific_internal_energy[k] - stored + work * per_mass;
     first_energy[k] = without_new_pressure[k] - h * chunk.pressure[k];
     chunk.energy[k] = first_energy[k];
   }
@@ -333,7 +348,8 @@ eos::RangeReport integrate_energy(Step& step, Chunk& chunk) {
     const double gain = h * (first_pressure[k] - chunk.pressure[k]) / (resolved ? 1.0 + h * slope : 1.0);
     chunk.energy[k] += gain;
     chunk.pressure[k] += resolved ? slope * gain : 0.0;
-    chunk.specific_internal_energy[k] = chunk.energy[k];
+    chunk.specific_internal_energy[k] =
+        chunk.energy[k] + (step.material.stores_cold_work() ? chunk.stored_cold_work[k] : 0.0);
   }
   return range;
 }

@@ -51,6 +51,7 @@ struct MaterialPoints {
       melting_time;  ///< s, when half of the mass was first melted; `never` (-1) if it was not
   std::vector<SymmetricTensor> back_stress;  ///< Pa, centre of the yield surface; optional
   std::vector<SymmetricTensor> strain;       ///< logarithmic strain, turned with the matter; optional
+  std::vector<double> stored_cold_work;      ///< J/kg, plastic work that did not become heat; optional
 
   static constexpr auto fields() {
     using P = MaterialPoints;
@@ -68,7 +69,8 @@ struct MaterialPoints {
         Field{"maximum_pressure", "Pa", &P::maximum_pressure},
         Field{"maximum_temperature", "K", &P::maximum_temperature},
         Field{"melting_time", "s", &P::melting_time}, Field{"back_stress", "Pa", &P::back_stress, true},
-        Field{"strain", "1", &P::strain, true});
+        Field{"strain", "1", &P::strain, true},
+        Field{"stored_cold_work", "J/kg", &P::stored_cold_work, true});
   }
 };
 

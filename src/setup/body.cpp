@@ -97,6 +97,8 @@ void read_body(Case& setup, input::Table table, std::set<std::string>& names,
       }
     }
     material = known;
+  } else if (table.has("material")) {
+    table.error_at("material", "'material' is empty: expected a file, or a name in the library");
   }
   if (initial && material) {
     try {

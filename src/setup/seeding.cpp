@@ -273,6 +273,22 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
   return faults;
 }
 
+std::vector<std::string> placement_warnings(const Case& setup) {
+  std::vector<std::string> warnings;
+  const double cell = setup.geometry.cell_size;
+  for (const Body& body : setup.bodies) {
+    if (body.discretization.is_bars() || body.discretization.has_elements()) continue;
+    Eigen::Index axis = 0;
+    const double thickness = (body.shape->bounds().upper - body.shape->bounds().lower).minCoeff(&axis);
+    if (thickness > (1.0 - 1e-9) * cell) continue;
+    warnings.push_back(fmt::format(
+        "body \"{}\" is thinner than a cell: {:.4g} mm along {}, cells of {:.4g} mm; the grid sees "
+        "no wave that crosses it",
+        body.name, 1e3 * thickness, "xyz"[axis], 1e3 * cell));
+  }
+  return warnings;
+}
+
 Seeding seed(const Case& setup, int rank, int ranks) {
   Seeding seeding;
   Particles& particles = seeding.particles;

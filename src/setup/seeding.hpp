@@ -24,6 +24,10 @@ double expected_memory(const Case& setup);
 /// Bodies that leave the domain through an outflow face, hold no particle, or share points with another body.
 std::vector<PlacementFault> placement_faults(const Case& setup);
 
+/// What is wrong with no case but seldom meant: a warning for each body of particles that is thinner than a
+/// cell.
+std::vector<std::string> placement_warnings(const Case& setup);
+
 /// What a body became.
 struct BodySummary {
   std::size_t first = 0;  ///< its particles are [first, first + count)

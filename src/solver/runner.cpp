@@ -30,6 +30,12 @@ namespace fs = std::filesystem;
 
 constexpr int out_of_time_code = 124;  // that of timeout(1)
 
+/// J, part of the internal energy of these points.
+double stored_cold_work(const MaterialPoints& points) {
+  return parallel::sum<double>(points.stored_cold_work.size(),
+                               [&](std::size_t p) { return points.mass[p] * points.stored_cold_work[p]; });
+}
+
 /// Figures of all ranks. Collective.
 std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
   const RunState& state = simulation.state();
@@ -97,6 +103,13 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
     row.push_back({"converted_mass", "kg", state.ledger.converted_mass});
     row.push_back({"conversion_heat", "J", state.ledger.conversion_heat});
     row.push_back({"hourglass_energy", "J", t.hourglass_energy});
+  }
+  if (std::ranges::any_of(simulation.setup().materials,
+                          [](const auto& material) { return material->stores_cold_work(); })) {
+    std::array<double, 1> stored = {stored_cold_work(particles)};
+    for (const fem::Mesh& mesh : simulation.meshes()) stored[0] += stored_cold_work(mesh.points);
+    parallel::sum(simulation.communicator(), stored);
+    row.push_back({"stored_cold_work", "J", stored[0]});
   }
   if (simulation.setup().has_bars()) {
     double count = 0.0, broken = 0.0, energy = 0.0;

@@ -10,6 +10,7 @@
 
 #include "src/afemp/transition.hpp"
 #include "src/base/error.hpp"
+#include "src/base/log.hpp"
 #include "src/base/vector_math.hpp"
 #include "src/material/update.hpp"
 #include "src/parallel/mpi.hpp"
@@ -45,6 +46,9 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
       shape_(transfer::shape_function(setup.transfer.shape_function)),
       communicator_(communicator),
       grid_(setup.geometry, communicator) {
+  if (parallel::rank(communicator) == 0) {
+    for (const std::string& text : setup::placement_warnings(setup)) log::warning("{}", text);
+  }
   setup::Seeding seeding = setup::seed(setup, parallel::rank(communicator), parallel::size(communicator));
   particles_ = std::move(seeding.particles);
   bodies_ = std::move(seeding.bodies);

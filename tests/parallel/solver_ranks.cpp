@@ -23,6 +23,7 @@
 #include "src/solver/checkpointing.hpp"
 #include "src/solver/gauges.hpp"
 #include "src/solver/simulation.hpp"
+#include "tests/parallel/debris_case.hpp"
 
 namespace whipple::solver {
 namespace {
@@ -30,7 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A copper disk through an aluminium plate, quarter model, in a domain so short that matter leaves it.
-const char* const debris_case = R"(
+const char* const debris_head = R"(
 [domain]
 lower = ["0 mm", "0 mm", "-6 mm"]
 upper = ["12 mm", "12 mm", "8 mm"]
@@ -38,15 +39,6 @@ cell_size = "1.2 mm"
 boundary = { x_lower = "symmetry", y_lower = "symmetry" }
 [time]
 end = "2.5 us"
-[[body]]
-name = "disk"
-material = "copper.toml"
-velocity = ["0 m/s", "0 m/s", "5.55 km/s"]
-shape = { cylinder = { center = ["0 mm", "0 mm", "-1.725 mm"], radius = "5.59 mm", height = "3.45 mm" } }
-[[body]]
-name = "plate"
-material = "aluminium.toml"
-shape = { box = { lower = ["-10 mm", "-10 mm", "0 mm"], upper = ["10 mm", "10 mm", "2.87 mm"] } }
 )";
 
 class SolverRanks : public testing::Test {
@@ -56,7 +48,7 @@ class SolverRanks : public testing::Test {
         fs::temp_directory_path() / ("whipple_solver_ranks_" + ranks_.broadcast(std::to_string(::getpid())));
     ranks_.on_root([&] {
       fs::create_directories(folder_);
-      std::ofstream(folder_ / "case.toml") << debris_case;
+      std::ofstream(folder_ / "case.toml") << debris_head << debris_case::bodies;
     });
   }
   void TearDown() override {

@@ -20,6 +20,7 @@
 #include "src/base/progress.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/solver/run.hpp"
+#include "tests/parallel/debris_case.hpp"
 
 namespace whipple {
 namespace {
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 
 /// A coarse copper disk through an aluminium plate with the three-phase equation of state: shocks, spall,
 /// melting, symmetry planes, particles that leave the domain.
-const char* const debris_case = R"(
+const char* const debris_head = R"(
 title = "coarse debris cloud"
 [domain]
 lower = ["0 mm", "0 mm", "-8 mm"]
@@ -37,15 +38,6 @@ cell_size = "1 mm"
 boundary = { x_lower = "symmetry", y_lower = "symmetry" }
 [time]
 end = "4 us"
-[[body]]
-name = "disk"
-material = "copper.toml"
-velocity = ["0 m/s", "0 m/s", "5.55 km/s"]
-shape = { cylinder = { center = ["0 mm", "0 mm", "-1.725 mm"], radius = "5.59 mm", height = "3.45 mm" } }
-[[body]]
-name = "plate"
-material = "aluminium.toml"
-shape = { box = { lower = ["-10 mm", "-10 mm", "0 mm"], upper = ["10 mm", "10 mm", "2.87 mm"] } }
 [output]
 snapshot_every = "1 us"
 checkpoint_every = "1 ms"
@@ -70,7 +62,7 @@ class Run : public testing::Test {
                                            testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-    std::ofstream(folder_ / "debris.toml") << debris_case;
+    std::ofstream(folder_ / "debris.toml") << debris_head << debris_case::bodies;
   }
   void TearDown() override { fs::remove_all(folder_); }
 

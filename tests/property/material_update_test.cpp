@@ -193,7 +193,7 @@ TEST(UniaxialStrain, FollowsTheElasticPlasticSolutionInLogarithmicStrain) {
 
 /// Internal energy after a closed shear cycle of amplitude `strain`, and plastic work w = sum Y dep V.
 struct Cycle {
-  double energy, plastic_work, elastic_energy, pressure;
+  double energy, plastic_work, elastic_energy, pressure, stored_cold_work;
 };
 template <class StepFunction>
 Cycle shear_cycle(const Material& material, double amplitude, int steps, StepFunction step_function) {
@@ -225,6 +225,7 @@ Cycle shear_cycle(const Material& material, double amplitude, int steps, StepFun
   cycle.elastic_energy = points.deviatoric_stress[0].squared_norm() / (4.0 * taylor_copper().shear_modulus) *
                          points.volume[0] / points.mass[0];
   cycle.pressure = points.pressure[0];
+  if (!points.stored_cold_work.empty()) cycle.stored_cold_work = points.stored_cold_work[0];
   return cycle;
 }
 
@@ -264,6 +265,54 @@ TEST(EnergyOfACycle, PlasticShearTurnsTheWorkIntoHeat) {
     const double thermal = step == step_with_grid_work ? cycle.energy - cycle.elastic_energy : cycle.energy;
     EXPECT_NEAR(cycle.pressure, 1.96 * 8930.0 * thermal, 2e-3 * cycle.pressure);
   }
+}
+
+// Of the work, the share of Taylor and Quinney is heat and raises the pressure; the rest is energy that does
+// not. With and without kinematic hardening; the stress path is the same.
+TEST(ColdWork, IsTheShareOfThePlasticWorkThatIsNotHeat) {
+  for (const double kinematic : {0.0, 2e9}) {
+    strength::VonMises constants = taylor_copper();
+    constants.kinematic_modulus = kinematic;
+    const Material all_heat = with(constants);
+    Material material = with(constants);
+    set_taylor_quinney(material, 0.7);
+    for (const auto step : {step_with_own_energy, step_with_grid_work}) {
+      const Cycle whole = shear_cycle(all_heat, 0.2, 8000, step),
+                  cycle = shear_cycle(material, 0.2, 8000, step);
+      EXPECT_EQ(whole.stored_cold_work, 0.0);
+      EXPECT_NEAR(cycle.energy, whole.energy,
+                  2e-3 * whole.energy);  // all of the work, whatever becomes of it
+      const double elastic = step == step_with_grid_work ? cycle.elastic_energy : 0.0;
+      const double thermal = cycle.energy - elastic - cycle.stored_cold_work;
+      EXPECT_NEAR(cycle.pressure, 1.96 * 8930.0 * thermal, 2e-3 * cycle.pressure);
+      const double plastic_work = cycle.energy - cycle.elastic_energy;
+      EXPECT_NEAR(cycle.stored_cold_work, 0.3 * plastic_work, 2e-3 * plastic_work);
+    }
+  }
+}
+
+TEST(ColdWork, BecomesHeatInWhatMelts) {
+  LinearInEnergy eos;
+  eos.melting_starts = 400e3;
+  eos.melting_ends = 600e3;
+  Material material = with(taylor_copper(), {}, eos);
+  set_taylor_quinney(material, 0.9);
+  MaterialPoints points = points_of(material, 1);
+  const Matrix3 rest = Matrix3::Zero();
+  const auto heat_to = [&](double energy) {  // of the equation of state
+    points.specific_internal_energy[0] = energy + points.stored_cold_work[0];
+    update_material(material, points, 0, 1, std::span(&rest, 1), without_viscosity(1e-7));
+  };
+  points.stored_cold_work[0] = 20e3;
+  heat_to(300e3);
+  EXPECT_NEAR(points.temperature[0], 300.0 + 300e3 / eos.heat_capacity, 1e-9);
+  EXPECT_EQ(points.stored_cold_work[0], 20e3);
+  heat_to(450e3);
+  EXPECT_NEAR(points.stored_cold_work[0], 15e3, 1e-6);
+  heat_to(420e3);  // what freezes has none
+  EXPECT_NEAR(points.stored_cold_work[0], 15e3, 1e-6);
+  heat_to(700e3);
+  EXPECT_EQ(points.stored_cold_work[0], 0.0);
 }
 
 TEST(Melting, TakesYieldStressAndShearModulusLinearlyAndStressWithIt) {

@@ -16,6 +16,7 @@
 #include "eos/catalogue.hpp"
 #include "src/base/error.hpp"
 #include "src/material/failure/catalogue.hpp"
+#include "src/material/material_samples.hpp"
 #include "src/material/strength/catalogue.hpp"
 #include "src/material/update.hpp"
 
@@ -280,6 +281,22 @@ TEST(Library, CopperMeltsAndLosesItsStrengthByTheEquationOfState) {
       points.sound_speed[0],
       copper.eos->state(points.mass[0] / points.volume[0], points.specific_internal_energy[0]).sound_speed,
       1e-9 * points.sound_speed[0]);
+}
+
+TEST(PlasticWork, ShareThatIsHeatStandsInTheMaterialFile) {
+  const auto changed = [](const char* material, const char* share) {
+    const std::pair<std::string, std::string> change = {"thermal.taylor_quinney", share};
+    return read_changed_material(find_material(material, {}), std::span(&change, 1));
+  };
+  EXPECT_FALSE(read_material("copper_ofhc").stores_cold_work());
+  const Material copper = changed("copper_ofhc", "0.9");
+  EXPECT_EQ(copper.taylor_quinney, 0.9);
+  EXPECT_THAT(copper.constants(), HasSubstr("taylor_quinney = 0.9"));
+  for (const char* wrong : {"0", "1.01", "-1", "nan"})
+    EXPECT_THROW(changed("copper_ofhc", wrong), InputError) << wrong;
+  // No plastic work of (7) to count.
+  Material concrete = read_material("concrete_48mpa_hjc");
+  EXPECT_THROW(set_taylor_quinney(concrete, 0.9), InputError);
 }
 
 TEST(InitialState, GivenTemperatureOrDensityGivesTheirState) {

@@ -96,6 +96,33 @@ TEST(Case, RefusesMoreParticlesThanAMachineHolds) {
   expect_error(small, {"body \"sphere\" takes a lattice of", "'cell_size'", "'per_cell'"});
 }
 
+// A plate that is thinner than a cell runs, with a warning; one of a cell, the column of a planar problem,
+// without.
+TEST(Case, WarnsOfBodiesThinnerThanACell) {
+  const auto plate = [](const char* thickness) {
+    return domain +
+           "[[body]]\nname = \"plate\"\nmaterial = \"copper.toml\"\nshape = { box = { lower = [\"-2 mm\", "
+           "\"-2 mm\", \"-5 mm\"], upper = [\"2 mm\", \"2 mm\", \"" +
+           std::string(thickness) + "\"] } }\n";
+  };
+  const std::vector<std::string> thin = placement_warnings(read_case_text(plate("-4.4 mm"), "case.toml"));
+  ASSERT_EQ(thin.size(), 1U);
+  EXPECT_EQ(thin[0].find("body \"plate\" is thinner than a cell: 0.6 mm along z, cells of 1 mm"), 0U)
+      << thin[0];
+  EXPECT_TRUE(placement_warnings(read_case_text(plate("-4 mm"), "case.toml")).empty());
+}
+
+// Their meshes would fill the memory before anything can refuse them.
+TEST(Case, RefusesMoreElementsThanAMachineHolds) {
+  const std::string elements = sphere + "discretization = { method = \"finite_elements\" }\n";
+  expect_error(replaced(domain + elements, "cell_size = \"1 mm\"", "cell_size = \"0.02 mm\""),
+               {"body \"sphere\" takes a lattice of", "elements"});
+}
+
+TEST(Case, AnEmptyMaterialIsRefused) {
+  expect_error(domain + replaced(sphere, "\"copper.toml\"", "\"\""), {"case.toml:", "'material' is empty"});
+}
+
 TEST(Case, AFaultyShapeIsNotPlaced) {
   const std::string text = replaced(domain + sphere, "radius = \"3 mm\"", "radius = \"-3 mm\"");
   const std::string error = error_of(text);

@@ -63,6 +63,40 @@ struct Problem {
   }
 };
 
+/// Sides of a column of cells along x.
+inline constexpr const char* column_sides =
+    "boundary = { y_lower = \"symmetry\", y_upper = \"symmetry\", z_lower = \"symmetry\", "
+    "z_upper = \"symmetry\" }\n";
+
+/// Two elastic bars that meet head-on, a gap of 0.3 cells apart at the start, in a column of one cell; exact:
+/// each leaves with its velocity reversed.
+struct MeetingBars {
+  static constexpr double length = 0.02, speed = 20.0;  // m, m/s
+  double dx, gap;
+  explicit MeetingBars(int cells) : dx(length / cells), gap(0.3 * dx) {}
+  [[nodiscard]] double touch() const { return 0.5 * gap / speed; }
+  /// @param left, right  further lines of the bodies
+  [[nodiscard]] Problem problem(const std::string& left = {}, const std::string& right = {}) const {
+    Problem problem;
+    problem.method.linear_viscosity = problem.method.quadratic_viscosity = 0.0;
+    problem.end = 1.6 * 2.0 * length / 5328.0 + touch();
+    problem.domain = "[domain]\nlower = [-0.03, 0, 0]\nupper = " + vector3({0.03, dx, dx}) +
+                     "\ncell_size = " + number(dx) + "\n" + column_sides;
+    problem.contact = ContactOptions{}.toml();
+    problem.bodies = {{"left",
+                       elastic_aluminium(),
+                       box({-length - gap / 2, 0, 0}, {-gap / 2, dx, dx}),
+                       {speed, 0, 0},
+                       left},
+                      {"right",
+                       elastic_aluminium(),
+                       box({gap / 2, 0, 0}, {length + gap / 2, dx, dx}),
+                       {-speed, 0, 0},
+                       right}};
+    return problem;
+  }
+};
+
 struct BodySums {
   double mass = 0.0;
   Vector3 momentum = Vector3::Zero(), centre = Vector3::Zero(), spin = Vector3::Zero();

@@ -14,26 +14,15 @@
 namespace whipple::verification {
 namespace {
 
-constexpr const char* column =
-    "boundary = { y_lower = \"symmetry\", y_upper = \"symmetry\", z_lower = \"symmetry\", "
-    "z_upper = \"symmetry\" }\n";
-
-/// Two elastic bars of 20 mm meet head-on at 2 x 20 m/s; column of one cell.
+/// Two elastic bars of 20 mm meet head-on at 2 x 20 m/s.
 struct Rebound {
   double restitution, heat, clearance;
 };
 Rebound rebound(int cells) {
-  constexpr double length = 0.02, speed = 20.0;
-  const double dx = length / cells, gap = 0.3 * dx;
-  Problem problem;
-  problem.method.linear_viscosity = problem.method.quadratic_viscosity = 0.0;
-  problem.end = 1.6 * 2.0 * length / 5328.0 + 0.5 * gap / speed;
-  problem.domain = "[domain]\nlower = [-0.03, 0, 0]\nupper = " + vector3({0.03, dx, dx}) +
-                   "\ncell_size = " + number(dx) + "\n" + column;
-  problem.contact = ContactOptions{}.toml();
-  problem.bodies = {
-      {"left", elastic_aluminium(), box({-length - gap / 2, 0, 0}, {-gap / 2, dx, dx}), {speed, 0, 0}},
-      {"right", elastic_aluminium(), box({gap / 2, 0, 0}, {length + gap / 2, dx, dx}), {-speed, 0, 0}}};
+  constexpr double length = MeetingBars::length, speed = MeetingBars::speed;
+  const MeetingBars bars(cells);
+  const Problem problem = bars.problem();
+  const double dx = bars.dx;
   solver::Simulation simulation(problem.read(), parallel::world());
   EnergyWatch watch;
   double momentum = 0;
@@ -270,7 +259,7 @@ TEST(Contact, BodiesDoNotFeelOneAnotherBeforeTheyTouch) {
     Problem problem;
     problem.end = 5e-6;
     problem.domain = "[domain]\nlower = [-0.012, 0, 0]\nupper = " + vector3({0.012, dx, dx}) +
-                     "\ncell_size = 0.001\n" + column;
+                     "\ncell_size = 0.001\n" + column_sides;
     problem.contact = contact;
     problem.bodies = {{"left", elastic_aluminium(), box({-8e-3, 0, 0}, {0, dx, dx}), {speed, 0, 0}},
                       {"right", elastic_aluminium(), box({gap, 0, 0}, {8e-3, dx, dx}), {-speed, 0, 0}}};

@@ -18,9 +18,6 @@
 namespace whipple::verification {
 namespace element_contact_test {
 
-constexpr const char* column =
-    "boundary = { y_lower = \"symmetry\", y_upper = \"symmetry\", z_lower = \"symmetry\", "
-    "z_upper = \"symmetry\" }\n";
 const std::string elements = "discretization = { method = \"finite_elements\" }\n";
 const std::string particles = "";
 
@@ -36,29 +33,15 @@ struct Watch {
 /// Two elastic bars of 20 mm meet head-on at 2 x 20 m/s; column of one cell. Exact: each leaves with its
 /// velocity reversed.
 double restitution(int cells, const std::string& of_left, const std::string& of_right) {
-  constexpr double length = 0.02, speed = 20.0;
-  const double dx = length / cells, gap = 0.3 * dx;
-  Problem problem;
-  problem.method.linear_viscosity = problem.method.quadratic_viscosity = 0.0;
-  problem.end = 1.6 * 2.0 * length / 5328.0 + 0.5 * gap / speed;
-  problem.domain = "[domain]\nlower = [-0.03, 0, 0]\nupper = " + vector3({0.03, dx, dx}) +
-                   "\ncell_size = " + number(dx) + "\n" + column;
-  problem.contact = ContactOptions{}.toml();
-  problem.bodies = {{"left",
-                     elastic_aluminium(),
-                     box({-length - gap / 2, 0, 0}, {-gap / 2, dx, dx}),
-                     {speed, 0, 0},
-                     of_left},
-                    {"right",
-                     elastic_aluminium(),
-                     box({gap / 2, 0, 0}, {length + gap / 2, dx, dx}),
-                     {-speed, 0, 0},
-                     of_right}};
+  constexpr double length = MeetingBars::length, speed = MeetingBars::speed;
+  const MeetingBars bars(cells);
+  const Problem problem = bars.problem(of_left, of_right);
+  const double dx = bars.dx;
   solver::Simulation simulation(problem.read(), parallel::world());
   Watch watch;
   run_to(simulation, problem.end, [&](const solver::Simulation& s) {
     watch(s);
-    if (s.state().time < 0.5 * gap / speed * (1 - 1e-9)) {  // the gap test holds for surfaces of elements
+    if (s.state().time < bars.touch() * (1 - 1e-9)) {  // the gap test holds for surfaces of elements
       EXPECT_EQ(s.state().ledger.contact_impulse, 0.0);
     }
   });
