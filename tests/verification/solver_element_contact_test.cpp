@@ -221,9 +221,10 @@ struct Hertz {
   }
 };
 
-/// Two equal spheres of elastic elements meet at 45 degrees to the line between their centres. Force and duration
-/// are near those of Hertz; the restitution is not: the contact area is two elements wide, and what it loses
-/// shrinks with the elements (docs/theory/contact.md, 5). The bound on it only keeps it from getting worse.
+/// Two equal spheres of elastic elements meet at 45 degrees to the line between their centres. Force and
+/// duration are near those of Hertz; the restitution is not: the contact area is two elements wide, and what
+/// it loses shrinks with the elements (docs/theory/contact.md, 5). The bound on it only keeps it from getting
+/// worse.
 TEST(ElementContact, ObliqueImpactOfElasticSpheresBesideHertz) {
   constexpr double radius = 5e-3, speed = 200.0, dx = 2 * radius / 16;
   const Vector3 direction = Vector3(1.0, 0.8, 0.6) / std::numbers::sqrt2;  // from one centre to the other
