@@ -45,8 +45,7 @@ TEST_P(EosTableMetals, InAllPhasesWithEquilibriumMelting) {
   expect_requested_error(*read_material(file).eos, GetParam(), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Library, EosTableMetals,
-                         testing::Values("aluminium", "lead", "tantalum", "tungsten", "nickel", "titanium"),
+INSTANTIATE_TEST_SUITE_P(Library, EosTableMetals, testing::Values("aluminium", "tantalum", "nickel"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
