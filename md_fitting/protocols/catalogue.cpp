@@ -7,7 +7,7 @@ namespace whipple::md {
 
 std::span<const Protocol> protocols() {
   static constexpr std::array all = {
-      Protocol{"zero_pressure_volume", 2, add_zero_pressure},
+      Protocol{"zero_pressure_volume", 3, add_zero_pressure},
       Protocol{"lattice", 1, add_lattice},
       Protocol{"coexistence", 3, add_coexistence},
       Protocol{"isotherm", 3, add_isotherms},

@@ -121,6 +121,21 @@ SeriesMean series_statistics(std::span<const double> series) {
   return {{mean, std::sqrt(2.0 * time * bias * variance / (n - 1.0))}, variance, std::sqrt(4.0 * time / n)};
 }
 
+Estimate series_covariance(std::span<const double> first, std::span<const double> second) {
+  if (first.size() != second.size()) throw InternalError("two series of different length have no covariance");
+  const auto n = static_cast<double>(first.size());
+  const double mean_first = series_mean(first).value;
+  const double mean_second = series_mean(second).value;
+  std::vector<double> deviations(first.begin(), first.end());
+  for (double& value : deviations) value -= mean_first;
+  std::vector<double> products(first.size());
+  for (std::size_t i = 0; i < products.size(); ++i) products[i] = deviations[i] * (second[i] - mean_second);
+  const double period = vibration_period(deviations, autocovariance(deviations, 0));
+  if (period == 0.0) return series_mean(products);
+  return {std::accumulate(products.begin(), products.end(), 0.0) / n,
+          error_with_blocks(products, static_cast<std::size_t>(std::lround(period)))};
+}
+
 double error_correlation(std::span<const double> first, std::span<const double> second) {
   if (first.size() != second.size())
     throw InternalError("two series of different length have no correlation");

@@ -25,6 +25,12 @@ struct SeriesMean {
 };
 SeriesMean series_statistics(std::span<const double> series);
 
+/// Covariance of two series that were sampled together, with its standard error. If the first mostly
+/// vibrates, the products of the deviations beat with its period, and the error is that of their means over
+/// single periods; else that of `series_mean`. docs/theory/molecular_dynamics.md, "Errors".
+/// @throws as `series_mean`; InternalError for different lengths.
+Estimate series_covariance(std::span<const double> first, std::span<const double> second);
+
 /// Means over the 16 longest blocks of equal length; what is left over at the beginning is dropped. They are
 /// what a bootstrap over blocks draws from.
 /// @throws InternalError for fewer than 16 samples.

@@ -64,14 +64,9 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
 
 Estimate thermal_expansion(std::span<const double> volume, std::span<const double> energy, double atoms,
                            double temperature) {
-  const double mean_volume = series_mean(volume).value;
-  const double mean_energy = series_mean(energy).value;
-  std::vector<double> product(volume.size());
-  const double scale = atoms / (metal::boltzmann * temperature * temperature * mean_volume);
-  for (std::size_t i = 0; i < product.size(); ++i) {
-    product[i] = scale * (volume[i] - mean_volume) * (energy[i] - mean_energy);
-  }
-  return series_mean(product);
+  const double scale = atoms / (metal::boltzmann * temperature * temperature * series_mean(volume).value);
+  const Estimate covariance = series_covariance(volume, energy);
+  return {scale * covariance.value, scale * covariance.error};
 }
 
 void add_zero_pressure(const Plan& plan, TaskList& list) {

@@ -90,10 +90,12 @@ inline void scale(SymmetricLanes& lanes, std::size_t k, double factor) {
   for (Lanes& lane : lanes) lane[k] *= factor;
 }
 
-/// Share of the stiffness that a point still has: 1 - melted, less its damage if that softens; 0 failed.
+/// Share of the stiffness that a point still has: that of the solid, less its damage if that softens; 0
+/// failed.
 inline double solid_fraction(const Step& step, const Chunk& chunk, std::size_t k) {
   if (chunk.failed[k] != failure::intact) return 0.0;
-  return (1.0 - chunk.melted[k]) * (step.material.softens ? 1.0 - chunk.damage[k] : 1.0);
+  return shear_bearing_fraction(chunk.melted[k], chunk.vaporised[k]) *
+         (step.material.softens ? 1.0 - chunk.damage[k] : 1.0);
 }
 
 /// Share of a change of the whole volume that goes to the voids of a point: all of it where the point has

@@ -172,7 +172,7 @@ void initialise(const Material& material, MaterialPoints& points, std::size_t be
   const std::array rho = {state.density}, p = {state.pressure}, kelvin = {state.temperature}, strain = {0.0};
   std::array<double, 1> modulus = {};
   material.strength->shear_modulus({rho, p, kelvin, strain}, modulus);
-  const double solid = 1.0 - state.melted_fraction;
+  const double solid = shear_bearing_fraction(state.melted_fraction, state.vaporised_fraction);
   const double sound =
       std::sqrt(state.sound_speed * state.sound_speed + 4.0 / 3.0 * solid * modulus[0] / state.density);
   const double porosity = initial_porosity(material);

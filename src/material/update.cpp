@@ -54,6 +54,7 @@ void gather(Step& step, Chunk& chunk) {
   chunk.fetch(points.plastic_strain, chunk.plastic_strain);
   chunk.fetch(points.sound_speed, chunk.sound_speed);
   chunk.fetch(points.melted_fraction, chunk.melted);
+  chunk.fetch(points.vaporised_fraction, chunk.vaporised);
   chunk.fetch(points.failed, chunk.failed);
   if (step.material.stores_cold_work()) chunk.fetch(points.stored_cold_work, chunk.stored_cold_work);
   if (step.material.failure.empty() && !step.material.brittle) {
@@ -68,7 +69,7 @@ void gather(Step& step, Chunk& chunk) {
     void_volume = std::max(void_volume, chunk.void_volume[k]);
     chunk.old_volume[k] = chunk.volume[k];
     chunk.density[k] = chunk.mass[k] / chunk.volume[k];
-    chunk.solid_fraction[k] = 1.0 - chunk.melted[k];
+    chunk.solid_fraction[k] = shear_bearing_fraction(chunk.melted[k], chunk.vaporised[k]);
   }
   chunk.any_failed = failed != 0;
   chunk.any_void = void_volume > 0.0;

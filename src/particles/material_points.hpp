@@ -26,6 +26,12 @@ Field(const char*, const char*, std::vector<Value> Points::*, bool) -> Field<Poi
 constexpr double never = -1.0;        ///< time of what has not happened, s
 constexpr double melted_share = 0.5;  ///< melted mass fraction that counts as melted
 
+/// Mass fraction of a solid that bears shear: 1 - melted; 0 beside vapour, which fills the volume even where
+/// most of the mass is still solid.
+inline double shear_bearing_fraction(double melted_fraction, double vaporised_fraction) {
+  return vaporised_fraction > 0.0 ? 0.0 : 1.0 - melted_fraction;
+}
+
 /// State of matter at points, one array per field (SI): what MPM particles and Gauss points of finite
 /// elements share, so that `update_material` is one code path.
 struct MaterialPoints {

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -25,19 +26,33 @@ namespace {
 constexpr std::array forwarded_signals = {SIGINT, SIGTERM, SIGUSR1};
 
 // A signal handler can reach nothing but variables of static storage.
-volatile std::sig_atomic_t child = 0;
-volatile std::sig_atomic_t last_forwarded = 0;
+std::atomic<pid_t> child = 0;
+std::atomic<unsigned> pending = 0;  ///< signals that the child has still to get, a bit each
+std::atomic<int> last_forwarded = 0;
+static_assert(std::atomic<pid_t>::is_always_lock_free && std::atomic<unsigned>::is_always_lock_free);
+
+/// Sends the child what is pending, once it is known. Whichever thread comes last, nothing is lost.
+void send_pending() {
+  const pid_t pid = child;
+  if (pid <= 0) return;
+  const unsigned signals = pending.exchange(0U);
+  for (const int signal : forwarded_signals) {
+    if ((signals >> static_cast<unsigned>(signal) & 1U) != 0) kill(pid, signal);
+  }
+}
 
 extern "C" void pass_on(int signal, siginfo_t* info, void* /*context*/) {
   last_forwarded = signal;
   // The terminal sends its signals to the whole foreground group: the child has this one already, and mpirun
   // takes a second SIGINT as the order to kill its ranks.
   const bool from_terminal = info->si_code == SI_KERNEL;
-  if (child > 0 && !from_terminal) kill(child, signal);
+  if (from_terminal) return;
+  pending |= 1U << static_cast<unsigned>(signal);
+  send_pending();
 }
 
-/// Routes the signals to `pass_on`, and holds them back until `release`: none is lost between the start of
-/// the child and the moment its process id is known.
+/// Routes the signals to `pass_on`, and holds them back in this thread until `release`. Other threads may get
+/// one before the process id of the child is known: it stays pending.
 class SignalForwarding {
  public:
   SignalForwarding() {
@@ -51,6 +66,7 @@ class SignalForwarding {
       sigaction(forwarded_signals[i], &action, &former_[i]);
     }
     last_forwarded = 0;
+    pending = 0U;
     sigprocmask(SIG_BLOCK, &blocked, &former_mask_);
   }
   SignalForwarding(const SignalForwarding&) = delete;  // owns the handlers of the process
@@ -120,6 +136,7 @@ int run_process(const std::vector<std::string>& arguments, const Environment& en
   const SignalForwarding forwarding;
   const pid_t pid = start(arguments, environment, forwarding.former_mask());
   child = pid;
+  send_pending();
   forwarding.release();
 
   int status = 0;

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <thread>
 
+#include "src/material/material_file.hpp"
 #include "tests/unit/material_support.hpp"
 
 namespace whipple {
@@ -367,6 +368,26 @@ TEST(Melting, HeatingAStressedPointScalesItsStressWithTheSolidAndDoesNotStrainIt
   points.specific_internal_energy[0] = 300e3;  // freezes: free of stress
   update_material(material, points, 0, 1, std::span(&rest, 1), without_viscosity(1e-7));
   EXPECT_EQ(points.deviatoric_stress[0].squared_norm(), 0.0);
+}
+
+// Aluminium expanded to a cold vapour, a seventh of whose mass is solid: a gas, without stress and no faster
+// than a gas (with the stiffness of that seventh it would have 400 km/s).
+TEST(Melting, WhatIsSolidBesideVapourBearsNoShear) {
+  const Material material = read_material("aluminium");
+  MaterialPoints points = points_of(material, 1);
+  points.volume[0] = points.mass[0] / 0.0327;
+  points.specific_internal_energy[0] = 7.895e6;
+  points.deviatoric_stress[0] = {0, 0, 0, 1e6, 0, 0};
+  Matrix3 gradient = Matrix3::Zero();
+  update_material(material, points, 0, 1, std::span(&gradient, 1), without_viscosity(1e-9));
+  ASSERT_LT(points.melted_fraction[0], 0.9);
+  ASSERT_GT(points.vaporised_fraction[0], 0.5);
+  EXPECT_EQ(points.deviatoric_stress[0].squared_norm(), 0.0);
+  gradient(0, 1) = 1e6;
+  update_material(material, points, 0, 1, std::span(&gradient, 1), without_viscosity(1e-9));
+  EXPECT_EQ(points.deviatoric_stress[0].squared_norm(), 0.0);
+  EXPECT_LT(points.sound_speed[0],
+            600.0);  // a tenth of that of the metal, the least that the time step counts on
 }
 
 TEST(Viscosity, ActsInCompressionOnlyWithThePublishedForm) {

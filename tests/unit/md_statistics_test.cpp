@@ -99,6 +99,35 @@ TEST(SeriesMean, DoesNotTakeAnOscillationForSlowMotion) {
   EXPECT_NEAR(std::sqrt(squared_mean / squared_error), 1.0, 0.35);
 }
 
+// Volume and energy under a barostat: vibrations of different phase and slowly changing amplitude with a
+// common correlated part. Their products beat; the stated error must be that of the scatter over runs.
+TEST(SeriesCovariance, IsHonestForVibrations) {
+  constexpr std::size_t length = 1000;
+  constexpr unsigned runs = 60;
+  std::vector<Estimate> estimates;
+  for (unsigned seed = 0; seed < runs; ++seed) {
+    std::vector<double> first = autoregressive(3 * seed);
+    std::vector<double> second = autoregressive(3 * seed + 1);
+    const std::vector<double> amplitude = autoregressive(3 * seed + 2);
+    first.resize(length), second.resize(length);
+    for (std::size_t i = 0; i < length; ++i) {
+      second[i] += first[i];
+      const double phase = 2.0 * M_PI * static_cast<double>(i) / 18.0 + seed;
+      first[i] += (8.0 + 2.0 * amplitude[i]) * std::cos(phase);
+      second[i] += 4.0 * std::cos(phase + 0.3);
+    }
+    estimates.push_back(series_covariance(first, second));
+  }
+  double mean = 0.0;
+  double stated = 0.0;
+  for (const Estimate& run : estimates) mean += run.value / runs, stated += run.error * run.error / runs;
+  double squares = 0.0;
+  for (const Estimate& run : estimates) squares += (run.value - mean) * (run.value - mean);
+  EXPECT_NEAR(mean, 1.0 / (1.0 - correlation * correlation) + 0.5 * 8.0 * 4.0 * std::cos(0.3), 1.0);
+  EXPECT_NEAR(std::sqrt(squares / (runs - 1) / stated), 1.0, 0.35);
+  EXPECT_THROW(series_covariance(std::vector<double>(20), std::vector<double>(21)), InternalError);
+}
+
 TEST(SeriesMean, RefusesWhatHasNoError) {
   EXPECT_THROW(series_mean(std::vector<double>(15, 1.0)), InternalError);
   std::vector<double> series(100, 1.0);

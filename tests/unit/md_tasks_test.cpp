@@ -18,7 +18,7 @@ namespace {
 /// Of the algorithm of a protocol.
 std::string revision(const std::string& protocol) {
   if (protocol == "lattice") return "1";
-  return protocol == "zero_pressure_volume" ? "2" : "3";
+  return "3";
 }
 
 /// The key of docs/theory/molecular_dynamics.md, "The store", written out: format 1 of the store.
