@@ -11,6 +11,7 @@
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
 #include "src/parallel/mpi.hpp"
+#include "src/parallel/threads.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {
@@ -160,13 +161,14 @@ void Simulation::advance_elements() {
       step_.wall_impulse += balance.impulse;
       step_.external_work += balance.work;
       step_.wall_impulse += afemp::stop_at_faces(mesh.nodes, setup_.geometry, dt, motions_[m], node_heat_[m]);
+      const bool heated = std::ranges::any_of(node_heat_[m], [](double heat) { return heat != 0.0; });
       for (const double heat : node_heat_[m]) step_.transfer_heat += heat;
       book_gravity(mesh.nodes, motions_[m]);
       element_gradient_[m].resize(mesh.points.size());
       const fem::DeformationReport report =
           fem::deform(mesh, motions_[m], dt, hourglass(body.discretization), element_gradient_[m]);
       step_.work += report.work;
-      fem::add_heat(mesh, node_heat_[m]);
+      if (heated) fem::add_heat(mesh, node_heat_[m]);
       fem::move_nodes(mesh, motions_[m], dt);
       if (report.inverted == 0 || !error.empty()) continue;
       error = describe_element(
@@ -191,23 +193,22 @@ void Simulation::remove_elements_outside() {
   const grid::Geometry& g = setup_.geometry;
   bool gone_any = false;
   for (fem::Mesh& mesh : meshes_) {
-    std::vector<std::uint8_t> outside(mesh.nodes.size(), 0);
-    bool any = false;
-    for (std::size_t a = 0; a < outside.size(); ++a) {
+    const auto is_outside = [&](std::size_t a) {
       const Vector3& x = mesh.nodes.position[a];
       for (int axis = 0; axis < 3; ++axis) {
         // Nodes on walls may stand beyond them by round-off.
         const bool low = x[axis] < g.lower[axis], beyond = low || x[axis] > g.upper(axis);
         const auto face = static_cast<std::size_t>(2 * axis + (low ? 0 : 1));
-        if (beyond && g.boundary[face] == grid::Boundary::outflow) outside[a] = 1;
+        if (beyond && g.boundary[face] == grid::Boundary::outflow) return true;
       }
-      any = any || outside[a] != 0;
-    }
-    if (!any) continue;
+      return false;
+    };
+    const double any =
+        parallel::maximum(mesh.nodes.size(), 0.0, [&](std::size_t a) { return is_outside(a) ? 1.0 : 0.0; });
+    if (any == 0.0) continue;
     std::vector<std::uint8_t> removed(mesh.elements.size(), 0);
     for (std::size_t e = 0; e < removed.size(); ++e) {
-      removed[e] =
-          std::ranges::all_of(mesh.elements.corners[e], [&](std::uint32_t a) { return outside[a] != 0; });
+      removed[e] = std::ranges::all_of(mesh.elements.corners[e], is_outside);
     }
     if (std::ranges::count(removed, 1) == 0) continue;
     const Totals before = totals_of(mesh, particle_affine_inertia());

@@ -12,7 +12,7 @@
 #include "md_fitting/lammps/eam_files.hpp"
 #include "md_fitting/lammps/potential.hpp"
 #include "src/base/error.hpp"
-#include "tests/unit/md_temporary_folder.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::md {
 namespace {

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "md_fitting/data_set/data_set.hpp"
-#include "tests/unit/md_temporary_folder.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 /// whipple-md as its users start it, alone or under mpirun.
 namespace whipple::md::testing {

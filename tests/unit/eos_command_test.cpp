@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/unit/md_temporary_folder.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::app {
 namespace {
@@ -36,7 +36,7 @@ class EosCommand : public ::testing::Test {
   }
   [[nodiscard]] std::string output() const { return read("output.txt"); }
 
-  md::TemporaryFolder folder;
+  TemporaryFolder folder;
 };
 
 TEST_F(EosCommand, StateTakesEveryPairOfQuantities) {

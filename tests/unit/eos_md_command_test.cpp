@@ -10,7 +10,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/unit/md_temporary_folder.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::app {
 namespace {
@@ -55,7 +55,7 @@ steps = 400
   }
   [[nodiscard]] std::string output() const { return content_of(folder.path() / "output.txt"); }
 
-  md::TemporaryFolder folder;
+  TemporaryFolder folder;
 };
 
 TEST_F(SimulatedMaterial, SimulatesOnceAndAnswersTheSame) {
@@ -79,7 +79,7 @@ TEST_F(SimulatedMaterial, UnknownPotentialIsAnInputError) {
 // picosecond or two per point), its constants near those of long runs (docs/results_md.md: V0 = 0.1135
 // cm^3/g, C = 3.90 km/s, S = 1.32, gamma0 = 1.86), and the same bytes from a second fit.
 TEST(PlanToMaterial, SmallestPlanIsSimulatedAndFitted) {
-  const md::TemporaryFolder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder.path() / "small.toml") << R"(
 element = "Cu"
 potential = "copper_universal_3"

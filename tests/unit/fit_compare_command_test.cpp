@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/unit/md_temporary_folder.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::app {
 namespace {
@@ -33,7 +33,7 @@ class CompareCommand : public ::testing::Test {
   }
   [[nodiscard]] std::string output() const { return read_text(folder.path() / "output.txt"); }
 
-  md::TemporaryFolder folder;
+  TemporaryFolder folder;
 };
 
 TEST_F(CompareCommand, PrintsOneRowPerMaterialAndExperiment) {

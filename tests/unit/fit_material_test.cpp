@@ -23,7 +23,7 @@
 #include "src/material/material_file.hpp"
 #include "src/material/material_samples.hpp"
 #include "tests/unit/fit_support.hpp"
-#include "tests/unit/md_temporary_folder.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::fit {
 namespace {
@@ -73,7 +73,7 @@ class FitMaterial : public ::testing::Test {
 
   /// Appending rewrites the whole store: it is done once, and copied for each test.
   struct Shared {
-    md::TemporaryFolder folder;
+    TemporaryFolder folder;
     std::filesystem::path file = folder.path() / "copper.md.h5";
     Shared() {
       const SyntheticStore points(true_constants(), Noise{}, 11);
@@ -98,7 +98,7 @@ class FitMaterial : public ::testing::Test {
   }
   [[nodiscard]] std::string output() const { return read_text(folder.path() / "output.txt"); }
 
-  md::TemporaryFolder folder;
+  TemporaryFolder folder;
   std::filesystem::path file = folder.path() / "copper.md.h5";
   SyntheticStore store{true_constants(), Noise{}, 11};
 };

@@ -16,7 +16,7 @@
 #include "src/base/error.hpp"
 #include "src/base/hash.hpp"
 #include "src/hdf5/hdf5.hpp"
-#include "tests/unit/md_temporary_folder.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::md {
 namespace {

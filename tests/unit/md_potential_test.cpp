@@ -10,7 +10,7 @@
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/lammps/zhou_2004.hpp"
 #include "src/base/error.hpp"
-#include "tests/unit/md_temporary_folder.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::md {
 namespace {

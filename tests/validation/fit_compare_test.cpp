@@ -15,7 +15,7 @@
 #include "eos/models/gray.hpp"
 #include "src/app/compare_data.hpp"
 #include "src/base/error.hpp"
-#include "tests/unit/md_temporary_folder.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::app {
 namespace {
@@ -121,7 +121,7 @@ TEST(Compare, PressureVolumeHugoniotIsRecognisedByItsComments) {
 // Points taken from the model's own Hugoniot and isotherm must leave no deviation: the jump conditions and
 // the volume ratio are those of the loci.
 TEST(Compare, OwnCurvesLeaveNoDeviation) {
-  const md::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const Material material = copper(true);
   const eos::Hugoniot hugoniot(*material.eos, material.reference.density,
                                material.reference.specific_internal_energy);
@@ -160,7 +160,7 @@ TEST(Compare, OwnCurvesLeaveNoDeviation) {
 }
 
 std::string refusal(const std::string& text, const std::string& name = "measurement.csv") {
-  const md::TemporaryFolder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder.path() / name) << text;
   try {
     read_experiment(folder.path() / name);

@@ -15,7 +15,7 @@
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
-#include "tests/unit/md_temporary_folder.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::md {
 namespace {

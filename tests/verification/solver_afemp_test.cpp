@@ -113,14 +113,13 @@ TEST(Adaptive, ResultIsBitwiseTheSameForOneAndTwoThreads) {
 }
 
 TEST(Adaptive, RestartIsBitwiseTheRunThatGoesOn) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("whipple_afemp_" + std::to_string(::getpid()));
+  const TemporaryFolder folder;
   for (const char* element : {"one_point", "b_bar"}) {
     const setup::Case setup = read(impact("adaptive", element));
     Simulation whole(setup, parallel::world());
     // In the middle of contact and conversion; steps, as times would shorten them.
     for (int step = 0; step < 15; ++step) whole.advance(2e-6);
-    Simulation restarted = restored(setup, save(whole, folder), parallel::world());
+    Simulation restarted = restored(setup, save(whole, folder.path()), parallel::world());
     for (int step = 0; step < 15; ++step) {
       whole.advance(2e-6);
       restarted.advance(2e-6);
@@ -128,7 +127,6 @@ TEST(Adaptive, RestartIsBitwiseTheRunThatGoesOn) {
     EXPECT_GT(whole.state().ledger.converted_mass, 0.0);
     expect_same(whole, restarted);
   }
-  std::filesystem::remove_all(folder);
 }
 
 // A bar that flies and vibrates by itself never meets the grid: the solver makes of it what the library of

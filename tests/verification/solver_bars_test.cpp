@@ -2,7 +2,6 @@
 // Bars that reinforce a body of particles (hybrid finite element material point method; docs/theory/afemp.md,
 // 5): stiffness and wave speed of the composite, conservation, yield and rupture, restart, bad input.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -159,10 +158,8 @@ TEST(Bars, ImpactKeepsEnergyAndMomentumAndRestartsBitwise) {
     whole.advance(6e-6);
     watch(whole);
   }
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("whipple_bars_" + std::to_string(::getpid()));
-  solver::Simulation restarted = restored(setup, save(whole, folder), parallel::world());
-  std::filesystem::remove_all(folder);
+  const TemporaryFolder folder;
+  solver::Simulation restarted = restored(setup, save(whole, folder.path()), parallel::world());
   for (int step = 0; step < 10; ++step) {
     whole.advance(6e-6);
     restarted.advance(6e-6);

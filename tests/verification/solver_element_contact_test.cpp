@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact of bodies of elements with one another and with particles (docs/theory/contact.md, 3 and 5).
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -277,13 +276,11 @@ TEST(ElementContact, ObliqueImpactOfElasticSpheresBesideHertz) {
 
 // Contact finds everything anew in each step; the checkpoint holds nothing of it.
 TEST(ElementContact, ARestartIsBitwiseTheRunThatGoesOn) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("whipple_element_contact_" + std::to_string(::getpid()));
+  const TemporaryFolder folder;
   const setup::Case setup = impact({.friction = 0.3}, ball).read();
   solver::Simulation whole(setup, parallel::world());
   for (int step = 0; step < 25; ++step) whole.advance(2e-6);
-  solver::Simulation restarted = restored(setup, save(whole, folder), parallel::world());
-  std::filesystem::remove_all(folder);
+  solver::Simulation restarted = restored(setup, save(whole, folder.path()), parallel::world());
   const double before = whole.state().ledger.contact_impulse;
   for (int step = 0; step < 15; ++step) {
     whole.advance(2e-6);

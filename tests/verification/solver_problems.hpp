@@ -2,7 +2,6 @@
 #pragma once
 
 #include <mpi.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <functional>
@@ -12,6 +11,7 @@
 #include "src/parallel/mpi.hpp"
 #include "src/setup/case.hpp"
 #include "src/solver/simulation.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 /// Tools of the verification problems.
 namespace whipple::verification {
@@ -41,10 +41,10 @@ struct Method {
   }
 };
 
-/// A material file of the process's own in a temporary folder; returns its path.
+/// A material file in a folder of the process's own, which goes with it; returns its path.
 inline std::string write_material(const std::string& name, const std::string& text) {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() /
-                                     ("whipple_" + name + "_" + std::to_string(::getpid()) + ".toml");
+  static const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / (name + ".toml");
   io::write_text_atomically(path, text);
   return path.string();
 }

@@ -6,13 +6,13 @@
 #include <stdexcept>
 #include <string>
 
-namespace whipple::md {
+namespace whipple {
 
 /// A folder of its own for one test, removed at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "whipple_md_XXXXXX").string();
+    std::string name = (std::filesystem::temp_directory_path() / "whipple_XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
     path_ = name;
   }
@@ -28,4 +28,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace whipple::md
+}  // namespace whipple
