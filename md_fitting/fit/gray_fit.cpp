@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <exception>
+#include <stdexcept>
 
 #include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/element_defaults.hpp"
@@ -24,8 +27,14 @@ using eos::GrayConstants;
 
 constexpr std::size_t least_saturations = 2;
 
+/// V_J/V0 is a choice for each element. Where the fitted constants have no complete material with it, or no
+/// melt at the simulated melting point, one near it is taken: these steps from it, in this order.
+constexpr std::array join_steps = {0.0, -0.05, 0.05, -0.1, 0.1};
+
 /// Everything that is not fitted.
-SolidConstants fixed_constants(const Observations& data, const FitSettings& settings, Sources& sources) {
+/// @param join_step  from the table's V_J/V0
+SolidConstants fixed_constants(const Observations& data, const FitSettings& settings, double join_step,
+                               Sources& sources) {
   const ElementDefaults& table = element_defaults(data.element);
   SolidConstants solid = fixed_solid(data);
   GrayConstants& constants = solid.gray;
@@ -40,6 +49,7 @@ SolidConstants fixed_constants(const Observations& data, const FitSettings& sett
     number_of(constants, entry.parameter) = entry.value;
     sources.by_default(entry);
   }
+  constants.join_volume_ratio += join_step;
   constants.electronic_heat_coefficient = electronic_coefficient(table, settings.electrons, sources);
   constants.melting_temperature = table.melting_temperature.value;
   sources.by_default(table.melting_temperature);
@@ -150,13 +160,11 @@ void replace_volume(GrayFit& fit, double density, Sources& sources) {
   fit.fitted_names.erase(fit.fitted_names.begin());
 }
 
-}  // namespace
-
-GrayFit fit_gray(std::span<const md::PointRecord> points, const FitSettings& settings,
-                 const std::string& store_name) {
+GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings& settings,
+                      const std::string& store_name, double join_step) {
   Observations data = observe(points, settings, {}, store_name);
   Sources sources;
-  const SolidConstants fixed = fixed_constants(data, settings, sources);
+  const SolidConstants fixed = fixed_constants(data, settings, join_step, sources);
   const SolidModel model = gray_model(data);
   GrayFit fit;
   fit.solid = fit_solid(std::move(data), model, fixed, settings, store_name);
@@ -180,6 +188,29 @@ GrayFit fit_gray(std::span<const md::PointRecord> points, const FitSettings& set
   if (settings.density) replace_volume(fit, *settings.density, sources);
   list_constants(fit, whipple::bind(eos::gray_parameters(), fit.gray), sources);
   return fit;
+}
+
+}  // namespace
+
+GrayFit fit_gray(std::span<const md::PointRecord> points, const FitSettings& settings,
+                 const std::string& store_name) {
+  std::exception_ptr first;
+  std::string reason;
+  for (const double step : join_steps) {
+    try {
+      GrayFit fit = fit_with_join(points, settings, store_name, step);
+      if (step != 0.0) {
+        fit.remarks.push_back(fmt::format("V_J/V0 {} by {:.2f} from the element's default, with which: {}",
+                                          step > 0.0 ? "raised" : "lowered", std::abs(step), reason));
+      }
+      return fit;
+    } catch (const std::runtime_error& error) {  // InputError or StateError
+      if (first) continue;
+      first = std::current_exception();
+      reason = error.what();
+    }
+  }
+  std::rethrow_exception(first);
 }
 
 }  // namespace whipple::fit

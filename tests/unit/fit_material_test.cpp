@@ -169,6 +169,33 @@ spall_strength = "1.3 GPa"
 
 TEST_F(FitMaterial, SameInputGivesTheSameBytes) { EXPECT_EQ(text(), text()); }
 
+// Nickel's default V_J/V0 = 1.15 ends the liquid before zero pressure at the melting point of a potential
+// that melts at a larger volume: the fit takes one near it, and says so.
+TEST_F(FitMaterial, TheJoinOfTheVapourGivesWayToTheMelt) {
+  eos::GrayConstants nickel = testing::true_constants();
+  nickel.molar_mass = 0.05869;
+  nickel.reference_specific_volume = 0.11332e-3;
+  nickel.hugoniot_intercept = 4444.0;
+  nickel.hugoniot_slope = 1.32;
+  nickel.gruneisen = 2.03;
+  nickel.gruneisen_slope = 2.06;
+  nickel.melting_temperature = 2800.0;
+  nickel.join_volume_ratio = 1.3;
+  testing::SyntheticStore store(nickel, {.silent = true}, 1);
+  std::erase_if(store.points, [](const md::PointRecord& point) { return point.protocol == "coexistence"; });
+  store.add("coexistence", {{"pressure", 0.0}},
+            {{"melting_temperature", {1808.0, 10.0}},
+             {"solid_specific_volume", {1.08 * nickel.reference_specific_volume, 0.0}},
+             {"latent_heat", {2.7e5, 5e3}}});
+  std::vector<md::PointRecord>& points = store.points;
+  for (md::PointRecord& point : points) point.provenance["element"] = "Ni";
+  const GrayFit fit = fit_gray(points, {}, "store");
+  EXPECT_DOUBLE_EQ(fit.value("join_volume_ratio"), 1.2);
+  EXPECT_THAT(fit.remarks, Contains(HasSubstr("V_J/V0 raised by 0.05 from the element's default, with which: "
+                                              "the model has no liquid at")));
+  EXPECT_NEAR(fit.value("melting_temperature"), 2800.0, 0.1 * 2800.0);
+}
+
 TEST_F(FitMaterial, DensityReplacesTheFittedVolumeOnly) {
   FitSettings settings;
   const std::vector<md::PointRecord> points = md::read_store(file);
