@@ -176,7 +176,6 @@ GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings
   fit.covariance = solid.covariance;
   fit.statistical_covariance = solid.statistical_covariance;
   add_vapour(fit, solid.data);
-  if (settings.bootstrap > 0) fit.bootstrap = bootstrap_gray(points, solid, settings, store_name);
   try {
     fit.checks = check_gray(fit.gray, solid.data, points);
   } catch (const InputError& error) {
@@ -185,6 +184,7 @@ GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings
                     "coefficient {:.3g} mJ/(mol K^2): {}",
                     store_name, 1e3 * fit.gray.electronic_heat_coefficient, error.what()));
   }
+  if (settings.bootstrap > 0) fit.bootstrap = bootstrap_gray(points, solid, settings, store_name);
   if (settings.density) replace_volume(fit, *settings.density, sources);
   list_constants(fit, whipple::bind(eos::gray_parameters(), fit.gray), sources);
   return fit;

@@ -314,31 +314,29 @@ void distribute(const transfer::TransitionNodes& nodes, std::vector<fem::Mesh>& 
 
 Vector3 stop_at_faces(fem::Nodes& nodes, const grid::Geometry& geometry, double dt, fem::Motion& motion,
                       std::span<double> heat) {
-  return parallel::sum<fem::ConstraintBalance>(
-             nodes.size(),
-             [&](std::size_t a) {
-               fem::ConstraintBalance balance;
-               for (int axis = 0; axis < 3; ++axis) {
-                 const double next = nodes.position[a][axis] + dt * motion.end[a][axis];
-                 const bool low = next < geometry.lower[axis];
-                 if (!low && next <= geometry.upper(axis)) continue;
-                 const auto face = static_cast<std::size_t>(2 * axis + (low ? 0 : 1));
-                 if (geometry.boundary[face] == grid::Boundary::outflow) continue;
-                 const double plane = low ? geometry.lower[axis] : geometry.upper(axis);
-                 // The displacement ends on the face. Work is done on the mean velocity: of nodes on the grid
-                 // that of the grid, which has seen the face.
-                 motion.end[a][axis] = (plane - nodes.position[a][axis]) / dt;
-                 if (nodes.in_transition[a] != 0) continue;
-                 const double mass = nodes.mass[a], after = motion.end[a][axis],
-                              change = after - nodes.velocity[a][axis];
-                 motion.mean[a][axis] += 0.5 * change;
-                 nodes.velocity[a][axis] = after;
-                 balance.impulse[axis] += mass * change;
-                 heat[a] -= mass * change * motion.mean[a][axis];
-               }
-               return balance;
-             })
-      .impulse;
+  const auto stop = [&](std::size_t a) {
+    fem::ConstraintBalance balance;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double next = nodes.position[a][axis] + dt * motion.end[a][axis];
+      const bool low = next < geometry.lower[axis];
+      if (!low && next <= geometry.upper(axis)) continue;
+      const auto face = static_cast<std::size_t>(2 * axis + (low ? 0 : 1));
+      if (geometry.boundary[face] == grid::Boundary::outflow) continue;
+      const double plane = low ? geometry.lower[axis] : geometry.upper(axis);
+      // The displacement ends on the face. Work is done on the mean velocity: of nodes on the grid
+      // that of the grid, which has seen the face.
+      motion.end[a][axis] = (plane - nodes.position[a][axis]) / dt;
+      if (nodes.in_transition[a] != 0) continue;
+      const double mass = nodes.mass[a], after = motion.end[a][axis],
+                   change = after - nodes.velocity[a][axis];
+      motion.mean[a][axis] += 0.5 * change;
+      nodes.velocity[a][axis] = after;
+      balance.impulse[axis] += mass * change;
+      heat[a] -= mass * change * motion.mean[a][axis];
+    }
+    return balance;
+  };
+  return parallel::sum<fem::ConstraintBalance>(nodes.size(), stop).impulse;
 }
 
 }  // namespace whipple::afemp
