@@ -241,6 +241,8 @@ ConversionBalance convert_elements(fem::Mesh& mesh, std::span<const std::uint8_t
   for_each_field<MaterialPoints>([&](const auto& field) {  // optional ones that no particle needed so far
     if (!(mesh.points.*(field.values)).empty()) (particles.*(field.values)).resize(particles.size());
   });
+  particles.affine_velocity.resize(particles.size());
+  particles.extent.resize(particles.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::size_t e = list[i];
     const Conversion conversion = convert(mesh, e, affine_inertia);

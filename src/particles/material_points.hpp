@@ -16,7 +16,7 @@ struct Field {
   const char* name;
   const char* unit;
   std::vector<Value> Points::* values;
-  bool optional = false;  ///< empty unless some material of the run needs it
+  bool optional = false;  ///< empty unless a material or method of the run needs it
 };
 template <class Points, class Value>
 Field(const char*, const char*, std::vector<Value> Points::*) -> Field<Points, Value>;

@@ -12,12 +12,13 @@ namespace whipple {
 /// Material points that move through the grid. The solver keeps them sorted by body, then by block of the
 /// grid.
 struct Particles : MaterialPoints {
-  std::vector<std::uint64_t> id;         ///< unique, never changes
-  std::vector<std::uint32_t> body;       ///< index of the body in the case
-  std::vector<Vector3> position;         ///< m
-  std::vector<Vector3> velocity;         ///< m/s
-  std::vector<Matrix3> affine_velocity;  ///< 1/s: a_p(x) = v_p + C_p (x - x_p) (docs/theory/mpm.md, 1)
-  /// m^2: sum of r r^T over the three half-edges r of the particle's domain (docs/theory/mpm.md, 2)
+  std::vector<std::uint64_t> id;    ///< unique, never changes
+  std::vector<std::uint32_t> body;  ///< index of the body in the case
+  std::vector<Vector3> position;    ///< m
+  std::vector<Vector3> velocity;    ///< m/s
+  /// 1/s: a_p(x) = v_p + C_p (x - x_p) (docs/theory/mpm.md, 1); optional
+  std::vector<Matrix3> affine_velocity;
+  /// m^2: sum of r r^T over the three half-edges r of the particle's domain (docs/theory/mpm.md, 2); optional
   std::vector<SymmetricTensor> extent;
   std::vector<std::uint8_t> generation;  ///< divisions that the particle comes from (0: as seeded)
 
@@ -29,8 +30,8 @@ struct Particles : MaterialPoints {
         MaterialPoints::fields(),
         std::make_tuple(Field{"id", "1", &P::id}, Field{"body", "1", &P::body},
                         Field{"position", "m", &P::position}, Field{"velocity", "m/s", &P::velocity},
-                        Field{"affine_velocity", "1/s", &P::affine_velocity},
-                        Field{"extent", "m^2", &P::extent}, Field{"generation", "1", &P::generation}));
+                        Field{"affine_velocity", "1/s", &P::affine_velocity, true},
+                        Field{"extent", "m^2", &P::extent, true}, Field{"generation", "1", &P::generation}));
   }
 };
 

@@ -327,6 +327,8 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     BodySummary summary{.first = particles.size(), .count = sites.size()};
     const std::size_t end = summary.first + summary.count;
     resize(particles, end);
+    particles.affine_velocity.resize(end);
+    particles.extent.resize(end);
     const eos::State state = body.initial.of(material);
     const double density = body_density(material, state);
     const double mass = density * lattice.spacing.prod();

@@ -36,7 +36,9 @@ void Simulation::reflect_and_remove() {
         const Vector3 velocity = image * particles_.velocity[p];
         step_.wall_impulse += particles_.mass[p] * (velocity - particles_.velocity[p]);
         particles_.velocity[p] = velocity;
-        particles_.affine_velocity[p] = image * particles_.affine_velocity[p] * mirror;
+        if (!particles_.affine_velocity.empty()) {
+          particles_.affine_velocity[p] = image * particles_.affine_velocity[p] * mirror;
+        }
         for (auto* tensors : {&particles_.deviatoric_stress, &particles_.back_stress, &particles_.strain,
                               &particles_.extent}) {
           if (tensors->empty()) continue;  // optional, not in use
@@ -51,7 +53,7 @@ void Simulation::reflect_and_remove() {
     auto next = leaving.begin();
     for (std::uint32_t p = 0; p < particles_.size(); ++p) {
       if (next != leaving.end() && *next == p) {
-        step_.outflow += totals_of(particles_, p, affine_inertia());
+        step_.outflow += totals_of(particles_, p, particle_affine_inertia());
         ++next;
       } else {
         staying.push_back(p);

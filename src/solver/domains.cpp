@@ -15,6 +15,11 @@ bool Simulation::follows_domains() const {
   return shape_ == transfer::ShapeFunction::convected_gimp || setup_.splitting.length > 0.0;
 }
 
+/// Whether anything asks for the domains of the particles.
+bool Simulation::carries_extent() const {
+  return follows_domains() || shape_ == transfer::ShapeFunction::gimp || setup_.contact.method != "none";
+}
+
 /// E <- (I + dt L) E (I + dt L)^T (2.4); domains larger than the shape function takes are counted.
 void Simulation::deform_domains() {
   profile_.time("domains", [&] {
@@ -41,7 +46,9 @@ Vector3 longest_half_edge(const SymmetricTensor& extent) {
 
 /// Divides a particle in two halves of its domain along a half-edge (2.6), (2.7). Its second half becomes
 /// `other`, a copy of it. Mass, momentum, angular momentum and second moments of the mass stay exactly; what
-/// the affine field loses becomes internal energy. @returns that heat (J)
+/// the affine field loses becomes internal energy.
+/// @param inertia  of the affine field; 0 without one
+/// @returns that heat (J)
 double divide(Particles& particles, std::size_t p, std::size_t other, const Vector3& half_edge,
               double inertia) {
   particles.mass[p] *= 0.5;
@@ -51,10 +58,11 @@ double divide(Particles& particles, std::size_t p, std::size_t other, const Vect
   particles.extent[p] =
       SymmetricTensor::from(particles.extent[p].matrix() - 0.75 * half_edge * half_edge.transpose());
   const Vector3 offset = 0.5 * half_edge;
-  const Vector3 difference = particles.affine_velocity[p] * offset;
+  Vector3 difference = Vector3::Zero();
   double heat = 0.0;  // per mass
   if (inertia > 0.0) {
     Matrix3& c = particles.affine_velocity[p];
+    difference = c * offset;
     const double before = 0.5 * inertia * c.squaredNorm();
     c -= difference * offset.transpose() / inertia;
     heat = before - 0.5 * inertia * c.squaredNorm() - 0.5 * difference.squaredNorm();
@@ -117,7 +125,7 @@ void Simulation::split_particles() {
     resize(particles_, before + divided.size());
     for (std::size_t i = 0; i < divided.size(); ++i) {
       step_.transfer_heat +=
-          divide(particles_, divided[i].first, before + i, divided[i].second, affine_inertia());
+          divide(particles_, divided[i].first, before + i, divided[i].second, particle_affine_inertia());
       particles_.id[before + i] = next++;
     }
     particles_reallocated();

@@ -56,8 +56,12 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
   bars_ = std::move(seeding.bars);
   for (fem::Mesh& mesh : meshes_) afemp::mark_surface(mesh, setup_.geometry);
   keep_own_elements();
-  if (affine_field(setup_.transfer) == transfer::AffineField::none)
+  if (!carries_affine_velocity()) {
+    std::vector<Matrix3>().swap(particles_.affine_velocity);
+  } else if (affine_field(setup_.transfer) == transfer::AffineField::none) {
     std::ranges::fill(particles_.affine_velocity, Matrix3::Zero().eval());
+  }
+  if (!carries_extent()) std::vector<SymmetricTensor>().swap(particles_.extent);
   prepare();
   state_.ledger.initial = totals_;
   // Planes have stopped the nodes on them: their momentum was there before.
@@ -103,12 +107,13 @@ void Simulation::prepare() {
   sum_over_ranks();
 }
 
-/// A checkpoint of the same case holds the optional fields of its materials; of another material, perhaps
-/// not.
+/// A checkpoint of the same case holds the optional fields that it needs; of another case, perhaps not.
 void Simulation::require_fields() const {
   Particles needed;
   needed.mass.resize(particles_.size());
   for (const auto& material : setup_.materials) use_fields(*material, needed);
+  if (carries_affine_velocity()) needed.affine_velocity.resize(particles_.size());
+  if (carries_extent()) needed.extent.resize(particles_.size());
   std::string missing;
   for_each_field<Particles>([&](const auto& field) {
     if (field.optional && (needed.*(field.values)).size() > (particles_.*(field.values)).size()) {
@@ -116,14 +121,13 @@ void Simulation::require_fields() const {
     }
   });
   if (!missing.empty()) {
-    throw InputError(
-        fmt::format("the checkpoint has no field \"{}\", which a material of the case needs", missing));
+    throw InputError(fmt::format("the checkpoint has no field \"{}\", which the case needs", missing));
   }
 }
 
 /// Totals of all ranks, and what the step did to them.
 void Simulation::sum_over_ranks() {
-  totals_ = totals_of(particles_, affine_inertia());
+  totals_ = totals_of(particles_, particle_affine_inertia());
   for (const fem::Mesh& mesh : meshes_) totals_ += totals_of(mesh, affine_inertia());
   for (const fem::Bars& bars : bars_) totals_ += totals_of(bars, affine_inertia());
   std::array<double, 2> counts = {static_cast<double>(particles_.size()), 0.0};
@@ -139,6 +143,9 @@ void Simulation::sum_over_ranks() {
 double Simulation::affine_inertia() const {
   return transfer::affine_inertia(shape_, setup_.domain.cell_size);
 }
+
+/// Shape functions that can carry affine fields always do, perhaps as zeros.
+bool Simulation::carries_affine_velocity() const { return affine_inertia() > 0.0; }
 
 /// Of the fields that the particles of this case carry: 0 without affine fields.
 double Simulation::particle_affine_inertia() const {

@@ -149,6 +149,8 @@ class Simulation {
   void particles_reallocated();
   void deform_domains();
   [[nodiscard]] bool follows_domains() const;
+  [[nodiscard]] bool carries_extent() const;
+  [[nodiscard]] bool carries_affine_velocity() const;
   void shift_grid();
   void find_free_flight();
   [[nodiscard]] double affine_inertia() const;

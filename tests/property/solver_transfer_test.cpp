@@ -37,6 +37,8 @@ Particles random_particles(std::size_t n, const Vector3& lower, const Vector3& u
   std::normal_distribution<double> normal;
   Particles q;
   resize(q, n);
+  q.affine_velocity.resize(n);
+  q.extent.resize(n);
   for (std::size_t p = 0; p < n; ++p) {
     q.id[p] = p;
     const double share = p % 3 == 0 ? 0.1 : 1.0;
@@ -270,7 +272,8 @@ TYPED_TEST(Transfer, MirrorPlaneEqualsATransferOfRealImages) {
   for (std::size_t p = 0; p < half.size(); ++p) {
     const std::size_t image = half.size() + p;
     for_each_field<Particles>([&](const auto& field) {
-      if (!field.optional) (full.*(field.values))[image] = (half.*(field.values))[p];
+      const auto& from = half.*(field.values);
+      if (!from.empty()) (full.*(field.values))[image] = from[p];
     });
     const Matrix3 mirror = Vector3(-1, 1, 1).asDiagonal();
     full.position[image][0] = -4 - half.position[p][0];
@@ -327,7 +330,8 @@ TYPED_TEST(Transfer, PlanesOneCellApartEqualRealImages) {
     for (std::size_t p = 0; p < thin.size(); ++p) {
       const std::size_t image = static_cast<std::size_t>(copy) * thin.size() + p;
       for_each_field<Particles>([&](const auto& field) {
-        if (!field.optional) (full.*(field.values))[image] = (thin.*(field.values))[p];
+        const auto& from = thin.*(field.values);
+        if (!from.empty()) (full.*(field.values))[image] = from[p];
       });
       const double depth = thin.position[p][1] + 1;
       full.position[image][1] = -1 + shift * dx + (mirrored ? dx - depth : depth);
@@ -387,7 +391,7 @@ TYPED_TEST(Transfer, NodesOfEveryStencilAreActiveWhereTheDivisionRounds) {
         Particles one;
         resize(one, 1);
         one.position[0] = x[0];
-        one.extent[0] = {cell_size * cell_size, cell_size * cell_size, cell_size * cell_size, 0, 0, 0};
+        one.extent = {{cell_size * cell_size, cell_size * cell_size, cell_size * cell_size, 0, 0, 0}};
         const auto weights = weights_at<TypeParam>(one, 0, BlockFrame(fine, grid.coordinate(slot)));
         const int first = weights.first_node()[0];
         for (const int node : {first, first + TypeParam::count - 1}) {

@@ -107,7 +107,6 @@ Particles launch(std::size_t n) {
     p.velocity[i] = launch_velocity(x, disk);
     const bool moves = p.velocity[i].norm() > 0;
     if (moves) p.velocity[i] += Vector3(scatter(random), scatter(random), scatter(random));
-    p.affine_velocity[i].setZero();
     p.volume[i] = spacing * spacing * spacing;
     p.mass[i] = density * p.volume[i];
     const double r = std::hypot(x.x(), x.y()) / disk_radius;

@@ -114,9 +114,11 @@ inline BodySums sums_of(const Particles& q, std::uint32_t body, double inertia) 
   const Vector3 mean = sums.momentum / sums.mass;
   for (std::size_t p = 0; p < q.size(); ++p) {
     if (q.body[p] != body) continue;
+    sums.spin += q.mass[p] * (q.position[p] - sums.centre).cross(q.velocity[p] - mean);
+    if (q.affine_velocity.empty()) continue;
     const Matrix3& c = q.affine_velocity[p];
     const Vector3 curl(c(2, 1) - c(1, 2), c(0, 2) - c(2, 0), c(1, 0) - c(0, 1));
-    sums.spin += q.mass[p] * ((q.position[p] - sums.centre).cross(q.velocity[p] - mean) + inertia * curl);
+    sums.spin += q.mass[p] * inertia * curl;
   }
   return sums;
 }
