@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include "src/app/analyse_command.hpp"
 #include "src/app/bench_command.hpp"
@@ -51,4 +52,9 @@ int whipple_main(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return whipple::run_guarded("whipple", whipple_main, argc, argv); }
+int main(int argc, char** argv) {
+  // Large arrays go back to the system when they are freed. Left to itself, glibc raises this limit up to 32
+  // MB and keeps their holes: an eighth more memory in a cloud of 140,000 particles.
+  mallopt(M_MMAP_THRESHOLD, 4 << 20);
+  return whipple::run_guarded("whipple", whipple_main, argc, argv);
+}

@@ -71,7 +71,9 @@ void BlockGrid::lay_out_nodes() {
       if (neighbour != no_slot) meets_contact_[static_cast<std::size_t>(neighbour)] = 1;
     }
   }
-  nodes_.resize((slots() + slot_of_further_.size()) * nodes_per_block);
+  const std::size_t nodes = (slots() + slot_of_further_.size()) * nodes_per_block;
+  if (nodes > nodes_.capacity()) std::vector<Node>().swap(nodes_);  // every step begins with clear nodes
+  nodes_.resize(nodes);
   find_mirror_nodes();
 }
 
