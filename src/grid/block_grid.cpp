@@ -49,11 +49,30 @@ std::optional<BlockCoordinate> BlockGrid::block_of(const Vector3& position) cons
 }
 
 bool BlockGrid::bin(std::span<const Vector3> position, Stencil stencil, std::span<const Vector3> guests) {
-  const bool complete = slot_of_particle_.size() == position.size() && locate(position, stencil) &&
-                        locate_guests(guests, stencil);
+  const bool known = slot_of_particle_.size() == position.size() || (!is_shared() && look_up(position));
+  const bool complete = known && locate(position, stencil) && locate_guests(guests, stencil);
   if (parallel::any(communicator_, !complete)) return false;
   released_.clear();
   list_points();
+  return true;
+}
+
+/// Finds the slot of every particle; false if one is outside of the active set.
+bool BlockGrid::look_up(std::span<const Vector3> position) {
+  slot_of_particle_.resize(position.size());
+  std::int32_t slot = no_slot;
+  for (std::size_t p = 0; p < position.size(); ++p) {
+    const std::optional<BlockCoordinate> block = block_of(position[p]);
+    // Neighbours in memory are mostly in one block.
+    if (slot == no_slot || block != blocks_.coordinate[static_cast<std::size_t>(slot)]) {
+      slot = block ? table_.find(*block) : no_slot;
+    }
+    if (slot == no_slot) {
+      slot_of_particle_.clear();
+      return false;
+    }
+    slot_of_particle_[p] = slot;
+  }
   return true;
 }
 
@@ -236,14 +255,7 @@ void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vect
   });
   fields_.clear();
   lay_out_nodes();
-  slot_of_particle_.resize(position.size() - guests);
-  for (std::size_t p = 0; p < slot_of_particle_.size(); ++p) {
-    const BlockCoordinate block = *block_of(position[p]);
-    // Neighbours in memory are mostly in one block.
-    const std::int32_t before = p == 0 ? no_slot : slot_of_particle_[p - 1];
-    const bool same = before != no_slot && blocks_.coordinate[static_cast<std::size_t>(before)] == block;
-    slot_of_particle_[p] = same ? before : table_.find(block);
-  }
+  look_up(position.first(position.size() - guests));
 }
 
 void BlockGrid::particles_reordered(std::span<const std::uint32_t> order) {

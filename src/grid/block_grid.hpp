@@ -285,6 +285,7 @@ class BlockGrid {
 
  private:
   [[nodiscard]] Vector3 local_position(std::size_t slot, const Vector3& position) const;
+  bool look_up(std::span<const Vector3> position);
   bool locate(std::span<const Vector3> position, Stencil stencil);
   [[nodiscard]] std::vector<WantedBlock> wanted_blocks(std::span<const Vector3> position,
                                                        std::span<const Vector3> velocity, double lookahead,
