@@ -12,7 +12,14 @@ std::vector<BoundParameter> keys(CoexistencePlan& plan) {
       real_list("first_guess", &CoexistencePlan::first_guess, "K", range::positive(),
                 "where the search begins, one per pressure"),
       integer("attempts", &CoexistencePlan::attempts, {.lower = 1, .upper = 20},
-              "restarts from the last temperature when crystal or melt has vanished")
+              "of each run: restarts from another temperature when crystal or melt has vanished")
+          .optional(),
+      integer("replicas", &CoexistencePlan::replicas, {.lower = 2, .upper = 64},
+              "independent runs of each pressure; the errors are those of their means")
+          .optional(),
+      integer("length", &CoexistencePlan::length, {.lower = 8, .upper = 1000},
+              "unit cells along the normal of the interfaces, half of them crystal; below 20 one phase tends "
+              "to vanish")
           .optional()};
   return join_keys(with_size(bind(table, plan), plan.size),
                    keys(plan.target, "K", "wanted standard error of the melting temperature"));

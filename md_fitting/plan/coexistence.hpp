@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "md_fitting/plan/run_size.hpp"
@@ -16,7 +17,9 @@ struct CoexistencePlan {
   std::vector<double> pressure;
   std::vector<double> first_guess;  ///< K, one per pressure
   std::int64_t attempts = 4;
-  RunSize size{.cells = 8, .equilibration_steps = 10000, .steps = 12000};
+  std::int64_t replicas = 4;
+  std::int64_t length = 20;  ///< unit cells along the normal of the interfaces
+  RunSize size{.cells = 6, .equilibration_steps = 6000, .steps = 10000};
   Target target{};
 };
 

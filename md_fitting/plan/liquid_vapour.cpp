@@ -9,6 +9,9 @@ std::vector<BoundParameter> keys(LiquidVapourPlan& plan) {
                 "temperatures above about 0.7 of the critical one: colder vapour holds too few atoms"),
       real("gap", &LiquidVapourPlan::gap, "", range::between(0.5, 10.0),
            "length of the space beside the film over that of the crystal that it is made from")
+          .optional(),
+      integer("replicas", &LiquidVapourPlan::replicas, {.lower = 2, .upper = 64},
+              "independent runs of each temperature; the errors are those of their means")
           .optional()};
   return with_size(bind(table, plan), plan.size);
 }

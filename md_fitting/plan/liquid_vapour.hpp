@@ -15,6 +15,7 @@ struct Plan;
 struct LiquidVapourPlan {
   std::vector<double> temperature;
   double gap = 2.0;
+  std::int64_t replicas = 4;
   RunSize size{.cells = 5, .equilibration_steps = 20000, .steps = 60000};
 };
 

@@ -9,7 +9,7 @@ std::span<const Protocol> protocols() {
   static constexpr std::array all = {
       Protocol{"zero_pressure_volume", 3, add_zero_pressure},
       Protocol{"lattice", 1, add_lattice},
-      Protocol{"coexistence", 3, add_coexistence},
+      Protocol{"coexistence", 4, add_coexistence},
       Protocol{"isotherm", 3, add_isotherms},
       Protocol{"isochore", 3, add_isochores},
       Protocol{"hugoniot", 3, add_hugoniot},
@@ -18,8 +18,8 @@ std::span<const Protocol> protocols() {
       Protocol{"hugoniostat", 3, add_hugoniostat},
       Protocol{"liquid", 2, add_liquid},
       Protocol{"piston", 1, add_piston},
-      Protocol{"spall", 1, add_spall},
-      Protocol{"liquid_vapour", 2, add_liquid_vapour},
+      Protocol{"spall", 2, add_spall},
+      Protocol{"liquid_vapour", 3, add_liquid_vapour},
   };
   return all;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/protocols/catalogue.hpp"
@@ -24,6 +25,11 @@ namespace {
 constexpr double accepted_sigmas = 3.0;
 constexpr double least_accepted_share = 0.15;
 constexpr double largest_accepted_drift = 0.12;
+constexpr double largest_order_of_melt = 0.35;
+constexpr double least_order_of_crystal = 0.5;
+/// By which a start goes on from one that lost a phase, as long as nothing bounds it on the other side.
+constexpr double start_step = 0.04;
+constexpr int most_parts = 3;
 constexpr std::int64_t share_interval = 200;
 
 double mean(std::span<const double> values) {
@@ -37,9 +43,11 @@ std::int64_t next_seed(std::int64_t seed, const std::string& what) {
 /// One cell with crystal below and melt above, brought to the pressure and to about the guessed temperature.
 class TwoPhaseCell {
  public:
-  TwoPhaseCell(const Potential& potential, double pressure, double guess, const RunSize& size, double dt,
-               std::int64_t seed)
-      : crystal_(potential, 1.015 * potential.lattice_constant(), size.cells, size.cells, 2 * size.cells) {
+  TwoPhaseCell(const Potential& potential, double pressure, double guess, const CoexistencePlan& section,
+               double dt, std::int64_t seed)
+      : layers_(section.length),
+        crystal_(potential, 1.015 * potential.lattice_constant(), section.size.cells, section.size.cells,
+                 section.length) {
     Lammps& lammps = crystal_.lammps();
     const double bars = pressure / metal::bar;
     const auto npt = [&](double temperature, const char* coupling) {
@@ -89,39 +97,142 @@ class TwoPhaseCell {
     lammps.command("unfix whole");
     lammps.command("velocity all scale {:.17g}", guess);
     lammps.command("fix whole all nph {}", couplings);
-    lammps.command("run {}", size.equilibration_steps);
+    lammps.command("run {}", section.size.equilibration_steps);
+    // Crystal layer by layer, one unit cell each.
+    lammps.command("compute layers all chunk/atom bin/1d z lower {:.17g} units reduced",
+                   1.0 / static_cast<double>(layers_));
+    lammps.command("compute layer_order all reduce/chunk layers sum v_is_crystal");
   }
 
   /// Runs on and averages.
   CoexistenceRun run(std::int64_t steps) {
     Lammps& lammps = crystal_.lammps();
-    lammps.command("fix shares all vector {} v_share", share_interval);
+    std::string columns = "v_share";
+    for (std::int64_t k = 1; k <= layers_; ++k) columns += fmt::format(" c_layer_order[{}]", k);
+    lammps.command("fix shares all vector {} {}", share_interval, columns);
     const std::vector<double> temperature =
         crystal_.sample({"kinetic_temperature"}, sampling_interval(steps), steps)[0];
-    std::vector<double> share = lammps.series("shares", 1)[0];
+    std::vector<std::vector<double>> shares = lammps.series("shares", static_cast<int>(layers_) + 1);
     lammps.command("unfix shares");
-    for (double& s : share) s = (s - melt_reading_) / (crystal_reading_ - melt_reading_);
+    const auto normalised = [&](double s) {
+      return (s - melt_reading_) / (crystal_reading_ - melt_reading_);
+    };
+    for (double& s : shares[0]) s = normalised(s);
     const std::span<const double> t(temperature);
-    const std::span<const double> x(share);
-    const auto extremes = std::minmax_element(share.begin(), share.end());
+    const std::span<const double> x(shares[0]);
+    const auto extremes = std::minmax_element(x.begin(), x.end());
     const SeriesMean whole = series_statistics(t);
-    return {series_mean(t.first(t.size() / 2)),
-            series_mean(t.last(t.size() / 2)),
-            mean(x.first(x.size() / 2)),
-            mean(x.last(x.size() / 2)),
-            *extremes.first,
-            *extremes.second,
-            {whole.estimate.value, coexistence_error(whole, crystal_.atoms())}};
+    CoexistenceRun run{series_mean(t.first(t.size() / 2)),
+                       series_mean(t.last(t.size() / 2)),
+                       mean(x.first(x.size() / 2)),
+                       mean(x.last(x.size() / 2)),
+                       *extremes.first,
+                       *extremes.second,
+                       1.0,
+                       0.0,
+                       {whole.estimate.value, coexistence_error(whole, crystal_.atoms())}};
+    const double atoms_of_layer = crystal_.atoms() / static_cast<double>(layers_);
+    for (std::size_t k = 1; k < shares.size(); ++k) {
+      const double order =
+          normalised(mean(std::span<const double>(shares[k]).last(x.size() / 2)) / atoms_of_layer);
+      run.least_order = std::min(run.least_order, order);
+      run.largest_order = std::max(run.largest_order, order);
+    }
+    return run;
   }
   [[nodiscard]] const std::string& transcript() { return crystal_.lammps().transcript(); }
 
  private:
+  std::int64_t layers_;
   Crystal crystal_;
   double crystal_reading_ = 1.0;  // share that the order parameter finds in the hot crystal (about 0.5)
   double melt_reading_ = 0.0;     // and in the melt (about 0.05)
 };
 
+bool froze(const CoexistenceRun& run) {
+  return run.largest_share > 1.0 - least_accepted_share || run.least_order > largest_order_of_melt;
+}
+bool melted(const CoexistenceRun& run) {
+  return run.least_share < least_accepted_share || run.largest_order < least_order_of_crystal;
+}
+
+/// The temperature of crystal and melt in contact, and the share of crystal, from one cell, or from the next
+/// one where that lost a phase.
+std::pair<double, double> find_coexistence(const Potential& potential, double pressure, double first_guess,
+                                           const CoexistencePlan& section, double dt, std::int64_t seed,
+                                           std::string& transcript) {
+  StartingTemperature start(first_guess);
+  std::string report;
+  for (std::int64_t attempt = 1; attempt <= section.attempts; ++attempt) {
+    TwoPhaseCell cell(potential, pressure, start.next(), section, dt,
+                      next_seed(seed, fmt::format("attempt {}", attempt)));
+    // A cell that still has both phases only needs more time; one that has lost a phase is of no use.
+    for (int part = 1; part <= most_parts; ++part) {
+      const CoexistenceRun run = cell.run(section.size.steps);
+      const std::string reason = refusal(run);
+      log::detail(
+          "coexistence at {} GPa, attempt {}.{}: {:.1f} K, then {:.1f} K, mean {:.1f} +- {:.1f} K, share of "
+          "crystal {:.2f} ... {:.2f}, by layers {:.2f} ... {:.2f}: {}",
+          1e-9 * pressure, attempt, part, run.first_half.value, run.second_half.value, run.whole.value,
+          run.whole.error, run.least_share, run.largest_share, run.least_order, run.largest_order,
+          reason.empty() ? "accepted" : reason);
+      if (reason.empty()) {
+        transcript += cell.transcript();
+        return {run.whole.value, 0.5 * (run.first_share + run.second_share)};
+      }
+      report += fmt::format("{}attempt {}.{} from {:.1f} K at {:.1f} K: {}", report.empty() ? "" : "; ",
+                            attempt, part, start.next(), run.whole.value, reason);
+      if (froze(run)) {
+        start.froze();
+        break;
+      }
+      if (melted(run)) {
+        start.melted();
+        break;
+      }
+      if (part == most_parts) start.ended_at(run.second_half.value);
+    }
+  }
+  throw StateError(fmt::format("no coexistence found at {} GPa: {}", 1e-9 * pressure, report));
+}
+
+/// One run of the point.
+ReplicaValues melting_point(const Potential& potential, double pressure, double first_guess,
+                            const CoexistencePlan& section, double dt, std::int64_t seed,
+                            std::string& transcript) {
+  const auto [temperature, share] =
+      find_coexistence(potential, pressure, first_guess, section, dt, seed, transcript);
+  const RunSize& size = section.size;
+  const RunSize phase_size{.cells = std::max<std::int64_t>(4, 3 * size.cells / 4),
+                           .equilibration_steps = size.equilibration_steps / 2,
+                           .steps = size.steps / 2};
+  const Phase solid = measure_phase(potential, false, pressure, temperature, phase_size, dt,
+                                    next_seed(seed, "solid"), transcript);
+  const Phase liquid = measure_phase(potential, true, pressure, temperature, phase_size, dt,
+                                     next_seed(seed, "liquid"), transcript);
+  const double mass = potential.mass();
+  const double solid_volume = metal::specific_volume(solid.volume.value, mass);
+  const double liquid_volume = metal::specific_volume(liquid.volume.value, mass);
+  return {{"melting_temperature", temperature},
+          {"solid_share", share},
+          {"solid_specific_volume", solid_volume},
+          {"liquid_specific_volume", liquid_volume},
+          {"latent_heat", metal::specific_energy(liquid.enthalpy.value - solid.enthalpy.value, mass)},
+          {"fusion_volume", liquid_volume - solid_volume}};
+}
+
 }  // namespace
+
+void StartingTemperature::froze() {
+  too_cold_ = std::max(too_cold_, next_);
+  next_ = too_hot_ > too_cold_ ? 0.5 * (too_cold_ + too_hot_) : (1.0 + start_step) * too_cold_;
+}
+
+void StartingTemperature::melted() {
+  too_hot_ = too_hot_ > 0.0 ? std::min(too_hot_, next_) : next_;
+  next_ =
+      too_cold_ > 0.0 && too_cold_ < too_hot_ ? 0.5 * (too_cold_ + too_hot_) : (1.0 - start_step) * too_hot_;
+}
 
 double coexistence_error(const SeriesMean& temperature, double atoms) {
   constexpr double clearly = 1.3;  // standard errors of the variance
@@ -136,11 +247,14 @@ std::string refusal(const CoexistenceRun& run) {
   const double difference = std::abs(run.first_half.value - run.second_half.value);
   const double sigma =
       std::fmax(std::hypot(run.first_half.error, run.second_half.error), 2.0 * run.whole.error);
-  if (run.largest_share > 1.0 - least_accepted_share) {
-    return fmt::format("the melt froze (share of crystal up to {:.2f})", run.largest_share);
+  if (froze(run)) {
+    return fmt::format("the melt froze (share of crystal up to {:.2f}, {:.2f} in the least ordered layer)",
+                       run.largest_share, run.least_order);
   }
-  if (run.least_share < least_accepted_share) {
-    return fmt::format("the crystal melted (share of crystal down to {:.2f})", run.least_share);
+  if (melted(run)) {
+    return fmt::format(
+        "the crystal melted (share of crystal down to {:.2f}, {:.2f} in the most ordered layer)",
+        run.least_share, run.largest_order);
   }
   if (std::abs(run.first_share - run.second_share) > largest_accepted_drift) {
     return fmt::format("the share of crystal drifts from {:.2f} to {:.2f}", run.first_share,
@@ -153,97 +267,37 @@ std::string refusal(const CoexistenceRun& run) {
   return {};
 }
 
-CoexistenceResult measure_coexistence(const Potential& potential, double pressure, double first_guess,
-                                      std::int64_t attempts, const RunSize& size, std::int64_t seed) {
+ReplicaSet measure_coexistence(const Potential& potential, double pressure, double first_guess,
+                               const CoexistencePlan& section, std::int64_t seed) {
   if (potential.structure() != "fcc") {
     throw InputError(fmt::format("coexistence is measured for fcc crystals, {} of {} is {}",
                                  potential.element(), potential.name(), potential.structure()));
   }
   // The melting line that is meant here lies below a few 10 GPa: the temperature of the crystal decides, not
   // the guess.
-  const double dt =
-      size.time_step > 0.0 ? size.time_step / metal::picosecond : time_step(potential, 1.0, 300.0, size);
-  CoexistenceResult result;
-  std::string report;
-  double guess = first_guess;
-  double temperature = 0.0;
-  for (std::int64_t attempt = 1; attempt <= attempts && temperature == 0.0; ++attempt) {
-    TwoPhaseCell cell(potential, pressure, guess, size, dt,
-                      next_seed(seed, fmt::format("attempt {}", attempt)));
-    // A cell that still has both phases only needs more time; one that has lost a phase is of no use.
-    for (int part = 0; part < 3; ++part) {
-      const CoexistenceRun run = cell.run(size.steps);
-      const std::string reason = refusal(run);
-      const double half_difference = 0.5 * std::abs(run.first_half.value - run.second_half.value);
-      guess = run.second_half.value;
-      log::detail(
-          "coexistence at {} GPa, attempt {}.{}: {:.1f} K, then {:.1f} K, mean {:.1f} +- {:.1f} K, share of "
-          "crystal {:.2f} ... {:.2f}: {}",
-          1e-9 * pressure, attempt, part + 1, run.first_half.value, run.second_half.value, run.whole.value,
-          run.whole.error, run.least_share, run.largest_share, reason.empty() ? "accepted" : reason);
-      if (reason.empty()) {
-        temperature = run.whole.value;
-        result.melting_temperature = {temperature, std::max(run.whole.error, half_difference)};
-        result.solid_share = {0.5 * (run.first_share + run.second_share),
-                              0.5 * std::abs(run.first_share - run.second_share)};
-        break;
-      }
-      report += fmt::format("{}attempt {}.{} at {:.1f} K: {}", report.empty() ? "" : "; ", attempt, part + 1,
-                            run.whole.value, reason);
-      const bool both_phases =
-          run.least_share > least_accepted_share && run.largest_share < 1 - least_accepted_share;
-      if (!both_phases) break;
-    }
-    result.attempts = static_cast<int>(attempt);
-    result.transcript += cell.transcript();
-  }
-  if (temperature == 0.0) {
-    throw StateError(fmt::format("no coexistence found at {} GPa: {}", 1e-9 * pressure, report));
-  }
-  const RunSize phase_size{.cells = std::max<std::int64_t>(4, 3 * size.cells / 4),
-                           .equilibration_steps = size.equilibration_steps / 2,
-                           .steps = size.steps / 2};
-  const Phase solid = measure_phase(potential, false, pressure, temperature, phase_size, dt,
-                                    next_seed(seed, "solid"), result.transcript);
-  const Phase liquid = measure_phase(potential, true, pressure, temperature, phase_size, dt,
-                                     next_seed(seed, "liquid"), result.transcript);
-  const double mass = potential.mass();
-  const auto volume = [&](const Estimate& e) {
-    return Estimate{metal::specific_volume(e.value, mass), metal::specific_volume(e.error, mass)};
-  };
-  result.solid_specific_volume = volume(solid.volume);
-  result.liquid_specific_volume = volume(liquid.volume);
-  result.fusion_volume = {
-      result.liquid_specific_volume.value - result.solid_specific_volume.value,
-      std::hypot(result.liquid_specific_volume.error, result.solid_specific_volume.error)};
-  result.latent_heat = {
-      metal::specific_energy(liquid.enthalpy.value - solid.enthalpy.value, mass),
-      metal::specific_energy(std::hypot(liquid.enthalpy.error, solid.enthalpy.error), mass)};
-  return result;
+  const double dt = section.size.time_step > 0.0 ? section.size.time_step / metal::picosecond
+                                                 : time_step(potential, 1.0, 300.0, section.size);
+  return run_replicas(section.replicas, seed, [&](std::int64_t own_seed, std::string& transcript) {
+    return melting_point(potential, pressure, first_guess, section, dt, own_seed, transcript);
+  });
 }
 
 void add_coexistence(const Plan& plan, TaskList& list) {
   if (!plan.coexistence) return;
-  const CoexistencePlan& melting = *plan.coexistence;
-  for (std::size_t i = 0; i < melting.pressure.size(); ++i) {
-    PointRequest request{{{"pressure", melting.pressure[i]}},
-                         size_settings(melting.size),
-                         {},
-                         precision_of("melting_temperature", false, melting.target, melting.size)};
-    request.settings["first_guess"] = fmt::format("{}", melting.first_guess[i]);
-    request.settings["attempts"] = std::to_string(melting.attempts);
-    list.add(request, [&potential = list.potential(), size = melting.size, pressure = melting.pressure[i],
-                       guess = melting.first_guess[i],
-                       attempts = melting.attempts](std::int64_t seed, const PointRecord*) {
-      const CoexistenceResult result = measure_coexistence(potential, pressure, guess, attempts, size, seed);
-      return TaskResult{{{"melting_temperature", result.melting_temperature},
-                         {"solid_share", result.solid_share},
-                         {"solid_specific_volume", result.solid_specific_volume},
-                         {"liquid_specific_volume", result.liquid_specific_volume},
-                         {"latent_heat", result.latent_heat},
-                         {"fusion_volume", result.fusion_volume}},
-                        fmt::format("accepted at attempt {}", result.attempts),
-                        result.transcript};
+  const CoexistencePlan section = *plan.coexistence;
+  for (std::size_t i = 0; i < section.pressure.size(); ++i) {
+    PointRequest request{
+        {{"pressure", section.pressure[i]}},
+        size_settings(section.size),
+        {},
+        precision_of("melting_temperature", false, section.target, section.size, section.replicas)};
+    request.settings["first_guess"] = fmt::format("{}", section.first_guess[i]);
+    request.settings["attempts"] = std::to_string(section.attempts);
+    request.settings["replicas"] = std::to_string(section.replicas);
+    request.settings["length"] = std::to_string(section.length);
+    list.add(request, [&potential = list.potential(), section, i](std::int64_t seed, const PointRecord*) {
+      return to_result(
+          measure_coexistence(potential, section.pressure[i], section.first_guess[i], section, seed));
     });
   }
 }

@@ -6,21 +6,11 @@
 
 #include "md_fitting/data_set/data_set.hpp"
 #include "md_fitting/lammps/potential.hpp"
-#include "md_fitting/plan/plan.hpp"
+#include "md_fitting/plan/coexistence.hpp"
+#include "md_fitting/protocols/replicas.hpp"
 #include "md_fitting/protocols/statistics.hpp"
 
 namespace whipple::md {
-
-struct CoexistenceResult {
-  Estimate melting_temperature;     ///< K
-  Estimate solid_share;             ///< of the atoms, 0 ... 1, mean of the averaged part
-  Estimate solid_specific_volume;   ///< m^3/kg, of the crystal alone at the melting point
-  Estimate liquid_specific_volume;  ///< m^3/kg, of the melt alone at the melting point
-  Estimate latent_heat;             ///< J/kg, enthalpy of the melt less that of the crystal
-  Estimate fusion_volume;           ///< m^3/kg, volume of the melt less that of the crystal
-  int attempts = 0;
-  std::string transcript;
-};
 
 /// The numbers by which one coexistence run is judged.
 struct CoexistenceRun {
@@ -30,6 +20,9 @@ struct CoexistenceRun {
   double second_share = 0.0;
   double least_share = 0.0;  ///< over both halves
   double largest_share = 0.0;
+  /// Crystal in the least and the most ordered layer of the second half, 0 for melt, 1 for the hot crystal.
+  double least_order = 0.0;
+  double largest_order = 1.0;
   Estimate whole{};  ///< K, mean temperature of both halves; its error holds the slow exchange of the phases
 };
 
@@ -40,18 +33,39 @@ struct CoexistenceRun {
 /// clearly. docs/theory/molecular_dynamics.md, "Melting by coexistence".
 double coexistence_error(const SeriesMean& temperature, double atoms);
 
-/// Whether a run is two phases at rest with each other: the halves agree within three standard errors of
-/// their difference (twice that of the whole), the share of crystal stays between 0.15 and 0.85 and drifts by
-/// less than 0.12. A cell that has become all crystal or all melt looks just as steady in its temperature, so
-/// the share decides. Returns the reason for a refusal, or an empty text.
+/// Whether a run is two phases at rest with each other: both are there, the halves agree within three
+/// standard errors of their difference (twice that of the whole), and the share of crystal drifts by less
+/// than 0.12. A cell that has become all crystal or all melt looks just as steady in its temperature, and the
+/// share of a hot crystal with defects is no clear mark: a layer of melt and a layer of crystal must be there
+/// (crystal below 0.35 and above 0.5), with a share between 0.15 and 0.85. Returns the reason for a refusal,
+/// or an empty text.
 std::string refusal(const CoexistenceRun& run);
 
+/// Temperatures of starts that lost a phase: where the next one begins.
+class StartingTemperature {
+ public:
+  explicit StartingTemperature(double first) : next_(first) {}
+  [[nodiscard]] double next() const { return next_; }
+  /// The whole cell froze: it began too cold.
+  void froze();
+  /// The whole cell melted: it began too hot.
+  void melted();
+  /// Both phases, but still on their way.
+  void ended_at(double temperature) { next_ = temperature; }
+
+ private:
+  double next_;
+  double too_cold_ = 0.0;
+  double too_hot_ = 0.0;  ///< 0: not known
+};
+
 /// The melting temperature at a pressure from a crystal in contact with its melt at constant enthalpy and
-/// pressure (Morris, Wang, Ho, Chan, Phys. Rev. B 49 (1994) 3109), in a cell n x n x 2n; then volume and
-/// enthalpy of both phases at that temperature in cells n x n x n of their own. Face-centred cubic crystals
-/// only.
-/// @throws StateError if no attempt is accepted, with what each ended like.
-CoexistenceResult measure_coexistence(const Potential& potential, double pressure, double first_guess,
-                                      std::int64_t attempts, const RunSize& size, std::int64_t seed);
+/// pressure (Morris, Wang, Ho, Chan, Phys. Rev. B 49 (1994) 3109), in a cell n x n x length; then volume and
+/// enthalpy of both phases at that temperature in cells of their own; all of independent runs. Face-centred
+/// cubic crystals only. Results: melting_temperature (K), solid_share (of the atoms), solid_ and
+/// liquid_specific_volume (m^3/kg), latent_heat (J/kg), fusion_volume (m^3/kg).
+/// @throws StateError if too many runs find no coexistence, with what each ended like.
+ReplicaSet measure_coexistence(const Potential& potential, double pressure, double first_guess,
+                               const CoexistencePlan& section, std::int64_t seed);
 
 }  // namespace whipple::md

@@ -14,7 +14,6 @@
 #include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/phase.hpp"
-#include "md_fitting/protocols/statistics.hpp"
 #include "src/base/error.hpp"
 
 namespace whipple::md {
@@ -31,6 +30,7 @@ constexpr double bin = 1.0;          // A
 constexpr double least_core = 3.0;   // A: half of the film that is certainly melt
 constexpr double least_space = 6.0;  // A: on either side
 constexpr double least_vapour_atoms = 4.0;
+constexpr const char* vapour_atoms = "vapour_atoms";  // of one run, no result of the point
 
 double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -72,23 +72,36 @@ Interface find_interface(std::span<const double> profile, double step) {
   if (!(liquid > 1.5 * vapour) || liquid <= 0.0) {
     throw StateError("film and vapour do not separate: the temperature is too close to the critical one");
   }
-  const auto crossing = [&](double level) {
-    for (std::size_t i = 1; i < n; ++i) {
-      if (profile[i] < level && profile[i - 1] >= level) {
-        const double share = (profile[i - 1] - level) / (profile[i - 1] - profile[i]);
-        return step * (static_cast<double>(i - 1) + 0.5 + share);
-      }
-    }
-    throw StateError("film and vapour do not separate: the density profile has no interface");
+  const auto falls_through = [&](std::size_t i, double level) {
+    return profile[i] < level && profile[i - 1] >= level;
+  };
+  const auto between = [&](std::size_t i, double level) {
+    const double share = (profile[i - 1] - level) / (profile[i - 1] - profile[i]);
+    return step * (static_cast<double>(i - 1) + 0.5 + share);
   };
   const double difference = liquid - vapour;
-  const double inner = crossing(vapour + 0.9 * difference);
-  const double outer = crossing(vapour + 0.1 * difference);
-  return {crossing(vapour + 0.5 * difference), std::fmax(outer - inner, step)};
+  const double nearly_liquid = vapour + 0.9 * difference;
+  const double nearly_vapour = vapour + 0.1 * difference;
+  const double middle = vapour + 0.5 * difference;
+  std::size_t place = 1;
+  while (place < n && !falls_through(place, middle)) ++place;
+  // Both ends next to the middle: further away the noise of the plateaus passes 90 and 10 % as well.
+  std::size_t inner = place;
+  while (inner > 1 && !falls_through(inner, nearly_liquid)) --inner;
+  std::size_t outer = place;
+  while (outer + 1 < n && !falls_through(outer, nearly_vapour)) ++outer;
+  if (place == n || !falls_through(inner, nearly_liquid) || !falls_through(outer, nearly_vapour)) {
+    throw StateError("film and vapour do not separate: the density profile has no interface");
+  }
+  const double width = between(outer, nearly_vapour) - between(inner, nearly_liquid);
+  return {between(place, middle), std::fmax(width, step)};
 }
 
-LiquidVapourResult measure_liquid_vapour(const Potential& potential, double temperature,
-                                         const LiquidVapourPlan& section, std::int64_t seed) {
+namespace {
+
+/// One run of the point; the number of atoms in its vapour besides.
+ReplicaValues measure_film(const Potential& potential, double temperature, const LiquidVapourPlan& section,
+                           std::int64_t seed, std::string& transcript) {
   const double mass = potential.mass();
   const RunSize& size = section.size;
   const double dt = time_step(potential, 1.2, temperature, size);
@@ -156,26 +169,34 @@ LiquidVapourResult measure_liquid_vapour(const Potential& potential, double temp
     liquid.push_back(static_cast<double>(inside) / (2.0 * core * area));
     vapour.push_back(static_cast<double>(outside) / (2.0 * (0.5 * period - space) * area));
   }
-  const double vapour_atoms = mean(vapour) * 2.0 * (0.5 * period - space) * area;
-  if (vapour_atoms < least_vapour_atoms) {
-    throw StateError(fmt::format(
-        "the vapour holds {:.1f} atoms on average in {:.1f} A beside an interface at {:.1f} A of "
-        "{:.1f} A width: too few below about 0.7 of the critical temperature, or in so small a box",
-        vapour_atoms, period - 2.0 * space, interface.place, interface.width));
-  }
+  transcript += lammps.transcript();
   const double density = 1.0 / metal::specific_volume(1.0, mass);  // kg/m^3 of one atom per A^3
-  const auto scaled = [&](const std::vector<double>& series) {
-    const Estimate e = series_mean(series);
-    return Estimate{density * e.value, density * e.error};
-  };
-  LiquidVapourResult result;
-  result.liquid_density = scaled(liquid);
-  result.vapour_density = scaled(vapour);
-  result.vapour_pressure = series_mean(normal);
-  result.surface_energy = series_mean(surface);
-  result.width = interface.width * metal::angstrom;
-  result.transcript = lammps.transcript();
-  return result;
+  return {{"liquid_density", density * mean(liquid)},
+          {"vapour_density", density * mean(vapour)},
+          {"vapour_pressure", mean(normal)},
+          {"surface_energy", mean(surface)},
+          {"interface_width", interface.width * metal::angstrom},
+          {vapour_atoms, mean(vapour) * 2.0 * (0.5 * period - space) * area}};
+}
+
+}  // namespace
+
+ReplicaSet measure_liquid_vapour(const Potential& potential, double temperature,
+                                 const LiquidVapourPlan& section, std::int64_t seed) {
+  ReplicaSet set = run_replicas(section.replicas, seed, [&](std::int64_t own_seed, std::string& transcript) {
+    return measure_film(potential, temperature, section, own_seed, transcript);
+  });
+  // Judged by the mean: a choice among the runs would keep those with the denser vapour.
+  const double atoms = set.mean(vapour_atoms).value;
+  set.values.erase(vapour_atoms);
+  if (atoms < least_vapour_atoms) {
+    throw StateError(
+        fmt::format("the vapour holds {:.1f} atoms on average beside an interface of {:.1f} A width: too few "
+                    "below about 0.7 "
+                    "of the critical temperature, or in so small a box",
+                    atoms, set.mean("interface_width").value / metal::angstrom));
+  }
+  return set;
 }
 
 void add_liquid_vapour(const Plan& plan, TaskList& list) {
@@ -184,16 +205,10 @@ void add_liquid_vapour(const Plan& plan, TaskList& list) {
   for (const double temperature : section.temperature) {
     PointRequest request{{{"temperature", temperature}}, size_settings(section.size), {}};
     request.settings["gap"] = fmt::format("{}", section.gap);
+    request.settings["replicas"] = std::to_string(section.replicas);
     list.add(request,
              [&potential = list.potential(), section, temperature](std::int64_t seed, const PointRecord*) {
-               const LiquidVapourResult result = measure_liquid_vapour(potential, temperature, section, seed);
-               return TaskResult{{{"liquid_density", result.liquid_density},
-                                  {"vapour_density", result.vapour_density},
-                                  {"vapour_pressure", result.vapour_pressure},
-                                  {"surface_energy", result.surface_energy},
-                                  {"interface_width", {result.width, 0.0}}},
-                                 "",
-                                 result.transcript};
+               return to_result(measure_liquid_vapour(potential, temperature, section, seed));
              });
   }
 }

@@ -5,26 +5,20 @@
 #include <span>
 #include <string>
 
-#include "md_fitting/data_set/data_set.hpp"
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/plan/liquid_vapour.hpp"
+#include "md_fitting/protocols/replicas.hpp"
 
 namespace whipple::md {
 
-struct LiquidVapourResult {
-  Estimate liquid_density;   ///< kg/m^3, of the melt inside the film
-  Estimate vapour_density;   ///< kg/m^3, of the vapour outside
-  Estimate vapour_pressure;  ///< Pa, the stress normal to the film
-  Estimate surface_energy;   ///< J/m^2
-  double width = 0.0;        ///< m, over which the density falls from 90 to 10 %
-  std::string transcript;
-};
-
-/// A film of melt between its own vapour, at constant volume and temperature.
-/// @throws StateError if film and vapour do not separate (too hot), or if the vapour holds too few atoms (too
-/// cold).
-LiquidVapourResult measure_liquid_vapour(const Potential& potential, double temperature,
-                                         const LiquidVapourPlan& section, std::int64_t seed);
+/// A film of melt between its own vapour, at constant volume and temperature, in independent runs. Results:
+/// liquid_density and vapour_density (kg/m^3) of the melt inside the film and of the vapour outside,
+/// vapour_pressure (Pa), the stress normal to the film, surface_energy (J/m^2), interface_width (m), over
+/// which the density falls from 90 to 10 %.
+/// @throws StateError if in too many runs film and vapour do not separate (too hot), or if the vapour holds
+/// too few atoms (too cold).
+ReplicaSet measure_liquid_vapour(const Potential& potential, double temperature,
+                                 const LiquidVapourPlan& section, std::int64_t seed);
 
 /// Centre of a group of places in a period: the mean of their directions on a circle.
 /// @returns 0 ... period

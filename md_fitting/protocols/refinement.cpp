@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "md_fitting/protocols/replicas.hpp"
 #include "src/base/error.hpp"
 
 namespace whipple::md {
@@ -53,6 +54,8 @@ PointRecord join(const PointRecord& point, const PointRecord& segment) {
   for (auto& [name, means] : joined.blocks) {
     const auto more = segment.blocks.find(name);
     if (more != segment.blocks.end()) means.insert(means.end(), more->second.begin(), more->second.end());
+    // Each block is a run of its own: all together are one larger set.
+    if (joined.provenance.contains("replicas")) joined.results[name] = replica_mean(means);
   }
   // The correlation is that of the joint covariance.
   if (joined.results.contains("error_correlation")) {

@@ -23,7 +23,7 @@ bool wants_more(const PointRecord& point, const Precision& precision);
 /// Joins a finished point with one more segment, an independent run of the same length: means of the values
 /// weighted by the number of segments. Two parts that differ by more than two standard errors of their
 /// difference have not seen the same states, and the error grows in proportion. A flag holds if it holds in
-/// both parts.
+/// both parts. Points of replicas (provenance "replicas") become one larger set of them.
 PointRecord join(const PointRecord& point, const PointRecord& segment);
 
 }  // namespace whipple::md

@@ -14,7 +14,6 @@
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/structure.hpp"
 #include "src/base/error.hpp"
-#include "src/base/hash.hpp"
 
 namespace whipple::md {
 namespace {
@@ -26,19 +25,12 @@ constexpr double window_strain = 0.004;
 constexpr double part_strain = 0.02;
 constexpr std::int64_t interval = 5;
 
-struct Run {
-  double strength = 0.0;     // bar
-  double temperature = 0.0;  // K
-  double volume = 0.0;       // A^3 per atom
-  double initial_volume = 0.0;
-};
-
 double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-Run stretch(const Potential& potential, double temperature, const SpallPlan& section, std::int64_t seed,
-            std::string& transcript) {
+ReplicaValues stretch(const Potential& potential, double temperature, const SpallPlan& section,
+                      std::int64_t seed, std::string& transcript) {
   const std::int64_t cells = section.size.cells;
   // Half of the usual step: the failure is sudden and hot.
   const double dt =
@@ -54,8 +46,7 @@ Run stretch(const Potential& potential, double temperature, const SpallPlan& sec
   if (crystal_share(crystal, potential) < 0.25) {
     throw StateError(fmt::format("the crystal melted at {} K and zero pressure", temperature));
   }
-  Run run;
-  run.initial_volume = lammps.variable("volume");
+  const double initial_volume = lammps.variable("volume");  // A^3 per atom
 
   // Every edge grows at one constant rate and every atom moves with its place from the beginning: a uniform
   // expansion without a force that drives it. Temperature and pressure are those of the motion relative to
@@ -85,30 +76,23 @@ Run stretch(const Potential& potential, double temperature, const SpallPlan& sec
     // The first sample of a part is the last of the one before.
     for (std::size_t k = 0; k < 3; ++k)
       history[k].insert(history[k].end(), part[k].begin() + 1, part[k].end());
-    strain = history[2].back() / run.initial_volume - 1.0;
+    strain = history[2].back() / initial_volume - 1.0;
     const std::span<const double> tension(history[0]);
     if (tension.size() < 2 * window) continue;
     const Peak peak = largest_mean(tension, window);
     if (!(peak.value > 0.0) || mean(tension.last(window)) > failed_share * peak.value) continue;
-    run.strength = peak.value;
-    run.temperature = mean(std::span<const double>(history[1]).subspan(peak.first, window));
-    run.volume = mean(std::span<const double>(history[2]).subspan(peak.first, window));
+    const auto at_peak = [&](const std::vector<double>& series) {
+      return mean(std::span<const double>(series).subspan(peak.first, window));
+    };
     transcript += lammps.transcript();
-    return run;
+    const double mass = potential.mass();
+    return {{"spall_strength", metal::bar * peak.value},
+            {"spall_temperature", at_peak(history[1])},
+            {"spall_specific_volume", metal::specific_volume(at_peak(history[2]), mass)},
+            {"specific_volume", metal::specific_volume(initial_volume, mass)}};
   }
   throw StateError(fmt::format("no failure up to a volume strain of {:.3g}; the tension is {:.4g} GPa",
                                strain, 1e-9 * metal::bar * history[0].back()));
-}
-
-/// Mean over the runs with its standard error.
-template <class Get>
-Estimate average(const std::vector<Run>& runs, const Get& get) {
-  const auto n = static_cast<double>(runs.size());
-  double sum = 0.0, squares = 0.0;
-  for (const Run& run : runs) sum += get(run);
-  const double mean = sum / n;
-  for (const Run& run : runs) squares += std::pow(get(run) - mean, 2);
-  return {mean, std::sqrt(squares / (n * (n - 1.0)))};
 }
 
 }  // namespace
@@ -125,22 +109,11 @@ Peak largest_mean(std::span<const double> series, std::size_t window) {
   return peak;
 }
 
-SpallResult measure_spall(const Potential& potential, double temperature, const SpallPlan& section,
-                          std::int64_t seed) {
-  SpallResult result;
-  std::vector<Run> runs;
-  for (std::int64_t i = 0; i < section.replicas; ++i) {
-    runs.push_back(stretch(potential, temperature, section, seed_from(sha256(fmt::format("{} {}", seed, i))),
-                           result.transcript));
-  }
-  const double mass = potential.mass();
-  result.strength = average(runs, [](const Run& run) { return metal::bar * run.strength; });
-  result.temperature = average(runs, [](const Run& run) { return run.temperature; });
-  result.specific_volume =
-      average(runs, [&](const Run& run) { return metal::specific_volume(run.volume, mass); });
-  result.initial_specific_volume =
-      average(runs, [&](const Run& run) { return metal::specific_volume(run.initial_volume, mass); }).value;
-  return result;
+ReplicaSet measure_spall(const Potential& potential, double temperature, const SpallPlan& section,
+                         std::int64_t seed) {
+  return run_replicas(section.replicas, seed, [&](std::int64_t own_seed, std::string& transcript) {
+    return stretch(potential, temperature, section, own_seed, transcript);
+  });
 }
 
 void add_spall(const Plan& plan, TaskList& list) {
@@ -155,13 +128,7 @@ void add_spall(const Plan& plan, TaskList& list) {
     request.settings.erase("steps");  // a run ends with the failure
     list.add(request,
              [&potential = list.potential(), section, temperature](std::int64_t seed, const PointRecord*) {
-               const SpallResult result = measure_spall(potential, temperature, section, seed);
-               return TaskResult{{{"spall_strength", result.strength},
-                                  {"spall_temperature", result.temperature},
-                                  {"spall_specific_volume", result.specific_volume},
-                                  {"specific_volume", {result.initial_specific_volume, 0.0}}},
-                                 "",
-                                 result.transcript};
+               return to_result(measure_spall(potential, temperature, section, seed));
              });
   }
 }

@@ -5,25 +5,19 @@
 #include <span>
 #include <string>
 
-#include "md_fitting/data_set/data_set.hpp"
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/plan/spall.hpp"
+#include "md_fitting/protocols/replicas.hpp"
 
 namespace whipple::md {
 
-struct SpallResult {
-  Estimate strength;         ///< Pa, largest tension
-  Estimate temperature;      ///< K, at the largest tension
-  Estimate specific_volume;  ///< m^3/kg, at the largest tension
-  double initial_specific_volume = 0.0;
-  std::string transcript;
-};
-
-/// The largest tension of a crystal that expands uniformly and without exchange of heat, from zero pressure.
-/// Mean over independent runs with its standard error.
-/// @throws StateError if the crystal melted before the tension, or if a run did not fail.
-SpallResult measure_spall(const Potential& potential, double temperature, const SpallPlan& section,
-                          std::int64_t seed);
+/// The largest tension of a crystal that expands uniformly and without exchange of heat, from zero pressure:
+/// spall_strength (Pa), spall_temperature (K) and spall_specific_volume (m^3/kg) where it is reached, and
+/// specific_volume before, of independent runs.
+/// @throws StateError if too many runs end without a result: the crystal melted before the tension, or did
+/// not fail.
+ReplicaSet measure_spall(const Potential& potential, double temperature, const SpallPlan& section,
+                         std::int64_t seed);
 
 /// The largest mean over `window` neighbouring samples and where its window begins.
 struct Peak {

@@ -119,11 +119,12 @@ std::map<std::string, std::string> size_settings(const RunSize& size) {
           {"time_step", size.time_step > 0.0 ? fmt::format("{} s", size.time_step) : "automatic"}};
 }
 
-Precision precision_of(const std::string& quantity, bool relative, const Target& target,
-                       const RunSize& size) {
+Precision precision_of(const std::string& quantity, bool relative, const Target& target, const RunSize& size,
+                       std::int64_t replicas) {
   constexpr std::int64_t usual_segments = 20;
   return {quantity, target.error, relative,
-          target.most_steps > 0 ? std::max<std::int64_t>(1, target.most_steps / size.steps) : usual_segments};
+          target.most_steps > 0 ? std::max<std::int64_t>(1, target.most_steps / (replicas * size.steps))
+                                : usual_segments};
 }
 
 std::string structure_remark(double crystal_share, bool solid) {

@@ -62,8 +62,9 @@ class TaskList {
 /// The settings of a run as they enter the key of a point.
 std::map<std::string, std::string> size_settings(const RunSize& size);
 
-/// What a section's target means for points whose segments have the steps of `size`.
-Precision precision_of(const std::string& quantity, bool relative, const Target& target, const RunSize& size);
+/// What a section's target means for points whose segments have the steps of `size`, `replicas` times.
+Precision precision_of(const std::string& quantity, bool relative, const Target& target, const RunSize& size,
+                       std::int64_t replicas = 1);
 
 /// The remark of a point whose crystal did not survive, or holds defects or a cavity; empty for a crystal.
 /// @param crystal_share of the atoms, in the nearest minimum of the energy

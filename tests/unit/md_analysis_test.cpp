@@ -92,6 +92,12 @@ TEST(LiquidVapour, InterfaceOfAKnownProfile) {
   const Interface interface = find_interface(profile, 1.0);
   EXPECT_NEAR(interface.place, 17.2, 0.05);
   EXPECT_NEAR(interface.width, 4.0 * std::atanh(0.8), 0.15);
+  // Noise of the plateaus beyond 90 and 10 % is no part of the interface.
+  std::vector<double> noisy = profile;
+  noisy[4] *= 0.85;
+  noisy[30] += 0.008;
+  EXPECT_NEAR(find_interface(noisy, 1.0).place, 17.2, 0.3);
+  EXPECT_NEAR(find_interface(noisy, 1.0).width, 4.0 * std::atanh(0.8), 0.6);
   EXPECT_THROW(find_interface(std::vector<double>(40, 0.03), 1.0), StateError);
   for (std::size_t k = 0; k < 6; ++k) profile[k] = 0.02;  // torn in the middle
   EXPECT_THROW(find_interface(profile, 1.0), StateError);
@@ -117,6 +123,12 @@ TEST(Plan, SectionsThatCannotBeMeasuredAreRefused) {
   EXPECT_NE(errors_of("[spall]\nstrain_rate = \"1e14 1/s\"\n").find("strain_rate"), std::string::npos);
   EXPECT_NE(errors_of("[spall]\nreplicas = 1\n").find("replicas"), std::string::npos);
   EXPECT_NE(errors_of("[liquid_vapour]\ntemperature = [\"-5 K\"]\n").find("temperature"), std::string::npos);
+  EXPECT_NE(errors_of("[liquid_vapour]\ntemperature = [\"5000 K\"]\nreplicas = 1\n").find("replicas"),
+            std::string::npos);
+  const std::string melting = "[coexistence]\npressure = [\"0 GPa\"]\nfirst_guess = [\"1300 K\"]\n";
+  EXPECT_EQ(errors_of(melting), "no InputError");
+  EXPECT_NE(errors_of(melting + "replicas = 1\n").find("replicas"), std::string::npos);
+  EXPECT_NE(errors_of(melting + "length = 4\n").find("length"), std::string::npos);
   EXPECT_NE(errors_of("[elastic]\nlargest_strain = 0.5\n").find("largest_strain"), std::string::npos);
   EXPECT_NE(errors_of("[cold_curve]\nvolume_ratio = [0.05]\n").find("volume_ratio"), std::string::npos);
   EXPECT_EQ(errors_of("[spall]\n[elastic]\n"), "no InputError");

@@ -217,13 +217,22 @@ TEST(FormatResult, UsesUsualUnitsAndTheDigitsOfTheError) {
 
 // The acceptance of a two-phase run: end states that have lost a phase look as steady as coexistence.
 TEST(Coexistence, AcceptsOnlyTwoPhasesAtRest) {
-  const CoexistenceRun good{{1325.0, 2.0}, {1327.0, 2.0}, 0.50, 0.52, 0.40, 0.60};
+  const CoexistenceRun good{{1325.0, 2.0}, {1327.0, 2.0}, 0.50, 0.52, 0.40, 0.60, 0.05, 0.95};
   EXPECT_EQ(refusal(good), "");
   CoexistenceRun run = good;
   run.largest_share = 0.97;
   EXPECT_NE(refusal(run).find("the melt froze"), std::string::npos);
   run = good;
   run.least_share = 0.05;
+  EXPECT_NE(refusal(run).find("the crystal melted"), std::string::npos);
+  // Frozen as a whole and hot: the share alone looks like two phases.
+  run = good;
+  run.first_share = run.second_share = 0.76;
+  run.largest_share = 0.79;
+  run.least_order = 0.60;
+  EXPECT_NE(refusal(run).find("the melt froze"), std::string::npos);
+  run = good;
+  run.largest_order = 0.30;
   EXPECT_NE(refusal(run).find("the crystal melted"), std::string::npos);
   run = good;
   run.second_share = 0.70;
@@ -233,6 +242,24 @@ TEST(Coexistence, AcceptsOnlyTwoPhasesAtRest) {
   EXPECT_NE(refusal(run).find("the temperature drifts"), std::string::npos);
   run.whole = {1332.5, 8.0};  // the slow exchange of the phases explains it
   EXPECT_EQ(refusal(run), "");
+}
+
+// Starts between the coldest that melted and the hottest that froze.
+TEST(Coexistence, NextStartLiesBetweenThoseThatLostAPhase) {
+  StartingTemperature start(1200.0);
+  start.froze();
+  EXPECT_NEAR(start.next(), 1248.0, 1e-9);
+  start.froze();
+  EXPECT_NEAR(start.next(), 1297.92, 1e-9);
+  start.melted();
+  EXPECT_NEAR(start.next(), 0.5 * (1248.0 + 1297.92), 1e-9);
+  StartingTemperature hot(1400.0);
+  hot.melted();
+  EXPECT_NEAR(hot.next(), 1344.0, 1e-9);
+  hot.froze();  // by chance of a small cell: the two meet in the middle
+  EXPECT_NEAR(hot.next(), 1372.0, 1e-9);
+  hot.ended_at(1330.0);
+  EXPECT_EQ(hot.next(), 1330.0);
 }
 
 // Temperature of crystal and melt at constant enthalpy: fast vibrations (60 % of the variance 2 T^2/(3 N)) on

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 
 #include "md_fitting/protocols/campaign.hpp"
 #include "md_fitting/protocols/refinement.hpp"
+#include "md_fitting/protocols/replicas.hpp"
 #include "src/base/error.hpp"
 #include "src/base/hash.hpp"
 #include "src/base/log.hpp"
@@ -63,6 +65,94 @@ TEST(Join, RefusesSegmentsOfAnotherPoint) {
   PointRecord other = part(1.0, 0.1);
   other.key = "other";
   EXPECT_THROW(join(part(1.0, 0.1), other), InternalError);
+}
+
+// Independent values about 10 with a standard deviation of 2 in each of many points: the mean square of the
+// stated errors is the variance of the means, at any number of runs, and also of points that were continued.
+TEST(Replicas, ErrorsAreTheScatterOfTheMeans) {
+  for (const int replicas : {2, 3, 4, 8}) {
+    constexpr int points = 4000;
+    double stated = 0.0;
+    double scatter = 0.0;
+    std::mt19937_64 generator(static_cast<unsigned>(replicas));
+    std::normal_distribution<double> run(10.0, 2.0);
+    std::vector<double> values(static_cast<std::size_t>(replicas));
+    for (int k = 0; k < points; ++k) {
+      for (double& value : values) value = run(generator);
+      const Estimate mean = replica_mean(values);
+      stated += mean.error * mean.error / points;
+      scatter += (mean.value - 10.0) * (mean.value - 10.0) / points;
+    }
+    EXPECT_NEAR(stated, 4.0 / replicas, 0.3 / replicas) << replicas;
+    EXPECT_NEAR(scatter, 4.0 / replicas, 0.3 / replicas) << replicas;
+  }
+  EXPECT_THROW(replica_mean(std::vector<double>{1.0}), InternalError);
+}
+
+// What one run alone would bring does not depend on how many others there are, or on their failures.
+TEST(Replicas, RunsThatFailAreNamedAndLeftOut) {
+  std::vector<std::int64_t> seeds;
+  const auto with_failures = [&](std::int64_t wanted, const std::set<std::size_t>& failing) {
+    seeds.clear();
+    return run_replicas(wanted, 5, [&](std::int64_t seed, std::string& transcript) -> ReplicaValues {
+      seeds.push_back(seed);
+      transcript += "run\n";
+      if (failing.contains(seeds.size())) {
+        if (seeds.size() % 2 == 0) throw LammpsError("LAMMPS: Lost atoms");
+        throw StateError("the melt froze");
+      }
+      return {{"pressure", static_cast<double>(seeds.size())}};
+    });
+  };
+  const ReplicaSet all = with_failures(4, {});
+  EXPECT_EQ(all.values.at("pressure"), (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_EQ(all.remark, "");
+  EXPECT_EQ(all.transcript, "run\nrun\nrun\nrun\n");
+  EXPECT_EQ(std::set(seeds.begin(), seeds.end()).size(), 4U);
+  const std::vector<std::int64_t> undisturbed = seeds;
+
+  const ReplicaSet rest = with_failures(4, {2});
+  EXPECT_EQ(seeds, undisturbed);
+  EXPECT_EQ(rest.remark, "1 of 4 runs left out: run 2: LAMMPS: Lost atoms");
+  const TaskResult result = to_result(rest);
+  EXPECT_EQ(result.message, rest.remark);
+  EXPECT_EQ(result.blocks.at("pressure"), (std::vector<double>{1, 3, 4}));
+  EXPECT_NEAR(result.results.at("pressure").value, 8.0 / 3.0, 1e-12);
+
+  // More than half must be left, and two at least; it ends as soon as that cannot be.
+  const auto message = [&](std::int64_t wanted, const std::set<std::size_t>& failing) -> std::string {
+    try {
+      with_failures(wanted, failing);
+    } catch (const StateError& error) {
+      return error.what();
+    }
+    return "no StateError";
+  };
+  EXPECT_EQ(message(4, {1, 2}),
+            "2 of 4 runs failed, at least 3 are needed: run 1: the melt froze; run 2: LAMMPS: Lost atoms");
+  EXPECT_EQ(seeds.size(), 2U);
+  EXPECT_EQ(message(2, {1}), "1 of 2 runs failed, at least 2 are needed: run 1: the melt froze");
+  EXPECT_EQ(message(5, {1, 4}), "no StateError");
+}
+
+// Segments of replicas become one larger set, weighted by the runs that each brought.
+TEST(Join, OfReplicasIsTheMeanOfAllRuns) {
+  const auto point = [](const std::vector<double>& runs) {
+    PointRecord made;
+    made.key = "key";
+    made.protocol = "coexistence";
+    made.status = "done";
+    made.results = {{"melting_temperature", replica_mean(runs)}};
+    made.blocks = {{"melting_temperature", runs}};
+    made.provenance = {{"replicas", "3"}};
+    return made;
+  };
+  const PointRecord joined = join(point({1300.0, 1310.0, 1320.0}), point({1340.0, 1350.0}));
+  const std::vector<double> all = {1300.0, 1310.0, 1320.0, 1340.0, 1350.0};
+  EXPECT_EQ(joined.blocks.at("melting_temperature"), all);
+  EXPECT_NEAR(joined.result("melting_temperature").value, 1324.0, 1e-9);
+  EXPECT_NEAR(joined.result("melting_temperature").error, replica_mean(all).error, 1e-12);
+  EXPECT_EQ(joined.segments(), 2);
 }
 
 class Continued : public ::testing::Test {

@@ -18,6 +18,7 @@ namespace {
 /// Of the algorithm of a protocol.
 std::string revision(const std::string& protocol) {
   if (protocol == "lattice") return "1";
+  if (protocol == "coexistence") return "4";
   return "3";
 }
 
@@ -76,9 +77,10 @@ TEST_F(Keys, OfTheShippedPlansAreThoseOfTheFirstStores) {
   const std::string wanted = key(
       "coexistence", fmt::format("condition pressure={}\n", section.pressure[0]),
       fmt::format(
-          "attempts={}\ncells={}\nequilibration_steps={}\nfirst_guess={}\nsteps={}\ntime_step=automatic\n",
+          "attempts={}\ncells={}\nequilibration_steps={}\nfirst_guess={}\nlength={}\nreplicas={}\nsteps={}\n"
+          "time_step=automatic\n",
           section.attempts, section.size.cells, section.size.equilibration_steps, section.first_guess[0],
-          section.size.steps));
+          section.length, section.replicas, section.size.steps));
   EXPECT_TRUE(std::any_of(melting_tasks.begin(), melting_tasks.end(),
                           [&](const Task& task) { return task.key == wanted; }));
 }

@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "md_fitting/lammps/units.hpp"
+#include "md_fitting/protocols/coexistence.hpp"
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/hugoniostat.hpp"
 #include "md_fitting/protocols/hugoniot.hpp"
 #include "md_fitting/protocols/hugoniot_guess.hpp"
+#include "md_fitting/protocols/liquid_vapour.hpp"
 #include "md_fitting/protocols/nvt_state.hpp"
 #include "md_fitting/protocols/phase.hpp"
 #include "md_fitting/protocols/piston.hpp"
@@ -149,9 +151,34 @@ TEST(StatedErrors, OfTheSpallStrength) {
   const SpallPlan section{{293.0}, 1e11, 5, 0.6, {.cells = 3, .equilibration_steps = 800}};
   Runs runs;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const SpallResult spall = measure_spall(foiles(), 293.0, section, 7919 * seed);
-    runs["strength"].push_back(spall.strength);
-    runs["temperature"].push_back(spall.temperature);
+    const ReplicaSet spall = measure_spall(foiles(), 293.0, section, 7919 * seed);
+    runs["strength"].push_back(spall.mean("spall_strength"));
+    runs["temperature"].push_back(spall.mean("spall_temperature"));
+  }
+  runs.expect_honest();
+}
+
+TEST(StatedErrors, OfTheMeltingPoint) {
+  CoexistencePlan section;
+  section.replicas = 3;
+  section.length = 18;
+  section.size = {.cells = 4, .equilibration_steps = 2500, .steps = 4000};
+  Runs runs;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const ReplicaSet melting = measure_coexistence(foiles(), 0.0, 1270.0, section, 7919 * seed);
+    if (!melting.remark.empty()) std::printf("  seed %d: %s\n", seed, melting.remark.c_str());
+    for (const auto& [name, values] : melting.values) runs[name].push_back(replica_mean(values));
+  }
+  runs.expect_honest();
+}
+
+TEST(StatedErrors, OfFilmAndVapour) {
+  LiquidVapourPlan section{{}, 2.0, 3, {.cells = 4, .equilibration_steps = 6000, .steps = 8000}};
+  Runs runs;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const ReplicaSet film = measure_liquid_vapour(foiles(), 5100.0, section, 7919 * seed);
+    if (!film.remark.empty()) std::printf("  seed %d: %s\n", seed, film.remark.c_str());
+    for (const auto& [name, values] : film.values) runs[name].push_back(replica_mean(values));
   }
   runs.expect_honest();
 }

@@ -86,13 +86,14 @@ TEST(Spall, LiesBelowTheStrengthOfTheStaticCrystal) {
   section.replicas = 2;
   section.size.cells = 4;
   section.size.equilibration_steps = 1000;
-  const SpallResult cold = measure_spall(universal(), 293.0, section, 3);
-  const SpallResult hot = measure_spall(universal(), 900.0, section, 3);
-  EXPECT_LT(cold.strength.value, static_strength);
-  EXPECT_GT(cold.strength.value, 0.7 * static_strength);
-  EXPECT_LT(hot.strength.value, 0.9 * cold.strength.value);
-  EXPECT_LT(cold.temperature.value, 250.0);
-  EXPECT_GT(cold.specific_volume.value, 1.2 * cold.initial_specific_volume);
+  const ReplicaSet cold = measure_spall(universal(), 293.0, section, 3);
+  const ReplicaSet hot = measure_spall(universal(), 900.0, section, 3);
+  const double strength = cold.mean("spall_strength").value;
+  EXPECT_LT(strength, static_strength);
+  EXPECT_GT(strength, 0.7 * static_strength);
+  EXPECT_LT(hot.mean("spall_strength").value, 0.9 * strength);
+  EXPECT_LT(cold.mean("spall_temperature").value, 250.0);
+  EXPECT_GT(cold.mean("spall_specific_volume").value, 1.2 * cold.mean("specific_volume").value);
   // The crystal does not fail within two per cent.
   section.largest_strain = 0.05;
   EXPECT_THROW(measure_spall(universal(), 293.0, section, 3), StateError);
@@ -128,20 +129,20 @@ TEST(Liquid, IsProvedByItsStructure) {
 // film has the density of the melt alone at the same temperature and pressure, found by another protocol, the
 // vapour is thinner by a multiple, and the surface energy has become small.
 TEST(LiquidVapour, IsMeasuredWhereBothPhasesAre) {
-  LiquidVapourPlan section{{}, 2.0, {.cells = 4, .equilibration_steps = 16000, .steps = 8000}};
-  const LiquidVapourResult film = measure_liquid_vapour(universal(), 5000.0, section, 3);
+  LiquidVapourPlan section{{}, 2.0, 2, {.cells = 4, .equilibration_steps = 16000, .steps = 8000}};
+  const ReplicaSet film = measure_liquid_vapour(universal(), 5000.0, section, 3);
   std::string transcript;
   const Phase melt =
-      measure_phase(universal(), true, std::fmax(0.0, film.vapour_pressure.value), 5000.0,
+      measure_phase(universal(), true, std::fmax(0.0, film.mean("vapour_pressure").value), 5000.0,
                     {.cells = 4, .equilibration_steps = 1000, .steps = 3000}, 1e-3, 3, transcript);
   const double density = 1.0 / metal::specific_volume(melt.volume.value, universal().mass());
-  EXPECT_NEAR(film.liquid_density.value / density, 1.0, 0.10);
-  EXPECT_LT(film.vapour_density.value, 0.2 * film.liquid_density.value);
-  EXPECT_GT(film.vapour_density.value, 0.0);
-  EXPECT_GT(film.surface_energy.value, -3.0 * film.surface_energy.error);
+  EXPECT_NEAR(film.mean("liquid_density").value / density, 1.0, 0.10);
+  EXPECT_LT(film.mean("vapour_density").value, 0.2 * film.mean("liquid_density").value);
+  EXPECT_GT(film.mean("vapour_density").value, 0.0);
+  EXPECT_GT(film.mean("surface_energy").value, -3.0 * film.mean("surface_energy").error);
   // So close to the critical point it is a small part of that of liquid copper at its melting point, 1.3
   // J/m^2.
-  EXPECT_LT(film.surface_energy.value, 0.4);
+  EXPECT_LT(film.mean("surface_energy").value, 0.4);
   section.size = {.cells = 4, .equilibration_steps = 1000, .steps = 3200};
   const auto refusal_at = [&](double temperature) -> std::string {
     try {
