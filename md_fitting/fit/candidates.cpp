@@ -9,7 +9,6 @@ namespace whipple::fit {
 namespace {
 
 using md::PointRecord;
-using md::RunSize;
 
 /// Equidistant, ends included and exact.
 std::vector<double> spaced(double least, double most, std::int64_t count) {
@@ -39,12 +38,18 @@ double interpolated(const std::map<double, double>& table, double x) {
 
 bool same(double a, double b) { return std::abs(a - b) <= 1e-6 * std::abs(b) + 1e-9; }
 
+/// Unit cells times averaged steps of all runs of a point.
+double sampling_of(const RunShape& shape) {
+  const auto cells = static_cast<double>(shape.size.cells);
+  return cells * cells * shape.length * static_cast<double>(shape.size.steps) * shape.replicas;
+}
+
 /// Atoms times steps of a point of a protocol.
-double cost_of(const std::string& protocol, double atoms_per_cell, const RunSize& size) {
+double cost_of(const std::string& protocol, double atoms_per_cell, const RunShape& shape) {
   const auto cube = [&](double cells) { return atoms_per_cell * cells * cells * cells; };
-  const auto cells = static_cast<double>(size.cells);
-  const auto equilibration = static_cast<double>(size.equilibration_steps);
-  const auto steps = static_cast<double>(size.steps);
+  const auto cells = static_cast<double>(shape.size.cells);
+  const auto equilibration = static_cast<double>(shape.size.equilibration_steps);
+  const auto steps = static_cast<double>(shape.size.steps);
   if (protocol == "hugoniot") {
     constexpr double searches = 3.0;  // runs of half the equilibration and a quarter of the steps
     return cube(cells) * ((equilibration + steps) + searches * (0.5 * equilibration + 0.25 * steps));
@@ -52,19 +57,23 @@ double cost_of(const std::string& protocol, double atoms_per_cell, const RunSize
   if (protocol == "coexistence") {
     constexpr double preparation = 1500.0 + 0.5 * (5000.0 + 1000.0) + 1000.0;  // half of the cell melts
     const double phase = std::fmax(4.0, 0.75 * cells);  // crystal and melt are averaged apart as well
-    return 2.0 * cube(cells) * (preparation + equilibration + steps) +
-           2.0 * cube(phase) * (0.5 * equilibration + steps);
+    const double runs = shape.replicas + 1.0;           // the first one finds where the others start
+    return atoms_per_cell * cells * cells * shape.length * (preparation + equilibration + steps) * runs +
+           2.0 * cube(phase) * 0.5 * (equilibration + steps) * shape.replicas;
   }
   return cube(cells) * (equilibration + steps);
 }
 
-RunSize size_of(const PointRecord& point) {
-  const auto number = [&](const char* name) {
-    return static_cast<std::int64_t>(point.provenance.contains(name) ? point.origin_number(name) : 0.0);
+RunShape shape_of(const PointRecord& point) {
+  const auto number = [&](const char* name, double otherwise) {
+    return point.provenance.contains(name) ? point.origin_number(name) : otherwise;
   };
-  return {.cells = number("cells"),
-          .equilibration_steps = number("equilibration_steps"),
-          .steps = number("steps")};
+  const double cells = number("cells", 0.0);
+  return {{.cells = static_cast<std::int64_t>(cells),
+           .equilibration_steps = static_cast<std::int64_t>(number("equilibration_steps", 0.0)),
+           .steps = static_cast<std::int64_t>(number("steps", 0.0))},
+          number("length", cells),
+          number("replicas", 1.0)};
 }
 
 }  // namespace
@@ -81,11 +90,15 @@ const md::IsochorePlan& Ranges::nearest_isochore(double volume_ratio) const {
   });
 }
 
-const RunSize& Ranges::size_of(const PlannedPoint& point) const {
-  if (point.protocol == "hugoniot") return plan_.hugoniot->size;
-  if (point.protocol == "coexistence") return plan_.coexistence->size;
-  if (point.protocol == "isochore") return nearest_isochore(point.volume_ratio).size;
-  return plan_.zero_pressure->size;
+RunShape Ranges::shape_of(const PlannedPoint& point) const {
+  const auto cube = [](const md::RunSize& size) {
+    return RunShape{size, static_cast<double>(size.cells), 1.0};
+  };
+  if (point.protocol == "hugoniot") return cube(plan_.hugoniot->size);
+  if (point.protocol == "isochore") return cube(nearest_isochore(point.volume_ratio).size);
+  if (point.protocol != "coexistence") return cube(plan_.zero_pressure->size);
+  const md::CoexistencePlan& melting = *plan_.coexistence;
+  return {melting.size, static_cast<double>(melting.length), static_cast<double>(melting.replicas)};
 }
 
 std::vector<double> Ranges::isochore_ratios() const {
@@ -194,25 +207,21 @@ std::vector<Candidate> Ranges::candidates(std::span<const double> isochore_volum
 }
 
 double Ranges::cost(const PlannedPoint& point) const {
-  return cost_of(point.protocol, atoms_per_cell_, size_of(point));
+  return cost_of(point.protocol, atoms_per_cell_, shape_of(point));
 }
 
 double Ranges::spent() const {
   double sum = 0.0;
   for (const PointRecord& point : points_) {
-    sum += cost_of(point.protocol, atoms_per_cell_, fit::size_of(point)) * point.segments();
+    sum += cost_of(point.protocol, atoms_per_cell_, fit::shape_of(point)) * point.segments();
   }
   return sum;
 }
 
-double Ranges::sampling(const PlannedPoint& point) const {
-  const RunSize& size = size_of(point);
-  return std::pow(static_cast<double>(size.cells), 3) * static_cast<double>(size.steps);
-}
+double Ranges::sampling(const PlannedPoint& point) const { return sampling_of(shape_of(point)); }
 
 double Ranges::sampling(const PointRecord& point) {
-  const RunSize size = fit::size_of(point);
-  return std::pow(static_cast<double>(size.cells), 3) * static_cast<double>(size.steps) * point.segments();
+  return sampling_of(fit::shape_of(point)) * point.segments();
 }
 
 md::Plan Ranges::plan_of(std::span<const PlannedPoint> points) const {
@@ -229,7 +238,8 @@ md::Plan Ranges::plan_of(std::span<const PlannedPoint> points) const {
       if (!plan.hugoniot) plan.hugoniot = md::HugoniotPlan{{}, plan_.hugoniot->size, {}};
       plan.hugoniot->volume_ratio.push_back(point.volume_ratio);
     } else if (point.protocol == "isochore") {
-      plan.isochores.push_back({point.volume_ratio, {point.temperature}, size_of(point), {}});
+      plan.isochores.push_back(
+          {point.volume_ratio, {point.temperature}, nearest_isochore(point.volume_ratio).size, {}});
     } else if (point.protocol == "coexistence") {
       if (!plan.coexistence) {
         plan.coexistence = *plan_.coexistence;

@@ -24,6 +24,13 @@ struct Candidate {
   double cost = 0.0;  ///< atom-steps
 };
 
+/// Size and number of the runs of a point.
+struct RunShape {
+  md::RunSize size;
+  double length = 0.0;  ///< unit cells along the third edge
+  double replicas = 1.0;
+};
+
 /// The sections of a plan as ranges, each with equidistant values; and what a store holds of them.
 class Ranges {
  public:
@@ -45,7 +52,7 @@ class Ranges {
   [[nodiscard]] double spent() const;
   /// V of the static crystal at zero pressure, as the store has it, m^3/kg.
   [[nodiscard]] double static_volume() const { return static_volume_; }
-  /// Cells times steps: the inverse of the variance goes with it.
+  /// Unit cells times averaged steps: the inverse of the variance goes with it.
   [[nodiscard]] double sampling(const PlannedPoint& point) const;
   [[nodiscard]] static double sampling(const md::PointRecord& point);
 
@@ -53,7 +60,7 @@ class Ranges {
   [[nodiscard]] md::Plan plan_of(std::span<const PlannedPoint> points) const;
 
  private:
-  [[nodiscard]] const md::RunSize& size_of(const PlannedPoint& point) const;
+  [[nodiscard]] RunShape shape_of(const PlannedPoint& point) const;
   [[nodiscard]] const md::IsochorePlan& nearest_isochore(double volume_ratio) const;
   [[nodiscard]] std::vector<PlannedPoint> isochore(double volume_ratio) const;
   [[nodiscard]] std::vector<PlannedPoint> hugoniot() const;

@@ -30,6 +30,8 @@ constexpr double least_order_of_crystal = 0.5;
 /// By which a start goes on from one that lost a phase, as long as nothing bounds it on the other side.
 constexpr double start_step = 0.04;
 constexpr int most_parts = 3;
+/// Of the volume; fcc metals expand by 3 to 7 % as they melt.
+constexpr double melting_expansion = 0.05;
 constexpr std::int64_t share_interval = 200;
 
 double mean(std::span<const double> values) {
@@ -65,11 +67,17 @@ class TwoPhaseCell {
     lammps.command("variable is_crystal atom c_order[1]>{}", crystal_order);
     lammps.command("compute share all reduce ave v_is_crystal");
     lammps.command("variable share equal c_share");
-    // The upper half melts at constant volume while the lower half rests.
+    // The upper half, stretched to the volume of a melt (a compressed one freezes again as it cools), melts
+    // at constant volume while the lower half rests.
     lammps.command("variable middle equal 0.5*(zlo+zhi)");
     lammps.command("variable middle_now equal {:.17g}", lammps.variable("middle"));
     lammps.command("region upper block INF INF INF INF ${middle_now} INF units box");
     lammps.command("group upper region upper");
+    lammps.command("variable top equal zhi");
+    const double top = lammps.variable("top");
+    const double stretch = melting_expansion * (top - lammps.variable("middle"));
+    lammps.command("change_box all z delta 0 {:.17g} units box", stretch);
+    lammps.command("displace_atoms upper ramp z 0 {:.17g} z ${{middle_now}} {:.17g} units box", stretch, top);
     lammps.command("compute upper_share upper reduce ave v_is_crystal");
     lammps.command("variable upper_share equal c_upper_share");
     lammps.command("thermo_style custom step temp pe vol c_virial c_displacement[4] c_share c_upper_share");
@@ -97,11 +105,16 @@ class TwoPhaseCell {
     lammps.command("unfix whole");
     lammps.command("velocity all scale {:.17g}", guess);
     lammps.command("fix whole all nph {}", couplings);
+    log::detail("share of crystal by the order parameter: {:.3f} in the crystal, {:.3f} in the melt",
+                crystal_reading_, melt_reading_);
     lammps.command("run {}", section.size.equilibration_steps);
     // Crystal layer by layer, one unit cell each.
-    lammps.command("compute layers all chunk/atom bin/1d z lower {:.17g} units reduced",
-                   1.0 / static_cast<double>(layers_));
-    lammps.command("compute layer_order all reduce/chunk layers sum v_is_crystal");
+    std::string flags;
+    for (std::int64_t k = 0; k < layers_; ++k) {
+      lammps.command("variable crystal_{0} atom v_is_crystal*(floor((z-zlo)/lz*{1})=={0})", k, layers_);
+      flags += fmt::format(" v_crystal_{}", k);
+    }
+    lammps.command("compute layer_order all reduce ave{}", flags);
   }
 
   /// Runs on and averages.
@@ -117,6 +130,8 @@ class TwoPhaseCell {
     const auto normalised = [&](double s) {
       return (s - melt_reading_) / (crystal_reading_ - melt_reading_);
     };
+    // The first sample is taken before the run has its list of neighbours.
+    for (std::vector<double>& column : shares) column.erase(column.begin());
     for (double& s : shares[0]) s = normalised(s);
     const std::span<const double> t(temperature);
     const std::span<const double> x(shares[0]);
@@ -131,10 +146,9 @@ class TwoPhaseCell {
                        1.0,
                        0.0,
                        {whole.estimate.value, coexistence_error(whole, crystal_.atoms())}};
-    const double atoms_of_layer = crystal_.atoms() / static_cast<double>(layers_);
     for (std::size_t k = 1; k < shares.size(); ++k) {
-      const double order =
-          normalised(mean(std::span<const double>(shares[k]).last(x.size() / 2)) / atoms_of_layer);
+      const double of_all_atoms = mean(std::span<const double>(shares[k]).last(x.size() / 2));
+      const double order = normalised(of_all_atoms * static_cast<double>(layers_));
       run.least_order = std::min(run.least_order, order);
       run.largest_order = std::max(run.largest_order, order);
     }
@@ -277,9 +291,17 @@ ReplicaSet measure_coexistence(const Potential& potential, double pressure, doub
   // the guess.
   const double dt = section.size.time_step > 0.0 ? section.size.time_step / metal::picosecond
                                                  : time_step(potential, 1.0, 300.0, section.size);
-  return run_replicas(section.replicas, seed, [&](std::int64_t own_seed, std::string& transcript) {
-    return melting_point(potential, pressure, first_guess, section, dt, own_seed, transcript);
+  // What a run remembers of its start would be common to all replicas: they begin where a run from the guess
+  // has ended, which takes no part in the mean.
+  std::string search;
+  const double start =
+      find_coexistence(potential, pressure, first_guess, section, dt, next_seed(seed, "search"), search)
+          .first;
+  ReplicaSet set = run_replicas(section.replicas, seed, [&](std::int64_t own_seed, std::string& transcript) {
+    return melting_point(potential, pressure, start, section, dt, own_seed, transcript);
   });
+  set.transcript.insert(0, search);
+  return set;
 }
 
 void add_coexistence(const Plan& plan, TaskList& list) {

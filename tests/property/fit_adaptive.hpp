@@ -83,7 +83,7 @@ class SyntheticDynamics {
       for (const double t : isochore.temperature) add_state(points, isochore.volume_ratio, t, isochore.size);
     }
     if (plan.coexistence) {
-      for (const double p : plan.coexistence->pressure) add_melting(points, p, plan.coexistence->size);
+      for (const double p : plan.coexistence->pressure) add_melting(points, p, *plan.coexistence);
     }
   }
 
@@ -166,8 +166,9 @@ class SyntheticDynamics {
     });
   }
 
-  void add_melting(Points& points, double pressure, const md::RunSize& size) const {
-    add(points, "coexistence", {{"pressure", pressure}}, size, [&](auto& deviate) {
+  void add_melting(Points& points, double pressure, const md::CoexistencePlan& section) const {
+    const std::size_t before = points.size();
+    add(points, "coexistence", {{"pressure", pressure}}, section.size, [&](auto& deviate) {
       const eos::ModelEquationOfState<eos::Gray> model(truth_);
       const eos::State solid = eos::melting_point(model, pressure).value().solidus;
       const double heat = Melting(truth_).latent_heat(pressure, solid.temperature);
@@ -179,6 +180,9 @@ class SyntheticDynamics {
                       {heat * (1.0 + misfit_ * errors.latent_heat * deviate() + noise() * 5e-3 * deviate()),
                        5e-3 * heat}}};
     });
+    if (points.size() == before) return;
+    points.back().provenance["length"] = std::to_string(section.length);
+    points.back().provenance["replicas"] = std::to_string(section.replicas);
   }
 
   eos::GrayConstants truth_;
