@@ -22,6 +22,16 @@ double weighted_error(double n, double first, double m, double second) {
   return std::hypot(n * first, m * second) / (n + m);
 }
 
+bool of_replicas(const PointRecord& point) { return point.provenance.contains("replicas"); }
+
+/// One standard error above the stated error of n replicas, over it: a point that ends as soon as its runs
+/// happen to agree would be worse than its target.
+double uncertain(const PointRecord& point, const std::string& quantity) {
+  const auto runs = point.blocks.find(quantity);
+  if (!of_replicas(point) || runs == point.blocks.end()) return 1.0;
+  return 1.0 + 1.0 / std::sqrt(2.0 * (static_cast<double>(runs->second.size()) - 1.0));
+}
+
 }  // namespace
 
 bool wants_more(const PointRecord& point, const Precision& precision) {
@@ -29,7 +39,7 @@ bool wants_more(const PointRecord& point, const Precision& precision) {
   if (point.segments() >= precision.segments) return false;
   const Estimate estimate = point.result(precision.quantity);
   const double scale = precision.relative ? std::abs(estimate.value) : 1.0;
-  return estimate.error > precision.target_error * scale;
+  return uncertain(point, precision.quantity) * estimate.error > precision.target_error * scale;
 }
 
 PointRecord join(const PointRecord& point, const PointRecord& segment) {
@@ -55,7 +65,7 @@ PointRecord join(const PointRecord& point, const PointRecord& segment) {
     const auto more = segment.blocks.find(name);
     if (more != segment.blocks.end()) means.insert(means.end(), more->second.begin(), more->second.end());
     // Each block is a run of its own: all together are one larger set.
-    if (joined.provenance.contains("replicas")) joined.results[name] = replica_mean(means);
+    if (of_replicas(joined)) joined.results[name] = replica_mean(means);
   }
   // The correlation is that of the joint covariance.
   if (joined.results.contains("error_correlation")) {

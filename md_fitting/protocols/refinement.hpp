@@ -17,7 +17,8 @@ struct Precision {
   std::int64_t segments = 1;  ///< at most so many
 };
 
-/// Whether another segment is to be added to a finished point.
+/// Whether another segment is to be added to a finished point. The error of n replicas counts with its own
+/// standard error added, 1/sqrt(2 (n - 1)) of it.
 bool wants_more(const PointRecord& point, const Precision& precision);
 
 /// Joins a finished point with one more segment, an independent run of the same length: means of the values

@@ -155,6 +155,30 @@ TEST(Join, OfReplicasIsTheMeanOfAllRuns) {
   EXPECT_EQ(joined.segments(), 2);
 }
 
+// Sets of four replicas until the target is met: the errors of the means are then as small as was asked for,
+// though the sets that happen to agree end first.
+TEST(WantsMore, TargetIsMetByTheTrueErrorOfReplicas) {
+  constexpr int points = 2000;
+  for (const double target : {0.7, 0.35, 0.15}) {  // of runs that scatter by 1
+    double scatter = 0.0;
+    for (unsigned k = 0; k < points; ++k) {
+      std::mt19937_64 generator(k);
+      std::normal_distribution<double> run(10.0, 1.0);
+      const auto segment = [&] {
+        PointRecord point = part(0.0, 0.0);
+        point.provenance["replicas"] = "4";
+        point.blocks = {{"pressure", {run(generator), run(generator), run(generator), run(generator)}}};
+        point.results = {{"pressure", replica_mean(point.blocks["pressure"])}};
+        return point;
+      };
+      PointRecord point = segment();
+      while (wants_more(point, {"pressure", target, false, 50})) point = join(point, segment());
+      scatter += std::pow(point.result("pressure").value - 10.0, 2) / points;
+    }
+    EXPECT_LT(std::sqrt(scatter), 1.05 * target) << target;
+  }
+}
+
 class Continued : public ::testing::Test {
  protected:
   void SetUp() override { log::set_level(log::Level::quiet); }

@@ -174,7 +174,7 @@ TEST(StatedErrors, OfTheMeltingPoint) {
 }
 
 TEST(StatedErrors, OfFilmAndVapour) {
-  LiquidVapourPlan section{{}, 2.0, 3, {.cells = 4, .equilibration_steps = 6000, .steps = 8000}};
+  LiquidVapourPlan section{{}, 3.0, 4, {.cells = 4, .equilibration_steps = 12000, .steps = 8000}};
   Runs runs;
   for (int seed = 1; seed <= seeds; ++seed) {
     const ReplicaSet film = measure_liquid_vapour(foiles(), 5100.0, section, 7919 * seed);
