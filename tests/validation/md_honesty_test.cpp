@@ -159,34 +159,5 @@ TEST(StatedErrors, OfTheSpallStrength) {
   runs.expect_honest();
 }
 
-// Small cells and short runs that keep both phases; what the error is worth does not depend on its size. Two
-// replicas are the fewest that a plan may ask for.
-TEST(StatedErrors, OfTheMeltingPoint) {
-  CoexistencePlan section;
-  section.replicas = 2;
-  section.length = 16;
-  section.attempts = 8;
-  section.size = {.cells = 4, .equilibration_steps = 4000, .steps = 4000};
-  Runs runs;
-  for (int seed = 1; seed <= seeds; ++seed) {
-    const ReplicaSet melting = measure_coexistence(foiles(), 0.0, 1275.0, section, 7919 * seed);
-    if (!melting.remark.empty()) std::printf("  seed %d: %s\n", seed, melting.remark.c_str());
-    for (const auto& [name, values] : melting.values) runs[name].push_back(replica_mean(values));
-  }
-  runs.expect_honest();
-}
-
-// So small a film tears now and then: such a run is left out, as in any plan.
-TEST(StatedErrors, OfFilmAndVapour) {
-  LiquidVapourPlan section{{}, 3.0, 4, {.cells = 4, .equilibration_steps = 12000, .steps = 8000}};
-  Runs runs;
-  for (int seed = 1; seed <= seeds; ++seed) {
-    const ReplicaSet film = measure_liquid_vapour(foiles(), 5100.0, section, 7919 * seed);
-    if (!film.remark.empty()) std::printf("  seed %d: %s\n", seed, film.remark.c_str());
-    for (const auto& [name, values] : film.values) runs[name].push_back(replica_mean(values));
-  }
-  runs.expect_honest();
-}
-
 }  // namespace
 }  // namespace whipple::md
