@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "md_fitting/lammps/units.hpp"
+#include "md_fitting/protocols/coexistence.hpp"
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/hugoniostat.hpp"
 #include "md_fitting/protocols/hugoniot.hpp"
@@ -154,6 +155,26 @@ TEST(StatedErrors, OfTheSpallStrength) {
     const ReplicaSet spall = measure_spall(foiles(), 293.0, section, 7919 * seed);
     runs["strength"].push_back(spall.mean("spall_strength"));
     runs["temperature"].push_back(spall.mean("spall_temperature"));
+  }
+  runs.expect_honest();
+}
+
+// Small cells and short runs that keep both phases; two replicas are the fewest that a plan may ask for. What
+// a fit reads; the volume of the melt is that of the crystal and of fusion together.
+TEST(StatedErrors, OfTheMeltingPoint) {
+  CoexistencePlan section;
+  section.replicas = 2;
+  section.length = 16;
+  section.attempts = 8;
+  section.size = {.cells = 4, .equilibration_steps = 4000, .steps = 4000};
+  Runs runs;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const ReplicaSet melting = measure_coexistence(foiles(), 0.0, 1275.0, section, 7919 * seed);
+    if (!melting.remark.empty()) std::printf("  seed %d: %s\n", seed, melting.remark.c_str());
+    for (const char* name :
+         {"melting_temperature", "solid_specific_volume", "latent_heat", "fusion_volume"}) {
+      runs[name].push_back(melting.mean(name));
+    }
   }
   runs.expect_honest();
 }
