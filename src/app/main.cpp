@@ -54,7 +54,7 @@ int whipple_main(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   // Large arrays go back to the system when they are freed. Left to itself, glibc raises this limit up to 32
-  // MB and keeps their holes: an eighth more memory in a cloud of 140,000 particles.
+  // MB and keeps their holes: a tenth more memory in a cloud of 140,000 particles.
   mallopt(M_MMAP_THRESHOLD, 4 << 20);
   return whipple::run_guarded("whipple", whipple_main, argc, argv);
 }
