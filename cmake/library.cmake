@@ -92,8 +92,8 @@ function(whipple_command_line target)
   endif()
 endfunction()
 
-# whipple_test(NAME [STARTS_MPI] SOURCES ... DEPENDS ... LABELS ...): one GoogleTest executable, each of its tests a CTest
-# test. STARTS_MPI: the process initialises MPI itself.
+# whipple_test(NAME [STARTS_MPI] [TIMEOUT seconds] SOURCES ... DEPENDS ... LABELS ...): one GoogleTest executable, each of
+# its tests a CTest test. STARTS_MPI: the process initialises MPI itself.
 include(GoogleTest)
 # The work is done in the libraries: what a test itself computes does not need the last optimisation.
 set(whipple_test_options $<$<CONFIG:Release>:-O1>)
@@ -102,7 +102,10 @@ if(WHIPPLE_TESTS AND WHIPPLE_PRECOMPILED_HEADERS)
     DEPENDS Eigen3::Eigen GTest::gtest GTest::gmock OPTIONS ${whipple_test_options})
 endif()
 function(whipple_test name)
-  cmake_parse_arguments(ARG "STARTS_MPI" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "STARTS_MPI" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 1500)
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   set_target_properties(${name} PROPERTIES UNITY_BUILD ${WHIPPLE_UNITY_BUILD})
   target_link_libraries(${name} PRIVATE whipple_flags ${ARG_DEPENDS} GTest::gtest_main)
@@ -111,7 +114,8 @@ function(whipple_test name)
     target_precompile_headers(${name} REUSE_FROM whipple_precompiled_test)
   endif()
   target_compile_definitions(${name} PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" WHIPPLE_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${ARG_LABELS}")
+  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
   # gtest_discover_tests splits a list in a property, so the environment is set when ctest has found the tests.
   set(environment OMP_NUM_THREADS=1 OMP_WAIT_POLICY=passive OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
     OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1

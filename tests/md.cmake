@@ -5,7 +5,8 @@ whipple_test(md_test
           unit/md_hugoniot_test.cpp unit/md_analysis_test.cpp unit/md_refinement_test.cpp unit/md_critical_point_test.cpp
           validation/md_copper_test.cpp validation/md_static_test.cpp
   DEPENDS whipple_md_protocols LABELS fast)
-whipple_test(md_shock_test SOURCES validation/md_shock_test.cpp validation/md_honesty_test.cpp DEPENDS whipple_md_protocols LABELS long)
+whipple_test(md_shock_test TIMEOUT 7200 SOURCES validation/md_shock_test.cpp validation/md_honesty_test.cpp
+  DEPENDS whipple_md_protocols LABELS long)
 # Programs under mpirun, started by the test itself.
 add_executable(md_guard_abort parallel/md_guard_abort.cpp)
 target_link_libraries(md_guard_abort PRIVATE whipple_md_lammps)
