@@ -41,8 +41,8 @@ class Runs {
 
   /// Prints the standard deviation of the values over the root mean square of their errors, and demands that
   /// it is 1 within a factor of 1.5. Twenty values know it to a sixth, [1/(2 (20 - 1))]^(1/2), if the stated
-  /// errors are known well; those of n replicas add 1/(2 x 20 (n - 1)) under the root: 19 % for four, 23 %
-  /// for two.
+  /// errors are known well; those of n replicas add 1/(2 x 20 (n - 1)) under the root: 19 % for four, 20 %
+  /// for three.
   void expect_honest() const {
     for (const auto& [name, estimates] : runs_) {
       const double ratio = spread_over_stated(estimates);
