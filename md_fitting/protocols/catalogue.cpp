@@ -7,12 +7,12 @@ namespace whipple::md {
 
 std::span<const Protocol> protocols() {
   static constexpr std::array all = {
-      Protocol{"zero_pressure_volume", 3, add_zero_pressure},
+      Protocol{"zero_pressure_volume", 4, add_zero_pressure},
       Protocol{"lattice", 1, add_lattice},
       Protocol{"coexistence", 4, add_coexistence},
-      Protocol{"isotherm", 3, add_isotherms},
-      Protocol{"isochore", 3, add_isochores},
-      Protocol{"hugoniot", 3, add_hugoniot},
+      Protocol{"isotherm", 4, add_isotherms},
+      Protocol{"isochore", 4, add_isochores},
+      Protocol{"hugoniot", 4, add_hugoniot},
       Protocol{"cold_curve", 1, add_cold_curve},
       Protocol{"elastic", 1, add_elastic},
       Protocol{"hugoniostat", 3, add_hugoniostat},

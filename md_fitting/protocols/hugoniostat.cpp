@@ -130,10 +130,7 @@ void add_hugoniostat(const Plan& plan, TaskList& list) {
   for (const double pressure : plan.hugoniostat->pressure) {
     // How far the shock compresses, from the static crystal at rest: enough to see the end of the table.
     const Potential& potential = list.potential();
-    ReferenceState at_rest;
-    at_rest.specific_volume.value = potential.static_volume();
-    at_rest.specific_internal_energy.value =
-        metal::specific_energy(potential.crystal_energy(potential.lattice_constant()), potential.mass());
+    const ReferenceState at_rest = static_reference(potential);
     try {
       list.require_range(guess_hugoniot_at_pressure(potential, at_rest, pressure).specific_volume /
                          potential.static_volume());
@@ -142,9 +139,7 @@ void add_hugoniostat(const Plan& plan, TaskList& list) {
     }
     list.add({{{"pressure", pressure}}, size_settings(size), list.first_key("zero_pressure_volume")},
              [&potential, size, pressure](std::int64_t seed, const PointRecord* zero_pressure) {
-               const ReferenceState reference{zero_pressure->result("specific_volume"),
-                                              zero_pressure->result("specific_internal_energy"),
-                                              zero_pressure->condition("pressure")};
+               const ReferenceState reference = reference_state(*zero_pressure);
                const HugoniostatResult state = run_hugoniostat(potential, reference, pressure, size, seed);
                const bool solid = state.crystal_share > solid_share_limit;
                std::string message = structure_remark(state.crystal_share, solid);

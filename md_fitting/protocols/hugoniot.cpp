@@ -12,7 +12,11 @@ namespace whipple::md {
 namespace {
 
 /// Two runs give a slope worth more than the model's only if their temperatures differ by this share.
-constexpr double secant_share = 0.03;
+constexpr double secant_share = 0.1;
+
+/// What is not known of dP/dT, one standard deviation: a Grueneisen coefficient guessed, or the noise of a
+/// secant.
+constexpr double slope_error = 0.15;
 
 /// dG/dT and the isochoric slopes of energy and pressure.
 struct Slopes {
@@ -28,8 +32,8 @@ struct Run {
   State state;
 };
 
-/// The final values as a function of the four measured numbers E, P, E0, V0 (V is exact): differentiated
-/// numerically for the errors.
+/// The final values as a function of the measured numbers E, P, E0, V0 (V is exact) and the slopes:
+/// differentiated numerically for the errors.
 struct Solution {
   std::array<double, 5> values;  ///< temperature, pressure, energy, shock velocity, particle velocity
 };
@@ -48,6 +52,11 @@ Solution finish(const Run& run, const Slopes& slopes, double energy, double pres
 }
 
 }  // namespace
+
+ReferenceState reference_state(const PointRecord& zero_pressure) {
+  return {zero_pressure.result("specific_volume"), zero_pressure.result("specific_internal_energy"),
+          zero_pressure.condition("pressure"), zero_pressure.result("error_correlation").value};
+}
 
 HugoniotState solve_hugoniot(StateSource& source, const ReferenceState& reference, double specific_volume,
                              const HugoniotSearch& search) {
@@ -99,20 +108,22 @@ HugoniotState solve_hugoniot(StateSource& source, const ReferenceState& referenc
   }
   const Run last{temperature, source.state(specific_volume, temperature, StateSource::Effort::final)};
 
-  // Values and errors: E and P of the final run are correlated; E0 and V0 come from another run.
-  const std::array<double, 4> inputs = {last.state.specific_internal_energy.value, last.state.pressure.value,
-                                        reference.specific_internal_energy.value, reference_volume};
-  const std::array<double, 4> errors = {last.state.specific_internal_energy.error, last.state.pressure.error,
-                                        reference.specific_internal_energy.error,
-                                        reference.specific_volume.error};
-  const auto solve = [&](const std::array<double, 4>& x) {
-    return finish(last, slopes, x[0], x[1], x[2], x[3], reference.pressure, specific_volume).values;
+  // Values and errors: E and P of the final run are correlated; those of E0 and V0, from another run, too.
+  using Inputs = std::array<double, 5>;  // E, P, E0, V0, dP/dT
+  const Inputs inputs = {last.state.specific_internal_energy.value, last.state.pressure.value,
+                         reference.specific_internal_energy.value, reference_volume, slopes.pressure};
+  const Inputs errors = {last.state.specific_internal_energy.error, last.state.pressure.error,
+                         reference.specific_internal_energy.error, reference.specific_volume.error,
+                         slope_error * slopes.pressure};
+  const auto solve = [&](const Inputs& x) {
+    return finish(last, {slopes.energy, x[4]}, x[0], x[1], x[2], x[3], reference.pressure, specific_volume)
+        .values;
   };
   const std::array<double, 5> values = solve(inputs);
-  std::array<std::array<double, 4>, 5> changes{};  // of each value by one error of each input
+  std::array<Inputs, 5> changes{};  // of each value by one error of each input
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    std::array<double, 4> up = inputs;
-    std::array<double, 4> down = inputs;
+    Inputs up = inputs;
+    Inputs down = inputs;
     up[i] += errors[i];
     down[i] -= errors[i];
     const auto above = solve(up);
@@ -125,8 +136,8 @@ HugoniotState solve_hugoniot(StateSource& source, const ReferenceState& referenc
                                             &result.particle_velocity};
   for (std::size_t k = 0; k < values.size(); ++k) {
     const auto& d = changes[k];
-    const double variance =
-        d[0] * d[0] + d[1] * d[1] + 2 * last.state.correlation * d[0] * d[1] + d[2] * d[2] + d[3] * d[3];
+    const double variance = d[0] * d[0] + d[1] * d[1] + 2 * last.state.correlation * d[0] * d[1] +
+                            d[2] * d[2] + d[3] * d[3] + 2 * reference.correlation * d[2] * d[3] + d[4] * d[4];
     *targets[k] = {values[k], std::sqrt(std::fmax(variance, 0.0))};
     if (!std::isfinite(values[k])) throw StateError("a Hugoniot state is not finite");
   }
@@ -139,8 +150,8 @@ HugoniotState solve_hugoniot(StateSource& source, const ReferenceState& referenc
   result.crystal_share = last.state.crystal_share;
   result.runs = runs + 2;
   for (std::size_t b = 0; b < last.state.pressure_blocks.size(); ++b) {
-    result.pressure_blocks.push_back(
-        solve({last.state.energy_blocks[b], last.state.pressure_blocks[b], inputs[2], inputs[3]})[1]);
+    result.pressure_blocks.push_back(solve(
+        {last.state.energy_blocks[b], last.state.pressure_blocks[b], inputs[2], inputs[3], inputs[4]})[1]);
   }
   return result;
 }

@@ -13,7 +13,12 @@ struct ReferenceState {
   Estimate specific_volume;           ///< m^3/kg
   Estimate specific_internal_energy;  ///< J/kg
   double pressure = 0.0;              ///< Pa
+  double correlation = 0.0;           ///< of the errors of volume and energy, -1 ... 1
 };
+
+/// The state before the shock as a point of protocol "zero_pressure_volume" holds it.
+/// @throws InputError naming what the point lacks.
+ReferenceState reference_state(const PointRecord& zero_pressure);
 
 struct HugoniotSearch {
   double first_temperature = 0.0;       ///< K; any guess, a good one saves runs
@@ -42,7 +47,7 @@ struct HugoniotState {
 /// equation 8). Newton steps with the slope of a harmonic solid until two temperatures are far enough apart
 /// for a secant slope not to be noise; the last Newton step, from the final run, moves temperature, energy
 /// and pressure along the isochore. Errors hold the noise of the final run, with its correlation of pressure
-/// and energy, and of the reference.
+/// and energy, and of the reference, with that of volume and energy.
 /// @param specific_volume below that of the reference
 /// @throws StateError if the search does not converge or leaves positive temperatures.
 HugoniotState solve_hugoniot(StateSource& source, const ReferenceState& reference, double specific_volume,

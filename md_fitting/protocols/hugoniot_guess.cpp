@@ -10,6 +10,11 @@
 
 namespace whipple::md {
 
+ReferenceState static_reference(const Potential& potential) {
+  const double energy = potential.crystal_energy(potential.lattice_constant());
+  return {{potential.static_volume(), 0.0}, {metal::specific_energy(energy, potential.mass()), 0.0}};
+}
+
 HugoniotGuess guess_hugoniot(const Potential& potential, const ReferenceState& reference, double volume) {
   const double mass = potential.mass();
   const int atoms = potential.atoms_per_cell();

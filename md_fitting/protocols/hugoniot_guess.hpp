@@ -15,6 +15,9 @@ struct HugoniotGuess {
   double pressure = 0.0;         ///< Pa
 };
 
+/// The static crystal at zero pressure as the state before a shock: enough for a first look at a plan.
+ReferenceState static_reference(const Potential& potential);
+
 HugoniotGuess guess_hugoniot(const Potential& potential, const ReferenceState& reference,
                              double specific_volume);
 

@@ -11,9 +11,7 @@ namespace {
 
 TaskResult compute_hugoniot(const Potential& potential, const RunSize& size, std::int64_t seed, double volume,
                             const PointRecord& zero_pressure) {
-  const ReferenceState reference{zero_pressure.result("specific_volume"),
-                                 zero_pressure.result("specific_internal_energy"),
-                                 zero_pressure.condition("pressure")};
+  const ReferenceState reference = reference_state(zero_pressure);
   NvtStateSource source(potential, size, seed);
   HugoniotSearch search;
   search.specific_heat = 3.0 * metal::specific_energy(metal::boltzmann, potential.mass());

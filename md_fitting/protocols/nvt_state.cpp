@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "md_fitting/lammps/units.hpp"
+#include "md_fitting/protocols/bath.hpp"
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/statistics.hpp"
 #include "md_fitting/protocols/structure.hpp"
@@ -46,9 +47,11 @@ State NvtStateSource::state(double specific_volume, double temperature, Effort e
   lammps.command("timestep {:.17g}", dt);
   // Half of the kinetic energy of the perfect crystal becomes potential energy within a vibration.
   lammps.command("velocity all create {:.17g} {} mom yes rot no dist gaussian", 2.0 * temperature, seed);
-  lammps.command("fix integrate all nvt temp {0:.17g} {0:.17g} {1:.17g}", temperature, 100.0 * dt);
+  lammps.command("fix integrate all nve");
+  couple_to_bath(lammps, temperature, dt, seed);
   lammps.command("run {} post no", equilibration);
-  auto series = crystal.sample({"energy", "virial", "displacement"}, sampling_interval(steps), steps);
+  const std::int64_t interval = sampling_interval(steps);
+  auto series = crystal.sample({"energy", "virial", "displacement", "kinetic_temperature"}, interval, steps);
   State state;
   if (!search) state.crystal_share = inherent_crystal_share(crystal, potential_);
   transcript_ += lammps.transcript();
@@ -68,6 +71,8 @@ State NvtStateSource::state(double specific_volume, double temperature, Effort e
   const double kinetic_energy = 1.5 * metal::boltzmann * temperature;  // eV
   const double kinetic_pressure =
       metal::boltzmann * temperature / atomic_volume * metal::pressure_from_energy;  // bar
+  series[0] = in_bath(series[0], cold_energy, series[3], temperature, interval);
+  series[1] = in_bath(series[1], cold_virial, series[3], temperature, interval);
   for (double& energy : series[0]) energy = cold_energy + modes * (energy - cold_energy) + kinetic_energy;
   for (double& virial : series[1]) virial = cold_virial + modes * (virial - cold_virial) + kinetic_pressure;
   const Estimate energy = series_mean(series[0]);

@@ -10,7 +10,7 @@
 
 namespace whipple::md {
 
-/// States at constant volume and temperature by molecular dynamics (Nose-Hoover chains), from a perfect
+/// States at constant volume and temperature by molecular dynamics (Langevin bath), from a perfect
 /// crystal. The kinetic part is exact, and the thermal part of energy and pressure of a crystal is scaled by
 /// N/(N - 1): the centre of mass is at rest, so that 3N - 3 of its 3N vibrations take part
 /// (docs/theory/molecular_dynamics.md, equations 3 to 5).

@@ -245,10 +245,7 @@ void add_piston(const Plan& plan, TaskList& list) {
   const PistonPlan& section = *plan.piston;
   const Potential& potential = list.potential();
   for (const double velocity : section.particle_velocity) {
-    ReferenceState at_rest;
-    at_rest.specific_volume.value = potential.static_volume();
-    at_rest.specific_internal_energy.value =
-        metal::specific_energy(potential.crystal_energy(potential.lattice_constant()), potential.mass());
+    const ReferenceState at_rest = static_reference(potential);
     try {
       list.require_range(guess_at_velocity(potential, at_rest, velocity).specific_volume /
                          potential.static_volume());
@@ -261,9 +258,7 @@ void add_piston(const Plan& plan, TaskList& list) {
     request.settings["length"] = std::to_string(section.length);
     request.settings.erase("steps");  // the way of the front decides
     list.add(request, [&potential, section, velocity](std::int64_t seed, const PointRecord* zero_pressure) {
-      const ReferenceState reference{zero_pressure->result("specific_volume"),
-                                     zero_pressure->result("specific_internal_energy"),
-                                     zero_pressure->condition("pressure")};
+      const ReferenceState reference = reference_state(*zero_pressure);
       const PistonResult shock = measure_piston(potential, reference, zero_pressure->condition("temperature"),
                                                 velocity, section, seed);
       return TaskResult{{{"shock_velocity", shock.shock_velocity},

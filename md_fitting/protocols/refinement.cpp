@@ -67,19 +67,19 @@ PointRecord join(const PointRecord& point, const PointRecord& segment) {
     // Each block is a run of its own: all together are one larger set.
     if (of_replicas(joined)) joined.results[name] = replica_mean(means);
   }
-  // The correlation is that of the joint covariance.
+  // The correlation of the errors, of energy and what was measured with it, is that of the joint covariance.
   if (joined.results.contains("error_correlation")) {
-    const auto covariance = [](const PointRecord& part) {
-      return part.result("error_correlation").value * part.result("pressure").error *
-             part.result("specific_internal_energy").error;
+    const std::string partner = joined.results.contains("pressure") ? "pressure" : "specific_volume";
+    const std::string energy = "specific_internal_energy";
+    const auto covariance = [&](const PointRecord& part) {
+      return part.result("error_correlation").value * part.result(partner).error * part.result(energy).error;
     };
-    const double pressure =
-        weighted_error(n, point.result("pressure").error, m, segment.result("pressure").error);
-    const double energy = weighted_error(n, point.result("specific_internal_energy").error, m,
-                                         segment.result("specific_internal_energy").error);
+    const auto error = [&](const std::string& name) {
+      return weighted_error(n, point.result(name).error, m, segment.result(name).error);
+    };
     const double sum = (n * n * covariance(point) + m * m * covariance(segment)) / ((n + m) * (n + m));
-    if (pressure * energy > 0.0) {
-      joined.results["error_correlation"].value = std::clamp(sum / (pressure * energy), -1.0, 1.0);
+    if (const double product = error(partner) * error(energy); product > 0.0) {
+      joined.results["error_correlation"].value = std::clamp(sum / product, -1.0, 1.0);
     }
   }
   if (!segment.message.empty() && joined.message.find(segment.message) == std::string::npos) {

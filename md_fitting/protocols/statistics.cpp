@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -134,6 +135,25 @@ Estimate series_covariance(std::span<const double> first, std::span<const double
   if (period == 0.0) return series_mean(products);
   return {std::accumulate(products.begin(), products.end(), 0.0) / n,
           error_with_blocks(products, static_cast<std::size_t>(std::lround(period)))};
+}
+
+std::vector<double> window_averages(std::span<const double> series, std::size_t length) {
+  if (length == 0 || length > series.size()) {
+    throw InternalError(fmt::format("no window of {} samples in a series of {}", length, series.size()));
+  }
+  std::vector<double> weights(length);
+  for (std::size_t i = 0; i < length; ++i) {
+    const double s =
+        std::sin(std::numbers::pi * static_cast<double>(i + 1) / static_cast<double>(length + 1));
+    weights[i] = s * s;
+  }
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (double& weight : weights) weight /= sum;
+  std::vector<double> averages(series.size() - length + 1);
+  for (std::size_t i = 0; i < averages.size(); ++i) {
+    averages[i] = std::inner_product(weights.begin(), weights.end(), series.data() + i, 0.0);
+  }
+  return averages;
 }
 
 double error_correlation(std::span<const double> first, std::span<const double> second) {

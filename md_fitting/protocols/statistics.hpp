@@ -31,6 +31,12 @@ SeriesMean series_statistics(std::span<const double> series);
 /// @throws as `series_mean`; InternalError for different lengths.
 Estimate series_covariance(std::span<const double> first, std::span<const double> second);
 
+/// Weighted averages over all windows of `length` samples (Hann window: the weights fall to zero at both
+/// ends). They keep what wanders slowly, from which the error of the mean comes, and lose what swings within
+/// a window.
+/// @throws InternalError for a window longer than the series, or empty.
+std::vector<double> window_averages(std::span<const double> series, std::size_t length);
+
 /// Means over the 16 longest blocks of equal length; what is left over at the beginning is dropped. They are
 /// what a bootstrap over blocks draws from.
 /// @throws InternalError for fewer than 16 samples.

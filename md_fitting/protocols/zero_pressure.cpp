@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "md_fitting/lammps/units.hpp"
+#include "md_fitting/protocols/bath.hpp"
 #include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/nvt_state.hpp"
@@ -29,11 +30,12 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
   const double cold_volume = lammps.variable("volume");
   lammps.command("timestep {:.17g}", dt);
   lammps.command("velocity all create {:.17g} {} mom yes rot no dist gaussian", 2.0 * temperature, seed);
-  lammps.command("fix integrate all npt temp {0:.17g} {0:.17g} {1:.17g} iso 0.0 0.0 {2:.17g}", temperature,
-                 100.0 * dt, 1000.0 * dt);
+  lammps.command("fix integrate all nph iso 0.0 0.0 {:.17g}", 1000.0 * dt);
+  couple_to_bath(lammps, temperature, dt, seed);
   lammps.command("run {} post no", size.equilibration_steps);
+  const std::int64_t interval = sampling_interval(size.steps);
   auto series =
-      crystal.sample({"energy", "volume", "displacement"}, sampling_interval(size.steps), size.steps);
+      crystal.sample({"energy", "volume", "displacement", "kinetic_temperature"}, interval, size.steps);
   const double neighbour = potential.structure() == "fcc" ? a * std::sqrt(0.5) : a * std::sqrt(0.75);
   if (std::sqrt(series[2].back()) > melting_displacement * neighbour) {
     throw StateError(
@@ -49,6 +51,8 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
   const double modes = n / (n - 1.0);
   const Estimate expansion = thermal_expansion(series[1], series[0], n, temperature);
   const double kinetic_energy = 1.5 * metal::boltzmann * temperature;
+  series[0] = in_bath(series[0], cold_energy, series[3], temperature, interval);
+  series[1] = in_bath(series[1], cold_volume, series[3], temperature, interval);
   for (double& energy : series[0]) energy = cold_energy + modes * (energy - cold_energy) + kinetic_energy;
   for (double& volume : series[1]) volume = cold_volume + modes * (volume - cold_volume);
   const Estimate energy = series_mean(series[0]);
@@ -58,6 +62,7 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
   return {{metal::specific_volume(volume.value, mass), metal::specific_volume(volume.error, mass)},
           {metal::specific_energy(energy.value, mass), metal::specific_energy(energy.error, mass)},
           {modes * expansion.value, modes * expansion.error},
+          error_correlation(series[0], series[1]),
           lammps.transcript(),
           std::move(blocks)};
 }
@@ -81,6 +86,7 @@ void add_zero_pressure(const Plan& plan, TaskList& list) {
                const ZeroPressureResult result = measure_zero_pressure(potential, temperature, size, seed);
                return TaskResult{{{"specific_volume", result.specific_volume},
                                   {"specific_internal_energy", result.specific_internal_energy},
+                                  {"error_correlation", {result.correlation, 0.0}},
                                   {"thermal_expansion", result.thermal_expansion}},
                                  "",
                                  result.transcript,

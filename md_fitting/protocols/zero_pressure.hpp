@@ -15,6 +15,7 @@ struct ZeroPressureResult {
   Estimate specific_volume;           ///< m^3/kg
   Estimate specific_internal_energy;  ///< J/kg
   Estimate thermal_expansion;         ///< 1/K, (1/V) dV/dT at constant pressure, from fluctuations
+  double correlation = 0.0;           ///< of the errors of volume and energy, -1 ... 1
   std::string transcript;
   std::vector<double> volume_blocks{};  ///< m^3/kg, means over parts of the averaged time
 };
@@ -26,7 +27,7 @@ Estimate thermal_expansion(std::span<const double> volume, std::span<const doubl
                            double temperature);
 
 /// Volume and energy of the crystal at a temperature and zero pressure, at constant pressure and temperature
-/// (Nose-Hoover thermostat and barostat, isotropic). Thermal expansion and thermal energy are scaled by N/(N
+/// (Langevin bath, Nose-Hoover barostat, isotropic). Thermal expansion and thermal energy are scaled by N/(N
 /// - 1), as those of `NvtStateSource`.
 /// @throws StateError if the crystal melted.
 ZeroPressureResult measure_zero_pressure(const Potential& potential, double temperature, const RunSize& size,

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <span>
 #include <vector>
@@ -90,13 +91,34 @@ TEST(SeriesMean, DoesNotTakeAnOscillationForSlowMotion) {
     std::vector<double> series = autoregressive(seed);
     series.resize(length);
     for (std::size_t i = 0; i < length; ++i) {
-      series[i] += 23.0 * std::sqrt(2.0) * std::cos(2.0 * M_PI * static_cast<double>(i) / 18.0 + seed);
+      series[i] +=
+          23.0 * std::sqrt(2.0) * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / 18.0 + seed);
     }
     const Estimate estimate = series_mean(series);
     squared_error += estimate.error * estimate.error;
     squared_mean += estimate.value * estimate.value;
   }
   EXPECT_NEAR(std::sqrt(squared_mean / squared_error), 1.0, 0.35);
+}
+
+// Windows keep constants and straight lines, and lose what swings within them.
+TEST(WindowAverages, KeepWhatIsSlow) {
+  constexpr std::size_t length = 16;
+  std::vector<double> line(100);
+  std::vector<double> swing(100);
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    line[i] = 3.0 + 0.5 * static_cast<double>(i);
+    swing[i] = std::cos(2.0 * M_PI / 8.0 * static_cast<double>(i));
+  }
+  const std::vector<double> averages = window_averages(line, length);
+  ASSERT_EQ(averages.size(), line.size() - length + 1);
+  for (std::size_t i = 0; i < averages.size(); ++i) {
+    EXPECT_NEAR(averages[i], 3.0 + 0.5 * (static_cast<double>(i) + 0.5 * (length - 1)), 1e-12);
+  }
+  for (const double average : window_averages(swing, length)) EXPECT_LT(std::abs(average), 0.02);
+  EXPECT_EQ(window_averages(line, 1), line);
+  EXPECT_THROW(window_averages(line, 0), InternalError);
+  EXPECT_THROW(window_averages(line, 101), InternalError);
 }
 
 // Volume and energy under a barostat: vibrations of different phase and slowly changing amplitude with a

@@ -18,8 +18,7 @@ namespace {
 /// Of the algorithm of a protocol.
 std::string revision(const std::string& protocol) {
   if (protocol == "lattice") return "1";
-  if (protocol == "coexistence") return "4";
-  return "3";
+  return "4";
 }
 
 /// The key of docs/theory/molecular_dynamics.md, "The store", written out: format 1 of the store.

@@ -87,7 +87,8 @@ TEST(StatedErrors, OfTheSolid) {
     runs["pressure on an isochore"].push_back(state.pressure);
     runs["energy on an isochore"].push_back(state.specific_internal_energy);
 
-    const ReferenceState reference{rest.specific_volume, rest.specific_internal_energy, 0.0};
+    const ReferenceState reference{rest.specific_volume, rest.specific_internal_energy, 0.0,
+                                   rest.correlation};
     const double volume = 0.85 * potential.static_volume();
     NvtStateSource shock(potential, {.cells = 3, .equilibration_steps = 1000, .steps = 4000}, 1299709 * seed);
     HugoniotSearch search;
