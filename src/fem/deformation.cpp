@@ -177,8 +177,8 @@ struct EightPoints {
 };
 
 template <class Kernel>
-void deform_block(const Step& step, const Motion& motion, std::size_t block, const Kernel& kernel,
-                  DeformationReport& report) {
+WHIPPLE_KERNEL void deform_block(const Step& step, const Motion& motion, std::size_t block,
+                                 const Kernel& kernel, DeformationReport& report) {
   BlockField position, mean, end;
   position.copy(step.mesh, block, step.mesh.nodes.position);
   mean.copy(step.mesh, block, motion.mean);

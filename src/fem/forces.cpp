@@ -62,7 +62,7 @@ Modes<Lanes> b_bar_forces(const Mesh& mesh, const FourElements& four, const Mode
 }
 
 template <class Kernel>
-void forces_of_block(Mesh& mesh, std::size_t block, const Kernel& kernel) {
+WHIPPLE_KERNEL void forces_of_block(Mesh& mesh, std::size_t block, const Kernel& kernel) {
   BlockField position, force;
   position.copy(mesh, block, mesh.nodes.position);
   force.zero(mesh, block);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/simd.hpp"
+
 namespace whipple::material {
 namespace {
 
@@ -176,18 +178,18 @@ using enum StressRotation;
 
 }  // namespace
 
-void elastic_trial(std::size_t size, double dt, StressRotation rule, Kinematics& step) {
+WHIPPLE_KERNEL void elastic_trial(std::size_t size, double dt, StressRotation rule, Kinematics& step) {
   rule == polar ? elastic_trial_by<polar>(size, dt, step) : elastic_trial_by<hughes_winget>(size, dt, step);
 }
 
-void turn(std::size_t size, double dt, StressRotation rule, const MatrixLanes& gradient,
-          SymmetricLanes& tensor) {
+WHIPPLE_KERNEL void turn(std::size_t size, double dt, StressRotation rule, const MatrixLanes& gradient,
+                         SymmetricLanes& tensor) {
   rule == polar ? turn_by<polar>(size, dt, gradient, tensor)
                 : turn_by<hughes_winget>(size, dt, gradient, tensor);
 }
 
-void strain_increment(std::size_t size, double dt, StressRotation rule, const MatrixLanes& gradient,
-                      SymmetricLanes& strain) {
+WHIPPLE_KERNEL void strain_increment(std::size_t size, double dt, StressRotation rule,
+                                     const MatrixLanes& gradient, SymmetricLanes& strain) {
   rule == polar ? strain_increment_by<polar>(size, dt, gradient, strain)
                 : strain_increment_by<hughes_winget>(size, dt, gradient, strain);
 }

@@ -150,6 +150,16 @@ template <class Shape, AffineField field, class Access>
   return balance;
 }
 
+/// f(point, slot, frame of the block, weights, access to the nodes) for points of one block.
+template <class Shape, class Points, class Access, class Function>
+WHIPPLE_KERNEL void for_members(const Points& points, std::span<const std::uint32_t> members,
+                                std::size_t slot, const BlockFrame& frame, Access& access,
+                                const Function& f) {
+  for_each_with_weights<Shape>(points, members, frame,
+                               [&](std::size_t p, const Weights<Shape::count>& weights)
+                                   __attribute__((always_inline)) { f(p, slot, frame, weights, access); });
+}
+
 /// Calls f(point, slot, frame of the block, weights, access to the nodes) for the points of every block.
 /// @tparam Content  what the points read of a node: grid::Node, or Lanes for its first register
 template <class Shape, class Content, class Points, class Function>
@@ -158,9 +168,7 @@ void for_each_point(const Points& points, BlockGrid& grid, BlockGrid::Points kin
     if (grid.members(kind, slot).empty()) return;
     const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
     read_nodes<Shape, Content>(grid, kind, slot, [&](std::span<const std::uint32_t> members, auto& access) {
-      for_each_with_weights<Shape>(
-          points, members, frame,
-          [&](std::size_t p, const Weights<Shape::count>& weights) { f(p, slot, frame, weights, access); });
+      for_members<Shape>(points, members, slot, frame, access, f);
     });
   });
 }

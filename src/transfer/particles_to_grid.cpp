@@ -82,8 +82,8 @@ struct Momentum : OfParticles {
 };
 
 template <class Shape, class What, class Access>
-void scatter(const What& what, std::span<const std::uint32_t> members, const BlockFrame& frame,
-             Access& access) {
+WHIPPLE_KERNEL void scatter(const What& what, std::span<const std::uint32_t> members, const BlockFrame& frame,
+                            Access& access) {
   constexpr std::size_t count = Shape::count;
   constexpr bool affine = CarriesAffineField<Shape>;
   for_each_with_weights<Shape>(what.points, members, frame, [&](std::size_t p, const Weights<count>& w) {
@@ -123,8 +123,8 @@ void scatter(const What& what, std::span<const std::uint32_t> members, const Blo
 }
 
 template <class Shape, class Access>
-void scatter(const Momentum& what, std::span<const std::uint32_t> members, const BlockFrame& frame,
-             Access& access) {
+WHIPPLE_KERNEL void scatter(const Momentum& what, std::span<const std::uint32_t> members,
+                            const BlockFrame& frame, Access& access) {
   constexpr std::size_t count = Shape::count;
   for_each_with_weights<Shape>(what.points, members, frame, [&](std::size_t p, const Weights<count>& w) {
     const double* v = what.velocity[p].data();
