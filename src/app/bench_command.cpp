@@ -169,7 +169,9 @@ void run_bench(BenchOptions options) {
   std::optional<Record> before;
   if (!options.compare.empty()) before = read_record(options.compare);
   if (options.problems.empty()) {
-    for (const bench::Problem& problem : bench::problems()) options.problems.push_back(problem.name);
+    for (const bench::Problem& problem : bench::problems()) {
+      if (!problem.only_by_name) options.problems.push_back(problem.name);
+    }
   }
   for (const std::string& name : options.problems) static_cast<void>(bench::find_problem(name));
 
@@ -200,7 +202,8 @@ void add_bench_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "bench",
       "Time standard problems: nanoseconds per particle and step, by stage, beside the machine's limits");
-  command->add_option("problems", options->problems, "Which ones (default: all)")->type_name("NAME");
+  command->add_option("problems", options->problems, "Which ones (default: all but the largest)")
+      ->type_name("NAME");
   command->add_option("--threads", options->threads, "Threads of each rank; several: one after the other")
       ->delimiter(',')
       ->check(CLI::Range(1, 4096));
@@ -218,7 +221,7 @@ void add_bench_command(CLI::App& app) {
   command->add_option("--worker", options->worker)->group("");  // the ranks that this command starts
   std::string footer = "Problems:\n";
   for (const bench::Problem& problem : bench::problems()) {
-    footer += fmt::format("  {:<20} {}\n", problem.name, problem.what);
+    footer += fmt::format("  {:<24} {}\n", problem.name, problem.what);
   }
   command->footer(
       footer +

@@ -20,6 +20,7 @@ struct Problem {
   /// s: after the first steps all matter flies on for so long without forces, so that a cloud gets as thin as
   /// late ones are without the cost of getting there; 0: none
   double thinning = 0.0;
+  bool only_by_name = false;  ///< needs gigabytes and minutes: not one of those that are timed unasked
 };
 
 const std::vector<Problem>& problems();

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "eos/files/table_file.hpp"
+#include "eos/table/table_of_model.hpp"
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
 #include "src/base/progress.hpp"
@@ -27,13 +28,17 @@ std::shared_ptr<const Material> tabulated(const Material& material, double error
                                             progress->update(share, material.name);
                                           });
   log::detail("{}: table of {} kB, error {:.2g}", material.name, data.size() / 1000, error);
-  Material result = make_material(material.name, std::make_shared<const eos::Table>(std::move(data)),
-                                  material.strength, material.failure);
+  Material result = make_material(
+      material.name, std::make_shared<const eos::TableOfModel>(eos::Table(std::move(data)), material.eos),
+      material.strength, material.failure);
   result.file = material.file;
   result.companions = material.companions;
   result.source = material.source;
   result.note = material.note;
+  result.group = material.group;
+  result.measured = material.measured;
   result.conductivity = material.conductivity;
+  result.taylor_quinney = material.taylor_quinney;
   return std::make_shared<const Material>(std::move(result));
 }
 

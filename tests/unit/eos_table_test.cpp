@@ -9,6 +9,7 @@
 #include "eos/identities.hpp"
 #include "eos/loci/hugoniot.hpp"
 #include "eos/table/builder.hpp"
+#include "eos/table/table_of_model.hpp"
 #include "src/base/error.hpp"
 #include "tests/unit/eos_support.hpp"
 
@@ -48,6 +49,42 @@ TEST(EosTable, a_smaller_request_makes_a_smaller_error) {
     EXPECT_GT(loose.at(phase).pressure, 4 * tight.at(phase).pressure) << phase;
   EXPECT_LT(coarse.data().cells.size(), copper_table().data().cells.size());
   EXPECT_LT(copper_table().data().size(), 1000000U);  // stays in a second-level cache
+}
+
+// Runs meet states that no table holds: there the model answers, to the last bit, and what it does not
+// describe either is counted.
+TEST(EosTable, what_it_does_not_hold_its_model_computes) {
+  const auto model = std::make_shared<const test::GrayEos>(test::copper());
+  const TableOfModel backed(copper_table(), model);
+  const double hot = copper_table().maximum_energy(12000.0) * 1.2;
+  const double gas = model->state_at_temperature(1e-3, 6000.0).specific_internal_energy;
+  const double density[] = {12000.0, 12000.0, 1e-3, 1e6};
+  const double energy[] = {4e6, hot, gas, 1e6};
+  double pressure[4], temperature[4], sound_speed[4];
+  const RangeReport report = backed.evaluate({density, energy, pressure, temperature, sound_speed, {}, {}});
+  EXPECT_EQ(report.out_of_range, 1U);
+  EXPECT_EQ(report.first, 3U);
+  EXPECT_FALSE(report.bound.empty());
+  EXPECT_EQ(
+      copper_table().evaluate({density, energy, pressure, temperature, sound_speed, {}, {}}).out_of_range,
+      3U);
+  static_cast<void>(backed.evaluate({density, energy, pressure, temperature, sound_speed, {}, {}}));
+  for (int i = 0; i < 3; ++i) {
+    const Point wanted = evaluate(i == 0 ? static_cast<const EquationOfState&>(copper_table()) : *model,
+                                  density[i], energy[i]);
+    EXPECT_EQ(pressure[i], wanted.pressure) << i;
+    EXPECT_EQ(temperature[i], wanted.temperature) << i;
+    EXPECT_EQ(sound_speed[i], wanted.sound_speed) << i;
+    EXPECT_EQ(backed.state(density[i], energy[i]).temperature,
+              (i == 0 ? copper_table().state(density[i], energy[i]) : model->state(density[i], energy[i]))
+                  .temperature)
+        << i;
+  }
+  EXPECT_EQ(backed.state_at_temperature(12000.0, 7e4).pressure,
+            model->state_at_temperature(12000.0, 7e4).pressure);
+  EXPECT_EQ(backed.maximum_density(), model->maximum_density());
+  EXPECT_EQ(backed.minimum_energy(1e-3), model->minimum_energy(1e-3));
+  EXPECT_THROW(static_cast<void>(backed.state(1e6, 1e6)), StateError);
 }
 
 TEST(EosTable, identities_hold_in_every_phase) {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "eos/table/table.hpp"
+
+namespace whipple::eos {
+
+/// A table with its model behind it: what the table does not hold - vapour of less density, matter hotter
+/// than its greatest temperature, as the first contact of a fast impact may bring it - the model computes.
+/// For runs, which must not end at the edge of a table.
+class TableOfModel final : public EquationOfState {
+ public:
+  /// @param table of this model
+  TableOfModel(Table table, std::shared_ptr<const EquationOfState> model);
+
+  [[nodiscard]] std::string_view model() const override { return Table::name; }
+  [[nodiscard]] double reference_density() const override { return table_.reference_density(); }
+  [[nodiscard]] double reference_temperature() const override { return table_.reference_temperature(); }
+  [[nodiscard]] double reference_energy() const override { return table_.reference_energy(); }
+  [[nodiscard]] bool condensed() const override { return table_.condensed(); }
+  [[nodiscard]] double maximum_density() const override { return model_->maximum_density(); }
+  [[nodiscard]] double minimum_energy(double density) const override;
+  [[nodiscard]] double least_temperature() const override { return table_.least_temperature(); }
+  RangeReport evaluate(const Batch& batch) const override;
+  [[nodiscard]] State state(double density, double specific_internal_energy) const override;
+  [[nodiscard]] State state_at_temperature(double density, double temperature) const override;
+  [[nodiscard]] std::string constants() const override { return table_.constants(); }
+
+ private:
+  [[nodiscard]] bool holds(double density) const;
+
+  Table table_;
+  std::shared_ptr<const EquationOfState> model_;
+};
+
+}  // namespace whipple::eos
