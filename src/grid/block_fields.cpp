@@ -72,7 +72,10 @@ void BlockGrid::lay_out_nodes() {
     }
   }
   const std::size_t nodes = (slots() + slot_of_further_.size()) * nodes_per_block;
-  if (nodes > nodes_.capacity()) std::vector<Node>().swap(nodes_);  // every step begins with clear nodes
+  if (nodes > nodes_.capacity()) {
+    std::vector<Node>().swap(nodes_);   // every step begins with clear nodes
+    nodes_.reserve(nodes + nodes / 2);  // takes addresses, but memory only when it is reached
+  }
   nodes_.resize(nodes);
   find_mirror_nodes();
 }
@@ -102,7 +105,11 @@ void BlockGrid::find_mirror_nodes() {
     const std::int32_t outward = mirror.face % 2 == 0 ? -1 : 1;
     for (std::size_t b = 0; b < nodes_.size() / nodes_per_block; ++b) {
       const std::size_t s = b < slots() ? b : slot_of_further_[b - slots()];
-      int field = -1;  // of the block's nodes; -1: of no or any field
+      const std::int32_t first = blocks_.coordinate[s][axis] * block_edge;
+      const std::int32_t least_inside =
+          std::min((at - first) * outward, (at - first - (block_edge - 1)) * outward);
+      if (least_inside > mirror_reach) continue;  // a block inside the domain
+      int field = -1;                             // of the block's nodes; -1: of no or any field
       if (contact_number(s) != no_slot) {
         field =
             nth_bit(fields_[s],
