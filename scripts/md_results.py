@@ -94,7 +94,7 @@ class Fitted:
             self.fault = "its plan was not run"
             return
         result = call([binaries / "whipple-fit", store, "-o", self.material, "--force"], allowed=(0, 2, 3))
-        self.fault = result.stderr.strip().splitlines()[-1] if result.returncode else ""
+        self.fault = result.stderr.strip().splitlines()[-1].replace(str(store), store.name) if result.returncode else ""
         if self.fault:
             return
         text = tomllib.loads(self.material.read_text(encoding="utf-8"))
