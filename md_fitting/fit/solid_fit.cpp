@@ -131,7 +131,8 @@ SolidConstants converged(const Observations& data, const SolidModel& model, cons
     const VectorXd step = solve(problem.least_squares()).parameters;
     constants = problem.constants_at(step);
     const double change = step.head(problem.constants()).lpNorm<Eigen::Infinity>();
-    // Sharp data leave a badly conditioned problem, whose solution scatters by a millionth: no pass removes that.
+    // Sharp data leave a badly conditioned problem, whose solution scatters by a millionth: no pass removes
+    // that.
     const bool at_its_noise = change < 1e-5 && change > 0.5 * former_change;
     if (change < 1e-7 || at_its_noise || !model.fits(Place::melting)) return constants;
     former_change = change;
