@@ -262,9 +262,19 @@ std::vector<PointRecord> read_store(const std::filesystem::path& path) {
 }
 
 std::vector<PointRecord> select(std::span<const PointRecord> points, std::string_view protocol) {
+  const auto revision = [](const PointRecord& point) {
+    const auto entry = point.provenance.find("revision");
+    return entry == point.provenance.end() ? 0 : std::stoi(entry->second);
+  };
+  const auto wanted = [&](const PointRecord& point) { return point.done() && point.protocol == protocol; };
+  std::map<std::map<std::string, double>, int> newest;  // by conditions
+  for (const PointRecord& point : points) {
+    if (wanted(point)) newest[point.conditions] = std::max(newest[point.conditions], revision(point));
+  }
   std::vector<PointRecord> chosen;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(chosen),
-               [&](const PointRecord& point) { return point.done() && point.protocol == protocol; });
+  std::copy_if(points.begin(), points.end(), std::back_inserter(chosen), [&](const PointRecord& point) {
+    return wanted(point) && revision(point) == newest[point.conditions];
+  });
   return chosen;
 }
 

@@ -60,7 +60,8 @@ std::string_view unit_of(std::string_view quantity);
 /// @throws InputError if the file is missing, is no store, or was written by a newer format.
 std::vector<PointRecord> read_store(const std::filesystem::path& path);
 
-/// The finished points of one protocol (status "done").
+/// The finished points of one protocol (status "done"): of those with the same conditions only what the
+/// newest revision of the protocol computed, as far as the store holds it.
 std::vector<PointRecord> select(std::span<const PointRecord> points, std::string_view protocol);
 
 /// Adds one point, or replaces the failed point of the same key, or a finished one of fewer segments. The

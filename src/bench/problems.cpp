@@ -78,7 +78,7 @@ std::vector<Problem> all_problems() {
        .steps_before = 20,
        .steps = 10},
       {.name = "lead_impact_nine_million",
-       .what = "the same with a quarter of it: 64 times the particles, 5 GB (only when it is named)",
+       .what = "the same with a quarter of it: 64 times the particles, 4 GB (only when it is named)",
        .case_file = lead,
        .overrides = together(whole_model, {{"domain.cell_size", "0.53 mm"}}),
        .steps_before = 10,

@@ -50,6 +50,27 @@ void expect_equal(const PointRecord& a, const PointRecord& b) {
   }
 }
 
+// A store outlives the revisions of its protocols: what an older one computed at the same conditions is
+// superseded, what only it computed is not.
+TEST(Select, TakesTheNewestRevisionOfEachPoint) {
+  const auto point = [](const std::string& key, double volume, const std::string& revision) {
+    PointRecord record;
+    record.key = key;
+    record.protocol = "isochore";
+    record.status = "done";
+    record.conditions = {{"specific_volume", volume}, {"temperature", 300.0}};
+    if (!revision.empty()) record.provenance["revision"] = revision;
+    return record;
+  };
+  std::vector<PointRecord> points = {point("a", 1e-4, "3"), point("b", 1e-4, "10"), point("c", 1e-4, "10"),
+                                     point("d", 2e-4, "3"), point("e", 3e-4, ""),   point("f", 1e-4, "11")};
+  points.back().status = "failed";
+  std::string keys;
+  for (const PointRecord& chosen : select(points, "isochore")) keys += chosen.key;
+  EXPECT_EQ(keys, "bcde");
+  EXPECT_TRUE(select(points, "isotherm").empty());
+}
+
 // FIPS PUB 180-4 test vectors (NIST "Examples with intermediate values", SHA-256): the key of a point is this
 // hash.
 TEST(Hash, AgreesWithThePublishedTestVectors) {
