@@ -18,8 +18,9 @@ double rate_at(const GaussPoints& points, std::size_t i, const ViscosityCoeffici
   // q/(l |D|) rho from q itself (eq. 5.3), with the linear part whether the element closes or not
   const double linear = viscosity.linear * c;
   const double speed =
-      0.5 * (linear + std::sqrt(linear * linear +
-                                4.0 * viscosity.quadratic * points.artificial_viscosity[i] / density));
+      0.5 *
+      (linear + std::sqrt(linear * linear + 4.0 * viscosity.quadratic *
+                                                std::fmax(points.artificial_viscosity[i], 0.0) / density));
   const double xi = std::sqrt(3.0) * speed / c;
   // 1/(sqrt(1 + xi^2) - xi) = sqrt(1 + xi^2) + xi
   return std::sqrt(3.0) * c / length * (std::sqrt(1.0 + xi * xi) + xi);
@@ -38,7 +39,8 @@ double critical_time_step(const Mesh& mesh, const ViscosityCoefficients& viscosi
     const Lanes c = load4(points.sound_speed), linear = viscosity.linear * c;
     // q/(rho l |D|) from q itself, with the linear part whether the element closes or not (eq. 5.3)
     const Lanes q = load4(points.artificial_viscosity) * load4(points.volume) / load4(points.mass);
-    const Lanes speed = 0.5 * (linear + sqrt(linear * linear + (4.0 * viscosity.quadratic) * q));
+    const Lanes closing = q > 0.0 ? q : Lanes{};
+    const Lanes speed = 0.5 * (linear + sqrt(linear * linear + (4.0 * viscosity.quadratic) * closing));
     const Lanes rates = (sqrt(3.0 * (c * c + 3.0 * speed * speed)) + 3.0 * speed) / load4(points.length);
     return std::max(std::max(rates[0], rates[1]), std::max(rates[2], rates[3]));
   });

@@ -29,7 +29,7 @@ struct HourglassControl {
 
 /// Coefficients of the artificial viscosity q = rho l |D| (c2 l |D| + c1 c) that enter the time step.
 struct ViscosityCoefficients {
-  double linear = 0.25;
+  double linear = 0.25;  ///< the larger one of compression and expansion
   double quadratic = 1.0;
 };
 

@@ -252,7 +252,7 @@ void advance_strain(Step& step, Chunk& chunk) {
   }
 }
 
-/// Artificial viscosity (eq. 8): in compression only, none in failed or brittle matter beside an open void.
+/// Artificial viscosity (eq. 8): none in failed or brittle matter beside an open void.
 void advance_viscosity(Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
   const auto advance = [&](const auto& length) {
@@ -262,6 +262,13 @@ void advance_viscosity(Step& step, Chunk& chunk) {
           chunk.mass[k] / chunk.volume[k] * closing *
           (settings.quadratic_viscosity * closing + settings.linear_viscosity * chunk.sound_speed[k]);
       chunk.artificial_viscosity[k] = closing > 0.0 ? viscosity : 0.0;
+    }
+    if (settings.expansion_viscosity == 0.0) return;
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      const double opening = std::fmax(chunk.motion.divergence[k], 0.0) * length(k);
+      const double viscosity =
+          chunk.mass[k] / chunk.volume[k] * opening * settings.expansion_viscosity * chunk.sound_speed[k];
+      chunk.artificial_viscosity[k] -= std::fmin(viscosity, std::fmax(chunk.pressure[k], 0.0));
     }
   };
   if (settings.lengths.empty()) {

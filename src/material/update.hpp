@@ -23,6 +23,7 @@ struct UpdateSettings {
   std::span<const double> lengths = {};  ///< m, the same for each point of the set, in place of `cell_size`
   double linear_viscosity = 0.25;        ///< c1 of q = rho l |D| (c2 l |D| + c1 c)
   double quadratic_viscosity = 1.0;      ///< c2
+  double expansion_viscosity = 0.0;      ///< c1 of q = -rho l |D| c1 c in expansion
   material::StressRotation rotation = material::StressRotation::hughes_winget;
   double time = 0.0;  ///< s, at the end of the step
 };

@@ -40,7 +40,7 @@ struct MaterialPoints {
   std::vector<double> void_volume;               ///< m^3 of voids and open cracks (0: none)
   std::vector<double> specific_internal_energy;  ///< J/kg
   std::vector<double> pressure;              ///< Pa, positive in compression, without artificial viscosity
-  std::vector<double> artificial_viscosity;  ///< Pa, >= 0
+  std::vector<double> artificial_viscosity;  ///< Pa, negative in expansion
   std::vector<SymmetricTensor> deviatoric_stress;  ///< Pa, positive in tension
   std::vector<double> temperature;                 ///< K
   std::vector<double> sound_speed;  ///< m/s, longitudinal (with shear stiffness), for time step and viscosity

@@ -82,6 +82,10 @@ void read_body(Case& setup, input::Table table, std::set<std::string>& names,
   if (auto scatter = table.optional_table("failure_scatter")) {
     scatter->read(FailureScatter::parameters(), body.failure_scatter);
   }
+  if (auto viscosity = table.optional_table("artificial_viscosity")) {
+    body.viscosity = setup.viscosity;
+    viscosity->read(ArtificialViscosity::parameters(), *body.viscosity);
+  }
   body.shape = body.discretization.is_bars()      ? read_bar_shape(body, table)
                : body.discretization.mesh.empty() ? read_shape(table)
                                                   : read_mesh_shape(body.discretization, table);
@@ -137,6 +141,7 @@ std::string body_to_toml(Body body, const std::string& material) {
   for (const BarRow& row : body.bars) text += table_of("[[body.bar]]", row);
   if (body.initial.given()) text += table_of("[body.initial]", body.initial);
   if (body.failure_scatter.given()) text += table_of("[body.failure_scatter]", body.failure_scatter);
+  if (body.viscosity) text += table_of("[body.artificial_viscosity]", *body.viscosity);
   return text;
 }
 
@@ -149,6 +154,8 @@ std::string describe_body() {
   text += "\n[[body.bar]], of bodies of bars\n" + describe_table(BarRow::parameters());
   text += "\n[body.initial], at most two of\n" + describe_table(InitialState::parameters());
   text += "\n[body.failure_scatter]\n" + describe_table(FailureScatter::parameters());
+  text += "\n[body.artificial_viscosity], keys not given: those of [artificial_viscosity]\n" +
+          describe_table(ArtificialViscosity::parameters());
   return text;
 }
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "src/base/parameter_table.hpp"
 #include "src/base/tensor.hpp"
 #include "src/input/document.hpp"
+#include "src/setup/artificial_viscosity.hpp"
 #include "src/setup/body_state.hpp"
 #include "src/setup/discretization.hpp"
 #include "src/setup/shapes/shape.hpp"
@@ -30,6 +32,7 @@ struct Body {
   std::vector<BarRow> bars;
   InitialState initial;
   FailureScatter failure_scatter;
+  std::optional<ArtificialViscosity> viscosity;  ///< instead of that of the case
   std::shared_ptr<const Shape> shape;
   static ParameterTable<Body> parameters();
 };

@@ -106,14 +106,6 @@ ParameterTable<Splitting> Splitting::parameters() {
           .optional()};
 }
 
-ParameterTable<ArtificialViscosity> ArtificialViscosity::parameters() {
-  return {real("linear", &ArtificialViscosity::linear, "", range::non_negative(),
-               "c1 of q = rho l |D| (c2 l |D| + c1 c), in compression")
-              .optional(),
-          real("quadratic", &ArtificialViscosity::quadratic, "", range::non_negative(), "c2 of the same")
-              .optional()};
-}
-
 ParameterTable<OutputControl> OutputControl::parameters() {
   return {real("snapshot_every", &OutputControl::snapshot_every, "s", range::non_negative(),
                "simulated time between snapshots for ParaView; 0: first and last only")

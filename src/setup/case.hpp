@@ -59,12 +59,6 @@ struct Splitting {
   static ParameterTable<Splitting> parameters();
 };
 
-struct ArtificialViscosity {
-  double linear = 0.25;
-  double quadratic = 1.0;
-  static ParameterTable<ArtificialViscosity> parameters();
-};
-
 struct Gravity {
   Vector3 acceleration = Vector3::Zero();
   double rise_time = 0.0;  ///< s
@@ -97,7 +91,7 @@ struct Case {
   TimeControl time;
   TransferControl transfer;
   Splitting splitting;
-  ArtificialViscosity viscosity;
+  ArtificialViscosity viscosity;  ///< of bodies that bring none of their own
   HeatControl heat;
   ContactControl contact;
   Gravity gravity;
@@ -109,6 +103,9 @@ struct Case {
 
   /// Velocity field of each body: bodies of one contact group share it, any other body has its own.
   [[nodiscard]] std::vector<std::uint8_t> contact_fields() const;
+  [[nodiscard]] const ArtificialViscosity& viscosity_of(std::size_t body) const {
+    return bodies[body].viscosity ? *bodies[body].viscosity : viscosity;
+  }
   [[nodiscard]] bool has_elements() const;
   [[nodiscard]] bool has_bars() const;
 

@@ -32,7 +32,7 @@ fem::HourglassControl hourglass(const setup::Discretization& control) {
 }
 
 fem::ViscosityCoefficients viscosity(const setup::ArtificialViscosity& control) {
-  return {.linear = control.linear, .quadratic = control.quadratic};
+  return {.linear = std::max(control.linear, control.expansion), .quadratic = control.quadratic};
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ fem::ViscosityCoefficients viscosity(const setup::ArtificialViscosity& control) 
 double Simulation::element_time_step() const {
   double dt = std::numeric_limits<double>::infinity();
   for (const fem::Mesh& mesh : meshes_) {
-    dt = std::min(dt, fem::critical_time_step(mesh, viscosity(setup_.viscosity)));
+    dt = std::min(dt, fem::critical_time_step(mesh, viscosity(setup_.viscosity_of(mesh.body))));
   }
   for (const fem::Bars& bars : bars_) dt = std::min(dt, fem::critical_time_step(bars));
   return setup_.time.element_safety * -parallel::maximum(communicator_, -dt);
@@ -55,7 +55,7 @@ void Simulation::convert_elements() {
       const setup::Body& body = setup_.bodies[mesh.body];
       if (!body.discretization.converts()) continue;
       const std::vector<std::uint8_t> distorted = afemp::distorted_elements(
-          mesh, thresholds(body.conversion), viscosity(setup_.viscosity), grid_step);
+          mesh, thresholds(body.conversion), viscosity(setup_.viscosity_of(mesh.body)), grid_step);
       const auto count = static_cast<double>(std::ranges::count(distorted, 1));
       if (state_.step == 0) {
         std::array<double, 2> counts = {count, static_cast<double>(distorted.size())};

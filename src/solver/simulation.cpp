@@ -356,12 +356,18 @@ void Simulation::update_material(EnergyUpdate energy) {
   profile_.time("material", [&] {
     const UpdateSettings settings{.time_step = state_.time_step,
                                   .cell_size = setup_.domain.cell_size,
-                                  .linear_viscosity = setup_.viscosity.linear,
-                                  .quadratic_viscosity = setup_.viscosity.quadratic,
                                   .rotation = setup_.time.stress_rotation == "polar"
                                                   ? material::StressRotation::polar
                                                   : material::StressRotation::hughes_winget,
                                   .time = state_.time + state_.time_step};
+    const auto settings_of = [&](std::size_t body) {
+      const setup::ArtificialViscosity& viscosity = setup_.viscosity_of(body);
+      UpdateSettings of_body = settings;
+      of_body.linear_viscosity = viscosity.linear;
+      of_body.quadratic_viscosity = viscosity.quadratic;
+      of_body.expansion_viscosity = viscosity.expansion;
+      return of_body;
+    };
     std::string error;
     // The points [first, first + count) of a set, all of one material; `describe` tells of a faulty one.
     const auto update = [&](const Material& material, MaterialPoints& points, std::size_t first,
@@ -394,11 +400,12 @@ void Simulation::update_material(EnergyUpdate energy) {
     };
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       update(*setup_.materials[b], particles_, bodies_[b].first, bodies_[b].count, velocity_gradient_,
-             settings, [&](std::size_t p, const std::string& reason) { return describe_state(p, reason); });
+             settings_of(b),
+             [&](std::size_t p, const std::string& reason) { return describe_state(p, reason); });
     }
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
       fem::Mesh& mesh = meshes_[m];
-      UpdateSettings of_elements = settings;
+      UpdateSettings of_elements = settings_of(mesh.body);
       of_elements.lengths = mesh.points.length;
       update(*setup_.materials[mesh.body], mesh.points, 0, mesh.points.size(), element_gradient_[m],
              of_elements,

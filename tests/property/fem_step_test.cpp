@@ -369,6 +369,12 @@ TEST(TimeStep, BoundCountsTheViscosity) {
   body.viscosity = {0.25, 1.0};
   const double xi = std::sqrt(3.0) * 0.25;
   EXPECT_NEAR(body.critical_time_step(), plain * (std::sqrt(1.0 + xi * xi) - xi), 1e-12 * plain);
+  const double bound = body.critical_time_step();
+  for (double& q : body.mesh.points.artificial_viscosity) q = -1e9;  // in expansion: the linear part alone
+  EXPECT_EQ(body.critical_time_step(), bound);
+  EXPECT_EQ(fem::critical_time_step(body.mesh, 0, body.viscosity),
+            fem::critical_time_step(body.mesh, 63, body.viscosity));
+  for (double& q : body.mesh.points.artificial_viscosity) q = 0.0;
   EXPECT_LT(growth(body, 0.999, 1000), 1.0);  // it damps
 }
 

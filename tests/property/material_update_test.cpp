@@ -406,6 +406,31 @@ TEST(Viscosity, ActsInCompressionOnlyWithThePublishedForm) {
   EXPECT_EQ(points.artificial_viscosity[1], 0.0);
 }
 
+/// It takes energy out of the flow and never turns pressure into tension.
+TEST(Viscosity, InExpansionActsWhereAskedForAndNeverExceedsThePressure) {
+  const Material material = with(taylor_copper());
+  MaterialPoints points = points_of(material, 4);
+  const double sound = points.sound_speed[0];
+  points.pressure = {20e9, 1e8, 0.0, -1e9};
+  const UpdateSettings settings{
+      .time_step = 1e-12, .cell_size = 2e-3, .linear_viscosity = 0.3, .expansion_viscosity = 0.5};
+  std::vector<Matrix3> gradients(4, Matrix3::Zero());
+  for (Matrix3& gradient : gradients) gradient(1, 1) = 1e5;
+  update_material(material, points, 0, 4, gradients, settings);
+  EXPECT_NEAR(points.artificial_viscosity[0], -8930.0 * 2e-3 * 1e5 * 0.5 * sound, 1e3);  // of 4 GPa
+  EXPECT_EQ(points.artificial_viscosity[1], -1e8);
+  EXPECT_EQ(points.artificial_viscosity[2], 0.0);
+  EXPECT_EQ(points.artificial_viscosity[3], 0.0);
+
+  MaterialPoints closing = points_of(material, 1), usual = closing;
+  gradients[0](1, 1) = -1e5;
+  UpdateSettings without = settings;
+  without.expansion_viscosity = 0.0;
+  update_material(material, closing, 0, 1, gradients, settings);
+  update_material(material, usual, 0, 1, gradients, without);
+  EXPECT_EQ(closing.artificial_viscosity[0], usual.artificial_viscosity[0]);
+}
+
 /// A length for every point of the set takes the place of the cell size, in ranges and in lists.
 TEST(Viscosity, TakesTheLengthOfEachPoint) {
   const Material material = with(taylor_copper());

@@ -393,6 +393,24 @@ TEST(FailureScatter, IsTheSameForAnyNumberOfRanksAndIsReadAndWritten) {
   expect_error(domain + sphere + "failure_scatter = { weibull_modulus = 0 }\n", {"'weibull_modulus'", "> 0"});
 }
 
+TEST(ArtificialViscosity, OfABodyTakesWhatItDoesNotSayFromTheCase) {
+  const std::string of_case = "[artificial_viscosity]\nlinear = 0.5\n";
+  const Case setup =
+      read_case_text(domain + of_case + sphere + "artificial_viscosity = { expansion = 0.3 }\n", "case.toml");
+  const Case again = read_case_text(to_toml(setup, {"copper.toml"}), "run.toml");
+  for (const Case& c : {setup, again}) {
+    EXPECT_EQ(c.viscosity_of(0).linear, 0.5);
+    EXPECT_EQ(c.viscosity_of(0).quadratic, 1.0);
+    EXPECT_EQ(c.viscosity_of(0).expansion, 0.3);
+    EXPECT_EQ(c.viscosity.expansion, 0.0);
+  }
+  const Case plain = read_case_text(domain + of_case + sphere, "case.toml");
+  EXPECT_EQ(plain.viscosity_of(0).linear, 0.5);
+  // Not written out for bodies that bring none: --set artificial_viscosity.linear then reaches them.
+  EXPECT_FALSE(read_case_text(to_toml(plain, {"copper.toml"}), "run.toml").bodies[0].viscosity);
+  expect_error(domain + sphere + "artificial_viscosity = { expansion = -1 }\n", {"'expansion'", ">= 0"});
+}
+
 const std::string gauges = R"(
 [[gauge]]
 name = "fixed"

@@ -61,39 +61,28 @@ TEST(DebrisCloud, ConservesMeltsTheAluminiumAndLeavesMostOfTheCopperSolid) {
   });
   const Particles& q = simulation.particles();
   const double surface = free_surface_speed();
-  // The shock is about three cells wide, and the velocity behind its front overshoots. Matter within one cell
-  // of the rear surface leaves at that peak: less heated and faster than it should be (docs/theory/mpm.md,
-  // 7.4). Its mass vanishes with the cell size; all other matter keeps the physical limit.
-  const double skin = disk_case().domain.cell_size;
-  double axis = 0, axis_melted = 0, copper = 0, copper_solid = 0, too_fast = 0, fastest_inside = 0;
+  double axis = 0, axis_melted = 0, copper = 0, copper_solid = 0;
   for (std::size_t p = 0; p < q.size(); ++p) {
     const Vector3& x0 = start[q.id[p]];
-    const double speed = q.velocity[p].norm();
-    if (speed > 1.05 * surface) too_fast += q.mass[p];
-    const bool in_skin = q.body[p] == 1 && x0[2] > 2.87e-3 - skin;
-    if (!in_skin) fastest_inside = std::max(fastest_inside, speed);
     if (q.body[p] == 0) {
       copper += q.mass[p];
       copper_solid += q.melted_fraction[p] < 0.5 ? q.mass[p] : 0.0;
-    } else if (std::hypot(x0[0], x0[1]) < 2.8e-3 && x0[2] > 0.4e-3 && x0[2] < 2.87e-3 - skin) {
+    } else if (std::hypot(x0[0], x0[1]) < 2.8e-3 && x0[2] > 0.4e-3) {
       axis += q.mass[p];
       axis_melted += q.melted_fraction[p] * q.mass[p];
     }
   }
   std::printf(
-      "energy error %.1e, momentum error %.1e, fastest %.0f m/s, %.0f below the outermost cell (free surface "
-      "%.0f "
-      "m/s), above 1.05 of it %.2f %% of the mass, aluminium on the axis melted %.0f %%, "
-      "copper "
-      "solid %.0f %%, %lld steps\n",
-      watch.worst, momentum_error, fastest, fastest_inside, surface,
-      100 * too_fast / simulation.totals().mass, 100 * axis_melted / axis, 100 * copper_solid / copper,
+      "energy error %.1e, momentum error %.1e, fastest %.0f m/s (free surface %.0f m/s), aluminium on the "
+      "axis melted %.0f %%, copper solid %.0f %%, %lld steps\n",
+      watch.worst, momentum_error, fastest, surface, 100 * axis_melted / axis, 100 * copper_solid / copper,
       static_cast<long long>(simulation.state().step));
   EXPECT_LT(watch.worst, 1e-10);
   EXPECT_LT(momentum_error, 1e-11);
-  EXPECT_LT(fastest, 1.09 * surface);
-  EXPECT_LT(fastest_inside, 1.01 * surface);  // above the impact speed
-  EXPECT_LT(too_fast, 0.001 * simulation.totals().mass);
+  // On the way as well as at the end. Without the plate's viscosity the matter within a cell of its rear
+  // surface leaves at the overshoot of the shock (docs/theory/mpm.md, 7.4): 8 to 10 % too fast.
+  EXPECT_LT(fastest, surface);        // above the impact speed
+  EXPECT_GT(fastest, 0.9 * surface);  // 0.998 with the case's own cells of 0.4 mm
   EXPECT_GT(axis_melted / axis, 0.9);
   EXPECT_GT(copper_solid / copper, 0.65);  // 0.81 with the case's own cells of 0.4 mm
 }
