@@ -61,13 +61,14 @@ TEST(DebrisCloud, ConservesMeltsTheAluminiumAndLeavesMostOfTheCopperSolid) {
   });
   const Particles& q = simulation.particles();
   const double surface = free_surface_speed();
+  const double skin = disk_case().domain.cell_size;  // heated less than the rest (docs/theory/mpm.md, 7.4)
   double axis = 0, axis_melted = 0, copper = 0, copper_solid = 0;
   for (std::size_t p = 0; p < q.size(); ++p) {
     const Vector3& x0 = start[q.id[p]];
     if (q.body[p] == 0) {
       copper += q.mass[p];
       copper_solid += q.melted_fraction[p] < 0.5 ? q.mass[p] : 0.0;
-    } else if (std::hypot(x0[0], x0[1]) < 2.8e-3 && x0[2] > 0.4e-3) {
+    } else if (std::hypot(x0[0], x0[1]) < 2.8e-3 && x0[2] > 0.4e-3 && x0[2] < 2.87e-3 - skin) {
       axis += q.mass[p];
       axis_melted += q.melted_fraction[p] * q.mass[p];
     }
@@ -82,7 +83,7 @@ TEST(DebrisCloud, ConservesMeltsTheAluminiumAndLeavesMostOfTheCopperSolid) {
   // On the way as well as at the end. Without the plate's viscosity the matter within a cell of its rear
   // surface leaves at the overshoot of the shock (docs/theory/mpm.md, 7.4): 8 to 10 % too fast.
   EXPECT_LT(fastest, surface);        // above the impact speed
-  EXPECT_GT(fastest, 0.9 * surface);  // 0.998 with the case's own cells of 0.4 mm
+  EXPECT_GT(fastest, 0.9 * surface);  // 0.99 with the case's own cells of 0.4 mm
   EXPECT_GT(axis_melted / axis, 0.9);
   EXPECT_GT(copper_solid / copper, 0.65);  // 0.81 with the case's own cells of 0.4 mm
 }
