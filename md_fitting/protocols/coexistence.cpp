@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -33,10 +32,6 @@ constexpr int most_parts = 3;
 /// Of the volume; fcc metals expand by 3 to 7 % as they melt.
 constexpr double melting_expansion = 0.05;
 constexpr std::int64_t share_interval = 200;
-
-double mean(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 std::int64_t next_seed(std::int64_t seed, const std::string& what) {
   return seed_from(sha256(fmt::format("{} {}", seed, what)));

@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/phase.hpp"
+#include "md_fitting/protocols/statistics.hpp"
 #include "src/base/error.hpp"
 
 namespace whipple::md {
@@ -31,10 +31,6 @@ constexpr double least_core = 3.0;   // A: half of the film that is certainly me
 constexpr double least_space = 6.0;  // A: on either side
 constexpr double least_vapour_atoms = 4.0;
 constexpr const char* vapour_atoms = "vapour_atoms";  // of one run, no result of the point
-
-double mean(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 /// Distances of all atoms from the centre of the film.
 std::vector<double> distances_from_film(const std::vector<double>& positions, double period) {

@@ -12,6 +12,7 @@
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/crystal.hpp"
+#include "md_fitting/protocols/statistics.hpp"
 #include "md_fitting/protocols/structure.hpp"
 #include "src/base/error.hpp"
 
@@ -24,10 +25,6 @@ constexpr double failed_share = 0.5;
 constexpr double window_strain = 0.004;
 constexpr double part_strain = 0.02;
 constexpr std::int64_t interval = 5;
-
-double mean(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 ReplicaValues stretch(const Potential& potential, double temperature, const SpallPlan& section,
                       std::int64_t seed, std::string& transcript) {

@@ -92,6 +92,10 @@ std::vector<double> block_means(std::span<const double> series) {
   return means;
 }
 
+double mean(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 Estimate series_mean(std::span<const double> series) { return series_statistics(series).estimate; }
 
 SeriesMean series_statistics(std::span<const double> series) {

@@ -8,6 +8,9 @@
 
 namespace whipple::md {
 
+/// Arithmetic mean of at least one value.
+double mean(std::span<const double> values);
+
 /// Mean of a correlated series with its standard error. The variance of the mean is that of independent
 /// samples times 2 tau, tau the integrated autocorrelation time over a window of five tau (Sokal, in
 /// Functional Integration, NATO ASI B 361 (1997) 131), corrected for the mean being the series' own (Wolff,

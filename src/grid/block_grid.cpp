@@ -265,6 +265,10 @@ void BlockGrid::particles_reordered(std::span<const std::uint32_t> order) {
   slot_of_particle_ = std::move(reordered);
 }
 
+void BlockGrid::particles_removed(std::span<const Move> moves, std::size_t size) {
+  if (!slot_of_particle_.empty()) close_gaps(slot_of_particle_, moves, size);
+}
+
 void BlockGrid::shift(const Vector3& cells) {
   geometry_.lower = origin_ + geometry_.cell_size * cells;
   foresight_ = 1.0;  // from half a cell on one side to half a cell on the other

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "src/base/gaps.hpp"
 #include "src/base/simd.hpp"
 #include "src/grid/block_table.hpp"
 #include "src/grid/forest.hpp"
@@ -153,6 +154,9 @@ class BlockGrid {
   void particles_reordered() { slot_of_particle_.clear(); }
   /// The same when every particle is still there: new[i] = old[order[i]]. On one rank the blocks stay known.
   void particles_reordered(std::span<const std::uint32_t> order);
+  /// Particles left and others took their places: the blocks stay known.
+  /// @param size  number of particles that stay
+  void particles_removed(std::span<const Move> moves, std::size_t size);
 
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
   [[nodiscard]] std::size_t slots() const { return blocks_.coordinate.size(); }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 /// The one place with OpenMP pragmas. Every result is bitwise independent of the number of threads: loops
@@ -68,6 +69,20 @@ double maximum(std::size_t n, double start, Value&& value) {
 #pragma omp parallel for schedule(static) reduction(max : result)
   for (std::size_t i = 0; i < n; ++i) result = std::max(result, value(i));
   return result;
+}
+
+/// The i of [0, n) for which condition(i) holds, ascending.
+template <class Condition>
+std::vector<std::uint32_t> where(std::size_t n, Condition&& condition) {
+  std::vector<std::vector<std::uint32_t>> found(static_cast<std::size_t>(threads()));
+  for_each(found.size(), [&](std::size_t part) {
+    for (std::size_t i = n * part / found.size(); i < n * (part + 1) / found.size(); ++i) {
+      if (condition(i)) found[part].push_back(static_cast<std::uint32_t>(i));
+    }
+  });
+  std::vector<std::uint32_t> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 }  // namespace whipple::parallel

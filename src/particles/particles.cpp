@@ -3,18 +3,60 @@
 
 #include <algorithm>
 #include <numeric>
+#include <type_traits>
 
 #include "src/parallel/threads.hpp"
 
 namespace whipple {
 
-void reorder(Particles& particles, std::span<const std::uint32_t> order) {
+namespace {
+
+/// Every field in use whose numbers are of one type.
+template <class Value, class Function>
+void for_each_field_of(Particles& particles, Function&& f) {
   for_each_field<Particles>([&](const auto& field) {
     auto& values = particles.*(field.values);
-    if (field.optional && values.empty()) return;  // not in use
-    std::remove_reference_t<decltype(values)> sorted(order.size());
+    if constexpr (std::is_same_v<std::remove_reference_t<decltype(values)>, std::vector<Value>>) {
+      if (!field.optional || !values.empty()) f(values);
+    }
+  });
+}
+
+/// Fields of one type hand their memory on to one another: new pages cost more than the copy.
+template <class Value>
+void reorder_fields_of(Particles& particles, std::span<const std::uint32_t> order) {
+  std::vector<Value> sorted;
+  for_each_field_of<Value>(particles, [&](std::vector<Value>& values) {
+    sorted.resize(order.size());
     parallel::for_each(order.size(), [&](std::size_t i) { sorted[i] = values[order[i]]; });
     values.swap(sorted);
+  });
+}
+
+template <class... Values>
+struct Types {
+  template <class Value>
+  static constexpr bool hold = (std::is_same_v<Value, Values> || ...);
+  static void reorder(Particles& particles, std::span<const std::uint32_t> order) {
+    for_each_field<Particles>([]<class Points, class Value>(const Field<Points, Value>&) {
+      static_assert(hold<Value>, "a field of a type that is not reordered");
+    });
+    (reorder_fields_of<Values>(particles, order), ...);
+  }
+};
+using FieldTypes =
+    Types<double, std::uint8_t, std::uint32_t, std::uint64_t, Vector3, SymmetricTensor, Matrix3>;
+
+}  // namespace
+
+void reorder(Particles& particles, std::span<const std::uint32_t> order) {
+  FieldTypes::reorder(particles, order);
+}
+
+void remove(Particles& particles, std::span<const Move> moves, std::size_t size) {
+  for_each_field<Particles>([&](const auto& field) {
+    auto& values = particles.*(field.values);
+    if (!field.optional || !values.empty()) close_gaps(values, moves, size);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "src/base/gaps.hpp"
 #include "src/particles/material_points.hpp"
 
 namespace whipple {
@@ -38,6 +39,9 @@ struct Particles : MaterialPoints {
 /// Brings every field into the order new[i] = old[order[i]]; `order` may be shorter than the particles
 /// (removal). Two calls that give the same order give bitwise the same particles.
 void reorder(Particles& particles, std::span<const std::uint32_t> order);
+
+/// Removes particles: `moves` as of `moves_into_gaps` over their bodies, `size` particles stay.
+void remove(Particles& particles, std::span<const Move> moves, std::size_t size);
 
 /// Brings the particles of each body together; within a body the order stays.
 void sort_by_body(Particles& particles);

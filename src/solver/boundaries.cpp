@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "src/base/gaps.hpp"
 #include "src/base/vector_math.hpp"
+#include "src/parallel/threads.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {
@@ -11,10 +13,12 @@ void Simulation::reflect_and_remove() {
     const grid::Geometry& g = setup_.geometry;
     const Lanes lower = {g.lower[0], g.lower[1], g.lower[2], 0.0};
     const Lanes upper = {g.upper(0), g.upper(1), g.upper(2), 0.0};
-    std::vector<std::uint32_t> leaving;
-    for (std::size_t p = 0; p < particles_.size(); ++p) {
+    const std::vector<std::uint32_t> outside = parallel::where(particles_.size(), [&](std::size_t p) {
       const Lanes position = load_vector(particles_.position[p].data());
-      if (bits((position >= lower) & (position <= upper)) == all_lanes) continue;
+      return bits((position >= lower) & (position <= upper)) != all_lanes;
+    });
+    std::vector<std::uint32_t> leaving;
+    for (const std::uint32_t p : outside) {
       bool leaves = false;
       for (int a = 0; a < 3; ++a) {
         double& x = particles_.position[p][a];
@@ -45,23 +49,19 @@ void Simulation::reflect_and_remove() {
           (*tensors)[p] = SymmetricTensor::from(mirror * (*tensors)[p].matrix() * mirror);
         }
       }
-      if (leaves) leaving.push_back(static_cast<std::uint32_t>(p));
+      if (leaves) leaving.push_back(p);
     }
     if (leaving.empty()) return;
-    std::vector<std::uint32_t> staying;
-    staying.reserve(particles_.size() - leaving.size());
-    auto next = leaving.begin();
-    for (std::uint32_t p = 0; p < particles_.size(); ++p) {
-      if (next != leaving.end() && *next == p) {
-        step_.outflow += totals_of(particles_, p, particle_affine_inertia());
-        ++next;
-      } else {
-        staying.push_back(p);
-      }
+    for (const std::uint32_t p : leaving) {
+      step_.outflow += totals_of(particles_, p, particle_affine_inertia());
     }
-    for (std::size_t i = 0; i < staying.size(); ++i) former_velocity_[i] = former_velocity_[staying[i]];
-    reorder(particles_, staying);
-    particles_reallocated();
+    const std::vector<Move> moves = moves_into_gaps(particles_.body, leaving);
+    const std::size_t size = particles_.size() - leaving.size();
+    remove(particles_, moves, size);
+    close_gaps(former_velocity_, moves, size);
+    velocity_gradient_.resize(size);
+    grid_.particles_removed(moves, size);
+    find_bodies();
   });
 }
 

@@ -89,10 +89,10 @@ Simulation::Simulation(const setup::Case& setup, Particles particles, const RunS
 
 /// Particles are sorted by body: the ranges follow from where the bodies change.
 void Simulation::find_bodies() {
-  for (setup::BodySummary& body : bodies_) body.first = body.count = 0;
-  for (std::size_t p = 0; p < particles_.size(); ++p) {
-    setup::BodySummary& body = bodies_[particles_.body[p]];
-    if (body.count++ == 0) body.first = p;
+  for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
+    const auto own = std::ranges::equal_range(particles_.body, b);
+    bodies_[b].count = own.size();
+    bodies_[b].first = own.empty() ? 0 : static_cast<std::size_t>(own.begin() - particles_.body.begin());
   }
 }
 
