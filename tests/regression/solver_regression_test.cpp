@@ -22,11 +22,11 @@ TEST(Regression, DebrisCloudKeepsItsSums) {
   const auto expect = [&](double value, double stored) { EXPECT_NEAR(value, stored, tolerance * stored); };
   const solver::Totals& totals = simulation.totals();
   const solver::Ledger& ledger = simulation.state().ledger;
-  expect(totals.kinetic_energy, 10190.433770003634);
-  expect(totals.internal_energy, 1521.2487192649107);
-  expect(ledger.transfer_heat, 1013.1062921012112);
-  expect(ledger.wall_impulse[0], 0.8226244273799571);
-  EXPECT_EQ(simulation.state().step, 69);
+  expect(totals.kinetic_energy, 10436.045344011685);
+  expect(totals.internal_energy, 1272.5310376917519);
+  expect(ledger.transfer_heat, 1130.4780663632027);
+  expect(ledger.wall_impulse[0], 0.8605812654313064);
+  EXPECT_EQ(simulation.state().step, 83);
 }
 
 }  // namespace

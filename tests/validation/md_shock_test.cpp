@@ -101,7 +101,7 @@ TEST(Spall, LiesBelowTheStrengthOfTheStaticCrystal) {
 
 // Thermal expansion from the fluctuations at one temperature against the volumes of two other temperatures.
 TEST(ZeroPressure, ExpansionFromFluctuationsIsTheSlopeOfTheVolume) {
-  const RunSize size{.cells = 4, .equilibration_steps = 1000, .steps = 12000};
+  const RunSize size{.cells = 4, .equilibration_steps = 1000, .steps = 24000};
   const ZeroPressureResult cold = measure_zero_pressure(universal(), 300.0, size, 3);
   const ZeroPressureResult middle = measure_zero_pressure(universal(), 450.0, size, 4);
   const ZeroPressureResult hot = measure_zero_pressure(universal(), 600.0, size, 5);
