@@ -25,7 +25,8 @@ Outcome outcome(const std::string& evaluation) {
                        {{"domain.cell_size", "1.2 mm"},
                         {"time.end", "5 us"},
                         {"body.0.equation_of_state", evaluation},
-                        {"body.1.equation_of_state", evaluation}});
+                        {"body.1.equation_of_state", evaluation},
+                        {"body.2.equation_of_state", evaluation}});
   setup::tabulate_materials(setup, io::Ranks(parallel::world()));
   EXPECT_EQ(setup.materials[0]->eos->model(), evaluation == "table" ? "table" : "gray");
   solver::Simulation simulation(setup, parallel::world());
@@ -36,7 +37,7 @@ Outcome outcome(const std::string& evaluation) {
   result.energy_error = watch.worst;
   const Particles& q = simulation.particles();
   for (std::size_t p = 0; p < q.size(); ++p) {
-    const std::size_t b = q.body[p];
+    const std::size_t b = q.body[p] == 0 ? 0 : 1;  // the disk; the plate and its rear layer
     result.mass[b] += q.mass[p];
     result.melted[b] += q.mass[p] * q.melted_fraction[p];
     result.vaporised[b] += q.mass[p] * q.vaporised_fraction[p];
