@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "src/parallel/threads.hpp"
-#include "src/transfer/node_access.hpp"
-#include "src/transfer/shape_function.hpp"
+#include "src/transfer/kernels.hpp"
 
 namespace whipple::transfer {
 namespace {
@@ -41,15 +40,15 @@ void scatter(const Particles& particles, BlockGrid& grid, Bring&& bring) {
     parallel::for_each_uneven(colour.size(), [&](std::size_t i) {
       const std::size_t slot = colour[i];
       const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
-      add_to_nodes<Shape, Node>(grid, BlockGrid::Points::particles, slot,
-                                [&](std::span<const std::uint32_t> members, auto& access) {
-                                  for (const std::uint32_t p : members) {
-                                    for_each_node(particles, p, frame, access,
-                                                  [&](Node& node, double n, const Vector3& gradient) {
-                                                    bring(node, p, n, gradient);
-                                                  });
-                                  }
-                                });
+      narrow::add_to_nodes<Shape, Node>(grid, BlockGrid::Points::particles, slot,
+                                        [&](std::span<const std::uint32_t> members, auto& access) {
+                                          for (const std::uint32_t p : members) {
+                                            for_each_node(particles, p, frame, access,
+                                                          [&](Node& node, double n, const Vector3& gradient) {
+                                                            bring(node, p, n, gradient);
+                                                          });
+                                          }
+                                        });
     });
   }
 }
@@ -60,7 +59,7 @@ void gather(const Particles& particles, BlockGrid& grid, Function&& f) {
   parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
     if (grid.particles_in(slot).empty()) return;
     const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
-    read_nodes<Shape, Node>(
+    narrow::read_nodes<Shape, Node>(
         grid, BlockGrid::Points::particles, slot, [&](std::span<const std::uint32_t> members, auto& access) {
           for (const std::uint32_t p : members) {
             f(p, [&](auto&& of_node) { for_each_node(particles, p, frame, access, of_node); });

@@ -7,8 +7,7 @@
 
 #include "src/base/error.hpp"
 #include "src/parallel/threads.hpp"
-#include "src/transfer/node_access.hpp"
-#include "src/transfer/node_sums.hpp"
+#include "src/transfer/kernels.hpp"
 #include "src/transfer/transition_nodes.hpp"
 
 namespace whipple::transfer {
@@ -34,208 +33,116 @@ void turn_affine_field(std::array<Lanes, 3>& columns, const Matrix3& gradient, d
   for (int a = 0; a < 3; ++a) columns[static_cast<std::size_t>(a)] = load_vector(turned.col(a).data());
 }
 
-/// a x b in lanes 0 to 2, 0 in lane 3.
-inline Lanes cross(Lanes a, Lanes b) {
-  const auto rotated = [](Lanes x) { return __builtin_shuffle(x, (__v4di){1, 2, 0, 3}); };
-  return rotated(a * rotated(b) - rotated(a) * b);
-}
-
-inline double squared_norm(const std::array<Lanes, 3>& columns) {
-  return sum3(columns[0] * columns[0] + columns[1] * columns[1] + columns[2] * columns[2]);
-}
-
-/// C_p <- C_p (I + dt L)^-1, never growing (equation 4.8): v_p belongs to the new position, so C_p must be
-/// carried there. @returns the loss of |C|^2
-[[gnu::always_inline]] inline double advect_affine_field(std::array<Lanes, 3>& c,
-                                                         const std::array<Lanes, 3>& gradient, double dt) {
-  const Lanes f0 = Lanes{1.0, 0.0, 0.0, 0.0} + dt * gradient[0];
-  const Lanes f1 = Lanes{0.0, 1.0, 0.0, 0.0} + dt * gradient[1];
-  const Lanes f2 = Lanes{0.0, 0.0, 1.0, 0.0} + dt * gradient[2];
-  const std::array<Lanes, 3> rows = {cross(f1, f2), cross(f2, f0), cross(f0, f1)};  // of the adjugate
-  const double determinant = sum3(f0 * rows[0]);
-  if (determinant <= 0.1) return 0.0;  // a deformation that large in a step has no meaningful inverse
-  const double before = squared_norm(c), inverse = 1.0 / determinant;
-  const std::array<Lanes, 3> scaled = {inverse * c[0], inverse * c[1], inverse * c[2]};
-  std::array<Lanes, 3> carried;
-  for (std::size_t a = 0; a < 3; ++a) {
-    carried[a] = broadcast(rows[0][a]) * scaled[0] + broadcast(rows[1][a]) * scaled[1] +
-                 broadcast(rows[2][a]) * scaled[2];
-  }
-  const double after = squared_norm(carried);
-  // Without a branch, which nothing would foretell. (0/0 is not less than 1.)
-  const double cap = std::sqrt(std::min(1.0, before / after));
-  for (std::size_t a = 0; a < 3; ++a) c[a] = cap * carried[a];
-  return before - cap * cap * after;
-}
-
 /// Work of an external force m b on the mean of the grid velocities before and after the forces.
 double external_work(Lanes new_velocity, Lanes increment, double mass, const Vector3& b, double dt) {
   return mass * dt * b.dot(vector(new_velocity - 0.5 * increment));
 }
 
-/// What the grid did to a point in the step, beside its new velocity, affine field and position.
-struct Advance {
-  ValueAndGradient velocity;   ///< of the grid after the forces
-  ValueAndGradient increment;  ///< of it
-  double heat;                 ///< J/kg
-};
-
-/// Velocity and affine field (4.3), heat of the transfer (4.5), position (4.4).
-template <class Shape, AffineField field, class Points, class Stencil>
-[[gnu::always_inline]] inline Advance advance_point(Points& points, std::size_t p, const BlockFrame& frame,
-                                                    const Weights<Shape::count>& weights, double dt,
-                                                    const Stencil& nodes) {
-  constexpr bool affine = field != AffineField::none;
-  std::array<Lanes, 3> c{};
-  if constexpr (affine) {
-    for (int a = 0; a < 3; ++a) {
-      c[static_cast<std::size_t>(a)] = load_vector(points.affine_velocity[p].col(a).data());
-    }
+/// New velocity and affine field of a point, and position (4.4).
+template <AffineField field, class Points>
+[[gnu::always_inline]] inline void advance_point(Points& points, std::size_t p, double dt,
+                                                 const Advance<>& advance) {
+  store_vector(points.velocity[p].data(), advance.velocity);
+  store_vector(points.position[p].data(),
+               load_vector(points.position[p].data()) + dt * advance.grid_velocity.value);
+  if constexpr (field == AffineField::none) return;
+  std::array<Lanes, 3> columns = advance.affine;
+  if constexpr (field == AffineField::turned) {
+    turn_affine_field(columns, matrix(advance.grid_velocity.gradient), dt);
   }
-  const Lanes velocity = load_vector(points.velocity[p].data());
-  const Moments m = gather<affine>(weights, velocity, c, nodes);
-  store_vector(points.velocity[p].data(), velocity + m.change.value);
-  store_vector(points.position[p].data(), load_vector(points.position[p].data()) + dt * m.velocity.value);
-  Lanes heat_lanes = 0.5 * (m.loss - m.change.value * m.change.value);
-  double heat = 0.0;
-  if constexpr (affine) {
-    // sum N r r^T along one direction
-    const double inertia = Shape::second_moment * frame.cell_size * frame.cell_size;
-    const double per_inertia = frame.per_cell_size * frame.per_cell_size / Shape::second_moment;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const Lanes change = per_inertia * m.change.gradient[a];
-      heat_lanes -= 0.5 * change * m.change.gradient[a];
-      c[a] += change;
-    }
-    if constexpr (field == AffineField::deformed) {
-      heat = 0.5 * inertia * advect_affine_field(c, m.velocity.gradient, dt);
-    } else {
-      turn_affine_field(c, matrix(m.velocity.gradient), dt);
-    }
-    for (int a = 0; a < 3; ++a) {
-      store_vector(points.affine_velocity[p].col(a).data(), c[static_cast<std::size_t>(a)]);
-    }
+  for (int a = 0; a < 3; ++a) {
+    store_vector(points.affine_velocity[p].col(a).data(), columns[static_cast<std::size_t>(a)]);
   }
-  return {m.velocity, m.increment, heat + sum3(heat_lanes)};
 }
 
-template <class Shape, AffineField field, class Access>
-[[gnu::always_inline]] inline TransferBalance update_particle(Particles& particles, std::size_t p,
-                                                              const BlockFrame& frame,
-                                                              const Weights<Shape::count>& weights, double dt,
-                                                              Matrix3& gradient, Access& access,
+template <AffineField field>
+[[gnu::always_inline]] inline TransferBalance update_particle(Particles& particles, std::size_t p, double dt,
+                                                              const Advance<>& advance, Matrix3& gradient,
                                                               std::span<const Vector3> acceleration) {
   const SymmetricTensor& s = particles.deviatoric_stress[p];
   const double mean_stress = -(particles.pressure[p] + particles.artificial_viscosity[p]);
   const std::array<Lanes, 3> stress = {Lanes{s.xx + mean_stress, s.xy, s.zx, 0.0},
                                        Lanes{s.xy, s.yy + mean_stress, s.yz, 0.0},
                                        Lanes{s.zx, s.yz, s.zz + mean_stress, 0.0}};
-  const auto nodes = access.stencil(weights.first_node());
-  const Advance advance = advance_point<Shape, field>(particles, p, frame, weights, dt, nodes);
+  advance_point<field>(particles, p, dt, advance);
   // The mean of old and new grid velocity makes the exact work identity (4.6).
   Lanes power{};
   for (std::size_t a = 0; a < 3; ++a) {
-    power += stress[a] * (advance.velocity.gradient[a] - 0.5 * advance.increment.gradient[a]);
-    store_vector(gradient.col(static_cast<int>(a)).data(), advance.velocity.gradient[a]);
+    power += stress[a] * (advance.grid_velocity.gradient[a] - 0.5 * advance.increment.gradient[a]);
+    store_vector(gradient.col(static_cast<int>(a)).data(), advance.grid_velocity.gradient[a]);
   }
-  const double mass = particles.mass[p];
+  const double mass = particles.mass[p], heat = advance.heat[0];
   const double work = sum3(power) * particles.volume[p] * dt;
   const double heat_of_contact = advance.increment.value[3];  // docs/theory/contact.md, 4.6
-  particles.specific_internal_energy[p] += work / mass + advance.heat + heat_of_contact;
-  TransferBalance balance{.work = work, .heat = mass * advance.heat};
+  particles.specific_internal_energy[p] += work / mass + heat + heat_of_contact;
+  TransferBalance balance{.work = work, .heat = mass * heat};
   if (!acceleration.empty()) {
     balance.external_work =
-        external_work(advance.velocity.value, advance.increment.value, mass, acceleration[p], dt);
+        external_work(advance.grid_velocity.value, advance.increment.value, mass, acceleration[p], dt);
   }
   return balance;
 }
 
-/// f(point, slot, frame of the block, weights, access to the nodes) for points of one block.
-template <class Shape, class Points, class Access, class Function>
-WHIPPLE_KERNEL void for_members(const Points& points, std::span<const std::uint32_t> members,
-                                std::size_t slot, const BlockFrame& frame, Access& access,
-                                const Function& f) {
-  for_each_with_weights<Shape>(points, members, frame,
-                               [&](std::size_t p, const Weights<Shape::count>& weights)
-                                   __attribute__((always_inline)) { f(p, slot, frame, weights, access); });
-}
-
-/// Calls f(point, slot, frame of the block, weights, access to the nodes) for the points of every block.
-/// @tparam Content  what the points read of a node: grid::Node, or Lanes for its first register
-template <class Shape, class Content, class Points, class Function>
-void for_each_point(const Points& points, BlockGrid& grid, BlockGrid::Points kind, Function&& f) {
-  parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
-    if (grid.members(kind, slot).empty()) return;
-    const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
-    read_nodes<Shape, Content>(grid, kind, slot, [&](std::span<const std::uint32_t> members, auto& access) {
-      for_members<Shape>(points, members, slot, frame, access, f);
+/// For the points of every slot take(kernels, slot, sum of the slot), on threads. @returns the sum of the
+/// sums
+template <class Sum, class Take>
+Sum sum_over_slots(const BlockGrid& grid, BlockGrid::Points kind, Take&& take) {
+  std::vector<Sum> of_slot(grid.slots());
+  with_kernels([&](auto kernels) {
+    parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
+      if (!grid.members(kind, slot).empty()) take(kernels, slot, of_slot[slot]);
     });
   });
+  Sum sum{};
+  for (const Sum& part : of_slot) sum += part;
+  return sum;
 }
 
-template <class Shape, class Content, class Function>
-void for_each_particle(const Particles& particles, BlockGrid& grid, Function&& f) {
-  for_each_point<Shape, Content>(particles, grid, BlockGrid::Points::particles, f);
-}
+constexpr auto particle_kind = BlockGrid::Points::particles;
 
 template <class Shape, AffineField field>
 TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
                            std::span<Matrix3> velocity_gradient, std::span<const Vector3> acceleration) {
-  std::vector<TransferBalance> of_slot(grid.slots());
-  for_each_particle<Shape, Node>(particles, grid,
-                                 [&](std::size_t p, std::size_t slot, const BlockFrame& frame,
-                                     const Weights<Shape::count>& weights, auto& access) {
-                                   of_slot[slot] += update_particle<Shape, field>(
-                                       particles, p, frame, weights, dt, velocity_gradient[p], access,
-                                       acceleration);
-                                 });
-  TransferBalance total;
-  for (const TransferBalance& part : of_slot) total += part;
-  return total;
+  return sum_over_slots<TransferBalance>(
+      grid, particle_kind, [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance) {
+        const auto take = [&](std::size_t p, const Advance<>& advance) __attribute__((always_inline)) {
+          balance += update_particle<field>(particles, p, dt, advance, velocity_gradient[p], acceleration);
+        };
+        Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
+                                        typename Kernels::template Transfer<field>{dt}, take);
+      });
 }
 
 template <class Shape, bool with_gradient>
 double update_velocities(Particles& particles, BlockGrid& grid, double dt, double relaxation,
                          std::span<Vector3> displacement, std::span<Matrix3> velocity_gradient,
                          std::span<const Vector3> acceleration) {
-  std::vector<double> work_of_slot(grid.slots(), 0.0);
-  for_each_particle<Shape, Node>(
-      particles, grid,
-      [&](std::size_t p, std::size_t slot, const BlockFrame&, const Weights<Shape::count>& weights,
-          auto& access) {
-        const auto nodes = access.stencil(weights.first_node());
-        const Lanes increment =
-            gather_value<false>(weights, [&](auto... node) { return nodes(node...).second; }).value;
-        const ValueAndGradient after = gather_value<with_gradient>(
-            weights, [&](auto... node) { return nodes(node...).first + nodes(node...).second; });
-        const Lanes before = after.value - increment;
-        double* const velocity = particles.velocity[p].data();
-        const Lanes old = load_vector(velocity);
-        store_vector(velocity, old + increment - relaxation * (old - before));
-        store_vector(displacement[p].data(), dt * after.value);
-        particles.specific_internal_energy[p] += increment[3];  // of contact
-        if constexpr (with_gradient) velocity_gradient[p] = matrix(after.gradient);
-        if (!acceleration.empty()) {
-          work_of_slot[slot] += external_work(after.value, increment, particles.mass[p], acceleration[p], dt);
-        }
+  return sum_over_slots<double>(
+      grid, particle_kind, [&]<class Kernels>(Kernels, std::size_t slot, double& work) {
+        const auto take = [&](std::size_t p, const VelocityUpdate<>& update) __attribute__((always_inline)) {
+          const Lanes after = update.after.value, increment = update.increment, before = after - increment;
+          double* const velocity = particles.velocity[p].data();
+          const Lanes old = load_vector(velocity);
+          store_vector(velocity, old + increment - relaxation * (old - before));
+          store_vector(displacement[p].data(), dt * after);
+          particles.specific_internal_energy[p] += increment[3];  // of contact
+          if constexpr (with_gradient) velocity_gradient[p] = matrix(update.after.gradient);
+          if (!acceleration.empty()) {
+            work += external_work(after, increment, particles.mass[p], acceleration[p], dt);
+          }
+        };
+        Kernels::template gather<Shape>(particles, grid, particle_kind, slot, typename Kernels::Update{},
+                                        take);
       });
-  double work = 0.0;
-  for (const double part : work_of_slot) work += part;
-  return work;
 }
 
 /// Sums of the nodes' velocities, for every particle: take(p, sums).
-template <bool with_gradient, class Take>
+template <class Take>
 void gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& grid, Take&& take) {
   with_shape(shape, [&]<class Shape>(Shape) {
-    for_each_particle<Shape, Lanes>(particles, grid,
-                                    [&](std::size_t p, std::size_t, const BlockFrame&,
-                                        const Weights<Shape::count>& weights, auto& access) {
-                                      const auto nodes = access.stencil(weights.first_node());
-                                      take(p, gather_value<with_gradient>(weights, [&](auto... node) {
-                                             return first_register(nodes(node...));
-                                           }));
-                                    });
+    sum_over_slots<double>(grid, particle_kind, [&]<class Kernels>(Kernels, std::size_t slot, double&) {
+      Kernels::template gather<Shape>(particles, grid, particle_kind, slot, typename Kernels::First{}, take);
+    });
   });
 }
 
@@ -268,20 +175,19 @@ namespace {
 
 template <class Shape, AffineField field>
 void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt) {
-  for_each_point<Shape, Node>(
-      nodes, grid, BlockGrid::Points::guests,
-      [&](std::size_t p, std::size_t, const BlockFrame& frame, const Weights<Shape::count>& weights,
-          auto& access) {
-        const auto around = access.stencil(weights.first_node());
-        const Advance advance =
-            p < nodes.unrelaxed
-                ? advance_point<Shape, AffineField::none>(nodes, p, frame, weights, dt, around)
-                : advance_point<Shape, field>(nodes, p, frame, weights, dt, around);
-        store_vector(nodes.mean_velocity[p].data(), advance.velocity.value - 0.5 * advance.increment.value);
-        store_vector(nodes.new_velocity[p].data(), advance.velocity.value);
-        nodes.heat[p] = nodes.mass[p] * advance.heat;
-        nodes.contact_heat[p] = nodes.mass[p] * advance.increment.value[3];
-      });
+  constexpr auto kind = BlockGrid::Points::guests;
+  sum_over_slots<double>(grid, kind, [&]<class Kernels>(Kernels, std::size_t slot, double&) {
+    const auto take = [&](std::size_t p, const Advance<>& advance) __attribute__((always_inline)) {
+      advance_point<field>(nodes, p, dt, advance);
+      store_vector(nodes.mean_velocity[p].data(),
+                   advance.grid_velocity.value - 0.5 * advance.increment.value);
+      store_vector(nodes.new_velocity[p].data(), advance.grid_velocity.value);
+      nodes.heat[p] = nodes.mass[p] * advance.heat[0];
+      nodes.contact_heat[p] = nodes.mass[p] * advance.increment.value[3];
+    };
+    Kernels::template gather<Shape>(nodes, grid, kind, slot, typename Kernels::template Transfer<field>{dt},
+                                    take);
+  });
 }
 
 }  // namespace
@@ -315,16 +221,16 @@ double update_velocity(ShapeFunction shape, Particles& particles, BlockGrid& gri
 
 void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                               std::span<Matrix3> velocity_gradient) {
-  gather_first<true>(shape, particles, grid, [&](std::size_t p, const ValueAndGradient& sums) {
-    velocity_gradient[p] = matrix(sums.gradient);
-  });
+  gather_first(shape, particles, grid,
+               [&](std::size_t p, const ValueAndGradient<>& sums)
+                   __attribute__((always_inline)) { velocity_gradient[p] = matrix(sums.gradient); });
 }
 
 void gather_velocity(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                      std::span<Vector3> velocity) {
-  gather_first<false>(shape, particles, grid, [&](std::size_t p, const ValueAndGradient& sums) {
-    store_vector(velocity[p].data(), sums.value);
-  });
+  gather_first(shape, particles, grid,
+               [&](std::size_t p, const ValueAndGradient<>& sums)
+                   __attribute__((always_inline)) { store_vector(velocity[p].data(), sums.value); });
 }
 
 }  // namespace whipple::transfer

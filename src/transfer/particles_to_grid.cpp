@@ -2,18 +2,11 @@
 #include "src/transfer/particles_to_grid.hpp"
 
 #include "src/parallel/threads.hpp"
-#include "src/transfer/node_access.hpp"
+#include "src/transfer/kernels.hpp"
 #include "src/transfer/transition_nodes.hpp"
 
 namespace whipple::transfer {
 namespace {
-
-/// What one point brings to a node: first += N (a0 + a_x r_x + a_y r_y + a_z r_z),
-/// second += N b0 + sum over directions of dN/dx_a b_a.
-struct Payload {
-  Lanes a0, ax, ay, az;
-  Lanes b0, bx, by, bz;
-};
 
 /// Mass times a vector, in the lanes of a momentum or force.
 [[gnu::always_inline]] inline Lanes times(double mass, const double* v) {
@@ -33,6 +26,8 @@ template <bool affine, class Points>
     out.ax = times(m, c);
     out.ay = times(m, c + 3);
     out.az = times(m, c + 6);
+  } else {
+    out.ax = out.ay = out.az = Lanes{};
   }
   out.b0 = Lanes{m * points.sound_speed[p], 0.0, 0.0, 0.0};
   return out;
@@ -79,70 +74,12 @@ struct OfNodes {
 struct Momentum : OfParticles {
   using Content = Lanes;
   std::span<const Vector3> velocity;
+  template <bool affine>
+  [[nodiscard, gnu::always_inline]] Lanes load(std::size_t p) const {
+    const double* v = velocity[p].data();
+    return points.mass[p] * Lanes{1.0, v[0], v[1], v[2]};
+  }
 };
-
-template <class Shape, class What, class Access>
-WHIPPLE_KERNEL void scatter(const What& what, std::span<const std::uint32_t> members, const BlockFrame& frame,
-                            Access& access) {
-  constexpr std::size_t count = Shape::count;
-  constexpr bool affine = CarriesAffineField<Shape>;
-  for_each_with_weights<Shape>(what.points, members, frame, [&](std::size_t p, const Weights<count>& w) {
-    const Payload load = what.template load<affine>(p);
-    const auto nodes = access.stencil(w.first_node());
-    const std::array<Lanes, count> weight = of_direction(w.weight, 2), slope = of_direction(w.derivative, 2);
-    std::array<Lanes, count> moment;
-    for (std::size_t k = 0; k < count; ++k) moment[k] = weight[k] * broadcast(w.distance[k][2]);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Lanes wx = broadcast(w.weight[i][0]), dx = broadcast(w.derivative[i][0]);
-      const Lanes b_x = wx * load.b0 + dx * load.bx, b_y = wx * load.by, b_z = wx * load.bz;
-      Lanes a_x = wx * load.a0, a_y, a_z;
-      if constexpr (affine) {
-        a_x += wx * broadcast(w.distance[i][0]) * load.ax;
-        a_y = wx * load.ay;
-        a_z = wx * load.az;
-      }
-#pragma GCC unroll 4
-      for (std::size_t j = 0; j < count; ++j) {
-        const Lanes wy = broadcast(w.weight[j][1]);
-        Lanes a = wy * a_x, az;
-        if constexpr (affine) {
-          a += wy * broadcast(w.distance[j][1]) * a_y;
-          az = wy * a_z;
-        }
-        const Lanes b = wy * b_x + broadcast(w.derivative[j][1]) * b_y, bz = wy * b_z;
-#pragma GCC unroll 4
-        for (std::size_t k = 0; k < count; ++k) {
-          grid::Node& node = nodes(i, j, k);
-          node.first += weight[k] * a;
-          if constexpr (affine) node.first += moment[k] * az;
-          node.second += weight[k] * b + slope[k] * bz;
-        }
-      }
-    }
-  });
-}
-
-template <class Shape, class Access>
-WHIPPLE_KERNEL void scatter(const Momentum& what, std::span<const std::uint32_t> members,
-                            const BlockFrame& frame, Access& access) {
-  constexpr std::size_t count = Shape::count;
-  for_each_with_weights<Shape>(what.points, members, frame, [&](std::size_t p, const Weights<count>& w) {
-    const double* v = what.velocity[p].data();
-    const Lanes load = what.points.mass[p] * Lanes{1.0, v[0], v[1], v[2]};
-    const auto nodes = access.stencil(w.first_node());
-    const std::array<Lanes, count> weight = of_direction(w.weight, 2);
-#pragma GCC unroll 4
-    for (std::size_t i = 0; i < count; ++i) {
-      const Lanes a_x = broadcast(w.weight[i][0]) * load;
-#pragma GCC unroll 4
-      for (std::size_t j = 0; j < count; ++j) {
-        const Lanes a = broadcast(w.weight[j][1]) * a_x;
-#pragma GCC unroll 4
-        for (std::size_t k = 0; k < count; ++k) first_register(nodes(i, j, k)) += weight[k] * a;
-      }
-    }
-  });
-}
 
 template <class Shape, class What>
 void scatter_all(const What& what, grid::BlockGrid& grid) {
@@ -150,11 +87,7 @@ void scatter_all(const What& what, grid::BlockGrid& grid) {
     parallel::for_each_uneven(colour.size(), [&](std::size_t i) {
       const std::size_t slot = colour[i];
       if (grid.members(What::kind, slot).empty()) return;
-      const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
-      add_to_nodes<Shape, typename What::Content>(grid, What::kind, slot,
-                                                  [&](std::span<const std::uint32_t> members, auto& access) {
-                                                    scatter<Shape>(what, members, frame, access);
-                                                  });
+      with_kernels([&]<class Kernels>(Kernels) { Kernels::template scatter<Shape>(what, grid, slot); });
     });
   }
 }

@@ -280,22 +280,4 @@ template <class Shape, class Points>
   }
 }
 
-/// Calls f(point, its weights) for the points of a block. The weights of a few points are made ahead: they
-/// are a long chain of dependent instructions, and too far from those of the next point for the processor to
-/// see.
-template <class Shape, class Points, class Function>
-[[gnu::always_inline]] inline void for_each_with_weights(const Points& points,
-                                                         std::span<const std::uint32_t> members,
-                                                         const BlockFrame& frame, Function&& f) {
-  constexpr std::size_t ahead = 8;
-  std::array<Weights<Shape::count>, ahead> weights;
-  for (std::size_t first = 0; first < members.size(); first += ahead) {
-    const std::size_t some = std::min(ahead, members.size() - first);
-    for (std::size_t m = 0; m < some; ++m) {
-      weights[m] = weights_at<Shape>(points, members[first + m], frame);
-    }
-    for (std::size_t m = 0; m < some; ++m) f(members[first + m], weights[m]);
-  }
-}
-
 }  // namespace whipple::transfer

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "src/base/vector_math.hpp"
+#include "src/grid/block_grid.hpp"
+#include "src/transfer/grid_to_particles.hpp"
+#include "src/transfer/shape_function.hpp"
+
+/// The loops over points and their nodes, kernels.inl, compiled for two sets of registers: `narrow` for AVX2,
+/// whose register holds half a node, and `wide` for AVX-512, whose register holds a node when points bring
+/// something to it, and halves of two nodes when two points take something at a time. Lane by lane both
+/// compute the same in the same order, so their results are the same bits.
+#if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__)
+#define WHIPPLE_WIDE_KERNELS 1
+#else
+#define WHIPPLE_WIDE_KERNELS 0
+#endif
+
+namespace whipple::transfer {
+
+/// What one point brings to a node: first += N (a0 + a_x r_x + a_y r_y + a_z r_z),
+/// second += N b0 + sum over directions of dN/dx_a b_a.
+struct Payload {
+  Lanes a0, ax, ay, az;
+  Lanes b0, bx, by, bz;
+};
+
+/// Sum over nodes with N, and with the derivatives of N.
+template <class Vector = Lanes>
+struct ValueAndGradient {
+  Vector value;
+  std::array<Vector, 3> gradient;
+};
+
+/// Sums over the nodes of a particle (docs/theory/mpm.md, equations 4.2 to 4.7); lane 3 of each is
+/// meaningless, but for the increment.
+template <class Vector>
+struct Moments {
+  ValueAndGradient<Vector> velocity;   ///< v + d
+  ValueAndGradient<Vector> increment;  ///< d
+  ValueAndGradient<Vector> change;     ///< d - beta D, with N r instead of the derivatives
+  Vector loss;                         ///< beta D (2 D - beta D) + (d - beta D)^2, per component
+};
+
+/// What the grid makes of a point in the step.
+template <class Vector = Lanes>
+struct Advance {
+  ValueAndGradient<Vector> grid_velocity;  ///< after the forces
+  ValueAndGradient<Vector> increment;      ///< of it
+  Vector velocity;                         ///< of the point
+  std::array<Vector, 3> affine;            ///< columns of its affine field
+  Vector heat;                             ///< J/kg, in all lanes
+};
+
+/// New velocity of the nodes and how much of it came in the step.
+template <class Vector = Lanes>
+struct VelocityUpdate {
+  ValueAndGradient<Vector> after;
+  Vector increment;
+};
+
+namespace narrow {
+
+/// One point at a time.
+using Vector = Lanes;
+constexpr std::size_t together = 1;
+
+/// get(0)
+template <class Get>
+[[gnu::always_inline]] inline Vector of_group(Get&& get) {
+  return get(0);
+}
+[[gnu::always_inline]] inline Lanes part(Vector v, std::size_t) { return v; }
+/// Lane a of get(0) in all lanes.
+template <class Get>
+[[gnu::always_inline]] inline Vector spread(Get&& get, std::size_t a) {
+  return broadcast(get(0)[a]);
+}
+[[gnu::always_inline]] inline Vector lane(Vector v, std::size_t a) { return broadcast(v[a]); }
+/// Lanes 1, 2, 0, 3.
+[[gnu::always_inline]] inline Vector turned(Vector v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); }
+[[gnu::always_inline]] inline Vector root(Vector v) { return sqrt(v); }
+/// Lane 3 of the first register of the points' nodes, in all lanes.
+template <class Nodes>
+[[gnu::always_inline]] inline Vector relaxation(Vector, const Nodes& node) {
+  return broadcast_from(reinterpret_cast<const double*>(&node(0).first) + 3);
+}
+
+/// Both registers of a node.
+struct Both {
+  Lanes first, second;
+};
+[[gnu::always_inline]] inline Both both(Lanes first, Lanes second) { return {first, second}; }
+[[gnu::always_inline]] inline Both operator*(Both a, Both b) {
+  return {a.first * b.first, a.second * b.second};
+}
+[[gnu::always_inline]] inline Both operator+(Both a, Both b) {
+  return {a.first + b.first, a.second + b.second};
+}
+/// sum += a b; in the second register only where the first one's b is 0.
+template <bool first>
+[[gnu::always_inline]] inline void add_product(Both& sum, Both a, Both b) {
+  if constexpr (first) sum.first += a.first * b.first;
+  sum.second += a.second * b.second;
+}
+[[gnu::always_inline]] inline Both load_node(const grid::Node& node) { return {node.first, node.second}; }
+[[gnu::always_inline]] inline void store_node(grid::Node& node, Both value) {
+  node = {value.first, value.second};
+}
+
+#include "src/transfer/kernels.inl"
+
+}  // namespace narrow
+
+#if WHIPPLE_WIDE_KERNELS
+#pragma GCC push_options
+#pragma GCC target("arch=x86-64-v4")
+namespace wide {
+
+/// Two points at a time, one in each half.
+using Vector [[gnu::vector_size(64)]] = double;
+constexpr std::size_t together = 2;
+
+[[gnu::always_inline]] inline Vector join(Lanes low, Lanes high) {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+/// get(0) and get(1)
+template <class Get>
+[[gnu::always_inline]] inline Vector of_group(Get&& get) {
+  return join(get(0), get(1));
+}
+[[gnu::always_inline]] inline Lanes part(Vector v, std::size_t i) {
+  return i == 0 ? __builtin_shufflevector(v, v, 0, 1, 2, 3) : __builtin_shufflevector(v, v, 4, 5, 6, 7);
+}
+/// Lane a of each half in all lanes of it.
+[[gnu::always_inline]] inline Vector lane(Vector v, std::size_t a) {
+  switch (a) {
+    case 0:
+      return __builtin_shufflevector(v, v, 0, 0, 0, 0, 4, 4, 4, 4);
+    case 1:
+      return __builtin_shufflevector(v, v, 1, 1, 1, 1, 5, 5, 5, 5);
+    case 2:
+      return __builtin_shufflevector(v, v, 2, 2, 2, 2, 6, 6, 6, 6);
+    default:
+      return __builtin_shufflevector(v, v, 3, 3, 3, 3, 7, 7, 7, 7);
+  }
+}
+/// Lane a of get(0) and get(1).
+template <class Get>
+[[gnu::always_inline]] inline Vector spread(Get&& get, std::size_t a) {
+  return lane(of_group(get), a);
+}
+/// Lanes 1, 2, 0, 3 of each half.
+[[gnu::always_inline]] inline Vector turned(Vector v) {
+  return __builtin_shufflevector(v, v, 1, 2, 0, 3, 5, 6, 4, 7);
+}
+[[gnu::always_inline]] inline Vector root(Vector v) { return Vector(_mm512_maskz_sqrt_pd(0xff, __m512d(v))); }
+/// Lane 3 of the first register of the points' nodes, in all lanes.
+template <class Nodes>
+[[gnu::always_inline]] inline Vector relaxation(Vector first, const Nodes&) {
+  return lane(first, 3);
+}
+
+/// Both registers of a node.
+using Both = Vector;
+using NodeRegister [[gnu::vector_size(64), gnu::may_alias]] = double;
+[[gnu::always_inline]] inline Both both(Lanes first, Lanes second) { return join(first, second); }
+/// sum += a b
+template <bool>
+[[gnu::always_inline]] inline void add_product(Both& sum, Both a, Both b) {
+  sum += a * b;
+}
+[[gnu::always_inline]] inline Both load_node(const grid::Node& node) {
+  return *reinterpret_cast<const NodeRegister*>(&node);
+}
+[[gnu::always_inline]] inline void store_node(grid::Node& node, Both value) {
+  *reinterpret_cast<NodeRegister*>(&node) = value;
+}
+
+#include "src/transfer/kernels.inl"
+
+}  // namespace wide
+#pragma GCC pop_options
+#endif
+
+/// Are the kernels for AVX-512 in use? Where the processor has it, until a test sets otherwise.
+inline bool& wide_registers() {
+#if WHIPPLE_WIDE_KERNELS
+  static bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                     __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+                     __builtin_cpu_supports("avx512cd");
+#else
+  static bool wide = false;
+#endif
+  return wide;
+}
+
+/// Calls f(Kernels{}) with the set that the processor runs.
+template <class Function>
+void with_kernels(Function&& f) {
+#if WHIPPLE_WIDE_KERNELS
+  if (wide_registers()) return f(wide::Kernels{});
+#endif
+  f(narrow::Kernels{});
+}
+
+}  // namespace whipple::transfer

@@ -1,0 +1,602 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Included by kernels.hpp, once per set of registers.
+
+/// Blocks with fewer particles than this use direct access.
+constexpr std::size_t direct_access_below = 6;
+
+/// What a copy holds of a node: all of it, or only the first register.
+[[gnu::always_inline]] inline void copy_node(const grid::Node& from, grid::Node& to) {
+  store_node(to, load_node(from));
+}
+[[gnu::always_inline]] inline void copy_node(const grid::Node& from, Lanes& to) { to = from.first; }
+[[gnu::always_inline]] inline void add_node(const grid::Node& from, grid::Node& to) {
+  store_node(to, load_node(to) + load_node(from));
+}
+[[gnu::always_inline]] inline void add_node(Lanes from, grid::Node& to) { to.first += from; }
+[[gnu::always_inline]] inline void clear_node(grid::Node& node) { store_node(node, both(Lanes{}, Lanes{})); }
+[[gnu::always_inline]] inline void clear_node(Lanes& first) { first = Lanes{}; }
+[[gnu::always_inline]] inline Lanes& first_register(grid::Node& node) { return node.first; }
+[[gnu::always_inline]] inline Lanes& first_register(Lanes& first) { return first; }
+
+/// Copy of the nodes that a block reaches; index = position in the reach, z fastest.
+/// @tparam Shape    its stencil gives the reach
+/// @tparam Content  what is copied: grid::Node, or Lanes for Node::first
+template <class Shape, class Content = grid::Node>
+class ReachCopy {
+ public:
+  static constexpr int before = Shape::stencil.shift > 0.0 ? 1 : 0;  ///< nodes before the block
+  static constexpr int edge = before == 0 ? grid::block_edge + 1 : grid::reach_edge;
+  static constexpr int size = edge * edge * edge;
+  static_assert(Shape::stencil.count <= edge - grid::block_edge + 1);
+
+  /// The nodes of one particle.
+  struct Stencil {
+    Content* origin;
+    Content& operator()(std::size_t i, std::size_t j, std::size_t k) const {
+      return origin[(i * edge + j) * edge + k];
+    }
+  };
+  /// From the first node, counted from the block's lower corner.
+  Stencil stencil(const std::array<int, 3>& first) {
+    return {&nodes_[index(first[0] + before, first[1] + before, first[2] + before)]};
+  }
+
+  void clear() {
+    for (Content& node : nodes_) clear_node(node);
+  }
+  void load(const grid::BlockGrid& grid, std::size_t slot, unsigned field) {
+    for_each_owner(grid, slot, field, [&](const grid::Node* owner, int in_block, std::size_t here) {
+      copy_node(owner[in_block], nodes_[here]);
+    });
+  }
+  /// Adds the copy to the grid. Blocks of one colour do not overlap, so no two threads meet here.
+  void add_to(grid::BlockGrid& grid, std::size_t slot, unsigned field) const {
+    for_each_owner(grid, slot, field, [&](grid::Node* owner, int in_block, std::size_t here) {
+      add_node(nodes_[here], owner[in_block]);
+    });
+  }
+
+ private:
+  static std::size_t index(int x, int y, int z) {
+    return static_cast<std::size_t>((x * edge + y) * edge + z);
+  }
+
+  /// Calls f(nodes of the owning block, index in it, index here) for every node of the reach whose block is
+  /// active; no particle reaches the others.
+  template <class Grid, class Function>
+  static void for_each_owner(Grid& grid, std::size_t slot, unsigned field, Function&& f) {
+    static constexpr grid::ReachMap map = grid::reach_map();
+    constexpr int skipped = 1 - before;  // the map begins one node before the block
+    const auto& neighbours = grid.neighbours(slot);
+    for (int x = 0; x < edge; ++x) {
+      for (int y = 0; y < edge; ++y) {
+        const auto ux = static_cast<std::size_t>(x + skipped);
+        const auto uy = static_cast<std::size_t>(y + skipped);
+        const int row = grid::node_index(map.node[ux], map.node[uy], 0);
+        const auto part = [&](int z_block, auto from, auto to) {
+          const std::int32_t owner = neighbours[static_cast<std::size_t>(
+              grid::neighbour_index(map.block[ux], map.block[uy], z_block))];
+          if (owner == grid::BlockGrid::no_slot) return;
+          auto* nodes = grid.nodes(static_cast<std::size_t>(owner), field);
+          for (int z = from; z < to; ++z) {
+            f(nodes, row + map.node[static_cast<std::size_t>(z + skipped)], index(x, y, z));
+          }
+        };
+        using Number = std::integral_constant<int, before>;
+        using Behind = std::integral_constant<int, before + grid::block_edge>;
+        if constexpr (before > 0) part(0, std::integral_constant<int, 0>{}, Number{});
+        part(1, Number{}, Behind{});
+        part(2, Behind{}, std::integral_constant<int, edge>{});
+      }
+    }
+  }
+
+  std::array<Content, size> nodes_;
+};
+
+/// The nodes of the grid themselves, each found through the neighbours of the block.
+template <class Shape>
+class DirectAccess {
+ public:
+  DirectAccess(grid::BlockGrid& grid, std::size_t slot, unsigned field)
+      : grid_(grid), neighbours_(grid.neighbours(slot)), field_(field) {}
+
+  class Stencil {
+   public:
+    grid::Node& operator()(std::size_t i, std::size_t j, std::size_t k) const {
+      return *node_[(i * count + j) * count + k];
+    }
+
+   private:
+    friend class DirectAccess;
+    static constexpr std::size_t count = Shape::count;
+    std::array<grid::Node*, count * count * count> node_;
+  };
+  Stencil stencil(const std::array<int, 3>& first) {
+    static constexpr grid::ReachMap map = grid::reach_map();
+    Stencil all;
+    grid::Node** next = all.node_.data();
+    for (int i = first[0] + 1; i <= first[0] + Shape::count; ++i) {
+      for (int j = first[1] + 1; j <= first[1] + Shape::count; ++j) {
+        const auto ux = static_cast<std::size_t>(i), uy = static_cast<std::size_t>(j);
+        const int row = grid::node_index(map.node[ux], map.node[uy], 0);
+        for (int k = first[2] + 1; k <= first[2] + Shape::count; ++k) {
+          const auto uz = static_cast<std::size_t>(k);
+          const std::int32_t owner = neighbours_[static_cast<std::size_t>(
+              grid::neighbour_index(map.block[ux], map.block[uy], map.block[uz]))];
+          *next++ = grid_.nodes(static_cast<std::size_t>(owner), field_) + row + map.node[uz];
+        }
+      }
+    }
+    return all;
+  }
+
+ private:
+  grid::BlockGrid& grid_;
+  const std::array<std::int32_t, 27>& neighbours_;
+  unsigned field_;
+};
+
+/// Calls f(points of one velocity field, access to its nodes) to read what the points of a block reach.
+template <class Shape, class Content, class Function>
+void read_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::size_t slot, Function&& f) {
+  grid.for_each_field(points, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
+    if (members.size() < direct_access_below) {
+      DirectAccess<Shape> access(grid, slot, field);
+      f(members, access);
+    } else {
+      ReachCopy<Shape, Content> copy;
+      copy.load(grid, slot, field);
+      f(members, copy);
+    }
+  });
+}
+/// The same to add to them.
+template <class Shape, class Content, class Function>
+void add_to_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::size_t slot, Function&& f) {
+  grid.for_each_field(points, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
+    if (members.size() < direct_access_below) {
+      DirectAccess<Shape> access(grid, slot, field);
+      f(members, access);
+    } else {
+      ReachCopy<Shape, Content> copy;
+      copy.clear();
+      f(members, copy);
+      copy.add_to(grid, slot, field);
+    }
+  });
+}
+
+/// sum of weight[i] * value[i]
+template <std::size_t n>
+[[gnu::always_inline]] inline Vector sum(const std::array<Vector, n>& weight,
+                                         const std::array<Vector, n>& value) {
+  Vector sum = weight[0] * value[0];
+  for (std::size_t i = 1; i < n; ++i) sum += weight[i] * value[i];
+  return sum;
+}
+/// The same with weights that add up to 1 (N), and with slopes that add up to 0 (its derivatives, or N r).
+/// Three nodes take differences from the middle one, which both share.
+template <std::size_t n>
+[[gnu::always_inline]] inline void sum_both(const std::array<Vector, n>& weight,
+                                            const std::array<Vector, n>& slopes,
+                                            const std::array<Vector, n>& value, Vector& of_weight,
+                                            Vector& of_slopes) {
+  if constexpr (n == 3) {
+    const Vector before = value[0] - value[1], behind = value[2] - value[1];
+    of_weight = value[1] + weight[0] * before + weight[2] * behind;
+    of_slopes = slopes[0] * before + slopes[2] * behind;
+  } else {
+    of_weight = sum(weight, value);
+    of_slopes = sum(slopes, value);
+  }
+}
+
+/// Sums of one vector per node, built up direction by direction: along the rows in z, over the rows of a
+/// plane, over the planes. `slope` stands for the derivatives of N, or for N r.
+template <std::size_t n>
+struct RowSums {
+  std::array<Vector, n> value, slope;
+  [[gnu::always_inline]] void set(std::size_t row, const std::array<Vector, n>& weight,
+                                  const std::array<Vector, n>& slopes, const std::array<Vector, n>& nodes) {
+    sum_both(weight, slopes, nodes, value[row], slope[row]);
+  }
+};
+template <std::size_t n>
+struct PlaneSums {
+  std::array<Vector, n> value, slope_y, slope_z;
+  [[gnu::always_inline]] void set(std::size_t plane, const std::array<Vector, n>& weight,
+                                  const std::array<Vector, n>& slopes, const RowSums<n>& rows) {
+    sum_both(weight, slopes, rows.value, value[plane], slope_y[plane]);
+    slope_z[plane] = sum(weight, rows.slope);
+  }
+  [[gnu::always_inline]] ValueAndGradient<Vector> total(const std::array<Vector, n>& weight,
+                                                        const std::array<Vector, n>& slopes) const {
+    ValueAndGradient<Vector> total;
+    sum_both(weight, slopes, value, total.value, total.gradient[0]);
+    total.gradient[1] = sum(weight, slope_y);
+    total.gradient[2] = sum(weight, slope_z);
+    return total;
+  }
+};
+
+/// Points that take something at a time; if there are fewer, the last stands for the others.
+using PointsOfGroup = std::array<std::uint32_t, together>;
+
+/// They with their weights and nodes.
+template <class Shape, class Access>
+struct Group {
+  static constexpr std::size_t nodes = Shape::count;  ///< per direction
+  PointsOfGroup point;
+  std::array<const Weights<Shape::count>*, together> weights;
+  std::array<typename Access::Stencil, together> stencil;
+
+  [[nodiscard, gnu::always_inline]] Vector first(std::size_t i, std::size_t j, std::size_t k) const {
+    return of_group([&](std::size_t m) -> Lanes { return first_register(stencil[m](i, j, k)); });
+  }
+  [[nodiscard, gnu::always_inline]] Vector second(std::size_t i, std::size_t j, std::size_t k) const {
+    return of_group([&](std::size_t m) -> Lanes { return stencil[m](i, j, k).second; });
+  }
+};
+
+/// Weights of one direction for all nodes of the points, each in all lanes of its point.
+template <std::size_t n>
+struct Direction {
+  std::array<Vector, n> weight, derivative, distance, moment;  ///< N, dN/dx, r, N r
+  template <class Shape, class Access>
+  [[gnu::always_inline]] Direction(const Group<Shape, Access>& group, std::size_t a) {
+    const auto& w = group.weights;
+    for (std::size_t k = 0; k < n; ++k) {
+      weight[k] = spread([&](std::size_t m) -> const Lanes& { return w[m]->weight[k]; }, a);
+      derivative[k] = spread([&](std::size_t m) -> const Lanes& { return w[m]->derivative[k]; }, a);
+      distance[k] = spread([&](std::size_t m) -> const Lanes& { return w[m]->distance[k]; }, a);
+      moment[k] = weight[k] * distance[k];
+    }
+  }
+};
+
+/// D = a_p(x_i) - v_i is the difference of the particle's affine field and the grid's velocity at node i.
+template <bool affine, class Group>
+[[gnu::always_inline]] inline Moments<Vector> moments(const Group& group, Vector v,
+                                                      const std::array<Vector, 3>& c) {
+  constexpr std::size_t n = Group::nodes;
+  const Direction<n> x(group, 0), y(group, 1), z(group, 2);
+  std::array<Vector, n> field_z;
+  for (std::size_t k = 0; k < n; ++k) field_z[k] = z.distance[k] * c[2];
+  PlaneSums<n> velocity, increment, change;
+  std::array<Vector, n> loss;
+  for (std::size_t i = 0; i < n; ++i) {
+    Vector field_x = v;
+    if constexpr (affine) field_x += x.distance[i] * c[0];
+    RowSums<n> row_velocity, row_increment, row_change;
+    std::array<Vector, n> row_loss;
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < n; ++j) {
+      Vector field_y = field_x;
+      if constexpr (affine) field_y += y.distance[j] * c[1];
+      std::array<Vector, n> velocities, d, changed, lost;
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k < n; ++k) {
+        const Vector first = group.first(i, j, k);
+        Vector field = field_y;
+        if constexpr (affine) field += field_z[k];
+        const Vector beta =
+            relaxation(first, [&](std::size_t m) -> const grid::Node& { return group.stencil[m](i, j, k); });
+        const Vector difference = field - first, relaxed = beta * difference;
+        d[k] = group.second(i, j, k);
+        velocities[k] = first;
+        changed[k] = d[k] - relaxed;
+        lost[k] = changed[k] * changed[k] + relaxed * ((difference - relaxed) + difference);
+      }
+      row_velocity.set(j, z.weight, z.derivative, velocities);
+      row_increment.set(j, z.weight, z.derivative, d);
+      row_change.set(j, z.weight, z.moment, changed);
+      row_loss[j] = sum(z.weight, lost);
+    }
+    velocity.set(i, y.weight, y.derivative, row_velocity);
+    increment.set(i, y.weight, y.derivative, row_increment);
+    change.set(i, y.weight, y.moment, row_change);
+    loss[i] = sum(y.weight, row_loss);
+  }
+  Moments<Vector> total = {velocity.total(x.weight, x.derivative), increment.total(x.weight, x.derivative),
+                           change.total(x.weight, x.moment), sum(x.weight, loss)};
+  total.velocity.value += total.increment.value;
+  for (std::size_t a = 0; a < 3; ++a) total.velocity.gradient[a] += total.increment.gradient[a];
+  return total;
+}
+
+/// Sums of one vector per node, value(i, j, k).
+template <class Group, class Value>
+[[gnu::always_inline]] inline ValueAndGradient<Vector> sums_of(const Group& group, Value&& value) {
+  constexpr std::size_t n = Group::nodes;
+  const Direction<n> x(group, 0), y(group, 1), z(group, 2);
+  PlaneSums<n> planes;
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < n; ++i) {
+    RowSums<n> rows;
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < n; ++j) {
+      std::array<Vector, n> nodes;
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k < n; ++k) nodes[k] = value(i, j, k);
+      rows.set(j, z.weight, z.derivative, nodes);
+    }
+    planes.set(i, y.weight, y.derivative, rows);
+  }
+  return planes.total(x.weight, x.derivative);
+}
+
+/// Sum of lanes 0 to 2, in all lanes.
+[[gnu::always_inline]] inline Vector sum_of_three(Vector v) { return lane(v, 0) + lane(v, 1) + lane(v, 2); }
+
+/// a x b in lanes 0 to 2 of every point, 0 in lane 3.
+[[gnu::always_inline]] inline Vector cross(Vector a, Vector b) {
+  return turned(a * turned(b) - turned(a) * b);
+}
+
+[[gnu::always_inline]] inline Vector squared_norm(const std::array<Vector, 3>& columns) {
+  return sum_of_three(columns[0] * columns[0] + columns[1] * columns[1] + columns[2] * columns[2]);
+}
+
+/// C_p <- C_p (I + dt L)^-1, never growing (equation 4.8): v_p belongs to the new position, so C_p must be
+/// carried there. @returns the loss of |C|^2
+[[gnu::always_inline]] inline Vector advect_affine_field(std::array<Vector, 3>& c,
+                                                         const std::array<Vector, 3>& gradient, double dt) {
+  const Vector f0 = of_group([](std::size_t) { return Lanes{1.0, 0.0, 0.0, 0.0}; }) + dt * gradient[0];
+  const Vector f1 = of_group([](std::size_t) { return Lanes{0.0, 1.0, 0.0, 0.0}; }) + dt * gradient[1];
+  const Vector f2 = of_group([](std::size_t) { return Lanes{0.0, 0.0, 1.0, 0.0}; }) + dt * gradient[2];
+  const std::array<Vector, 3> rows = {cross(f1, f2), cross(f2, f0), cross(f0, f1)};  // of the adjugate
+  const Vector determinant = sum_of_three(f0 * rows[0]);
+  // A deformation that large in a step has no meaningful inverse.
+  const auto too_large = determinant <= 0.1;
+  const Vector before = squared_norm(c), inverse = 1.0 / determinant;
+  const std::array<Vector, 3> scaled = {inverse * c[0], inverse * c[1], inverse * c[2]};
+  std::array<Vector, 3> carried;
+  for (std::size_t a = 0; a < 3; ++a) {
+    carried[a] = lane(rows[0], a) * scaled[0] + lane(rows[1], a) * scaled[1] + lane(rows[2], a) * scaled[2];
+  }
+  const Vector after = squared_norm(carried);
+  const Vector ratio = before / after;  // 0/0 is not less than 1
+  const Vector cap = root(ratio < 1.0 ? ratio : Vector{} + 1.0);
+  for (std::size_t a = 0; a < 3; ++a) c[a] = too_large ? c[a] : cap * carried[a];
+  return too_large ? Vector{} : before - cap * cap * after;
+}
+
+/// C_p <- C_p R^T (equation 4.9): only the rotation of the step, so the energy of the affine field stays.
+/// What points take from their nodes: `of` sums over the nodes of a group, of which it reads `Content`; where
+/// there is an `advance`, it makes of the sums what the points get.
+///
+/// Velocity and affine field (4.3), heat of the transfer (4.5).
+template <AffineField field>
+struct TransferSums {
+  using Content = grid::Node;
+  using Sum = Moments<Vector>;
+  using Result = Advance<Vector>;
+  static constexpr bool affine = field != AffineField::none;
+  double dt;
+
+  template <class Points>
+  [[gnu::always_inline]] static Vector velocity(const Points& points, const PointsOfGroup& p) {
+    return of_group([&](std::size_t m) { return load_vector(points.velocity[p[m]].data()); });
+  }
+  template <class Points>
+  [[gnu::always_inline]] static std::array<Vector, 3> affine_field(const Points& points,
+                                                                   const PointsOfGroup& p) {
+    std::array<Vector, 3> c{};
+    if constexpr (affine) {
+      for (std::size_t a = 0; a < 3; ++a) {
+        c[a] =
+            of_group([&](std::size_t m) { return load_vector(points.affine_velocity[p[m]].data() + 3 * a); });
+      }
+    }
+    return c;
+  }
+
+  template <class Points, class Group>
+  [[gnu::always_inline]] Moments<Vector> of(const Points& points, const Group& group) const {
+    return moments<affine>(group, velocity(points, group.point), affine_field(points, group.point));
+  }
+  template <class Shape, class Points>
+  [[gnu::always_inline]] Advance<Vector> advance(const Points& points, const PointsOfGroup& p,
+                                                 const Moments<Vector>& sums, double cell_size) const {
+    const Vector change = sums.change.value;
+    std::array<Vector, 3> c = affine_field(points, p);
+    Vector heat = 0.5 * (sums.loss - change * change);
+    if constexpr (affine) {
+      const double inertia = Shape::second_moment * cell_size * cell_size;  // sum N r r^T in one direction
+      const double per_inertia = 1.0 / inertia;
+      for (std::size_t a = 0; a < 3; ++a) {
+        const Vector change_of_field = per_inertia * sums.change.gradient[a];
+        heat -= 0.5 * change_of_field * sums.change.gradient[a];
+        c[a] += change_of_field;
+      }
+      heat = sum_of_three(heat);
+      if constexpr (field == AffineField::deformed) {
+        heat += 0.5 * inertia * advect_affine_field(c, sums.velocity.gradient, dt);
+      }
+    } else {
+      heat = sum_of_three(heat);
+    }
+    return {sums.velocity, sums.increment, velocity(points, p) + change, c, heat};
+  }
+};
+/// New velocity of the grid, and what of it the step brought.
+struct UpdateSums {
+  using Content = grid::Node;
+  template <class Points, class Group>
+  [[gnu::always_inline]] VelocityUpdate<Vector> of(const Points&, const Group& group) const {
+    const auto after = [&](auto... node) { return group.first(node...) + group.second(node...); };
+    return {sums_of(group, after), sums_of(group, [&](auto... node) { return group.second(node...); }).value};
+  }
+};
+/// Sums of the first registers.
+struct FirstSums {
+  using Content = Lanes;
+  template <class Points, class Group>
+  [[gnu::always_inline]] ValueAndGradient<Vector> of(const Points&, const Group& group) const {
+    return sums_of(group, [&](auto... node) { return group.first(node...); });
+  }
+};
+
+[[gnu::always_inline]] inline ValueAndGradient<> part(const ValueAndGradient<Vector>& sums, std::size_t i) {
+  return {part(sums.value, i),
+          {part(sums.gradient[0], i), part(sums.gradient[1], i), part(sums.gradient[2], i)}};
+}
+[[gnu::always_inline]] inline Advance<> part(const Advance<Vector>& sums, std::size_t i) {
+  return {part(sums.grid_velocity, i),
+          part(sums.increment, i),
+          part(sums.velocity, i),
+          {part(sums.affine[0], i), part(sums.affine[1], i), part(sums.affine[2], i)},
+          part(sums.heat, i)};
+}
+[[gnu::always_inline]] inline VelocityUpdate<> part(const VelocityUpdate<Vector>& sums, std::size_t i) {
+  return {part(sums.after, i), part(sums.increment, i)};
+}
+
+constexpr std::size_t ahead = 8;
+
+/// Calls f(points of a block, their weights) for a few points at a time: weights are a long chain of
+/// dependent instructions, and too far from those of the next point for the processor to see.
+template <class Shape, class Points, class Function>
+[[gnu::always_inline]] inline void for_some(const Points& points, std::span<const std::uint32_t> members,
+                                            const BlockFrame& frame, Function&& f) {
+  std::array<Weights<Shape::count>, ahead> weights;
+  for (std::size_t first = 0; first < members.size(); first += ahead) {
+    const std::span<const std::uint32_t> some =
+        members.subspan(first, std::min(ahead, members.size() - first));
+    for (std::size_t m = 0; m < some.size(); ++m) weights[m] = weights_at<Shape>(points, some[m], frame);
+    f(some, weights);
+  }
+}
+
+/// Adds what a point brings to its nodes (equation 4.1 and the forces): node += N P_0 + sum over directions
+/// of S_a P_a, with S_a = N r_a in the first register and dN/dx_a in the second.
+template <class Shape, class Stencil>
+[[gnu::always_inline]] inline void add_payload(const Payload& load, const Weights<Shape::count>& w,
+                                               const Stencil& nodes) {
+  constexpr std::size_t n = Shape::count;
+  constexpr bool affine = CarriesAffineField<Shape>;
+  const auto weight = [&](std::size_t i, std::size_t a) {
+    const Lanes in_all = broadcast(w.weight[i][a]);
+    return both(in_all, in_all);
+  };
+  std::array<Lanes, n> moment;
+  for (std::size_t i = 0; i < n; ++i) moment[i] = w.weight[i] * w.distance[i];
+  const auto slope = [&](std::size_t i, std::size_t a) {
+    return both(broadcast(moment[i][a]), broadcast(w.derivative[i][a]));
+  };
+  std::array<Both, n> weight_z, slope_z;
+  for (std::size_t k = 0; k < n; ++k) {
+    weight_z[k] = weight(k, 2);
+    slope_z[k] = slope(k, 2);
+  }
+  const Both whole = both(load.a0, load.b0), of_x = both(load.ax, load.bx), of_y = both(load.ay, load.by),
+             of_z = both(load.az, load.bz);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Both wx = weight(i, 0), plane_y = wx * of_y, plane_z = wx * of_z;
+    Both plane = wx * whole;
+    add_product<affine>(plane, slope(i, 0), of_x);
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < n; ++j) {
+      const Both wy = weight(j, 1), row_z = wy * plane_z;
+      Both row = wy * plane;
+      add_product<affine>(row, slope(j, 1), plane_y);
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k < n; ++k) {
+        grid::Node& node = nodes(i, j, k);
+        Both sum = load_node(node);
+        add_product<true>(sum, weight_z[k], row);
+        add_product<affine>(sum, slope_z[k], row_z);
+        store_node(node, sum);
+      }
+    }
+  }
+}
+/// The same of mass and momentum alone.
+template <class Shape, class Stencil>
+[[gnu::always_inline]] inline void add_payload(Lanes load, const Weights<Shape::count>& w,
+                                               const Stencil& nodes) {
+  constexpr std::size_t n = Shape::count;
+  const std::array<Lanes, n> weight = of_direction(w.weight, 2);
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < n; ++i) {
+    const Lanes a_x = broadcast(w.weight[i][0]) * load;
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < n; ++j) {
+      const Lanes a = broadcast(w.weight[j][1]) * a_x;
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k < n; ++k) first_register(nodes(i, j, k)) += weight[k] * a;
+    }
+  }
+}
+
+/// The entries. Everything they call is inlined into them.
+struct Kernels {
+  template <AffineField field>
+  using Transfer = TransferSums<field>;
+  using Update = UpdateSums;
+  using First = FirstSums;
+
+  /// Calls take(point, what it gets) for the points of a slot.
+  /// @param sums  Transfer, Update or First
+  template <class Shape, class Sums, class Points, class Take>
+  [[gnu::flatten, gnu::noinline]] static void gather(const Points& points, grid::BlockGrid& grid,
+                                                     grid::BlockGrid::Points kind, std::size_t slot,
+                                                     const Sums& sums, const Take& take) {
+    const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
+    read_nodes<Shape, typename Sums::Content>(grid, kind, slot, [&](const auto& members, auto& access) {
+      for_some<Shape>(points, members, frame, [&](const auto& some, const auto& weights) {
+        using Group = Group<Shape, std::remove_reference_t<decltype(access)>>;
+        const std::size_t groups = (some.size() + together - 1) / together;
+        const auto group = [&](std::size_t g) __attribute__((always_inline)) {
+          Group group;
+          for (std::size_t i = 0; i < together; ++i) {
+            const std::size_t at = std::min(g * together + i, some.size() - 1);
+            group.point[i] = some[at];
+            group.weights[i] = &weights[at];
+            group.stencil[i] = access.stencil(weights[at].first_node());
+          }
+          return group;
+        };
+        const auto give = [&](std::size_t g, const auto& result) __attribute__((always_inline)) {
+          for (std::size_t i = 0, m = g * together; i < together && m < some.size(); ++i, ++m) {
+            take(some[m], part(result, i));
+          }
+        };
+        if constexpr (requires { typename Sums::Sum; }) {
+          // Stage by stage: what becomes of the sums is another long chain.
+          std::array<PointsOfGroup, ahead / together> point;
+          std::array<typename Sums::Sum, ahead / together> sum;
+          std::array<typename Sums::Result, ahead / together> result;
+          for (std::size_t g = 0; g < groups; ++g) {
+            const Group of_group = group(g);
+            point[g] = of_group.point;
+            sum[g] = sums.of(points, of_group);
+          }
+          for (std::size_t g = 0; g < groups; ++g) {
+            result[g] = sums.template advance<Shape>(points, point[g], sum[g], frame.cell_size);
+          }
+          for (std::size_t g = 0; g < groups; ++g) give(g, result[g]);
+        } else {
+          for (std::size_t g = 0; g < groups; ++g) give(g, sums.of(points, group(g)));
+        }
+      });
+    });
+  }
+
+  /// Adds what the points of a slot bring to the nodes.
+  template <class Shape, class What>
+  [[gnu::flatten, gnu::noinline]] static void scatter(const What& what, grid::BlockGrid& grid,
+                                                      std::size_t slot) {
+    const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
+    add_to_nodes<Shape, typename What::Content>(
+        grid, What::kind, slot, [&](const auto& members, auto& access) {
+          for_some<Shape>(what.points, members, frame, [&](const auto& some, const auto& weights) {
+            for (std::size_t m = 0; m < some.size(); ++m) {
+              add_payload<Shape>(what.template load<CarriesAffineField<Shape>>(some[m]), weights[m],
+                                 access.stencil(weights[m].first_node()));
+            }
+          });
+        });
+  }
+};
