@@ -121,6 +121,30 @@ TEST(SteinbergGuinan, HardensToItsBound) {
   EXPECT_EQ(c.hardening(5.0).value, 640e6);
 }
 
+TEST(SteinbergGuinan, YieldConditionHoldsAfterTheReturnBelowAndAboveTheBoundAndForAllExponents) {
+  std::mt19937_64 generator(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int yielding = 0;
+  for (int i = 0; i < 20000; ++i) {
+    strength::SteinbergGuinan c = steinberg_copper();
+    c.hardening_exponent = i % 4 == 0 ? 2.0 * unit(generator) : 0.45;  // above 1 it stiffens
+    const double strain = i % 5 == 0 ? 0.0 : std::pow(10.0, -6.0 + 7.0 * unit(generator));
+    const double solid = i % 3 == 0 ? unit(generator) + 1e-3 : 1.0;
+    const double ratio = 0.1 + 2.0 * unit(generator), modulus = ratio * solid * c.shear_modulus;
+    const double trial = std::pow(10.0, 6.0 + 4.0 * unit(generator));
+    const double x = c.increment(trial, strain, modulus, solid);
+    ASSERT_GE(x, 0.0);
+    const double flow = solid * ratio * c.hardening(strain + x).value;
+    if (x > 0.0) {
+      ++yielding;
+      ASSERT_NEAR(trial - 3.0 * modulus * x, flow, 2e-12 * trial) << "state " << i;
+    } else {
+      ASSERT_LE(trial, flow * (1.0 + 1e-14)) << "state " << i;
+    }
+  }
+  EXPECT_GT(yielding, 8000);
+}
+
 TEST(ZerilliArmstrong, GivesThePublishedFormulaForBothStructures) {
   strength::ZerilliArmstrong copper;
   copper.shear_modulus = 47.7e9;

@@ -6,6 +6,7 @@
 
 #include "src/base/parameter_table.hpp"
 #include "src/base/vector_math.hpp"
+#include "src/material/strength/fourfold_return.hpp"
 #include "src/material/strength/radial_return.hpp"
 #include "src/material/strength/strength.hpp"
 
@@ -75,13 +76,40 @@ struct SteinbergGuinan {
     if (power >= maximum_flow_stress) return {maximum_flow_stress, 0.0};
     return {power, power * hardening_exponent * hardening_coefficient / base};
   }
-  [[nodiscard]] double increment(double trial, double plastic_strain, double ratio, double modulus,
-                                 double solid) const {
-    const double least = ratio * hardening(plastic_strain).value;
-    return radial_return(trial, modulus, solid, least, [&](double x) {
-      const FlowStress y = hardening(plastic_strain + x);
-      return FlowStress{ratio * y.value, ratio * y.slope};
-    });
+
+  /// The return of four points: see FourfoldLaw.
+  struct Return {
+    Lanes trial, plastic_strain, temperature, modulus, solid;
+    Lanes increment;
+  };
+  void solve(std::span<Return> groups, double) const {
+    for (Return& r : groups) {
+      const Lanes ratio = r.modulus / (r.solid * shear_modulus);
+      r.increment = radial_return(r.trial, r.modulus, r.solid, [&](Lanes x) {
+        FlowStresses y = hardening(r.plastic_strain + x);
+        return FlowStresses{ratio * y.value, ratio * y.slope};
+      });
+    }
+  }
+  [[nodiscard]] double increment(double trial, double plastic_strain, double modulus, double solid) const {
+    Return one{.trial = broadcast(trial),
+               .plastic_strain = broadcast(plastic_strain),
+               .temperature = Lanes{},
+               .modulus = broadcast(modulus),
+               .solid = broadcast(solid),
+               .increment = Lanes{}};
+    solve({&one, 1}, 0.0);
+    return one.increment[0];
+  }
+
+ private:
+  /// `hardening` of four points.
+  [[nodiscard]] FlowStresses hardening(Lanes plastic_strain) const {
+    const Lanes base = 1.0 + hardening_coefficient * (plastic_strain + initial_plastic_strain);
+    const Lanes power = yield_stress * exp(hardening_exponent * natural_log(base));
+    const LanesMask bounded = power >= maximum_flow_stress;
+    return {select(bounded, broadcast(maximum_flow_stress), power),
+            select(bounded, Lanes{}, (hardening_exponent * hardening_coefficient) * power / base)};
   }
 };
 
@@ -106,16 +134,12 @@ class SteinbergGuinanModel final : public Strength {
   }
   /// @param modulus  as of `shear_modulus`, times the solid fraction
   void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
-                         std::span<const double> solid_fraction, double,
+                         std::span<const double> solid_fraction, double dt,
                          std::span<double> increment) const override {
-    for (std::size_t i = 0; i < trial.size(); ++i) {
-      increment[i] = 0.0;
-      // Y >= Y_0 G/G_0: spares the powers of most elastic points.
-      if (trial[i] <= modulus[i] / constants_.shear_modulus * constants_.yield_stress) continue;
-      const double ratio = modulus[i] / (solid_fraction[i] * constants_.shear_modulus);
-      increment[i] =
-          constants_.increment(trial[i], state.plastic_strain[i], ratio, modulus[i], solid_fraction[i]);
-    }
+    // Y >= Y_0 G/G_0: spares the powers of most elastic points.
+    return_by_fours(constants_, state, trial, modulus, solid_fraction, dt, increment, [&](std::size_t i) {
+      return trial[i] > modulus[i] / constants_.shear_modulus * constants_.yield_stress;
+    });
   }
   void flow_stress(const State& state, std::span<const double>, std::span<double> stress) const override {
     for (std::size_t i = 0; i < stress.size(); ++i) {
