@@ -24,7 +24,7 @@ void BlockGrid::separate_fields(Stencil stencil, const FieldPoints& particles, c
       const auto reach = [&](std::span<const std::uint32_t> members, const FieldPoints& points) {
         for (const std::uint32_t p : members) {
           const std::uint32_t touched =
-              touched_neighbours(local_position(s, points.position[p]), Vector3::Zero(), stencil);
+              touched_neighbours(in_cells(points.position[p]) - corner_[s], stencil);
           for_each_bit(touched, [&](unsigned n) { reached[s][n] |= std::uint64_t{1} << points.field[p]; });
         }
       };

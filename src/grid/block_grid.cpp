@@ -20,6 +20,16 @@ BlockCoordinate shifted(const BlockCoordinate& block, int neighbour) {
   return {block[0] + neighbour / 9 - 1, block[1] + neighbour / 3 % 3 - 1, block[2] + neighbour % 3 - 1};
 }
 
+/// Lower corner of a block, in cells.
+Lanes corner_of(const BlockCoordinate& block) {
+  Lanes corner{};
+  for (int a = 0; a < 3; ++a) corner[a] = block_edge * block[static_cast<std::size_t>(a)];
+  return corner;
+}
+
+/// Is a position, in cells from the lower corner of a block, inside of it?
+bool is_inside(Lanes local) { return bits((local >= 0.0) & (local < double{block_edge})) == all_lanes; }
+
 }  // namespace
 
 BlockGrid::BlockGrid(const Geometry& geometry, MPI_Comm communicator)
@@ -62,10 +72,9 @@ bool BlockGrid::look_up(std::span<const Vector3> position) {
   slot_of_particle_.resize(position.size());
   std::int32_t slot = no_slot;
   for (std::size_t p = 0; p < position.size(); ++p) {
-    const std::optional<BlockCoordinate> block = block_of(position[p]);
     // Neighbours in memory are mostly in one block.
-    if (slot == no_slot || block != blocks_.coordinate[static_cast<std::size_t>(slot)]) {
-      slot = block ? table_.find(*block) : no_slot;
+    if (slot == no_slot || !is_inside(in_cells(position[p]) - corner_[static_cast<std::size_t>(slot)])) {
+      slot = slot_at(position[p]);
     }
     if (slot == no_slot) {
       slot_of_particle_.clear();
@@ -79,21 +88,20 @@ bool BlockGrid::look_up(std::span<const Vector3> position) {
 /// Updates the slot of every particle from its former slot; false if a particle left the active set.
 bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
   std::atomic<bool> complete = true;
-  const Lanes lower = load_vector(geometry_.lower.data());
   parallel::for_each_chunk(position.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       auto slot = static_cast<std::size_t>(slot_of_particle_[p]);
-      const Lanes in_cells = (load_vector(position[p].data()) - lower) / geometry_.cell_size;
-      Lanes local = in_cells - corner_[slot];
-      if (bits((local >= 0.0) & (local < double{block_edge})) != all_lanes) {
+      const Lanes at = in_cells(position[p]);
+      Lanes local = at - corner_[slot];
+      if (!is_inside(local)) {
         int neighbour = 0;
         bool far = false;
         for (int a = 0; a < 3; ++a) {
-          const double block = std::floor(in_cells[a] / block_edge);
+          const double block = std::floor(at[a] / block_edge);
           const double offset = block - blocks_.coordinate[slot][static_cast<std::size_t>(a)];
           far = far || !(std::abs(offset) <= 1.0);
           neighbour = neighbour * 3 + (far ? 0 : static_cast<int>(offset) + 1);
-          local[a] = in_cells[a] - block * block_edge;
+          local[a] = at[a] - block * block_edge;
         }
         const std::int32_t moved = far ? no_slot : neighbours_[slot][static_cast<std::size_t>(neighbour)];
         if (moved == no_slot) {
@@ -117,7 +125,7 @@ bool BlockGrid::locate_guests(std::span<const Vector3> guests, Stencil stencil) 
     if (slot == no_slot) return false;
     slot_of_guest_[g] = slot;
     const auto at = static_cast<std::size_t>(slot);
-    const std::uint32_t touched = touched_neighbours(local_position(at, guests[g]), Vector3::Zero(), stencil);
+    const std::uint32_t touched = touched_neighbours(in_cells(guests[g]) - corner_[at], stencil);
     if ((touched & ~existing_[at]) != 0) return false;
   }
   return true;
@@ -131,39 +139,40 @@ std::vector<WantedBlock> BlockGrid::wanted_blocks(std::span<const Vector3> posit
   BlockTable homes;
   homes.reserve(slots() + 64);
   std::vector<WantedBlock> home;
+  std::vector<Lanes> corner;  // of the homes
   std::vector<std::uint32_t> wanted_mask;
-  std::int32_t last = -1;  // home of the particle before
+  std::size_t i = 0;  // home of the particle before
   std::string error;
   for (std::size_t p = 0; p < position.size(); ++p) {
-    const std::optional<BlockCoordinate> block = block_of(position[p]);
-    if (!block) {
-      error = fmt::format("particle with index {} is outside of the domain: position ({}, {}, {}) m", p,
-                          position[p][0], position[p][1], position[p][2]);
-      break;
-    }
-    // Neighbours in memory are mostly in one block.
-    if (last < 0 || home[static_cast<std::size_t>(last)].coordinate != *block) {
-      last = homes.find_or_insert(*block, static_cast<std::int32_t>(home.size()));
-    }
-    const std::int32_t i = last;
+    const Lanes at = in_cells(position[p]);
     const bool on_grid = p + work.apart < position.size();
-    if (static_cast<std::size_t>(i) == home.size()) {
-      home.push_back({*block, on_grid ? work.of_block : 0.0});
-      wanted_mask.push_back(1U << neighbour_index(1, 1, 1));
+    // Neighbours in memory are mostly in one block.
+    if (home.empty() || !is_inside(at - corner[i])) {
+      const std::optional<BlockCoordinate> block = block_of(position[p]);
+      if (!block) {
+        error = fmt::format("particle with index {} is outside of the domain: position ({}, {}, {}) m", p,
+                            position[p][0], position[p][1], position[p][2]);
+        break;
+      }
+      i = static_cast<std::size_t>(homes.find_or_insert(*block, static_cast<std::int32_t>(home.size())));
+      if (i == home.size()) {
+        home.push_back({*block, on_grid ? work.of_block : 0.0});
+        corner.push_back(corner_of(*block));
+        wanted_mask.push_back(1U << neighbour_index(1, 1, 1));
+      }
     }
-    home[static_cast<std::size_t>(i)].weight += p < work.of_particle.size() ? work.of_particle[p] : 1.0;
+    home[i].weight += p < work.of_particle.size() ? work.of_particle[p] : 1.0;
     if (!on_grid) continue;
-    Vector3 local = geometry_.in_cells(position[p]);
-    for (std::size_t a = 0; a < 3; ++a) local[static_cast<Eigen::Index>(a)] -= (*block)[a] * block_edge;
-    const Vector3 ahead = (velocity[p] * (lookahead / geometry_.cell_size)).cwiseMax(-2.0).cwiseMin(2.0);
-    wanted_mask[static_cast<std::size_t>(i)] |= touched_neighbours(local, ahead, stencil, foresight_);
+    const Lanes motion = load_vector(velocity[p].data()) * (lookahead / geometry_.cell_size);
+    const Lanes ahead = maximum(minimum(motion, broadcast(2.0)), broadcast(-2.0));
+    wanted_mask[i] |= touched_neighbours(at - corner[i], ahead, stencil, foresight_);
   }
   parallel::throw_together(communicator_, error);
 
   BlockTable wanted_table;
   wanted_table.reserve(2 * home.size());
   std::vector<WantedBlock> wanted;
-  for (std::size_t i = 0; i < home.size(); ++i) {
+  for (i = 0; i < home.size(); ++i) {
     for (int n = 0; n < 27; ++n) {
       if ((wanted_mask[i] >> n & 1U) == 0) continue;
       const BlockCoordinate block = shifted(home[i].coordinate, n);
@@ -206,9 +215,7 @@ std::vector<int> BlockGrid::owners(std::span<const Vector3> position) const {
 void BlockGrid::owners_reached(const Vector3& position, Stencil stencil, std::vector<int>& ranks) const {
   const std::optional<BlockCoordinate> block = block_of(position);
   if (!block) return;
-  Vector3 local = geometry_.in_cells(position);
-  for (std::size_t a = 0; a < 3; ++a) local[static_cast<Eigen::Index>(a)] -= (*block)[a] * block_edge;
-  for_each_bit(touched_neighbours(local, Vector3::Zero(), stencil), [&](unsigned n) {
+  for_each_bit(touched_neighbours(in_cells(position) - corner_of(*block), stencil), [&](unsigned n) {
     const BlockCoordinate reached = shifted(*block, static_cast<int>(n));
     for (std::size_t a = 0; a < 3; ++a) {
       if (reached[a] < -1 || reached[a] > geometry_.blocks(static_cast<int>(a))) return;
@@ -235,7 +242,7 @@ void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vect
   corner_.assign(slots(), Lanes{});
   parallel::for_each(slots(), [&](std::size_t s) {
     const BlockCoordinate& block = blocks_.coordinate[s];
-    for (int a = 0; a < 3; ++a) corner_[s][a] = block_edge * block[static_cast<std::size_t>(a)];
+    corner_[s] = corner_of(block);
     // Of two neighbours the first finds the second, and leaves itself with it.
     for (std::size_t n = 0; n < 27; ++n) {
       if (n == 13) {

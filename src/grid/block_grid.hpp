@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "src/base/gaps.hpp"
-#include "src/base/simd.hpp"
+#include "src/base/vector_math.hpp"
 #include "src/grid/block_table.hpp"
 #include "src/grid/forest.hpp"
 #include "src/grid/geometry.hpp"
@@ -288,6 +288,10 @@ class BlockGrid {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  /// As Geometry::in_cells, the directions in lanes.
+  [[nodiscard]] Lanes in_cells(const Vector3& position) const {
+    return (load_vector(position.data()) - load_vector(geometry_.lower.data())) / geometry_.cell_size;
+  }
   [[nodiscard]] Vector3 local_position(std::size_t slot, const Vector3& position) const;
   bool look_up(std::span<const Vector3> position);
   bool locate(std::span<const Vector3> position, Stencil stencil);

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 #include "src/base/vector_math.hpp"
@@ -48,27 +46,21 @@ constexpr std::array<std::uint32_t, 64> masks_by_direction() {
   return by_direction;
 }
 
-/// `touched_neighbours` without motion, for a position with the directions in lanes.
-inline std::uint32_t touched_neighbours(Lanes local, Stencil stencil) {
+/// Neighbours that the nodes of a stencil fall into when the particle is at `local` (cells from the block's
+/// lower corner; the directions in lanes), with `ahead` cells of motion before it, and `around` it on either
+/// side.
+inline std::uint32_t touched_neighbours(Lanes local, Lanes ahead, Stencil stencil, double around = 0.0) {
   static constexpr std::array<std::uint32_t, 64> by_direction = masks_by_direction();
-  const Lanes first = Lanes(_mm256_floor_pd(__m256d(local - stencil.shift)));
+  const auto first_node = [&](Lanes at) { return Lanes(_mm256_floor_pd(__m256d(at - stencil.shift))); };
+  const Lanes first = first_node(local + minimum(ahead, broadcast(-around)));
+  const Lanes last = first_node(local + maximum(ahead, broadcast(around)));
   const unsigned before = bits(first < 0.0) & 7U;
-  const unsigned after = bits(first > static_cast<double>(block_edge - stencil.count)) & 7U;
+  const unsigned after = bits(last > static_cast<double>(block_edge - stencil.count)) & 7U;
   return by_direction[before | after << 3U];
 }
-
-/// Neighbours that the nodes of a stencil fall into when the particle is at `local` (cells from the block's
-/// lower corner), with `ahead` cells of motion before it, and `around` it on either side.
-inline std::uint32_t touched_neighbours(const Vector3& local, const Vector3& ahead, Stencil stencil,
-                                        double around = 0.0) {
-  unsigned reach = 0;
-  for (int a = 0; a < 3; ++a) {
-    const double first = std::floor(local[a] + std::min(ahead[a], -around) - stencil.shift);
-    const double last = std::floor(local[a] + std::max(ahead[a], around) - stencil.shift) + stencil.count - 1;
-    const AxisReach axis = (first < 0 ? 1U : 0U) | (last >= block_edge ? 2U : 0U);
-    reach |= axis << (2 * a);
-  }
-  return reach_masks[reach];
+/// The same without motion.
+inline std::uint32_t touched_neighbours(Lanes local, Stencil stencil) {
+  return touched_neighbours(local, Lanes{}, stencil);
 }
 
 }  // namespace whipple::grid
