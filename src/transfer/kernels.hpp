@@ -86,6 +86,11 @@ template <class Get>
 /// Lanes 1, 2, 0, 3.
 [[gnu::always_inline]] inline Vector turned(Vector v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); }
 [[gnu::always_inline]] inline Vector root(Vector v) { return sqrt(v); }
+/// a b + c, rounded once: written out where the compiler would take the product out of a loop for one set of
+/// registers and not for the other.
+[[gnu::always_inline]] inline Vector multiply_add(Vector a, Vector b, Vector c) {
+  return Lanes(_mm256_fmadd_pd(__m256d(a), __m256d(b), __m256d(c)));
+}
 /// Lane 3 of the first register of the points' nodes, in all lanes.
 template <class Nodes>
 [[gnu::always_inline]] inline Vector relaxation(Vector, const Nodes& node) {
@@ -161,6 +166,9 @@ template <class Get>
   return __builtin_shufflevector(v, v, 1, 2, 0, 3, 5, 6, 4, 7);
 }
 [[gnu::always_inline]] inline Vector root(Vector v) { return Vector(_mm512_maskz_sqrt_pd(0xff, __m512d(v))); }
+[[gnu::always_inline]] inline Vector multiply_add(Vector a, Vector b, Vector c) {
+  return Vector(_mm512_fmadd_pd(__m512d(a), __m512d(b), __m512d(c)));
+}
 /// Lane 3 of the first register of the points' nodes, in all lanes.
 template <class Nodes>
 [[gnu::always_inline]] inline Vector relaxation(Vector first, const Nodes&) {

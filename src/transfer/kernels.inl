@@ -261,32 +261,31 @@ template <bool affine, class Group>
                                                       const std::array<Vector, 3>& c) {
   constexpr std::size_t n = Group::nodes;
   const Direction<n> x(group, 0), y(group, 1), z(group, 2);
-  std::array<Vector, n> field_z;
-  for (std::size_t k = 0; k < n; ++k) field_z[k] = z.distance[k] * c[2];
   PlaneSums<n> velocity, increment, change;
   std::array<Vector, n> loss;
   for (std::size_t i = 0; i < n; ++i) {
     Vector field_x = v;
-    if constexpr (affine) field_x += x.distance[i] * c[0];
+    if constexpr (affine) field_x = multiply_add(x.distance[i], c[0], field_x);
     RowSums<n> row_velocity, row_increment, row_change;
     std::array<Vector, n> row_loss;
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < n; ++j) {
       Vector field_y = field_x;
-      if constexpr (affine) field_y += y.distance[j] * c[1];
+      if constexpr (affine) field_y = multiply_add(y.distance[j], c[1], field_y);
       std::array<Vector, n> velocities, d, changed, lost;
 #pragma GCC unroll 4
       for (std::size_t k = 0; k < n; ++k) {
         const Vector first = group.first(i, j, k);
         Vector field = field_y;
-        if constexpr (affine) field += field_z[k];
+        if constexpr (affine) field = multiply_add(z.distance[k], c[2], field);
         const Vector beta =
             relaxation(first, [&](std::size_t m) -> const grid::Node& { return group.stencil[m](i, j, k); });
-        const Vector difference = field - first, relaxed = beta * difference;
+        const Vector difference = field - first;
         d[k] = group.second(i, j, k);
         velocities[k] = first;
-        changed[k] = d[k] - relaxed;
-        lost[k] = changed[k] * changed[k] + relaxed * ((difference - relaxed) + difference);
+        changed[k] = multiply_add(-beta, difference, d[k]);
+        const Vector rest = multiply_add(-beta, difference, difference) + difference;
+        lost[k] = multiply_add(changed[k], changed[k], beta * difference * rest);
       }
       row_velocity.set(j, z.weight, z.derivative, velocities);
       row_increment.set(j, z.weight, z.derivative, d);
@@ -404,7 +403,11 @@ struct TransferSums {
     Vector heat = 0.5 * (sums.loss - change * change);
     if constexpr (affine) {
       const double inertia = Shape::second_moment * cell_size * cell_size;  // sum N r r^T in one direction
-      const double per_inertia = 1.0 / inertia;
+      Vector per_inertia = of_group([&](std::size_t) { return broadcast(1.0 / inertia); });
+      if constexpr (requires { points.unrelaxed; }) {  // some carry no affine field: theirs stays 0
+        per_inertia *=
+            of_group([&](std::size_t m) { return broadcast(p[m] < points.unrelaxed ? 0.0 : 1.0); });
+      }
       for (std::size_t a = 0; a < 3; ++a) {
         const Vector change_of_field = per_inertia * sums.change.gradient[a];
         heat -= 0.5 * change_of_field * sums.change.gradient[a];
