@@ -4,7 +4,7 @@
 /// A kernel that is compiled twice, with AVX2 and with AVX-512, whose 32 names of vector registers (16
 /// before) spare many moves; the loader takes what the processor has. Everything it calls is inlined into
 /// both. Once only where the whole program is built for the machine, and under sanitizers, which cannot
-/// choose before they run.
+/// choose before they run. (The transfers have kernels of their own for each: src/transfer/kernels.hpp.)
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__AVX512F__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define WHIPPLE_KERNEL [[gnu::target_clones("arch=x86-64-v4", "default"), gnu::flatten, gnu::noinline]]

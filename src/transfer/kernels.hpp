@@ -21,6 +21,11 @@
 #else
 #define WHIPPLE_WIDE_KERNELS 0
 #endif
+#if WHIPPLE_WIDE_KERNELS && !defined(__AVX512F__)  // else the whole program is built for such a machine
+#define WHIPPLE_OTHER_TARGET 1
+#else
+#define WHIPPLE_OTHER_TARGET 0
+#endif
 
 namespace whipple::transfer {
 
@@ -124,8 +129,10 @@ template <bool first>
 }  // namespace narrow
 
 #if WHIPPLE_WIDE_KERNELS
+#if WHIPPLE_OTHER_TARGET
 #pragma GCC push_options
 #pragma GCC target("arch=x86-64-v4")
+#endif
 namespace wide {
 
 /// Two points at a time, one in each half.
@@ -194,7 +201,9 @@ template <bool>
 #include "src/transfer/kernels.inl"
 
 }  // namespace wide
+#if WHIPPLE_OTHER_TARGET
 #pragma GCC pop_options
+#endif
 #endif
 
 /// Are the kernels for AVX-512 in use? Where the processor has it, until a test sets otherwise.

@@ -223,7 +223,7 @@ struct PlaneSums {
 /// Points that take something at a time; if there are fewer, the last stands for the others.
 using PointsOfGroup = std::array<std::uint32_t, together>;
 
-/// They with their weights and nodes.
+/// These points with their weights and nodes.
 template <class Shape, class Access>
 struct Group {
   static constexpr std::size_t nodes = Shape::count;  ///< per direction
@@ -361,7 +361,6 @@ template <class Group, class Value>
   return too_large ? Vector{} : before - cap * cap * after;
 }
 
-/// C_p <- C_p R^T (equation 4.9): only the rotation of the step, so the energy of the affine field stays.
 /// What points take from their nodes: `of` sums over the nodes of a group, of which it reads `Content`; where
 /// there is an `advance`, it makes of the sums what the points get.
 ///
