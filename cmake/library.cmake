@@ -23,7 +23,7 @@ endif()
 if(WHIPPLE_SANITIZE)
   # GCC 12 sees uninitialised values in the standard library where the sanitizers split it up.
   target_compile_options(whipple_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
-    -fno-omit-frame-pointer -Wno-maybe-uninitialized)
+    -fno-omit-frame-pointer -fno-var-tracking-assignments -Wno-maybe-uninitialized)
   target_link_options(whipple_flags INTERFACE -fsanitize=address,undefined)
 endif()
 

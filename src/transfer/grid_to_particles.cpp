@@ -105,7 +105,7 @@ TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
                            std::span<Matrix3> velocity_gradient, std::span<const Vector3> acceleration) {
   return sum_over_slots<TransferBalance>(
       grid, particle_kind, [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance) {
-        const auto take = [&](std::size_t p, const Advance<>& advance) __attribute__((always_inline)) {
+        const auto take = [&](std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
           balance += update_particle<field>(particles, p, dt, advance, velocity_gradient[p], acceleration);
         };
         Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
@@ -119,7 +119,7 @@ double update_velocities(Particles& particles, BlockGrid& grid, double dt, doubl
                          std::span<const Vector3> acceleration) {
   return sum_over_slots<double>(
       grid, particle_kind, [&]<class Kernels>(Kernels, std::size_t slot, double& work) {
-        const auto take = [&](std::size_t p, const VelocityUpdate<>& update) __attribute__((always_inline)) {
+        const auto take = [&](std::size_t p, const VelocityUpdate<>& update) WHIPPLE_INLINE {
           const Lanes after = update.after.value, increment = update.increment, before = after - increment;
           double* const velocity = particles.velocity[p].data();
           const Lanes old = load_vector(velocity);
@@ -177,7 +177,7 @@ template <class Shape, AffineField field>
 void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt) {
   constexpr auto kind = BlockGrid::Points::guests;
   sum_over_slots<double>(grid, kind, [&]<class Kernels>(Kernels, std::size_t slot, double&) {
-    const auto take = [&](std::size_t p, const Advance<>& advance) __attribute__((always_inline)) {
+    const auto take = [&](std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
       advance_point<field>(nodes, p, dt, advance);
       store_vector(nodes.mean_velocity[p].data(),
                    advance.grid_velocity.value - 0.5 * advance.increment.value);
@@ -221,16 +221,16 @@ double update_velocity(ShapeFunction shape, Particles& particles, BlockGrid& gri
 
 void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                               std::span<Matrix3> velocity_gradient) {
-  gather_first(shape, particles, grid,
-               [&](std::size_t p, const ValueAndGradient<>& sums)
-                   __attribute__((always_inline)) { velocity_gradient[p] = matrix(sums.gradient); });
+  gather_first(shape, particles, grid, [&](std::size_t p, const ValueAndGradient<>& sums) WHIPPLE_INLINE {
+    velocity_gradient[p] = matrix(sums.gradient);
+  });
 }
 
 void gather_velocity(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                      std::span<Vector3> velocity) {
-  gather_first(shape, particles, grid,
-               [&](std::size_t p, const ValueAndGradient<>& sums)
-                   __attribute__((always_inline)) { store_vector(velocity[p].data(), sums.value); });
+  gather_first(shape, particles, grid, [&](std::size_t p, const ValueAndGradient<>& sums) WHIPPLE_INLINE {
+    store_vector(velocity[p].data(), sums.value);
+  });
 }
 
 }  // namespace whipple::transfer

@@ -15,8 +15,9 @@
 /// The loops over points and their nodes, kernels.inl, compiled for two sets of registers: `narrow` for AVX2,
 /// whose register holds half a node, and `wide` for AVX-512, whose register holds a node when points bring
 /// something to it, and halves of two nodes when two points take something at a time. Lane by lane both
-/// compute the same in the same order, so their results are the same bits.
-#if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__)
+/// compute the same in the same order, so their results are the same bits. Sanitizers, which take minutes for
+/// functions of that size, get the narrow ones in pieces.
+#if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define WHIPPLE_WIDE_KERNELS 1
 #else
 #define WHIPPLE_WIDE_KERNELS 0
@@ -25,6 +26,14 @@
 #define WHIPPLE_OTHER_TARGET 1
 #else
 #define WHIPPLE_OTHER_TARGET 0
+#endif
+
+#ifdef __SANITIZE_ADDRESS__
+#define WHIPPLE_INLINE
+#define WHIPPLE_WHOLE_KERNEL
+#else
+#define WHIPPLE_INLINE __attribute__((always_inline))
+#define WHIPPLE_WHOLE_KERNEL [[gnu::flatten, gnu::noinline]]
 #endif
 
 namespace whipple::transfer {
@@ -78,27 +87,27 @@ constexpr std::size_t together = 1;
 
 /// get(0)
 template <class Get>
-[[gnu::always_inline]] inline Vector of_group(Get&& get) {
+WHIPPLE_INLINE inline Vector of_group(Get&& get) {
   return get(0);
 }
-[[gnu::always_inline]] inline Lanes part(Vector v, std::size_t) { return v; }
+WHIPPLE_INLINE inline Lanes part(Vector v, std::size_t) { return v; }
 /// Lane a of get(0) in all lanes.
 template <class Get>
-[[gnu::always_inline]] inline Vector spread(Get&& get, std::size_t a) {
+WHIPPLE_INLINE inline Vector spread(Get&& get, std::size_t a) {
   return broadcast(get(0)[a]);
 }
-[[gnu::always_inline]] inline Vector lane(Vector v, std::size_t a) { return broadcast(v[a]); }
+WHIPPLE_INLINE inline Vector lane(Vector v, std::size_t a) { return broadcast(v[a]); }
 /// Lanes 1, 2, 0, 3.
-[[gnu::always_inline]] inline Vector turned(Vector v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); }
-[[gnu::always_inline]] inline Vector root(Vector v) { return sqrt(v); }
+WHIPPLE_INLINE inline Vector turned(Vector v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); }
+WHIPPLE_INLINE inline Vector root(Vector v) { return sqrt(v); }
 /// a b + c, rounded once: written out where the compiler would take the product out of a loop for one set of
 /// registers and not for the other.
-[[gnu::always_inline]] inline Vector multiply_add(Vector a, Vector b, Vector c) {
+WHIPPLE_INLINE inline Vector multiply_add(Vector a, Vector b, Vector c) {
   return Lanes(_mm256_fmadd_pd(__m256d(a), __m256d(b), __m256d(c)));
 }
 /// Lane 3 of the first register of the points' nodes, in all lanes.
 template <class Nodes>
-[[gnu::always_inline]] inline Vector relaxation(Vector, const Nodes& node) {
+WHIPPLE_INLINE inline Vector relaxation(Vector, const Nodes& node) {
   return broadcast_from(reinterpret_cast<const double*>(&node(0).first) + 3);
 }
 
@@ -106,23 +115,17 @@ template <class Nodes>
 struct Both {
   Lanes first, second;
 };
-[[gnu::always_inline]] inline Both both(Lanes first, Lanes second) { return {first, second}; }
-[[gnu::always_inline]] inline Both operator*(Both a, Both b) {
-  return {a.first * b.first, a.second * b.second};
-}
-[[gnu::always_inline]] inline Both operator+(Both a, Both b) {
-  return {a.first + b.first, a.second + b.second};
-}
+WHIPPLE_INLINE inline Both both(Lanes first, Lanes second) { return {first, second}; }
+WHIPPLE_INLINE inline Both operator*(Both a, Both b) { return {a.first * b.first, a.second * b.second}; }
+WHIPPLE_INLINE inline Both operator+(Both a, Both b) { return {a.first + b.first, a.second + b.second}; }
 /// sum += a b; in the second register only where the first one's b is 0.
 template <bool first>
-[[gnu::always_inline]] inline void add_product(Both& sum, Both a, Both b) {
+WHIPPLE_INLINE inline void add_product(Both& sum, Both a, Both b) {
   if constexpr (first) sum.first += a.first * b.first;
   sum.second += a.second * b.second;
 }
-[[gnu::always_inline]] inline Both load_node(const grid::Node& node) { return {node.first, node.second}; }
-[[gnu::always_inline]] inline void store_node(grid::Node& node, Both value) {
-  node = {value.first, value.second};
-}
+WHIPPLE_INLINE inline Both load_node(const grid::Node& node) { return {node.first, node.second}; }
+WHIPPLE_INLINE inline void store_node(grid::Node& node, Both value) { node = {value.first, value.second}; }
 
 #include "src/transfer/kernels.inl"
 
@@ -139,19 +142,19 @@ namespace wide {
 using Vector [[gnu::vector_size(64)]] = double;
 constexpr std::size_t together = 2;
 
-[[gnu::always_inline]] inline Vector join(Lanes low, Lanes high) {
+WHIPPLE_INLINE inline Vector join(Lanes low, Lanes high) {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 /// get(0) and get(1)
 template <class Get>
-[[gnu::always_inline]] inline Vector of_group(Get&& get) {
+WHIPPLE_INLINE inline Vector of_group(Get&& get) {
   return join(get(0), get(1));
 }
-[[gnu::always_inline]] inline Lanes part(Vector v, std::size_t i) {
+WHIPPLE_INLINE inline Lanes part(Vector v, std::size_t i) {
   return i == 0 ? __builtin_shufflevector(v, v, 0, 1, 2, 3) : __builtin_shufflevector(v, v, 4, 5, 6, 7);
 }
 /// Lane a of each half in all lanes of it.
-[[gnu::always_inline]] inline Vector lane(Vector v, std::size_t a) {
+WHIPPLE_INLINE inline Vector lane(Vector v, std::size_t a) {
   switch (a) {
     case 0:
       return __builtin_shufflevector(v, v, 0, 0, 0, 0, 4, 4, 4, 4);
@@ -165,36 +168,36 @@ template <class Get>
 }
 /// Lane a of get(0) and get(1).
 template <class Get>
-[[gnu::always_inline]] inline Vector spread(Get&& get, std::size_t a) {
+WHIPPLE_INLINE inline Vector spread(Get&& get, std::size_t a) {
   return lane(of_group(get), a);
 }
 /// Lanes 1, 2, 0, 3 of each half.
-[[gnu::always_inline]] inline Vector turned(Vector v) {
+WHIPPLE_INLINE inline Vector turned(Vector v) {
   return __builtin_shufflevector(v, v, 1, 2, 0, 3, 5, 6, 4, 7);
 }
-[[gnu::always_inline]] inline Vector root(Vector v) { return Vector(_mm512_maskz_sqrt_pd(0xff, __m512d(v))); }
-[[gnu::always_inline]] inline Vector multiply_add(Vector a, Vector b, Vector c) {
+WHIPPLE_INLINE inline Vector root(Vector v) { return Vector(_mm512_maskz_sqrt_pd(0xff, __m512d(v))); }
+WHIPPLE_INLINE inline Vector multiply_add(Vector a, Vector b, Vector c) {
   return Vector(_mm512_fmadd_pd(__m512d(a), __m512d(b), __m512d(c)));
 }
 /// Lane 3 of the first register of the points' nodes, in all lanes.
 template <class Nodes>
-[[gnu::always_inline]] inline Vector relaxation(Vector first, const Nodes&) {
+WHIPPLE_INLINE inline Vector relaxation(Vector first, const Nodes&) {
   return lane(first, 3);
 }
 
 /// Both registers of a node.
 using Both = Vector;
 using NodeRegister [[gnu::vector_size(64), gnu::may_alias]] = double;
-[[gnu::always_inline]] inline Both both(Lanes first, Lanes second) { return join(first, second); }
+WHIPPLE_INLINE inline Both both(Lanes first, Lanes second) { return join(first, second); }
 /// sum += a b
 template <bool>
-[[gnu::always_inline]] inline void add_product(Both& sum, Both a, Both b) {
+WHIPPLE_INLINE inline void add_product(Both& sum, Both a, Both b) {
   sum += a * b;
 }
-[[gnu::always_inline]] inline Both load_node(const grid::Node& node) {
+WHIPPLE_INLINE inline Both load_node(const grid::Node& node) {
   return *reinterpret_cast<const NodeRegister*>(&node);
 }
-[[gnu::always_inline]] inline void store_node(grid::Node& node, Both value) {
+WHIPPLE_INLINE inline void store_node(grid::Node& node, Both value) {
   *reinterpret_cast<NodeRegister*>(&node) = value;
 }
 

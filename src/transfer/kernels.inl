@@ -5,18 +5,18 @@
 constexpr std::size_t direct_access_below = 6;
 
 /// What a copy holds of a node: all of it, or only the first register.
-[[gnu::always_inline]] inline void copy_node(const grid::Node& from, grid::Node& to) {
+WHIPPLE_INLINE inline void copy_node(const grid::Node& from, grid::Node& to) {
   store_node(to, load_node(from));
 }
-[[gnu::always_inline]] inline void copy_node(const grid::Node& from, Lanes& to) { to = from.first; }
-[[gnu::always_inline]] inline void add_node(const grid::Node& from, grid::Node& to) {
+WHIPPLE_INLINE inline void copy_node(const grid::Node& from, Lanes& to) { to = from.first; }
+WHIPPLE_INLINE inline void add_node(const grid::Node& from, grid::Node& to) {
   store_node(to, load_node(to) + load_node(from));
 }
-[[gnu::always_inline]] inline void add_node(Lanes from, grid::Node& to) { to.first += from; }
-[[gnu::always_inline]] inline void clear_node(grid::Node& node) { store_node(node, both(Lanes{}, Lanes{})); }
-[[gnu::always_inline]] inline void clear_node(Lanes& first) { first = Lanes{}; }
-[[gnu::always_inline]] inline Lanes& first_register(grid::Node& node) { return node.first; }
-[[gnu::always_inline]] inline Lanes& first_register(Lanes& first) { return first; }
+WHIPPLE_INLINE inline void add_node(Lanes from, grid::Node& to) { to.first += from; }
+WHIPPLE_INLINE inline void clear_node(grid::Node& node) { store_node(node, both(Lanes{}, Lanes{})); }
+WHIPPLE_INLINE inline void clear_node(Lanes& first) { first = Lanes{}; }
+WHIPPLE_INLINE inline Lanes& first_register(grid::Node& node) { return node.first; }
+WHIPPLE_INLINE inline Lanes& first_register(Lanes& first) { return first; }
 
 /// Copy of the nodes that a block reaches; index = position in the reach, z fastest.
 /// @tparam Shape    its stencil gives the reach
@@ -169,8 +169,7 @@ void add_to_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::si
 
 /// sum of weight[i] * value[i]
 template <std::size_t n>
-[[gnu::always_inline]] inline Vector sum(const std::array<Vector, n>& weight,
-                                         const std::array<Vector, n>& value) {
+WHIPPLE_INLINE inline Vector sum(const std::array<Vector, n>& weight, const std::array<Vector, n>& value) {
   Vector sum = weight[0] * value[0];
   for (std::size_t i = 1; i < n; ++i) sum += weight[i] * value[i];
   return sum;
@@ -178,10 +177,9 @@ template <std::size_t n>
 /// The same with weights that add up to 1 (N), and with slopes that add up to 0 (its derivatives, or N r).
 /// Three nodes take differences from the middle one, which both share.
 template <std::size_t n>
-[[gnu::always_inline]] inline void sum_both(const std::array<Vector, n>& weight,
-                                            const std::array<Vector, n>& slopes,
-                                            const std::array<Vector, n>& value, Vector& of_weight,
-                                            Vector& of_slopes) {
+WHIPPLE_INLINE inline void sum_both(const std::array<Vector, n>& weight, const std::array<Vector, n>& slopes,
+                                    const std::array<Vector, n>& value, Vector& of_weight,
+                                    Vector& of_slopes) {
   if constexpr (n == 3) {
     const Vector before = value[0] - value[1], behind = value[2] - value[1];
     of_weight = value[1] + weight[0] * before + weight[2] * behind;
@@ -197,21 +195,21 @@ template <std::size_t n>
 template <std::size_t n>
 struct RowSums {
   std::array<Vector, n> value, slope;
-  [[gnu::always_inline]] void set(std::size_t row, const std::array<Vector, n>& weight,
-                                  const std::array<Vector, n>& slopes, const std::array<Vector, n>& nodes) {
+  WHIPPLE_INLINE void set(std::size_t row, const std::array<Vector, n>& weight,
+                          const std::array<Vector, n>& slopes, const std::array<Vector, n>& nodes) {
     sum_both(weight, slopes, nodes, value[row], slope[row]);
   }
 };
 template <std::size_t n>
 struct PlaneSums {
   std::array<Vector, n> value, slope_y, slope_z;
-  [[gnu::always_inline]] void set(std::size_t plane, const std::array<Vector, n>& weight,
-                                  const std::array<Vector, n>& slopes, const RowSums<n>& rows) {
+  WHIPPLE_INLINE void set(std::size_t plane, const std::array<Vector, n>& weight,
+                          const std::array<Vector, n>& slopes, const RowSums<n>& rows) {
     sum_both(weight, slopes, rows.value, value[plane], slope_y[plane]);
     slope_z[plane] = sum(weight, rows.slope);
   }
-  [[gnu::always_inline]] ValueAndGradient<Vector> total(const std::array<Vector, n>& weight,
-                                                        const std::array<Vector, n>& slopes) const {
+  WHIPPLE_INLINE ValueAndGradient<Vector> total(const std::array<Vector, n>& weight,
+                                                const std::array<Vector, n>& slopes) const {
     ValueAndGradient<Vector> total;
     sum_both(weight, slopes, value, total.value, total.gradient[0]);
     total.gradient[1] = sum(weight, slope_y);
@@ -231,10 +229,10 @@ struct Group {
   std::array<const Weights<Shape::count>*, together> weights;
   std::array<typename Access::Stencil, together> stencil;
 
-  [[nodiscard, gnu::always_inline]] Vector first(std::size_t i, std::size_t j, std::size_t k) const {
+  [[nodiscard]] WHIPPLE_INLINE Vector first(std::size_t i, std::size_t j, std::size_t k) const {
     return of_group([&](std::size_t m) -> Lanes { return first_register(stencil[m](i, j, k)); });
   }
-  [[nodiscard, gnu::always_inline]] Vector second(std::size_t i, std::size_t j, std::size_t k) const {
+  [[nodiscard]] WHIPPLE_INLINE Vector second(std::size_t i, std::size_t j, std::size_t k) const {
     return of_group([&](std::size_t m) -> Lanes { return stencil[m](i, j, k).second; });
   }
 };
@@ -244,7 +242,7 @@ template <std::size_t n>
 struct Direction {
   std::array<Vector, n> weight, derivative, distance, moment;  ///< N, dN/dx, r, N r
   template <class Shape, class Access>
-  [[gnu::always_inline]] Direction(const Group<Shape, Access>& group, std::size_t a) {
+  WHIPPLE_INLINE Direction(const Group<Shape, Access>& group, std::size_t a) {
     const auto& w = group.weights;
     for (std::size_t k = 0; k < n; ++k) {
       weight[k] = spread([&](std::size_t m) -> const Lanes& { return w[m]->weight[k]; }, a);
@@ -257,8 +255,7 @@ struct Direction {
 
 /// D = a_p(x_i) - v_i is the difference of the particle's affine field and the grid's velocity at node i.
 template <bool affine, class Group>
-[[gnu::always_inline]] inline Moments<Vector> moments(const Group& group, Vector v,
-                                                      const std::array<Vector, 3>& c) {
+WHIPPLE_INLINE inline Moments<Vector> moments(const Group& group, Vector v, const std::array<Vector, 3>& c) {
   constexpr std::size_t n = Group::nodes;
   const Direction<n> x(group, 0), y(group, 1), z(group, 2);
   PlaneSums<n> velocity, increment, change;
@@ -306,7 +303,7 @@ template <bool affine, class Group>
 
 /// Sums of one vector per node, value(i, j, k).
 template <class Group, class Value>
-[[gnu::always_inline]] inline ValueAndGradient<Vector> sums_of(const Group& group, Value&& value) {
+WHIPPLE_INLINE inline ValueAndGradient<Vector> sums_of(const Group& group, Value&& value) {
   constexpr std::size_t n = Group::nodes;
   const Direction<n> x(group, 0), y(group, 1), z(group, 2);
   PlaneSums<n> planes;
@@ -326,21 +323,19 @@ template <class Group, class Value>
 }
 
 /// Sum of lanes 0 to 2, in all lanes.
-[[gnu::always_inline]] inline Vector sum_of_three(Vector v) { return lane(v, 0) + lane(v, 1) + lane(v, 2); }
+WHIPPLE_INLINE inline Vector sum_of_three(Vector v) { return lane(v, 0) + lane(v, 1) + lane(v, 2); }
 
 /// a x b in lanes 0 to 2 of every point, 0 in lane 3.
-[[gnu::always_inline]] inline Vector cross(Vector a, Vector b) {
-  return turned(a * turned(b) - turned(a) * b);
-}
+WHIPPLE_INLINE inline Vector cross(Vector a, Vector b) { return turned(a * turned(b) - turned(a) * b); }
 
-[[gnu::always_inline]] inline Vector squared_norm(const std::array<Vector, 3>& columns) {
+WHIPPLE_INLINE inline Vector squared_norm(const std::array<Vector, 3>& columns) {
   return sum_of_three(columns[0] * columns[0] + columns[1] * columns[1] + columns[2] * columns[2]);
 }
 
 /// C_p <- C_p (I + dt L)^-1, never growing (equation 4.8): v_p belongs to the new position, so C_p must be
 /// carried there. @returns the loss of |C|^2
-[[gnu::always_inline]] inline Vector advect_affine_field(std::array<Vector, 3>& c,
-                                                         const std::array<Vector, 3>& gradient, double dt) {
+WHIPPLE_INLINE inline Vector advect_affine_field(std::array<Vector, 3>& c,
+                                                 const std::array<Vector, 3>& gradient, double dt) {
   const Vector f0 = of_group([](std::size_t) { return Lanes{1.0, 0.0, 0.0, 0.0}; }) + dt * gradient[0];
   const Vector f1 = of_group([](std::size_t) { return Lanes{0.0, 1.0, 0.0, 0.0}; }) + dt * gradient[1];
   const Vector f2 = of_group([](std::size_t) { return Lanes{0.0, 0.0, 1.0, 0.0}; }) + dt * gradient[2];
@@ -374,12 +369,11 @@ struct TransferSums {
   double dt;
 
   template <class Points>
-  [[gnu::always_inline]] static Vector velocity(const Points& points, const PointsOfGroup& p) {
+  WHIPPLE_INLINE static Vector velocity(const Points& points, const PointsOfGroup& p) {
     return of_group([&](std::size_t m) { return load_vector(points.velocity[p[m]].data()); });
   }
   template <class Points>
-  [[gnu::always_inline]] static std::array<Vector, 3> affine_field(const Points& points,
-                                                                   const PointsOfGroup& p) {
+  WHIPPLE_INLINE static std::array<Vector, 3> affine_field(const Points& points, const PointsOfGroup& p) {
     std::array<Vector, 3> c{};
     if constexpr (affine) {
       for (std::size_t a = 0; a < 3; ++a) {
@@ -391,12 +385,12 @@ struct TransferSums {
   }
 
   template <class Points, class Group>
-  [[gnu::always_inline]] Moments<Vector> of(const Points& points, const Group& group) const {
+  WHIPPLE_INLINE Moments<Vector> of(const Points& points, const Group& group) const {
     return moments<affine>(group, velocity(points, group.point), affine_field(points, group.point));
   }
   template <class Shape, class Points>
-  [[gnu::always_inline]] Advance<Vector> advance(const Points& points, const PointsOfGroup& p,
-                                                 const Moments<Vector>& sums, double cell_size) const {
+  WHIPPLE_INLINE Advance<Vector> advance(const Points& points, const PointsOfGroup& p,
+                                         const Moments<Vector>& sums, double cell_size) const {
     const Vector change = sums.change.value;
     std::array<Vector, 3> c = affine_field(points, p);
     Vector heat = 0.5 * (sums.loss - change * change);
@@ -426,7 +420,7 @@ struct TransferSums {
 struct UpdateSums {
   using Content = grid::Node;
   template <class Points, class Group>
-  [[gnu::always_inline]] VelocityUpdate<Vector> of(const Points&, const Group& group) const {
+  WHIPPLE_INLINE VelocityUpdate<Vector> of(const Points&, const Group& group) const {
     const auto after = [&](auto... node) { return group.first(node...) + group.second(node...); };
     return {sums_of(group, after), sums_of(group, [&](auto... node) { return group.second(node...); }).value};
   }
@@ -435,23 +429,23 @@ struct UpdateSums {
 struct FirstSums {
   using Content = Lanes;
   template <class Points, class Group>
-  [[gnu::always_inline]] ValueAndGradient<Vector> of(const Points&, const Group& group) const {
+  WHIPPLE_INLINE ValueAndGradient<Vector> of(const Points&, const Group& group) const {
     return sums_of(group, [&](auto... node) { return group.first(node...); });
   }
 };
 
-[[gnu::always_inline]] inline ValueAndGradient<> part(const ValueAndGradient<Vector>& sums, std::size_t i) {
+WHIPPLE_INLINE inline ValueAndGradient<> part(const ValueAndGradient<Vector>& sums, std::size_t i) {
   return {part(sums.value, i),
           {part(sums.gradient[0], i), part(sums.gradient[1], i), part(sums.gradient[2], i)}};
 }
-[[gnu::always_inline]] inline Advance<> part(const Advance<Vector>& sums, std::size_t i) {
+WHIPPLE_INLINE inline Advance<> part(const Advance<Vector>& sums, std::size_t i) {
   return {part(sums.grid_velocity, i),
           part(sums.increment, i),
           part(sums.velocity, i),
           {part(sums.affine[0], i), part(sums.affine[1], i), part(sums.affine[2], i)},
           part(sums.heat, i)};
 }
-[[gnu::always_inline]] inline VelocityUpdate<> part(const VelocityUpdate<Vector>& sums, std::size_t i) {
+WHIPPLE_INLINE inline VelocityUpdate<> part(const VelocityUpdate<Vector>& sums, std::size_t i) {
   return {part(sums.after, i), part(sums.increment, i)};
 }
 
@@ -460,8 +454,8 @@ constexpr std::size_t ahead = 8;
 /// Calls f(points of a block, their weights) for a few points at a time: weights are a long chain of
 /// dependent instructions, and too far from those of the next point for the processor to see.
 template <class Shape, class Points, class Function>
-[[gnu::always_inline]] inline void for_some(const Points& points, std::span<const std::uint32_t> members,
-                                            const BlockFrame& frame, Function&& f) {
+WHIPPLE_INLINE inline void for_some(const Points& points, std::span<const std::uint32_t> members,
+                                    const BlockFrame& frame, Function&& f) {
   std::array<Weights<Shape::count>, ahead> weights;
   for (std::size_t first = 0; first < members.size(); first += ahead) {
     const std::span<const std::uint32_t> some =
@@ -474,8 +468,8 @@ template <class Shape, class Points, class Function>
 /// Adds what a point brings to its nodes (equation 4.1 and the forces): node += N P_0 + sum over directions
 /// of S_a P_a, with S_a = N r_a in the first register and dN/dx_a in the second.
 template <class Shape, class Stencil>
-[[gnu::always_inline]] inline void add_payload(const Payload& load, const Weights<Shape::count>& w,
-                                               const Stencil& nodes) {
+WHIPPLE_INLINE inline void add_payload(const Payload& load, const Weights<Shape::count>& w,
+                                       const Stencil& nodes) {
   constexpr std::size_t n = Shape::count;
   constexpr bool affine = CarriesAffineField<Shape>;
   const auto weight = [&](std::size_t i, std::size_t a) {
@@ -516,8 +510,7 @@ template <class Shape, class Stencil>
 }
 /// The same of mass and momentum alone.
 template <class Shape, class Stencil>
-[[gnu::always_inline]] inline void add_payload(Lanes load, const Weights<Shape::count>& w,
-                                               const Stencil& nodes) {
+WHIPPLE_INLINE inline void add_payload(Lanes load, const Weights<Shape::count>& w, const Stencil& nodes) {
   constexpr std::size_t n = Shape::count;
   const std::array<Lanes, n> weight = of_direction(w.weight, 2);
 #pragma GCC unroll 4
@@ -542,15 +535,15 @@ struct Kernels {
   /// Calls take(point, what it gets) for the points of a slot.
   /// @param sums  Transfer, Update or First
   template <class Shape, class Sums, class Points, class Take>
-  [[gnu::flatten, gnu::noinline]] static void gather(const Points& points, grid::BlockGrid& grid,
-                                                     grid::BlockGrid::Points kind, std::size_t slot,
-                                                     const Sums& sums, const Take& take) {
+  WHIPPLE_WHOLE_KERNEL static void gather(const Points& points, grid::BlockGrid& grid,
+                                          grid::BlockGrid::Points kind, std::size_t slot, const Sums& sums,
+                                          const Take& take) {
     const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
     read_nodes<Shape, typename Sums::Content>(grid, kind, slot, [&](const auto& members, auto& access) {
       for_some<Shape>(points, members, frame, [&](const auto& some, const auto& weights) {
         using Group = Group<Shape, std::remove_reference_t<decltype(access)>>;
         const std::size_t groups = (some.size() + together - 1) / together;
-        const auto group = [&](std::size_t g) __attribute__((always_inline)) {
+        const auto group_at = [&](std::size_t g) WHIPPLE_INLINE {
           Group group;
           for (std::size_t i = 0; i < together; ++i) {
             const std::size_t at = std::min(g * together + i, some.size() - 1);
@@ -560,7 +553,7 @@ struct Kernels {
           }
           return group;
         };
-        const auto give = [&](std::size_t g, const auto& result) __attribute__((always_inline)) {
+        const auto give = [&](std::size_t g, const auto& result) WHIPPLE_INLINE {
           for (std::size_t i = 0, m = g * together; i < together && m < some.size(); ++i, ++m) {
             take(some[m], part(result, i));
           }
@@ -571,16 +564,16 @@ struct Kernels {
           std::array<typename Sums::Sum, ahead / together> sum;
           std::array<typename Sums::Result, ahead / together> result;
           for (std::size_t g = 0; g < groups; ++g) {
-            const Group of_group = group(g);
-            point[g] = of_group.point;
-            sum[g] = sums.of(points, of_group);
+            const Group group = group_at(g);
+            point[g] = group.point;
+            sum[g] = sums.of(points, group);
           }
           for (std::size_t g = 0; g < groups; ++g) {
             result[g] = sums.template advance<Shape>(points, point[g], sum[g], frame.cell_size);
           }
           for (std::size_t g = 0; g < groups; ++g) give(g, result[g]);
         } else {
-          for (std::size_t g = 0; g < groups; ++g) give(g, sums.of(points, group(g)));
+          for (std::size_t g = 0; g < groups; ++g) give(g, sums.of(points, group_at(g)));
         }
       });
     });
@@ -588,8 +581,7 @@ struct Kernels {
 
   /// Adds what the points of a slot bring to the nodes.
   template <class Shape, class What>
-  [[gnu::flatten, gnu::noinline]] static void scatter(const What& what, grid::BlockGrid& grid,
-                                                      std::size_t slot) {
+  WHIPPLE_WHOLE_KERNEL static void scatter(const What& what, grid::BlockGrid& grid, std::size_t slot) {
     const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
     add_to_nodes<Shape, typename What::Content>(
         grid, What::kind, slot, [&](const auto& members, auto& access) {
