@@ -3,6 +3,7 @@
 // identity of work and heat, independence of how blocks are stored.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
