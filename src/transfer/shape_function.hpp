@@ -217,15 +217,14 @@ inline Vector3 half_sizes(const SymmetricTensor& extent, double cell_size) {
 struct BlockFrame {
   Lanes lower;   ///< of the grid, m
   Lanes corner;  ///< of the block, in cells
-  double cell_size, per_cell_size;
+  double cell_size;
 
   BlockFrame(const grid::Geometry& geometry, const grid::BlockCoordinate& block)
       : lower(load_vector(geometry.lower.data())),
         corner{static_cast<double>(grid::block_edge * block[0]),
                static_cast<double>(grid::block_edge * block[1]),
                static_cast<double>(grid::block_edge * block[2]), 0.0},
-        cell_size(geometry.cell_size),
-        per_cell_size(1.0 / geometry.cell_size) {}
+        cell_size(geometry.cell_size) {}
 
   /// Position in cells from the lower corner of the block (lane = direction), below its upper one. Rounds as
   /// Geometry::in_cells does.
