@@ -239,7 +239,7 @@ ConversionBalance convert_elements(fem::Mesh& mesh, std::span<const std::uint8_t
   const std::size_t before = particles.size();
   resize(particles, before + corner_count * list.size());
   for_each_field<MaterialPoints>([&](const auto& field) {  // optional ones that no particle needed so far
-    if (!(mesh.points.*(field.values)).empty()) (particles.*(field.values)).resize(particles.size());
+    if (!(mesh.points.*(field.values)).empty()) field.resize(particles, particles.size());
   });
   particles.affine_velocity.resize(particles.size());
   particles.extent.resize(particles.size());

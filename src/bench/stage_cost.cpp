@@ -26,7 +26,6 @@ using P = Particles;
 
 constexpr double place = bytes_of(&P::position) + sizeof(std::uint32_t);  // and its entry in the block's list
 constexpr double stress = bytes_of(&M::deviatoric_stress, &M::pressure, &M::artificial_viscosity, &M::volume);
-constexpr double gradient = sizeof(Matrix3);
 constexpr double node = sizeof(grid::Node);
 
 /// Read and written by the constitutive update.
@@ -60,24 +59,24 @@ StageCost stage_cost(std::string_view stage, const setup::Case& setup, double no
     return {place + velocity + c + stress + bytes_of(&M::mass, &M::sound_speed) + 2.0 * nodes,
             sums(n, 4.0, 9.0)};
   }
-  if (stage == "grid") return {2.0 * nodes + 2.0 * velocity, 40.0 * nodes_per_particle};
+  if (stage == "grid") return {2.0 * nodes, 40.0 * nodes_per_particle};
   if (stage == "grid to particles" && exact_energy) {
     // v, dv/dz, d, dd/dz, b, heat; with C: moments of d and b, and C r in the particle's field
     return {place + 3.0 * velocity + 2.0 * c + stress + bytes_of(&M::mass, &M::specific_internal_energy) +
-                bytes_of(&M::specific_internal_energy) + gradient + nodes,
+                bytes_of(&M::specific_internal_energy) + nodes,
             sums(n, affine ? 11.0 : 8.0, affine ? 16.0 : 10.0)};
   }
   if (stage == "grid to particles") return {place + 3.0 * velocity + nodes, sums(n, 2.0, 2.0)};
   if (stage == "momentum to grid") {
     return {place + velocity + bytes_of(&M::mass) + nodes, sums(n, 1.0, 1.0)};
   }
-  if (stage == "velocity gradient") return {place + gradient + nodes, sums(n, 2.0, 3.0)};
-  if (stage == "material") return {gradient + bytes_of(&M::mass) + 2.0 * material_state, 0.0};
+  if (stage == "velocity gradient") return {place + nodes, sums(n, 2.0, 3.0)};
+  if (stage == "material") return {bytes_of(&M::mass) + 2.0 * material_state, 0.0};
   if (stage == "bin particles") return {bytes_of(&P::position) + 2.0 * sizeof(std::uint32_t), 0.0};
   if (stage == "move") return {3.0 * velocity, 6.0};
   if (stage == "time step") return {velocity + bytes_of(&M::sound_speed), 4.0};
   if (stage == "ledger") {
-    return {2.0 * velocity + bytes_of(&P::affine_velocity) + bytes_of(&M::mass, &M::specific_internal_energy),
+    return {velocity + bytes_of(&P::affine_velocity) + bytes_of(&M::mass, &M::specific_internal_energy),
             50.0};
   }
   return {};

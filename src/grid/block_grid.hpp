@@ -173,6 +173,9 @@ class BlockGrid {
   }
   /// Indices of the guests in a block, ascending.
   [[nodiscard]] std::span<const std::uint32_t> guests_in(std::size_t slot) const { return guests_.in(slot); }
+  /// Place of the first particle of a slot in `particles_by_block`; of the slot behind the last: how many
+  /// there are.
+  [[nodiscard]] std::size_t place_of(std::size_t slot) const { return particles_.begin[slot]; }
   /// All particles, block by block: an order that keeps neighbours in memory near one another.
   [[nodiscard]] std::span<const std::uint32_t> particles_by_block() const { return particles_.points; }
   /// Slots with particles or guests whose reaches do not overlap, for each of the eight colours.

@@ -65,9 +65,12 @@ const auto table = std::to_array<OutputField>({
      [](const Source& s, std::size_t i) { return s.particles.melting_time[i]; }},
     {"void_fraction", "1", "volume of voids and open cracks over the whole", false, void_fraction},
     {"distension", "1", "volume over that of the matter without its pores", false,
-     [](const Source& s, std::size_t i) { return s.particles.distension[i]; }},
+     [](const Source& s, std::size_t i) { return s.particles.distension.empty() ? 1.0 : s.particles.distension[i]; }},
     {"failure_threshold_factor", "1", "scatter of the failure threshold", false,
-     [](const Source& s, std::size_t i) { return s.particles.failure_threshold_factor[i]; }},
+     [](const Source& s, std::size_t i) {
+       const auto& factor = s.particles.failure_threshold_factor;
+       return factor.empty() ? 1.0 : factor[i];
+     }},
     {"stress", "Pa", "Cauchy stress xx yy zz xy yz zx, positive in tension, without artificial viscosity", false,
      stress},
     {"von_mises_stress", "Pa", "sqrt(3/2 s:s) of the deviatoric stress s", false,

@@ -37,7 +37,7 @@ void relax_brittle(Step& step, Chunk& chunk) {
   Lanes pressure, rate, lode, compaction, crush, factor, equivalent, gained, before;
   fill_gaps(chunk, pressure);
   equivalent_rate(step, chunk, rate);
-  chunk.fetch(step.points.failure_threshold_factor, factor);
+  chunk.fetch_threshold_factor(step.points, factor);
   std::fill_n(compaction.data(), chunk.size, 0.0);
   std::fill_n(crush.data(), chunk.size, std::numeric_limits<double>::infinity());
   if (grains > 1.0) {

@@ -5,9 +5,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
+#include "src/base/vector_math.hpp"
 #include "src/material/kinematics.hpp"
 #include "src/material/update.hpp"
 
@@ -21,12 +24,18 @@ constexpr double least_sound_speed_ratio = 0.1;  ///< of the bulk sound speed of
 struct Chunk {
   std::size_t size = 0;
   std::array<std::size_t, chunk_size> index;
-  bool contiguous = false;  // index[k] = index[0] + k
+  /// Points that follow one another in memory: index[k + 1] = index[k] + 1 for k in [begin, end - 1).
+  struct Run {
+    std::size_t begin, end;
+  };
+  std::array<Run, chunk_size> runs;
+  std::size_t run_count = 0;
   // Of the points, as they were before the step until they are replaced:
   Lanes mass, volume, void_volume, specific_internal_energy, artificial_viscosity, sound_speed;
   Lanes density, pressure, temperature, plastic_strain, melted, damage;
   std::array<std::uint8_t, chunk_size> failed;
-  bool any_failed = false, any_void = false, any_damage = false;
+  Lanes intact;                                                   // 1, or 0 of what has failed
+  bool any_failed = false, any_void = false, any_melted = false;  // any_melted: before the step
   // And what is derived:
   Lanes solid_fraction;
   Lanes old_volume;                    // m^3 of matter
@@ -52,23 +61,82 @@ struct Chunk {
   /// One field of the points into the chunk, and back.
   template <class Value, class To>
   void fetch(const std::vector<Value>& from, To& to) const {
-    if (contiguous) {
-      std::copy_n(from.data() + index[0], size, to.data());
-    } else {
-      for (std::size_t k = 0; k < size; ++k) to[k] = from[index[k]];
+    for (const Run& run : std::span(runs).first(run_count)) {
+      copy(from.data() + index[run.begin], to.data() + run.begin, run.end - run.begin);
     }
   }
   template <class Value, class From>
   void deposit(const From& from, std::vector<Value>& to) const {
-    if (contiguous) {
-      std::copy_n(from.data(), size, to.data() + index[0]);
-    } else {
-      for (std::size_t k = 0; k < size; ++k) to[index[k]] = from[k];
+    for (const Run& run : std::span(runs).first(run_count)) {
+      copy(from.data() + run.begin, to.data() + index[run.begin], run.end - run.begin);
+    }
+  }
+  /// Several fields, run by run: the lengths of runs are hard to foresee for the processor.
+  struct Fetched {
+    const std::vector<double>& from;
+    Lanes& to;
+  };
+  void fetch(std::initializer_list<Fetched> fields) const {
+    for (const Run& run : std::span(runs).first(run_count)) {
+      for (const Fetched& field : fields) {
+        copy(field.from.data() + index[run.begin], field.to.data() + run.begin, run.end - run.begin);
+      }
+    }
+  }
+  struct Deposited {
+    const Lanes& from;
+    std::vector<double>& to;
+  };
+  void deposit(std::initializer_list<Deposited> fields) const {
+    for (const Run& run : std::span(runs).first(run_count)) {
+      for (const Deposited& field : fields) {
+        copy(field.from.data() + run.begin, field.to.data() + index[run.begin], run.end - run.begin);
+      }
     }
   }
   void fetch(const std::vector<SymmetricTensor>& from, SymmetricLanes& to) const;
   void deposit(const SymmetricLanes& from, std::vector<SymmetricTensor>& to) const;
+
+  /// The scatter of the failure threshold: 1 where no point has any.
+  void fetch_threshold_factor(const MaterialPoints& points, Lanes& factor) const {
+    if (points.failure_threshold_factor.empty()) {
+      std::fill_n(factor.data(), size, 1.0);
+    } else {
+      fetch(points.failure_threshold_factor, factor);
+    }
+  }
+
+  void find_runs();
+  /// What follows from the codes in `failed`.
+  void find_failed();
+
+ private:
+  /// Runs are short, a call of `memcpy` would take longer than the copy.
+  template <class Value>
+  static void copy(const Value* from, Value* to, std::size_t n) {
+    constexpr std::size_t step = 32 / sizeof(Value);
+    if (n < step) {
+      for (std::size_t k = 0; k < n; ++k) to[k] = from[k];
+      return;
+    }
+    const auto some = [&](std::size_t k) {
+      if constexpr (std::is_same_v<Value, double>) {
+        store(to + k, load(from + k));
+      } else {
+        std::memcpy(to + k, from + k, 32);
+      }
+    };
+    for (std::size_t k = 0; k + step < n; k += step) some(k);
+    some(n - step);
+  }
 };
+
+/// Is any of the first `size` values more than `limit`? Whole vectors at a time, unlike the largest of them.
+inline bool any_above(const Lanes& values, std::size_t size, double limit) {
+  std::uint64_t above = 0;
+  for (std::size_t k = 0; k < size; ++k) above |= values[k] > limit ? 1U : 0U;
+  return above != 0;
+}
 
 struct Step {
   const Material& material;
@@ -93,8 +161,7 @@ inline void scale(SymmetricLanes& lanes, std::size_t k, double factor) {
 /// Share of the stiffness that a point still has: that of the solid, less its damage if that softens; 0
 /// failed.
 inline double solid_fraction(const Step& step, const Chunk& chunk, std::size_t k) {
-  if (chunk.failed[k] != failure::intact) return 0.0;
-  return shear_bearing_fraction(chunk.melted[k], chunk.vaporised[k]) *
+  return chunk.intact[k] * shear_bearing_fraction(chunk.melted[k], chunk.vaporised[k]) *
          (step.material.softens ? 1.0 - chunk.damage[k] : 1.0);
 }
 
@@ -102,9 +169,9 @@ inline double solid_fraction(const Step& step, const Chunk& chunk, std::size_t k
 /// failed and of brittle matter, its damage where cracks open in softening matter, and that of the porosity
 /// in porous matter.
 inline double void_share(const Step& step, const Chunk& chunk, std::size_t k) {
-  if (chunk.failed[k] != failure::intact || step.material.brittle) return 1.0;
-  if (step.material.softens) return chunk.damage[k];
-  return chunk.void_volume[k] / (chunk.volume[k] + chunk.void_volume[k]);
+  const double porosity = chunk.void_volume[k] / (chunk.volume[k] + chunk.void_volume[k]);
+  const double share = step.material.softens ? chunk.damage[k] : porosity;
+  return chunk.intact[k] == 0.0 || step.material.brittle ? 1.0 : share;
 }
 
 /// Voids grow, criteria are asked: between the equation of state and `finish`.

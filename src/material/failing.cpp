@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/vector_math.hpp"
 #include "src/material/chunk.hpp"
 
 namespace whipple::material {
@@ -39,28 +40,30 @@ void grow_voids(Step& step, Chunk& chunk, std::span<const double> bulk_modulus,
   chunk.any_void = true;
 }
 
-/// Pressure of a point with cracks or voids and the division of its volume into matter and void: the share
-/// `opening` of what exceeds the volume of zero pressure, or of the pressure `least` where it is all of it,
-/// is void (eq. 12, 13, 18).
+using Four = whipple::Lanes;  // points at a time
+
+/// Points with cracks or voids.
+struct Porous {
+  Four pressure;  ///< Pa, that acts
+  Four volume;    ///< m^3 of matter
+  Four void_volume;
+};
+
+/// Pressure and division of the volume into matter and void: the share `opening` of what exceeds the volume
+/// of zero pressure, or of the pressure `least` where it is all of it, is void (eq. 12, 13, 18). Tension
+/// opens the void, pressure lets the matter grow into it.
 /// @param modulus  rho c^2 (Pa), bounded from below
-/// @returns the pressure that acts
-double share_volume(double pressure, double modulus, double opening, double least, double& volume,
-                    double& void_volume) {
-  const double total = volume + void_volume;
-  const double relaxed =
-      volume + std::clamp((pressure - least) / modulus, -greatest_void_step, greatest_void_step) * volume;
-  const double excess = total - relaxed;
-  if (excess > 0.0) {  // tension opens the void, pressure lets the matter grow into it
-    const double matter = opening == 1.0 ? relaxed : total - opening * excess;
-    const double acting = pressure + modulus * (volume - matter) / volume;
-    volume = matter;
-    void_volume = total - matter;
-    return opening == 1.0 ? least : std::min(acting, 0.0);
-  }
-  const double acting = pressure - modulus * void_volume / volume;
-  volume = total;
-  void_volume = 0.0;
-  return std::max(acting, least);
+Porous share_volume(const Porous& points, Four modulus, Four opening, Four least) {
+  const Four pressure = points.pressure, volume = points.volume, total = volume + points.void_volume;
+  const Four limit = broadcast(greatest_void_step);
+  const Four strain = minimum(maximum((pressure - least) / modulus, -limit), limit);
+  const Four relaxed = volume + strain * volume, excess = total - relaxed;
+  const LanesMask whole = opening == 1.0, open = excess > 0.0;
+  const Four matter = select(whole, relaxed, total - opening * excess);
+  const Four cracked = minimum(pressure + modulus * (volume - matter) / volume, Four{});
+  const Four closed = maximum(pressure - modulus * points.void_volume / volume, least);
+  return {select(open, select(whole, least, cracked), closed), select(open, matter, total),
+          select(open, total - matter, Four{})};
 }
 
 }  // namespace
@@ -70,7 +73,7 @@ void apply_failure(Step& step, Chunk& chunk) {
   if (step.material.brittle) relax_brittle(step, chunk);
   if (step.material.failure.empty()) return;
   Lanes factor, volume, bulk_modulus;
-  chunk.fetch(step.points.failure_threshold_factor, factor);
+  chunk.fetch_threshold_factor(step.points, factor);
   for (std::size_t k = 0; k < chunk.size; ++k) {
     volume[k] = chunk.volume[k] + chunk.void_volume[k];
     bulk_modulus[k] = chunk.density[k] * chunk.bulk_sound_speed[k] * chunk.bulk_sound_speed[k];
@@ -98,7 +101,7 @@ void apply_failure(Step& step, Chunk& chunk) {
   }
   chunk.deposit(chunk.damage, step.points.damage);
   if (std::equal(chunk.failed.begin(), chunk.failed.begin() + chunk.size, failed_before.begin())) return;
-  chunk.any_failed = true;
+  chunk.find_failed();
   for (std::size_t k = 0; k < chunk.size; ++k) {
     if (chunk.failed[k] != failed_before[k]) ++step.report.failed[chunk.failed[k]];
   }
@@ -107,35 +110,44 @@ void apply_failure(Step& step, Chunk& chunk) {
 
 namespace {
 
-/// What a point loses that has failed or melts, or cracks or gaps open in (see `finish`).
-/// @param squared  of its sound speed
-/// @returns the share of the deviator that it keeps
-double lose_strength(const Step& step, Chunk& chunk, std::size_t k, double bulk, double least_sound_speed,
-                     double& squared) {
-  const bool viscous = step.material.strength->viscosity() > 0.0;
-  const double modulus = chunk.density[k] * bulk;
-  double& pressure = chunk.acting_pressure[k];
-  if (chunk.failed[k] == failure::intact) {
-    const double solid = solid_fraction(step, chunk, k);
-    squared = bulk + 4.0 / 3.0 * solid * chunk.solid_modulus[k] / chunk.density[k];
-    if (step.material.softens && chunk.damage[k] > 0.0) {
-      pressure = share_volume(pressure, modulus, chunk.damage[k], 0.0, chunk.volume[k], chunk.void_volume[k]);
-    }
-    if (step.material.brittle) {
-      pressure = share_volume(pressure, modulus, 1.0, chunk.least_pressure[k], chunk.volume[k],
-                              chunk.void_volume[k]);
-      if (chunk.void_volume[k] > 0.0) {
-        squared = least_sound_speed * least_sound_speed;
-        chunk.artificial_viscosity[k] = 0.0;
-      }
-    }
-    return !viscous && solid < chunk.solid_fraction[k] ? solid / chunk.solid_fraction[k] : 1.0;
+/// What points lose that have failed or melt, or cracks or gaps open in; `kept` is the share of the deviator
+/// that they keep.
+/// @param squared  of the sound speed
+void lose_strength(const Step& step, Chunk& chunk, const Lanes& bulk, double least_sound_speed,
+                   Lanes& squared, Lanes& kept) {
+  const bool viscous = step.material.strength->viscosity() > 0.0, softens = step.material.softens,
+             brittle = step.material.brittle;
+  const double least_squared = least_sound_speed * least_sound_speed;
+  const LanesMask all = Four{} == Four{}, none = ~all;
+  for (std::size_t k = 0; k < chunk.size; k += 4) {
+    const auto of = [k](const Lanes& lanes) { return load(&lanes[k]); };
+    const LanesMask failed = of(chunk.intact) == 0.0, loose = brittle ? all : failed;
+    const Four damage = softens ? of(chunk.damage) : Four{};
+    const Four melted = of(chunk.melted), density = of(chunk.density), softest = broadcast(least_squared);
+    const Four bearing = select(of(chunk.vaporised) > 0.0, Four{}, 1.0 - melted) * (1.0 - damage);
+    const Four solid = select(failed, Four{}, bearing), solid_before = of(chunk.solid_fraction);
+
+    const Four opening = select(loose, broadcast(1.0), damage);
+    const Four least = brittle ? select(failed, Four{}, of(chunk.least_pressure)) : Four{};
+    const Porous before = {of(chunk.acting_pressure), of(chunk.volume), of(chunk.void_volume)};
+    const Porous shared = share_volume(before, density * of(bulk), opening, least);
+    const LanesMask parts = opening > 0.0;
+    const Four pressure = select(parts, shared.pressure, before.pressure);
+    const Four void_volume = select(parts, shared.void_volume, before.void_volume);
+    store(&chunk.acting_pressure[k], pressure);
+    store(&chunk.volume[k], select(parts, shared.volume, before.volume));
+    store(&chunk.void_volume[k], void_volume);
+
+    const LanesMask gaping = loose & (void_volume > 0.0);  // opened in this step, or before
+    store(&chunk.artificial_viscosity[k], select(gaping, Four{}, of(chunk.artificial_viscosity)));
+    const Four of_solid = of(bulk) + 4.0 / 3.0 * solid * of(chunk.solid_modulus) / density;
+    const LanesMask slack = (failed & (pressure <= 0.0)) | (~failed & gaping);
+    store(&squared[k], select(slack, softest, select(failed, of(bulk), of_solid)));
+    const LanesMask melts = viscous ? none : solid < solid_before;
+    const Four of_intact = select(melts, solid / solid_before, broadcast(1.0));
+    const Four of_failed = viscous ? select(gaping, Four{}, broadcast(1.0)) : Four{};
+    store(&kept[k], select(failed, of_failed, of_intact));
   }
-  pressure = share_volume(pressure, modulus, 1.0, 0.0, chunk.volume[k], chunk.void_volume[k]);
-  squared = pressure <= 0.0 ? least_sound_speed * least_sound_speed : bulk;
-  const bool open = chunk.void_volume[k] > 0.0;
-  if (open) chunk.artificial_viscosity[k] = 0.0;  // opened in this step
-  return viscous && !open ? 1.0 : 0.0;
 }
 
 /// What melts gives back as heat what its dislocations held.
@@ -148,6 +160,16 @@ void release_cold_work(Step& step, Chunk& chunk) {
   chunk.deposit(chunk.stored_cold_work, step.points.stored_cold_work);
 }
 
+/// maximum = max(maximum, value) of the first `size`. @returns whether any of them rose
+bool raise(Lanes& maximum, const Lanes& value, std::size_t size) {
+  std::uint64_t rose = 0;
+  for (std::size_t k = 0; k < size; ++k) {
+    rose |= value[k] > maximum[k] ? 1U : 0U;
+    maximum[k] = value[k] > maximum[k] ? value[k] : maximum[k];
+  }
+  return rose != 0;
+}
+
 }  // namespace
 
 void finish(Step& step, Chunk& chunk) {
@@ -156,47 +178,50 @@ void finish(Step& step, Chunk& chunk) {
   const bool has_pores = step.material.porous;
   const bool kinematic = step.material.strength->kinematic_modulus() > 0.0;
   Lanes bulk, squared, maximum_pressure, maximum_temperature;
-  double melted = 0.0;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     bulk[k] = std::max(chunk.bulk_sound_speed[k] * chunk.bulk_sound_speed[k],
                        least_sound_speed * least_sound_speed);
     squared[k] = bulk[k] + 4.0 / 3.0 * chunk.solid_modulus[k] / chunk.density[k];
-    melted = std::max(melted, chunk.melted[k]);
   }
   // What melts or cracks takes its share of the stress with it; what freezes is free of stress.
-  if (melted > 0.0 || chunk.any_failed || step.material.softens || step.material.brittle) {
-    for (std::size_t k = 0; k < chunk.size; ++k) {
-      const double carried = lose_strength(step, chunk, k, bulk[k], least_sound_speed, squared[k]);
-      if (carried == 1.0) continue;
-      scale(chunk.motion.deviator, k, carried);
-      if (kinematic) scale(chunk.back_stress, k, carried);
-    }
+  const bool any_melted = any_above(chunk.melted, chunk.size, 0.0);
+  if (any_melted || chunk.any_failed || step.material.softens || step.material.brittle) {
+    Lanes kept;
+    lose_strength(step, chunk, bulk, least_sound_speed, squared, kept);
+    const auto scale_all = [&](SymmetricLanes& lanes) {
+      for (Lanes& lane : lanes) {
+        for (std::size_t k = 0; k < chunk.size; ++k) lane[k] *= kept[k];
+      }
+    };
+    scale_all(chunk.motion.deviator);
+    if (kinematic) scale_all(chunk.back_stress);
     chunk.any_void = true;
   }
   if (step.material.stores_cold_work()) release_cold_work(step, chunk);
   for (std::size_t k = 0; k < chunk.size; ++k) chunk.sound_speed[k] = std::sqrt(squared[k]);
-  chunk.fetch(points.maximum_pressure, maximum_pressure);
-  chunk.fetch(points.maximum_temperature, maximum_temperature);
-  for (std::size_t k = 0; k < chunk.size; ++k) {
-    maximum_pressure[k] = std::max(maximum_pressure[k], chunk.acting_pressure[k]);
-    maximum_temperature[k] = std::max(maximum_temperature[k], chunk.temperature[k]);
+  chunk.fetch(
+      {{points.maximum_pressure, maximum_pressure}, {points.maximum_temperature, maximum_temperature}});
+  const bool new_maximum = raise(maximum_pressure, chunk.acting_pressure, chunk.size) |
+                           raise(maximum_temperature, chunk.temperature, chunk.size);
+  chunk.deposit({{chunk.volume, points.volume},
+                 {chunk.artificial_viscosity, points.artificial_viscosity},
+                 {chunk.acting_pressure, points.pressure},
+                 {chunk.plastic_strain, points.plastic_strain},
+                 {chunk.temperature, points.temperature},
+                 {chunk.sound_speed, points.sound_speed}});
+  if (any_melted || chunk.any_melted) {
+    chunk.deposit({{chunk.melted, points.melted_fraction}, {chunk.vaporised, points.vaporised_fraction}});
   }
-  chunk.deposit(chunk.volume, points.volume);
+  if (new_maximum) {
+    chunk.deposit(
+        {{maximum_pressure, points.maximum_pressure}, {maximum_temperature, points.maximum_temperature}});
+  }
   if (chunk.any_void) chunk.deposit(chunk.void_volume, points.void_volume);
-  chunk.deposit(chunk.artificial_viscosity, points.artificial_viscosity);
-  chunk.deposit(chunk.acting_pressure, points.pressure);
   chunk.deposit(chunk.motion.deviator, points.deviatoric_stress);
   if (kinematic) chunk.deposit(chunk.back_stress, points.back_stress);
   if (step.material.needs_strain) chunk.deposit(chunk.strain, points.strain);
-  chunk.deposit(chunk.plastic_strain, points.plastic_strain);
-  chunk.deposit(chunk.temperature, points.temperature);
-  chunk.deposit(chunk.melted, points.melted_fraction);
-  chunk.deposit(chunk.vaporised, points.vaporised_fraction);
   if (has_pores) chunk.deposit(chunk.distension, points.distension);
-  chunk.deposit(chunk.sound_speed, points.sound_speed);
-  chunk.deposit(maximum_pressure, points.maximum_pressure);
-  chunk.deposit(maximum_temperature, points.maximum_temperature);
-  if (melted < melted_share) return;
+  if (!any_melted) return;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     double& time = points.melting_time[chunk.index[k]];
     if (chunk.melted[k] >= melted_share && time == never) time = step.settings.time;

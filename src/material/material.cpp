@@ -160,6 +160,7 @@ void use_fields(const Material& material, MaterialPoints& points) {
   if (material.strength->kinematic_modulus() > 0.0) points.back_stress.resize(n);
   if (material.needs_strain) points.strain.resize(n);
   if (material.stores_cold_work()) points.stored_cold_work.resize(n);
+  if (material.porous) points.distension.resize(n, 1.0);
 }
 
 void initialise(const Material& material, MaterialPoints& points, std::size_t begin, std::size_t end) {
@@ -189,13 +190,13 @@ void initialise(const Material& material, MaterialPoints& points, std::size_t be
     points.plastic_strain[i] = 0.0;
     points.melted_fraction[i] = state.melted_fraction;
     points.vaporised_fraction[i] = state.vaporised_fraction;
-    points.distension[i] = state.distension;
-    points.failure_threshold_factor[i] = 1.0;
     points.damage[i] = 0.0;
     points.failed[i] = failure::intact;
     points.maximum_pressure[i] = state.pressure;
     points.maximum_temperature[i] = points.temperature[i];
     points.melting_time[i] = state.melted_fraction >= melted_share ? 0.0 : never;
+    if (!points.distension.empty()) points.distension[i] = state.distension;
+    if (!points.failure_threshold_factor.empty()) points.failure_threshold_factor[i] = 1.0;
     if (!points.back_stress.empty()) points.back_stress[i] = {};
     if (!points.strain.empty()) points.strain[i] = {};
     if (!points.stored_cold_work.empty()) points.stored_cold_work[i] = 0.0;

@@ -43,18 +43,20 @@ void gather_gradient(const Step& step, Chunk& chunk) {
   }
 }
 
-void gather(Step& step, Chunk& chunk) {
+enum class Energy { from_grid, integrated };
+
+void gather(Step& step, Chunk& chunk, Energy energy) {
   const MaterialPoints& points = step.points;
-  chunk.fetch(points.mass, chunk.mass);
-  chunk.fetch(points.volume, chunk.volume);
-  chunk.fetch(points.void_volume, chunk.void_volume);
-  chunk.fetch(points.specific_internal_energy, chunk.specific_internal_energy);
-  chunk.fetch(points.pressure, chunk.pressure);
-  chunk.fetch(points.temperature, chunk.temperature);
-  chunk.fetch(points.plastic_strain, chunk.plastic_strain);
-  chunk.fetch(points.sound_speed, chunk.sound_speed);
-  chunk.fetch(points.melted_fraction, chunk.melted);
-  chunk.fetch(points.vaporised_fraction, chunk.vaporised);
+  chunk.fetch({{points.mass, chunk.mass},
+               {points.volume, chunk.volume},
+               {points.void_volume, chunk.void_volume},
+               {points.specific_internal_energy, chunk.specific_internal_energy},
+               {points.pressure, chunk.pressure},
+               {points.temperature, chunk.temperature},
+               {points.plastic_strain, chunk.plastic_strain},
+               {points.sound_speed, chunk.sound_speed},
+               {points.melted_fraction, chunk.melted},
+               {points.vaporised_fraction, chunk.vaporised}});
   chunk.fetch(points.failed, chunk.failed);
   if (step.material.stores_cold_work()) chunk.fetch(points.stored_cold_work, chunk.stored_cold_work);
   if (step.material.failure.empty() && !step.material.brittle) {
@@ -62,23 +64,21 @@ void gather(Step& step, Chunk& chunk) {
   } else {
     chunk.fetch(points.damage, chunk.damage);
   }
-  std::uint8_t failed = 0;
-  double void_volume = 0.0;
+  chunk.find_failed();
+  chunk.any_void = material::any_above(chunk.void_volume, chunk.size, 0.0);
+  chunk.any_melted = material::any_above(chunk.melted, chunk.size, 0.0);
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    failed |= chunk.failed[k];
-    void_volume = std::max(void_volume, chunk.void_volume[k]);
     chunk.old_volume[k] = chunk.volume[k];
     chunk.density[k] = chunk.mass[k] / chunk.volume[k];
     chunk.solid_fraction[k] = shear_bearing_fraction(chunk.melted[k], chunk.vaporised[k]);
   }
-  chunk.any_failed = failed != 0;
-  chunk.any_void = void_volume > 0.0;
   if (chunk.any_failed || step.material.softens) {
     for (std::size_t k = 0; k < chunk.size; ++k) {
       chunk.solid_fraction[k] = material::solid_fraction(step, chunk, k);
     }
   }
   gather_gradient(step, chunk);
+  if (energy == Energy::integrated) chunk.fetch(points.deviatoric_stress, chunk.old_deviator);
 }
 
 /// Volume of matter and void after the step (eq. 1, eq. 11): the total follows J; voids take their share of
@@ -97,18 +97,21 @@ void advance_volume(Step& step, Chunk& chunk) {
   step.report.limited_volume_changes += beyond;
   if (chunk.any_void) {
     for (std::size_t k = 0; k < chunk.size; ++k) {
-      if (!(chunk.void_volume[k] > 0.0)) continue;
+      const bool open = chunk.void_volume[k] > 0.0;
+      const double advanced = chunk.volume[k];
       chunk.volume[k] = chunk.old_volume[k];
       const double before = chunk.volume[k] + chunk.void_volume[k];
       const double total = before * limited[k], share = material::void_share(step, chunk, k);
-      chunk.volume[k] = std::min(chunk.volume[k] + (1.0 - share) * (total - before), total);
-      chunk.void_volume[k] = total - chunk.volume[k];
+      const double matter = std::min(chunk.volume[k] + (1.0 - share) * (total - before), total);
+      chunk.volume[k] = open ? matter : advanced;
+      chunk.void_volume[k] = open ? total - matter : chunk.void_volume[k];
     }
   }
   if (chunk.any_failed) {
     // Stress acts on the matter and strains it as the whole; in failed matter, on nothing but itself.
     for (std::size_t k = 0; k < chunk.size; ++k) {
-      if (chunk.failed[k] != failure::intact) chunk.volume_change[k] = chunk.volume[k] - chunk.old_volume[k];
+      const double own = chunk.volume[k] - chunk.old_volume[k];
+      chunk.volume_change[k] = chunk.intact[k] == 0.0 ? own : chunk.volume_change[k];
     }
   }
   for (std::size_t k = 0; k < chunk.size; ++k) {
@@ -188,7 +191,7 @@ void store_cold_work(const Step& step, Chunk& chunk, std::size_t k, double work)
 }
 
 /// Deviatoric stress: rotation, elastic trial, radial return (eq. 3 to 7, 16).
-void advance_deviator(Step& step, Chunk& chunk) {
+void advance_deviator(Step& step, Chunk& chunk, Energy energy) {
   material::Kinematics& motion = chunk.motion;
   const auto solid = [](double fraction) { return fraction > 0.0; };
   if (!step.material.strength->carries_deviator() ||
@@ -203,7 +206,11 @@ void advance_deviator(Step& step, Chunk& chunk) {
     motion.modulus[k] = chunk.solid_modulus[k] * chunk.solid_fraction[k];
   }
   for (std::size_t k = chunk.size; k < padded; ++k) motion.modulus[k] = 0.0;
-  chunk.fetch(step.points.deviatoric_stress, motion.deviator);
+  if (energy == Energy::integrated) {
+    motion.deviator = chunk.old_deviator;
+  } else {
+    chunk.fetch(step.points.deviatoric_stress, motion.deviator);
+  }
   mask_to_solids(chunk, motion.deviator);
   material::elastic_trial(padded, dt, step.settings.rotation, motion);
   const bool kinematic = step.material.strength->kinematic_modulus() > 0.0,
@@ -279,8 +286,8 @@ void advance_viscosity(Step& step, Chunk& chunk) {
   const bool brittle = step.material.brittle;
   if (!(chunk.any_failed || brittle) || !chunk.any_void) return;
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const bool loose = brittle || chunk.failed[k] != failure::intact;
-    if (loose && chunk.void_volume[k] > 0.0) chunk.artificial_viscosity[k] = 0.0;
+    const bool loose = brittle || chunk.intact[k] == 0.0;
+    chunk.artificial_viscosity[k] = loose && chunk.void_volume[k] > 0.0 ? 0.0 : chunk.artificial_viscosity[k];
   }
 }
 
@@ -362,13 +369,10 @@ eos::RangeReport integrate_energy(Step& step, Chunk& chunk) {
   return range;
 }
 
-enum class Energy { from_grid, integrated };
-
 void update_chunk(Step& step, Chunk& chunk, Energy energy) {
-  gather(step, chunk);
+  gather(step, chunk, energy);
   advance_volume(step, chunk);
-  if (energy == Energy::integrated) chunk.fetch(step.points.deviatoric_stress, chunk.old_deviator);
-  advance_deviator(step, chunk);
+  advance_deviator(step, chunk, energy);
   advance_strain(step, chunk);
   advance_viscosity(step, chunk);
   if (energy == Energy::from_grid) {
@@ -389,7 +393,7 @@ void update_chunk(Step& step, Chunk& chunk, Energy energy) {
   chunk.deposit(chunk.specific_internal_energy, step.points.specific_internal_energy);
 }
 
-template <bool contiguous, class IndexOf>
+template <class IndexOf>
 MaterialReport update_all(const Material& material, MaterialPoints& points, std::size_t count,
                           IndexOf index_of, std::span<const Matrix3> velocity_gradient,
                           const UpdateSettings& settings, Energy energy) {
@@ -398,7 +402,7 @@ MaterialReport update_all(const Material& material, MaterialPoints& points, std:
   for (std::size_t first = 0; first < count; first += chunk_size) {
     chunk.size = std::min(chunk_size, count - first);
     for (std::size_t k = 0; k < chunk.size; ++k) chunk.index[k] = index_of(first + k);
-    chunk.contiguous = contiguous;
+    chunk.find_runs();
     Step step{material, points, velocity_gradient.subspan(first, chunk.size), settings, report};
     update_chunk(step, chunk, energy);
   }
@@ -408,6 +412,23 @@ MaterialReport update_all(const Material& material, MaterialPoints& points, std:
 }  // namespace
 
 namespace material {
+
+void Chunk::find_runs() {
+  run_count = 0;
+  for (std::size_t k = 0; k < size; ++k) {
+    if (k == 0 || index[k] != index[k - 1] + 1) runs[run_count++] = {k, k};
+    ++runs[run_count - 1].end;
+  }
+}
+
+void Chunk::find_failed() {
+  std::uint8_t codes = 0;
+  for (std::size_t k = 0; k < size; ++k) {
+    codes |= failed[k];
+    intact[k] = failed[k] == failure::intact ? 1.0 : 0.0;
+  }
+  any_failed = codes != 0;
+}
 
 void Chunk::fetch(const std::vector<SymmetricTensor>& from, SymmetricLanes& to) const {
   std::size_t k = 0;
@@ -453,7 +474,7 @@ void MaterialReport::merge(const MaterialReport& other) {
 MaterialReport update_material(const Material& material, MaterialPoints& points, std::size_t begin,
                                std::size_t end, std::span<const Matrix3> velocity_gradient,
                                const UpdateSettings& settings) {
-  return update_all<true>(
+  return update_all(
       material, points, end - begin, [=](std::size_t k) { return begin + k; }, velocity_gradient, settings,
       Energy::from_grid);
 }
@@ -461,7 +482,7 @@ MaterialReport update_material(const Material& material, MaterialPoints& points,
 MaterialReport update_material(const Material& material, MaterialPoints& points,
                                std::span<const std::uint32_t> indices,
                                std::span<const Matrix3> velocity_gradient, const UpdateSettings& settings) {
-  return update_all<false>(
+  return update_all(
       material, points, indices.size(), [=](std::size_t k) { return std::size_t{indices[k]}; },
       velocity_gradient, settings, Energy::from_grid);
 }
@@ -469,7 +490,7 @@ MaterialReport update_material(const Material& material, MaterialPoints& points,
 MaterialReport update_material_and_energy(const Material& material, MaterialPoints& points, std::size_t begin,
                                           std::size_t end, std::span<const Matrix3> velocity_gradient,
                                           const UpdateSettings& settings) {
-  return update_all<true>(
+  return update_all(
       material, points, end - begin, [=](std::size_t k) { return begin + k; }, velocity_gradient, settings,
       Energy::integrated);
 }
@@ -478,7 +499,7 @@ MaterialReport update_material_and_energy(const Material& material, MaterialPoin
                                           std::span<const std::uint32_t> indices,
                                           std::span<const Matrix3> velocity_gradient,
                                           const UpdateSettings& settings) {
-  return update_all<false>(
+  return update_all(
       material, points, indices.size(), [=](std::size_t k) { return std::size_t{indices[k]}; },
       velocity_gradient, settings, Energy::integrated);
 }

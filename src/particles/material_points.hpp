@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "src/base/tensor.hpp"
@@ -17,11 +18,23 @@ struct Field {
   const char* unit;
   std::vector<Value> Points::* values;
   bool optional = false;  ///< empty unless a material or method of the run needs it
+  double neutral = 0.0;   ///< of optional numbers: what points have that do not need them
+
+  /// More or fewer points; those that are new have no value yet, or the neutral one.
+  void resize(Points& points, std::size_t n) const {
+    if constexpr (std::is_same_v<Value, double>) {
+      (points.*values).resize(n, neutral);
+    } else {
+      (points.*values).resize(n);
+    }
+  }
 };
 template <class Points, class Value>
 Field(const char*, const char*, std::vector<Value> Points::*) -> Field<Points, Value>;
 template <class Points, class Value>
 Field(const char*, const char*, std::vector<Value> Points::*, bool) -> Field<Points, Value>;
+template <class Points, class Value>
+Field(const char*, const char*, std::vector<Value> Points::*, bool, double) -> Field<Points, Value>;
 
 constexpr double never = -1.0;        ///< time of what has not happened, s
 constexpr double melted_share = 0.5;  ///< melted mass fraction that counts as melted
@@ -47,17 +60,18 @@ struct MaterialPoints {
   std::vector<double> plastic_strain;      ///< equivalent plastic strain
   std::vector<double> melted_fraction;     ///< mass fraction of liquid and vapour
   std::vector<double> vaporised_fraction;  ///< mass fraction of vapour
-  std::vector<double> distension;          ///< volume over that of the matter without its pores (1: none)
-  std::vector<double> failure_threshold_factor;  ///< scatter of the failure threshold (1: none)
-  std::vector<double> damage;                    ///< of criteria with a past, 0 to 1 (failed)
+  std::vector<double> damage;              ///< of criteria with a past, 0 to 1 (failed)
   std::vector<std::uint8_t> failed;  ///< 0 intact, else what made it fail: src/material/failure/criterion.hpp
   std::vector<double> maximum_pressure;     ///< Pa, so far
   std::vector<double> maximum_temperature;  ///< K, so far
   std::vector<double>
       melting_time;  ///< s, when half of the mass was first melted; `never` (-1) if it was not
-  std::vector<SymmetricTensor> back_stress;  ///< Pa, centre of the yield surface; optional
-  std::vector<SymmetricTensor> strain;       ///< logarithmic strain, turned with the matter; optional
-  std::vector<double> stored_cold_work;      ///< J/kg, plastic work that did not become heat; optional
+  /// volume over that of the matter without its pores (1: none); optional
+  std::vector<double> distension;
+  std::vector<double> failure_threshold_factor;  ///< scatter of the failure threshold (1: none); optional
+  std::vector<SymmetricTensor> back_stress;      ///< Pa, centre of the yield surface; optional
+  std::vector<SymmetricTensor> strain;           ///< logarithmic strain, turned with the matter; optional
+  std::vector<double> stored_cold_work;          ///< J/kg, plastic work that did not become heat; optional
 
   static constexpr auto fields() {
     using P = MaterialPoints;
@@ -69,13 +83,12 @@ struct MaterialPoints {
         Field{"deviatoric_stress", "Pa", &P::deviatoric_stress}, Field{"temperature", "K", &P::temperature},
         Field{"sound_speed", "m/s", &P::sound_speed}, Field{"plastic_strain", "1", &P::plastic_strain},
         Field{"melted_fraction", "1", &P::melted_fraction},
-        Field{"vaporised_fraction", "1", &P::vaporised_fraction}, Field{"distension", "1", &P::distension},
-        Field{"failure_threshold_factor", "1", &P::failure_threshold_factor},
-        Field{"damage", "1", &P::damage}, Field{"failed", "1", &P::failed},
-        Field{"maximum_pressure", "Pa", &P::maximum_pressure},
+        Field{"vaporised_fraction", "1", &P::vaporised_fraction}, Field{"damage", "1", &P::damage},
+        Field{"failed", "1", &P::failed}, Field{"maximum_pressure", "Pa", &P::maximum_pressure},
         Field{"maximum_temperature", "K", &P::maximum_temperature},
-        Field{"melting_time", "s", &P::melting_time}, Field{"back_stress", "Pa", &P::back_stress, true},
-        Field{"strain", "1", &P::strain, true},
+        Field{"melting_time", "s", &P::melting_time}, Field{"distension", "1", &P::distension, true, 1.0},
+        Field{"failure_threshold_factor", "1", &P::failure_threshold_factor, true, 1.0},
+        Field{"back_stress", "Pa", &P::back_stress, true}, Field{"strain", "1", &P::strain, true},
         Field{"stored_cold_work", "J/kg", &P::stored_cold_work, true});
   }
 };
@@ -90,8 +103,8 @@ void for_each_field(Function&& f) {
 template <class Points>
 void resize(Points& points, std::size_t n) {
   for_each_field<Points>([&](const auto& field) {
-    auto& values = points.*(field.values);
-    if (!field.optional || !values.empty()) values.resize(n);
+    const auto& values = points.*(field.values);
+    if (!field.optional || !values.empty()) field.resize(points, n);
   });
 }
 

@@ -2,6 +2,8 @@
 #include "src/particles/particles.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <numeric>
 #include <type_traits>
 
@@ -22,15 +24,32 @@ void for_each_field_of(Particles& particles, Function&& f) {
   });
 }
 
-/// Fields of one type hand their memory on to one another: new pages cost more than the copy.
+/// Fields of one type hand their memory on to one another: new pages cost more than the copy. Tensors go
+/// three numbers at a time, so that no more memory than that of a vector is needed beside the particles'.
 template <class Value>
 void reorder_fields_of(Particles& particles, std::span<const std::uint32_t> order) {
-  std::vector<Value> sorted;
-  for_each_field_of<Value>(particles, [&](std::vector<Value>& values) {
-    sorted.resize(order.size());
-    parallel::for_each(order.size(), [&](std::size_t i) { sorted[i] = values[order[i]]; });
-    values.swap(sorted);
-  });
+  if constexpr (sizeof(Value) > sizeof(Vector3)) {
+    using Part = std::array<double, 3>;
+    static_assert(sizeof(Value) % sizeof(Part) == 0);
+    std::vector<Part> sorted(order.size());
+    for_each_field_of<Value>(particles, [&](std::vector<Value>& values) {
+      for (std::size_t begin = 0; begin < sizeof(Value); begin += sizeof(Part)) {
+        const auto part = [&](std::size_t i) { return reinterpret_cast<char*>(&values[i]) + begin; };
+        parallel::for_each(order.size(),
+                           [&](std::size_t i) { std::memcpy(&sorted[i], part(order[i]), sizeof(Part)); });
+        parallel::for_each(order.size(),
+                           [&](std::size_t i) { std::memcpy(part(i), &sorted[i], sizeof(Part)); });
+      }
+      values.resize(order.size());
+    });
+  } else {
+    std::vector<Value> sorted;
+    for_each_field_of<Value>(particles, [&](std::vector<Value>& values) {
+      sorted.resize(order.size());
+      parallel::for_each(order.size(), [&](std::size_t i) { sorted[i] = values[order[i]]; });
+      values.swap(sorted);
+    });
+  }
 }
 
 template <class... Values>

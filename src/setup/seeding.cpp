@@ -302,6 +302,7 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     }
     if (body.discretization.has_elements()) {
       use_fields(material, particles);  // of those that its elements may become
+      if (body.failure_scatter.given()) particles.failure_threshold_factor.resize(particles.size(), 1.0);
       seeding.bodies.push_back({.first = particles.size()});
       continue;
     }
@@ -349,6 +350,7 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       particles.generation[p] = 0;
     }
     initialise(material, particles, summary.first, end, state);
+    if (body.failure_scatter.given()) particles.failure_threshold_factor.resize(end, 1.0);
     for (std::size_t p = summary.first; body.failure_scatter.given() && p < end; ++p) {
       particles.failure_threshold_factor[p] =
           body.failure_scatter.factor(particles.id[p], lattice.spacing.prod());

@@ -58,8 +58,6 @@ void Simulation::reflect_and_remove() {
     const std::vector<Move> moves = moves_into_gaps(particles_.body, leaving);
     const std::size_t size = particles_.size() - leaving.size();
     remove(particles_, moves, size);
-    close_gaps(former_velocity_, moves, size);
-    velocity_gradient_.resize(size);
     grid_.particles_removed(moves, size);
     find_bodies();
   });

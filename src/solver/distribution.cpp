@@ -196,7 +196,6 @@ void Simulation::follow_particles(grid::Stencil stencil) {
   }
   const std::vector<int> owners = grid_.owners(particles_.position);
   if (migrate(particles_, owners, communicator_)) {
-    velocity_gradient_.resize(particles_.size());
     find_bodies();
   }
   grid_.activate(positions(), velocities(), lookahead, stencil, transition_.size());

@@ -20,20 +20,21 @@ bool Simulation::carries_extent() const {
   return follows_domains() || shape_ == transfer::ShapeFunction::gimp || setup_.contact.method != "none";
 }
 
-/// E <- (I + dt L) E (I + dt L)^T (2.4); domains larger than the shape function takes are counted.
-void Simulation::deform_domains() {
-  profile_.time("domains", [&] {
-    const double dt = state_.time_step, dx = setup_.domain.cell_size;
-    const bool counted = shape_ == transfer::ShapeFunction::convected_gimp;
-    step_.limited_domains += parallel::sum<double>(particles_.size(), [&](std::size_t p) {
-      const Matrix3 step = Matrix3::Identity() + dt * velocity_gradient_[p];
-      SymmetricTensor& extent = particles_.extent[p];
-      extent = SymmetricTensor::from(step * extent.matrix() * step.transpose());
-      if (!counted) return 0.0;
-      const double largest = transfer::half_sizes(extent, dx).maxCoeff();
-      return largest > transfer::ConvectedGimp::largest_half_size ? 1.0 : 0.0;
-    });
-  });
+/// E <- (I + dt L) E (I + dt L)^T (2.4). @returns how many domains are larger than the shape function takes
+std::size_t Simulation::deform_domains(std::span<const std::uint32_t> particles,
+                                       std::span<const Matrix3> gradients) {
+  const double dt = state_.time_step, dx = setup_.domain.cell_size;
+  const bool counted = shape_ == transfer::ShapeFunction::convected_gimp;
+  std::size_t larger = 0;
+  for (std::size_t k = 0; k < particles.size(); ++k) {
+    const Matrix3 step = Matrix3::Identity() + dt * gradients[k];
+    SymmetricTensor& extent = particles_.extent[particles[k]];
+    extent = SymmetricTensor::from(step * extent.matrix() * step.transpose());
+    if (!counted) continue;
+    const double largest = transfer::half_sizes(extent, dx).maxCoeff();
+    larger += largest > transfer::ConvectedGimp::largest_half_size ? 1 : 0;
+  }
+  return larger;
 }
 
 namespace {

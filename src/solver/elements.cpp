@@ -186,6 +186,7 @@ void Simulation::advance_elements() {
     advance_bars();
     parallel::throw_together(communicator_, error);
   });
+  update_element_material();
 }
 
 /// Elements that lie outside of the domain as a whole are gone, and their shares of the nodes.

@@ -24,6 +24,13 @@ class Profile {
     return work();
   }
 
+  /// What took so many seconds inside a stage belongs to another one.
+  void reassign(std::string_view from, std::string_view to, double seconds) {
+    stage(from).seconds -= seconds;
+    stage(to).seconds += seconds;
+    ++stage(to).calls;
+  }
+
   [[nodiscard]] const std::vector<Stage>& stages() const { return stages_; }
   void clear() { stages_.clear(); }
 

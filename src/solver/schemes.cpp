@@ -14,11 +14,10 @@ void step_symplectic(Simulation& s, double until) {
   s.conduct_heat();            // e, if the case asks for it (docs/theory/conduction.md)
   s.map_particles_to_grid();   // (3.1)-(3.3) m, (mv)^n, f^n on nodes
   s.advance_grid();            // (3.4)-(3.5) v^{n+1} = v^n + dt f^n / m
-  s.map_grid_to_particles();   // (4.2)-(4.8) v, C, x, e at n+1; grad v^{n+1}
-  s.advance_elements();        // v, x, e and grad v^{n+1} of nodes and elements (docs/theory/afemp.md)
-  s.update_material(Simulation::EnergyUpdate::by_work_identity);  // stress, p, T, phase at n+1
-  s.reflect_and_remove();                                         // walls; outflow is counted
-  s.end_step();                                                   // ledger of energy and momentum
+  s.map_grid_to_particles();   // (4.2)-(4.8) v, C, x, e at n+1; by grad v^{n+1} stress, p, T, phase
+  s.advance_elements();        // the same of nodes and elements (docs/theory/afemp.md)
+  s.reflect_and_remove();      // walls; outflow is counted
+  s.end_step();                // ledger of energy and momentum
 }
 
 void step_usf(Simulation& s, double until) {
@@ -26,13 +25,12 @@ void step_usf(Simulation& s, double until) {
   s.split_particles();
   s.bin_particles();
   s.conduct_heat();
-  s.map_momentum_to_grid();                                            // (5.5) v^n on nodes
-  s.gather_velocity_gradient();                                        // (5.6) grad v^n
-  s.update_material(Simulation::EnergyUpdate::by_constitutive_model);  // stress and e from grad v^n
-  s.map_particles_to_grid();                                           // (3.1)-(3.3) with the new stress
-  s.advance_grid();                                                    // (3.4), (5.9)
-  s.update_particle_velocity(Simulation::GridGradient::unused);        // (5.1)-(5.2)
-  s.move_particles();                                                  // (5.2) x^{n+1}
+  s.map_momentum_to_grid();                               // (5.5) v^n on nodes
+  s.update_material();                                    // (5.6) grad v^n, by it stress and e
+  s.map_particles_to_grid();                              // (3.1)-(3.3) with the new stress
+  s.advance_grid();                                       // (3.4), (5.9)
+  s.update_particle_velocity(Simulation::Then::nothing);  // (5.1)-(5.2)
+  s.move_particles();                                     // (5.2) x^{n+1}
   s.reflect_and_remove();
   s.end_step();
 }
@@ -42,11 +40,11 @@ void step_usl(Simulation& s, double until) {
   s.split_particles();
   s.bin_particles();
   s.conduct_heat();
-  s.map_particles_to_grid();                                           // (3.1)-(3.3)
-  s.advance_grid();                                                    // (3.4), (5.9)
-  s.update_particle_velocity(Simulation::GridGradient::to_particles);  // (5.1)-(5.2), (5.7) grad v^{n+1}
-  s.update_material(Simulation::EnergyUpdate::by_constitutive_model);  // stress and e at n+1
-  s.move_particles();                                                  // (5.2) x^{n+1}
+  s.map_particles_to_grid();  // (3.1)-(3.3)
+  s.advance_grid();           // (3.4), (5.9)
+  s.update_particle_velocity(
+      Simulation::Then::update_material);  // (5.1)-(5.2); (5.7) by grad v^{n+1} stress, e
+  s.move_particles();                      // (5.2) x^{n+1}
   s.reflect_and_remove();
   s.end_step();
 }
@@ -56,13 +54,12 @@ void step_musl(Simulation& s, double until) {
   s.split_particles();
   s.bin_particles();
   s.conduct_heat();
-  s.map_particles_to_grid();                                           // (3.1)-(3.3)
-  s.advance_grid();                                                    // (3.4), (5.9)
-  s.update_particle_velocity(Simulation::GridGradient::unused);        // (5.1)-(5.2) v^{n+1}, displacement
-  s.map_momentum_to_grid();                                            // (5.3) grid velocity from the new v
-  s.gather_velocity_gradient();                                        // (5.4) at the old positions
-  s.update_material(Simulation::EnergyUpdate::by_constitutive_model);  // stress and e at n+1
-  s.move_particles();                                                  // (5.2) x^{n+1}
+  s.map_particles_to_grid();                              // (3.1)-(3.3)
+  s.advance_grid();                                       // (3.4), (5.9)
+  s.update_particle_velocity(Simulation::Then::nothing);  // (5.1)-(5.2) v^{n+1}, displacement
+  s.map_momentum_to_grid();                               // (5.3) grid velocity from the new v
+  s.update_material();  // (5.4) grad v at the old positions, by it stress and e
+  s.move_particles();   // (5.2) x^{n+1}
   s.reflect_and_remove();
   s.end_step();
 }

@@ -98,7 +98,6 @@ void Simulation::find_bodies() {
 
 /// What both constructors end with.
 void Simulation::prepare() {
-  velocity_gradient_.resize(particles_.size());
   set_up_bars();
   set_up_contact();
   if (const setup::Gravity g = setup_.gravity; !g.acceleration.isZero(0.0)) {
@@ -112,6 +111,9 @@ void Simulation::require_fields() const {
   Particles needed;
   needed.mass.resize(particles_.size());
   for (const auto& material : setup_.materials) use_fields(*material, needed);
+  if (std::ranges::any_of(setup_.bodies, [](const auto& body) { return body.failure_scatter.given(); })) {
+    needed.failure_threshold_factor.resize(particles_.size());
+  }
   if (carries_affine_velocity()) needed.affine_velocity.resize(particles_.size());
   if (carries_extent()) needed.extent.resize(particles_.size());
   std::string missing;
@@ -266,7 +268,6 @@ void Simulation::sort_particles() {
 /// After particles came, went or changed their places.
 void Simulation::particles_reallocated() {
   sort_by_body(particles_);
-  velocity_gradient_.resize(particles_.size());
   find_bodies();
   grid_.particles_reordered();
 }
@@ -296,7 +297,6 @@ void Simulation::advance_grid() {
     const transfer::GridBalance balance =
         grid_update_.advance(grid_, state_.time_step, relaxation(setup_.transfer), [&] { apply_contact(); });
     step_.wall_impulse += balance.wall_impulse;
-    former_velocity_ = particles_.velocity;
   });
   if (setup_.transfer.particle_update != "fmpm") return;
   profile_.time("full mass matrix", [&] {
@@ -306,35 +306,37 @@ void Simulation::advance_grid() {
 }
 
 void Simulation::map_grid_to_particles() {
-  profile_.time("grid to particles", [&] {
-    const transfer::TransferBalance balance = transfer::grid_to_particles(
-        shape_, particles_, grid_, state_.time_step, affine_field(setup_.transfer), velocity_gradient_,
-        external_acceleration_);
+  const auto gather = [&](const transfer::TakeGradients& take) {
+    const transfer::TransferBalance balance =
+        transfer::grid_to_particles(shape_, particles_, grid_, state_.time_step,
+                                    affine_field(setup_.transfer), take, external_acceleration_);
     step_.work += balance.work;
     step_.transfer_heat += balance.heat;
     step_.external_work += balance.external_work;
+    squared_change_ = balance.squared_change;
     if (transition_.size() > 0) {
       transfer::grid_to_nodes(shape_, transition_, grid_, state_.time_step, affine_field(setup_.transfer));
     }
-    for (const std::uint32_t p : flying_) {
-      particles_.position[p] += state_.time_step * particles_.velocity[p];
-      velocity_gradient_[p].setZero();
-    }
-  });
+    for (const std::uint32_t p : flying_) particles_.position[p] += state_.time_step * particles_.velocity[p];
+  };
+  update_material_with("grid to particles", EnergyUpdate::by_work_identity, gather);
 }
 
-void Simulation::update_particle_velocity(GridGradient gradient) {
-  profile_.time("grid to particles", [&] {
+void Simulation::update_particle_velocity(Then then) {
+  const auto gather = [&](const transfer::TakeGradients& take) {
     displacement_.resize(particles_.size());
-    step_.external_work += transfer::update_velocity(
-        shape_, particles_, grid_, state_.time_step, relaxation(setup_.transfer).fixed, displacement_,
-        gradient == GridGradient::to_particles ? std::span(velocity_gradient_) : std::span<Matrix3>(),
+    const transfer::TransferBalance balance = transfer::update_velocity(
+        shape_, particles_, grid_, state_.time_step, relaxation(setup_.transfer).fixed, displacement_, take,
         external_acceleration_);
-    for (const std::uint32_t p : flying_) {
-      displacement_[p] = state_.time_step * particles_.velocity[p];
-      velocity_gradient_[p].setZero();
-    }
-  });
+    step_.external_work += balance.external_work;
+    squared_change_ = balance.squared_change;
+    for (const std::uint32_t p : flying_) displacement_[p] = state_.time_step * particles_.velocity[p];
+  };
+  if (then == Then::nothing) {
+    profile_.time("grid to particles", [&] { gather({}); });
+  } else {
+    update_material_with("grid to particles", EnergyUpdate::by_constitutive_model, gather);
+  }
 }
 
 void Simulation::map_momentum_to_grid() {
@@ -344,75 +346,11 @@ void Simulation::map_momentum_to_grid() {
   });
 }
 
-void Simulation::gather_velocity_gradient() {
-  profile_.time("velocity gradient", [&] {
-    transfer::gather_velocity_gradient(shape_, particles_, grid_, velocity_gradient_);
-    for (const std::uint32_t p : flying_) velocity_gradient_[p].setZero();
-  });
-}
-
-void Simulation::update_material(EnergyUpdate energy) {
-  if (follows_domains()) deform_domains();
-  profile_.time("material", [&] {
-    const UpdateSettings settings{.time_step = state_.time_step,
-                                  .cell_size = setup_.domain.cell_size,
-                                  .rotation = setup_.time.stress_rotation == "polar"
-                                                  ? material::StressRotation::polar
-                                                  : material::StressRotation::hughes_winget,
-                                  .time = state_.time + state_.time_step};
-    const auto settings_of = [&](std::size_t body) {
-      const setup::ArtificialViscosity& viscosity = setup_.viscosity_of(body);
-      UpdateSettings of_body = settings;
-      of_body.linear_viscosity = viscosity.linear;
-      of_body.quadratic_viscosity = viscosity.quadratic;
-      of_body.expansion_viscosity = viscosity.expansion;
-      return of_body;
-    };
-    std::string error;
-    // The points [first, first + count) of a set, all of one material; `describe` tells of a faulty one.
-    const auto update = [&](const Material& material, MaterialPoints& points, std::size_t first,
-                            std::size_t count, std::span<const Matrix3> gradients,
-                            const UpdateSettings& settings_of_points, auto&& describe) {
-      std::vector<MaterialReport> reports((count + parallel::chunk_size - 1) / parallel::chunk_size);
-      parallel::for_each_chunk(count, [&](std::size_t begin, std::size_t end) {
-        const std::span<const Matrix3> of_chunk = gradients.subspan(first + begin, end - begin);
-        reports[begin / parallel::chunk_size] =
-            energy == EnergyUpdate::by_work_identity
-                ? whipple::update_material(material, points, first + begin, first + end, of_chunk,
-                                           settings_of_points)
-                : update_material_and_energy(material, points, first + begin, first + end, of_chunk,
-                                             settings_of_points);
-      });
-      MaterialReport report;
-      for (const MaterialReport& part : reports) report.merge(part);
-      step_.clamped_to_cold_curve += static_cast<double>(report.equation_of_state.below_cold_curve);
-      step_.held_at_pressure_floor += static_cast<double>(report.equation_of_state.at_pressure_floor);
-      step_.limited_volume_changes += static_cast<double>(report.limited_volume_changes);
-      if (!error.empty()) return;
-      if (report.undefined != 0) {
-        error = describe(report.first_undefined,
-                         "the state is not defined (NaN, or a volume that is not positive)");
-      } else if (report.equation_of_state.out_of_range != 0) {
-        error = describe(report.equation_of_state.first,
-                         fmt::format("the equation of state of {} is out of range: {}", material.name,
-                                     report.equation_of_state.bound));
-      }
-    };
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      update(*setup_.materials[b], particles_, bodies_[b].first, bodies_[b].count, velocity_gradient_,
-             settings_of(b),
-             [&](std::size_t p, const std::string& reason) { return describe_state(p, reason); });
-    }
-    for (std::size_t m = 0; m < meshes_.size(); ++m) {
-      fem::Mesh& mesh = meshes_[m];
-      UpdateSettings of_elements = settings_of(mesh.body);
-      of_elements.lengths = mesh.points.length;
-      update(*setup_.materials[mesh.body], mesh.points, 0, mesh.points.size(), element_gradient_[m],
-             of_elements,
-             [&](std::size_t p, const std::string& reason) { return describe_element(mesh, p, reason); });
-    }
-    parallel::throw_together(communicator_, error);
-  });
+void Simulation::update_material() {
+  update_material_with("velocity gradient", EnergyUpdate::by_constitutive_model,
+                       [&](const transfer::TakeGradients& take) {
+                         transfer::gather_velocity_gradient(shape_, particles_, grid_, take);
+                       });
 }
 
 void Simulation::move_particles() {
@@ -423,12 +361,7 @@ void Simulation::move_particles() {
 
 void Simulation::end_step() {
   profile_.time("ledger", [&] {
-    const double squared_change = parallel::maximum(particles_.size(), 0.0, [&](std::size_t p) {
-      const Lanes change =
-          load_vector(particles_.velocity[p].data()) - load_vector(former_velocity_[p].data());
-      return sum3(change * change);
-    });
-    const double acceleration = std::sqrt(squared_change) / state_.time_step;
+    const double acceleration = std::sqrt(squared_change_) / state_.time_step;
     state_.maximum_acceleration = parallel::maximum(communicator_, acceleration);
     sum_over_ranks();
     state_.ledger.observe(totals_);
@@ -459,7 +392,7 @@ std::string Simulation::describe_state(std::size_t p, const std::string& reason)
 }
 
 std::size_t Simulation::bytes() const {
-  std::size_t bytes = grid_.bytes() + velocity_gradient_.size() * sizeof(Matrix3) + 48 * particles_.size();
+  std::size_t bytes = grid_.bytes() + displacement_.size() * sizeof(Vector3);
   const auto add = [&]<class Points>(const Points& points) {
     for_each_field<Points>([&](const auto& field) {
       const auto& values = points.*(field.values);

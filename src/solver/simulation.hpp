@@ -15,12 +15,14 @@
 #include "src/fem/mesh.hpp"
 #include "src/fem/step.hpp"
 #include "src/grid/block_grid.hpp"
+#include "src/material/update.hpp"
 #include "src/particles/particles.hpp"
 #include "src/setup/case.hpp"
 #include "src/setup/seeding.hpp"
 #include "src/solver/ledger.hpp"
 #include "src/solver/profile.hpp"
 #include "src/transfer/full_mass_matrix.hpp"
+#include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/grid_update.hpp"
 #include "src/transfer/shape_function.hpp"
 #include "src/transfer/transition_nodes.hpp"
@@ -108,12 +110,10 @@ class Simulation {
   void advance_grid();
   void map_grid_to_particles();
   void advance_elements();
-  enum class GridGradient { unused, to_particles };
-  void update_particle_velocity(GridGradient gradient);
+  enum class Then { nothing, update_material };
+  void update_particle_velocity(Then then);
   void map_momentum_to_grid();
-  void gather_velocity_gradient();
-  enum class EnergyUpdate { by_work_identity, by_constitutive_model };
-  void update_material(EnergyUpdate energy);
+  void update_material();
   void move_particles();
   void reflect_and_remove();
   void end_step();
@@ -147,7 +147,15 @@ class Simulation {
   fem::ConstraintBalance advance_free_nodes(std::size_t mesh);
   void sort_particles();
   void particles_reallocated();
-  void deform_domains();
+  enum class EnergyUpdate { by_work_identity, by_constitutive_model };
+  void update_material_with(std::string_view stage, EnergyUpdate energy,
+                            const std::function<void(const transfer::TakeGradients&)>& gather);
+  [[nodiscard]] UpdateSettings update_settings(std::size_t body) const;
+  void update_element_material();
+  [[nodiscard]] std::string book(const MaterialReport& report, const Material& material,
+                                 const std::function<std::string(std::size_t, const std::string&)>& describe);
+  [[nodiscard]] std::size_t deform_domains(std::span<const std::uint32_t> particles,
+                                           std::span<const Matrix3> gradients);
   [[nodiscard]] bool follows_domains() const;
   [[nodiscard]] bool carries_extent() const;
   [[nodiscard]] bool carries_affine_velocity() const;
@@ -180,9 +188,8 @@ class Simulation {
   Totals totals_;
   std::size_t particle_count_ = 0, element_count_ = 0;
   Profile profile_;
-  std::vector<Matrix3> velocity_gradient_;
   std::vector<Vector3> displacement_;
-  std::vector<Vector3> former_velocity_;
+  double squared_change_ = 0.0;  // m^2/s^2, the largest of a particle's velocity in the step under way
   Acceleration acceleration_;
   std::vector<Vector3> external_acceleration_;  // of this step; empty without external forces
   std::vector<std::uint32_t> flying_;           // particles that fly without the grid in this step

@@ -55,6 +55,12 @@ template <AffineField field, class Points>
   }
 }
 
+/// |dv|^2 of a particle in the step (m^2/s^2).
+double squared_change(Lanes velocity, const Vector3& former) {
+  const Lanes change = velocity - load_vector(former.data());
+  return sum3(change * change);
+}
+
 template <AffineField field>
 [[gnu::always_inline]] inline TransferBalance update_particle(Particles& particles, std::size_t p, double dt,
                                                               const Advance<>& advance, Matrix3& gradient,
@@ -64,6 +70,7 @@ template <AffineField field>
   const std::array<Lanes, 3> stress = {Lanes{s.xx + mean_stress, s.xy, s.zx, 0.0},
                                        Lanes{s.xy, s.yy + mean_stress, s.yz, 0.0},
                                        Lanes{s.zx, s.yz, s.zz + mean_stress, 0.0}};
+  const double change = squared_change(advance.velocity, particles.velocity[p]);
   advance_point<field>(particles, p, dt, advance);
   // The mean of old and new grid velocity makes the exact work identity (4.6).
   Lanes power{};
@@ -75,7 +82,7 @@ template <AffineField field>
   const double work = sum3(power) * particles.volume[p] * dt;
   const double heat_of_contact = advance.increment.value[3];  // docs/theory/contact.md, 4.6
   particles.specific_internal_energy[p] += work / mass + heat + heat_of_contact;
-  TransferBalance balance{.work = work, .heat = mass * heat};
+  TransferBalance balance{.work = work, .heat = mass * heat, .squared_change = change};
   if (!acceleration.empty()) {
     balance.external_work =
         external_work(advance.grid_velocity.value, advance.increment.value, mass, acceleration[p], dt);
@@ -83,30 +90,65 @@ template <AffineField field>
   return balance;
 }
 
-/// For the points of every slot take(kernels, slot, sum of the slot), on threads. @returns the sum of the
-/// sums
-template <class Sum, class Take>
-Sum sum_over_slots(const BlockGrid& grid, BlockGrid::Points kind, Take&& take) {
-  std::vector<Sum> of_slot(grid.slots());
-  with_kernels([&](auto kernels) {
-    parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
-      if (!grid.members(kind, slot).empty()) take(kernels, slot, of_slot[slot]);
-    });
-  });
-  Sum sum{};
-  for (const Sum& part : of_slot) sum += part;
-  return sum;
+/// Slots that follow one another and hold some `points_of_stretch` particles in all; a fuller slot is alone.
+/// What gather and material read and write of so many particles, some 500 bytes of each, stays in the
+/// second-level cache.
+struct Stretch {
+  std::size_t first_slot, slots;
+};
+constexpr std::size_t points_of_stretch = 512;
+
+std::vector<Stretch> stretches(const BlockGrid& grid) {
+  std::vector<Stretch> all;
+  std::size_t points = 0;
+  for (std::size_t slot = 0; slot < grid.slots(); ++slot) {
+    const std::size_t of_slot = grid.particles_in(slot).size();
+    if (all.empty() || (points > 0 && points + of_slot > points_of_stretch)) {
+      all.push_back({slot, 0});
+      points = 0;
+    }
+    ++all.back().slots;
+    points += of_slot;
+  }
+  return all;
 }
 
 constexpr auto particle_kind = BlockGrid::Points::particles;
 
+/// gather(kernels, slot, sum of the slot, gradients of its particles), on threads; the gradients are handed
+/// on stretch by stretch, unless nobody wants them. @returns the sum of the sums
+template <class Gather>
+TransferBalance gather_particles(const BlockGrid& grid, const TakeGradients& take, Gather&& gather) {
+  std::vector<TransferBalance> of_slot(grid.slots());
+  const std::vector<Stretch> all = stretches(grid);
+  with_kernels([&](auto kernels) {
+    parallel::for_each_uneven(all.size(), [&](std::size_t s) {
+      const auto [first_slot, slots] = all[s];
+      const std::size_t begin = grid.place_of(first_slot), size = grid.place_of(first_slot + slots) - begin;
+      thread_local std::vector<Matrix3> gradients;
+      gradients.resize(std::max(gradients.size(), size));
+      for (std::size_t slot = first_slot; slot < first_slot + slots; ++slot) {
+        if (grid.particles_in(slot).empty()) continue;
+        gather(kernels, slot, of_slot[slot], &gradients[grid.place_of(slot) - begin]);
+      }
+      if (take && size > 0) {
+        take(grid.particles_by_block().subspan(begin, size), std::span(gradients).first(size));
+      }
+    });
+  });
+  TransferBalance sum{};
+  for (const TransferBalance& part : of_slot) sum += part;
+  return sum;
+}
+
 template <class Shape, AffineField field>
 TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
-                           std::span<Matrix3> velocity_gradient, std::span<const Vector3> acceleration) {
-  return sum_over_slots<TransferBalance>(
-      grid, particle_kind, [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance) {
-        const auto take = [&](std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
-          balance += update_particle<field>(particles, p, dt, advance, velocity_gradient[p], acceleration);
+                           const TakeGradients& take_gradients, std::span<const Vector3> acceleration) {
+  return gather_particles(
+      grid, take_gradients,
+      [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
+        const auto take = [&](std::size_t place, std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
+          balance += update_particle<field>(particles, p, dt, advance, gradients[place], acceleration);
         };
         Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
                                         typename Kernels::template Transfer<field>{dt}, take);
@@ -114,21 +156,25 @@ TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
 }
 
 template <class Shape, bool with_gradient>
-double update_velocities(Particles& particles, BlockGrid& grid, double dt, double relaxation,
-                         std::span<Vector3> displacement, std::span<Matrix3> velocity_gradient,
-                         std::span<const Vector3> acceleration) {
-  return sum_over_slots<double>(
-      grid, particle_kind, [&]<class Kernels>(Kernels, std::size_t slot, double& work) {
-        const auto take = [&](std::size_t p, const VelocityUpdate<>& update) WHIPPLE_INLINE {
+TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double dt, double relaxation,
+                                  std::span<Vector3> displacement, const TakeGradients& take_gradients,
+                                  std::span<const Vector3> acceleration) {
+  return gather_particles(
+      grid, take_gradients,
+      [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
+        const auto take = [&](std::size_t place, std::size_t p,
+                              const VelocityUpdate<>& update) WHIPPLE_INLINE {
           const Lanes after = update.after.value, increment = update.increment, before = after - increment;
           double* const velocity = particles.velocity[p].data();
-          const Lanes old = load_vector(velocity);
-          store_vector(velocity, old + increment - relaxation * (old - before));
+          const Lanes old = load_vector(velocity), updated = old + increment - relaxation * (old - before);
+          balance.squared_change =
+              std::max(balance.squared_change, squared_change(updated, particles.velocity[p]));
+          store_vector(velocity, updated);
           store_vector(displacement[p].data(), dt * after);
           particles.specific_internal_energy[p] += increment[3];  // of contact
-          if constexpr (with_gradient) velocity_gradient[p] = matrix(update.after.gradient);
+          if constexpr (with_gradient) gradients[place] = matrix(update.after.gradient);
           if (!acceleration.empty()) {
-            work += external_work(after, increment, particles.mass[p], acceleration[p], dt);
+            balance.external_work += external_work(after, increment, particles.mass[p], acceleration[p], dt);
           }
         };
         Kernels::template gather<Shape>(particles, grid, particle_kind, slot, typename Kernels::Update{},
@@ -136,28 +182,17 @@ double update_velocities(Particles& particles, BlockGrid& grid, double dt, doubl
       });
 }
 
-/// Sums of the nodes' velocities, for every particle: take(p, sums).
-template <class Take>
-void gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& grid, Take&& take) {
-  with_shape(shape, [&]<class Shape>(Shape) {
-    sum_over_slots<double>(grid, particle_kind, [&]<class Kernels>(Kernels, std::size_t slot, double&) {
-      Kernels::template gather<Shape>(particles, grid, particle_kind, slot, typename Kernels::First{}, take);
-    });
-  });
-}
-
 }  // namespace
 
 TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, BlockGrid& grid, double dt,
-                                  AffineField affine, std::span<Matrix3> velocity_gradient,
+                                  AffineField affine, const TakeGradients& take,
                                   std::span<const Vector3> acceleration) {
   using enum AffineField;
   return with_shape(shape, [&]<class Shape>(Shape) {
-    if (affine == none) return gather_all<Shape, none>(particles, grid, dt, velocity_gradient, acceleration);
+    if (affine == none) return gather_all<Shape, none>(particles, grid, dt, take, acceleration);
     if constexpr (CarriesAffineField<Shape>) {
-      return affine == deformed
-                 ? gather_all<Shape, deformed>(particles, grid, dt, velocity_gradient, acceleration)
-                 : gather_all<Shape, turned>(particles, grid, dt, velocity_gradient, acceleration);
+      return affine == deformed ? gather_all<Shape, deformed>(particles, grid, dt, take, acceleration)
+                                : gather_all<Shape, turned>(particles, grid, dt, take, acceleration);
     } else {
       throw InternalError("the affine transfer needs B-splines");
       return TransferBalance{};  // the other branch deduces the type
@@ -176,17 +211,20 @@ namespace {
 template <class Shape, AffineField field>
 void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt) {
   constexpr auto kind = BlockGrid::Points::guests;
-  sum_over_slots<double>(grid, kind, [&]<class Kernels>(Kernels, std::size_t slot, double&) {
-    const auto take = [&](std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
-      advance_point<field>(nodes, p, dt, advance);
-      store_vector(nodes.mean_velocity[p].data(),
-                   advance.grid_velocity.value - 0.5 * advance.increment.value);
-      store_vector(nodes.new_velocity[p].data(), advance.grid_velocity.value);
-      nodes.heat[p] = nodes.mass[p] * advance.heat[0];
-      nodes.contact_heat[p] = nodes.mass[p] * advance.increment.value[3];
-    };
-    Kernels::template gather<Shape>(nodes, grid, kind, slot, typename Kernels::template Transfer<field>{dt},
-                                    take);
+  with_kernels([&]<class Kernels>(Kernels) {
+    parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
+      if (grid.guests_in(slot).empty()) return;
+      const auto take = [&](std::size_t, std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
+        advance_point<field>(nodes, p, dt, advance);
+        store_vector(nodes.mean_velocity[p].data(),
+                     advance.grid_velocity.value - 0.5 * advance.increment.value);
+        store_vector(nodes.new_velocity[p].data(), advance.grid_velocity.value);
+        nodes.heat[p] = nodes.mass[p] * advance.heat[0];
+        nodes.contact_heat[p] = nodes.mass[p] * advance.increment.value[3];
+      };
+      Kernels::template gather<Shape>(nodes, grid, kind, slot, typename Kernels::template Transfer<field>{dt},
+                                      take);
+    });
   });
 }
 
@@ -206,31 +244,48 @@ void grid_to_nodes(ShapeFunction shape, TransitionNodes& nodes, BlockGrid& grid,
   });
 }
 
-double update_velocity(ShapeFunction shape, Particles& particles, BlockGrid& grid, double dt,
-                       double relaxation, std::span<Vector3> displacement,
-                       std::span<Matrix3> velocity_gradient, std::span<const Vector3> acceleration) {
+TransferBalance update_velocity(ShapeFunction shape, Particles& particles, BlockGrid& grid, double dt,
+                                double relaxation, std::span<Vector3> displacement, const TakeGradients& take,
+                                std::span<const Vector3> acceleration) {
   return with_shape(shape, [&]<class Shape>(Shape) {
-    if (velocity_gradient.empty()) {
-      return update_velocities<Shape, false>(particles, grid, dt, relaxation, displacement, velocity_gradient,
-                                             acceleration);
-    }
-    return update_velocities<Shape, true>(particles, grid, dt, relaxation, displacement, velocity_gradient,
-                                          acceleration);
+    return take ? update_velocities<Shape, true>(particles, grid, dt, relaxation, displacement, take,
+                                                 acceleration)
+                : update_velocities<Shape, false>(particles, grid, dt, relaxation, displacement, take,
+                                                  acceleration);
   });
 }
 
-void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
-                              std::span<Matrix3> velocity_gradient) {
-  gather_first(shape, particles, grid, [&](std::size_t p, const ValueAndGradient<>& sums) WHIPPLE_INLINE {
-    velocity_gradient[p] = matrix(sums.gradient);
+namespace {
+
+/// Sums of the nodes' velocities, for every particle: take_sums(p, sums, its gradient to be handed on).
+template <class TakeSums>
+void gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& grid, const TakeGradients& take,
+                  TakeSums&& take_sums) {
+  with_shape(shape, [&]<class Shape>(Shape) {
+    gather_particles(grid, take,
+                     [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, Matrix3* gradients) {
+                       const auto each = [&](std::size_t place, std::size_t p, const ValueAndGradient<>& sums)
+                                             WHIPPLE_INLINE { take_sums(p, sums, gradients[place]); };
+                       Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
+                                                       typename Kernels::First{}, each);
+                     });
   });
+}
+
+}  // namespace
+
+void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
+                              const TakeGradients& take) {
+  gather_first(shape, particles, grid, take,
+               [](std::size_t, const ValueAndGradient<>& sums, Matrix3& gradient)
+                   WHIPPLE_INLINE { gradient = matrix(sums.gradient); });
 }
 
 void gather_velocity(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                      std::span<Vector3> velocity) {
-  gather_first(shape, particles, grid, [&](std::size_t p, const ValueAndGradient<>& sums) WHIPPLE_INLINE {
-    store_vector(velocity[p].data(), sums.value);
-  });
+  gather_first(shape, particles, grid, {},
+               [&](std::size_t p, const ValueAndGradient<>& sums, Matrix3&)
+                   WHIPPLE_INLINE { store_vector(velocity[p].data(), sums.value); });
 }
 
 }  // namespace whipple::transfer

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "src/grid/block_grid.hpp"
@@ -12,13 +14,15 @@ namespace whipple::transfer {
 
 /// Sums over the particles of one transfer.
 struct TransferBalance {
-  double work = 0.0;           ///< J, of the stress on the strain of the mean grid velocity
-  double heat = 0.0;           ///< J, kinetic energy lost in the transfer and returned as heat, >= 0
-  double external_work = 0.0;  ///< J, of the external acceleration, on the mean grid velocity
+  double work = 0.0;            ///< J, of the stress on the strain of the mean grid velocity
+  double heat = 0.0;            ///< J, kinetic energy lost in the transfer and returned as heat, >= 0
+  double external_work = 0.0;   ///< J, of the external acceleration, on the mean grid velocity
+  double squared_change = 0.0;  ///< m^2/s^2, the largest of any particle's velocity; no sum
   TransferBalance& operator+=(const TransferBalance& other) {
     work += other.work;
     heat += other.heat;
     external_work += other.external_work;
+    squared_change = std::max(squared_change, other.squared_change);
     return *this;
   }
 };
@@ -30,29 +34,35 @@ enum class AffineField : std::uint8_t {
   turned,    ///< turned with the rotation of the step only, which changes no energy
 };
 
+/// Takes the velocity gradients L(i, j) = dv_i/dx_j (1/s) of some particles while these are still in the
+/// cache: gradient k belongs to particle particles[k]. Every particle of the lists of the grid comes once, in
+/// any order, on any thread; particles of one block in the order of their index.
+using TakeGradients =
+    std::function<void(std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients)>;
+
 /// The gather of the symplectic scheme (docs/theory/mpm.md, section 4): velocity and affine field by the
 /// relaxed affine transfer, internal energy by the exact work identity plus the heat of the transfer,
 /// position with the grid's velocity, and the velocity gradient of the advanced grid for the constitutive
 /// update.
-/// @param affine            B-splines only, unless `none`
-/// @param velocity_gradient out, one per particle, 1/s: L(i, j) = dv_i/dx_j
-/// @param acceleration      by external forces, as given to `particles_to_grid`
+/// @param affine        B-splines only, unless `none`
+/// @param take          the gradients of the advanced grid velocity; may change its particles
+/// @param acceleration  by external forces, as given to `particles_to_grid`
 TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid, double dt,
-                                  AffineField affine, std::span<Matrix3> velocity_gradient,
+                                  AffineField affine, const TakeGradients& take,
                                   std::span<const Vector3> acceleration = {});
 
 /// Gather of the schemes without exact energy (equations 5.1, 5.2): velocity, and the displacement of the
 /// step (not yet applied).
-/// @param relaxation         towards the grid's velocity: 0 FLIP, 1 PIC
-/// @param velocity_gradient  out: of the advanced grid velocity; empty if it is not wanted
-/// @returns the external work
-double update_velocity(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid, double dt,
-                       double relaxation, std::span<Vector3> displacement,
-                       std::span<Matrix3> velocity_gradient, std::span<const Vector3> acceleration = {});
+/// @param relaxation  towards the grid's velocity: 0 FLIP, 1 PIC
+/// @param take        the gradients of the advanced grid velocity; empty if they are not wanted
+/// @returns external work and largest change
+TransferBalance update_velocity(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid, double dt,
+                                double relaxation, std::span<Vector3> displacement, const TakeGradients& take,
+                                std::span<const Vector3> acceleration = {});
 
 /// Velocity gradient of the nodes' velocities (Node::first).
 void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
-                              std::span<Matrix3> velocity_gradient);
+                              const TakeGradients& take);
 
 /// The nodes' velocities (Node::first) at the particles.
 void gather_velocity(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,

@@ -532,13 +532,14 @@ struct Kernels {
   using Update = UpdateSums;
   using First = FirstSums;
 
-  /// Calls take(point, what it gets) for the points of a slot.
+  /// Calls take(place, point, what it gets) for the points of a slot; `place` counts along its list.
   /// @param sums  Transfer, Update or First
   template <class Shape, class Sums, class Points, class Take>
   WHIPPLE_WHOLE_KERNEL static void gather(const Points& points, grid::BlockGrid& grid,
                                           grid::BlockGrid::Points kind, std::size_t slot, const Sums& sums,
                                           const Take& take) {
     const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
+    const std::uint32_t* const list = grid.members(kind, slot).data();
     read_nodes<Shape, typename Sums::Content>(grid, kind, slot, [&](const auto& members, auto& access) {
       for_some<Shape>(points, members, frame, [&](const auto& some, const auto& weights) {
         using Group = Group<Shape, std::remove_reference_t<decltype(access)>>;
@@ -555,7 +556,7 @@ struct Kernels {
         };
         const auto give = [&](std::size_t g, const auto& result) WHIPPLE_INLINE {
           for (std::size_t i = 0, m = g * together; i < together && m < some.size(); ++i, ++m) {
-            take(some[m], part(result, i));
+            take(static_cast<std::size_t>(&some[m] - list), some[m], part(result, i));
           }
         };
         if constexpr (requires { typename Sums::Sum; }) {

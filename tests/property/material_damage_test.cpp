@@ -71,7 +71,7 @@ TEST(PrincipalStress, FailsAtTheStrengthInEveryDirection) {
   for (const double scatter : {1.0, 0.5}) {
     const Matrix3 turn = frame(0.7 + scatter, {1, 2, 3});
     MaterialPoints points = points_of(material, 1);
-    points.failure_threshold_factor[0] = scatter;
+    points.failure_threshold_factor.assign(points.mass.size(), scatter);
     double highest = 0.0;
     while (points.failed[0] == failure::intact) {
       highest = std::max(highest, greatest_stress(points));
@@ -161,7 +161,7 @@ TEST(JohnsonCookDamage, ShearFailsWhereTheDamageOfItsStrainsIsOne) {
   for (const double scatter : {1.0, 0.6}) {
     const Material material = with(taylor_copper(), {criterion(law)}, eos);
     MaterialPoints points = points_of(material, 1);
-    points.failure_threshold_factor[0] = scatter;
+    points.failure_threshold_factor.assign(points.mass.size(), scatter);
     Matrix3 gradient = Matrix3::Zero();
     gradient(0, 1) = 2e-3 / dt;
     double damage = 0.0;
@@ -223,7 +223,7 @@ TEST(GradyKipp, NoFlawGrowsBelowTheStrainAtWhichThePointHoldsOne) {
   const double threshold = std::pow(law.flaw_density * 1e-9, -1.0 / law.weibull_modulus);
   for (const double scatter : {1.0, 1.4}) {
     MaterialPoints points = points_of(material, 1);
-    points.failure_threshold_factor[0] = scatter;
+    points.failure_threshold_factor.assign(points.mass.size(), scatter);
     double strain = 0.0;
     while (points.damage[0] == 0.0) {
       step_with_work(material, points, uniaxial(1e-6 / dt), settings);
@@ -238,7 +238,7 @@ TEST(GradyKipp, NoFlawGrowsBelowTheStrainAtWhichThePointHoldsOne) {
 MaterialPoints half_damaged(const Material& material) {
   MaterialPoints points = points_of(material, 1);
   points.damage[0] = 0.5;
-  points.failure_threshold_factor[0] = 1e6;
+  points.failure_threshold_factor.assign(points.mass.size(), 1e6);
   return points;
 }
 

@@ -48,7 +48,7 @@ TEST(Spall, FailsAtTheStrengthTimesScatterAndOpensAVoid) {
   const Material material = with(taylor_copper(), {spall(1e9)});
   for (const double factor : {1.0, 0.7, 1.3}) {
     MaterialPoints points = points_of(material, 1);
-    points.failure_threshold_factor[0] = factor;
+    points.failure_threshold_factor.assign(points.mass.size(), factor);
     double lowest = 0.0, total = 1e-9;
     int steps = 0;
     while (points.failed[0] == failure::intact) {

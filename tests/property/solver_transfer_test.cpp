@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 #include <random>
 
@@ -29,6 +30,13 @@ grid::Geometry geometry(std::array<grid::Boundary, 6> boundary = {}) {
 SymmetricTensor random_stress(std::mt19937& random) {
   std::normal_distribution<double> normal;
   return {normal(random), normal(random), normal(random), normal(random), normal(random), normal(random)};
+}
+
+/// Takes gradients into an array with one per particle.
+auto into(std::vector<Matrix3>& all) {
+  return [&all](std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients) {
+    for (std::size_t k = 0; k < particles.size(); ++k) all[particles[k]] = gradients[k];
+  };
 }
 
 /// Particles with random state between two corners; a third of them in one dense block, the rest scattered,
@@ -161,7 +169,7 @@ void check_energy_identities(const Relaxation& relaxation, AffineField affine,
   const GridBalance balance = update.advance(grid, dt, relaxation);
   std::vector<Matrix3> gradient(q.size());
   const std::vector<double> energy = q.specific_internal_energy;
-  const TransferBalance transfer = grid_to_particles(Shape::kind, q, grid, dt, affine, gradient);
+  const TransferBalance transfer = grid_to_particles(Shape::kind, q, grid, dt, affine, into(gradient));
   for (std::size_t p = 0; p < q.size(); ++p) momentum_after += q.mass[p] * q.velocity[p];
 
   const double scale = std::abs(before) + balance.kinetic_energy_before;
@@ -181,6 +189,48 @@ TYPED_TEST(Transfer, EnergyAndMomentumAreExactForEveryMemberOfTheFamily) {
       check_energy_identities<TypeParam>(relaxation, affine, {}, Vector3(-1.2, -0.3, 4));
     }
   }
+}
+
+/// Stretches of particles and their gradients, for the material: of a velocity field that is linear in space,
+/// every particle's gradient, once; and the largest change of a velocity.
+TYPED_TEST(Transfer, GradientsComeOnceEachAndRight) {
+  Particles q = random_particles(3000, Vector3(-1.2, -0.3, 4), Vector3(8, 6.5, 11.8), 5);
+  grid::BlockGrid grid(geometry(), parallel::world());
+  bin<TypeParam>(grid, q);
+  const Matrix3 field{{0.3, -1.0, 0.2}, {0.7, 0.1, -0.4}, {-0.6, 0.5, 0.9}};
+  particles_to_grid(TypeParam::kind, q, grid);  // for the masses
+  GridUpdate().advance(grid, 0.0, {});
+  for (std::size_t s = 0; s < grid.slots(); ++s) {
+    for (int i = 0; i < grid::nodes_per_block; ++i) {
+      const grid::BlockCoordinate& c = grid.coordinate(s);
+      const Vector3 place(c[0] * 4 + i / 16, c[1] * 4 + i / 4 % 4, c[2] * 4 + i % 4), v = field * dx * place;
+      grid.nodes(s)[i].first = Lanes{v[0], v[1], v[2], 0.0};
+      grid.nodes(s)[i].second = Lanes{1.0, -2.0, 2.0, 0.0};  // increment
+    }
+  }
+  std::vector<int> taken(q.size(), 0);
+  std::size_t stretches = 0;
+  double worst = 0.0;
+  std::mutex mutex;
+  const auto take = [&](std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients) {
+    const std::lock_guard lock(mutex);
+    ASSERT_EQ(particles.size(), gradients.size());
+    ++stretches;
+    for (std::size_t k = 0; k < particles.size(); ++k) {
+      ++taken[particles[k]];
+      worst = std::max(worst, (gradients[k] - field).cwiseAbs().maxCoeff());
+    }
+  };
+  gather_velocity_gradient(TypeParam::kind, q, grid, take);
+  EXPECT_TRUE(std::ranges::all_of(taken, [](int times) { return times == 1; }));
+  EXPECT_GT(stretches, 3U);
+  EXPECT_LT(worst, 1e-12);
+
+  std::vector<Vector3> displacement(q.size());
+  const TransferBalance flip = update_velocity(TypeParam::kind, q, grid, 0.05, 0.0, displacement, take);
+  EXPECT_TRUE(std::ranges::all_of(taken, [](int times) { return times == 2; }));
+  EXPECT_LT(worst, 1e-12);
+  EXPECT_NEAR(flip.squared_change, 9.0, 1e-11);
 }
 
 /// What a cycle of all transfers makes of particles and nodes of elements, some of which carry no affine
@@ -226,17 +276,18 @@ std::vector<double> numbers_after_all_transfers(bool wide) {
   std::vector<Matrix3> gradient(q.size());
   std::vector<Vector3> displacement(q.size());
   advance();
-  take(std::array{update_velocity(Shape::kind, q, grid, dt, 0.1, displacement, gradient)});
+  take(
+      std::array{update_velocity(Shape::kind, q, grid, dt, 0.1, displacement, into(gradient)).external_work});
   momentum_to_grid(Shape::kind, q, q.velocity, grid);
   take(grid.all_nodes());
-  gather_velocity_gradient(Shape::kind, q, grid, gradient);
+  gather_velocity_gradient(Shape::kind, q, grid, into(gradient));
   take(gradient);
   gather_velocity(Shape::kind, q, grid, displacement);
   take(displacement);
   advance();
-  const TransferBalance balance =
-      grid_to_particles(Shape::kind, q, grid, dt,
-                        CarriesAffineField<Shape> ? AffineField::deformed : AffineField::none, gradient);
+  const TransferBalance balance = grid_to_particles(
+      Shape::kind, q, grid, dt, CarriesAffineField<Shape> ? AffineField::deformed : AffineField::none,
+      into(gradient));
   take(std::array{balance.work, balance.heat});
   take(gradient);
   take(q.position);
@@ -305,7 +356,7 @@ TYPED_TEST(AffineTransfer, NodesMoveLikeParticlesUnderTheSameForce) {
     GridUpdate update;
     update.advance(grid, dt, {.kappa = 0.7});
     std::vector<Matrix3> gradient(particles.size());
-    grid_to_particles(TypeParam::kind, particles, grid, dt, AffineField::deformed, gradient,
+    grid_to_particles(TypeParam::kind, particles, grid, dt, AffineField::deformed, into(gradient),
                       std::span(acceleration).first(particles.size()));
     if (guests) grid_to_nodes(TypeParam::kind, *guests, grid, dt, AffineField::deformed);
   };
@@ -378,7 +429,7 @@ TYPED_TEST(Transfer, MirrorPlaneEqualsATransferOfRealImages) {
     bin<TypeParam>(g, q);
     particles_to_grid(TypeParam::kind, q, g);
     GridUpdate().advance(g, dt, {});
-    grid_to_particles(TypeParam::kind, q, g, dt, carried, gradient);
+    grid_to_particles(TypeParam::kind, q, g, dt, carried, into(gradient));
   };
   cycle(half, grid, half_gradient);
   cycle(full, full_grid, full_gradient);
@@ -439,7 +490,7 @@ TYPED_TEST(Transfer, PlanesOneCellApartEqualRealImages) {
     bin<TypeParam>(g, q);
     particles_to_grid(TypeParam::kind, q, g);
     const GridBalance balance = GridUpdate().advance(g, dt, {});
-    grid_to_particles(TypeParam::kind, q, g, dt, carried, l);
+    grid_to_particles(TypeParam::kind, q, g, dt, carried, into(l));
     return balance;
   };
   const GridBalance balance = cycle(thin, grid, gradient);
@@ -505,7 +556,7 @@ TYPED_TEST(Transfer, IsGalileanInvariant) {
     bin<TypeParam>(grid, q);
     particles_to_grid(TypeParam::kind, q, grid);
     GridUpdate().advance(grid, 0.02, {});
-    return grid_to_particles(TypeParam::kind, q, grid, 0.02, carried, gradient);
+    return grid_to_particles(TypeParam::kind, q, grid, 0.02, carried, into(gradient));
   };
   const TransferBalance b1 = cycle(at_rest, g1);
   const TransferBalance b2 = cycle(moving, g2);

@@ -147,14 +147,14 @@ TEST_F(Modifiers, PorousMatterIsCrushedForGoodInTheUpdate) {
   EXPECT_EQ(points.distension[0], 1.0);
 }
 
-TEST_F(Modifiers, MatterWithoutPoresKeepsItsDistension) {
+TEST_F(Modifiers, MatterWithoutPoresCarriesNoDistension) {
   const Material material = read(metal);
   MaterialPoints points;
   resize(points, 1);
   points.mass[0] = material.reference.density * 1e-9;
   initialise(material, points, 0, 1);
   drive(material, points, 0.8, 50);
-  EXPECT_EQ(points.distension[0], 1.0);
+  EXPECT_TRUE(points.distension.empty());
 }
 
 }  // namespace
