@@ -167,15 +167,23 @@ PhaseMasses& PhaseMasses::operator+=(const PhaseMasses& other) {
 std::vector<PhaseMasses> phase_masses(const Particles& particles, std::span<const fem::Mesh> meshes,
                                       std::span<const fem::Bars> all_bars, std::size_t bodies) {
   std::vector<PhaseMasses> result(bodies);
-  const auto add = [&](const MaterialPoints& points, std::size_t p, std::size_t body) {
-    const io::Phase phase = io::phase(points.melted_fraction[p], points.vaporised_fraction[p]);
-    result[body].mass[static_cast<std::size_t>(phase)] += points.mass[p];
-    if (points.failed[p] != 0) result[body].failed += points.mass[p];
+  const auto of_points = [](const MaterialPoints& points, std::size_t first, std::size_t count) {
+    return parallel::sum_of_chunks<PhaseMasses>(count, [&](std::size_t begin, std::size_t end) {
+      PhaseMasses sum;
+      for (std::size_t p = first + begin; p < first + end; ++p) {
+        const io::Phase phase = io::phase(points.melted_fraction[p], points.vaporised_fraction[p]);
+        sum.mass[static_cast<std::size_t>(phase)] += points.mass[p];
+        if (points.failed[p] != 0) sum.failed += points.mass[p];
+      }
+      return sum;
+    });
   };
-  for (std::size_t p = 0; p < particles.size(); ++p) add(particles, p, particles.body[p]);
-  for (const fem::Mesh& mesh : meshes) {
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) add(mesh.points, i, mesh.body);
+  for (std::uint32_t b = 0; b < bodies; ++b) {
+    const auto own = std::ranges::equal_range(particles.body, b);
+    result[b] =
+        of_points(particles, static_cast<std::size_t>(own.begin() - particles.body.begin()), own.size());
   }
+  for (const fem::Mesh& mesh : meshes) result[mesh.body] += of_points(mesh.points, 0, mesh.points.size());
   for (const fem::Bars& bars : all_bars) {
     for (std::size_t b = 0; b < bars.elements.size(); ++b) {
       result[bars.body].mass[static_cast<std::size_t>(io::Phase::solid)] += bars.elements.mass[b];

@@ -142,7 +142,7 @@ struct PhaseMasses {
   double failed = 0.0;           ///< kg
   PhaseMasses& operator+=(const PhaseMasses& other);
 };
-/// Of the particles of this rank, the elements and the bars, one entry per body.
+/// Of the particles of this rank (sorted by body), the elements and the bars, one entry per body.
 std::vector<PhaseMasses> phase_masses(const Particles& particles, std::span<const fem::Mesh> meshes,
                                       std::span<const fem::Bars> all_bars, std::size_t bodies);
 /// Collective.

@@ -51,7 +51,8 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
     return parallel::maximum(values.size(), so_far, [&](std::size_t p) { return values[p]; });
   };
   const auto fastest = [](const std::vector<Vector3>& velocity, double so_far) {
-    return parallel::maximum(velocity.size(), so_far, [&](std::size_t p) { return velocity[p].norm(); });
+    return std::sqrt(parallel::maximum(velocity.size(), so_far * so_far,
+                                       [&](std::size_t p) { return velocity[p].squaredNorm(); }));
   };
   constexpr double none = -std::numeric_limits<double>::infinity();
   std::array<double, 3> maxima = {fastest(particles.velocity, 0.0), largest(particles.pressure, none),
