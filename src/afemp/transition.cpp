@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "src/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/grid/block_table.hpp"
 #include "src/parallel/mpi.hpp"
@@ -314,8 +315,7 @@ void distribute(const transfer::TransitionNodes& nodes, std::vector<fem::Mesh>& 
 
 Vector3 stop_at_faces(fem::Nodes& nodes, const grid::Geometry& geometry, double dt, fem::Motion& motion,
                       std::span<double> heat) {
-  const auto stop = [&](std::size_t a) {
-    fem::ConstraintBalance balance;
+  const auto stop = [&](std::size_t a, fem::ConstraintBalance& balance) {
     for (int axis = 0; axis < 3; ++axis) {
       const double next = nodes.position[a][axis] + dt * motion.end[a][axis];
       const bool low = next < geometry.lower[axis];
@@ -334,9 +334,18 @@ Vector3 stop_at_faces(fem::Nodes& nodes, const grid::Geometry& geometry, double 
       balance.impulse[axis] += mass * change;
       heat[a] -= mass * change * motion.mean[a][axis];
     }
+  };
+  const Lanes lower = load_vector(geometry.lower.data()),
+              upper = {geometry.upper(0), geometry.upper(1), geometry.upper(2), 0.0};
+  const auto impulse = [&](std::size_t begin, std::size_t end) {
+    fem::ConstraintBalance balance;
+    for (std::size_t a = begin; a < end; ++a) {
+      const Lanes next = load_vector(nodes.position[a].data()) + dt * load_vector(motion.end[a].data());
+      if (bits((next >= lower) & (next <= upper)) != all_lanes) stop(a, balance);
+    }
     return balance;
   };
-  return parallel::sum<fem::ConstraintBalance>(nodes.size(), stop).impulse;
+  return parallel::sum_of_chunks<fem::ConstraintBalance>(nodes.size(), impulse).impulse;
 }
 
 }  // namespace whipple::afemp

@@ -4,7 +4,7 @@
 /// A kernel that is compiled twice, with AVX2 and with AVX-512, whose 32 names of vector registers (16
 /// before) spare many moves; the loader takes what the processor has. Everything it calls is inlined into
 /// both. Once only where the whole program is built for the machine, and under sanitizers, which cannot
-/// choose before they run. (The transfers have kernels of their own for each: src/transfer/kernels.hpp.)
+/// choose before they run.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__AVX512F__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define WHIPPLE_KERNEL [[gnu::target_clones("arch=x86-64-v4", "default"), gnu::flatten, gnu::noinline]]
@@ -12,7 +12,41 @@
 #define WHIPPLE_KERNEL
 #endif
 
+/// Kernels whose source is included twice, for the registers of AVX2 and of AVX-512 (src/transfer/kernels.hpp,
+/// src/fem/element_kernels.hpp). Sanitizers, which take minutes for functions of that size, get those for AVX2 in
+/// pieces.
+#if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define WHIPPLE_WIDE_KERNELS 1
+#else
+#define WHIPPLE_WIDE_KERNELS 0
+#endif
+#if WHIPPLE_WIDE_KERNELS && !defined(__AVX512F__)  // else the whole program is built for such a machine
+#define WHIPPLE_OTHER_TARGET 1
+#else
+#define WHIPPLE_OTHER_TARGET 0
+#endif
+
+#ifdef __SANITIZE_ADDRESS__
+#define WHIPPLE_INLINE
+#define WHIPPLE_WHOLE_KERNEL
+#else
+#define WHIPPLE_INLINE __attribute__((always_inline))
+#define WHIPPLE_WHOLE_KERNEL [[gnu::flatten, gnu::noinline]]
+#endif
+
 namespace whipple {
+
+/// Are the kernels for AVX-512 in use? Where the processor has it, until a test sets otherwise.
+inline bool& wide_registers() {
+#if WHIPPLE_WIDE_KERNELS
+  static bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                     __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+                     __builtin_cpu_supports("avx512cd");
+#else
+  static bool wide = false;
+#endif
+  return wide;
+}
 
 /// Four doubles that compute together: the compiler's vector extension, one register under AVX2. The kernels
 /// vectorise over the payload of a node (scalar and vector of three), not over particles.

@@ -65,22 +65,20 @@ ConstraintBalance& ConstraintBalance::operator+=(const ConstraintBalance& other)
 namespace {
 
 /// From the velocity before to that after the forces.
-ConstraintBalance advance_to(Nodes& nodes, std::size_t a, Vector3 after, Motion& motion) {
-  ConstraintBalance balance;
-  const Vector3 before = nodes.velocity[a];
+void advance_to(Nodes& nodes, std::size_t a, Lanes after, Motion& motion, ConstraintBalance& balance) {
+  const Lanes before = load_vector(nodes.velocity[a].data());
   if (nodes.constrained[a] != constraint::none) {
     for (int i = 0; i < 3; ++i) {
       if ((nodes.constrained[a] & constraint::axis(i)) == 0) continue;
       const double impulse = nodes.mass[a] * (nodes.prescribed[a][i] - after[i]);
       after[i] = nodes.prescribed[a][i];
-      balance.impulse[i] = impulse;
+      balance.impulse[i] += impulse;
       balance.work += impulse * 0.5 * (before[i] + after[i]);
     }
   }
-  nodes.velocity[a] = after;
-  motion.mean[a] = 0.5 * (before + after);
-  motion.end[a] = after;
-  return balance;
+  store_vector(nodes.velocity[a].data(), after);
+  store_vector(motion.mean[a].data(), 0.5 * (before + after));
+  store_vector(motion.end[a].data(), after);
 }
 
 }  // namespace
@@ -89,15 +87,24 @@ ConstraintBalance advance_velocities(Nodes& nodes, double dt, Motion& motion,
                                      std::span<const std::uint8_t> elsewhere) {
   motion.mean.resize(nodes.size());
   motion.end.resize(nodes.size());
-  return parallel::sum<ConstraintBalance>(nodes.size(), [&](std::size_t a) {
-    if (!elsewhere.empty() && elsewhere[a] != 0) return ConstraintBalance{};
-    return advance_to(nodes, a, nodes.velocity[a] + dt / nodes.mass[a] * nodes.force[a], motion);
+  return parallel::sum_of_chunks<ConstraintBalance>(nodes.size(), [&](std::size_t begin, std::size_t end) {
+    ConstraintBalance balance;
+    for (std::size_t a = begin; a < end; ++a) {
+      if (!elsewhere.empty() && elsewhere[a] != 0) continue;
+      const Lanes velocity = load_vector(nodes.velocity[a].data()),
+                  force = load_vector(nodes.force[a].data());
+      advance_to(nodes, a, velocity + dt / nodes.mass[a] * force, motion, balance);
+    }
+    return balance;
   });
 }
 
 ConstraintBalance advance_velocity(Nodes& nodes, std::size_t node, const Vector3& acceleration, double dt,
                                    Motion& motion) {
-  return advance_to(nodes, node, nodes.velocity[node] + dt * acceleration, motion);
+  ConstraintBalance balance;
+  const Lanes velocity = load_vector(nodes.velocity[node].data());
+  advance_to(nodes, node, velocity + dt * load_vector(acceleration.data()), motion, balance);
+  return balance;
 }
 
 void move_nodes(Nodes& nodes, const Motion& motion, double dt) {

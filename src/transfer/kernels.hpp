@@ -7,6 +7,7 @@
 #include <span>
 #include <type_traits>
 
+#include "src/base/simd.hpp"
 #include "src/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/transfer/grid_to_particles.hpp"
@@ -15,27 +16,7 @@
 /// The loops over points and their nodes, kernels.inl, compiled for two sets of registers: `narrow` for AVX2,
 /// whose register holds half a node, and `wide` for AVX-512, whose register holds a node when points bring
 /// something to it, and halves of two nodes when two points take something at a time. Lane by lane both
-/// compute the same in the same order, so their results are the same bits. Sanitizers, which take minutes for
-/// functions of that size, get the narrow ones in pieces.
-#if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define WHIPPLE_WIDE_KERNELS 1
-#else
-#define WHIPPLE_WIDE_KERNELS 0
-#endif
-#if WHIPPLE_WIDE_KERNELS && !defined(__AVX512F__)  // else the whole program is built for such a machine
-#define WHIPPLE_OTHER_TARGET 1
-#else
-#define WHIPPLE_OTHER_TARGET 0
-#endif
-
-#ifdef __SANITIZE_ADDRESS__
-#define WHIPPLE_INLINE
-#define WHIPPLE_WHOLE_KERNEL
-#else
-#define WHIPPLE_INLINE __attribute__((always_inline))
-#define WHIPPLE_WHOLE_KERNEL [[gnu::flatten, gnu::noinline]]
-#endif
-
+/// compute the same in the same order, so their results are the same bits.
 namespace whipple::transfer {
 
 /// What one point brings to a node: first += N (a0 + a_x r_x + a_y r_y + a_z r_z),
@@ -208,18 +189,6 @@ WHIPPLE_INLINE inline void store_node(grid::Node& node, Both value) {
 #pragma GCC pop_options
 #endif
 #endif
-
-/// Are the kernels for AVX-512 in use? Where the processor has it, until a test sets otherwise.
-inline bool& wide_registers() {
-#if WHIPPLE_WIDE_KERNELS
-  static bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                     __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-                     __builtin_cpu_supports("avx512cd");
-#else
-  static bool wide = false;
-#endif
-  return wide;
-}
 
 /// Calls f(Kernels{}) with the set that the processor runs.
 template <class Function>

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "src/base/simd.hpp"
+#include "src/base/vector_math.hpp"
+#include "src/fem/hexahedron.hpp"
+#include "src/fem/mesh.hpp"
+#include "src/fem/step.hpp"
+
+/// The loops over the elements of a block, element_kernels.inl, compiled for two sets of registers, one
+/// element per lane: `narrow` for AVX2, four elements at a time, and `wide` for AVX-512, eight. Lane by lane
+/// both compute the same in the same order, and sums go over four lanes after four, so their results are the
+/// same bits.
+namespace whipple::fem {
+
+inline constexpr double root8 = 2.8284271247461900976;  ///< norm of a mode's corner values
+
+/// What does not change from one group of elements to the next.
+struct DeformationStep {
+  Mesh& mesh;
+  double dt;
+  const HourglassControl& hourglass;
+  std::span<Matrix3> gradient;
+};
+
+inline std::size_t block_count(const Mesh& mesh) { return mesh.blocks.first_slot.size() - 1; }
+
+namespace narrow {
+
+using Vector = Lanes;
+constexpr std::size_t width = 4;
+
+WHIPPLE_INLINE inline Vector in_all(double x) { return broadcast(x); }
+/// The first `count` lanes, at least one, from and to memory.
+WHIPPLE_INLINE inline Vector load_lanes(const double* from, std::size_t count) {
+  return whipple::load(from, count, 0.0);
+}
+WHIPPLE_INLINE inline void store_lanes(double* to, Vector x, std::size_t count) {
+  whipple::store(to, x, count);
+}
+WHIPPLE_INLINE inline Vector root(Vector x) { return whipple::sqrt(x); }
+WHIPPLE_INLINE inline Vector minimum(Vector a, Vector b) { return whipple::minimum(a, b); }
+WHIPPLE_INLINE inline Vector maximum(Vector a, Vector b) { return whipple::maximum(a, b); }
+WHIPPLE_INLINE inline bool all_positive(Vector x) { return bits(x > 0.0) == all_lanes; }
+/// Four numbers of each element (a row) to one register per number (a column), and back.
+WHIPPLE_INLINE inline std::array<Vector, 4> columns(const std::array<Lanes, width>& rows) {
+  return transposed(rows);
+}
+WHIPPLE_INLINE inline std::array<Lanes, width> rows(const std::array<Vector, 4>& columns) {
+  return transposed(columns);
+}
+
+#include "src/fem/element_kernels.inl"
+
+}  // namespace narrow
+
+#if WHIPPLE_WIDE_KERNELS
+#if WHIPPLE_OTHER_TARGET
+#pragma GCC push_options
+#pragma GCC target("arch=x86-64-v4")
+#endif
+namespace wide {
+
+using Vector [[gnu::vector_size(64)]] = double;
+constexpr std::size_t width = 8;
+
+WHIPPLE_INLINE inline Vector in_all(double x) { return Vector{x, x, x, x, x, x, x, x}; }
+WHIPPLE_INLINE inline Vector load_lanes(const double* from, std::size_t count) {
+  return Vector(_mm512_maskz_loadu_pd(static_cast<__mmask8>((1U << count) - 1U), from));
+}
+WHIPPLE_INLINE inline void store_lanes(double* to, Vector x, std::size_t count) {
+  _mm512_mask_storeu_pd(to, static_cast<__mmask8>((1U << count) - 1U), __m512d(x));
+}
+WHIPPLE_INLINE inline Vector root(Vector x) { return Vector(_mm512_maskz_sqrt_pd(0xff, __m512d(x))); }
+WHIPPLE_INLINE inline Vector minimum(Vector a, Vector b) {
+  return Vector(_mm512_maskz_min_pd(0xff, __m512d(a), __m512d(b)));
+}
+WHIPPLE_INLINE inline Vector maximum(Vector a, Vector b) {
+  return Vector(_mm512_maskz_max_pd(0xff, __m512d(a), __m512d(b)));
+}
+WHIPPLE_INLINE inline bool all_positive(Vector x) {
+  return _mm512_cmp_pd_mask(__m512d(x), _mm512_setzero_pd(), _CMP_GT_OQ) == 0xff;
+}
+/// Pairs of halves: row n in the lower one, row n + 4 in the upper one.
+WHIPPLE_INLINE inline std::array<Vector, 4> columns(const std::array<Lanes, width>& rows) {
+  std::array<Vector, 4> pair;
+  for (std::size_t n = 0; n < 4; ++n) {
+    pair[n] = __builtin_shufflevector(rows[n], rows[n + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+  const Vector even_low = __builtin_shufflevector(pair[0], pair[1], 0, 8, 2, 10, 4, 12, 6, 14),
+               odd_low = __builtin_shufflevector(pair[0], pair[1], 1, 9, 3, 11, 5, 13, 7, 15),
+               even_high = __builtin_shufflevector(pair[2], pair[3], 0, 8, 2, 10, 4, 12, 6, 14),
+               odd_high = __builtin_shufflevector(pair[2], pair[3], 1, 9, 3, 11, 5, 13, 7, 15);
+  return {__builtin_shufflevector(even_low, even_high, 0, 1, 8, 9, 4, 5, 12, 13),
+          __builtin_shufflevector(odd_low, odd_high, 0, 1, 8, 9, 4, 5, 12, 13),
+          __builtin_shufflevector(even_low, even_high, 2, 3, 10, 11, 6, 7, 14, 15),
+          __builtin_shufflevector(odd_low, odd_high, 2, 3, 10, 11, 6, 7, 14, 15)};
+}
+WHIPPLE_INLINE inline std::array<Lanes, width> rows(const std::array<Vector, 4>& columns) {
+  const Vector even_low = __builtin_shufflevector(columns[0], columns[1], 0, 8, 2, 10, 4, 12, 6, 14),
+               odd_low = __builtin_shufflevector(columns[0], columns[1], 1, 9, 3, 11, 5, 13, 7, 15),
+               even_high = __builtin_shufflevector(columns[2], columns[3], 0, 8, 2, 10, 4, 12, 6, 14),
+               odd_high = __builtin_shufflevector(columns[2], columns[3], 1, 9, 3, 11, 5, 13, 7, 15);
+  const std::array<Vector, 4> pair = {
+      __builtin_shufflevector(even_low, even_high, 0, 1, 8, 9, 4, 5, 12, 13),
+      __builtin_shufflevector(odd_low, odd_high, 0, 1, 8, 9, 4, 5, 12, 13),
+      __builtin_shufflevector(even_low, even_high, 2, 3, 10, 11, 6, 7, 14, 15),
+      __builtin_shufflevector(odd_low, odd_high, 2, 3, 10, 11, 6, 7, 14, 15)};
+  std::array<Lanes, width> rows;
+  for (std::size_t n = 0; n < 4; ++n) {
+    rows[n] = __builtin_shufflevector(pair[n], pair[n], 0, 1, 2, 3);
+    rows[n + 4] = __builtin_shufflevector(pair[n], pair[n], 4, 5, 6, 7);
+  }
+  return rows;
+}
+
+#include "src/fem/element_kernels.inl"
+
+}  // namespace wide
+#if WHIPPLE_OTHER_TARGET
+#pragma GCC pop_options
+#endif
+#endif
+
+/// Calls f(Kernels{}) with the set that the processor runs.
+template <class Function>
+void with_kernels(Function&& f) {
+#if WHIPPLE_WIDE_KERNELS
+  if (wide_registers()) return f(wide::Kernels{});
+#endif
+  f(narrow::Kernels{});
+}
+
+}  // namespace whipple::fem

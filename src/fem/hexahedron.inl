@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Included by hexahedron.hpp for numbers and by element_kernels.hpp for each set of registers. `root`,
+// `minimum` and `maximum` are those of the number.
+
+template <class T>
+struct Triple {
+  T x, y, z;
+
+  Triple& operator+=(const Triple& o) {
+    x += o.x, y += o.y, z += o.z;
+    return *this;
+  }
+  Triple& operator-=(const Triple& o) {
+    x -= o.x, y -= o.y, z -= o.z;
+    return *this;
+  }
+};
+template <class T>
+[[gnu::always_inline]] inline Triple<T> operator+(const Triple<T>& a, const Triple<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+[[gnu::always_inline]] inline Triple<T> operator-(const Triple<T>& a, const Triple<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+[[gnu::always_inline]] inline Triple<T> operator-(const Triple<T>& a) {
+  return {-a.x, -a.y, -a.z};
+}
+template <class S, class T>
+[[gnu::always_inline]] inline Triple<T> operator*(const S& s, const Triple<T>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class T>
+[[gnu::always_inline]] inline T dot(const Triple<T>& a, const Triple<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+[[gnu::always_inline]] inline Triple<T> cross(const Triple<T>& a, const Triple<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Columns of a 3 x 3 matrix.
+template <class T>
+struct Columns {
+  Triple<T> x, y, z;
+};
+template <class T>
+[[gnu::always_inline]] inline Triple<T> operator*(const Columns<T>& m, const Triple<T>& v) {
+  return v.x * m.x + v.y * m.y + v.z * m.z;
+}
+template <class T>
+[[gnu::always_inline]] inline T determinant(const Columns<T>& m) {
+  return dot(m.x, cross(m.y, m.z));
+}
+/// Cofactors: the inverse transposed, times the determinant.
+template <class T>
+[[gnu::always_inline]] inline Columns<T> cofactors(const Columns<T>& m) {
+  return {cross(m.y, m.z), cross(m.z, m.x), cross(m.x, m.y)};
+}
+/// a b^T
+template <class T>
+[[gnu::always_inline]] inline void add_dyad(Columns<T>& m, const Triple<T>& a, const Triple<T>& b) {
+  m.x += b.x * a;
+  m.y += b.y * a;
+  m.z += b.z * a;
+}
+/// a : b
+template <class T>
+[[gnu::always_inline]] inline T contraction(const Columns<T>& a, const Columns<T>& b) {
+  return dot(a.x, b.x) + dot(a.y, b.y) + dot(a.z, b.z);
+}
+
+/// Coefficients of a nodal vector field, without the constant one.
+template <class T>
+struct Modes {
+  Triple<T> xi, eta, zeta, eta_zeta, zeta_xi, xi_eta, xi_eta_zeta;
+};
+
+template <class T>
+[[gnu::always_inline]] inline Modes<T> operator+(const Modes<T>& a, const Modes<T>& b) {
+  return {a.xi + b.xi,
+          a.eta + b.eta,
+          a.zeta + b.zeta,
+          a.eta_zeta + b.eta_zeta,
+          a.zeta_xi + b.zeta_xi,
+          a.xi_eta + b.xi_eta,
+          a.xi_eta_zeta + b.xi_eta_zeta};
+}
+template <class S, class T>
+[[gnu::always_inline]] inline Modes<T> operator*(const S& s, const Modes<T>& a) {
+  return {s * a.xi, s * a.eta, s * a.zeta, s * a.eta_zeta, s * a.zeta_xi, s * a.xi_eta, s * a.xi_eta_zeta};
+}
+
+/// From the corners to the modes: u_k = 1/8 sum_a phi_ka u_a (eq. 2.2).
+template <class T>
+[[gnu::always_inline]] inline Modes<T> modes_of(const std::array<Triple<T>, 8>& u) {
+  const Triple<T> s0 = u[1] + u[0], d0 = u[1] - u[0], s1 = u[2] + u[3], d1 = u[2] - u[3];
+  const Triple<T> s2 = u[5] + u[4], d2 = u[5] - u[4], s3 = u[6] + u[7], d3 = u[6] - u[7];
+  const Triple<T> ss0 = s1 + s0, ds0 = s1 - s0, sd0 = d1 + d0, dd0 = d1 - d0;
+  const Triple<T> ss1 = s3 + s2, ds1 = s3 - s2, sd1 = d3 + d2, dd1 = d3 - d2;
+  return {0.125 * (sd1 + sd0), 0.125 * (ds1 + ds0), 0.125 * (ss1 - ss0), 0.125 * (ds1 - ds0),
+          0.125 * (sd1 - sd0), 0.125 * (dd1 + dd0), 0.125 * (dd1 - dd0)};
+}
+
+/// From the modes to the corners: u_a = sum_k phi_ka u_k, without the constant mode.
+template <class T>
+[[gnu::always_inline]] inline std::array<Triple<T>, 8> corners_of(const Modes<T>& m) {
+  const Triple<T> xi_low = m.xi - m.zeta_xi, xi_high = m.xi + m.zeta_xi;
+  const Triple<T> eta_low = m.eta - m.eta_zeta, eta_high = m.eta + m.eta_zeta;
+  const Triple<T> both_low = m.xi_eta - m.xi_eta_zeta, both_high = m.xi_eta + m.xi_eta_zeta;
+  // xi + eta and xi - eta at zeta = -1 and +1
+  const Triple<T> sum_low = xi_low + eta_low, difference_low = xi_low - eta_low;
+  const Triple<T> sum_high = xi_high + eta_high, difference_high = xi_high - eta_high;
+  const Triple<T> even_low = both_low - m.zeta, odd_low = both_low + m.zeta;
+  const Triple<T> even_high = both_high + m.zeta, odd_high = both_high - m.zeta;
+  return {even_low - sum_low,          difference_low - odd_low,     even_low + sum_low,
+          -(odd_low + difference_low), even_high - sum_high,         difference_high - odd_high,
+          even_high + sum_high,        -(odd_high + difference_high)};
+}
+
+/// Derivatives of an eighth of the volume with respect to the modes of the position (eq. 2.4); none to the
+/// last one. With them sum_a u_a B_a^T = 8 sum_k u_k beta_k^T, B_a = dV/dx_a.
+template <class T>
+struct VolumeGradient {
+  Triple<T> xi, eta, zeta, eta_zeta, zeta_xi, xi_eta;
+  T volume;
+
+  /// sum_a |B_a|^2
+  [[nodiscard]] T squared_norm() const {
+    return 8.0 * (dot(xi, xi) + dot(eta, eta) + dot(zeta, zeta) + dot(eta_zeta, eta_zeta) +
+                  dot(zeta_xi, zeta_xi) + dot(xi_eta, xi_eta));
+  }
+};
+
+/// Volume and its gradient (eq. 2.3, 2.4).
+template <class T>
+[[gnu::always_inline]] inline VolumeGradient<T> volume_gradient(const Modes<T>& x) {
+  const auto third = [](const Triple<T>& a) { return (1.0 / 3.0) * a; };
+  const Triple<T>&a = x.xi, &b = x.eta, &c = x.zeta, &d = x.eta_zeta, &e = x.zeta_xi, &f = x.xi_eta;
+  VolumeGradient<T> g;
+  g.xi = cross(b, c) + third(cross(f, e));
+  g.eta = cross(c, a) + third(cross(d, f));
+  g.zeta = cross(a, b) + third(cross(e, d));
+  g.eta_zeta = third(cross(f, b) + cross(c, e));
+  g.zeta_xi = third(cross(d, c) + cross(a, f));
+  g.xi_eta = third(cross(e, a) + cross(b, d));
+  // V/8 = [a, b, c] + ([a, f, e] + [b, d, f] + [c, e, d])/3
+  g.volume = 8.0 * (dot(a, g.xi) + (1.0 / 3.0) * (dot(b, cross(d, f)) + dot(c, cross(e, d))));
+  return g;
+}
+
+/// The volume alone.
+template <class T>
+[[gnu::always_inline]] inline T volume_of(const Modes<T>& x) {
+  const Triple<T>&a = x.xi, &b = x.eta, &c = x.zeta, &d = x.eta_zeta, &e = x.zeta_xi, &f = x.xi_eta;
+  return 8.0 * (dot(a, cross(b, c) + (1.0 / 3.0) * cross(f, e)) +
+                (1.0 / 3.0) * (dot(b, cross(d, f)) + dot(c, cross(e, d))));
+}
+
+/// sum_a u_a B_a^T: the mean gradient of the field times the volume.
+template <class T>
+[[gnu::always_inline]] inline Columns<T> mean_gradient_times_volume(const Modes<T>& u,
+                                                                    const VolumeGradient<T>& g) {
+  Columns<T> sum{};
+  add_dyad(sum, u.xi, g.xi);
+  add_dyad(sum, u.eta, g.eta);
+  add_dyad(sum, u.zeta, g.zeta);
+  add_dyad(sum, u.eta_zeta, g.eta_zeta);
+  add_dyad(sum, u.zeta_xi, g.zeta_xi);
+  add_dyad(sum, u.xi_eta, g.xi_eta);
+  return {8.0 * sum.x, 8.0 * sum.y, 8.0 * sum.z};
+}
+
+/// Derivatives of a field with respect to the natural coordinates at a point (columns).
+template <class T>
+[[gnu::always_inline]] inline Columns<T> natural_gradient(const Modes<T>& u, double xi, double eta,
+                                                          double zeta) {
+  return {u.xi + zeta * u.zeta_xi + eta * u.xi_eta + (eta * zeta) * u.xi_eta_zeta,
+          u.eta + zeta * u.eta_zeta + xi * u.xi_eta + (zeta * xi) * u.xi_eta_zeta,
+          u.zeta + eta * u.eta_zeta + xi * u.zeta_xi + (xi * eta) * u.xi_eta_zeta};
+}
+
+/// x^(1/3) for x in [1/2, 2] to round-off: three steps of Halley's iteration from the tangent at 1. Outside
+/// of that range, a positive number.
+template <class T>
+[[gnu::always_inline]] inline T cube_root_near_one(T x) {
+  T y = 1.0 + (1.0 / 3.0) * (x - 1.0);
+  for (int i = 0; i < 3; ++i) {
+    const T cube = y * y * y;
+    y = y * (cube + 2.0 * x) / (2.0 * cube + x);
+  }
+  return y;
+}
+
+/// Length of a one-point element (m): V sqrt(3/2 / sum_a |B_a|^2), the edge of a cube (eq. 5.2).
+template <class T>
+[[gnu::always_inline]] inline T one_point_length(const VolumeGradient<T>& g) {
+  return g.volume / root((2.0 / 3.0) * g.squared_norm());
+}
+
+/// What eight Gauss points say about the size of an element.
+template <class T>
+struct EightPointSize {
+  T length;          ///< m (eq. 5.4); the edge of a cube
+  T least_jacobian;  ///< m^3
+};
+template <class T>
+[[gnu::always_inline]] inline EightPointSize<T> eight_point_size(const Modes<T>& x,
+                                                                 const VolumeGradient<T>& g) {
+  T trace{}, least{};  // integral of sum_a |grad N_a|^2; least Jacobian
+  for (std::size_t q = 0; q < 8; ++q) {
+    const double xi = gauss_coordinate * corner_coordinates[q][0],
+                 eta = gauss_coordinate * corner_coordinates[q][1],
+                 zeta = gauss_coordinate * corner_coordinates[q][2];
+    const Columns<T> jacobian = natural_gradient(x, xi, eta, zeta), c = cofactors(jacobian);
+    const T det = determinant(jacobian);
+    // sum_a dN_a/dxi_i dN_a/dxi_j is 2/9 for i = j, xi_i xi_j / 6 otherwise
+    trace += ((2.0 / 9.0) * (dot(c.x, c.x) + dot(c.y, c.y) + dot(c.z, c.z)) +
+              (1.0 / 3.0) *
+                  ((xi * eta) * dot(c.x, c.y) + (eta * zeta) * dot(c.y, c.z) + (zeta * xi) * dot(c.z, c.x))) /
+             det;
+    least = q == 0 ? det : minimum(least, det);
+  }
+  const T stiffness = maximum(g.squared_norm() / g.volume, (9.0 / 16.0) * trace);
+  return {root(1.5 * g.volume / stiffness), least};
+}
