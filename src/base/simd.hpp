@@ -12,9 +12,9 @@
 #define WHIPPLE_KERNEL
 #endif
 
-/// Kernels whose source is included twice, for the registers of AVX2 and of AVX-512 (src/transfer/kernels.hpp,
-/// src/fem/element_kernels.hpp). Sanitizers, which take minutes for functions of that size, get those for AVX2 in
-/// pieces.
+/// Kernels whose source is included twice, for the registers of AVX2 and of AVX-512:
+/// src/transfer/kernels.hpp, src/fem/element_kernels.hpp. Sanitizers, which take minutes for functions of
+/// that size, get those for AVX2 in pieces.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define WHIPPLE_WIDE_KERNELS 1
 #else
