@@ -65,7 +65,8 @@ constexpr std::uint64_t width() {
   return columns;
 }
 
-const hdf5::Storage checksummed{.fletcher32 = true};
+/// A chunk of tensors takes less than a megabyte: HDF5 holds it twice while it sums.
+const hdf5::Storage checksummed{.fletcher32 = true, .chunk_rows = 16384};
 
 /// All fields of particles, nodes, elements or Gauss points.
 template <class Points>

@@ -317,15 +317,7 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       return total * static_cast<std::size_t>(r) / static_cast<std::size_t>(ranks);
     };
     const std::size_t begin = share_begin(rank), behind = share_begin(rank + 1);
-    std::vector<Site> sites;
-    sites.reserve(behind - begin);
-    std::size_t index = 0;
-    for_each_site(setup, body, lattice, [&](const Site& site) {
-      if (index >= begin && index < behind) sites.push_back(site);
-      ++index;
-    });
-
-    BodySummary summary{.first = particles.size(), .count = sites.size()};
+    BodySummary summary{.first = particles.size(), .count = behind - begin};
     const std::size_t end = summary.first + summary.count;
     resize(particles, end);
     particles.affine_velocity.resize(end);
@@ -338,17 +330,20 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     const Vector3& w = body.angular_velocity;
     Matrix3 spin;
     spin << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
-    for (std::size_t i = 0; i < sites.size(); ++i) {
-      const std::size_t p = summary.first + i;
-      particles.id[p] = first_id + begin + i;
+    std::size_t index = 0;
+    for_each_site(setup, body, lattice, [&](const Site& site) {
+      const std::size_t number = index++;
+      if (number < begin || number >= behind) return;
+      const std::size_t p = summary.first + number - begin;
+      particles.id[p] = first_id + number;
       particles.body[p] = static_cast<std::uint32_t>(b);
-      particles.mass[p] = mass * sites[i].share;
-      particles.position[p] = sites[i].position;
-      particles.velocity[p] = body.velocity + spin * (sites[i].position - center);
+      particles.mass[p] = mass * site.share;
+      particles.position[p] = site.position;
+      particles.velocity[p] = body.velocity + spin * (site.position - center);
       particles.affine_velocity[p] = spin;
-      particles.extent[p] = sites[i].extent;
+      particles.extent[p] = site.extent;
       particles.generation[p] = 0;
-    }
+    });
     initialise(material, particles, summary.first, end, state);
     if (body.failure_scatter.given()) particles.failure_threshold_factor.resize(end, 1.0);
     for (std::size_t p = summary.first; body.failure_scatter.given() && p < end; ++p) {
