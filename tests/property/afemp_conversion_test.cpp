@@ -3,6 +3,7 @@
 // and the shape of the elements; surface and transition of nodes.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <random>
 #include <set>

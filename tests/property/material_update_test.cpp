@@ -482,6 +482,7 @@ TEST(Ranges, ListsChunksAndThreadsGiveBitwiseTheSamePoints) {
   for_each_field<MaterialPoints>([&](const auto& field) {
     const auto& expected = whole.*(field.values);
     const auto bytes = expected.size() * sizeof(expected[0]);
+    if (bytes == 0) return;  // optional, not in use
     EXPECT_EQ(std::memcmp(expected.data(), (parts.*(field.values)).data(), bytes), 0) << field.name;
     EXPECT_EQ(std::memcmp(expected.data(), (list.*(field.values)).data(), bytes), 0) << field.name;
   });
