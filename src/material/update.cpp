@@ -411,58 +411,6 @@ MaterialReport update_all(const Material& material, MaterialPoints& points, std:
 
 }  // namespace
 
-namespace material {
-
-void Chunk::find_runs() {
-  run_count = 0;
-  for (std::size_t k = 0; k < size; ++k) {
-    if (k == 0 || index[k] != index[k - 1] + 1) runs[run_count++] = {k, k};
-    ++runs[run_count - 1].end;
-  }
-}
-
-void Chunk::find_failed() {
-  std::uint8_t codes = 0;
-  for (std::size_t k = 0; k < size; ++k) {
-    codes |= failed[k];
-    intact[k] = failed[k] == failure::intact ? 1.0 : 0.0;
-  }
-  any_failed = codes != 0;
-}
-
-void Chunk::fetch(const std::vector<SymmetricTensor>& from, SymmetricLanes& to) const {
-  std::size_t k = 0;
-  for (; k + 4 <= size; k += 4) {
-    std::array<const double*, 4> at;
-    for (std::size_t n = 0; n < 4; ++n) at[n] = &from[index[k + n]].xx;
-    const auto normal = transposed({load(at[0]), load(at[1]), load(at[2]), load(at[3])});
-    const auto shear = transposed({load(at[0] + 2), load(at[1] + 2), load(at[2] + 2), load(at[3] + 2)});
-    for (std::size_t j = 0; j < 4; ++j) store(&to[j][k], normal[j]);
-    store(&to[4][k], shear[2]);
-    store(&to[5][k], shear[3]);
-  }
-  for (; k < size; ++k) {
-    for (std::size_t j = 0; j < 6; ++j) to[j][k] = from[index[k]].*components[j];
-  }
-}
-
-void Chunk::deposit(const SymmetricLanes& from, std::vector<SymmetricTensor>& to) const {
-  std::size_t k = 0;
-  for (; k + 4 <= size; k += 4) {
-    const auto lane = [&](std::size_t j) { return load(&from[j][k]); };
-    const auto front = transposed({lane(0), lane(1), lane(2), lane(3)});
-    const auto back = transposed({lane(2), lane(3), lane(4), lane(5)});
-    for (std::size_t n = 0; n < 4; ++n) {
-      double* const at = &to[index[k + n]].xx;
-      store(at, front[n]);
-      store(at + 2, back[n]);
-    }
-  }
-  for (; k < size; ++k) to[index[k]] = tensor(from, k);
-}
-
-}  // namespace material
-
 void MaterialReport::merge(const MaterialReport& other) {
   equation_of_state.merge(other.equation_of_state);
   undefined += other.undefined;

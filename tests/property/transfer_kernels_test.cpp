@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The loops of the transfers: gradients come to whoever takes them, either set of registers gives the same.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "src/parallel/mpi.hpp"
+#include "src/transfer/grid_to_particles.hpp"
+#include "src/transfer/grid_update.hpp"
+#include "src/transfer/kernels.hpp"
+#include "src/transfer/particles_to_grid.hpp"
+#include "src/transfer/transition_nodes.hpp"
+#include "tests/property/transfer_support.hpp"
+
+namespace whipple::transfer {
+namespace {
+
+template <class Shape>
+class TransferKernels : public testing::Test {};
+using Shapes = testing::Types<Linear, Gimp, ConvectedGimp, QuadraticBSpline, CubicBSpline>;
+TYPED_TEST_SUITE(TransferKernels, Shapes);
+
+/// Stretches of particles and their gradients, for the material: of a velocity field that is linear in space,
+/// every particle's gradient, once; and the largest change of a velocity.
+TYPED_TEST(TransferKernels, GradientsComeOnceEachAndRight) {
+  Particles q = random_particles(3000, Vector3(-1.2, -0.3, 4), Vector3(8, 6.5, 11.8), 5);
+  grid::BlockGrid grid(geometry(), parallel::world());
+  bin<TypeParam>(grid, q);
+  const Matrix3 field{{0.3, -1.0, 0.2}, {0.7, 0.1, -0.4}, {-0.6, 0.5, 0.9}};
+  particles_to_grid(TypeParam::kind, q, grid);  // for the masses
+  GridUpdate().advance(grid, 0.0, {});
+  for (std::size_t s = 0; s < grid.slots(); ++s) {
+    for (int i = 0; i < grid::nodes_per_block; ++i) {
+      const grid::BlockCoordinate& c = grid.coordinate(s);
+      const Vector3 place(c[0] * 4 + i / 16, c[1] * 4 + i / 4 % 4, c[2] * 4 + i % 4), v = field * dx * place;
+      grid.nodes(s)[i].first = Lanes{v[0], v[1], v[2], 0.0};
+      grid.nodes(s)[i].second = Lanes{1.0, -2.0, 2.0, 0.0};  // increment
+    }
+  }
+  std::vector<int> taken(q.size(), 0);
+  std::size_t stretches = 0;
+  double worst = 0.0;
+  std::mutex mutex;
+  const auto take = [&](std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients) {
+    const std::lock_guard lock(mutex);
+    ASSERT_EQ(particles.size(), gradients.size());
+    ++stretches;
+    for (std::size_t k = 0; k < particles.size(); ++k) {
+      ++taken[particles[k]];
+      worst = std::max(worst, (gradients[k] - field).cwiseAbs().maxCoeff());
+    }
+  };
+  gather_velocity_gradient(TypeParam::kind, q, grid, take);
+  EXPECT_TRUE(std::ranges::all_of(taken, [](int times) { return times == 1; }));
+  EXPECT_GT(stretches, 3U);
+  EXPECT_LT(worst, 1e-12);
+
+  std::vector<Vector3> displacement(q.size());
+  const TransferBalance flip = update_velocity(TypeParam::kind, q, grid, 0.05, 0.0, displacement, take);
+  EXPECT_TRUE(std::ranges::all_of(taken, [](int times) { return times == 2; }));
+  EXPECT_LT(worst, 1e-12);
+  EXPECT_NEAR(flip.squared_change, 9.0, 1e-11);
+}
+
+/// What a cycle of all transfers makes of particles and nodes of elements, some of which carry no affine
+/// field: every number of it.
+template <class Shape>
+std::vector<double> numbers_after_all_transfers(bool wide) {
+  wide_registers() = wide;
+  constexpr double dt = 0.05;
+  Particles q = random_particles(701, Vector3(-1.2, -0.3, 4), Vector3(8, 6.5, 11.8), 21);
+  const Particles guests = random_particles(93, Vector3(0, 0, 4.5), Vector3(4, 5, 9), 22);
+  TransitionNodes nodes;
+  nodes.resize(CarriesAffineField<Shape> ? guests.size() : 0);
+  nodes.unrelaxed = nodes.size() / 3;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    nodes.mass[n] = guests.mass[n];
+    nodes.sound_speed[n] = guests.sound_speed[n];
+    nodes.position[n] = guests.position[n];
+    nodes.velocity[n] = guests.velocity[n];
+    nodes.affine_velocity[n] = n < nodes.unrelaxed ? Matrix3(Matrix3::Zero()) : guests.affine_velocity[n];
+    nodes.force[n] = guests.affine_velocity[n].col(1);
+  }
+  grid::BlockGrid grid(geometry(), parallel::world());
+  std::vector<Vector3> all = q.position, moving = q.velocity;
+  all.insert(all.end(), nodes.position.begin(), nodes.position.end());
+  moving.insert(moving.end(), nodes.velocity.begin(), nodes.velocity.end());
+  grid.adapt(all, moving, 0.0, Shape::stencil);
+  grid.activate(all, moving, 0.0, Shape::stencil, nodes.size());
+  EXPECT_TRUE(grid.bin(q.position, Shape::stencil, nodes.position));
+
+  std::vector<double> numbers;
+  const auto take = [&](const auto& values) {
+    for (const auto& value : values) {
+      const auto* from = reinterpret_cast<const double*>(&value);
+      numbers.insert(numbers.end(), from, from + sizeof(value) / sizeof(double));
+    }
+  };
+  const auto advance = [&] {
+    particles_to_grid(Shape::kind, q, grid);
+    if (nodes.size() > 0) nodes_to_grid(Shape::kind, nodes, grid);
+    take(grid.all_nodes());
+    GridUpdate().advance(grid, dt, {.kappa = 0.7});
+  };
+  std::vector<Matrix3> gradient(q.size());
+  std::vector<Vector3> displacement(q.size());
+  advance();
+  take(
+      std::array{update_velocity(Shape::kind, q, grid, dt, 0.1, displacement, into(gradient)).external_work});
+  momentum_to_grid(Shape::kind, q, q.velocity, grid);
+  take(grid.all_nodes());
+  gather_velocity_gradient(Shape::kind, q, grid, into(gradient));
+  take(gradient);
+  gather_velocity(Shape::kind, q, grid, displacement);
+  take(displacement);
+  advance();
+  const TransferBalance balance = grid_to_particles(
+      Shape::kind, q, grid, dt, CarriesAffineField<Shape> ? AffineField::deformed : AffineField::none,
+      into(gradient));
+  take(std::array{balance.work, balance.heat});
+  take(gradient);
+  take(q.position);
+  take(q.velocity);
+  take(q.affine_velocity);
+  take(q.specific_internal_energy);
+  if (nodes.size() > 0) {
+    grid_to_nodes(Shape::kind, nodes, grid, dt, AffineField::deformed);
+    take(nodes.velocity);
+    take(nodes.affine_velocity);
+    take(nodes.new_velocity);
+    take(nodes.heat);
+    for (std::size_t n = 0; n < nodes.unrelaxed; ++n) EXPECT_EQ(nodes.affine_velocity[n].norm(), 0.0) << n;
+  }
+  return numbers;
+}
+
+TYPED_TEST(TransferKernels, WideRegistersGiveTheSameNumbers) {
+  const bool wide = wide_registers();
+  if (!wide) GTEST_SKIP() << "needs a processor with AVX-512, and an optimised build";
+  const std::vector<double> of_wide = numbers_after_all_transfers<TypeParam>(true);
+  const std::vector<double> of_narrow = numbers_after_all_transfers<TypeParam>(false);
+  wide_registers() = wide;
+  ASSERT_EQ(of_wide.size(), of_narrow.size());
+  std::size_t different = 0;  // a zero may have another sign
+  for (std::size_t i = 0; i < of_wide.size(); ++i) different += of_wide[i] == of_narrow[i] ? 0 : 1;
+  EXPECT_EQ(different, 0) << "of " << of_wide.size();
+}
+
+}  // namespace
+}  // namespace whipple::transfer
