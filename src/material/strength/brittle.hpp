@@ -164,7 +164,10 @@ class BrittleModel final : public Strength, public Brittle {
       const BrittleReturn r = step(state.trial[i], stiffness, y, point);
       increment = r.increment;
       point.damage = r.damage;
-      state.equivalent[i] = state.trial[i] - stiffness * increment;
+      // Broken matter lies on its surface to the last bit: without strength it has no stress at all.
+      const bool broken = increment > 0.0 && r.damage == 1.0;
+      state.equivalent[i] =
+          broken ? std::min(state.trial[i], y.strength(1.0)) : state.trial[i] - stiffness * increment;
       if (increment > 0.0) state.bulking_pressure[i] = bulking_pressure(state, i, point, before, y);
     }
     state.plastic_increment[i] = increment;
