@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -71,29 +70,6 @@ struct Chunk {
       copy(from.data() + run.begin, to.data() + index[run.begin], run.end - run.begin);
     }
   }
-  /// Several fields, run by run: the lengths of runs are hard to foresee for the processor.
-  struct Fetched {
-    const std::vector<double>& from;
-    Lanes& to;
-  };
-  void fetch(std::initializer_list<Fetched> fields) const {
-    for (const Run& run : std::span(runs).first(run_count)) {
-      for (const Fetched& field : fields) {
-        copy(field.from.data() + index[run.begin], field.to.data() + run.begin, run.end - run.begin);
-      }
-    }
-  }
-  struct Deposited {
-    const Lanes& from;
-    std::vector<double>& to;
-  };
-  void deposit(std::initializer_list<Deposited> fields) const {
-    for (const Run& run : std::span(runs).first(run_count)) {
-      for (const Deposited& field : fields) {
-        copy(field.from.data() + run.begin, field.to.data() + index[run.begin], run.end - run.begin);
-      }
-    }
-  }
   void fetch(const std::vector<SymmetricTensor>& from, SymmetricLanes& to) const;
   void deposit(const SymmetricLanes& from, std::vector<SymmetricTensor>& to) const;
 
@@ -131,11 +107,11 @@ struct Chunk {
   }
 };
 
-/// Is any of the first `size` values more than `limit`? Whole vectors at a time, unlike the largest of them.
-inline bool any_above(const Lanes& values, std::size_t size, double limit) {
-  std::uint64_t above = 0;
-  for (std::size_t k = 0; k < size; ++k) above |= values[k] > limit ? 1U : 0U;
-  return above != 0;
+/// Is any of the first `size` values positive? Whole vectors at a time, unlike the largest of them.
+inline bool any_positive(const Lanes& values, std::size_t size) {
+  std::uint64_t positive = 0;
+  for (std::size_t k = 0; k < size; ++k) positive |= values[k] > 0.0 ? 1U : 0U;
+  return positive != 0;
 }
 
 struct Step {

@@ -184,7 +184,7 @@ void finish(Step& step, Chunk& chunk) {
     squared[k] = bulk[k] + 4.0 / 3.0 * chunk.solid_modulus[k] / chunk.density[k];
   }
   // What melts or cracks takes its share of the stress with it; what freezes is free of stress.
-  const bool any_melted = any_above(chunk.melted, chunk.size, 0.0);
+  const bool any_melted = any_positive(chunk.melted, chunk.size);
   if (any_melted || chunk.any_failed || step.material.softens || step.material.brittle) {
     Lanes kept;
     lose_strength(step, chunk, bulk, least_sound_speed, squared, kept);
@@ -199,22 +199,23 @@ void finish(Step& step, Chunk& chunk) {
   }
   if (step.material.stores_cold_work()) release_cold_work(step, chunk);
   for (std::size_t k = 0; k < chunk.size; ++k) chunk.sound_speed[k] = std::sqrt(squared[k]);
-  chunk.fetch(
-      {{points.maximum_pressure, maximum_pressure}, {points.maximum_temperature, maximum_temperature}});
+  chunk.fetch(points.maximum_pressure, maximum_pressure);
+  chunk.fetch(points.maximum_temperature, maximum_temperature);
   const bool new_maximum = raise(maximum_pressure, chunk.acting_pressure, chunk.size) |
                            raise(maximum_temperature, chunk.temperature, chunk.size);
-  chunk.deposit({{chunk.volume, points.volume},
-                 {chunk.artificial_viscosity, points.artificial_viscosity},
-                 {chunk.acting_pressure, points.pressure},
-                 {chunk.plastic_strain, points.plastic_strain},
-                 {chunk.temperature, points.temperature},
-                 {chunk.sound_speed, points.sound_speed}});
+  chunk.deposit(chunk.volume, points.volume);
+  chunk.deposit(chunk.artificial_viscosity, points.artificial_viscosity);
+  chunk.deposit(chunk.acting_pressure, points.pressure);
+  chunk.deposit(chunk.plastic_strain, points.plastic_strain);
+  chunk.deposit(chunk.temperature, points.temperature);
+  chunk.deposit(chunk.sound_speed, points.sound_speed);
   if (any_melted || chunk.any_melted) {
-    chunk.deposit({{chunk.melted, points.melted_fraction}, {chunk.vaporised, points.vaporised_fraction}});
+    chunk.deposit(chunk.melted, points.melted_fraction);
+    chunk.deposit(chunk.vaporised, points.vaporised_fraction);
   }
   if (new_maximum) {
-    chunk.deposit(
-        {{maximum_pressure, points.maximum_pressure}, {maximum_temperature, points.maximum_temperature}});
+    chunk.deposit(maximum_pressure, points.maximum_pressure);
+    chunk.deposit(maximum_temperature, points.maximum_temperature);
   }
   if (chunk.any_void) chunk.deposit(chunk.void_volume, points.void_volume);
   chunk.deposit(chunk.motion.deviator, points.deviatoric_stress);

@@ -47,16 +47,16 @@ enum class Energy { from_grid, integrated };
 
 void gather(Step& step, Chunk& chunk, Energy energy) {
   const MaterialPoints& points = step.points;
-  chunk.fetch({{points.mass, chunk.mass},
-               {points.volume, chunk.volume},
-               {points.void_volume, chunk.void_volume},
-               {points.specific_internal_energy, chunk.specific_internal_energy},
-               {points.pressure, chunk.pressure},
-               {points.temperature, chunk.temperature},
-               {points.plastic_strain, chunk.plastic_strain},
-               {points.sound_speed, chunk.sound_speed},
-               {points.melted_fraction, chunk.melted},
-               {points.vaporised_fraction, chunk.vaporised}});
+  chunk.fetch(points.mass, chunk.mass);
+  chunk.fetch(points.volume, chunk.volume);
+  chunk.fetch(points.void_volume, chunk.void_volume);
+  chunk.fetch(points.specific_internal_energy, chunk.specific_internal_energy);
+  chunk.fetch(points.pressure, chunk.pressure);
+  chunk.fetch(points.temperature, chunk.temperature);
+  chunk.fetch(points.plastic_strain, chunk.plastic_strain);
+  chunk.fetch(points.sound_speed, chunk.sound_speed);
+  chunk.fetch(points.melted_fraction, chunk.melted);
+  chunk.fetch(points.vaporised_fraction, chunk.vaporised);
   chunk.fetch(points.failed, chunk.failed);
   if (step.material.stores_cold_work()) chunk.fetch(points.stored_cold_work, chunk.stored_cold_work);
   if (step.material.failure.empty() && !step.material.brittle) {
@@ -65,8 +65,8 @@ void gather(Step& step, Chunk& chunk, Energy energy) {
     chunk.fetch(points.damage, chunk.damage);
   }
   chunk.find_failed();
-  chunk.any_void = material::any_above(chunk.void_volume, chunk.size, 0.0);
-  chunk.any_melted = material::any_above(chunk.melted, chunk.size, 0.0);
+  chunk.any_void = material::any_positive(chunk.void_volume, chunk.size);
+  chunk.any_melted = material::any_positive(chunk.melted, chunk.size);
   for (std::size_t k = 0; k < chunk.size; ++k) {
     chunk.old_volume[k] = chunk.volume[k];
     chunk.density[k] = chunk.mass[k] / chunk.volume[k];
