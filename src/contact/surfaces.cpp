@@ -149,19 +149,16 @@ void for_each_place_of(const Points& points, std::uint32_t p, unsigned field,
 /// The same for all particles; no two calls at a time for one node.
 template <class Shape, class Function>
 void for_each_place(const Particles& particles, const BlockGrid& grid, Function&& f) {
-  for (const std::vector<std::uint32_t>& colour : grid.colours()) {
-    parallel::for_each_uneven(colour.size(), [&](std::size_t c) {
-      const std::size_t slot = colour[c];
-      if (!grid.meets_contact(slot)) return;
-      grid.for_each_field(BlockGrid::Points::particles, slot,
-                          [&](std::span<const std::uint32_t> members, unsigned field) {
-                            for (const std::uint32_t p : members) {
-                              for_each_place_of<Shape>(particles, p, field, grid.coordinate(slot),
-                                                       grid.neighbours(slot), grid, f);
-                            }
-                          });
-    });
-  }
+  grid.for_each_apart([&](std::size_t slot) {
+    if (!grid.meets_contact(slot)) return;
+    grid.for_each_field(BlockGrid::Points::particles, slot,
+                        [&](std::span<const std::uint32_t> members, unsigned field) {
+                          for (const std::uint32_t p : members) {
+                            for_each_place_of<Shape>(particles, p, field, grid.coordinate(slot),
+                                                     grid.neighbours(slot), grid, f);
+                          }
+                        });
+  });
 }
 
 /// The same for points on surfaces of elements, which work with B-splines only.

@@ -10,86 +10,131 @@ namespace whipple::grid {
 
 bool BlockGrid::is_shared() const { return parallel::size(communicator_) > 1; }
 
-template <class Value, class Size, class Pack, class Unpack>
-void BlockGrid::exchange(SharedSlots from, SharedSlots to, Size&& size, Pack&& pack, Unpack&& unpack) {
+namespace {
+
+constexpr int tag_of_nodes = 11, tag_of_values = 12;
+
+/// Where the values of each shared slot begin, and the end.
+template <class Size>
+std::vector<std::size_t> begins(const std::vector<std::uint32_t>& shared, Size&& size) {
+  std::vector<std::size_t> begin(shared.size() + 1, 0);
+  for (std::size_t i = 0; i < shared.size(); ++i) begin[i + 1] = begin[i] + size(shared[i]);
+  return begin;
+}
+
+}  // namespace
+
+template <class Value, class Size, class Pack>
+void BlockGrid::send(Messages<Value>& messages, int tag, SharedSlots from, SharedSlots to, Size&& size,
+                     Pack&& pack) {
   static_assert(sizeof(Value) % sizeof(double) == 0);
   constexpr int words = sizeof(Value) / sizeof(double);
-  constexpr int tag = 11;
   const std::vector<BlockSet::Peer>& peers = blocks_.peers;
-  std::vector<std::vector<Value>> outgoing(peers.size()), incoming(peers.size());
-  std::vector<MPI_Request> requests(2 * peers.size(), MPI_REQUEST_NULL);
-  const auto begins = [&](const std::vector<std::uint32_t>& shared) {
-    std::vector<std::size_t> begin(shared.size() + 1, 0);
-    for (std::size_t i = 0; i < shared.size(); ++i) begin[i + 1] = begin[i] + size(shared[i]);
-    return begin;
-  };
+  auto& [outgoing, incoming, requests] = messages;
+  outgoing.resize(peers.size());
+  incoming.resize(peers.size());
+  requests.assign(2 * peers.size(), MPI_REQUEST_NULL);
   for (std::size_t i = 0; i < peers.size(); ++i) {
-    incoming[i].resize(begins(peers[i].*to).back());
+    incoming[i].resize(begins(peers[i].*to, size).back());
     MPI_Irecv(incoming[i].data(), words * static_cast<int>(incoming[i].size()), MPI_DOUBLE, peers[i].rank,
               tag, communicator_, &requests[2 * i]);
   }
   for (std::size_t i = 0; i < peers.size(); ++i) {
     const std::vector<std::uint32_t>& sent = peers[i].*from;
-    const std::vector<std::size_t> begin = begins(sent);
+    const std::vector<std::size_t> begin = begins(sent, size);
     outgoing[i].resize(begin.back());
     parallel::for_each(sent.size(), [&](std::size_t s) { pack(sent[s], &outgoing[i][begin[s]]); });
     MPI_Isend(outgoing[i].data(), words * static_cast<int>(outgoing[i].size()), MPI_DOUBLE, peers[i].rank,
               tag, communicator_, &requests[2 * i + 1]);
   }
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-  for (std::size_t i = 0; i < peers.size(); ++i) {  // in the order of the ranks: sums are repeatable
-    const std::vector<std::uint32_t>& received = peers[i].*to;
-    const std::vector<std::size_t> begin = begins(received);
-    parallel::for_each(received.size(), [&](std::size_t s) { unpack(received[s], &incoming[i][begin[s]]); });
+}
+
+template <class Value, class Size, class Unpack>
+void BlockGrid::receive(Messages<Value>& messages, SharedSlots to, Size&& size, Unpack&& unpack) {
+  messages.wait();
+  for (std::size_t i = 0; i < blocks_.peers.size(); ++i) {  // in the order of the ranks: sums are repeatable
+    const std::vector<std::uint32_t>& received = blocks_.peers[i].*to;
+    const std::vector<std::size_t> begin = begins(received, size);
+    parallel::for_each(received.size(),
+                       [&](std::size_t s) { unpack(received[s], &messages.incoming[i][begin[s]]); });
   }
 }
 
-template <class Receive>
-void BlockGrid::exchange_nodes(Part part, SharedSlots from, SharedSlots to, Receive&& receive) {
+template <class Value, class Size, class Pack, class Unpack>
+void BlockGrid::exchange(SharedSlots from, SharedSlots to, Size&& size, Pack&& pack, Unpack&& unpack) {
+  Messages<Value> messages;
+  send(messages, tag_of_values, from, to, size, pack);
+  receive(messages, to, size, unpack);
+}
+
+/// Blocks of nodes of a slot: its own, then the further ones.
+std::size_t BlockGrid::node_blocks(std::size_t slot) const {
+  return contact_number(slot) == no_slot ? 1 : static_cast<std::size_t>(std::popcount(fields_[slot]));
+}
+std::size_t BlockGrid::node_block(std::size_t slot, std::size_t i) const {
+  return i == 0 ? slot : further_begin_[static_cast<std::size_t>(contact_number_[slot])] + i - 1;
+}
+
+void BlockGrid::send_nodes(Part part, SharedSlots from, SharedSlots to) {
   const std::size_t registers = part == Part::both ? 2 : 1;
-  const auto blocks_of = [&](std::size_t slot) {
-    const std::int32_t number = contact_number(slot);
-    return number == no_slot ? 1 : static_cast<std::size_t>(std::popcount(fields_[slot]));
-  };
-  // The blocks of a slot: its own, then the further ones.
-  const auto block_number = [&](std::size_t slot, std::size_t i) {
-    return i == 0 ? slot : further_begin_[static_cast<std::size_t>(contact_number_[slot])] + i - 1;
-  };
-  exchange<Lanes>(
-      from, to, [&](std::size_t slot) { return blocks_of(slot) * registers * nodes_per_block; },
+  send(
+      node_messages_, tag_of_nodes, from, to,
+      [&](std::size_t slot) { return node_blocks(slot) * registers * nodes_per_block; },
       [&](std::size_t slot, Lanes* out) {
-        for (std::size_t i = 0; i < blocks_of(slot); ++i) {
-          const Node* of_block = &nodes_[block_number(slot, i) * nodes_per_block];
+        for (std::size_t i = 0; i < node_blocks(slot); ++i) {
+          const Node* of_block = &nodes_[node_block(slot, i) * nodes_per_block];
           for (std::size_t n = 0; n < nodes_per_block; ++n) {
             *out++ = of_block[n].first;
             if (part == Part::both) *out++ = of_block[n].second;
           }
         }
-      },
+      });
+}
+
+template <class Combine>
+void BlockGrid::receive_nodes(Part part, SharedSlots to, Combine&& combine) {
+  const std::size_t registers = part == Part::both ? 2 : 1;
+  receive(
+      node_messages_, to, [&](std::size_t slot) { return node_blocks(slot) * registers * nodes_per_block; },
       [&](std::size_t slot, const Lanes* in) {
-        for (std::size_t i = 0; i < blocks_of(slot); ++i) {
-          Node* of_block = &nodes_[block_number(slot, i) * nodes_per_block];
-          for (std::size_t n = 0; n < nodes_per_block; ++n, in += registers) receive(of_block[n], in);
+        for (std::size_t i = 0; i < node_blocks(slot); ++i) {
+          Node* of_block = &nodes_[node_block(slot, i) * nodes_per_block];
+          for (std::size_t n = 0; n < nodes_per_block; ++n, in += registers) combine(of_block[n], in);
         }
       });
 }
 
-void BlockGrid::sum_to_owners(Part part) {
-  exchange_nodes(part, &BlockSet::Peer::borrowed, &BlockSet::Peer::lent, [part](Node& node, const Lanes* in) {
+void BlockGrid::begin_sum_to_owners(Part part) {
+  send_nodes(part, &BlockSet::Peer::borrowed, &BlockSet::Peer::lent);
+}
+
+void BlockGrid::finish_sum_to_owners(Part part) {
+  receive_nodes(part, &BlockSet::Peer::lent, [part](Node& node, const Lanes* in) {
     node.first += in[0];
     if (part == Part::both) node.second += in[1];
   });
 }
 
-void BlockGrid::borrow_from_owners(Part part) {
-  exchange_nodes(part, &BlockSet::Peer::lent, &BlockSet::Peer::borrowed, [part](Node& node, const Lanes* in) {
+void BlockGrid::begin_borrow_from_owners(Part part) {
+  send_nodes(part, &BlockSet::Peer::lent, &BlockSet::Peer::borrowed);
+}
+
+void BlockGrid::finish_borrow_from_owners(Part part) {
+  receive_nodes(part, &BlockSet::Peer::borrowed, [part](Node& node, const Lanes* in) {
     node.first = in[0];
     if (part == Part::both) node.second = in[1];
   });
 }
 
-template <class Receive>
-void BlockGrid::exchange_values(ContactValues& values, SharedSlots from, SharedSlots to, Receive&& receive) {
+void BlockGrid::progress() {
+  std::vector<MPI_Request>& requests = node_messages_.requests;
+  if (requests.empty() || !parallel::is_first_thread()) return;
+  int complete = 0;
+  MPI_Testall(static_cast<int>(requests.size()), requests.data(), &complete, MPI_STATUSES_IGNORE);
+}
+
+template <class Combine>
+void BlockGrid::exchange_values(ContactValues& values, SharedSlots from, SharedSlots to, Combine&& combine) {
   const auto range = [&](std::size_t slot) {
     const std::int32_t number = contact_number(slot);
     if (number == no_slot) return std::span<Lanes>();
@@ -100,7 +145,7 @@ void BlockGrid::exchange_values(ContactValues& values, SharedSlots from, SharedS
       from, to, [&](std::size_t slot) { return range(slot).size(); },
       [&](std::size_t slot, Lanes* out) { std::ranges::copy(range(slot), out); },
       [&](std::size_t slot, const Lanes* in) {
-        for (Lanes& value : range(slot)) receive(value, *in++);
+        for (Lanes& value : range(slot)) combine(value, *in++);
       });
 }
 

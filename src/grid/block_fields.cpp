@@ -140,6 +140,35 @@ void BlockGrid::find_mirror_nodes() {
   }
 }
 
+/// What other ranks wait for is complete when the slots around it have brought their part, and what mirror
+/// planes fold onto it. (While all fields share the nodes, the planes connect at least as many slots as
+/// later.)
+void BlockGrid::find_border() {
+  awaited_.clear();
+  border_.clear();
+  if (blocks_.owned == slots()) return;
+  awaited_.assign(slots(), 0);
+  std::fill(awaited_.begin() + static_cast<std::ptrdiff_t>(blocks_.owned), awaited_.end(), std::uint8_t{1});
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (const MirrorPlane& plane : planes_) {
+      for (const MirrorPair& pair : plane.pairs) {
+        std::uint8_t& outside = awaited_[pair.outside / nodes_per_block];
+        std::uint8_t& image = awaited_[pair.image / nodes_per_block];
+        if (outside == image) continue;
+        outside = image = 1;
+        grown = true;
+      }
+    }
+  }
+  border_.assign(slots(), 0);
+  for (std::size_t s = 0; s < slots(); ++s) {
+    for (const std::int32_t neighbour : neighbours_[s]) {
+      if (neighbour != no_slot && awaited_[static_cast<std::size_t>(neighbour)] != 0) border_[s] = 1;
+    }
+  }
+}
+
 /// Index of a field's node at a place of the grid; `no_node` if its block is not active or not reached by the
 /// field (-1: by whatever field is there).
 std::uint32_t BlockGrid::active_node(const std::array<std::int32_t, 3>& place, int field) const {

@@ -262,6 +262,7 @@ void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vect
   });
   fields_.clear();
   lay_out_nodes();
+  find_border();
   look_up(position.first(position.size() - guests));
 }
 
@@ -401,12 +402,15 @@ void list_by_slot(std::size_t slots, std::span<const std::int32_t> slot_of,
 void BlockGrid::list_points() {
   list_by_slot(slots(), slot_of_particle_, released_, particles_);
   list_by_slot(slots(), slot_of_guest_, {}, guests_);
-  for (auto& colour : colours_) colour.clear();
+  for (auto& of_region : colours_) {
+    for (auto& colour : of_region) colour.clear();
+  }
   for (std::size_t s = 0; s < slots(); ++s) {
     if (particles_.in(s).empty() && guests_.in(s).empty()) continue;
     const BlockCoordinate& c = blocks_.coordinate[s];
-    colours_[static_cast<std::size_t>((c[0] & 1) << 2 | (c[1] & 1) << 1 | (c[2] & 1))].push_back(
-        static_cast<std::uint32_t>(s));
+    colours_[static_cast<std::size_t>(region(s))]
+            [static_cast<std::size_t>((c[0] & 1) << 2 | (c[1] & 1) << 1 | (c[2] & 1))]
+                .push_back(static_cast<std::uint32_t>(s));
   }
 }
 

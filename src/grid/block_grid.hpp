@@ -13,6 +13,7 @@
 #include "src/grid/block_table.hpp"
 #include "src/grid/forest.hpp"
 #include "src/grid/geometry.hpp"
+#include "src/parallel/threads.hpp"
 
 namespace whipple::grid {
 
@@ -178,8 +179,29 @@ class BlockGrid {
   [[nodiscard]] std::size_t place_of(std::size_t slot) const { return particles_.begin[slot]; }
   /// All particles, block by block: an order that keeps neighbours in memory near one another.
   [[nodiscard]] std::span<const std::uint32_t> particles_by_block() const { return particles_.points; }
+  /// The border are the slots whose points may reach nodes that other ranks wait for or send: worked on first
+  /// when points bring something to the nodes, and last when they take something, so that the exchange goes
+  /// on behind the interior. Each rank has its own; alone it has no border.
+  enum class Region { border, interior };
+  [[nodiscard]] Region region(std::size_t slot) const {
+    return !border_.empty() && border_[slot] != 0 ? Region::border : Region::interior;
+  }
   /// Slots with particles or guests whose reaches do not overlap, for each of the eight colours.
-  [[nodiscard]] const std::array<std::vector<std::uint32_t>, 8>& colours() const { return colours_; }
+  [[nodiscard]] const std::array<std::vector<std::uint32_t>, 8>& colours(Region region) const {
+    return colours_[static_cast<std::size_t>(region)];
+  }
+  /// Calls f(slot) on threads, for all slots with particles or guests, no two at a time whose reaches
+  /// overlap.
+  template <class Function>
+  void for_each_apart(Function&& f) const {
+    for (const Region region : {Region::border, Region::interior}) for_each_apart(region, f);
+  }
+  template <class Function>
+  void for_each_apart(Region region, Function&& f) const {
+    for (const std::vector<std::uint32_t>& colour : colours(region)) {
+      parallel::for_each_uneven(colour.size(), [&](std::size_t i) { f(colour[i]); });
+    }
+  }
 
   enum class Points { particles, guests };
   [[nodiscard]] std::span<const std::uint32_t> members(Points points, std::size_t slot) const {
@@ -215,6 +237,7 @@ class BlockGrid {
     return &nodes_[block(slot, field) * nodes_per_block];
   }
   [[nodiscard]] std::span<Node> all_nodes() { return nodes_; }
+  [[nodiscard]] std::span<const Node> all_nodes() const { return nodes_; }
   /// Blocks of nodes of the slots that this rank owns, and the number of each.
   [[nodiscard]] std::size_t owned_blocks() const { return blocks_.owned + owned_further_; }
   [[nodiscard]] std::size_t owned_block(std::size_t i) const {
@@ -242,9 +265,24 @@ class BlockGrid {
   /// Which registers of the nodes travel.
   enum class Part { first, both };
   /// Adds what this rank's particles brought to borrowed nodes to the nodes of their owners. Collective.
-  void sum_to_owners(Part part);
+  void sum_to_owners(Part part) {
+    begin_sum_to_owners(part);
+    finish_sum_to_owners(part);
+  }
   /// Replaces the borrowed nodes by those of their owners. Collective.
-  void borrow_from_owners(Part part);
+  void borrow_from_owners(Part part) {
+    begin_borrow_from_owners(part);
+    finish_borrow_from_owners(part);
+  }
+  /// The same in halves, one at a time. Between them: borrowed nodes must not be read after
+  /// `begin_borrow_from_owners`; what is sent is copied before.
+  void begin_sum_to_owners(Part part);
+  void finish_sum_to_owners(Part part);
+  void begin_borrow_from_owners(Part part);
+  void finish_borrow_from_owners(Part part);
+  /// Lets messages under way go on, where work on nodes would leave them alone for long. On the thread that
+  /// called MPI's initialization; others return at once.
+  void progress();
   /// The same for values at contact slots. Collective.
   void sum_to_owners(ContactValues& values);
   void borrow_from_owners(ContactValues& values);
@@ -271,6 +309,14 @@ class BlockGrid {
   /// Planes with the active nodes that they concern, in the order in which they are folded: separating walls
   /// last.
   [[nodiscard]] std::span<const MirrorPlane> mirror_planes() const { return planes_; }
+  /// Does a node belong to a block that is borrowed, or to one that mirror planes connect with such a block?
+  [[nodiscard]] bool is_awaited(std::size_t node) const {
+    if (awaited_.empty()) return false;
+    const std::size_t block = node / nodes_per_block;
+    return awaited_[block < slots() ? block : slot_of_further_[block - slots()]] != 0;
+  }
+  /// Are there nodes of which `is_awaited` holds?
+  [[nodiscard]] bool awaits() const { return !awaited_.empty(); }
   /// Is a node an image in any case: beyond a plane that is no separating wall?
   [[nodiscard]] bool is_image(std::size_t node) const { return !outside_.empty() && outside_[node] != 0; }
 
@@ -305,6 +351,7 @@ class BlockGrid {
   void list_points();
   void lay_out_nodes();
   void find_mirror_nodes();
+  void find_border();
   [[nodiscard]] std::uint32_t active_node(const std::array<std::int32_t, 3>& place, int field) const;
   [[nodiscard]] std::size_t block(std::size_t slot, unsigned field) const {
     if (contact_slots_.empty() || contact_number_[slot] == no_slot || (fields_[slot] >> field & 1U) == 0) {
@@ -317,13 +364,36 @@ class BlockGrid {
   }
   /// Slots that a peer and this rank share, and which way what belongs to them travels.
   using SharedSlots = std::vector<std::uint32_t> BlockSet::Peer::*;
-  /// Calls pack(peer, slots `from`, buffer), exchanges the buffers, and calls unpack(slots `to`, buffer).
+  /// Buffers, by peer, of messages under way.
+  template <class Value>
+  struct Messages {
+    std::vector<std::vector<Value>> outgoing, incoming;
+    std::vector<MPI_Request> requests;
+    void wait() {
+      if (requests.empty()) return;
+      MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+      requests.clear();
+    }
+    Messages() = default;
+    Messages(Messages&&) = default;
+    Messages& operator=(Messages&&) = delete;
+    ~Messages() { wait(); }  // all ranks have begun; none may write to what is gone
+  };
+  /// Calls pack(slot of `from`, buffer) and sends the buffers; size(slot) values of each slot.
+  template <class Value, class Size, class Pack>
+  void send(Messages<Value>& messages, int tag, SharedSlots from, SharedSlots to, Size&& size, Pack&& pack);
+  /// Waits for the buffers and calls unpack(slot of `to`, buffer).
+  template <class Value, class Size, class Unpack>
+  void receive(Messages<Value>& messages, SharedSlots to, Size&& size, Unpack&& unpack);
   template <class Value, class Size, class Pack, class Unpack>
   void exchange(SharedSlots from, SharedSlots to, Size&& size, Pack&& pack, Unpack&& unpack);
-  template <class Receive>
-  void exchange_nodes(Part part, SharedSlots from, SharedSlots to, Receive&& receive);
-  template <class Receive>
-  void exchange_values(ContactValues& values, SharedSlots from, SharedSlots to, Receive&& receive);
+  void send_nodes(Part part, SharedSlots from, SharedSlots to);
+  template <class Combine>
+  void receive_nodes(Part part, SharedSlots to, Combine&& combine);
+  [[nodiscard]] std::size_t node_blocks(std::size_t slot) const;
+  [[nodiscard]] std::size_t node_block(std::size_t slot, std::size_t i) const;
+  template <class Combine>
+  void exchange_values(ContactValues& values, SharedSlots from, SharedSlots to, Combine&& combine);
   void join_fields_of_ranks(std::vector<std::uint64_t>& fields);
 
   MPI_Comm communicator_;
@@ -344,7 +414,9 @@ class BlockGrid {
   std::vector<std::uint8_t> released_;     // of each particle, or empty
   std::vector<std::int32_t> slot_of_guest_;
   PointList particles_, guests_;
-  std::array<std::vector<std::uint32_t>, 8> colours_;
+  std::array<std::array<std::vector<std::uint32_t>, 8>, 2> colours_;  // by region
+  std::vector<std::uint8_t> awaited_, border_;  // of each slot; empty where nothing is borrowed
+  Messages<Lanes> node_messages_;
   std::vector<MirrorPlane> planes_;
   std::vector<std::uint8_t> outside_;
   std::size_t adaptations_ = 0;

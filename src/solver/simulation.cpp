@@ -286,30 +286,40 @@ void Simulation::conduct_heat() {
 
 void Simulation::map_particles_to_grid() {
   profile_.time("particles to grid", [&] {
-    transfer::particles_to_grid(shape_, particles_, grid_, external_acceleration_);
-    if (transition_.size() > 0) transfer::nodes_to_grid(shape_, transition_, grid_);
+    const auto send = [&] { grid_update_.send(grid_, grid::BlockGrid::Part::both); };
+    const bool with_nodes = transition_.size() > 0;
+    transfer::particles_to_grid(shape_, particles_, grid_, external_acceleration_,
+                                with_nodes ? std::function<void()>() : send);
+    if (with_nodes) {
+      transfer::nodes_to_grid(shape_, transition_, grid_);
+      send();
+    }
   });
   find_surfaces();
 }
 
 void Simulation::advance_grid() {
   profile_.time("grid", [&] {
-    const transfer::GridBalance balance =
-        grid_update_.advance(grid_, state_.time_step, relaxation(setup_.transfer), [&] { apply_contact(); });
+    const transfer::GridBalance balance = grid_update_.begin_advance(
+        grid_, state_.time_step, relaxation(setup_.transfer), [&] { apply_contact(); });
     step_.wall_impulse += balance.wall_impulse;
   });
   if (setup_.transfer.particle_update != "fmpm") return;
+  finish_exchange();
   profile_.time("full mass matrix", [&] {
     step_.wall_impulse += full_mass_matrix_.apply(shape_, particles_, grid_, grid_update_,
                                                   static_cast<int>(setup_.transfer.fmpm_order));
   });
 }
 
+/// What other ranks own of the nodes arrives, at the latest when the particles of the border need it.
+void Simulation::finish_exchange() { step_.wall_impulse += grid_update_.finish(grid_); }
+
 void Simulation::map_grid_to_particles() {
   const auto gather = [&](const transfer::TakeGradients& take) {
-    const transfer::TransferBalance balance =
-        transfer::grid_to_particles(shape_, particles_, grid_, state_.time_step,
-                                    affine_field(setup_.transfer), take, external_acceleration_);
+    const transfer::TransferBalance balance = transfer::grid_to_particles(
+        shape_, particles_, grid_, state_.time_step, affine_field(setup_.transfer), take,
+        external_acceleration_, [&] { finish_exchange(); });
     step_.work += balance.work;
     step_.transfer_heat += balance.heat;
     step_.external_work += balance.external_work;
@@ -327,7 +337,7 @@ void Simulation::update_particle_velocity(Then then) {
     displacement_.resize(particles_.size());
     const transfer::TransferBalance balance = transfer::update_velocity(
         shape_, particles_, grid_, state_.time_step, relaxation(setup_.transfer).fixed, displacement_, take,
-        external_acceleration_);
+        external_acceleration_, [&] { finish_exchange(); });
     step_.external_work += balance.external_work;
     squared_change_ = balance.squared_change;
     for (const std::uint32_t p : flying_) displacement_[p] = state_.time_step * particles_.velocity[p];
@@ -341,16 +351,17 @@ void Simulation::update_particle_velocity(Then then) {
 
 void Simulation::map_momentum_to_grid() {
   profile_.time("momentum to grid", [&] {
-    transfer::momentum_to_grid(shape_, particles_, particles_.velocity, grid_);
-    grid_update_.velocity_from_momentum(grid_);
+    transfer::momentum_to_grid(shape_, particles_, particles_.velocity, grid_,
+                               [&] { grid_update_.send(grid_, grid::BlockGrid::Part::first); });
+    grid_update_.begin_velocity_from_momentum(grid_);
   });
 }
 
 void Simulation::update_material() {
-  update_material_with("velocity gradient", EnergyUpdate::by_constitutive_model,
-                       [&](const transfer::TakeGradients& take) {
-                         transfer::gather_velocity_gradient(shape_, particles_, grid_, take);
-                       });
+  update_material_with(
+      "velocity gradient", EnergyUpdate::by_constitutive_model, [&](const transfer::TakeGradients& take) {
+        transfer::gather_velocity_gradient(shape_, particles_, grid_, take, [&] { finish_exchange(); });
+      });
 }
 
 void Simulation::move_particles() {

@@ -124,6 +124,7 @@ class Simulation {
   void separate_fields();
   void find_surfaces();
   void apply_contact();
+  void finish_exchange();
   void convert_elements();
   void add_gravity(fem::Nodes& nodes) const;
   void book_gravity(const fem::Nodes& nodes, const fem::Motion& motion);

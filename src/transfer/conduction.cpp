@@ -36,21 +36,17 @@ void for_each_node(const Particles& particles, std::size_t p, const BlockFrame& 
 /// Adds what every particle brings to its nodes: bring(node, p, N, grad N). Node::second stays as it is.
 template <class Bring>
 void scatter(const Particles& particles, BlockGrid& grid, Bring&& bring) {
-  for (const std::vector<std::uint32_t>& colour : grid.colours()) {
-    parallel::for_each_uneven(colour.size(), [&](std::size_t i) {
-      const std::size_t slot = colour[i];
-      const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
-      narrow::add_to_nodes<Shape, Node>(grid, BlockGrid::Points::particles, slot,
-                                        [&](std::span<const std::uint32_t> members, auto& access) {
-                                          for (const std::uint32_t p : members) {
-                                            for_each_node(particles, p, frame, access,
-                                                          [&](Node& node, double n, const Vector3& gradient) {
-                                                            bring(node, p, n, gradient);
-                                                          });
-                                          }
-                                        });
-    });
-  }
+  grid.for_each_apart([&](std::size_t slot) {
+    const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
+    narrow::add_to_nodes<Shape, Node>(
+        grid, BlockGrid::Points::particles, slot, [&](std::span<const std::uint32_t> members, auto& access) {
+          for (const std::uint32_t p : members) {
+            for_each_node(particles, p, frame, access, [&](Node& node, double n, const Vector3& gradient) {
+              bring(node, p, n, gradient);
+            });
+          }
+        });
+  });
 }
 
 /// Calls f(p, access to its nodes) for every particle, block by block.

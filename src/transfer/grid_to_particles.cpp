@@ -98,18 +98,28 @@ struct Stretch {
 };
 constexpr std::size_t points_of_stretch = 512;
 
-std::vector<Stretch> stretches(const BlockGrid& grid) {
-  std::vector<Stretch> all;
+/// Of the interior, and those with slots of the border.
+std::array<std::vector<Stretch>, 2> stretches(const BlockGrid& grid) {
+  std::array<std::vector<Stretch>, 2> all;
+  Stretch stretch{0, 0};
   std::size_t points = 0;
+  bool at_border = false;
+  const auto close = [&] {
+    if (stretch.slots > 0) all[at_border ? 1 : 0].push_back(stretch);
+  };
   for (std::size_t slot = 0; slot < grid.slots(); ++slot) {
     const std::size_t of_slot = grid.particles_in(slot).size();
-    if (all.empty() || (points > 0 && points + of_slot > points_of_stretch)) {
-      all.push_back({slot, 0});
+    if (points > 0 && points + of_slot > points_of_stretch) {
+      close();
+      stretch = {slot, 0};
       points = 0;
+      at_border = false;
     }
-    ++all.back().slots;
+    ++stretch.slots;
     points += of_slot;
+    at_border = at_border || (of_slot > 0 && grid.region(slot) == BlockGrid::Region::border);
   }
+  close();
   return all;
 }
 
@@ -118,23 +128,30 @@ constexpr auto particle_kind = BlockGrid::Points::particles;
 /// gather(kernels, slot, sum of the slot, gradients of its particles), on threads; the gradients are handed
 /// on stretch by stretch, unless nobody wants them. @returns the sum of the sums
 template <class Gather>
-TransferBalance gather_particles(const BlockGrid& grid, const TakeGradients& take, Gather&& gather) {
+TransferBalance gather_particles(BlockGrid& grid, const TakeGradients& take,
+                                 const BeforeBorder& before_border, Gather&& gather) {
   std::vector<TransferBalance> of_slot(grid.slots());
-  const std::vector<Stretch> all = stretches(grid);
+  const auto [interior, border] = stretches(grid);
+  const auto gather_stretch = [&](auto kernels, const Stretch& stretch) {
+    const auto [first_slot, slots] = stretch;
+    const std::size_t begin = grid.place_of(first_slot), size = grid.place_of(first_slot + slots) - begin;
+    thread_local std::vector<Matrix3> gradients;
+    gradients.resize(std::max(gradients.size(), size));
+    for (std::size_t slot = first_slot; slot < first_slot + slots; ++slot) {
+      if (grid.particles_in(slot).empty()) continue;
+      gather(kernels, slot, of_slot[slot], &gradients[grid.place_of(slot) - begin]);
+    }
+    if (take && size > 0) {
+      take(grid.particles_by_block().subspan(begin, size), std::span(gradients).first(size));
+    }
+  };
   with_kernels([&](auto kernels) {
-    parallel::for_each_uneven(all.size(), [&](std::size_t s) {
-      const auto [first_slot, slots] = all[s];
-      const std::size_t begin = grid.place_of(first_slot), size = grid.place_of(first_slot + slots) - begin;
-      thread_local std::vector<Matrix3> gradients;
-      gradients.resize(std::max(gradients.size(), size));
-      for (std::size_t slot = first_slot; slot < first_slot + slots; ++slot) {
-        if (grid.particles_in(slot).empty()) continue;
-        gather(kernels, slot, of_slot[slot], &gradients[grid.place_of(slot) - begin]);
-      }
-      if (take && size > 0) {
-        take(grid.particles_by_block().subspan(begin, size), std::span(gradients).first(size));
-      }
+    parallel::for_each_uneven(interior.size(), [&](std::size_t s) {
+      grid.progress();
+      gather_stretch(kernels, interior[s]);
     });
+    if (before_border) before_border();
+    parallel::for_each_uneven(border.size(), [&](std::size_t s) { gather_stretch(kernels, border[s]); });
   });
   TransferBalance sum{};
   for (const TransferBalance& part : of_slot) sum += part;
@@ -143,9 +160,10 @@ TransferBalance gather_particles(const BlockGrid& grid, const TakeGradients& tak
 
 template <class Shape, AffineField field>
 TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
-                           const TakeGradients& take_gradients, std::span<const Vector3> acceleration) {
+                           const TakeGradients& take_gradients, std::span<const Vector3> acceleration,
+                           const BeforeBorder& before_border) {
   return gather_particles(
-      grid, take_gradients,
+      grid, take_gradients, before_border,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
         const auto take = [&](std::size_t place, std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
           balance += update_particle<field>(particles, p, dt, advance, gradients[place], acceleration);
@@ -158,9 +176,9 @@ TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
 template <class Shape, bool with_gradient>
 TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double dt, double relaxation,
                                   std::span<Vector3> displacement, const TakeGradients& take_gradients,
-                                  std::span<const Vector3> acceleration) {
+                                  std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
   return gather_particles(
-      grid, take_gradients,
+      grid, take_gradients, before_border,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
         const auto take = [&](std::size_t place, std::size_t p,
                               const VelocityUpdate<>& update) WHIPPLE_INLINE {
@@ -186,13 +204,15 @@ TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double 
 
 TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, BlockGrid& grid, double dt,
                                   AffineField affine, const TakeGradients& take,
-                                  std::span<const Vector3> acceleration) {
+                                  std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
   using enum AffineField;
   return with_shape(shape, [&]<class Shape>(Shape) {
-    if (affine == none) return gather_all<Shape, none>(particles, grid, dt, take, acceleration);
+    if (affine == none)
+      return gather_all<Shape, none>(particles, grid, dt, take, acceleration, before_border);
     if constexpr (CarriesAffineField<Shape>) {
-      return affine == deformed ? gather_all<Shape, deformed>(particles, grid, dt, take, acceleration)
-                                : gather_all<Shape, turned>(particles, grid, dt, take, acceleration);
+      return affine == deformed
+                 ? gather_all<Shape, deformed>(particles, grid, dt, take, acceleration, before_border)
+                 : gather_all<Shape, turned>(particles, grid, dt, take, acceleration, before_border);
     } else {
       throw InternalError("the affine transfer needs B-splines");
       return TransferBalance{};  // the other branch deduces the type
@@ -246,12 +266,12 @@ void grid_to_nodes(ShapeFunction shape, TransitionNodes& nodes, BlockGrid& grid,
 
 TransferBalance update_velocity(ShapeFunction shape, Particles& particles, BlockGrid& grid, double dt,
                                 double relaxation, std::span<Vector3> displacement, const TakeGradients& take,
-                                std::span<const Vector3> acceleration) {
+                                std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
   return with_shape(shape, [&]<class Shape>(Shape) {
     return take ? update_velocities<Shape, true>(particles, grid, dt, relaxation, displacement, take,
-                                                 acceleration)
+                                                 acceleration, before_border)
                 : update_velocities<Shape, false>(particles, grid, dt, relaxation, displacement, take,
-                                                  acceleration);
+                                                  acceleration, before_border);
   });
 }
 
@@ -260,9 +280,9 @@ namespace {
 /// Sums of the nodes' velocities, for every particle: take_sums(p, sums, its gradient to be handed on).
 template <class TakeSums>
 void gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& grid, const TakeGradients& take,
-                  TakeSums&& take_sums) {
+                  const BeforeBorder& before_border, TakeSums&& take_sums) {
   with_shape(shape, [&]<class Shape>(Shape) {
-    gather_particles(grid, take,
+    gather_particles(grid, take, before_border,
                      [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, Matrix3* gradients) {
                        const auto each = [&](std::size_t place, std::size_t p, const ValueAndGradient<>& sums)
                                              WHIPPLE_INLINE { take_sums(p, sums, gradients[place]); };
@@ -275,15 +295,15 @@ void gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& gr
 }  // namespace
 
 void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
-                              const TakeGradients& take) {
-  gather_first(shape, particles, grid, take,
+                              const TakeGradients& take, const BeforeBorder& before_border) {
+  gather_first(shape, particles, grid, take, before_border,
                [](std::size_t, const ValueAndGradient<>& sums, Matrix3& gradient)
                    WHIPPLE_INLINE { gradient = matrix(sums.gradient); });
 }
 
 void gather_velocity(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                      std::span<Vector3> velocity) {
-  gather_first(shape, particles, grid, {},
+  gather_first(shape, particles, grid, {}, {},
                [&](std::size_t p, const ValueAndGradient<>& sums, Matrix3&)
                    WHIPPLE_INLINE { store_vector(velocity[p].data(), sums.value); });
 }

@@ -40,6 +40,10 @@ enum class AffineField : std::uint8_t {
 using TakeGradients =
     std::function<void(std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients)>;
 
+/// Called between the particles of the interior and those of the border (grid::BlockGrid::Region), whose
+/// nodes may be under way from other ranks until then; empty: nothing to wait for.
+using BeforeBorder = std::function<void()>;
+
 /// The gather of the symplectic scheme (docs/theory/mpm.md, section 4): velocity and affine field by the
 /// relaxed affine transfer, internal energy by the exact work identity plus the heat of the transfer,
 /// position with the grid's velocity, and the velocity gradient of the advanced grid for the constitutive
@@ -49,7 +53,8 @@ using TakeGradients =
 /// @param acceleration  by external forces, as given to `particles_to_grid`
 TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid, double dt,
                                   AffineField affine, const TakeGradients& take,
-                                  std::span<const Vector3> acceleration = {});
+                                  std::span<const Vector3> acceleration = {},
+                                  const BeforeBorder& before_border = {});
 
 /// Gather of the schemes without exact energy (equations 5.1, 5.2): velocity, and the displacement of the
 /// step (not yet applied).
@@ -58,11 +63,12 @@ TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, gri
 /// @returns external work and largest change
 TransferBalance update_velocity(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid, double dt,
                                 double relaxation, std::span<Vector3> displacement, const TakeGradients& take,
-                                std::span<const Vector3> acceleration = {});
+                                std::span<const Vector3> acceleration = {},
+                                const BeforeBorder& before_border = {});
 
 /// Velocity gradient of the nodes' velocities (Node::first).
 void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
-                              const TakeGradients& take);
+                              const TakeGradients& take, const BeforeBorder& before_border = {});
 
 /// The nodes' velocities (Node::first) at the particles.
 void gather_velocity(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,

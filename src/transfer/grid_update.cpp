@@ -31,13 +31,9 @@ bool separates(const BlockGrid::MirrorPlane& plane) { return plane.kind == grid:
 /// The image of a particle brings to node j what the particle brings to the mirror node of j, with the
 /// reflected vector. Real particles only were transferred, so what they brought beyond the plane is folded to
 /// the inside.
-void fold(std::span<Node> nodes, const BlockGrid::MirrorPlane& plane, bool with_forces) {
-  const Lanes sign = reflection(plane, 1);
-  parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
-    const BlockGrid::MirrorPair& pair = plane.pairs[i];
-    nodes[pair.image].first += sign * nodes[pair.outside].first;
-    if (with_forces) nodes[pair.image].second += sign * nodes[pair.outside].second;
-  });
+void fold(Node& image, const Node& outside, Lanes sign, bool with_forces) {
+  image.first += sign * outside.first;
+  if (with_forces) image.second += sign * outside.second;
 }
 
 /// On a plane a vector is its own image: the reversed components vanish. Mass and force would double alike.
@@ -110,9 +106,17 @@ void GridUpdate::remember_nodes_at_planes(const BlockGrid& grid) {
   }
 }
 
+void GridUpdate::remember_content(const BlockGrid& grid, Nodes which) {
+  remember_nodes_at_planes(grid);
+  before_.resize(at_planes_.size());
+  parallel::for_each(at_planes_.size(), [&](std::size_t i) {
+    if (among(grid, at_planes_[i], which)) before_[i] = grid.all_nodes()[at_planes_[i]];
+  });
+}
+
 /// Where a separating wall is in contact: the matter on the node of the plane would move into it. All ranks
 /// that hold the node decide alike, by the sums of all.
-void GridUpdate::find_contact(BlockGrid& grid, double dt) {
+void GridUpdate::find_contact(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
   std::vector<Node> own;  // this rank's part, which the exchange replaces
   if (grid.is_shared()) {
@@ -127,7 +131,7 @@ void GridUpdate::find_contact(BlockGrid& grid, double dt) {
     parallel::for_each(plane.on_plane.size(), [&](std::size_t i) {
       const Node& node = nodes[plane.on_plane[i]];
       const int lane = plane.axis + 1;
-      const double momentum = inward * (node.first[lane] + dt * node.second[lane]);
+      const double momentum = inward * (node.first[lane] + dt_ * node.second[lane]);
       if (node.first[0] >= no_mass && momentum <= 0.0) {
         in_contact_[plane.on_plane[i]] |= static_cast<std::uint8_t>(1U << plane.axis);
       }
@@ -140,51 +144,40 @@ bool GridUpdate::touches(const BlockGrid::MirrorPlane& plane, std::uint32_t node
   return node != BlockGrid::no_node && (in_contact_[node] >> plane.axis & 1U) != 0;
 }
 
-/// Folds every plane and restricts the nodes on it; separating walls where they are in contact.
-void GridUpdate::fold_planes(BlockGrid& grid, bool with_forces, double dt_for_contact) {
+/// Folds every plane and restricts the nodes on it; separating walls where they are in contact. Nodes beyond
+/// such a wall that is not in contact go on as nodes of their own; beyond one in contact they are emptied.
+void GridUpdate::fold_planes(BlockGrid& grid, Nodes which, bool with_forces) {
   const std::span<Node> nodes = grid.all_nodes();
-  bool any_separating = false;
+  bool contact_found = !with_forces;  // by the step that the momenta belong to
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
-    if (separates(plane)) {
-      any_separating = true;
-    } else {
-      fold(nodes, plane, with_forces);
+    if (separates(plane) && !contact_found) {  // the last planes
+      find_contact(grid);
+      contact_found = true;
     }
-  }
-  if (any_separating) {
-    if (with_forces) find_contact(grid, dt_for_contact);
-    for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
-      if (separates(plane)) fold_where_in_contact(nodes, plane, with_forces);
-    }
+    const Lanes sign = reflection(plane, 1);
+    parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
+      const BlockGrid::MirrorPair& pair = plane.pairs[i];
+      if (!among(grid, pair.image, which)) return;
+      if (separates(plane) && !touches(plane, pair.foot)) return;
+      fold(nodes[pair.image], nodes[pair.outside], sign, with_forces);
+      if (!separates(plane)) return;
+      nodes[pair.outside].first = broadcast(0.0);
+      if (with_forces) nodes[pair.outside].second = broadcast(0.0);
+    });
   }
   // After all folds, because between two planes one cell apart each folds onto the nodes of the other.
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
     const Lanes sign = reflection(plane, 1);
     parallel::for_each(plane.on_plane.size(), [&](std::size_t i) {
       const std::uint32_t node = plane.on_plane[i];
+      if (!among(grid, node, which)) return;
       if (!separates(plane) || touches(plane, node)) restrict_to_plane(nodes[node], sign, with_forces);
     });
   }
 }
 
-/// Nodes beyond a wall that is not in contact go on as nodes of their own; beyond one in contact they are
-/// emptied.
-void GridUpdate::fold_where_in_contact(std::span<Node> nodes, const BlockGrid::MirrorPlane& plane,
-                                       bool with_forces) const {
-  const Lanes sign = reflection(plane, 1);
-  parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
-    const BlockGrid::MirrorPair& pair = plane.pairs[i];
-    if (!touches(plane, pair.foot)) return;
-    nodes[pair.image].first += sign * nodes[pair.outside].first;
-    nodes[pair.outside].first = broadcast(0.0);
-    if (!with_forces) return;
-    nodes[pair.image].second += sign * nodes[pair.outside].second;
-    nodes[pair.outside].second = broadcast(0.0);
-  });
-}
-
 /// Velocities beyond the planes are the reflected ones; reverse order, so that corners come out right.
-void GridUpdate::copy_back(BlockGrid& grid) const {
+void GridUpdate::copy_back(BlockGrid& grid, Nodes which) const {
   const std::span<Node> nodes = grid.all_nodes();
   const auto planes = grid.mirror_planes();
   for (std::size_t n = planes.size(); n-- > 0;) {
@@ -192,6 +185,7 @@ void GridUpdate::copy_back(BlockGrid& grid) const {
     const Lanes sign = reflection(plane, 0);
     parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
       const BlockGrid::MirrorPair& pair = plane.pairs[i];
+      if (!among(grid, pair.image, which)) return;
       if (separates(plane) && !touches(plane, pair.foot)) return;
       nodes[pair.outside].first = sign * nodes[pair.image].first;
       nodes[pair.outside].second = sign * nodes[pair.image].second;
@@ -199,15 +193,40 @@ void GridUpdate::copy_back(BlockGrid& grid) const {
   }
 }
 
+void GridUpdate::send(BlockGrid& grid, BlockGrid::Part part) {
+  // Where separating walls are in contact, all ranks must have brought their part.
+  if (std::ranges::any_of(grid.mirror_planes(), separates)) return;
+  const bool with_forces = part == BlockGrid::Part::both;
+  if (with_forces) remember_content(grid, Nodes::awaited);
+  if (grid.awaits()) fold_planes(grid, Nodes::awaited, with_forces);
+  grid.begin_sum_to_owners(part);
+  sent_ = true;
+}
+
+/// Mass, momentum and perhaps force of all ranks on the nodes of this one, planes folded.
+void GridUpdate::complete_sums(BlockGrid& grid, BlockGrid::Part part) {
+  const bool with_forces = part == BlockGrid::Part::both;
+  if (!sent_) send(grid, part);
+  const Nodes which = sent_ ? Nodes::others : Nodes::all;
+  if (with_forces) remember_content(grid, which);
+  fold_planes(grid, which, with_forces);
+  if (!sent_) grid.begin_sum_to_owners(part);
+  sent_ = false;
+  grid.finish_sum_to_owners(part);
+}
+
 GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& relaxation,
                                 const std::function<void()>& at_contact) {
-  const std::span<Node> nodes = grid.all_nodes();
-  remember_nodes_at_planes(grid);
-  before_.resize(at_planes_.size());
-  parallel::for_each(at_planes_.size(), [&](std::size_t i) { before_[i] = nodes[at_planes_[i]]; });
+  GridBalance balance = begin_advance(grid, dt, relaxation, at_contact);
+  balance.wall_impulse += finish(grid);
+  return balance;
+}
 
-  fold_planes(grid, true, dt);
-  grid.sum_to_owners(BlockGrid::Part::both);
+GridBalance GridUpdate::begin_advance(BlockGrid& grid, double dt, const Relaxation& relaxation,
+                                      const std::function<void()>& at_contact) {
+  const std::span<Node> nodes = grid.all_nodes();
+  dt_ = dt;
+  complete_sums(grid, BlockGrid::Part::both);
   const double rate = relaxation.kappa * dt / grid.geometry().cell_size;
   std::vector<Energies> of_block(grid.owned_blocks());
   parallel::for_each(grid.owned_blocks(), [&](std::size_t b) {
@@ -233,33 +252,43 @@ GridBalance GridUpdate::advance(BlockGrid& grid, double dt, const Relaxation& re
     }
   });
   if (at_contact) at_contact();
-  grid.borrow_from_owners(BlockGrid::Part::both);
-  copy_back(grid);
+  grid.begin_borrow_from_owners(BlockGrid::Part::both);
+  awaiting_ = Awaiting::step;
+  copy_back(grid, Nodes::others);
 
   // Sums run in the order of the blocks, where empty blocks add zero: the same bits whatever blocks happen to
   // be active.
   Energies energy;
   for (const Energies& part : of_block) energy += part;
-  // Momentum that the planes gave to the real particles: equation 3.6 of docs/theory/mpm.md.
+  return {energy.before, energy.after, wall_impulse(grid, Nodes::others)};
+}
+
+/// Momentum that the planes gave to the real particles: equation 3.6 of docs/theory/mpm.md.
+Vector3 GridUpdate::wall_impulse(const BlockGrid& grid, Nodes which) const {
   Lanes impulse = broadcast(0.0);
   for (std::size_t i = 0; i < at_planes_.size(); ++i) {
+    if (!among(grid, at_planes_[i], which)) continue;
     const Node& real = before_[i];
-    const Node& node = nodes[at_planes_[i]];
+    const Node& node = grid.all_nodes()[at_planes_[i]];
     const double mass = real.first[0];
     // A node that received nothing in the fold is not changed by the planes: only its round-off would count.
     // (What arrives may be a force without any mass to speak of, at the edge of a kernel.)
-    if (may_be_unchanged_[i] != 0 && is_result_of(node, real, dt)) continue;
+    if (may_be_unchanged_[i] != 0 && is_result_of(node, real, dt_)) continue;
     const Lanes momentum = {real.first[1], real.first[2], real.first[3], 0.0};
     const Lanes force = {real.second[1], real.second[2], real.second[3], 0.0};
-    impulse += mass * node.second - dt * force - node.first[3] * (momentum - mass * node.first);
+    impulse += mass * node.second - dt_ * force - node.first[3] * (momentum - mass * node.first);
   }
-  return {energy.before, energy.after, Vector3(impulse[0], impulse[1], impulse[2])};
+  return {impulse[0], impulse[1], impulse[2]};
 }
 
 void GridUpdate::velocity_from_momentum(BlockGrid& grid) {
+  begin_velocity_from_momentum(grid);
+  finish(grid);
+}
+
+void GridUpdate::begin_velocity_from_momentum(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
-  fold_planes(grid, false, 0.0);
-  grid.sum_to_owners(BlockGrid::Part::first);
+  complete_sums(grid, BlockGrid::Part::first);
   parallel::for_each(grid.owned_blocks(), [&](std::size_t b) {
     const std::size_t begin = grid.owned_block(b) * grid::nodes_per_block;
     for (std::size_t i = begin; i < begin + grid::nodes_per_block; ++i) {
@@ -272,8 +301,19 @@ void GridUpdate::velocity_from_momentum(BlockGrid& grid) {
       }
     }
   });
-  grid.borrow_from_owners(BlockGrid::Part::first);
-  copy_back(grid);
+  grid.begin_borrow_from_owners(BlockGrid::Part::first);
+  awaiting_ = Awaiting::velocity;
+  copy_back(grid, Nodes::others);
+}
+
+Vector3 GridUpdate::finish(BlockGrid& grid) {
+  const Awaiting awaited = std::exchange(awaiting_, Awaiting::nothing);
+  if (awaited == Awaiting::nothing) return Vector3::Zero();
+  const bool of_step = awaited == Awaiting::step;
+  grid.finish_borrow_from_owners(of_step ? BlockGrid::Part::both : BlockGrid::Part::first);
+  if (!grid.awaits()) return Vector3::Zero();
+  copy_back(grid, Nodes::awaited);
+  return of_step ? wall_impulse(grid, Nodes::awaited) : Vector3::Zero();
 }
 
 }  // namespace whipple::transfer

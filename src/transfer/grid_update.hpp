@@ -43,14 +43,34 @@ class GridUpdate {
   /// walls are in contact where the last `advance` found them to be. Collective.
   void velocity_from_momentum(grid::BlockGrid& grid);
 
+  /// @name The same in parts, so that work on the interior hides the exchange
+  /// @{
+  /// Sends the owners what the border has brought, before the interior has. May be left out.
+  void send(grid::BlockGrid& grid, grid::BlockGrid::Part part);
+  /// As `advance` and `velocity_from_momentum`, but what is borrowed (grid::BlockGrid::is_awaited) may still
+  /// be under way.
+  GridBalance begin_advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation,
+                            const std::function<void()>& at_contact = {});
+  void begin_velocity_from_momentum(grid::BlockGrid& grid);
+  /// Waits for it, before the gather of the border.
+  /// @returns N s, what the planes did there; nothing after `begin_velocity_from_momentum`
+  Vector3 finish(grid::BlockGrid& grid);
+  /// @}
+
  private:
-  void fold_planes(grid::BlockGrid& grid, bool with_forces, double dt_for_contact);
-  void fold_where_in_contact(std::span<grid::Node> nodes, const grid::BlockGrid::MirrorPlane& plane,
-                             bool with_forces) const;
-  void copy_back(grid::BlockGrid& grid) const;
-  void find_contact(grid::BlockGrid& grid, double dt);
+  /// Nodes that `is_awaited` concerns, the others, or both.
+  enum class Nodes { awaited, others, all };
+  [[nodiscard]] static bool among(const grid::BlockGrid& grid, std::uint32_t node, Nodes nodes) {
+    return nodes == Nodes::all || grid.is_awaited(node) == (nodes == Nodes::awaited);
+  }
+  void fold_planes(grid::BlockGrid& grid, Nodes which, bool with_forces);
+  void copy_back(grid::BlockGrid& grid, Nodes which) const;
+  void complete_sums(grid::BlockGrid& grid, grid::BlockGrid::Part part);
+  void find_contact(grid::BlockGrid& grid);
   [[nodiscard]] bool touches(const grid::BlockGrid::MirrorPlane& plane, std::uint32_t node) const;
   void remember_nodes_at_planes(const grid::BlockGrid& grid);
+  void remember_content(const grid::BlockGrid& grid, Nodes which);
+  [[nodiscard]] Vector3 wall_impulse(const grid::BlockGrid& grid, Nodes which) const;
 
   std::vector<std::uint32_t> at_planes_;  // nodes that the planes may change, ascending
   std::vector<std::uint8_t>
@@ -58,6 +78,9 @@ class GridUpdate {
   std::size_t at_planes_of_ = static_cast<std::size_t>(-1);  // layout that they belong to
   std::vector<std::uint8_t> in_contact_;  // of each node on separating walls: a bit per axis
   std::vector<grid::Node> before_;        // their content before the fold: what the real particles brought
+  bool sent_ = false;                     // by `send`
+  enum class Awaiting { nothing, step, velocity } awaiting_ = Awaiting::nothing;
+  double dt_ = 0.0;  // of the step under way
 };
 
 }  // namespace whipple::transfer

@@ -81,24 +81,27 @@ struct Momentum : OfParticles {
   }
 };
 
+/// @param at_border  called when the border has brought its part (grid::BlockGrid::Region)
 template <class Shape, class What>
-void scatter_all(const What& what, grid::BlockGrid& grid) {
-  for (const std::vector<std::uint32_t>& colour : grid.colours()) {
-    parallel::for_each_uneven(colour.size(), [&](std::size_t i) {
-      const std::size_t slot = colour[i];
-      if (grid.members(What::kind, slot).empty()) return;
-      with_kernels([&]<class Kernels>(Kernels) { Kernels::template scatter<Shape>(what, grid, slot); });
-    });
-  }
+void scatter_all(const What& what, grid::BlockGrid& grid, const std::function<void()>& at_border = {}) {
+  const auto scatter = [&](std::size_t slot) {
+    grid.progress();
+    if (grid.members(What::kind, slot).empty()) return;
+    with_kernels([&]<class Kernels>(Kernels) { Kernels::template scatter<Shape>(what, grid, slot); });
+  };
+  grid.for_each_apart(grid::BlockGrid::Region::border, scatter);
+  if (at_border) at_border();
+  grid.for_each_apart(grid::BlockGrid::Region::interior, scatter);
 }
 
 }  // namespace
 
 void particles_to_grid(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
-                       std::span<const Vector3> acceleration) {
+                       std::span<const Vector3> acceleration, const std::function<void()>& at_border) {
   grid.clear();
-  with_shape(shape,
-             [&]<class Shape>(Shape) { scatter_all<Shape>(Everything{{particles}, acceleration}, grid); });
+  with_shape(shape, [&]<class Shape>(Shape) {
+    scatter_all<Shape>(Everything{{particles}, acceleration}, grid, at_border);
+  });
 }
 
 void nodes_to_grid(ShapeFunction shape, const TransitionNodes& nodes, grid::BlockGrid& grid) {
@@ -108,10 +111,12 @@ void nodes_to_grid(ShapeFunction shape, const TransitionNodes& nodes, grid::Bloc
 }
 
 void momentum_to_grid(ShapeFunction shape, const Particles& particles, std::span<const Vector3> velocity,
-                      grid::BlockGrid& grid) {
+                      grid::BlockGrid& grid, const std::function<void()>& at_border) {
   const std::span<grid::Node> nodes = grid.all_nodes();
   parallel::for_each(nodes.size(), [&](std::size_t i) { nodes[i].first = broadcast(0.0); });
-  with_shape(shape, [&]<class Shape>(Shape) { scatter_all<Shape>(Momentum{{particles}, velocity}, grid); });
+  with_shape(shape, [&]<class Shape>(Shape) {
+    scatter_all<Shape>(Momentum{{particles}, velocity}, grid, at_border);
+  });
 }
 
 }  // namespace whipple::transfer

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "src/grid/block_grid.hpp"
@@ -13,12 +14,14 @@ namespace whipple::transfer {
 /// (docs/theory/mpm.md, equations 3.1 to 3.3). Clears the grid first; mirror planes are not folded yet. The
 /// result is bitwise independent of the number of threads.
 /// @param acceleration by external forces (m/s^2), one per particle; empty: none
+/// @param at_border    called when what other ranks wait for is complete (grid::BlockGrid::Region)
 void particles_to_grid(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
-                       std::span<const Vector3> acceleration = {});
+                       std::span<const Vector3> acceleration = {},
+                       const std::function<void()>& at_border = {});
 
 /// Mass and momentum only, with a velocity per particle: Node::first is replaced, Node::second stays
 /// (equations 5.3, 5.9).
 void momentum_to_grid(ShapeFunction shape, const Particles& particles, std::span<const Vector3> velocity,
-                      grid::BlockGrid& grid);
+                      grid::BlockGrid& grid, const std::function<void()>& at_border = {});
 
 }  // namespace whipple::transfer
