@@ -101,6 +101,8 @@ class ConstantHeatCapacity {
   static constexpr std::string_view summary = C::summary;
   static constexpr double least_temperature = 1.0;         ///< K
   static constexpr double least_sound_speed_ratio = 0.01;  ///< of the reference state's
+  static constexpr bool has_phases =
+      requires(const C& curve, Lanes lanes) { curve.isochore(lanes).vaporised_fraction(lanes); };
   static ParameterTable<Constants> parameters() { return C::parameters(); }
 
   /// @throws InputError naming the constants that contradict each other

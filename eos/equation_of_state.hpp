@@ -64,6 +64,8 @@ class EquationOfState {
   /// Whether the model describes condensed matter, which has a state of zero pressure: bodies start there. A
   /// gas has none: bodies start in its reference state.
   [[nodiscard]] virtual bool condensed() const { return true; }
+  /// Whether points may melt or vaporise: else both fractions are always 0.
+  [[nodiscard]] virtual bool has_phases() const { return true; }
   /// Largest density that the model is valid for (kg/m^3).
   [[nodiscard]] virtual double maximum_density() const = 0;
   /// Least specific internal energy at a density (J/kg): that of the coldest state which the model describes.

@@ -53,6 +53,13 @@ class ModelEquationOfState final : public EquationOfState {
       return true;
     }
   }
+  [[nodiscard]] bool has_phases() const override {
+    if constexpr (requires { M::has_phases; }) {
+      return M::has_phases;
+    } else {
+      return true;
+    }
+  }
   [[nodiscard]] double maximum_density() const override { return model_.maximum_density(); }
   [[nodiscard]] double minimum_energy(double density) const override {
     return model_.minimum_energy(density);

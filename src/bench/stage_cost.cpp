@@ -73,7 +73,6 @@ StageCost stage_cost(std::string_view stage, const setup::Case& setup, double no
   if (stage == "velocity gradient") return {place + nodes, sums(n, 2.0, 3.0)};
   if (stage == "material") return {bytes_of(&M::mass) + 2.0 * material_state, 0.0};
   if (stage == "bin particles") return {bytes_of(&P::position) + 2.0 * sizeof(std::uint32_t), 0.0};
-  if (stage == "move") return {3.0 * velocity, 6.0};
   if (stage == "time step") return {velocity + bytes_of(&M::sound_speed), 4.0};
   if (stage == "ledger") {
     return {velocity + bytes_of(&P::affine_velocity) + bytes_of(&M::mass, &M::specific_internal_energy),

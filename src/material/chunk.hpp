@@ -87,12 +87,16 @@ struct Chunk {
   void find_failed();
 
  private:
-  /// Runs are short, a call of `memcpy` would take longer than the copy.
+  /// Runs are short, a call of `memcpy` would take longer than the copy: the empty statement keeps the compiler
+  /// from making one.
   template <class Value>
   static void copy(const Value* from, Value* to, std::size_t n) {
     constexpr std::size_t step = 32 / sizeof(Value);
     if (n < step) {
-      for (std::size_t k = 0; k < n; ++k) to[k] = from[k];
+      for (std::size_t k = 0; k < n; ++k) {
+        to[k] = from[k];
+        asm volatile("");
+      }
       return;
     }
     const auto some = [&](std::size_t k) {
@@ -102,7 +106,10 @@ struct Chunk {
         std::memcpy(to + k, from + k, 32);
       }
     };
-    for (std::size_t k = 0; k + step < n; k += step) some(k);
+    for (std::size_t k = 0; k + step < n; k += step) {
+      some(k);
+      asm volatile("");
+    }
     some(n - step);
   }
 };

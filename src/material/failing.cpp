@@ -99,7 +99,7 @@ void apply_failure(Step& step, Chunk& chunk) {
   for (const auto& criterion : step.material.failure) {
     criterion->mark(state, chunk.view(chunk.damage), chunk.view(chunk.failed));
   }
-  chunk.deposit(chunk.damage, step.points.damage);
+  if (step.material.keeps_damage) chunk.deposit(chunk.damage, step.points.damage);
   if (std::equal(chunk.failed.begin(), chunk.failed.begin() + chunk.size, failed_before.begin())) return;
   chunk.find_failed();
   for (std::size_t k = 0; k < chunk.size; ++k) {

@@ -108,10 +108,11 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
   for (const auto& criterion : material.failure) {
     material.softens |= criterion->softens();
     material.needs_strain |= criterion->needs_strain();
+    material.keeps_damage |= criterion->accumulates();
     if (criterion->grows_voids()) material.void_growth = criterion.get();
   }
   if (const strength::Brittle* brittle = material.strength->brittle()) {
-    material.brittle = true;
+    material.brittle = material.keeps_damage = true;
     if (brittle->bulks()) material.eos = std::make_shared<const eos::Distended>(material.eos);
     material.porous = brittle->bulks();
   }

@@ -55,14 +55,20 @@ void gather(Step& step, Chunk& chunk, Energy energy) {
   chunk.fetch(points.temperature, chunk.temperature);
   chunk.fetch(points.plastic_strain, chunk.plastic_strain);
   chunk.fetch(points.sound_speed, chunk.sound_speed);
-  chunk.fetch(points.melted_fraction, chunk.melted);
-  chunk.fetch(points.vaporised_fraction, chunk.vaporised);
+  const auto zero = [&](Lanes& lane) { std::fill_n(lane.data(), chunk.size, 0.0); };
+  if (step.material.eos->has_phases()) {
+    chunk.fetch(points.melted_fraction, chunk.melted);
+    chunk.fetch(points.vaporised_fraction, chunk.vaporised);
+  } else {
+    zero(chunk.melted);
+    zero(chunk.vaporised);
+  }
   chunk.fetch(points.failed, chunk.failed);
   if (step.material.stores_cold_work()) chunk.fetch(points.stored_cold_work, chunk.stored_cold_work);
-  if (step.material.failure.empty() && !step.material.brittle) {
-    std::fill_n(chunk.damage.data(), chunk.size, 0.0);
-  } else {
+  if (step.material.keeps_damage) {
     chunk.fetch(points.damage, chunk.damage);
+  } else {
+    zero(chunk.damage);
   }
   chunk.find_failed();
   chunk.any_void = material::any_positive(chunk.void_volume, chunk.size);
@@ -317,10 +323,17 @@ void prepare_energy(const Step& step, Chunk& chunk) {
 /// One call for the chunk; density, pressure and temperature become the new ones.
 eos::RangeReport evaluate(Step& step, Chunk& chunk) {
   for (std::size_t k = 0; k < chunk.size; ++k) chunk.density[k] = chunk.mass[k] / chunk.volume[k];
-  eos::Batch batch{chunk.view(chunk.density),          chunk.view(chunk.energy),
-                   chunk.view(chunk.pressure),         chunk.view(chunk.temperature),
-                   chunk.view(chunk.bulk_sound_speed), chunk.view(chunk.melted),
-                   chunk.view(chunk.vaporised)};
+  eos::Batch batch{chunk.view(chunk.density),
+                   chunk.view(chunk.energy),
+                   chunk.view(chunk.pressure),
+                   chunk.view(chunk.temperature),
+                   chunk.view(chunk.bulk_sound_speed),
+                   {},
+                   {}};
+  if (step.material.eos->has_phases()) {
+    batch.melted_fraction = chunk.view(chunk.melted);
+    batch.vaporised_fraction = chunk.view(chunk.vaporised);
+  }
   if (step.material.porous) {  // always from the distension before the step, which `finish` replaces
     chunk.fetch(step.points.distension, chunk.distension);
     batch.distension = chunk.view(chunk.distension);

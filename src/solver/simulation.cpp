@@ -332,21 +332,27 @@ void Simulation::map_grid_to_particles() {
   update_material_with("grid to particles", EnergyUpdate::by_work_identity, gather);
 }
 
-void Simulation::update_particle_velocity(Then then) {
-  const auto gather = [&](const transfer::TakeGradients& take) {
-    displacement_.resize(particles_.size());
-    const transfer::TransferBalance balance = transfer::update_velocity(
-        shape_, particles_, grid_, state_.time_step, relaxation(setup_.transfer).fixed, displacement_, take,
-        external_acceleration_, [&] { finish_exchange(); });
-    step_.external_work += balance.external_work;
-    squared_change_ = balance.squared_change;
-    for (const std::uint32_t p : flying_) displacement_[p] = state_.time_step * particles_.velocity[p];
-  };
-  if (then == Then::nothing) {
-    profile_.time("grid to particles", [&] { gather({}); });
-  } else {
-    update_material_with("grid to particles", EnergyUpdate::by_constitutive_model, gather);
+void Simulation::gather_velocity(Positions positions, const transfer::TakeGradients& take) {
+  displacement_.resize(positions == Positions::stay ? particles_.size() : 0);
+  const transfer::TransferBalance balance = transfer::update_velocity(
+      shape_, particles_, grid_, state_.time_step, relaxation(setup_.transfer).fixed, displacement_, take,
+      external_acceleration_, [&] { finish_exchange(); });
+  step_.external_work += balance.external_work;
+  squared_change_ = balance.squared_change;
+  std::vector<Vector3>& moved = positions == Positions::stay ? displacement_ : particles_.position;
+  for (const std::uint32_t p : flying_) {
+    const Vector3 displacement = state_.time_step * particles_.velocity[p];
+    moved[p] = positions == Positions::stay ? displacement : Vector3(moved[p] + displacement);
   }
+}
+
+void Simulation::update_particle_velocity(Positions positions) {
+  profile_.time("grid to particles", [&] { gather_velocity(positions, {}); });
+}
+
+void Simulation::update_velocity_and_material() {
+  update_material_with("grid to particles", EnergyUpdate::by_constitutive_model,
+                       [&](const transfer::TakeGradients& take) { gather_velocity(Positions::move, take); });
 }
 
 void Simulation::map_momentum_to_grid() {
@@ -357,17 +363,21 @@ void Simulation::map_momentum_to_grid() {
   });
 }
 
-void Simulation::update_material() {
-  update_material_with(
-      "velocity gradient", EnergyUpdate::by_constitutive_model, [&](const transfer::TakeGradients& take) {
-        transfer::gather_velocity_gradient(shape_, particles_, grid_, take, [&] { finish_exchange(); });
-      });
-}
-
-void Simulation::move_particles() {
-  profile_.time("move", [&] {
-    parallel::for_each(particles_.size(), [&](std::size_t p) { particles_.position[p] += displacement_[p]; });
-  });
+void Simulation::update_material(Positions positions) {
+  update_material_with("velocity gradient", EnergyUpdate::by_constitutive_model,
+                       [&](const transfer::TakeGradients& take) {
+                         const auto take_and_move = [&](std::span<const std::uint32_t> particles,
+                                                        std::span<const Matrix3> gradients) {
+                           take(particles, gradients);
+                           for (const std::uint32_t p : particles) particles_.position[p] += displacement_[p];
+                         };
+                         transfer::gather_velocity_gradient(
+                             shape_, particles_, grid_,
+                             positions == Positions::move ? transfer::TakeGradients(take_and_move) : take,
+                             [&] { finish_exchange(); });
+                         if (positions == Positions::stay) return;
+                         for (const std::uint32_t p : flying_) particles_.position[p] += displacement_[p];
+                       });
 }
 
 void Simulation::end_step() {

@@ -97,6 +97,10 @@ struct Both {
   Lanes first, second;
 };
 WHIPPLE_INLINE inline Both both(Lanes first, Lanes second) { return {first, second}; }
+/// One number in all lanes of each register.
+WHIPPLE_INLINE inline Both spread_both(double first, double second) {
+  return {broadcast(first), broadcast(second)};
+}
 WHIPPLE_INLINE inline Both operator*(Both a, Both b) { return {a.first * b.first, a.second * b.second}; }
 WHIPPLE_INLINE inline Both operator+(Both a, Both b) { return {a.first + b.first, a.second + b.second}; }
 /// sum += a b; in the second register only where the first one's b is 0.
@@ -170,6 +174,10 @@ WHIPPLE_INLINE inline Vector relaxation(Vector first, const Nodes&) {
 using Both = Vector;
 using NodeRegister [[gnu::vector_size(64), gnu::may_alias]] = double;
 WHIPPLE_INLINE inline Both both(Lanes first, Lanes second) { return join(first, second); }
+/// One number in all lanes of each half.
+WHIPPLE_INLINE inline Both spread_both(double first, double second) {
+  return Vector(_mm512_mask_broadcastsd_pd(_mm512_set1_pd(first), 0xf0, _mm_set_sd(second)));
+}
 /// sum += a b
 template <bool>
 WHIPPLE_INLINE inline void add_product(Both& sum, Both a, Both b) {

@@ -473,13 +473,14 @@ WHIPPLE_INLINE inline void add_payload(const Payload& load, const Weights<Shape:
   constexpr std::size_t n = Shape::count;
   constexpr bool affine = CarriesAffineField<Shape>;
   const auto weight = [&](std::size_t i, std::size_t a) {
-    const Lanes in_all = broadcast(w.weight[i][a]);
-    return both(in_all, in_all);
+    return spread_both(w.weight[i][a], w.weight[i][a]);
   };
-  std::array<Lanes, n> moment;
-  for (std::size_t i = 0; i < n; ++i) moment[i] = w.weight[i] * w.distance[i];
+  std::array<Lanes, n> moment{};  // nothing is carried by it where there is no affine field
+  if constexpr (affine) {
+    for (std::size_t i = 0; i < n; ++i) moment[i] = w.weight[i] * w.distance[i];
+  }
   const auto slope = [&](std::size_t i, std::size_t a) {
-    return both(broadcast(moment[i][a]), broadcast(w.derivative[i][a]));
+    return spread_both(moment[i][a], w.derivative[i][a]);
   };
   std::array<Both, n> weight_z, slope_z;
   for (std::size_t k = 0; k < n; ++k) {
