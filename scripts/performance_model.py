@@ -12,7 +12,7 @@ import sys
 
 CELLS = 64            # of a block
 NODE_BYTES = 64       # two registers of four doubles
-EXCHANGES = 2         # sums to the owners, results back
+EXCHANGES = 2         # sums to the owners behind the scatter, results back behind gather and material
 NEIGHBOURS = 26
 COLLECTIVES = 8       # reductions of a step: time step, blocks, errors, ledger, acceleration
 POSTS_PER_BYTE = 4.0  # a node is read, packed, unpacked and written
@@ -24,18 +24,38 @@ def halo_blocks(blocks):
     return (edge + 2.0) ** 3 - edge ** 3
 
 
-def seconds_per_step(particles, cores, kernel, per_block, latency, bandwidth, memory, imbalance):
-    """Of `particles` per core on `cores` cores; kernel: seconds per particle and step on a full machine."""
-    compute = imbalance * particles * kernel
+def interior_share(blocks):
+    """Of a cube of so many blocks: those whose particles reach no borrowed block."""
+    edge = max(blocks, 1.0) ** (1.0 / 3.0)
+    return max(edge - 2.0, 0.0) ** 3 / edge ** 3
+
+
+def seconds_per_step(particles, cores, kernels, per_block, latency, bandwidth, memory, imbalance):
+    """Of `particles` per core on `cores` cores: computation, exchange that is waited for, reductions.
+
+    kernels: seconds per particle and step on a full machine: of the whole step, of the scatter and of gather and material,
+    whose interior goes on while messages are under way.
+    """
+    whole, *behind = kernels
+    compute = imbalance * particles * whole
     if cores == 1:
         return compute, 0.0, 0.0
     blocks = particles / per_block
     # A core has no more neighbours, and borrows no more, than there are others.
     halo = min(halo_blocks(blocks), (cores - 1) * blocks)
-    bytes_moved = EXCHANGES * halo * CELLS * NODE_BYTES
-    exchange = EXCHANGES * min(NEIGHBOURS, cores - 1) * latency + bytes_moved * (1.0 / bandwidth + POSTS_PER_BYTE / memory)
+    bytes_moved = halo * CELLS * NODE_BYTES
+    transit = min(NEIGHBOURS, cores - 1) * latency + bytes_moved / bandwidth
+    waiting = sum(max(0.0, transit - interior_share(blocks) * particles * kernel) for kernel in behind)
+    packing = EXCHANGES * bytes_moved * POSTS_PER_BYTE / memory
     collectives = COLLECTIVES * 2.0 * math.ceil(math.log2(cores)) * latency
-    return compute, exchange, collectives
+    return compute, packing + waiting, collectives
+
+
+def kernels_of(measurement):
+    """Whole step, scatter, gather and material, in seconds per particle and step."""
+    stages = {stage["stage"]: 1e-9 * stage["ns_per_particle_step"] for stage in measurement["stages"]}
+    return (1e-9 * measurement["ns_per_particle_step"], stages["particles to grid"],
+            stages["grid to particles"] + stages["material"])
 
 
 def measurements(record, problem):
@@ -66,7 +86,7 @@ def main(arguments):
     if (1, 1) not in known:
         sys.exit(f"{options.bench}: no measurement of {options.problem} on one rank and one thread")
     one = known[(1, 1)]
-    kernel = 1e-9 * one["ns_per_particle_step"]
+    kernels = kernels_of(one)
     memory = record["bandwidth_bytes_per_s"]
     per_block = one["particles_per_block"]
     print(f"{options.problem}: {one['ns_per_particle_step']:.0f} ns per particle and step on one core, "
@@ -76,7 +96,7 @@ def main(arguments):
     for (ranks, threads), m in sorted(known.items()):
         cores = ranks * threads
         share = one["particles"] / cores
-        parts = seconds_per_step(share, ranks, kernel, per_block, options.machine_latency, options.machine_bandwidth, memory,
+        parts = seconds_per_step(share, ranks, kernels, per_block, options.machine_latency, options.machine_bandwidth, memory,
                                  1.0 if ranks == 1 else options.imbalance)
         predicted = 1e9 * sum(parts) / one["particles"]
         rows.append([str(ranks), str(threads), f"{m['ns_per_particle_step']:.1f}", f"{predicted:.1f}",
@@ -87,14 +107,15 @@ def main(arguments):
     shared = full["ns_per_particle_step"] * full["threads"] / one["ns_per_particle_step"]
     print(f"\nOn a full machine a core takes {shared:.2f} of that ({full['threads']} threads measured); "
           f"network {1e6 * options.latency:.1f} us, {1e-9 * options.bandwidth:.1f} GB/s per core.\n")
+    on_full_machine = [shared * kernel for kernel in kernels]
     rows = [["particles", "cores", "particles per core", "ms per step", "compute", "exchange", "collectives", "efficiency"]]
     for total, cores in [(1e8, 100), (1e8, 1000), (1e9, 1000), (1e9, 10000), (1e10, 10000)]:
-        parts = seconds_per_step(total / cores, cores, kernel * shared, per_block, options.latency, options.bandwidth, memory,
+        parts = seconds_per_step(total / cores, cores, on_full_machine, per_block, options.latency, options.bandwidth, memory,
                                  options.imbalance)
         step = sum(parts)
         rows.append([f"{total:.0e}", str(cores), f"{total / cores:.0e}", f"{1e3 * step:.1f}"] +
                     [f"{100 * part / step:.1f} %" for part in parts] +
-                    [f"{100 * total / cores * kernel * shared / step:.0f} %"])
+                    [f"{100 * total / cores * on_full_machine[0] / step:.0f} %"])
     print_table(rows)
     return 0
 

@@ -188,7 +188,12 @@ TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double 
           balance.squared_change =
               std::max(balance.squared_change, squared_change(updated, particles.velocity[p]));
           store_vector(velocity, updated);
-          store_vector(displacement[p].data(), dt * after);
+          if (displacement.empty()) {
+            double* const position = particles.position[p].data();
+            store_vector(position, load_vector(position) + dt * after);
+          } else {
+            store_vector(displacement[p].data(), dt * after);
+          }
           particles.specific_internal_energy[p] += increment[3];  // of contact
           if constexpr (with_gradient) gradients[place] = matrix(update.after.gradient);
           if (!acceleration.empty()) {

@@ -56,10 +56,10 @@ TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, gri
                                   std::span<const Vector3> acceleration = {},
                                   const BeforeBorder& before_border = {});
 
-/// Gather of the schemes without exact energy (equations 5.1, 5.2): velocity, and the displacement of the
-/// step (not yet applied).
-/// @param relaxation  towards the grid's velocity: 0 FLIP, 1 PIC
-/// @param take        the gradients of the advanced grid velocity; empty if they are not wanted
+/// Gather of the schemes without exact energy (equations 5.1, 5.2): velocity and position.
+/// @param relaxation    towards the grid's velocity: 0 FLIP, 1 PIC
+/// @param displacement  takes the displacements of the step, and positions stay; or empty
+/// @param take          the gradients of the advanced grid velocity; empty if they are not wanted
 /// @returns external work and largest change
 TransferBalance update_velocity(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid, double dt,
                                 double relaxation, std::span<Vector3> displacement, const TakeGradients& take,
