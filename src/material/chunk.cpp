@@ -8,11 +8,16 @@
 namespace whipple::material {
 
 void Chunk::find_runs() {
+  // Without branches, whose outcome nothing foretells: a run ends where the next point is not the next index.
   run_count = 0;
-  for (std::size_t k = 0; k < size; ++k) {
-    if (k == 0 || index[k] != index[k - 1] + 1) runs[run_count++] = {k, k};
-    ++runs[run_count - 1].end;
+  std::size_t begin = 0;
+  for (std::size_t k = 1; k < size; ++k) {
+    const bool ends = index[k] != index[k - 1] + 1;
+    runs[run_count] = {begin, k};
+    begin = ends ? k : begin;
+    run_count += ends ? 1 : 0;
   }
+  runs[run_count++] = {begin, size};
 }
 
 void Chunk::find_failed() {
