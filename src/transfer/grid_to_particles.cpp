@@ -139,7 +139,9 @@ TransferBalance gather_particles(BlockGrid& grid, const TakeGradients& take,
     gradients.resize(std::max(gradients.size(), size));
     for (std::size_t slot = first_slot; slot < first_slot + slots; ++slot) {
       if (grid.particles_in(slot).empty()) continue;
-      gather(kernels, slot, of_slot[slot], &gradients[grid.place_of(slot) - begin]);
+      TransferBalance balance;  // of its own: neighbours in `of_slot` share lines of the cache
+      gather(kernels, slot, balance, &gradients[grid.place_of(slot) - begin]);
+      of_slot[slot] = balance;
     }
     if (take && size > 0) {
       take(grid.particles_by_block().subspan(begin, size), std::span(gradients).first(size));
