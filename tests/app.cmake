@@ -1,5 +1,6 @@
 # Tests of the command line and of the scripts.
 whipple_test(process_test SOURCES unit/process_run.cpp DEPENDS whipple_process LABELS fast)
+whipple_test(bench_test SOURCES unit/bench_reference_kernel_test.cpp DEPENDS whipple_bench LABELS fast)
 whipple_test(app_command_line_test SOURCES unit/app_command_line.cpp DEPENDS GTest::gmock nlohmann_json::nlohmann_json LABELS fast)
 add_dependencies(app_command_line_test whipple whipple-md whipple-fit)
 

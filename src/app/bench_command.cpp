@@ -19,6 +19,7 @@
 #include "src/base/text_table.hpp"
 #include "src/bench/machine.hpp"
 #include "src/bench/measurement.hpp"
+#include "src/bench/reference_kernel.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/process/mpirun.hpp"
@@ -71,7 +72,7 @@ Measurement measure_in_own_processes(const BenchOptions& options, const std::str
 std::string percent(double part, double whole) { return fmt::format("{:.0f} %", 100.0 * part / whole); }
 
 /// Stages beside what memory and arithmetic units of these cores would need at least.
-void print(const Measurement& m, const bench::MachineRates& rates) {
+void print(const Measurement& m, const bench::MachineRates& rates, double reference_kernel) {
   fmt::print(
       "\n{}: {}\n{} particles, {} steps, {} ranks x {} threads; {:.1f} particles per block of 64 cells; ",
       m.problem, bench::find_problem(m.problem).what, m.particles, m.steps, m.ranks, m.threads,
@@ -94,6 +95,8 @@ void print(const Measurement& m, const bench::MachineRates& rates) {
   }
   row("whole step", m.nanoseconds, bytes, flops);
   fmt::print("{}", text_table(rows, "lr"));
+  fmt::print("  {:.2f} times the reference kernel on as many cores\n",
+             1e-9 * m.nanoseconds * m.cores() / reference_kernel);
 }
 
 /// How a problem gains by cores: speed over that of its first configuration, per core of it.
@@ -112,13 +115,16 @@ void print_scaling(const std::vector<Measurement>& all) {
 
 struct Record {
   bench::MachineRates rates;  // of the first configuration
+  double reference_kernel;    // s per particle and step on one core; 0: not in the file
   std::vector<Measurement> measurements;
 };
 
 Record read_record(const fs::path& file) {
   try {
     const nlohmann::json json = nlohmann::json::parse(io::read_text(file));
-    Record record{{json.at("bandwidth_bytes_per_s"), json.at("arithmetic_flops_per_s")}, {}};
+    Record record{{json.at("bandwidth_bytes_per_s"), json.at("arithmetic_flops_per_s")},
+                  1e-9 * json.value("reference_kernel_ns_per_particle_step", 0.0),
+                  {}};
     for (const nlohmann::json& m : json.at("measurements"))
       record.measurements.push_back(bench::from_json(m));
     return record;
@@ -127,10 +133,12 @@ Record read_record(const fs::path& file) {
   }
 }
 
-/// Ratios of times, plain and with each time in units of what the machine could do in its own call.
+/// Ratios of times, plain and with each time in units of what the machine could do in its own call, and of
+/// the reference kernel there.
 void print_comparison(const Record& now, const Record& before, const std::string& file) {
-  std::vector<std::vector<std::string>> rows = {
-      {"problem", "ranks", "threads", "before", "now", "now / before", "by arithmetic", "by bandwidth"}};
+  std::vector<std::vector<std::string>> rows = {{"problem", "ranks", "threads", "before", "now",
+                                                 "now / before", "by arithmetic", "by bandwidth",
+                                                 "by kernel"}};
   for (const Measurement& m : now.measurements) {
     const auto old = std::ranges::find_if(before.measurements, [&](const Measurement& other) {
       return other.problem == m.problem && other.ranks == m.ranks && other.threads == m.threads;
@@ -141,7 +149,10 @@ void print_comparison(const Record& now, const Record& before, const std::string
                     fmt::format("{:.1f} ns", old->nanoseconds), fmt::format("{:.1f} ns", m.nanoseconds),
                     fmt::format("{:.2f}", ratio),
                     fmt::format("{:.2f}", ratio * now.rates.arithmetic / before.rates.arithmetic),
-                    fmt::format("{:.2f}", ratio * now.rates.bandwidth / before.rates.bandwidth)});
+                    fmt::format("{:.2f}", ratio * now.rates.bandwidth / before.rates.bandwidth),
+                    before.reference_kernel > 0.0
+                        ? fmt::format("{:.2f}", ratio * before.reference_kernel / now.reference_kernel)
+                        : "-"});
   }
   if (rows.size() == 1) {
     fmt::print("\n{} holds none of these problems on these ranks and threads\n", file);
@@ -160,6 +171,7 @@ nlohmann::json to_json(const Record& record, const BenchOptions& options) {
                                      : "normal"},
           {"bandwidth_bytes_per_s", record.rates.bandwidth},
           {"arithmetic_flops_per_s", record.rates.arithmetic},
+          {"reference_kernel_ns_per_particle_step", 1e9 * record.reference_kernel},
           {"measurements", measurements}};
 }
 
@@ -175,15 +187,17 @@ void run_bench(BenchOptions options) {
   }
   for (const std::string& name : options.problems) static_cast<void>(bench::find_problem(name));
 
-  Record record{bench::measure_machine(1), {}};
-  fmt::print("whipple {} ({}); one core: triad {:.1f} GB/s, multiply-adds {:.1f} Gflop/s\n",
-             build_info().version, build_info().revision, 1e-9 * record.rates.bandwidth,
-             1e-9 * record.rates.arithmetic);
+  Record record{bench::measure_machine(1), bench::measure_reference_kernel(), {}};
+  fmt::print(
+      "whipple {} ({}); one core: triad {:.1f} GB/s, multiply-adds {:.1f} Gflop/s, reference kernel {:.1f} "
+      "ns\n",
+      build_info().version, build_info().revision, 1e-9 * record.rates.bandwidth,
+      1e-9 * record.rates.arithmetic, 1e9 * record.reference_kernel);
   for (const std::string& problem : options.problems) {
     for (const int ranks : options.ranks) {
       for (const int threads : options.threads) {
         const Measurement m = measure_in_own_processes(options, problem, ranks, threads);
-        print(m, m.cores() == 1 ? record.rates : bench::measure_machine(m.cores()));
+        print(m, m.cores() == 1 ? record.rates : bench::measure_machine(m.cores()), record.reference_kernel);
         record.measurements.push_back(m);
       }
     }
