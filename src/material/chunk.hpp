@@ -87,8 +87,8 @@ struct Chunk {
   void find_failed();
 
  private:
-  /// Runs are short, a call of `memcpy` would take longer than the copy: the empty statement keeps the compiler
-  /// from making one.
+  /// Runs are short, a call of `memcpy` would take longer than the copy: the empty statement keeps the
+  /// compiler from making one.
   template <class Value>
   static void copy(const Value* from, Value* to, std::size_t n) {
     constexpr std::size_t step = 32 / sizeof(Value);
