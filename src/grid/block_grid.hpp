@@ -186,10 +186,6 @@ class BlockGrid {
   [[nodiscard]] Region region(std::size_t slot) const {
     return !border_.empty() && border_[slot] != 0 ? Region::border : Region::interior;
   }
-  /// Slots with particles or guests whose reaches do not overlap, for each of the eight colours.
-  [[nodiscard]] const std::array<std::vector<std::uint32_t>, 8>& colours(Region region) const {
-    return colours_[static_cast<std::size_t>(region)];
-  }
   /// Calls f(slot) on threads, for all slots with particles or guests, no two at a time whose reaches
   /// overlap.
   template <class Function>
@@ -198,7 +194,7 @@ class BlockGrid {
   }
   template <class Function>
   void for_each_apart(Region region, Function&& f) const {
-    for (const std::vector<std::uint32_t>& colour : colours(region)) {
+    for (const std::vector<std::uint32_t>& colour : colours_[static_cast<std::size_t>(region)]) {
       parallel::for_each_uneven(colour.size(), [&](std::size_t i) { f(colour[i]); });
     }
   }
@@ -414,7 +410,8 @@ class BlockGrid {
   std::vector<std::uint8_t> released_;     // of each particle, or empty
   std::vector<std::int32_t> slot_of_guest_;
   PointList particles_, guests_;
-  std::array<std::array<std::vector<std::uint32_t>, 8>, 2> colours_;  // by region
+  /// By region: slots with particles or guests whose reaches do not overlap, for each of the eight colours.
+  std::array<std::array<std::vector<std::uint32_t>, 8>, 2> colours_;
   std::vector<std::uint8_t> awaited_, border_;  // of each slot; empty where nothing is borrowed
   Messages<Lanes> node_messages_;
   std::vector<MirrorPlane> planes_;
