@@ -97,7 +97,7 @@ struct Both {
   Lanes first, second;
 };
 WHIPPLE_INLINE inline Both both(Lanes first, Lanes second) { return {first, second}; }
-/// One number in all lanes of each register.
+/// One number in all lanes of the first register, another in those of the second.
 WHIPPLE_INLINE inline Both spread_both(double first, double second) {
   return {broadcast(first), broadcast(second)};
 }
@@ -174,7 +174,7 @@ WHIPPLE_INLINE inline Vector relaxation(Vector first, const Nodes&) {
 using Both = Vector;
 using NodeRegister [[gnu::vector_size(64), gnu::may_alias]] = double;
 WHIPPLE_INLINE inline Both both(Lanes first, Lanes second) { return join(first, second); }
-/// One number in all lanes of each half.
+/// One number in all lanes of the first half, another in those of the second.
 WHIPPLE_INLINE inline Both spread_both(double first, double second) {
   return Vector(_mm512_mask_broadcastsd_pd(_mm512_set1_pd(first), 0xf0, _mm_set_sd(second)));
 }
