@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -51,7 +52,8 @@ class BlockTable {
 
   [[nodiscard]] std::size_t probe(std::uint64_t k) const {
     const std::size_t mask = keys_.size() - 1;
-    std::size_t i = (k * 0x9e3779b97f4a7c15ULL >> 20) & mask;  // Fibonacci hashing
+    // Fibonacci hashing: of the product, only the highest bits depend on all directions.
+    std::size_t i = k * 0x9e3779b97f4a7c15ULL >> (64 - std::countr_zero(keys_.size()));
     while (keys_[i] != empty && keys_[i] != k) i = (i + 1) & mask;
     return i;
   }
