@@ -23,6 +23,7 @@
 #include "src/io/run_directory.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/process/mpirun.hpp"
+#include "src/process/paths.hpp"
 
 namespace whipple::app {
 namespace {
@@ -58,8 +59,14 @@ void run_worker(const BenchOptions& options) {
 Measurement measure_in_own_processes(const BenchOptions& options, const std::string& problem, int ranks,
                                      int threads) {
   const fs::path file = fs::temp_directory_path() / fmt::format("whipple_bench_{}.json", getpid());
-  std::vector<std::string> program = {"whipple",  "bench",      problem, "--threads", std::to_string(threads),
-                                      "--worker", file.string()};
+  // This executable itself, whatever its name: copies of it are compared with one another.
+  std::vector<std::string> program = {process::own_executable().filename().string(),
+                                      "bench",
+                                      problem,
+                                      "--threads",
+                                      std::to_string(threads),
+                                      "--worker",
+                                      file.string()};
   if (options.quick) program.emplace_back("--quick");
   if (options.whole) program.emplace_back("--whole");
   const int code = process::mpirun(ranks, program);
