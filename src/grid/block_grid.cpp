@@ -263,6 +263,7 @@ void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vect
   fields_.clear();
   lay_out_nodes();
   find_border();
+  set_apart();
   look_up(position.first(position.size() - guests));
 }
 
@@ -402,15 +403,40 @@ void list_by_slot(std::size_t slots, std::span<const std::int32_t> slot_of,
 void BlockGrid::list_points() {
   list_by_slot(slots(), slot_of_particle_, released_, particles_);
   list_by_slot(slots(), slot_of_guest_, {}, guests_);
-  for (auto& of_region : colours_) {
-    for (auto& colour : of_region) colour.clear();
+}
+
+void BlockGrid::set_apart() {
+  const int halved = slots() >= slots_for_cubes ? 1 : 0;
+  const auto group_of = [&](std::uint32_t slot) {
+    const BlockCoordinate& c = blocks_.coordinate[slot];
+    return BlockCoordinate{(c[0] + 1) >> halved, (c[1] + 1) >> halved, (c[2] + 1) >> halved};
+  };
+  apart_ = {};
+  BlockTable group_number;  // of each region and colour
+  std::array<std::array<std::vector<std::pair<std::uint32_t, std::uint32_t>>, 8>, 2> members;
+  group_number.reserve(slots());
+  std::int32_t groups = 0;
+  for (std::uint32_t s = 0; s < slots(); ++s) {
+    const BlockCoordinate c = group_of(s);
+    std::int32_t& number = group_number.find_or_insert(c, groups);
+    if (number == groups) ++groups;
+    members[static_cast<std::size_t>(region(s))]
+           [static_cast<std::size_t>((c[0] & 1) << 2 | (c[1] & 1) << 1 | (c[2] & 1))]
+               .emplace_back(static_cast<std::uint32_t>(number), s);
   }
-  for (std::size_t s = 0; s < slots(); ++s) {
-    if (particles_.in(s).empty() && guests_.in(s).empty()) continue;
-    const BlockCoordinate& c = blocks_.coordinate[s];
-    colours_[static_cast<std::size_t>(region(s))]
-            [static_cast<std::size_t>((c[0] & 1) << 2 | (c[1] & 1) << 1 | (c[2] & 1))]
-                .push_back(static_cast<std::uint32_t>(s));
+  for (std::size_t r = 0; r < members.size(); ++r) {
+    for (std::size_t colour = 0; colour < 8; ++colour) {
+      auto& list = members[r][colour];
+      std::ranges::sort(list);
+      SlotGroups& of_colour = apart_[r][colour];
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        if (i == 0 || list[i].first != list[i - 1].first) {
+          of_colour.begin.push_back(static_cast<std::uint32_t>(i));
+        }
+        of_colour.slots.push_back(list[i].second);
+      }
+      of_colour.begin.push_back(static_cast<std::uint32_t>(list.size()));
+    }
   }
 }
 

@@ -194,8 +194,14 @@ class BlockGrid {
   }
   template <class Function>
   void for_each_apart(Region region, Function&& f) const {
-    for (const std::vector<std::uint32_t>& colour : colours_[static_cast<std::size_t>(region)]) {
-      parallel::for_each_uneven(colour.size(), [&](std::size_t i) { f(colour[i]); });
+    for (const SlotGroups& colour : apart_[static_cast<std::size_t>(region)]) {
+      if (colour.slots.empty()) continue;
+      parallel::for_each_uneven(colour.begin.size() - 1, [&](std::size_t group) {
+        for (std::size_t i = colour.begin[group]; i < colour.begin[group + 1]; ++i) {
+          const std::uint32_t slot = colour.slots[i];
+          if (!particles_in(slot).empty() || !guests_in(slot).empty()) f(slot);
+        }
+      });
     }
   }
 
@@ -348,6 +354,7 @@ class BlockGrid {
   void lay_out_nodes();
   void find_mirror_nodes();
   void find_border();
+  void set_apart();
   [[nodiscard]] std::uint32_t active_node(const std::array<std::int32_t, 3>& place, int field) const;
   [[nodiscard]] std::size_t block(std::size_t slot, unsigned field) const {
     if (contact_slots_.empty() || contact_number_[slot] == no_slot || (fields_[slot] >> field & 1U) == 0) {
@@ -410,8 +417,14 @@ class BlockGrid {
   std::vector<std::uint8_t> released_;     // of each particle, or empty
   std::vector<std::int32_t> slot_of_guest_;
   PointList particles_, guests_;
-  /// By region: slots with particles or guests whose reaches do not overlap, for each of the eight colours.
-  std::array<std::array<std::vector<std::uint32_t>, 8>, 2> colours_;
+  /// Slots in groups: single blocks, or where there are many, cubes of two by two by two. A thread works
+  /// through a cube on its own: its blocks follow one another in memory, and so do their particles.
+  struct SlotGroups {
+    std::vector<std::uint32_t> slots, begin;  ///< begin: of each group, and the end
+  };
+  static constexpr std::size_t slots_for_cubes = 1024;
+  /// By region, for each of eight colours: groups whose reaches do not overlap.
+  std::array<std::array<SlotGroups, 8>, 2> apart_;
   std::vector<std::uint8_t> awaited_, border_;  // of each slot; empty where nothing is borrowed
   Messages<Lanes> node_messages_;
   std::vector<MirrorPlane> planes_;

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "src/base/prefetch.hpp"
 #include "src/base/tensor.hpp"
 
 namespace whipple {
@@ -97,6 +98,14 @@ struct MaterialPoints {
 template <class Points, class Function>
 void for_each_field(Function&& f) {
   std::apply([&](const auto&... field) { (f(field), ...); }, Points::fields());
+}
+
+/// Has the state of some points from `first` on fetched into the second-level cache.
+WHIPPLE_INLINE inline void prefetch_state(const MaterialPoints& points, std::size_t first) {
+  for_each_field<MaterialPoints>([&](const auto& field) WHIPPLE_INLINE {
+    const auto& values = points.*(field.values);
+    if (!field.optional || !values.empty()) prefetch(first, values);
+  });
 }
 
 /// Optional fields that are not in use stay empty.

@@ -364,17 +364,12 @@ void Simulation::map_momentum_to_grid() {
 }
 
 void Simulation::update_material(Positions positions) {
+  const std::span<const Vector3> displacement =
+      positions == Positions::move ? std::span<const Vector3>(displacement_) : std::span<const Vector3>();
   update_material_with("velocity gradient", EnergyUpdate::by_constitutive_model,
                        [&](const transfer::TakeGradients& take) {
-                         const auto take_and_move = [&](std::span<const std::uint32_t> particles,
-                                                        std::span<const Matrix3> gradients) {
-                           take(particles, gradients);
-                           for (const std::uint32_t p : particles) particles_.position[p] += displacement_[p];
-                         };
-                         transfer::gather_velocity_gradient(
-                             shape_, particles_, grid_,
-                             positions == Positions::move ? transfer::TakeGradients(take_and_move) : take,
-                             [&] { finish_exchange(); });
+                         transfer::gather_velocity_gradient(shape_, particles_, grid_, displacement, take,
+                                                            [&] { finish_exchange(); });
                          if (positions == Positions::stay) return;
                          for (const std::uint32_t p : flying_) particles_.position[p] += displacement_[p];
                        });

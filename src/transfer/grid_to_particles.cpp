@@ -168,6 +168,13 @@ TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
       grid, take_gradients, before_border,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
         const auto take = [&](std::size_t place, std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
+          if (prefetches(p)) {
+            prefetch_state(particles, p + prefetch_distance);  // most of it for who takes the gradients
+            prefetch(p + prefetch_distance, particles.position, particles.velocity);
+            if constexpr (field != AffineField::none) {
+              prefetch(p + prefetch_distance, particles.affine_velocity);
+            }
+          }
           balance += update_particle<field>(particles, p, dt, advance, gradients[place], acceleration);
         };
         Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
@@ -197,7 +204,10 @@ TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double 
             store_vector(displacement[p].data(), dt * after);
           }
           particles.specific_internal_energy[p] += increment[3];  // of contact
-          if constexpr (with_gradient) gradients[place] = matrix(update.after.gradient);
+          if constexpr (with_gradient) {
+            if (prefetches(p)) prefetch_state(particles, p);  // for who takes the gradients
+            gradients[place] = matrix(update.after.gradient);
+          }
           if (!acceleration.empty()) {
             balance.external_work += external_work(after, increment, particles.mass[p], acceleration[p], dt);
           }
@@ -301,11 +311,18 @@ void gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& gr
 
 }  // namespace
 
-void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
-                              const TakeGradients& take, const BeforeBorder& before_border) {
+void gather_velocity_gradient(ShapeFunction shape, Particles& particles, BlockGrid& grid,
+                              std::span<const Vector3> displacement, const TakeGradients& take,
+                              const BeforeBorder& before_border) {
   gather_first(shape, particles, grid, take, before_border,
-               [](std::size_t, const ValueAndGradient<>& sums, Matrix3& gradient)
-                   WHIPPLE_INLINE { gradient = matrix(sums.gradient); });
+               [&](std::size_t p, const ValueAndGradient<>& sums, Matrix3& gradient) WHIPPLE_INLINE {
+                 if (prefetches(p)) prefetch_state(particles, p);  // for who takes the gradients
+                 gradient = matrix(sums.gradient);
+                 if (displacement.empty()) return;
+                 if (prefetches(p)) prefetch(p + prefetch_distance, displacement);
+                 double* const position = particles.position[p].data();
+                 store_vector(position, load_vector(position) + load_vector(displacement[p].data()));
+               });
 }
 
 void gather_velocity(ShapeFunction shape, const Particles& particles, BlockGrid& grid,

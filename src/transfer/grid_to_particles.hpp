@@ -67,8 +67,10 @@ TransferBalance update_velocity(ShapeFunction shape, Particles& particles, grid:
                                 const BeforeBorder& before_border = {});
 
 /// Velocity gradient of the nodes' velocities (Node::first).
-void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
-                              const TakeGradients& take, const BeforeBorder& before_border = {});
+/// @param displacement  of every particle: moves it as soon as its gradient is known; or empty
+void gather_velocity_gradient(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid,
+                              std::span<const Vector3> displacement, const TakeGradients& take,
+                              const BeforeBorder& before_border = {});
 
 /// The nodes' velocities (Node::first) at the particles.
 void gather_velocity(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,

@@ -7,6 +7,7 @@
 #include <span>
 #include <type_traits>
 
+#include "src/base/prefetch.hpp"
 #include "src/base/simd.hpp"
 #include "src/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"

@@ -159,6 +159,9 @@ void add_to_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::si
       DirectAccess<Shape> access(grid, slot, field);
       f(members, access);
     } else {
+      // Those of the block itself arrive while its points are worked on.
+      const grid::Node* const own = grid.nodes(slot, field);
+      for (int i = 0; i < grid::nodes_per_block; ++i) __builtin_prefetch(own + i, 1, 2);
       ReachCopy<Shape, Content> copy;
       copy.clear();
       f(members, copy);
@@ -589,6 +592,7 @@ struct Kernels {
         grid, What::kind, slot, [&](const auto& members, auto& access) {
           for_some<Shape>(what.points, members, frame, [&](const auto& some, const auto& weights) {
             for (std::size_t m = 0; m < some.size(); ++m) {
+              if (prefetches(some[m])) what.prefetch_from(some[m] + prefetch_distance);
               add_payload<Shape>(what.template load<CarriesAffineField<Shape>>(some[m]), weights[m],
                                  access.stencil(weights[m].first_node()));
             }

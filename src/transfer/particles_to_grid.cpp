@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/transfer/particles_to_grid.hpp"
 
+#include "src/base/prefetch.hpp"
 #include "src/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
 #include "src/transfer/transition_nodes.hpp"
@@ -33,8 +34,8 @@ template <bool affine, class Points>
   return out;
 }
 
-/// What the points bring, as the kernel asks for it: everything of particles, mass and momentum of particles
-/// with given velocities, or everything of nodes of elements.
+/// What the points bring, as the kernel asks for it, with what it is made of fetched ahead: everything of
+/// particles, mass and momentum of particles with given velocities, or everything of nodes of elements.
 struct OfParticles {
   const Particles& points;
   static constexpr auto kind = grid::BlockGrid::Points::particles;
@@ -42,6 +43,11 @@ struct OfParticles {
 struct Everything : OfParticles {
   using Content = grid::Node;
   std::span<const Vector3> acceleration;
+  WHIPPLE_INLINE void prefetch_from(std::size_t p) const {
+    prefetch(p, points.mass, points.position, points.velocity, points.sound_speed, points.volume,
+             points.pressure, points.artificial_viscosity, points.deviatoric_stress);
+    if (!points.affine_velocity.empty()) prefetch(p, points.affine_velocity);
+  }
   /// The internal force on node i is -V sigma . grad N_i, sigma = s - (p + q) I.
   template <bool affine>
   [[nodiscard, gnu::always_inline]] Payload load(std::size_t p) const {
@@ -62,6 +68,7 @@ struct OfNodes {
   using Content = grid::Node;
   const TransitionNodes& points;
   static constexpr auto kind = grid::BlockGrid::Points::guests;
+  void prefetch_from(std::size_t) const {}
   template <bool affine>
   [[nodiscard]] Payload load(std::size_t p) const {
     Payload out = inertia<affine>(points, p);
@@ -74,6 +81,9 @@ struct OfNodes {
 struct Momentum : OfParticles {
   using Content = Lanes;
   std::span<const Vector3> velocity;
+  WHIPPLE_INLINE void prefetch_from(std::size_t p) const {
+    prefetch(p, points.mass, points.position, velocity);
+  }
   template <bool affine>
   [[nodiscard, gnu::always_inline]] Lanes load(std::size_t p) const {
     const double* v = velocity[p].data();

@@ -51,7 +51,7 @@ TYPED_TEST(TransferKernels, GradientsComeOnceEachAndRight) {
       worst = std::max(worst, (gradients[k] - field).cwiseAbs().maxCoeff());
     }
   };
-  gather_velocity_gradient(TypeParam::kind, q, grid, take);
+  gather_velocity_gradient(TypeParam::kind, q, grid, {}, take);
   EXPECT_TRUE(std::ranges::all_of(taken, [](int times) { return times == 1; }));
   EXPECT_GT(stretches, 3U);
   EXPECT_LT(worst, 1e-12);
@@ -110,7 +110,7 @@ std::vector<double> numbers_after_all_transfers(bool wide) {
       std::array{update_velocity(Shape::kind, q, grid, dt, 0.1, displacement, into(gradient)).external_work});
   momentum_to_grid(Shape::kind, q, q.velocity, grid);
   take(grid.all_nodes());
-  gather_velocity_gradient(Shape::kind, q, grid, into(gradient));
+  gather_velocity_gradient(Shape::kind, q, grid, {}, into(gradient));
   take(gradient);
   gather_velocity(Shape::kind, q, grid, displacement);
   take(displacement);

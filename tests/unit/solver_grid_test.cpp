@@ -3,13 +3,16 @@
 // empty space costs nothing, and a position outside of the domain is an error.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <limits>
 #include <random>
 #include <set>
+#include <thread>
 
 #include "src/base/error.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/parallel/mpi.hpp"
+#include "src/parallel/threads.hpp"
 
 namespace whipple::grid {
 namespace {
@@ -70,6 +73,43 @@ void check_lists(const BlockGrid& grid, const std::vector<Vector3>& x) {
     }
   }
   for (const int count : seen) EXPECT_EQ(count, 1);
+}
+
+/// What goes on at the same time works with nodes apart, for single blocks (few slots) and for cubes of them.
+TEST(BlockGrid, SlotsAtWorkTogetherReachDifferentNodes) {
+  const int threads = parallel::threads();
+  parallel::set_threads(4);
+  for (const std::size_t particles : {30U, 3000U}) {
+    const std::vector<Vector3> x = random_positions(particles, 7), v(x.size(), Vector3::Zero());
+    BlockGrid grid(geometry(), parallel::world());
+    bin(grid, x, v, 0.0, {.shift = 0.5, .count = 3});
+    EXPECT_EQ(grid.slots() >= 1024, particles == 3000);
+    const std::array<std::size_t, 3> nodes = {60, 50, 420};
+    std::vector<std::atomic<int>> at_work(nodes[0] * nodes[1] * nodes[2]);
+    std::vector<std::atomic<int>> visits(grid.slots());
+    std::atomic<int> met = 0;
+    const auto for_reach = [&](std::size_t slot, auto&& f) {
+      const auto node = [&](std::size_t a, int i) {
+        return static_cast<std::size_t>(block_edge * grid.coordinate(slot)[a] + i + 4);
+      };
+      for (int i = -1; i < block_edge + 2; ++i) {
+        for (int j = -1; j < block_edge + 2; ++j) {
+          for (int k = -1; k < block_edge + 2; ++k) {
+            f(at_work[(node(0, i) * nodes[1] + node(1, j)) * nodes[2] + node(2, k)]);
+          }
+        }
+      }
+    };
+    grid.for_each_apart([&](std::size_t slot) {
+      ++visits[slot];
+      for_reach(slot, [&](std::atomic<int>& node) { met += node++; });
+      std::this_thread::yield();
+      for_reach(slot, [](std::atomic<int>& node) { --node; });
+    });
+    EXPECT_EQ(met, 0);
+    for (std::size_t s = 0; s < grid.slots(); ++s) EXPECT_EQ(visits[s], grid.particles_in(s).empty() ? 0 : 1);
+  }
+  parallel::set_threads(threads);
 }
 
 TEST(BlockGrid, FollowsMovingParticles) {
