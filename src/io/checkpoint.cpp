@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -72,9 +71,7 @@ const hdf5::Storage checksummed{.fletcher32 = true, .chunk_rows = 16384};
 template <class Points>
 void write_points(const hdf5::Group& group, const Points& points, const Ranks& ranks) {
   const std::uint64_t n = points.size();
-  const std::vector<std::uint64_t> counts = ranks.gather(n);
-  const hdf5::Slab slab{std::accumulate(counts.begin(), counts.begin() + ranks.rank(), std::uint64_t{0}), n,
-                        std::accumulate(counts.begin(), counts.end(), std::uint64_t{0})};
+  const hdf5::Slab slab = ranks.slab(n);
   group.set_attribute("count", static_cast<std::int64_t>(slab.total));
   for_each_field<Points>([&](const auto& field) {
     const auto& values = points.*(field.values);

@@ -2,22 +2,14 @@
 #include "src/io/element_series.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 #include <type_traits>
-
-#include "src/io/vtkhdf.hpp"
 
 namespace whipple::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Rows of this rank among those of all ranks.
-hdf5::Slab slab_of(std::uint64_t count, const Ranks& ranks) {
-  const std::vector<std::uint64_t> counts = ranks.gather(count);
-  return {std::accumulate(counts.begin(), counts.begin() + ranks.rank(), std::uint64_t{0}), count,
-          std::accumulate(counts.begin(), counts.end(), std::uint64_t{0})};
-}
 
 template <class Value>
 Value mean_of(const std::vector<Value>& values, std::size_t first, std::size_t count) {
@@ -74,65 +66,67 @@ ElementSeries::ElementSeries(SeriesOptions options, MPI_Comm communicator)
       series_(options_.folder, options_.name, "elements", ranks_) {}
 
 fs::path ElementSeries::write(std::span<const fem::Mesh> meshes, double time) {
-  return series_.write(time, [&](const fs::path& path) { write_file(path, meshes, time); });
+  return write(grid(meshes, time));
 }
 
-void ElementSeries::write_file(const fs::path& path, std::span<const fem::Mesh> meshes, double time) const {
-  std::vector<Vector3> position, velocity;
-  std::vector<std::uint64_t> id;
-  std::vector<std::uint8_t> in_transition;
-  std::vector<std::int64_t> connectivity;
-  const auto append = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
+std::function<void()> ElementSeries::prepare(std::span<const fem::Mesh> meshes, double time) {
+  UnstructuredGrid prepared = grid(meshes, time);
+  prepared.evaluate();
+  return [this, prepared = std::move(prepared)]() mutable { write(std::move(prepared)); };
+}
+
+fs::path ElementSeries::write(UnstructuredGrid grid) {
+  return series_.write(grid.time, [&](const fs::path& path) {
+    grid.write(path, ranks_, options_.provenance, options_.deflate);
+  });
+}
+
+UnstructuredGrid ElementSeries::grid(std::span<const fem::Mesh> meshes, double time) const {
+  struct All {
+    std::vector<Vector3> position, velocity;
+    std::vector<std::uint64_t> id;
+    std::vector<std::uint8_t> in_transition;
+    std::vector<std::int64_t> connectivity;
+    Particles elements;
+  };
+  const auto all = std::make_shared<All>();  // as long as the arrays are
+  const auto append = [](auto& to, const auto& more) { to.insert(to.end(), more.begin(), more.end()); };
   for (const fem::Mesh& mesh : meshes) {
-    const auto first = static_cast<std::int64_t>(position.size());
-    append(position, mesh.nodes.position);
-    append(velocity, mesh.nodes.velocity);
-    append(id, mesh.nodes.id);
-    append(in_transition, mesh.nodes.in_transition);
+    const auto first = static_cast<std::int64_t>(all->position.size());
+    append(all->position, mesh.nodes.position);
+    append(all->velocity, mesh.nodes.velocity);
+    append(all->id, mesh.nodes.id);
+    append(all->in_transition, mesh.nodes.in_transition);
     for (const fem::Corners& corners : mesh.elements.corners) {
-      for (const std::uint32_t a : corners) connectivity.push_back(first + static_cast<std::int64_t>(a));
+      for (const std::uint32_t a : corners) all->connectivity.push_back(first + static_cast<std::int64_t>(a));
     }
   }
-  const Particles elements = elements_as_points(meshes);
-  const std::uint64_t n = elements.size(), nodes = position.size();
+  all->elements = elements_as_points(meshes);
+  const std::uint64_t n = all->elements.size(), nodes = all->position.size();
   const auto rank = static_cast<std::uint64_t>(ranks_.rank()),
              partitions = static_cast<std::uint64_t>(ranks_.count());
-  const hdf5::Slab of_cells = slab_of(n, ranks_), of_nodes = slab_of(nodes, ranks_);
-  const hdf5::Storage compressed{.deflate = options_.deflate};
+  const hdf5::Slab of_cells = ranks_.slab(n), of_nodes = ranks_.slab(nodes);
 
-  hdf5::File file = hdf5::File::create(path, hdf5::File::Compatibility::vtk, 0, ranks_.communicator());
-  const hdf5::Group vtk = create_unstructured_grid(file);
-  const auto write_count = [&](const char* name, std::uint64_t count) {
-    const std::array<std::int64_t, 1> value = {static_cast<std::int64_t>(count)};
-    vtk.write<std::int64_t>(name, value, {rank, 1, partitions});
-  };
-  write_count("NumberOfPoints", nodes);
-  write_count("NumberOfCells", n);
-  write_count("NumberOfConnectivityIds", connectivity.size());
-  write_array<Vector3>(vtk, "Points", of_nodes, options_.deflate,
-                       [&](std::size_t i) -> const Vector3& { return position[i]; });
-  vtk.write<std::int64_t>("Connectivity", connectivity, {8 * of_cells.first, 8 * n, 8 * of_cells.total},
-                          compressed);
-  std::vector<std::int64_t> offsets(n + 1);
-  for (std::size_t e = 0; e <= n; ++e) offsets[e] = static_cast<std::int64_t>(8 * e);
-  vtk.write<std::int64_t>("Offsets", offsets, {of_cells.first + rank, n + 1, of_cells.total + partitions},
-                          compressed);
+  UnstructuredGrid grid{
+      .time = time, .points = nodes, .cells = n, .connectivity_ids = all->connectivity.size()};
+  grid.geometry.emplace_back("Points", of_nodes, [all](std::size_t i) { return all->position[i]; });
+  const hdf5::Slab of_corners{8 * of_cells.first, 8 * n, 8 * of_cells.total};
+  grid.geometry.emplace_back("Connectivity", of_corners,
+                             [all](std::size_t i) { return all->connectivity[i]; });
+  const hdf5::Slab bounds{of_cells.first + rank, n + 1, of_cells.total + partitions};
+  grid.geometry.emplace_back(
+      "Offsets", bounds, [](std::size_t e) { return static_cast<std::int64_t>(8 * e); },
+      Array::From::row_number);
   constexpr std::uint8_t hexahedron = 12;  // VTK_HEXAHEDRON
-  vtk.write<std::uint8_t>("Types", std::vector<std::uint8_t>(n, hexahedron), of_cells, compressed);
-
-  write_fields(vtk.create_group("CellData"), fields_, {elements, options_.material_of_body}, of_cells,
-               options_.deflate);
-  const hdf5::Group at_nodes = vtk.create_group("PointData");
-  const hdf5::Dataset speeds =
-      write_array<Vector3>(at_nodes, "velocity", of_nodes, options_.deflate,
-                           [&](std::size_t i) -> const Vector3& { return velocity[i]; });
-  speeds.set_attribute("unit", std::string_view("m/s"));
-  write_array<std::uint64_t>(at_nodes, "node_id", of_nodes, options_.deflate,
-                             [&](std::size_t i) { return id[i]; });
-  write_array<std::uint8_t>(at_nodes, "in_transition", of_nodes, options_.deflate,
-                            [&](std::size_t i) { return in_transition[i]; });
-  write_run(file, vtk, time, ranks_, options_.provenance);
-  file.close();
+  grid.geometry.emplace_back(
+      "Types", of_cells, [](std::size_t) { return hexahedron; }, Array::From::row_number);
+  grid.cell_data = arrays_of(fields_, {all->elements, options_.material_of_body}, of_cells);
+  grid.point_data.emplace_back("velocity", of_nodes, [all](std::size_t i) { return all->velocity[i]; });
+  grid.point_data.back().set_attribute("unit", "m/s");
+  grid.point_data.emplace_back("node_id", of_nodes, [all](std::size_t i) { return all->id[i]; });
+  grid.point_data.emplace_back("in_transition", of_nodes,
+                               [all](std::size_t i) { return all->in_transition[i]; });
+  return grid;
 }
 
 }  // namespace whipple::io

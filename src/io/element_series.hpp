@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -27,11 +28,14 @@ class ElementSeries {
   /// As of `Series`.
   void restart(double time) { series_.restart(time); }
   std::filesystem::path write(std::span<const fem::Mesh> meshes, double time);
+  /// As of `ParticleSeries`.
+  [[nodiscard]] std::function<void()> prepare(std::span<const fem::Mesh> meshes, double time);
   [[nodiscard]] std::size_t size() const { return series_.size(); }
   [[nodiscard]] std::filesystem::path index_path() const { return series_.index_path(); }
 
  private:
-  void write_file(const std::filesystem::path& path, std::span<const fem::Mesh> meshes, double time) const;
+  [[nodiscard]] UnstructuredGrid grid(std::span<const fem::Mesh> meshes, double time) const;
+  std::filesystem::path write(UnstructuredGrid grid);
 
   SeriesOptions options_;
   std::vector<OutputField> fields_;

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/io/particle_series.hpp"
 
-#include <array>
-#include <numeric>
-
-#include "src/io/vtkhdf.hpp"
+#include <utility>
 
 namespace whipple::io {
 
@@ -17,45 +14,38 @@ ParticleSeries::ParticleSeries(SeriesOptions options, MPI_Comm communicator)
       series_(options_.folder, options_.name, "particles", ranks_) {}
 
 fs::path ParticleSeries::write(const Particles& particles, double time) {
-  return series_.write(time, [&](const fs::path& path) { write_file(path, particles, time); });
+  return write(grid(particles, time));
 }
 
-void ParticleSeries::write_file(const fs::path& path, const Particles& particles, double time) const {
+std::function<void()> ParticleSeries::prepare(const Particles& particles, double time) {
+  UnstructuredGrid prepared = grid(particles, time);
+  prepared.evaluate();
+  return [this, prepared = std::move(prepared)]() mutable { write(std::move(prepared)); };
+}
+
+fs::path ParticleSeries::write(UnstructuredGrid grid) {
+  return series_.write(grid.time, [&](const fs::path& path) {
+    grid.write(path, ranks_, options_.provenance, options_.deflate);
+  });
+}
+
+UnstructuredGrid ParticleSeries::grid(const Particles& particles, double time) const {
   const std::uint64_t n = particles.size();
-  const std::vector<std::uint64_t> counts = ranks_.gather(n);
-  const auto rank = static_cast<std::uint64_t>(ranks_.rank());
-  const auto partitions = static_cast<std::uint64_t>(ranks_.count());
-  const std::uint64_t first =
-      std::accumulate(counts.begin(), counts.begin() + ranks_.rank(), std::uint64_t{0});
-  const std::uint64_t total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
-  const hdf5::Slab points{first, n, total};
-  const hdf5::Storage compressed{.deflate = options_.deflate};
-
-  hdf5::File file = hdf5::File::create(path, hdf5::File::Compatibility::vtk, 0, ranks_.communicator());
-  const hdf5::Group vtk = create_unstructured_grid(file);
-
-  // One partition per rank.
-  const std::array<std::int64_t, 1> count = {static_cast<std::int64_t>(n)};
-  for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"}) {
-    vtk.write<std::int64_t>(name, count, {rank, 1, partitions});
-  }
-
-  write_array<Vector3>(vtk, "Points", points, options_.deflate,
-                       [&](std::size_t i) -> const Vector3& { return particles.position[i]; });
-
+  const hdf5::Slab points = ranks_.slab(n);
+  const auto rank = static_cast<std::uint64_t>(ranks_.rank()),
+             partitions = static_cast<std::uint64_t>(ranks_.count());
+  UnstructuredGrid grid{.time = time, .points = n, .cells = n, .connectivity_ids = n};
+  grid.geometry.emplace_back("Points", points, [&particles](std::size_t i) { return particles.position[i]; });
   // One vertex cell per particle: thresholds and clips of ParaView work on cells. The arrays vanish in
   // compression.
-  std::vector<std::int64_t> indices(n + 1);
-  std::iota(indices.begin(), indices.end(), std::int64_t{0});
-  vtk.write<std::int64_t>("Connectivity", {indices.data(), n}, points, compressed);
-  vtk.write<std::int64_t>("Offsets", indices, {first + rank, n + 1, total + partitions}, compressed);
+  const auto row_number = [](std::size_t i) { return static_cast<std::int64_t>(i); };
+  grid.geometry.emplace_back("Connectivity", points, row_number, Array::From::row_number);
+  const hdf5::Slab bounds{points.first + rank, n + 1, points.total + partitions};
+  grid.geometry.emplace_back("Offsets", bounds, row_number, Array::From::row_number);
   constexpr std::uint8_t vertex = 1;  // VTK_VERTEX
-  vtk.write<std::uint8_t>("Types", std::vector<std::uint8_t>(n, vertex), points, compressed);
-
-  write_fields(vtk.create_group("PointData"), fields_, {particles, options_.material_of_body}, points,
-               options_.deflate);
-  write_run(file, vtk, time, ranks_, options_.provenance);
-  file.close();
+  grid.geometry.emplace_back("Types", points, [](std::size_t) { return vertex; }, Array::From::row_number);
+  grid.point_data = arrays_of(fields_, {particles, options_.material_of_body}, points);
+  return grid;
 }
 
 }  // namespace whipple::io

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "src/io/output_fields.hpp"
 #include "src/io/ranks.hpp"
 #include "src/io/series.hpp"
+#include "src/io/vtkhdf.hpp"
 #include "src/particles/particles.hpp"
 
 namespace whipple::io {
@@ -37,11 +39,15 @@ class ParticleSeries {
   /// As of `Series`; this rank's particles. Collective.
   void restart(double time) { series_.restart(time); }
   std::filesystem::path write(const Particles& particles, double time);
+  /// Takes the values of now: what is returned writes them, once, on any thread, while the particles move on;
+  /// no other call of this series goes on beside it. Of a program with one rank.
+  [[nodiscard]] std::function<void()> prepare(const Particles& particles, double time);
   [[nodiscard]] std::size_t size() const { return series_.size(); }
   [[nodiscard]] std::filesystem::path index_path() const { return series_.index_path(); }
 
  private:
-  void write_file(const std::filesystem::path& path, const Particles& particles, double time) const;
+  [[nodiscard]] UnstructuredGrid grid(const Particles& particles, double time) const;
+  std::filesystem::path write(UnstructuredGrid grid);
 
   SeriesOptions options_;
   std::vector<OutputField> fields_;

@@ -2,6 +2,7 @@
 #include "src/io/ranks.hpp"
 
 #include <exception>
+#include <numeric>
 
 #include "src/base/error.hpp"
 
@@ -23,6 +24,12 @@ std::vector<std::uint64_t> Ranks::gather(std::uint64_t value) const {
     MPI_Allgather(&value, 1, MPI_UINT64_T, values.data(), 1, MPI_UINT64_T, communicator_);
   }
   return values;
+}
+
+hdf5::Slab Ranks::slab(std::uint64_t count) const {
+  const std::vector<std::uint64_t> counts = gather(count);
+  return {std::accumulate(counts.begin(), counts.begin() + rank_, std::uint64_t{0}), count,
+          std::accumulate(counts.begin(), counts.end(), std::uint64_t{0})};
 }
 
 std::string Ranks::broadcast(std::string text) const {

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "src/hdf5/hdf5.hpp"
+
 namespace whipple::io {
 
 /// The processes that write one file together. A program that never started MPI is one rank.
@@ -27,6 +29,8 @@ class Ranks {
 
   /// One value of every rank, in their order. Collective.
   [[nodiscard]] std::vector<std::uint64_t> gather(std::uint64_t value) const;
+  /// The rows of an array of which this rank holds so many, after those of the ranks before. Collective.
+  [[nodiscard]] hdf5::Slab slab(std::uint64_t count) const;
   /// The root's text on every rank. Collective.
   [[nodiscard]] std::string broadcast(std::string text) const;
   /// Runs `work` on the root; if it throws there, every rank throws an InputError of the same text.

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
-#include "src/base/error.hpp"
 #include "src/hdf5/hdf5.hpp"
 #include "src/io/output_fields.hpp"
 #include "src/io/ranks.hpp"
@@ -45,65 +49,73 @@ struct Row<SymmetricTensor> {
   }
 };
 template <class Integer>
-  requires std::is_unsigned_v<Integer>
+  requires std::is_integral_v<Integer>
 struct Row<Integer> {
   using Number = Integer;
   static constexpr std::uint64_t columns = 0;
   static void put(Integer value, Integer* row) { *row = value; }
 };
 
-/// Evaluates value(i) for every point and writes the array.
-template <class Value, class Function>
-hdf5::Dataset write_array(const hdf5::Group& group, const std::string& name, const hdf5::Slab& slab,
-                          int deflate, Function&& value) {
-  using R = Row<Value>;
-  constexpr std::uint64_t width = R::columns == 0 ? 1 : R::columns;
-  std::vector<typename R::Number> numbers(slab.count * width);
-  parallel::for_each(slab.count, [&](std::size_t i) { R::put(value(i), numbers.data() + i * width); });
-  return group.write<typename R::Number>(name, numbers, slab, {.columns = R::columns, .deflate = deflate});
-}
+/// An array of a snapshot. Its numbers come from a function of the row, when the array is written or, if the
+/// points will have moved on by then, before.
+class Array {
+ public:
+  enum class From { points, row_number };
+  /// @param value  value(i) for the rows of this process
+  /// @param from   what the function needs: the points as they are now, or nothing
+  template <class Function>
+  Array(std::string name, const hdf5::Slab& slab, Function value, From from = From::points)
+      : name_(std::move(name)), slab_(slab), from_(from) {
+    using R = Row<std::decay_t<decltype(value(std::size_t{0}))>>;
+    columns_ = R::columns;
+    evaluate_ = [value = std::move(value), count = slab.count]() -> Numbers {
+      constexpr std::uint64_t width = R::columns == 0 ? 1 : R::columns;
+      std::vector<typename R::Number> numbers(count * width);
+      parallel::for_each(count, [&](std::size_t i) { R::put(value(i), numbers.data() + i * width); });
+      return numbers;
+    };
+  }
 
-/// Group VTKHDF of an unstructured grid, version 1.0.
-inline hdf5::Group create_unstructured_grid(const hdf5::File& file) {
-  hdf5::Group vtk = file.root.create_group("VTKHDF");
-  const std::array<std::int64_t, 2> version = {1, 0};
-  vtk.set_attribute("Version", version);
-  vtk.set_fixed_attribute("Type", "UnstructuredGrid");
-  return vtk;
-}
+  void set_attribute(std::string_view name, std::string_view text) { attributes_.emplace_back(name, text); }
+  /// The values of now, if they depend on the points.
+  void evaluate() {
+    if (from_ == From::row_number) return;
+    numbers_ = evaluate_();
+    evaluate_ = nullptr;  // with what it holds
+  }
+  /// The memory of the numbers is free afterwards.
+  void write(const hdf5::Group& group, int deflate);
+
+ private:
+  using Numbers =
+      std::variant<std::monostate, std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>,
+                   std::vector<std::uint64_t>, std::vector<std::int64_t>>;
+  std::string name_;
+  hdf5::Slab slab_;
+  From from_;
+  std::uint64_t columns_ = 0;
+  std::function<Numbers()> evaluate_;
+  Numbers numbers_;
+  std::vector<std::pair<std::string, std::string>> attributes_;
+};
+
+/// An unstructured grid of VTKHDF 1.0, one partition per rank.
+struct UnstructuredGrid {
+  double time = 0.0;                                          ///< s
+  std::uint64_t points = 0, cells = 0, connectivity_ids = 0;  ///< of this process
+  std::vector<Array> geometry = {};                           ///< points, then the cells
+  std::vector<Array> cell_data = {}, point_data = {};
+
+  /// The values of now: `write` needs nothing but this afterwards.
+  void evaluate();
+  /// Collective.
+  void write(const std::filesystem::path& path, const Ranks& ranks,
+             const std::map<std::string, std::string>& provenance, int deflate);
+};
 
 /// The fields of a source, one row per point of the slab.
-inline void write_fields(const hdf5::Group& group, std::span<const OutputField> fields,
-                         const FieldSource& source, const hdf5::Slab& slab, int deflate) {
-  for (const std::uint32_t body : source.particles.body) {
-    if (body >= source.material_of_body.size()) {
-      throw InternalError("a point of a body whose material was not given: body " + std::to_string(body));
-    }
-  }
-  for (const OutputField& field : fields) {
-    std::visit(
-        [&](auto value) {
-          using Value = decltype(value(source, std::size_t{0}));
-          const hdf5::Dataset array = write_array<Value>(group, std::string(field.name), slab, deflate,
-                                                         [&](std::size_t i) { return value(source, i); });
-          array.set_attribute("unit", field.unit);
-          array.set_attribute("meaning", field.meaning);
-        },
-        field.value);
-  }
-}
-
-/// Time and provenance.
-inline void write_run(const hdf5::File& file, const hdf5::Group& vtk, double time, const Ranks& ranks,
-                      const std::map<std::string, std::string>& provenance) {
-  const hdf5::Group field_data = vtk.create_group("FieldData");
-  const std::array<double, 1> times = {time};
-  const std::uint64_t mine = ranks.is_root() ? 1 : 0;
-  field_data.write<double>("TimeValue", {times.data(), mine}, {0, mine, 1});
-  const hdf5::Group run = file.root.create_group("run");
-  for (const auto& [name, value] : provenance) run.set_attribute(name, std::string_view(value));
-  run.set_attribute("ranks", static_cast<std::int64_t>(ranks.count()));
-  run.set_attribute("unit_system", std::string_view("SI"));
-}
+/// @throws InternalError if a point belongs to a body whose material the source does not know
+std::vector<Array> arrays_of(std::span<const OutputField> fields, const FieldSource& source,
+                             const hdf5::Slab& slab);
 
 }  // namespace whipple::io

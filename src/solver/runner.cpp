@@ -13,6 +13,7 @@
 #include "src/base/log.hpp"
 #include "src/base/progress.hpp"
 #include "src/base/text.hpp"
+#include "src/io/background_writer.hpp"
 #include "src/io/element_series.hpp"
 #include "src/io/history.hpp"
 #include "src/io/particle_series.hpp"
@@ -192,6 +193,16 @@ struct Snapshots {
     particles.write(simulation.particles(), simulation.state().time);
     if (elements) elements->write(simulation.meshes(), simulation.state().time);
   }
+  /// Takes the state of now; what is returned writes it. Of a run on one rank.
+  [[nodiscard]] std::function<void()> prepare(const Simulation& simulation) {
+    const double time = simulation.state().time;
+    const std::function<void()> of_elements =
+        elements ? elements->prepare(simulation.meshes(), time) : std::function<void()>();
+    return [of_particles = particles.prepare(simulation.particles(), time), of_elements] {
+      of_particles();
+      if (of_elements) of_elements();
+    };
+  }
 };
 
 /// The loop of a run and everything that it writes.
@@ -336,7 +347,14 @@ class Runner {
   }
 
   void write_snapshot() {
-    series_.write(simulation_);
+    // Ranks write together, by calls of MPI; and a writer that takes turns with the threads of the steps,
+    // which wait for one another, holds them up for longer than it takes.
+    if (ranks_.is_parallel() || parallel::free_cores() == 0) {
+      writer_.wait();
+      series_.write(simulation_);
+    } else {
+      writer_.start(series_.prepare(simulation_));
+    }
     const double every = simulation_.setup().output.snapshot_every;
     // The next multiple of the interval, also when a step was longer than it.
     snapshots_ =
@@ -344,6 +362,7 @@ class Runner {
   }
 
   void write_checkpoint(const fs::path& folder) {
+    writer_.wait();
     io::CheckpointValues values = to_checkpoint(simulation_.state());
     values.integers["snapshots"] = snapshots_;
     recorder_.to_checkpoint(values);
@@ -384,6 +403,7 @@ class Runner {
   double wall_time_;  // s, 0: no limit
   Simulation simulation_;
   Snapshots series_;
+  io::BackgroundWriter writer_;  // of the series
   GaugeRecorder recorder_;
   std::optional<io::History> history_;  // on the root
   std::optional<io::History> gauges_;   // on the root

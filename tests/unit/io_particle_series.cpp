@@ -5,10 +5,13 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "src/base/error.hpp"
 #include "src/hdf5/hdf5.hpp"
+#include "src/io/background_writer.hpp"
 #include "src/io/particle_series.hpp"
 #include "src/io/run_directory.hpp"
 #include "tests/unit/io_support.hpp"
@@ -166,6 +169,48 @@ TEST_F(Series, no_particles_make_a_valid_file) {
   EXPECT_THAT(vtk.open_dataset("Offsets").read_all<std::int64_t>(), ElementsAre(0));
   EXPECT_EQ(vtk.open_dataset("Points").shape(), (std::vector<std::uint64_t>{0, 3}));
   EXPECT_EQ(vtk.open_group("PointData").open_dataset("pressure").shape(), (std::vector<std::uint64_t>{0}));
+}
+
+TEST_F(Series, what_is_prepared_is_the_state_of_its_time_however_late_it_is_written) {
+  Particles particles = ramp(1000);
+  ParticleSeries series(options(output_field_names()), MPI_COMM_SELF);
+  const fs::path at_once = series.write(particles, 0.0);
+  BackgroundWriter writer;
+  std::function<void()> write = series.prepare(particles, 1e-6);
+  particles = ramp(10);
+  writer.start(std::move(write));
+  writer.wait();
+  EXPECT_EQ(series.size(), 2);
+  const hdf5::File first = hdf5::File::open(at_once);
+  const hdf5::File second = hdf5::File::open(folder_ / "disk.particles.000001.hdf");
+  const auto bytes = [](const hdf5::Group& group, const std::string& name) {
+    const hdf5::Dataset array = group.open_dataset(name);
+    const std::vector<std::uint64_t> shape = array.shape();
+    const hdf5::Handle type(H5Dget_type(array.id()), H5Tclose);
+    std::vector<char> all(
+        std::accumulate(shape.begin(), shape.end(), H5Tget_size(type.get()), std::multiplies<>()));
+    EXPECT_GE(H5Dread(array.id(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()), 0);
+    return all;
+  };
+  const hdf5::Group a = first.root.open_group("VTKHDF"), b = second.root.open_group("VTKHDF");
+  for (const char* name : {"Points", "Connectivity", "Offsets", "Types"}) {
+    EXPECT_EQ(bytes(a, name), bytes(b, name)) << name;
+  }
+  const hdf5::Group of_a = a.open_group("PointData"), of_b = b.open_group("PointData");
+  EXPECT_EQ(of_a.names(), of_b.names());
+  for (const std::string& name : of_a.names()) EXPECT_EQ(bytes(of_a, name), bytes(of_b, name)) << name;
+}
+
+TEST(Background, the_next_call_says_what_went_wrong) {
+  BackgroundWriter writer;
+  writer.start([] { throw InputError("the disk is full"); });
+  bool written = false;
+  EXPECT_THAT(message_of<InputError>([&] { writer.start([&] { written = true; }); }),
+              HasSubstr("the disk is full"));
+  EXPECT_FALSE(written);
+  writer.start([&] { written = true; });
+  writer.wait();
+  EXPECT_TRUE(written);
 }
 
 TEST_F(Series, the_index_holds_exact_times) {
