@@ -65,9 +65,8 @@ class Neighbourhood {
   static_assert(grid::block_edge == 4 && grid::nodes_per_block == 64);
 
   [[nodiscard]] Cell cell_of(const Vector3& position) const {
-    const Vector3 cells = geometry_.in_cells(position);
-    return {static_cast<int>(std::floor(cells[0])), static_cast<int>(std::floor(cells[1])),
-            static_cast<int>(std::floor(cells[2]))};
+    return floor_of_three((load_vector(position.data()) - load_vector(geometry_.lower.data())) /
+                          geometry_.cell_size);
   }
   static grid::BlockCoordinate block_of(const Cell& cell) {
     // Shifts of negative numbers round down, as wanted.
@@ -90,7 +89,9 @@ class Neighbourhood {
   }
 
   std::uint64_t& at(const grid::BlockCoordinate& block) {
-    if (block != last_block_ || last_ == grid::BlockTable::none) {  // particles are sorted by blocks
+    // Particles are sorted by blocks. (Arrays are compared by a call, which takes longer than all else here.)
+    const bool same = block[0] == last_block_[0] && block[1] == last_block_[1] && block[2] == last_block_[2];
+    if (!same || last_ == grid::BlockTable::none) {
       last_block_ = block;
       last_ = table_.find_or_insert(block, static_cast<std::int32_t>(cells_.size()));
       if (static_cast<std::size_t>(last_) == cells_.size()) {

@@ -42,6 +42,11 @@ inline void store(double* to, Lanes x) { _mm256_storeu_pd(to, __m256d(x)); }
 inline Lanes load_vector(const double* from) {
   return Lanes(_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(from)), _mm_load_sd(from + 2), 1));
 }
+/// Lanes 0 to 2, rounded down.
+inline std::array<int, 3> floor_of_three(Lanes x) {
+  const __m128i down = _mm256_cvttpd_epi32(_mm256_floor_pd(__m256d(x)));
+  return {_mm_extract_epi32(down, 0), _mm_extract_epi32(down, 1), _mm_extract_epi32(down, 2)};
+}
 inline void store_vector(double* to, Lanes x) {
   _mm_storeu_pd(to, _mm256_castpd256_pd128(__m256d(x)));
   _mm_store_sd(to + 2, _mm256_extractf128_pd(__m256d(x), 1));

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "src/base/prefetch.hpp"
 #include "src/base/simd.hpp"
 #include "src/base/vector_math.hpp"
 #include "src/fem/hexahedron.hpp"

@@ -236,6 +236,12 @@ struct OnePoint {
                                  DeformationReport& report) const {
     GaussPoints& points = step.mesh.points;
     Elements& elements = step.mesh.elements;
+    if (const std::size_t first = group.index[0]; prefetches(first)) {
+      prefetch(first + prefetch_distance, points.mass, points.pressure, points.artificial_viscosity,
+               points.deviatoric_stress, points.sound_speed, points.plastic_strain, points.length,
+               points.specific_internal_energy, elements.hourglass_force, elements.hourglass_energy,
+               elements.returned_plastic_strain, step.mesh.blocks.corner_slot);
+    }
     const double dt = step.dt;
     const VolumeGradient<Vector> beta = volume_gradient(x);
     const Vector per_volume = 1.0 / beta.volume;
@@ -349,6 +355,10 @@ WHIPPLE_INLINE inline Modes<Vector> mean_gradient_forces(const Columns<Vector>& 
 struct ForcesOfOnePoint {
   WHIPPLE_INLINE Modes<Vector> operator()(const Mesh& mesh, const Group& group,
                                           const Modes<Vector>& x) const {
+    if (const std::size_t first = group.index[0]; prefetches(first)) {
+      prefetch(first + prefetch_distance, mesh.points.pressure, mesh.points.artificial_viscosity,
+               mesh.points.deviatoric_stress, mesh.elements.hourglass_force, mesh.blocks.corner_slot);
+    }
     const VolumeGradient<Vector> beta = volume_gradient(x);
     Columns<Vector> stress = deviator_at(mesh.points, group.index);
     add_to_diagonal(stress,

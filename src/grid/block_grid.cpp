@@ -283,29 +283,12 @@ void BlockGrid::shift(const Vector3& cells) {
   foresight_ = 1.0;  // from half a cell on one side to half a cell on the other
 }
 
-namespace {
-
-/// Cell of a position given in cells from the lower corner of a block.
-std::array<int, 3> cell_of(const Vector3& local) {
-  std::array<int, 3> cell{};
-  for (std::size_t a = 0; a < 3; ++a) cell[a] = static_cast<int>(std::floor(local[static_cast<int>(a)]));
-  return cell;
-}
-
-}  // namespace
-
-Vector3 BlockGrid::local_position(std::size_t slot, const Vector3& position) const {
-  Vector3 local = geometry_.in_cells(position);
-  for (std::size_t a = 0; a < 3; ++a) {
-    local[static_cast<int>(a)] -= blocks_.coordinate[slot][a] * block_edge;
-  }
-  return local;
-}
+namespace {}  // namespace
 
 void BlockGrid::count_cells(std::span<const Vector3> position, std::span<const Vector3> guests) {
   cell_count_.assign(slots() * nodes_per_block, 0);
   const auto count = [&](std::size_t slot, const Vector3& point) {
-    const std::array<int, 3> cell = cell_of(local_position(slot, point));
+    const std::array<int, 3> cell = floor_of_three(in_cells(point) - corner_[slot]);
     ++cell_count_[slot * nodes_per_block + static_cast<std::size_t>(node_index(cell[0], cell[1], cell[2]))];
   };
   for (std::size_t s = 0; s < slots(); ++s) {
@@ -322,15 +305,14 @@ void BlockGrid::count_cells(std::span<const Vector3> position, std::span<const V
 
 bool BlockGrid::is_alone(std::uint32_t particle, const Vector3& position) const {
   constexpr int ring = 2;
-  const Vector3 in_cells = geometry_.in_cells(position);
+  const Lanes place = in_cells(position);
   for (const MirrorPlane& plane : planes_) {
-    const double depth = plane.face % 2 == 0
-                             ? in_cells[plane.axis]
-                             : geometry_.cells[static_cast<std::size_t>(plane.axis)] - in_cells[plane.axis];
+    const auto axis = static_cast<std::size_t>(plane.axis);
+    const double depth = plane.face % 2 == 0 ? place[axis] : geometry_.cells[axis] - place[axis];
     if (depth < ring) return false;
   }
   const auto slot = static_cast<std::size_t>(slot_of_particle_[particle]);
-  const std::array<int, 3> cell = cell_of(local_position(slot, position));
+  const std::array<int, 3> cell = floor_of_three(place - corner_[slot]);
   int count = 0;
   for (int x = cell[0] - ring; x <= cell[0] + ring; ++x) {
     for (int y = cell[1] - ring; y <= cell[1] + ring; ++y) {

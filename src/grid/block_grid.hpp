@@ -343,7 +343,6 @@ class BlockGrid {
   [[nodiscard]] Lanes in_cells(const Vector3& position) const {
     return (load_vector(position.data()) - load_vector(geometry_.lower.data())) / geometry_.cell_size;
   }
-  [[nodiscard]] Vector3 local_position(std::size_t slot, const Vector3& position) const;
   bool look_up(std::span<const Vector3> position);
   bool locate(std::span<const Vector3> position, Stencil stencil);
   [[nodiscard]] std::vector<WantedBlock> wanted_blocks(std::span<const Vector3> position,
