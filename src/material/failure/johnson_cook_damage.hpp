@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/base/error.hpp"
+#include "src/base/vector_math.hpp"
 #include "src/material/failure/criterion.hpp"
 
 namespace whipple::failure {
@@ -62,25 +63,38 @@ struct JohnsonCookDamage {
   }
   /// eps_f. An equation of state without temperature (NaN) counts as cold.
   [[nodiscard]] double failure_strain(double triaxiality, double rate, double temperature) const {
-    constexpr double greatest_exponent = 100.0;  // strong compression: no damage, and no overflow
-    const double shape =
-        d1 + d2 * std::exp(std::min(d3 * std::min(triaxiality, greatest_triaxiality), greatest_exponent));
-    const double fast = 1.0 + d4 * std::log(std::max(1.0, rate / reference_rate));
-    const double homologous =
+    return failure_strain(broadcast(triaxiality), broadcast(rate), broadcast(temperature))[0];
+  }
+  [[nodiscard]] Lanes failure_strain(Lanes triaxiality, Lanes rate, Lanes temperature) const {
+    const Lanes one = broadcast(1.0),
+                greatest_exponent = broadcast(100.0);  // strong compression: no damage, and no overflow
+    const Lanes shape =
+        d1 + d2 * exp(minimum(d3 * minimum(triaxiality, broadcast(greatest_triaxiality)), greatest_exponent));
+    const Lanes fast = 1.0 + d4 * natural_log(maximum(rate / reference_rate, one));
+    const Lanes homologous =
         (temperature - reference_temperature) / (melting_temperature - reference_temperature);
-    const double hot = 1.0 + d5 * (homologous > 0.0 ? std::min(homologous, 1.0) : 0.0);
-    return std::max(shape * fast * hot, least_failure_strain);
+    const Lanes hot = 1.0 + d5 * select(homologous > 0.0, minimum(homologous, one), Lanes{});
+    return maximum(shape * fast * hot, broadcast(least_failure_strain));
   }
   void mark(const State& state, std::span<double> damage, std::span<std::uint8_t> failed) const {
-    for (std::size_t i = 0; i < failed.size(); ++i) {
-      const double increment = state.plastic_increment[i];
-      if (failed[i] != intact || !(increment > 0.0)) continue;
-      const double equivalent = std::sqrt(1.5 * state.deviator[i].squared_norm());
-      if (!(equivalent > 0.0)) continue;  // no solid left
-      const double limit =
-          failure_strain(-state.pressure[i] / equivalent, increment / state.time_step, state.temperature[i]);
-      damage[i] = std::min(1.0, damage[i] + increment / (limit * state.threshold_factor[i]));
-      if (damage[i] >= 1.0) failed[i] = fractured;
+    for (std::size_t i = 0; i < failed.size(); i += 4) {
+      const std::size_t count = std::min<std::size_t>(4, failed.size() - i);
+      const Lanes increment = load(&state.plastic_increment[i], count, 0.0);
+      if (!any(increment > 0.0)) continue;
+      Lanes equivalent{};
+      for (std::size_t k = 0; k < count; ++k) {
+        equivalent[k] = std::sqrt(1.5 * state.deviator[i + k].squared_norm());
+      }
+      const Lanes limit =
+          failure_strain(-load(&state.pressure[i], count, 0.0) / equivalent, increment / state.time_step,
+                         load(&state.temperature[i], count, reference_temperature));
+      for (std::size_t k = 0; k < count; ++k) {
+        // An equivalent stress of 0: no solid is left.
+        if (failed[i + k] != intact || !(increment[k] > 0.0) || !(equivalent[k] > 0.0)) continue;
+        damage[i + k] =
+            std::min(1.0, damage[i + k] + increment[k] / (limit[k] * state.threshold_factor[i + k]));
+        if (damage[i + k] >= 1.0) failed[i + k] = fractured;
+      }
     }
   }
 };
