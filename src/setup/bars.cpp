@@ -64,6 +64,23 @@ std::unique_ptr<Shape> read_bar_shape(const Body& body, input::Table& table) {
   return std::make_unique<BarShape>(bounds, area_of(body) * length);
 }
 
+std::optional<std::string> fault_of_bars(const Case& setup, const Body& bars) {
+  for (const Body& body : setup.bodies) {
+    if (!body.discretization.has_elements()) continue;
+    bool inside = false;
+    for_each_bar(bars, [&](const Vector3& from, const Vector3& to) {
+      inside = inside || body.shape->contains(0.5 * (from + to));
+    });
+    if (!inside) continue;
+    return fmt::format(
+        "body \"{}\": its bars lie in body \"{}\" of elements, whose inner nodes are not on the grid and "
+        "would "
+        "not feel them: bars reinforce bodies of particles (discretization.method = \"particles\")",
+        bars.name, body.name);
+  }
+  return std::nullopt;
+}
+
 fem::BarMaterial bar_material(const Material& material, const Body& body) {
   const strength::Strength& strength = *material.strength;
   const bool elastic = strength.model() == "elastic";

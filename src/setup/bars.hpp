@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "src/fem/bars.hpp"
@@ -13,6 +15,9 @@ namespace whipple::setup {
 /// What the bars of a body fill: holds no point, has bounds and a volume.
 /// Reports errors in the document and returns null then.
 std::unique_ptr<Shape> read_bar_shape(const Body& body, input::Table& table);
+
+/// Why these bars cannot be where they are: in a body of elements.
+std::optional<std::string> fault_of_bars(const Case& setup, const Body& bars);
 
 /// Constants of bars of a material: elastic or von Mises with linear hardening.
 /// @throws InputError for other models of strength, and for failure criteria, which bars do not know

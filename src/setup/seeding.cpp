@@ -244,7 +244,10 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
                             setup.geometry.lower[a], setup.geometry.upper(a))});
       }
     }
-    if (body.discretization.is_bars()) continue;
+    if (body.discretization.is_bars()) {
+      if (const auto fault = fault_of_bars(setup, body)) faults.push_back({b, *fault});
+      continue;
+    }
     if (body.discretization.has_elements()) {
       try {
         static_cast<void>(hexahedra_of(setup, body));

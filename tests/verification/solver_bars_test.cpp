@@ -194,6 +194,8 @@ TEST(Bars, FaultsAreNamed) {
   expect_error("contact_group = \"target\"", "", "bars have no surface of their own");
   expect_error("bar_diameter = 4e-4, ", "", "bars need a 'bar_diameter'");
   expect_error("from = [0.5e-3, 0, 2e-3]", "from = [0.5e-3, -1e-3, 2e-3]", "reach out of the domain along y");
+  expect_error("name = \"block\"\n", "name = \"block\"\ndiscretization = { method = \"finite_elements\" }\n",
+               "bars reinforce bodies of particles");
   expect_error("to = [0.5e-3, 5e-3, 2e-3]", "to = [0.5e-3, 0, 2e-3]", "has no length");
 }
 
