@@ -16,7 +16,7 @@ MAY_USE = {
     "src/input": ["src/base"],
     "src/parallel": ["src/base"],
     "src/process": ["src/base"],
-    "src/hdf5": ["src/base"],
+    "src/hdf5": ["src/base", "src/parallel"],
     "eos": ["src/base"],
     "md_fitting/data_set": ["src/base", "src/hdf5"],
     # Reads the store and starts whipple-md as a process: no LAMMPS on the solver's side.

@@ -16,7 +16,7 @@ TEXT
 packages=(
   g++ cmake ninja-build ccache mold git python3
   liblammps-dev lammps lammps-data
-  libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libp4est-dev
+  libopenmpi-dev openmpi-bin libhdf5-openmpi-dev zlib1g-dev libp4est-dev
   libeigen3-dev libgsl-dev libboost-dev
   libcli11-dev libspdlog-dev libfmt-dev libtomlplusplus-dev libudunits2-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
