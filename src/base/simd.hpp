@@ -56,5 +56,6 @@ inline Lanes broadcast(double value) { return Lanes{value, value, value, value};
 
 /// Sum of the first three lanes.
 inline double sum3(Lanes v) { return v[0] + v[1] + v[2]; }
+inline double sum4(Lanes v) { return v[0] + v[1] + v[2] + v[3]; }
 
 }  // namespace whipple

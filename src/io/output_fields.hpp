@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -9,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "src/base/vector_math.hpp"
 #include "src/particles/particles.hpp"
 
 namespace whipple::io {
@@ -19,10 +21,19 @@ enum class Phase : std::uint8_t { solid = 0, melting = 1, liquid = 2, vapour = 3
 /// Phase of a point from its mass fractions: vapour if at least half of the mass is vapour; otherwise solid
 /// below 1 % of melt, liquid above 99 %, melting between. The margins keep points that rest on the edge of
 /// the melting band (where round-off makes a fraction of 1e-12) from being counted as melting.
+constexpr double least_vapour = 0.5, least_melting = 0.01, greatest_melting = 0.99;
 constexpr Phase phase(double melted_fraction, double vaporised_fraction) {
-  if (vaporised_fraction >= 0.5) return Phase::vapour;
-  if (melted_fraction < 0.01) return Phase::solid;
-  return melted_fraction <= 0.99 ? Phase::melting : Phase::liquid;
+  if (vaporised_fraction >= least_vapour) return Phase::vapour;
+  if (melted_fraction < least_melting) return Phase::solid;
+  return melted_fraction <= greatest_melting ? Phase::melting : Phase::liquid;
+}
+
+/// The same of four points: who is solid, melting, liquid, vapour.
+inline std::array<LanesMask, 4> phases(Lanes melted_fraction, Lanes vaporised_fraction) {
+  const LanesMask vapour = vaporised_fraction >= least_vapour,
+                  solid = ~vapour & (melted_fraction < least_melting),
+                  liquid = ~vapour & (melted_fraction > greatest_melting);
+  return {solid, ~(vapour | solid | liquid), liquid, vapour};
 }
 
 /// What a field is computed from.

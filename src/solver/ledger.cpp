@@ -169,12 +169,20 @@ std::vector<PhaseMasses> phase_masses(const Particles& particles, std::span<cons
   std::vector<PhaseMasses> result(bodies);
   const auto of_points = [](const MaterialPoints& points, std::size_t first, std::size_t count) {
     return parallel::sum_of_chunks<PhaseMasses>(count, [&](std::size_t begin, std::size_t end) {
-      PhaseMasses sum;
-      for (std::size_t p = first + begin; p < first + end; ++p) {
-        const io::Phase phase = io::phase(points.melted_fraction[p], points.vaporised_fraction[p]);
-        sum.mass[static_cast<std::size_t>(phase)] += points.mass[p];
-        if (points.failed[p] != 0) sum.failed += points.mass[p];
+      std::array<Lanes, 4> mass{};
+      Lanes failed{};
+      for (std::size_t p = first + begin; p < first + end; p += 4) {
+        const std::size_t four = std::min<std::size_t>(4, first + end - p);
+        const Lanes m = load(&points.mass[p], four, 0.0),
+                    melted = load(&points.melted_fraction[p], four, 0.0);
+        const std::array<LanesMask, 4> in =
+            io::phases(melted, load(&points.vaporised_fraction[p], four, 0.0));
+        for (std::size_t i = 0; i < 4; ++i) mass[i] += select(in[i], m, Lanes{});
+        for (std::size_t k = 0; k < four; ++k) failed[k] += points.failed[p + k] != 0 ? m[k] : 0.0;
       }
+      PhaseMasses sum;
+      for (std::size_t i = 0; i < 4; ++i) sum.mass[i] = sum4(mass[i]);
+      sum.failed = sum4(failed);
       return sum;
     });
   };

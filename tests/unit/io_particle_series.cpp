@@ -301,6 +301,15 @@ TEST(PhaseOfFractions, has_margins) {
   static_assert(phase(1.0 - 1e-9, 0.0) == Phase::liquid);
   static_assert(phase(1.0, 0.49) == Phase::liquid);
   static_assert(phase(1.0, 0.5) == Phase::vapour);
+  for (const double vaporised : {0.0, 0.49, 0.5, 1.0}) {
+    constexpr Lanes melted = {1e-9, 0.5, 1.0 - 1e-9, 1.0};
+    const std::array<LanesMask, 4> in = phases(melted, broadcast(vaporised));
+    for (std::size_t k = 0; k < 4; ++k) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(in[i][k] != 0, static_cast<std::size_t>(phase(melted[k], vaporised)) == i);
+      }
+    }
+  }
   EXPECT_EQ(select_output_fields(default_output_fields()).size(), default_output_fields().size() + 4);
   EXPECT_THAT(describe_output_fields(), HasSubstr("temperature               K         temperature\n"));
 }
