@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/simd.hpp"
 #include "src/base/vector_math.hpp"
 #include "src/material/chunk.hpp"
 
@@ -172,7 +173,7 @@ bool raise(Lanes& maximum, const Lanes& value, std::size_t size) {
 
 }  // namespace
 
-void finish(Step& step, Chunk& chunk) {
+WHIPPLE_KERNEL void finish(Step& step, Chunk& chunk) {
   MaterialPoints& points = step.points;
   const double least_sound_speed = least_sound_speed_ratio * step.material.reference.sound_speed;
   const bool has_pores = step.material.porous;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "src/base/simd.hpp"
 #include "src/base/vector_math.hpp"
 #include "src/material/chunk.hpp"
 
@@ -45,7 +46,7 @@ void gather_gradient(const Step& step, Chunk& chunk) {
 
 enum class Energy { from_grid, integrated };
 
-void gather(Step& step, Chunk& chunk, Energy energy) {
+WHIPPLE_KERNEL void gather(Step& step, Chunk& chunk, Energy energy) {
   const MaterialPoints& points = step.points;
   chunk.fetch(points.mass, chunk.mass);
   chunk.fetch(points.volume, chunk.volume);
@@ -89,7 +90,7 @@ void gather(Step& step, Chunk& chunk, Energy energy) {
 
 /// Volume of matter and void after the step (eq. 1, eq. 11): the total follows J; voids take their share of
 /// the change until they are closed.
-void advance_volume(Step& step, Chunk& chunk) {
+WHIPPLE_KERNEL void advance_volume(Step& step, Chunk& chunk) {
   Lanes limited;
   material::volume_change(material::padded(chunk.size), step.settings.time_step, chunk.motion);
   std::size_t beyond = 0, undefined = 0;
@@ -266,7 +267,7 @@ void advance_strain(Step& step, Chunk& chunk) {
 }
 
 /// Artificial viscosity (eq. 8): none in failed or brittle matter beside an open void.
-void advance_viscosity(Step& step, Chunk& chunk) {
+WHIPPLE_KERNEL void advance_viscosity(Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
   const auto advance = [&](const auto& length) {
     for (std::size_t k = 0; k < chunk.size; ++k) {
@@ -300,7 +301,7 @@ void advance_viscosity(Step& step, Chunk& chunk) {
 /// Density and the energy that the equation of state of the symplectic scheme takes: half a step ahead of
 /// e^n+1 (pressure and stresses then stand at the end of the step), less the elastic energy of the deviator
 /// (eq. 9, 10).
-void prepare_energy(const Step& step, Chunk& chunk) {
+WHIPPLE_KERNEL void prepare_energy(const Step& step, Chunk& chunk) {
   const double half_step = 0.5 * step.settings.time_step;
   const material::SymmetricLanes& lanes = chunk.motion.deviator;
   const material::MatrixLanes& l = chunk.motion.gradient;
@@ -346,7 +347,7 @@ eos::RangeReport evaluate(Step& step, Chunk& chunk) {
 /// The trapezoidal energy step of the schemes without a work identity (eq. 14): e = e_0 - h p(e), h = dV /
 /// 2m, where e_0 holds all work but that of the new pressure. Two evaluations and the secant through them:
 /// exact for an equation of state that is linear in e at constant density.
-eos::RangeReport integrate_energy(Step& step, Chunk& chunk) {
+WHIPPLE_KERNEL eos::RangeReport integrate_energy(Step& step, Chunk& chunk) {
   Lanes without_new_pressure, first_energy, first_pressure, half_change;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     double strain_work = 0.0;  // mean stress : strain increment
