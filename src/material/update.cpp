@@ -14,6 +14,9 @@ namespace {
 
 constexpr double least_volume_ratio = 0.5;  ///< limits of J in one step; named in the report
 constexpr double greatest_volume_ratio = 2.0;
+/// Of the reference density. Thinner matter expands no further: long before, it fills more than the nodes
+/// that its pressure acts on, and without a bound lone vapour would grow by the same factor in every step.
+constexpr double least_density_ratio = 1e-9;
 
 using material::Chunk;
 using material::chunk_size;
@@ -93,10 +96,12 @@ WHIPPLE_KERNEL void gather(Step& step, Chunk& chunk, Energy energy) {
 WHIPPLE_KERNEL void advance_volume(Step& step, Chunk& chunk) {
   Lanes limited;
   material::volume_change(material::padded(chunk.size), step.settings.time_step, chunk.motion);
+  const double per_least_density = 1.0 / (least_density_ratio * step.material.reference.density);
   std::size_t beyond = 0, undefined = 0;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const double ratio = chunk.motion.ratio[k];
-    limited[k] = std::clamp(ratio, least_volume_ratio, greatest_volume_ratio);
+    const double room = std::max(chunk.density[k] * per_least_density, 1.0);
+    limited[k] = std::min(std::clamp(ratio, least_volume_ratio, greatest_volume_ratio), room);
     beyond += ratio < least_volume_ratio || ratio > greatest_volume_ratio ? 1 : 0;
     chunk.volume_change[k] = chunk.old_volume[k] * (limited[k] - 1.0);
     chunk.volume[k] = chunk.old_volume[k] * limited[k];

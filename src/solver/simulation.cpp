@@ -214,8 +214,13 @@ void Simulation::begin_step(double until) {
     if (particle_count_ == 0 && element_count_ == 0) throw StateError("all matter has left the domain");
     double dt = stable_time_step();
     if (!(dt > 0.0) || !std::isfinite(dt)) {
-      throw StateError(
-          fmt::format("step {}, t = {} s: the stable time step is {} s", state_.step, state_.time, dt));
+      const std::string reason = fmt::format("the stable time step is {} s", dt);
+      for (std::size_t p = 0; p < particles_.size(); ++p) {
+        if (std::isfinite(particles_.sound_speed[p] + particles_.velocity[p].sum())) continue;
+        throw StateError(
+            describe_state(p, fmt::format("{}; speed of sound {} m/s", reason, particles_.sound_speed[p])));
+      }
+      throw StateError(fmt::format("step {}, t = {} s: {}", state_.step, state_.time, reason));
     }
     const double left = until - state_.time;
     if (!(left > 0.0)) throw InternalError(fmt::format("t = {} s has been reached already", until));

@@ -488,23 +488,5 @@ TEST(Ranges, ListsChunksAndThreadsGiveBitwiseTheSamePoints) {
   });
 }
 
-TEST(Report, NamesTheFirstUndefinedPointAndCountsLimitedVolumeChanges) {
-  const Material material = with(taylor_copper());
-  MaterialPoints points = points_of(material, 600);
-  std::vector<Matrix3> gradients(600, Matrix3::Zero());
-  gradients[17](0, 0) = -0.9e8;  // J = 0.1 in one step
-  gradients[400](1, 1) = std::nan("");
-  gradients[555](1, 2) = std::nan("");
-  points.specific_internal_energy[520] = std::nan("");
-  const MaterialReport report =
-      update_material(material, points, 0, 600, gradients, {.time_step = 1e-8, .cell_size = 1e-3});
-  EXPECT_EQ(report.undefined, 3U);
-  EXPECT_EQ(report.first_undefined, 400U);
-  EXPECT_EQ(report.limited_volume_changes, 1U);
-  EXPECT_EQ(report.equation_of_state.first, 17U);  // compressed to twice the density, the limit of this model
-  EXPECT_FALSE(report.valid());
-  EXPECT_NEAR(points.volume[17], 0.5e-9, 1e-20);
-}
-
 }  // namespace
 }  // namespace whipple
