@@ -283,8 +283,6 @@ void BlockGrid::shift(const Vector3& cells) {
   foresight_ = 1.0;  // from half a cell on one side to half a cell on the other
 }
 
-namespace {}  // namespace
-
 void BlockGrid::count_cells(std::span<const Vector3> position, std::span<const Vector3> guests) {
   cell_count_.assign(slots() * nodes_per_block, 0);
   const auto count = [&](std::size_t slot, const Vector3& point) {
