@@ -217,14 +217,16 @@ double sound_speed_at(const fem::Mesh& mesh, std::size_t node) {
 }
 
 std::vector<fem::Facet> free_facets(const fem::Mesh& mesh, const grid::Geometry& geometry) {
-  std::vector<fem::Facet> facets = fem::surface_facets(mesh);
+  std::vector<fem::Facet> facets = fem::surface_facets(mesh, mesh.nodes.on_surface);
   std::erase_if(facets, [&](const fem::Facet& facet) { return lies_on_mirror(mesh, facet, geometry); });
   return facets;
 }
 
 void mark_surface(fem::Mesh& mesh, const grid::Geometry& geometry) {
+  std::ranges::fill(mesh.nodes.on_surface, std::uint8_t{1});  // look at all
+  const std::vector<fem::Facet> facets = free_facets(mesh, geometry);
   std::ranges::fill(mesh.nodes.on_surface, std::uint8_t{0});
-  for (const fem::Facet& facet : free_facets(mesh, geometry)) {
+  for (const fem::Facet& facet : facets) {
     for (const std::uint32_t node : facet) mesh.nodes.on_surface[node] = 1;
   }
 }

@@ -18,10 +18,11 @@
 namespace whipple::afemp {
 
 /// Faces that belong to one element only, but for those on mirror planes and walls that matter sticks to,
-/// behind which the body goes on as its own image.
+/// behind which the body goes on as its own image. Looked for among the nodes that are marked as on the
+/// surface; those of elements that were taken out have to be marked.
 std::vector<fem::Facet> free_facets(const fem::Mesh& mesh, const grid::Geometry& geometry);
 
-/// Marks their nodes (`Nodes::on_surface`).
+/// Marks their nodes (`Nodes::on_surface`), looked for among all.
 void mark_surface(fem::Mesh& mesh, const grid::Geometry& geometry);
 
 /// Marks the nodes that move with the grid (`Nodes::in_transition`): nodes on the surface of a mesh, inside

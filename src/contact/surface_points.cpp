@@ -4,14 +4,38 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <unordered_map>
 
-#include "src/grid/block_table.hpp"
+#include "src/base/vector_math.hpp"
 #include "src/parallel/mpi.hpp"
 
 namespace whipple::contact {
+
+BlocksAtContact::BlocksAtContact(const grid::BlockGrid& grid) : geometry_(grid.geometry()) {
+  blocks_.reserve(4 * grid.contact_slots().size());
+  for (const std::uint32_t slot : grid.contact_slots()) {
+    const grid::BlockCoordinate& c = grid.coordinate(slot);
+    for (int n = 0; n < 27; ++n)
+      blocks_.find_or_insert({c[0] + n / 9 - 1, c[1] + n / 3 % 3 - 1, c[2] + n % 3 - 1}, 1);
+  }
+}
+
+bool BlocksAtContact::meet(const Vector3& lower, const Vector3& upper) const {
+  if (blocks_.size() == 0) return false;
+  const auto block_of = [&](const Vector3& x) {
+    return floor_of_three(load_vector(geometry_.in_cells(x).eval().data()) / grid::block_edge);
+  };
+  const grid::BlockCoordinate first = block_of(lower), last = block_of(upper);
+  for (std::int32_t i = first[0]; i <= last[0]; ++i) {
+    for (std::int32_t j = first[1]; j <= last[1]; ++j) {
+      for (std::int32_t k = first[2]; k <= last[2]; ++k) {
+        if (blocks_.find({i, j, k}) != grid::BlockTable::none) return true;
+      }
+    }
+  }
+  return false;
+}
 
 void SurfacePoints::clear() {
   position.clear();
@@ -22,9 +46,9 @@ void SurfacePoints::clear() {
 }
 
 void SurfacePoints::add(const fem::Mesh& mesh, std::span<const fem::Facet> facets, std::uint8_t of_body,
-                        double spacing) {
-  constexpr auto none = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> point_of_node(mesh.nodes.size(), none);
+                        double spacing, const BlocksAtContact* near) {
+  point_of_node_.resize(std::max(point_of_node_.size(), mesh.nodes.size()), no_point);
+  const std::size_t before = count();
   const auto new_point = [&](const Vector3& x, std::uint64_t id) {
     position.push_back(x);
     area.push_back(Vector3::Zero());
@@ -36,6 +60,10 @@ void SurfacePoints::add(const fem::Mesh& mesh, std::span<const fem::Facet> facet
   for (const fem::Facet& facet : facets) {
     std::array<Vector3, 4> x;
     for (std::size_t i = 0; i < 4; ++i) x[i] = mesh.nodes.position[facet[i]];
+    if (near != nullptr && !near->meet(x[0].cwiseMin(x[1]).cwiseMin(x[2]).cwiseMin(x[3]),
+                                       x[0].cwiseMax(x[1]).cwiseMax(x[2]).cwiseMax(x[3]))) {
+      continue;
+    }
     double edge = 0.0;
     for (std::size_t i = 0; i < 4; ++i) edge = std::max(edge, (x[(i + 1) % 4] - x[i]).norm());
     const int parts = std::max(1, static_cast<int>(std::ceil(edge / spacing - 1e-9)));
@@ -48,11 +76,11 @@ void SurfacePoints::add(const fem::Mesh& mesh, std::span<const fem::Facet> facet
         const Vector3 along_v = (1 - u) * (x[3] - x[0]) + u * (x[2] - x[1]);
         const Vector3 part =
             (at_end_u ? 0.5 : 1.0) * (at_end_v ? 0.5 : 1.0) / (parts * parts) * along_u.cross(along_v);
-        std::uint32_t point = none;
+        std::uint32_t point = no_point;
         if (at_end_u && at_end_v) {
           const std::size_t corner = j == 0 ? (i == 0 ? 0U : 1U) : (i == 0 ? 3U : 2U);
-          std::uint32_t& of_node = point_of_node[facet[corner]];
-          if (of_node == none) of_node = new_point(x[corner], mesh.nodes.id[facet[corner]]);
+          std::uint32_t& of_node = point_of_node_[facet[corner]];
+          if (of_node == no_point) of_node = new_point(x[corner], mesh.nodes.id[facet[corner]]);
           point = of_node;
         } else {
           point = new_point((1 - v) * ((1 - u) * x[0] + u * x[1]) + v * ((1 - u) * x[3] + u * x[2]), no_node);
@@ -61,6 +89,10 @@ void SurfacePoints::add(const fem::Mesh& mesh, std::span<const fem::Facet> facet
         size[point] += part.norm();
       }
     }
+  }
+  if (count() == before) return;
+  for (const fem::Facet& facet : facets) {
+    for (const std::uint32_t a : facet) point_of_node_[a] = no_point;
   }
 }
 

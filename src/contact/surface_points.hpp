@@ -10,8 +10,21 @@
 
 #include "src/fem/facets.hpp"
 #include "src/grid/block_grid.hpp"
+#include "src/grid/block_table.hpp"
 
 namespace whipple::contact {
+
+/// The blocks from which points reach contact slots of the grid of this rank.
+class BlocksAtContact {
+ public:
+  explicit BlocksAtContact(const grid::BlockGrid& grid);
+  /// Do they meet a box (m)?
+  [[nodiscard]] bool meet(const Vector3& lower, const Vector3& upper) const;
+
+ private:
+  const grid::Geometry& geometry_;
+  grid::BlockTable blocks_;
+};
 
 /// Points on the surfaces of bodies of elements, which stand for the facets around them
 /// (docs/theory/contact.md, eq. 3.6).
@@ -28,11 +41,17 @@ struct SurfacePoints {
 
   /// Adds the surface of a body: its nodes, and further points so that none are more than `spacing` (m)
   /// apart.
-  void add(const fem::Mesh& mesh, std::span<const fem::Facet> facets, std::uint8_t field, double spacing);
+  /// @param near  facets that do not meet it are left out; null: all are added
+  void add(const fem::Mesh& mesh, std::span<const fem::Facet> facets, std::uint8_t field, double spacing,
+           const BlocksAtContact* near);
 
   /// Sends every point to the ranks that own grid nodes which it reaches; those of several ranks that are one
   /// node of a mesh become one. Collective.
   void send_to_owners(const grid::BlockGrid& grid, grid::Stencil stencil, MPI_Comm communicator);
+
+ private:
+  static constexpr std::uint32_t no_point = static_cast<std::uint32_t>(-1);
+  std::vector<std::uint32_t> point_of_node_;  // of a mesh: scratch of `add`, `no_point` between its calls
 };
 
 /// Surface points by block, as the grid stands: those that reach contact slots of this rank. Their own blocks

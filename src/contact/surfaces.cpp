@@ -93,7 +93,7 @@ FoldedAxis<count> fold(const BlockGrid& grid, int axis, int block, int first) {
   return folded;
 }
 
-/// Calls f(p, place) for the nodes of contact slots that a point of the field reaches.
+/// Calls f(place) for the nodes of contact slots that a point of the field reaches.
 /// @param block       where the point is
 /// @param neighbours  slots of the 27 blocks around it, as far as they count
 template <class Shape, class Points, class Function>
@@ -131,8 +131,7 @@ void for_each_place_of(const Points& points, std::uint32_t p, unsigned field,
                                w.weight[i][0] * w.derivative[j][1] * w.weight[k][2],
                                w.weight[i][0] * w.weight[j][1] * w.derivative[k][2]);
         const Vector3 distance(w.distance[i][0], w.distance[j][1], w.distance[k][2]);
-        f(p,
-          Place{.contact_slot = static_cast<std::size_t>(number),
+        f(Place{.contact_slot = static_cast<std::size_t>(number),
                 .fields = static_cast<std::size_t>(std::popcount(fields)),
                 .field = static_cast<std::size_t>(std::popcount(fields & ((std::uint64_t{1} << field) - 1))),
                 .node = static_cast<std::size_t>(grid::node_index(inside[0], inside[1], inside[2])),
@@ -146,31 +145,31 @@ void for_each_place_of(const Points& points, std::uint32_t p, unsigned field,
   }
 }
 
-/// The same for all particles; no two calls at a time for one node.
-template <class Shape, class Function>
-void for_each_place(const Particles& particles, const BlockGrid& grid, Function&& f) {
+/// The same with at_point(p) for all particles p; no two calls at a time for one node.
+template <class Shape, class AtPoint>
+void for_each_place(const Particles& particles, const BlockGrid& grid, AtPoint&& at_point) {
   grid.for_each_apart([&](std::size_t slot) {
     if (!grid.meets_contact(slot)) return;
     grid.for_each_field(BlockGrid::Points::particles, slot,
                         [&](std::span<const std::uint32_t> members, unsigned field) {
                           for (const std::uint32_t p : members) {
                             for_each_place_of<Shape>(particles, p, field, grid.coordinate(slot),
-                                                     grid.neighbours(slot), grid, f);
+                                                     grid.neighbours(slot), grid, at_point(p));
                           }
                         });
   });
 }
 
 /// The same for points on surfaces of elements, which work with B-splines only.
-template <class Shape, class Function>
-void for_each_place(const PlacedPoints& placed, const BlockGrid& grid, Function&& f) {
+template <class Shape, class AtPoint>
+void for_each_place(const PlacedPoints& placed, const BlockGrid& grid, AtPoint&& at_point) {
   if constexpr (transfer::CarriesAffineField<Shape>) {
     for (const std::vector<std::uint32_t>& colour : placed.colours) {
       parallel::for_each_uneven(colour.size(), [&](std::size_t c) {
         const PlacedPoints::Block& block = placed.blocks[colour[c]];
         for (const std::uint32_t p : block.points) {
           for_each_place_of<Shape>(*placed.points, p, placed.points->field[p], block.coordinate, block.slots,
-                                   grid, f);
+                                   grid, at_point(p));
         }
       });
     }
@@ -202,16 +201,24 @@ void for_each_pair(std::size_t fields, Function&& f) {
   }
 }
 
-/// Distance from the centre of a particle to its surface along a unit vector: of its box of the beginning (or
+/// Distance from the centre of a particle to its surface along unit vectors: of its box of the beginning (or
 /// of its followed domain), scaled to its present volume.
-double half_thickness(const Particles& particles, std::size_t p, const Vector3& n) {
-  const SymmetricTensor& e = particles.extent[p];
-  const Matrix3 extent = e.matrix();
-  const double box = 8.0 * std::sqrt(std::max(extent.determinant(), 0.0));
-  const double volume = particles.volume[p] + particles.void_volume[p];
-  const double along = std::sqrt(std::max(n.dot(extent * n), 0.0));
-  return box > 0.0 ? along * std::cbrt(volume / box) : 0.5 * std::cbrt(volume);
-}
+class HalfThickness {
+ public:
+  HalfThickness(const Particles& particles, std::size_t p) : extent_(particles.extent[p].matrix()) {
+    const double box = 8.0 * std::sqrt(std::max(extent_.determinant(), 0.0));
+    const double volume = particles.volume[p] + particles.void_volume[p];
+    scale_ = std::cbrt(box > 0.0 ? volume / box : volume);
+    if (!(box > 0.0)) extent_ = 0.25 * Matrix3::Identity();
+  }
+  [[nodiscard]] double along(const Vector3& n) const {
+    return scale_ * std::sqrt(std::max(n.dot(extent_ * n), 0.0));
+  }
+
+ private:
+  Matrix3 extent_;
+  double scale_;
+};
 
 /// Logistic regression of two sets of particles, class -1 and +1, on their positions about a node in cells
 /// and a constant: the plane of greatest likelihood, with a small penalty on the steepness that a gap would
@@ -278,7 +285,7 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
       for (int iteration = 0; iteration < regression::iterations; ++iteration) {
         lay_out(equations_, grid, broadcast(0.0),
                 [](std::size_t fields) { return regression::lanes_per_node * one_per_pair(fields); });
-        const auto add = [&](std::size_t, const Place& place) {
+        const auto add = [&](const Place& place) {
           // A node on a mirror plane has its normal in it: then only the place along the plane matters.
           const Vector3 cells = per_cell * place.distance.cwiseProduct(place.off_plane);
           place.for_each_pair([&](std::size_t pair, bool first) {
@@ -288,8 +295,9 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
                             {plane[0], plane[1], plane[2], plane[3]});
           });
         };
-        for_each_place<Shape>(particles, grid, add);
-        for_each_place<Shape>(placed, grid, add);
+        const auto at_point = [&](std::size_t) { return add; };
+        for_each_place<Shape>(particles, grid, at_point);
+        for_each_place<Shape>(placed, grid, at_point);
         grid.sum_to_owners(equations_);
         for_each_owned_node(grid, [&](std::size_t c, std::size_t fields, std::size_t node) {
           for_each_pair(fields, [&](std::size_t, std::size_t, std::size_t pair) {
@@ -307,26 +315,34 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
         normal_.values[i] = lanes(unit_or_zero(vector(plane_.values[i])));
       }
     } else {
-      for_each_place<Shape>(particles, grid, [&](std::size_t p, const Place& place) {
-        const double volume = particles.volume[p] + particles.void_volume[p];
-        gradient_.values[place.in(gradient_, place.field)] +=
-            lanes(volume * place.gradient.cwiseProduct(place.off_plane), volume * place.weight);
+      for_each_place<Shape>(particles, grid, [&](std::size_t p) {
+        return [&, volume = particles.volume[p] + particles.void_volume[p]](const Place& place) {
+          gradient_.values[place.in(gradient_, place.field)] +=
+              lanes(volume * place.gradient.cwiseProduct(place.off_plane), volume * place.weight);
+        };
       });
       const double cell_size = grid.geometry().cell_size;
-      for_each_place<Shape>(placed, grid, [&](std::size_t p, const Place& place) {  // (3.6)
-        const Vector3 area = place.sign.cwiseProduct(elements.area[p]).cwiseProduct(place.off_plane);
-        gradient_.values[place.in(gradient_, place.field)] +=
-            place.weight * lanes(area, elements.size[p] * cell_size);
+      for_each_place<Shape>(placed, grid, [&](std::size_t p) {
+        return [&, p](const Place& place) {  // (3.6)
+          const Vector3 area = place.sign.cwiseProduct(elements.area[p]).cwiseProduct(place.off_plane);
+          gradient_.values[place.in(gradient_, place.field)] +=
+              place.weight * lanes(area, elements.size[p] * cell_size);
+        };
       });
       grid.sum_to_owners(gradient_);
       for_each_owned_node(grid, [&](std::size_t c, std::size_t fields, std::size_t node) {
+        const auto at_node = [&](std::size_t field) {
+          return gradient_.values[gradient_.begin[c] + field * nodes_per_block + node];
+        };
+        const auto reached = [&](std::size_t field) { return at_node(field)[3] > 0.0; };
         const auto outward = [&](std::size_t field) {  // the volume of a node grows as particles come near
-          const Lanes of_field = gradient_.values[gradient_.begin[c] + field * nodes_per_block + node];
+          const Lanes of_field = at_node(field);
           const Vector3 gradient = vector(of_field);
           const bool inside = gradient.norm() * cell_size < least_slope * of_field[3];
           return inside ? Vector3::Zero().eval() : unit_or_zero(gradient);
         };
         for_each_pair(fields, [&](std::size_t a, std::size_t b, std::size_t pair) {
+          if (!reached(a) || !reached(b)) return;
           Lanes* normal = &normal_.values[normal_.begin[c] + candidates_ * (pair * nodes_per_block + node)];
           const Vector3 of_a = outward(a), of_b = -outward(b);
           normal[0] = lanes(unit_or_zero(of_a + of_b));
@@ -342,6 +358,7 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
         const std::size_t i = place.in(normal_, pair, candidates_);
         for (std::size_t candidate = i; candidate < i + candidates_; ++candidate) {
           const Vector3 n = (first ? 1.0 : -1.0) * vector(normal_.values[candidate]);
+          if (n.isZero(0.0)) continue;
           const double extent = n.dot(place.distance) + half_thickness_along(place.sign.cwiseProduct(n));
           Lanes& largest = extent_.values[candidate];
           const int lane = first ? 0 : 1;
@@ -349,11 +366,13 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
         }
       });
     };
-    for_each_place<Shape>(particles, grid, [&](std::size_t p, const Place& place) {
-      extend(place, [&](const Vector3& n) { return half_thickness(particles, p, n); });
+    for_each_place<Shape>(particles, grid, [&](std::size_t p) {
+      return [&, half = HalfThickness(particles, p)](const Place& place) {
+        extend(place, [&](const Vector3& n) { return half.along(n); });
+      };
     });
-    for_each_place<Shape>(placed, grid, [&](std::size_t, const Place& place) {
-      extend(place, [](const Vector3&) { return 0.0; });
+    for_each_place<Shape>(placed, grid, [&](std::size_t) {
+      return [&](const Place& place) { extend(place, [](const Vector3&) { return 0.0; }); };
     });
   });
   grid.maximum_to_owners(extent_);

@@ -31,11 +31,16 @@ bool is_shared(const Mesh& mesh, std::size_t element, const Facet& facet) {
 
 }  // namespace
 
-std::vector<Facet> surface_facets(const Mesh& mesh) {
+std::vector<Facet> surface_facets(const Mesh& mesh, std::span<const std::uint8_t> marked) {
+  const auto all_marked = [&](const auto& nodes) {
+    return marked.empty() || std::ranges::all_of(nodes, [&](std::uint32_t a) { return marked[a] != 0; });
+  };
   std::vector<std::uint8_t> free(mesh.elements.size(), 0);  // of each element: a bit per face
   parallel::for_each(free.size(), [&](std::size_t e) {
+    const Corners& corners = mesh.elements.corners[e];
     for (std::size_t f = 0; f < 6; ++f) {
-      if (!is_shared(mesh, e, face(mesh.elements.corners[e], f))) {
+      const Facet facet = face(corners, f);
+      if (all_marked(facet) && !is_shared(mesh, e, facet)) {
         free[e] = static_cast<std::uint8_t>(free[e] | 1U << f);
       }
     }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "src/fem/mesh.hpp"
@@ -14,6 +15,9 @@ using Facet = std::array<std::uint32_t, 4>;
 
 /// Faces that belong to one element only: the surface of a mesh, in the order of the elements.
 /// The mesh must be connected (`connect`).
-std::vector<Facet> surface_facets(const Mesh& mesh);
+/// @param marked  empty, or of each node whether it may be on the surface (!= 0): faces of other nodes are
+/// not
+///                looked at
+std::vector<Facet> surface_facets(const Mesh& mesh, std::span<const std::uint8_t> marked = {});
 
 }  // namespace whipple::fem

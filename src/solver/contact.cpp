@@ -56,9 +56,12 @@ void Simulation::find_surfaces() {
       shared_nodes_.drop_inner_facets(meshes_, surface_facets_);
       surfaces_changed_ = false;
     }
+    // Of the contact slots of other ranks nothing is known here.
+    std::optional<contact::BlocksAtContact> near;
+    if (parallel::size(communicator_) == 1) near.emplace(grid_);
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
       surface_points_.add(meshes_[m], surface_facets_[m], contact_field_of_body_[meshes_[m].body],
-                          setup_.domain.cell_size);
+                          setup_.domain.cell_size, near ? &*near : nullptr);
     }
     surface_points_.send_to_owners(grid_, transfer::stencil(shape_), communicator_);
     contact_->find_surfaces(shape_, particles_, surface_points_, grid_);
