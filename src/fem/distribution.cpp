@@ -8,6 +8,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "src/fem/order.hpp"
 #include "src/particles/rows.hpp"
 
 namespace whipple::fem {
@@ -36,24 +37,6 @@ std::vector<std::uint32_t> nodes_of(const Mesh& mesh, const std::vector<std::uin
   std::ranges::sort(nodes);
   nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
   return nodes;
-}
-
-/// Numbers the nodes as the corners name them first, and drops the others; rebuilds what follows from it.
-void settle(Mesh& mesh) {
-  constexpr std::uint32_t unnumbered = 0xffffffff;
-  std::vector<std::uint32_t> number(mesh.nodes.size(), unnumbered), order;
-  for (Corners& corners : mesh.elements.corners) {
-    for (std::uint32_t& node : corners) {
-      if (number[node] == unnumbered) {
-        number[node] = static_cast<std::uint32_t>(order.size());
-        order.push_back(node);
-      }
-      node = number[node];
-    }
-  }
-  select_rows(mesh.nodes, order);
-  connect(mesh);
-  lump_masses(mesh);
 }
 
 }  // namespace
@@ -316,20 +299,20 @@ void migrate(Mesh& mesh, std::span<const int> destination, MPI_Comm communicator
 
   std::unordered_map<std::uint64_t, std::uint32_t> node_of;  // the first copy of each; they are all the same
   for (std::uint32_t a = 0; a < mesh.nodes.size(); ++a) node_of.emplace(mesh.nodes.id[a], a);
-  std::vector<Vector3> centre(corners.size(), Vector3::Zero());
   for (std::size_t e = 0; e < corners.size(); ++e) {
-    for (std::size_t a = 0; a < 8; ++a) {
-      const std::uint32_t node = node_of.at(corners[e][a]);
-      mesh.elements.corners[e][a] = node;
-      centre[e] += 0.125 * mesh.nodes.position[node];
-    }
+    for (std::size_t a = 0; a < 8; ++a) mesh.elements.corners[e][a] = node_of.at(corners[e][a]);
   }
-  const double volume = std::accumulate(mesh.points.volume.begin(), mesh.points.volume.end(), 0.0);
-  const std::vector<std::uint32_t> order =
-      spatial_order(centre, std::cbrt(volume / static_cast<double>(std::max<std::size_t>(centre.size(), 1))));
-  select_rows(mesh.elements, order);
-  select_rows(mesh.points, rows_of(order, mesh.quadrature));
-  settle(mesh);
+  const StorageOrder order = storage_order(mesh.nodes.position, mesh.elements.corners);  // drops other copies
+  select_rows(mesh.elements, order.elements);
+  select_rows(mesh.points, rows_of(order.elements, mesh.quadrature));
+  std::vector<std::uint32_t> number(mesh.nodes.size());
+  for (std::uint32_t a = 0; a < order.nodes.size(); ++a) number[order.nodes[a]] = a;
+  for (Corners& of_element : mesh.elements.corners) {
+    for (std::uint32_t& node : of_element) node = number[node];
+  }
+  select_rows(mesh.nodes, order.nodes);
+  connect(mesh);
+  lump_masses(mesh);
 }
 
 void gather_nodes(Mesh& mesh, MPI_Comm communicator) {

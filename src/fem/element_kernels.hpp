@@ -46,6 +46,13 @@ WHIPPLE_INLINE inline Vector load_lanes(const double* from, std::size_t count) {
 WHIPPLE_INLINE inline void store_lanes(double* to, Vector x, std::size_t count) {
   whipple::store(to, x, count);
 }
+/// Numbers at as many places as there are lanes.
+WHIPPLE_INLINE inline Vector gather_lanes(const double* from, const std::uint16_t* places) {
+  const __m128i four = _mm_cvtepu16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(places)));
+  const __m256d all =
+      _mm256_castsi256_pd(_mm256_set1_epi64x(-1));  // (the plain one warns of what is not set)
+  return Vector(_mm256_mask_i32gather_pd(_mm256_setzero_pd(), from, four, all, sizeof(double)));
+}
 WHIPPLE_INLINE inline Vector root(Vector x) { return whipple::sqrt(x); }
 WHIPPLE_INLINE inline Vector minimum(Vector a, Vector b) { return whipple::minimum(a, b); }
 WHIPPLE_INLINE inline Vector maximum(Vector a, Vector b) { return whipple::maximum(a, b); }
@@ -78,6 +85,10 @@ WHIPPLE_INLINE inline Vector load_lanes(const double* from, std::size_t count) {
 }
 WHIPPLE_INLINE inline void store_lanes(double* to, Vector x, std::size_t count) {
   _mm512_mask_storeu_pd(to, static_cast<__mmask8>((1U << count) - 1U), __m512d(x));
+}
+WHIPPLE_INLINE inline Vector gather_lanes(const double* from, const std::uint16_t* places) {
+  const __m256i eight = _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(places)));
+  return Vector(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, eight, from, sizeof(double)));
 }
 WHIPPLE_INLINE inline Vector root(Vector x) { return Vector(_mm512_maskz_sqrt_pd(0xff, __m512d(x))); }
 WHIPPLE_INLINE inline Vector minimum(Vector a, Vector b) {

@@ -3,15 +3,17 @@
 
 #include "src/fem/hexahedron.inl"
 
-/// Elements of a block that go together, one per lane. A last group that is not full repeats the index of its
-/// last element; what its other lanes hold is nobody's.
+/// Elements that go together, one per lane: `width` of an ElementGroup, those from a lane of it on. Lanes
+/// without an element repeat the index of the last one; what they hold is nobody's.
 struct Group {
-  std::array<std::size_t, width> index;
+  const ElementGroup& all;
+  std::size_t lane;
   std::size_t count;  ///< lanes that are results
+  std::array<std::size_t, width> index;
 
-  /// The group that begins with `first`.
-  Group(std::size_t first, std::size_t end) : count(std::min(width, end - first)) {
-    for (std::size_t l = 0; l < width; ++l) index[l] = first + std::min(l, count - 1);
+  Group(const ElementGroup& group, std::size_t first_lane)
+      : all(group), lane(first_lane), count(std::min<std::size_t>(width, group.count - first_lane)) {
+    for (std::size_t l = 0; l < width; ++l) index[l] = group.first + lane + std::min(l, count - 1);
   }
 
   /// One number per element, and back.
@@ -40,61 +42,97 @@ struct Group {
   }
 };
 
-/// Calls f(Group) for all elements of a block.
+/// The groups of a block.
+WHIPPLE_INLINE inline std::span<const ElementGroup> groups_of(const Mesh& mesh, std::size_t block) {
+  const Blocks& blocks = mesh.blocks;
+  return std::span(blocks.groups)
+      .subspan(blocks.first_group[block], blocks.first_group[block + 1] - blocks.first_group[block]);
+}
+
+/// Calls f(Group) for the elements of a group.
 template <class Function>
-WHIPPLE_INLINE inline void for_each_group(std::size_t block, std::size_t elements, Function&& f) {
-  const std::size_t end = std::min(elements, (block + 1) * Blocks::size);
-  for (std::size_t first = block * Blocks::size; first < end; first += width) f(Group(first, end));
+WHIPPLE_INLINE inline void for_each_part(const ElementGroup& all, Function&& f) {
+  for (std::size_t lane = 0; lane < all.count; lane += width) f(Group(all, lane));
 }
 
-/// Three numbers per element.
-WHIPPLE_INLINE inline Triple<Vector> triple_of(const std::array<Lanes, width>& rows) {
-  const auto c = columns(rows);
-  return {c[0], c[1], c[2]};
-}
-
-/// A nodal field at the slots of a block; not initialised.
+/// A nodal field at the slots of a block; not initialised. Behind the slots there is place for the corners of
+/// a group.
 class BlockField {
  public:
   void copy(const Mesh& mesh, std::size_t block, const std::vector<Vector3>& field) {
     const Blocks& blocks = mesh.blocks;
     const std::uint32_t first = blocks.first_slot[block], end = blocks.first_slot[block + 1];
-    for (std::uint32_t s = first; s < end; ++s)
-      at_[s - first] = load_vector(field[blocks.slot_node[s]].data());
+    for (std::uint32_t s = first; s < end; ++s) {
+      const Vector3& value = field[blocks.slot_node[s]];
+      for (std::size_t i = 0; i < 3; ++i) at_[i][s - first] = value[static_cast<Eigen::Index>(i)];
+    }
   }
   void zero(const Mesh& mesh, std::size_t block) {
-    std::fill_n(at_, mesh.blocks.first_slot[block + 1] - mesh.blocks.first_slot[block], Lanes{});
+    const std::uint32_t count = mesh.blocks.first_slot[block + 1] - mesh.blocks.first_slot[block];
+    for (auto& component : at_) std::fill_n(component, count, 0.0);
   }
-  [[nodiscard]] Lanes operator[](std::size_t slot) const { return at_[slot]; }
+  [[nodiscard]] Vector3 operator[](std::size_t slot) const {
+    return {at_[0][slot], at_[1][slot], at_[2][slot]};
+  }
 
   /// Coefficients of the modes.
-  [[nodiscard]] WHIPPLE_INLINE Modes<Vector> modes(const Mesh& mesh, const Group& group) const {
-    const auto& slots = mesh.blocks.corner_slot;
+  [[nodiscard]] WHIPPLE_INLINE Modes<Vector> modes(const Group& group) {
+    std::array<std::size_t, 8> first;
+    for (std::size_t a = 0; a < 8; ++a) {
+      first[a] = group.all.is_row != 0 ? group.all.slot[a][0] + group.lane : place_of(a);
+    }
+    if (group.all.is_row == 0) {
+      for (std::size_t a = 0; a < 8; ++a) {
+        for (auto& component : at_) {
+          store_lanes(&component[place_of(a)], gather_lanes(component, &group.all.slot[a][group.lane]),
+                      width);
+        }
+      }
+    }
     std::array<Triple<Vector>, 8> u;
     for (std::size_t a = 0; a < 8; ++a) {
-      std::array<Lanes, width> rows;
-      for (std::size_t l = 0; l < width; ++l) rows[l] = at_[slots[group.index[l]][a]];
-      u[a] = triple_of(rows);
+      const auto along = [&](std::size_t i) WHIPPLE_INLINE { return load_lanes(&at_[i][first[a]], width); };
+      u[a] = {along(0), along(1), along(2)};
     }
     return modes_of(u);
   }
-  /// Adds the corners' shares of a field given by its modes.
-  WHIPPLE_INLINE void add(const Mesh& mesh, const Group& group, const Modes<Vector>& field) {
+  /// Keeps the corners' shares of a field given by its modes for `add`.
+  /// @param parity  0 or 1: those of two groups are kept
+  WHIPPLE_INLINE void put(const Group& group, const Modes<Vector>& field, std::size_t parity) {
     const auto corners = corners_of(field);
-    std::array<std::array<Lanes, width>, 8> shares;
-    for (std::size_t a = 0; a < 8; ++a)
-      shares[a] = rows({corners[a].x, corners[a].y, corners[a].z, Vector{}});
-    for (std::size_t first = 0; first < width; first += 4) {
-      for (std::size_t a = 0; a < 8; ++a) {
-        group.for_each_lane(first, [&](std::size_t l) WHIPPLE_INLINE {
-          at_[mesh.blocks.corner_slot[group.index[l]][a]] += shares[a][l];
-        });
+    for (std::size_t a = 0; a < 8; ++a) {
+      const std::size_t place = place_of(a, parity) + group.lane;
+      store_lanes(&at_[0][place], corners[a].x, width);
+      store_lanes(&at_[1][place], corners[a].y, width);
+      store_lanes(&at_[2][place], corners[a].z, width);
+    }
+  }
+  /// Adds what was kept of four corners of a group.
+  WHIPPLE_INLINE void add(const ElementGroup& group, const std::array<std::size_t, 4>& corners,
+                          std::size_t parity) {
+    for (const std::size_t a : corners) {
+      for (auto& component : at_) {
+        const double* const shares = &component[place_of(a, parity)];
+        if (group.is_row != 0) {
+          double* const to = &component[group.slot[a][0]];
+          for (std::size_t l = 0; l < group.count; l += width) {
+            const Vector share = load_lanes(shares + l, std::min<std::size_t>(width, group.count - l));
+            store_lanes(to + l, load_lanes(to + l, width) + share, width);
+          }
+        } else {
+          for (std::size_t l = 0; l < group.count; ++l) component[group.slot[a][l]] += shares[l];
+        }
       }
     }
   }
 
  private:
-  Lanes at_[8 * Blocks::size];  // NOLINT: without initialisation
+  static constexpr std::size_t places = 8 * Blocks::size;
+  static constexpr std::size_t place_of(std::size_t corner, std::size_t parity = 0) {
+    return places + ElementGroup::size * (8 * parity + corner);
+  }
+
+  double at_[3][places + 16 * ElementGroup::size];  // NOLINT: without initialisation
 };
 
 /// n numbers one after the other per element. From the last lane to the first: that of the last element comes
@@ -240,7 +278,7 @@ struct OnePoint {
       prefetch(first + prefetch_distance, points.mass, points.pressure, points.artificial_viscosity,
                points.deviatoric_stress, points.sound_speed, points.plastic_strain, points.length,
                points.specific_internal_energy, elements.hourglass_force, elements.hourglass_energy,
-               elements.returned_plastic_strain, step.mesh.blocks.corner_slot);
+               elements.returned_plastic_strain);
     }
     const double dt = step.dt;
     const VolumeGradient<Vector> beta = volume_gradient(x);
@@ -357,7 +395,7 @@ struct ForcesOfOnePoint {
                                           const Modes<Vector>& x) const {
     if (const std::size_t first = group.index[0]; prefetches(first)) {
       prefetch(first + prefetch_distance, mesh.points.pressure, mesh.points.artificial_viscosity,
-               mesh.points.deviatoric_stress, mesh.elements.hourglass_force, mesh.blocks.corner_slot);
+               mesh.points.deviatoric_stress, mesh.elements.hourglass_force);
     }
     const VolumeGradient<Vector> beta = volume_gradient(x);
     Columns<Vector> stress = deviator_at(mesh.points, group.index);
@@ -418,10 +456,11 @@ struct Kernels {
     position.copy(step.mesh, block, step.mesh.nodes.position);
     mean.copy(step.mesh, block, motion.mean);
     end.copy(step.mesh, block, motion.end);
-    for_each_group(block, step.mesh.elements.size(), [&](const Group& group) WHIPPLE_INLINE {
-      kernel(step, group, position.modes(step.mesh, group), mean.modes(step.mesh, group),
-             end.modes(step.mesh, group), report);
-    });
+    for (const ElementGroup& all : groups_of(step.mesh, block)) {
+      for_each_part(all, [&](const Group& group) WHIPPLE_INLINE {
+        kernel(step, group, position.modes(group), mean.modes(group), end.modes(group), report);
+      });
+    }
   }
 
   /// Forces kernel(mesh, group, position by modes) of the elements of a block, at its slots.
@@ -430,14 +469,23 @@ struct Kernels {
     BlockField position, force;
     position.copy(mesh, block, mesh.nodes.position);
     force.zero(mesh, block);
-    for_each_group(block, mesh.elements.size(), [&](const Group& group) WHIPPLE_INLINE {
-      force.add(mesh, group, kernel(mesh, group, position.modes(mesh, group)));
-    });
+    // Sums at neighbouring corners of a row lie one number apart: what was written at one place should not be
+    // read at the next before it has reached the cache. So corners of the same colour of a chessboard go
+    // together, the second colour after the forces of the next group.
+    constexpr std::array<std::size_t, 4> white = {0, 2, 5, 7}, black = {1, 3, 4, 6};
+    const std::span<const ElementGroup> groups = groups_of(mesh, block);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      for_each_part(groups[g], [&](const Group& group) WHIPPLE_INLINE {
+        force.put(group, kernel(mesh, group, position.modes(group)), g % 2);
+      });
+      force.add(groups[g], white, g % 2);
+      if (g > 0) force.add(groups[g - 1], black, (g - 1) % 2);
+    }
+    force.add(groups.back(), black, (groups.size() - 1) % 2);
     Blocks& blocks = mesh.blocks;
     const std::uint32_t first = blocks.first_slot[block];
     for (std::uint32_t s = first; s < blocks.first_slot[block + 1]; ++s) {
-      const Lanes f = force[s - first];
-      blocks.slot_force[s] = {f[0], f[1], f[2]};
+      blocks.slot_force[s] = force[s - first];
     }
   }
 

@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "src/base/error.hpp"
 #include "src/fem/hexahedron.hpp"
 #include "src/fem/lists.hpp"
+#include "src/fem/order.hpp"
 #include "src/parallel/threads.hpp"
 
 namespace whipple::fem {
@@ -63,39 +63,61 @@ std::string inversion(const Modes<double>& x) {
   return {};
 }
 
-/// Of the hexahedra, in cells of their mean size.
-std::vector<std::uint32_t> order_of(const Hexahedra& hexahedra) {
-  const std::size_t n = hexahedra.elements.size();
-  std::vector<Vector3> centre(n, Vector3::Zero());
-  double volume = 0.0;
-  for (std::size_t e = 0; e < n; ++e) {
-    for (const std::uint32_t node : hexahedra.elements[e]) centre[e] += 0.125 * hexahedra.nodes[node];
-    volume += volume_of(modes(hexahedra.nodes, hexahedra.elements[e]));
+/// Of each element, how many from it on are a row: each corner of the next one is the next slot.
+std::vector<std::uint32_t> row_lengths(std::span<const Corners> slots) {
+  std::vector<std::uint32_t> length(slots.size(), 1);
+  for (std::size_t e = slots.size() - 1; e-- > 0;) {
+    bool goes_on = true;
+    for (std::size_t a = 0; a < 8; ++a) goes_on = goes_on && slots[e + 1][a] == slots[e][a] + 1;
+    if (goes_on) length[e] = length[e + 1] + 1;
   }
-  return spatial_order(centre, std::cbrt(volume / static_cast<double>(n)));
+  return length;
+}
+
+/// @param slots  of the corners of the block's elements, counted in the block
+void make_groups(Blocks& blocks, std::size_t first_element, std::span<const Corners> slots) {
+  constexpr std::uint32_t worth_it = ElementGroup::size / 2;  // shorter rows share a group
+  const std::vector<std::uint32_t> length = row_lengths(slots);
+  for (std::size_t e = 0; e < slots.size();) {
+    const bool is_row = length[e] >= worth_it;
+    std::size_t count = is_row ? std::min<std::size_t>(length[e], ElementGroup::size) : 1;
+    while (!is_row && count < ElementGroup::size && e + count < slots.size() && length[e + count] < worth_it)
+      ++count;
+    ElementGroup& group = blocks.groups.emplace_back();
+    group.first = static_cast<std::uint32_t>(first_element + e);
+    group.count = static_cast<std::uint16_t>(count);
+    group.is_row = is_row ? 1 : 0;
+    for (std::size_t a = 0; a < 8; ++a) {
+      for (std::size_t l = 0; l < ElementGroup::size; ++l)
+        group.slot[a][l] = l < count ? static_cast<std::uint16_t>(slots[e + l][a]) : std::uint16_t{0};
+    }
+    e += count;
+  }
 }
 
 void make_blocks(Mesh& mesh) {
   Blocks& blocks = mesh.blocks;
   const auto& corners = mesh.elements.corners;
+  blocks.first_group.assign(1, 0);
+  blocks.groups.clear();
   blocks.first_slot.assign(1, 0);
   blocks.slot_node.clear();
-  blocks.corner_slot.resize(corners.size());
-  constexpr std::uint32_t none = 0xffffffff;
-  std::vector<std::uint32_t> slot(mesh.nodes.size(), none);
+  std::vector<std::uint32_t> slot(mesh.nodes.size()), nodes;
+  std::vector<Corners> slots;
   for (std::size_t begin = 0; begin < corners.size(); begin += Blocks::size) {
-    const std::uint32_t first = blocks.first_slot.back();
-    for (std::size_t e = begin; e < std::min(begin + Blocks::size, corners.size()); ++e) {
-      for (std::size_t a = 0; a < 8; ++a) {
-        std::uint32_t& own = slot[corners[e][a]];
-        if (own == none) {
-          own = static_cast<std::uint32_t>(blocks.slot_node.size());
-          blocks.slot_node.push_back(corners[e][a]);
-        }
-        blocks.corner_slot[e][a] = static_cast<std::uint16_t>(own - first);
-      }
+    const auto of_block = std::span(corners).subspan(begin, std::min(Blocks::size, corners.size() - begin));
+    nodes.clear();
+    for (const Corners& c : of_block) nodes.insert(nodes.end(), c.begin(), c.end());
+    std::ranges::sort(nodes);
+    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+    for (std::uint32_t s = 0; s < nodes.size(); ++s) slot[nodes[s]] = s;
+    slots.assign(of_block.begin(), of_block.end());
+    for (Corners& c : slots) {
+      for (std::uint32_t& node : c) node = slot[node];
     }
-    for (std::size_t s = first; s < blocks.slot_node.size(); ++s) slot[blocks.slot_node[s]] = none;
+    make_groups(blocks, begin, slots);
+    blocks.first_group.push_back(static_cast<std::uint32_t>(blocks.groups.size()));
+    blocks.slot_node.insert(blocks.slot_node.end(), nodes.begin(), nodes.end());
     blocks.first_slot.push_back(static_cast<std::uint32_t>(blocks.slot_node.size()));
   }
   list_by_item(blocks.slot_node, mesh.nodes.size(), blocks.first_of_node, blocks.slots_of_node);
@@ -116,24 +138,6 @@ void keep(Points& points, std::span<const std::uint32_t> kept, std::size_t rows_
 }
 
 }  // namespace
-
-std::vector<std::uint32_t> spatial_order(std::span<const Vector3> points, double cell) {
-  Vector3 lower = Vector3::Constant(std::numeric_limits<double>::infinity());
-  for (const Vector3& point : points) lower = lower.cwiseMin(point);
-  std::vector<std::uint64_t> key(points.size(), 0);
-  for (std::size_t e = 0; e < points.size(); ++e) {
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      const double steps =
-          std::min((points[e][static_cast<int>(axis)] - lower[static_cast<int>(axis)]) / cell, 2e6);
-      const auto coordinate = static_cast<std::uint64_t>(steps + 0.5);
-      for (unsigned bit = 0; bit < 21; ++bit) key[e] |= (coordinate >> bit & 1U) << (3 * bit + axis);
-    }
-  }
-  std::vector<std::uint32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t e) { return key[e]; });
-  return order;
-}
 
 std::optional<Fault> first_fault(const Hexahedra& hexahedra) {
   for (std::size_t e = 0; e < hexahedra.elements.size(); ++e) {
@@ -183,21 +187,17 @@ Mesh make_mesh(const Hexahedra& hexahedra, Quadrature quadrature, std::uint32_t 
   resize(mesh.elements, hexahedra.elements.size());
   const std::size_t n = points_per_element(quadrature);
   resize(mesh.points, n * hexahedra.elements.size());
-  constexpr std::uint32_t unnumbered = 0xffffffff;
-  std::vector<std::uint32_t> number(hexahedra.nodes.size(), unnumbered);
-  std::uint32_t next = 0;
-  const std::vector<std::uint32_t> order = order_of(hexahedra);
-  for (std::size_t e = 0; e < order.size(); ++e) {
-    mesh.elements.id[e] = first_element_id + order[e];
+  const StorageOrder order = storage_order(hexahedra.nodes, hexahedra.elements);
+  std::vector<std::uint32_t> number(hexahedra.nodes.size());
+  for (std::uint32_t a = 0; a < order.nodes.size(); ++a) {
+    number[order.nodes[a]] = a;
+    mesh.nodes.id[a] = first_node_id + order.nodes[a];
+    mesh.nodes.position[a] = hexahedra.nodes[order.nodes[a]];
+  }
+  for (std::size_t e = 0; e < order.elements.size(); ++e) {
+    mesh.elements.id[e] = first_element_id + order.elements[e];
     for (std::size_t a = 0; a < 8; ++a) {
-      const std::uint32_t node = hexahedra.elements[order[e]][a];
-      if (number[node] == unnumbered) {
-        number[node] = next;
-        mesh.nodes.id[next] = first_node_id + node;
-        mesh.nodes.position[next] = hexahedra.nodes[node];
-        ++next;
-      }
-      mesh.elements.corners[e][a] = number[node];
+      mesh.elements.corners[e][a] = number[hexahedra.elements[order.elements[e]][a]];
     }
   }
   for (auto* zero : {&mesh.nodes.velocity, &mesh.nodes.force, &mesh.nodes.prescribed}) {

@@ -103,14 +103,26 @@ struct GaussPoints : MaterialPoints {
   }
 };
 
-/// Consecutive elements that the kernels take together: positions and velocities of their nodes are copied
-/// to the first-level cache, forces are summed there first. Derived from the corners by `connect`.
+/// Consecutive elements that the kernels take at a time, one per lane of a register.
+struct ElementGroup {
+  static constexpr std::size_t size = 8;
+
+  std::uint32_t first;   ///< element
+  std::uint16_t count;   ///< of elements
+  std::uint16_t is_row;  ///< corner a of its elements: consecutive slots
+  /// Of each corner of each element, counted in the block; of lanes without an element, 0.
+  std::array<std::array<std::uint16_t, size>, 8> slot;
+};
+
+/// Consecutive elements whose nodes the kernels take together: positions and velocities of the nodes are
+/// copied to the first-level cache, forces are summed there first. Derived from the corners by `connect`.
 struct Blocks {
   static constexpr std::size_t size = 256;  ///< elements
 
+  std::vector<std::uint32_t> first_group;  ///< the groups of block b: [first_group[b], first_group[b + 1])
+  std::vector<ElementGroup> groups;
   std::vector<std::uint32_t> first_slot;  ///< the slots of block b: [first_slot[b], first_slot[b + 1])
-  std::vector<std::uint32_t> slot_node;   ///< node of each slot
-  std::vector<std::array<std::uint16_t, 8>> corner_slot;  ///< of each element, counted in its block
+  std::vector<std::uint32_t> slot_node;   ///< node of each slot, ascending in a block
   std::vector<std::uint32_t> first_of_node,
       slots_of_node;                ///< of node a, ascending, as in Mesh::first_corner
   std::vector<Vector3> slot_force;  ///< scratch of `internal_forces`
@@ -147,11 +159,7 @@ std::optional<Fault> first_fault(const Hexahedra& hexahedra);
 /// @throws InputError for the first fault, for a mesh without elements, for nodes of no element
 void check(const Hexahedra& hexahedra, const std::string& name);
 
-/// Indices of points along a Morton curve of cells of the given size (m): neighbours in space become
-/// neighbours in memory.
-std::vector<std::uint32_t> spatial_order(std::span<const Vector3> points, double cell);
-
-/// Nodes, elements and Gauss points with their volumes, in an order that keeps neighbours together; the ids
+/// Nodes, elements and Gauss points with their volumes, in `storage_order`; the ids
 /// count from the given numbers in the order of the hexahedra. Without mass, velocity and state:
 /// `set_density`, then `initialise` (src/material/material.hpp) with `mesh.points`. The hexahedra must have
 /// passed `check`.

@@ -29,8 +29,15 @@ std::size_t divisions(double length, double size) {
   return static_cast<std::size_t>(std::max(1.0, std::round(length / size)));
 }
 
-void turn_round(Corners& corners) {
-  for (std::size_t a = 0; a < 4; ++a) std::swap(corners[a], corners[a + 4]);
+/// Exchanges the two faces of each element along xi, eta or zeta: what a mirror image needs. With the natural
+/// direction that the mirror turns round, rows of elements go on beyond it.
+void turn_round(Hexahedra& mesh, std::size_t direction) {
+  constexpr std::array<std::array<std::size_t, 8>, 3> exchanged = {
+      {{1, 0, 3, 2, 5, 4, 7, 6}, {3, 2, 1, 0, 7, 6, 5, 4}, {4, 5, 6, 7, 0, 1, 2, 3}}};
+  for (Corners& corners : mesh.elements) {
+    const Corners before = corners;
+    for (std::size_t a = 0; a < 8; ++a) corners[a] = before[exchanged[direction][a]];
+  }
 }
 
 /// Appends a block of elements. The map must keep the orientation.
@@ -65,9 +72,8 @@ void complete(Hexahedra& mesh, std::size_t axes, const Halved& halved, double si
   for (std::size_t axis = 0; axis < axes; ++axis) {
     if (halved[axis]) continue;
     Hexahedra image = mesh;
-    Matrix3 mirror = Matrix3::Identity();
-    mirror(static_cast<int>(axis), static_cast<int>(axis)) = -1.0;
-    transform(image, mirror, Vector3::Zero());
+    for (Vector3& x : image.nodes) x[static_cast<int>(axis)] *= -1.0;
+    turn_round(image, axis);
     const auto offset = static_cast<std::uint32_t>(mesh.nodes.size());
     mesh.nodes.insert(mesh.nodes.end(), image.nodes.begin(), image.nodes.end());
     for (Corners& corners : image.elements) {
@@ -86,7 +92,7 @@ constexpr double eighth_turn = 0.25 * std::numbers::pi;
 
 void transform(Hexahedra& hexahedra, const Matrix3& rotation, const Vector3& translation) {
   for (Vector3& x : hexahedra.nodes) x = rotation * x + translation;
-  if (rotation.determinant() < 0.0) std::ranges::for_each(hexahedra.elements, turn_round);
+  if (rotation.determinant() < 0.0) turn_round(hexahedra, 2);
 }
 
 void merge_nodes(Hexahedra& hexahedra, double tolerance) {
