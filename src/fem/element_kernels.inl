@@ -62,17 +62,26 @@ class BlockField {
   void copy(const Mesh& mesh, std::size_t block, const std::vector<Vector3>& field) {
     const Blocks& blocks = mesh.blocks;
     const std::uint32_t first = blocks.first_slot[block], end = blocks.first_slot[block + 1];
-    for (std::uint32_t s = first; s < end; ++s) {
-      const Vector3& value = field[blocks.slot_node[s]];
-      for (std::size_t i = 0; i < 3; ++i) at_[i][s - first] = value[static_cast<Eigen::Index>(i)];
+    for (std::uint32_t s = first; s < end; s += width) {
+      std::array<Lanes, width> rows;
+      for (std::uint32_t l = 0; l < width; ++l) {
+        rows[l] = load_vector(field[blocks.slot_node[std::min(s + l, end - 1)]].data());
+      }
+      const auto c = columns(rows);
+      for (std::size_t i = 0; i < 3; ++i) store_lanes(&at_[i][s - first], c[i], width);
     }
   }
   void zero(const Mesh& mesh, std::size_t block) {
     const std::uint32_t count = mesh.blocks.first_slot[block + 1] - mesh.blocks.first_slot[block];
     for (auto& component : at_) std::fill_n(component, count, 0.0);
   }
-  [[nodiscard]] Vector3 operator[](std::size_t slot) const {
-    return {at_[0][slot], at_[1][slot], at_[2][slot]};
+  void copy_to(std::span<Vector3> values) const {
+    for (std::size_t s = 0; s < values.size(); s += width) {
+      const auto along = [&](std::size_t i) WHIPPLE_INLINE { return load_lanes(&at_[i][s], width); };
+      const auto r = rows({along(0), along(1), along(2), Vector{}});
+      for (std::size_t l = 0; l < std::min<std::size_t>(width, values.size() - s); ++l)
+        store_vector(values[s + l].data(), r[l]);
+    }
   }
 
   /// Coefficients of the modes.
@@ -285,6 +294,11 @@ struct OnePoint {
     const Vector per_volume = 1.0 / beta.volume;
     const Vector mass = group.load(points.mass);
 
+    // Velocity gradient of the step. First, because the divisions that follow one another in it take long.
+    const VolumeGradient<Vector> end = volume_gradient(x + dt * end_velocity);
+    const Columns<Vector> l = scaled(mean_gradient_times_volume(end_velocity, beta), per_volume);
+    store_gradient(step, group.index, with_volume_ratio(l, end.volume * per_volume, dt));
+
     // Work of the stress (eq. 2.7) and of the hourglass forces (eq. 3.6), on the mean velocity.
     Columns<Vector> mean = mean_gradient_times_volume(mean_velocity, beta);
     const Columns<Vector> deviator = deviator_at(points, group.index);
@@ -301,7 +315,6 @@ struct OnePoint {
     hourglass_work = (root8 * dt) * hourglass_work;
 
     // Hourglass forces of the next step (eq. 3.3, 3.4).
-    const Columns<Vector> l = scaled(mean_gradient_times_volume(end_velocity, beta), per_volume);
     const Vector sound_speed = group.load(points.sound_speed);
     const Vector frequency = root8 * sound_speed * root(beta.squared_norm()) * per_volume;
     const double coefficient = 0.125 * root8 * step.hourglass.coefficient;
@@ -329,9 +342,7 @@ struct OnePoint {
     scatter<12>(
         {q[0].x, q[0].y, q[0].z, q[1].x, q[1].y, q[1].z, q[2].x, q[2].y, q[2].z, q[3].x, q[3].y, q[3].z}, to);
 
-    const VolumeGradient<Vector> end = volume_gradient(x + dt * end_velocity);
     group.store(points.length, one_point_length(end));
-    store_gradient(step, group.index, with_volume_ratio(l, end.volume * per_volume, dt));
     group.store(points.specific_internal_energy,
                 group.load(points.specific_internal_energy) + (work + heat) / mass);
     group.add_to(report.work, work);
@@ -484,9 +495,7 @@ struct Kernels {
     force.add(groups.back(), black, (groups.size() - 1) % 2);
     Blocks& blocks = mesh.blocks;
     const std::uint32_t first = blocks.first_slot[block];
-    for (std::uint32_t s = first; s < blocks.first_slot[block + 1]; ++s) {
-      blocks.slot_force[s] = force[s - first];
-    }
+    force.copy_to(std::span(blocks.slot_force).subspan(first, blocks.first_slot[block + 1] - first));
   }
 
   using Viscous = OnePoint<HourglassControl::Kind::viscous>;

@@ -181,12 +181,13 @@ template <class T>
           u.zeta + eta * u.eta_zeta + xi * u.zeta_xi + (xi * eta) * u.xi_eta_zeta};
 }
 
-/// x^(1/3) for x in [1/2, 2] to round-off: three steps of Halley's iteration from the tangent at 1. Outside
-/// of that range, a positive number.
+/// x^(1/3) for x in [1/2, 2] to round-off: two steps of Halley's iteration from the cubic at 1. Outside of
+/// that range, a positive number.
 template <class T>
 [[gnu::always_inline]] inline T cube_root_near_one(T x) {
-  T y = 1.0 + (1.0 / 3.0) * (x - 1.0);
-  for (int i = 0; i < 3; ++i) {
+  const T e = x - 1.0;
+  T y = 1.0 + e * (1.0 / 3.0 + e * (-1.0 / 9.0 + (5.0 / 81.0) * e));
+  for (int i = 0; i < 2; ++i) {
     const T cube = y * y * y;
     y = y * (cube + 2.0 * x) / (2.0 * cube + x);
   }
