@@ -14,8 +14,6 @@
 namespace whipple::afemp {
 namespace {
 
-constexpr double on_plane = 1e-6;  ///< cells, distance from a face that still is on it
-
 /// The cells in or next to which (27 cells) somebody is, as bits of blocks of 4 x 4 x 4 cells.
 class Neighbourhood {
  public:
@@ -112,9 +110,9 @@ class Neighbourhood {
 
 /// Faces hold what lies on them, so that round-off does not take a node off a mirror plane.
 bool inside(const grid::Geometry& geometry, const Vector3& position) {
-  const double tolerance = on_plane * geometry.cell_size;
   for (int a = 0; a < 3; ++a) {
-    if (position[a] < geometry.lower[a] - tolerance || position[a] > geometry.upper(a) + tolerance)
+    if (position[a] < geometry.lower[a] - geometry.tolerance() ||
+        position[a] > geometry.upper(a) + geometry.tolerance())
       return false;
   }
   return true;
@@ -122,30 +120,23 @@ bool inside(const grid::Geometry& geometry, const Vector3& position) {
 
 /// Is every prescribed component that of a mirror plane on which the node lies, which the grid keeps as well?
 bool keeps_to_planes_only(const fem::Nodes& nodes, std::size_t a, const grid::Geometry& geometry) {
-  const double tolerance = on_plane * geometry.cell_size;
   for (int axis = 0; axis < 3; ++axis) {
     if ((nodes.constrained[a] & fem::constraint::axis(axis)) == 0) continue;
     if (nodes.prescribed[a][axis] != 0.0) return false;
-    const auto face = static_cast<std::size_t>(2 * axis);
-    const double x = nodes.position[a][axis];
-    const bool on_lower =
-        geometry.boundary[face] == grid::Boundary::symmetry && std::abs(x - geometry.lower[axis]) < tolerance;
-    const bool on_upper = geometry.boundary[face + 1] == grid::Boundary::symmetry &&
-                          std::abs(x - geometry.upper(axis)) < tolerance;
-    if (!on_lower && !on_upper) return false;
+    const auto lower = static_cast<std::size_t>(2 * axis);
+    const auto keeps = [&](std::size_t face) {
+      return geometry.boundary[face] == grid::Boundary::symmetry &&
+             geometry.is_in_plane(face, nodes.position[a]);
+    };
+    if (!keeps(lower) && !keeps(lower + 1)) return false;
   }
   return true;
 }
 
 bool lies_on_mirror(const fem::Mesh& mesh, const fem::Facet& facet, const grid::Geometry& geometry) {
-  const double tolerance = on_plane * geometry.cell_size;
-  for (int face = 0; face < 6; ++face) {
-    const grid::Boundary kind = geometry.boundary[static_cast<std::size_t>(face)];
-    if (kind != grid::Boundary::symmetry && kind != grid::Boundary::no_slip) continue;
-    const int axis = face / 2;
-    const double plane = face % 2 == 0 ? geometry.lower[axis] : geometry.upper(axis);
-    if (std::ranges::all_of(facet, [&](std::uint32_t a) {
-          return std::abs(mesh.nodes.position[a][axis] - plane) < tolerance;
+  for (std::size_t face = 0; face < 6; ++face) {
+    if (geometry.mirrors(face) && std::ranges::all_of(facet, [&](std::uint32_t a) {
+          return geometry.is_in_plane(face, mesh.nodes.position[a]);
         })) {
       return true;
     }

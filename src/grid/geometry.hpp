@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "src/base/tensor.hpp"
@@ -40,6 +41,18 @@ struct Geometry {
   /// it from here: two ways of rounding would disagree about positions on the edge between two stencils.
   [[nodiscard]] Vector3 in_cells(const Vector3& position) const { return (position - lower) / cell_size; }
   [[nodiscard]] double upper(int axis) const { return lower[axis] + cells[axis] * cell_size; }
+  /// Does matter go on beyond a face as its own image?
+  [[nodiscard]] bool mirrors(std::size_t face) const {
+    return boundary[face] == Boundary::symmetry || boundary[face] == Boundary::no_slip;
+  }
+  /// Lengths that are round-off (m).
+  [[nodiscard]] double tolerance() const { return 1e-6 * cell_size; }
+  /// Is a position in the plane of a face?
+  [[nodiscard]] bool is_in_plane(std::size_t face, const Vector3& position) const {
+    const int axis = static_cast<int>(face / 2);
+    const double plane = face % 2 == 0 ? lower[axis] : upper(axis);
+    return std::abs(position[axis] - plane) < tolerance();
+  }
   /// Blocks along an axis that hold cells of the domain (without the layer outside).
   [[nodiscard]] std::int32_t blocks(int axis) const { return (cells[axis] + block_edge - 1) / block_edge; }
 };
