@@ -81,13 +81,13 @@ Bars make_bars(const Lines& lines, double area, const BarMaterial& material, con
       throw InputError(fmt::format("{}: bar {} has no length", name, b));
     bars.elements.reference_length[b] = length;
     bars.elements.mass[b] = material.density * area * length;
-    for (const std::uint32_t node : lines.elements[b]) bars.nodes.mass[node] += 0.5 * bars.elements.mass[b];
   }
+  connect(bars);
+  lump_masses(bars);
   const auto unused = std::ranges::find(bars.nodes.mass, 0.0);
   if (unused != bars.nodes.mass.end()) {
     throw InputError(fmt::format("{}: node {} belongs to no bar", name, unused - bars.nodes.mass.begin()));
   }
-  connect(bars);
   return bars;
 }
 
@@ -97,6 +97,13 @@ void connect(Bars& bars) {
       ends.empty() ? std::span<const std::uint32_t>() : std::span(ends.front().data(), 2 * ends.size()),
       bars.nodes.size(), bars.first_end, bars.node_ends);
   bars.axial_force.resize(ends.size());
+}
+
+void lump_masses(Bars& bars) {
+  std::ranges::fill(bars.nodes.mass, 0.0);
+  for (std::size_t b = 0; b < bars.elements.size(); ++b) {
+    for (const std::uint32_t a : bars.elements.ends[b]) bars.nodes.mass[a] += 0.5 * bars.elements.mass[b];
+  }
 }
 
 double critical_time_step(const Bars& bars) {
@@ -147,14 +154,14 @@ void add_heat(Bars& bars, std::span<const double> node_heat) {
 
 void remove_bars(Bars& bars, std::span<const std::uint8_t> removed) {
   std::vector<std::uint32_t> kept_bars, kept_nodes, number(bars.nodes.size(), 0);
-  std::ranges::fill(bars.nodes.mass, 0.0);
+  std::vector<std::uint8_t> used(bars.nodes.size(), 0);
   for (std::uint32_t b = 0; b < removed.size(); ++b) {
     if (removed[b] != 0) continue;
     kept_bars.push_back(b);
-    for (const std::uint32_t a : bars.elements.ends[b]) bars.nodes.mass[a] += 0.5 * bars.elements.mass[b];
+    for (const std::uint32_t a : bars.elements.ends[b]) used[a] = 1;
   }
   for (std::uint32_t a = 0; a < bars.nodes.size(); ++a) {
-    if (!(bars.nodes.mass[a] > 0.0)) continue;
+    if (used[a] == 0) continue;
     number[a] = static_cast<std::uint32_t>(kept_nodes.size());
     kept_nodes.push_back(a);
   }
@@ -169,6 +176,7 @@ void remove_bars(Bars& bars, std::span<const std::uint8_t> removed) {
   keep(bars.nodes, kept_nodes);
   for (auto& ends : bars.elements.ends) ends = {number[ends[0]], number[ends[1]]};
   connect(bars);
+  lump_masses(bars);
 }
 
 double internal_energy(const Bars& bars) {

@@ -75,6 +75,9 @@ Bars make_bars(const Lines& lines, double area, const BarMaterial& material, con
 /// Rebuilds what is derived from the ends.
 void connect(Bars& bars);
 
+/// Sums the masses of the bars at the nodes, half at either end.
+void lump_masses(Bars& bars);
+
 /// Least l/c of the bars that are not broken (s), c^2 = E/rho (eq. 6.4).
 double critical_time_step(const Bars& bars);
 

@@ -29,14 +29,19 @@ std::vector<std::uint32_t> rows_of(const std::vector<std::uint32_t>& elements, Q
   return rows;
 }
 
-std::vector<std::uint32_t> nodes_of(const Mesh& mesh, const std::vector<std::uint32_t>& elements) {
+/// Ascending, each number once.
+std::vector<std::uint32_t> sorted_once(std::vector<std::uint32_t> numbers) {
+  std::ranges::sort(numbers);
+  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+  return numbers;
+}
+
+/// Nodes of items by their links, ascending.
+template <class Links>
+std::vector<std::uint32_t> nodes_of(const Links& links, std::span<const std::uint32_t> items) {
   std::vector<std::uint32_t> nodes;
-  for (const std::uint32_t e : elements) {
-    nodes.insert(nodes.end(), mesh.elements.corners[e].begin(), mesh.elements.corners[e].end());
-  }
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
-  return nodes;
+  for (const std::uint32_t i : items) nodes.insert(nodes.end(), links[i].begin(), links[i].end());
+  return sorted_once(std::move(nodes));
 }
 
 }  // namespace
@@ -257,62 +262,118 @@ std::vector<Mesh> SharedNodes::numbered_together(std::span<const Mesh> meshes) c
   return result;
 }
 
-void keep_share(Mesh& mesh, int rank, int ranks) {
-  const std::size_t n = mesh.elements.size(), of = static_cast<std::size_t>(ranks),
-                    own = static_cast<std::size_t>(rank);
-  std::vector<std::uint8_t> removed(n, 1);
-  for (std::size_t e = n * own / of; e < n * (own + 1) / of; ++e) removed[e] = 0;
-  remove_elements(mesh, removed);
+namespace {
+
+/// Marks all but this rank's share of n items.
+std::vector<std::uint8_t> those_of_others(std::size_t n, int rank, int ranks) {
+  const auto of = static_cast<std::size_t>(ranks), own = static_cast<std::size_t>(rank);
+  std::vector<std::uint8_t> marked(n, 1);
+  for (std::size_t i = n * own / of; i < n * (own + 1) / of; ++i) marked[i] = 0;
+  return marked;
 }
 
-void migrate(Mesh& mesh, std::span<const int> destination, MPI_Comm communicator) {
+}  // namespace
+
+void keep_share(Mesh& mesh, int rank, int ranks) {
+  remove_elements(mesh, those_of_others(mesh.elements.size(), rank, ranks));
+}
+
+void keep_share(Bars& bars, int rank, int ranks) {
+  remove_bars(bars, those_of_others(bars.elements.size(), rank, ranks));
+}
+
+namespace {
+
+/// Sends items with their nodes to other ranks. Afterwards the nodes may have copies on one rank; `links`,
+/// the nodes of every item, name the first of them.
+/// @param exchange_items  called with the items that stay and those that leave: exchanges their fields,
+/// `links`
+///                        among them
+template <class Links, class Exchange>
+void send_with_nodes(Nodes& nodes, Links& links, std::span<const int> destination, MPI_Comm communicator,
+                     Exchange&& exchange_items) {
   const int own = parallel::rank(communicator);
   const std::size_t ranks = ranks_of(communicator);
+  constexpr std::size_t per_item = std::tuple_size_v<typename Links::value_type>;
+  using Ids = std::array<std::uint64_t, per_item>;
   std::vector<std::uint32_t> staying;
-  std::vector<std::vector<std::uint32_t>> leaving(ranks), leaving_rows(ranks), leaving_nodes(ranks);
-  for (std::uint32_t e = 0; e < mesh.elements.size(); ++e) {
-    (destination[e] == own ? staying : leaving[static_cast<std::size_t>(destination[e])]).push_back(e);
+  std::vector<std::vector<std::uint32_t>> leaving(ranks), leaving_nodes(ranks);
+  for (std::uint32_t i = 0; i < links.size(); ++i) {
+    (destination[i] == own ? staying : leaving[static_cast<std::size_t>(destination[i])]).push_back(i);
   }
-  // Corners by the ids of their nodes.
-  using CornerIds = std::array<std::uint64_t, 8>;
-  const auto ids_of = [&](const std::vector<std::uint32_t>& elements) {
-    std::vector<CornerIds> ids(elements.size());
-    for (std::size_t i = 0; i < elements.size(); ++i) {
-      for (std::size_t a = 0; a < 8; ++a) ids[i][a] = mesh.nodes.id[mesh.elements.corners[elements[i]][a]];
+  const auto ids_of = [&](const std::vector<std::uint32_t>& items) {
+    std::vector<Ids> ids(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      for (std::size_t a = 0; a < per_item; ++a) ids[i][a] = nodes.id[links[items[i]][a]];
     }
     return ids;
   };
-  std::vector<CornerIds> corners = ids_of(staying);
-  std::vector<std::vector<CornerIds>> outgoing(ranks);
+  std::vector<Ids> ids = ids_of(staying);
+  std::vector<std::vector<Ids>> outgoing(ranks);
   for (std::size_t r = 0; r < ranks; ++r) {
     outgoing[r] = ids_of(leaving[r]);
-    leaving_rows[r] = rows_of(leaving[r], mesh.quadrature);
-    leaving_nodes[r] = nodes_of(mesh, leaving[r]);
+    leaving_nodes[r] = nodes_of(links, leaving[r]);
   }
   for (const auto& part : parallel::exchange(communicator, outgoing)) {
-    corners.insert(corners.end(), part.begin(), part.end());
+    ids.insert(ids.end(), part.begin(), part.end());
   }
-  const std::vector<std::uint32_t> staying_nodes = nodes_of(mesh, staying);
-  exchange_rows(mesh.points, rows_of(staying, mesh.quadrature), leaving_rows, communicator);
-  exchange_rows(mesh.elements, staying, leaving, communicator);
-  exchange_rows(mesh.nodes, staying_nodes, leaving_nodes, communicator);
+  const std::vector<std::uint32_t> staying_nodes = nodes_of(links, staying);
+  exchange_items(staying, leaving);
+  exchange_rows(nodes, staying_nodes, leaving_nodes, communicator);
 
   std::unordered_map<std::uint64_t, std::uint32_t> node_of;  // the first copy of each; they are all the same
-  for (std::uint32_t a = 0; a < mesh.nodes.size(); ++a) node_of.emplace(mesh.nodes.id[a], a);
-  for (std::size_t e = 0; e < corners.size(); ++e) {
-    for (std::size_t a = 0; a < 8; ++a) mesh.elements.corners[e][a] = node_of.at(corners[e][a]);
+  for (std::uint32_t a = 0; a < nodes.size(); ++a) node_of.emplace(nodes.id[a], a);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    for (std::size_t a = 0; a < per_item; ++a) links[i][a] = node_of.at(ids[i][a]);
   }
-  const StorageOrder order = storage_order(mesh.nodes.position, mesh.elements.corners);  // drops other copies
+}
+
+/// Puts the nodes into an order and drops the others.
+template <class Links>
+void renumber(Nodes& nodes, Links& links, std::span<const std::uint32_t> order) {
+  std::vector<std::uint32_t> number(nodes.size());
+  for (std::uint32_t a = 0; a < order.size(); ++a) number[order[a]] = a;
+  for (auto& of_item : links) {
+    for (std::uint32_t& node : of_item) node = number[node];
+  }
+  select_rows(nodes, order);
+}
+
+}  // namespace
+
+void migrate(Mesh& mesh, std::span<const int> destination, MPI_Comm communicator) {
+  send_with_nodes(mesh.nodes, mesh.elements.corners, destination, communicator,
+                  [&](const auto& staying, const auto& leaving) {
+                    std::vector<std::vector<std::uint32_t>> leaving_rows;
+                    for (const auto& elements : leaving)
+                      leaving_rows.push_back(rows_of(elements, mesh.quadrature));
+                    exchange_rows(mesh.points, rows_of(staying, mesh.quadrature), leaving_rows, communicator);
+                    exchange_rows(mesh.elements, staying, leaving, communicator);
+                  });
+  const StorageOrder order = storage_order(mesh.nodes.position, mesh.elements.corners);
   select_rows(mesh.elements, order.elements);
   select_rows(mesh.points, rows_of(order.elements, mesh.quadrature));
-  std::vector<std::uint32_t> number(mesh.nodes.size());
-  for (std::uint32_t a = 0; a < order.nodes.size(); ++a) number[order.nodes[a]] = a;
-  for (Corners& of_element : mesh.elements.corners) {
-    for (std::uint32_t& node : of_element) node = number[node];
-  }
-  select_rows(mesh.nodes, order.nodes);
+  renumber(mesh.nodes, mesh.elements.corners, order.nodes);
   connect(mesh);
   lump_masses(mesh);
+}
+
+void migrate(Bars& bars, std::span<const int> destination, MPI_Comm communicator) {
+  BarElements& elements = bars.elements;
+  send_with_nodes(bars.nodes, elements.ends, destination, communicator,
+                  [&](const auto& staying, const auto& leaving) {
+                    exchange_rows(elements, staying, leaving, communicator);
+                  });
+  std::vector<std::uint32_t> order(elements.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::sort(order, {}, [&](std::uint32_t b) { return elements.id[b]; });
+  select_rows(elements, order);
+  std::iota(order.begin(), order.end(), 0U);
+  std::vector<std::uint32_t> used = nodes_of(elements.ends, order);
+  std::ranges::sort(used, {}, [&](std::uint32_t a) { return bars.nodes.id[a]; });
+  renumber(bars.nodes, elements.ends, used);
+  connect(bars);
+  lump_masses(bars);
 }
 
 void gather_nodes(Mesh& mesh, MPI_Comm communicator) {
@@ -324,7 +385,7 @@ void gather_nodes(Mesh& mesh, MPI_Comm communicator) {
   for (std::size_t r = 0; r < ranks; ++r) first[r + 1] = first[r] + static_cast<std::uint32_t>(count[r]);
   std::vector<std::uint32_t> elements(mesh.elements.size());
   std::iota(elements.begin(), elements.end(), 0U);
-  const std::vector<std::uint32_t> needed = nodes_of(mesh, elements);
+  const std::vector<std::uint32_t> needed = nodes_of(mesh.elements.corners, elements);
   std::vector<std::vector<std::uint32_t>> wanted(ranks);
   for (const std::uint32_t node : needed) {
     const auto rank = static_cast<std::size_t>(std::ranges::upper_bound(first, node) - first.begin() - 1);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "src/fem/bars.hpp"
 #include "src/fem/facets.hpp"
 #include "src/fem/mesh.hpp"
 #include "src/parallel/mpi.hpp"
@@ -100,10 +101,13 @@ class SharedNodes {
 
 /// Keeps the share of this rank of a mesh that all ranks hold: an equal number of consecutive elements.
 void keep_share(Mesh& mesh, int rank, int ranks);
+void keep_share(Bars& bars, int rank, int ranks);
 
 /// Sends every element to the rank that is named for it, with copies of its nodes; brings those of each rank
 /// into an order that keeps neighbours together. Collective.
 void migrate(Mesh& mesh, std::span<const int> destination, MPI_Comm communicator);
+/// The same for bars, in the order of their ids.
+void migrate(Bars& bars, std::span<const int> destination, MPI_Comm communicator);
 
 /// The inverse of `numbered_together`, of a mesh of which every rank has read any consecutive nodes and any
 /// consecutive elements: gets the nodes of this rank's elements. Collective.

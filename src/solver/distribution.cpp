@@ -19,20 +19,45 @@ namespace {
 
 constexpr double lookahead_steps = 8.0;  // motion that the active blocks foresee
 constexpr double astray = 0.05;          // share of a rank's elements elsewhere before elements move
-constexpr int rank_of_bars = 0;          // they are few
+constexpr int rank_of_bars_in_files = 0;
 
-/// Centres of the elements of all meshes, inside of the domain.
-std::vector<Vector3> centres_of(const std::vector<fem::Mesh>& meshes, const grid::Geometry& geometry) {
+/// The nodes of every element.
+const std::vector<fem::Corners>& nodes_of_elements(const fem::Mesh& mesh) { return mesh.elements.corners; }
+const std::vector<std::array<std::uint32_t, 2>>& nodes_of_elements(const fem::Bars& bars) {
+  return bars.elements.ends;
+}
+
+/// Centres of the elements of all bodies, inside of the domain.
+template <class Body>
+std::vector<Vector3> centres_of(const std::vector<Body>& bodies, const grid::Geometry& geometry) {
   const Vector3 upper(geometry.upper(0), geometry.upper(1), geometry.upper(2));
   std::vector<Vector3> centres;
-  for (const fem::Mesh& mesh : meshes) {
-    for (const fem::Corners& corners : mesh.elements.corners) {
+  for (const Body& body : bodies) {
+    for (const auto& nodes : nodes_of_elements(body)) {
       Vector3 centre = Vector3::Zero();
-      for (const std::uint32_t a : corners) centre += 0.125 * mesh.nodes.position[a];
+      for (const std::uint32_t a : nodes)
+        centre += body.nodes.position[a] / static_cast<double>(nodes.size());
       centres.push_back(centre.cwiseMax(geometry.lower).cwiseMin(upper));
     }
   }
   return centres;
+}
+
+/// Sends elements to the ranks that own the blocks of their centres if enough of them are elsewhere.
+/// @returns whether they were
+template <class Body>
+bool share_out(std::vector<Body>& bodies, const grid::BlockGrid& grid, MPI_Comm communicator) {
+  const std::vector<int> owners = grid.owners(centres_of(bodies, grid.geometry()));
+  const auto elsewhere = static_cast<double>(
+      owners.size() - static_cast<std::size_t>(std::ranges::count(owners, parallel::rank(communicator))));
+  if (!parallel::any(communicator, elsewhere > astray * static_cast<double>(owners.size()))) return false;
+  std::size_t first = 0;
+  for (Body& body : bodies) {
+    const std::size_t count = body.elements.size();
+    fem::migrate(body, std::span(owners).subspan(first, count), communicator);
+    first += count;
+  }
+  return true;
 }
 
 }  // namespace
@@ -43,12 +68,11 @@ void Simulation::keep_own_elements() {
   if (ranks == 1) return;
   for (fem::Mesh& mesh : meshes_) fem::keep_share(mesh, rank, ranks);
   shared_nodes_ = fem::SharedNodes(meshes_, communicator_);
-  for (fem::Bars& bars : bars_) {
-    if (rank != rank_of_bars) fem::remove_bars(bars, std::vector<std::uint8_t>(bars.elements.size(), 1));
-  }
+  for (fem::Bars& bars : bars_) fem::keep_share(bars, rank, ranks);
 }
 
-/// From a checkpoint, of which every rank read any part.
+/// From a checkpoint, of which every rank read any part. Bars are few: all go to one rank, and from there to
+/// the owners of their blocks.
 void Simulation::gather_elements() {
   if (parallel::size(communicator_) == 1) {
     for (fem::Mesh& mesh : meshes_) fem::connect(mesh);
@@ -58,7 +82,7 @@ void Simulation::gather_elements() {
   shared_nodes_ = fem::SharedNodes(meshes_, communicator_);
   const auto all_to_one = [&](auto& points) {
     std::vector<std::vector<std::uint32_t>> leaving(static_cast<std::size_t>(parallel::size(communicator_)));
-    for (std::uint32_t i = 0; i < points.size(); ++i) leaving[rank_of_bars].push_back(i);
+    for (std::uint32_t i = 0; i < points.size(); ++i) leaving[rank_of_bars_in_files].push_back(i);
     exchange_rows(points, {}, leaving, communicator_);
   };
   for (fem::Bars& bars : bars_) {
@@ -71,16 +95,8 @@ void Simulation::gather_elements() {
 void Simulation::share_out_elements() {
   if (!elements_astray_) return;
   elements_astray_ = false;
-  const std::vector<int> owners = grid_.owners(centres_of(meshes_, setup_.geometry));
-  const auto elsewhere = static_cast<double>(
-      owners.size() - static_cast<std::size_t>(std::ranges::count(owners, parallel::rank(communicator_))));
-  if (!parallel::any(communicator_, elsewhere > astray * static_cast<double>(owners.size()))) return;
-  std::size_t first = 0;
-  for (fem::Mesh& mesh : meshes_) {
-    const std::size_t count = mesh.elements.size();
-    fem::migrate(mesh, std::span(owners).subspan(first, count), communicator_);
-    first += count;
-  }
+  share_out(bars_, grid_, communicator_);
+  if (!share_out(meshes_, grid_, communicator_)) return;
   shared_nodes_ = fem::SharedNodes(meshes_, communicator_);
   surfaces_changed_ = true;
 }
@@ -158,6 +174,15 @@ std::vector<fem::Mesh> Simulation::meshes_for_checkpoint() const {
   return parallel::size(communicator_) == 1 ? meshes_ : shared_nodes_.numbered_together(meshes_);
 }
 
+std::vector<fem::Bars> Simulation::bars_for_checkpoint() const {
+  std::vector<fem::Bars> bars = bars_;
+  if (parallel::size(communicator_) == 1) return bars;
+  for (fem::Bars& of_body : bars) {
+    fem::migrate(of_body, std::vector<int>(of_body.elements.size(), rank_of_bars_in_files), communicator_);
+  }
+  return bars;
+}
+
 /// Blocks where the particles and guests are and will be; particles on the rank that owns their block.
 void Simulation::follow_particles(grid::Stencil stencil) {
   const double lookahead = lookahead_steps * state_.time_step;
@@ -176,7 +201,8 @@ void Simulation::follow_particles(grid::Stencil stencil) {
     return with_guests(particles_.velocity, transition_.velocity, all_velocities);
   };
   std::vector<double> work = work_of_particles(setup_, bodies_);
-  if (parallel::size(communicator_) == 1 || meshes_.empty()) {
+  elements_astray_ = parallel::size(communicator_) > 1;
+  if (!elements_astray_ || meshes_.empty()) {
     grid_.adapt(positions(), velocities(), lookahead, stencil, {work, work_of_block});
   } else {  // elements are work, too
     const std::vector<Vector3> centres = centres_of(meshes_, setup_.geometry);
@@ -192,7 +218,6 @@ void Simulation::follow_particles(grid::Stencil stencil) {
       work.insert(work.end(), mesh.elements.size(), work_of_element(mesh.quadrature));
     }
     grid_.adapt(at, moving, lookahead, stencil, {work, work_of_block, centres.size()});
-    elements_astray_ = true;
   }
   const std::vector<int> owners = grid_.owners(particles_.position);
   if (migrate(particles_, owners, communicator_)) {

@@ -84,11 +84,12 @@ void Simulation::convert_elements() {
 
 /// Distorted elements become particles, and nodes at particles or at other bodies move with the grid.
 void Simulation::adapt_elements() {
+  if (meshes_.empty() && bars_.empty()) return;
+  share_out_elements();
   if (meshes_.empty()) {
-    if (!bars_.empty()) collect_nodes();
+    collect_nodes();
     return;
   }
-  share_out_elements();
   if (state_.step % conversion_every == 0) convert_elements();
   profile_.time("transition", [&] {
     step_.transfer_heat += afemp::mark_transition(meshes_, particles_, setup_.geometry,

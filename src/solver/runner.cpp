@@ -114,15 +114,16 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
     row.push_back({"stored_cold_work", "J", stored[0]});
   }
   if (simulation.setup().has_bars()) {
-    double count = 0.0, broken = 0.0, energy = 0.0;
+    std::array<double, 3> sums{};
     for (const fem::Bars& bars : simulation.bars()) {
-      count += static_cast<double>(bars.elements.size());
-      broken += static_cast<double>(std::ranges::count(bars.elements.broken, 1));
-      energy += fem::internal_energy(bars);
+      sums[0] += static_cast<double>(bars.elements.size());
+      sums[1] += static_cast<double>(std::ranges::count(bars.elements.broken, 1));
+      sums[2] += fem::internal_energy(bars);
     }
-    row.push_back({"bars", "1", count});
-    row.push_back({"broken_bars", "1", broken});
-    row.push_back({"bar_energy", "J", energy});
+    parallel::sum(simulation.communicator(), sums);
+    row.push_back({"bars", "1", sums[0]});
+    row.push_back({"broken_bars", "1", sums[1]});
+    row.push_back({"bar_energy", "J", sums[2]});
   }
   static constexpr std::array<const char*, 4> phases = {"mass_solid", "mass_melting", "mass_liquid",
                                                         "mass_vapour"};
@@ -367,9 +368,9 @@ class Runner {
     values.integers["snapshots"] = snapshots_;
     recorder_.to_checkpoint(values);
     values.texts["run_name"] = directory_.name();
-    const fs::path path = io::write_checkpoint(folder, simulation_.state().step, simulation_.particles(),
-                                               values, simulation_.communicator(),
-                                               simulation_.meshes_for_checkpoint(), simulation_.bars());
+    const fs::path path = io::write_checkpoint(
+        folder, simulation_.state().step, simulation_.particles(), values, simulation_.communicator(),
+        simulation_.meshes_for_checkpoint(), simulation_.bars_for_checkpoint());
     log::detail("checkpoint {}", path.string());
   }
 

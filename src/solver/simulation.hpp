@@ -74,9 +74,11 @@ class Simulation {
   [[nodiscard]] const std::vector<fem::Mesh>& meshes() const { return meshes_; }
   /// The same as a checkpoint holds them. Collective.
   [[nodiscard]] std::vector<fem::Mesh> meshes_for_checkpoint() const;
+  /// The bars, all on one rank. Collective.
+  [[nodiscard]] std::vector<fem::Bars> bars_for_checkpoint() const;
   /// Number of elements of all ranks.
   [[nodiscard]] std::size_t element_count() const { return element_count_; }
-  /// All of them on the first rank.
+  /// The bodies of bars: the share of this rank, with copies of the nodes that it shares with other ranks.
   [[nodiscard]] const std::vector<fem::Bars>& bars() const { return bars_; }
   [[nodiscard]] const RunState& state() const { return state_; }
   /// Sums over all ranks.

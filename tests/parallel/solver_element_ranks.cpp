@@ -12,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -270,6 +271,33 @@ step = ["0 mm", "1.5 mm", "0 mm"]
   advance_to(again, 4e-6);
   expect_equal(again, alone, 1e-11);
   EXPECT_GT(fem::internal_energy(alone.bars().front()), 0.0);
+
+  // Every rank has its share; copies of a node are the same bit for bit.
+  const std::vector<fem::Bars>& own = together.bars();
+  std::vector<double> bars_of(static_cast<std::size_t>(ranks_.count()), 0.0);
+  bars_of[static_cast<std::size_t>(ranks_.rank())] = static_cast<double>(own.front().elements.size());
+  parallel::sum(MPI_COMM_WORLD, bars_of);
+  EXPECT_EQ(std::accumulate(bars_of.begin(), bars_of.end(), 0.0),
+            static_cast<double>(alone.bars().front().elements.size()));
+  if (ranks_.count() == 2) {
+    EXPECT_GT(std::ranges::min(bars_of), 0.0);
+  }
+  struct Copy {
+    std::uint64_t id;
+    std::array<double, 3> position;
+    auto operator<=>(const Copy&) const = default;
+  };
+  std::vector<Copy> copies;
+  for (std::size_t a = 0; a < own.front().nodes.size(); ++a) {
+    const Vector3& x = own.front().nodes.position[a];
+    copies.push_back({own.front().nodes.id[a], {x[0], x[1], x[2]}});
+  }
+  std::map<std::uint64_t, Copy> known;
+  for (const auto& part :
+       parallel::exchange(MPI_COMM_WORLD, std::vector<std::vector<Copy>>(bars_of.size(), copies))) {
+    for (const Copy& copy : part) EXPECT_EQ(known.emplace(copy.id, copy).first->second, copy);
+  }
+  EXPECT_EQ(known.size(), alone.bars().front().nodes.size());
 }
 
 // Partitions of the file have nodes of their own: the reader puts them together.

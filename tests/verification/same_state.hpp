@@ -45,7 +45,7 @@ inline void expect_same(const solver::Simulation& a, const solver::Simulation& b
 inline std::filesystem::path save(const solver::Simulation& simulation, const std::filesystem::path& folder) {
   return io::write_checkpoint(folder, simulation.state().step, simulation.particles(),
                               solver::to_checkpoint(simulation.state()), simulation.communicator(),
-                              simulation.meshes_for_checkpoint(), simulation.bars());
+                              simulation.meshes_for_checkpoint(), simulation.bars_for_checkpoint());
 }
 
 /// Goes on from a checkpoint. Collective.
