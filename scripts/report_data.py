@@ -62,9 +62,12 @@ class History:
         return float(self.columns[name][-1]) if name in self else None
 
 
+VTK_LINE = 3  # type of the cells that are bars
+
+
 class Snapshot:
-    """The particles at one time, then the finite elements: arrays by the names of the fields, `position` included;
-    None if not written. The elements have `connectivity` to the places of their `nodes`."""
+    """The particles (and bars) at one time, then the finite elements: arrays by the names of the fields, `position`
+    included; None if not written. The elements have `connectivity` to the places of their `nodes`."""
 
     def __init__(self, path, time):
         self.path, self.time = path, time
@@ -91,13 +94,21 @@ class Snapshot:
         self.nodes = vtk["Points"][:].astype(float)
         # The corners of each rank count from its first point; a node that ranks share is one of them from here on.
         points, cells = vtk["NumberOfPoints"][:], vtk["NumberOfCells"][:]
-        first = np.repeat(np.cumsum(points) - points, cells)
+        corners = np.where(vtk["Types"][:] == VTK_LINE, 2, 8)
+        first = np.repeat(np.repeat(np.cumsum(points) - points, cells), corners)
         _, same, place = np.unique(vtk["PointData"]["node_id"][:], return_index=True, return_inverse=True)
-        self.connectivity = same[place][vtk["Connectivity"][:].reshape(-1, 8) + first[:, None]]
-        at = self.connectivity
-        own = {"position": self.nodes[at].mean(axis=1), "velocity": vtk["PointData"]["velocity"][:][at].mean(axis=1)}
-        for name, values in self.fields.items():
-            self.fields[name] = np.concatenate([values, own[name] if name in own else vtk["CellData"][name][:]])
+        nodes = same[place][vtk["Connectivity"][:] + first]
+        is_bar = np.repeat(corners == 2, corners)
+        # Bars are drawn as particles are, so they stand before the elements.
+        for cells, at in ((corners == 2, nodes[is_bar].reshape(-1, 2)), (corners == 8, nodes[~is_bar].reshape(-1, 8))):
+            own = {"position": self.nodes[at].mean(axis=1), "velocity": vtk["PointData"]["velocity"][:][at].mean(axis=1)}
+            for name, values in self.fields.items():
+                more = own[name] if name in own else vtk["CellData"][name][:][cells]
+                self.fields[name] = np.concatenate([values, more])
+            if at.shape[1] == 2:
+                self.particles += len(at)
+            else:
+                self.connectivity = at
 
     def __getattr__(self, name):
         return self.__dict__.get("fields", {}).get(name)

@@ -185,9 +185,11 @@ std::vector<double> Snapshot::volumes() const {
 
 namespace {
 
-/// Appends the elements of the snapshot: eight points for each, at the natural coordinates (+-0.5)^3, with
+/// Appends the elements of the snapshot: eight points for each, at the natural coordinates (+-0.5)^3, and one
+/// for a bar, at its middle, with
 /// shares of its mass and the fields of its particles.
 void append_elements(const fs::path& path, Snapshot& snapshot) {
+  constexpr std::uint8_t vtk_line = 3;
   const hdf5::File file = hdf5::File::open(path);
   const hdf5::Group vtk = file.root.open_group("VTKHDF");
   const hdf5::Group data = vtk.open_group("CellData");
@@ -200,10 +202,15 @@ void append_elements(const fs::path& path, Snapshot& snapshot) {
   // Those of each rank count from its first point.
   const auto points_of = vtk.open_dataset("NumberOfPoints").read_all<std::int64_t>();
   const auto cells_of = vtk.open_dataset("NumberOfCells").read_all<std::int64_t>();
-  auto corner_at = corners.begin();
+  const auto types = vtk.open_dataset("Types").read_all<std::uint8_t>();
+  std::vector<std::size_t> corners_from(id.size() + 1, 0);
+  std::size_t cell = 0;
   for (std::int64_t rank = 0, first = 0; rank < std::ssize(points_of); ++rank) {
     const auto r = static_cast<std::size_t>(rank);
-    for (const auto end = corner_at + 8 * cells_of[r]; corner_at != end; ++corner_at) *corner_at += first;
+    for (const std::size_t end = cell + static_cast<std::size_t>(cells_of[r]); cell < end; ++cell) {
+      corners_from[cell + 1] = corners_from[cell] + (types[cell] == vtk_line ? 2U : 8U);
+      for (std::size_t i = corners_from[cell]; i < corners_from[cell + 1]; ++i) corners[i] += first;
+    }
     first += points_of[r];
   }
   const std::vector<float> points = vtk.open_dataset("Points").read_all<float>();
@@ -216,27 +223,39 @@ void append_elements(const fs::path& path, Snapshot& snapshot) {
         {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
     return signs[k][axis];
   };
+  const auto vector_at = [](const std::vector<float>& of_nodes, std::int64_t node) {
+    return Eigen::Map<const Eigen::Vector3f>(of_nodes.data() + 3 * node).cast<double>().eval();
+  };
+  std::vector<std::size_t> parts(order.size());
   for (std::size_t e = 0; e < order.size(); ++e) {
-    for (std::size_t k = 0; k < 8; ++k) {
+    const std::size_t from = corners_from[order[e]];
+    parts[e] = types[order[e]] == vtk_line ? 1 : 8;
+    for (std::size_t k = 0; k < parts[e]; ++k) {
       Vector3 x = Vector3::Zero(), v = Vector3::Zero();
-      for (std::size_t a = 0; a < 8; ++a) {
+      const auto add = [&](std::size_t a, double weight) {
+        x += weight * vector_at(points, corners[from + a]);
+        v += weight * vector_at(velocities, corners[from + a]);
+      };
+      if (parts[e] == 1) {
+        add(0, 0.5);
+        add(1, 0.5);
+      }
+      for (std::size_t a = 0; parts[e] == 8 && a < 8; ++a) {
         double weight = 1.0;
         for (std::size_t axis = 0; axis < 3; ++axis)
           weight *= corner(a, axis) == corner(k, axis) ? 0.75 : 0.25;
-        const auto node = static_cast<std::size_t>(corners[8 * order[e] + a]);
-        x += weight * Eigen::Map<const Eigen::Vector3f>(points.data() + 3 * node).cast<double>();
-        v += weight * Eigen::Map<const Eigen::Vector3f>(velocities.data() + 3 * node).cast<double>();
+        add(a, weight);
       }
       snapshot.position.push_back(x);
       snapshot.velocity.push_back(v);
-      snapshot.mass.push_back(0.125 * mass[e]);
+      snapshot.mass.push_back(mass[e] / static_cast<double>(parts[e]));
       snapshot.body.push_back(body[order[e]]);
       snapshot.id.push_back(8 * id[order[e]] + k);
     }
   }
   for (auto& [name, values] : snapshot.scalars) {
     const std::vector<double> of_elements = as_reals(data, name, order);
-    for (const double value : of_elements) values.insert(values.end(), 8, value);
+    for (std::size_t e = 0; e < order.size(); ++e) values.insert(values.end(), parts[e], of_elements[e]);
   }
 }
 

@@ -2,6 +2,7 @@
 #include "src/io/element_series.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numeric>
 #include <type_traits>
@@ -27,12 +28,35 @@ Value mean_of(const std::vector<Value>& values, std::size_t first, std::size_t c
   }
 }
 
+constexpr std::uint8_t failed_by_plastic_strain = 2;  // as the field `failed` is explained
+
+/// Row p of the points: a bar.
+void write_bar(const fem::Bars& bars, std::size_t b, Particles& points, std::size_t p) {
+  const fem::BarElements& elements = bars.elements;
+  const auto& [first, second] = elements.ends[b];
+  const Vector3 along = (bars.nodes.position[second] - bars.nodes.position[first]).normalized();
+  points.mass[p] = elements.mass[b];
+  points.volume[p] = elements.mass[b] / bars.material.density;
+  points.pressure[p] = -elements.stress[b] / 3.0;
+  points.deviatoric_stress[p] =
+      SymmetricTensor::from(elements.stress[b] * (along * along.transpose() - Matrix3::Identity() / 3.0));
+  points.specific_internal_energy[p] = elements.internal_energy[b] / elements.mass[b];
+  points.plastic_strain[p] = elements.plastic_strain[b];
+  points.failed[p] = elements.broken[b] != 0 ? failed_by_plastic_strain : std::uint8_t{0};
+  points.sound_speed[p] = std::sqrt(bars.material.young / bars.material.density);
+  points.id[p] = elements.id[b];
+  points.body[p] = bars.body;
+  points.position[p] = 0.5 * (bars.nodes.position[first] + bars.nodes.position[second]);
+  points.velocity[p] = 0.5 * (bars.nodes.velocity[first] + bars.nodes.velocity[second]);
+}
+
 }  // namespace
 
-Particles elements_as_points(std::span<const fem::Mesh> meshes) {
+Particles elements_as_points(std::span<const fem::Mesh> meshes, std::span<const fem::Bars> bars) {
   Particles points;
   std::size_t count = 0;
   for (const fem::Mesh& mesh : meshes) count += mesh.elements.size();
+  for (const fem::Bars& of_body : bars) count += of_body.elements.size();
   resize(points, count);
   std::size_t p = 0;
   for (const fem::Mesh& mesh : meshes) {
@@ -56,6 +80,9 @@ Particles elements_as_points(std::span<const fem::Mesh> meshes) {
       }
     }
   }
+  for (const fem::Bars& of_body : bars) {
+    for (std::size_t b = 0; b < of_body.elements.size(); ++b) write_bar(of_body, b, points, p++);
+  }
   return points;
 }
 
@@ -65,12 +92,14 @@ ElementSeries::ElementSeries(SeriesOptions options, MPI_Comm communicator)
       ranks_(communicator),
       series_(options_.folder, options_.name, "elements", ranks_) {}
 
-fs::path ElementSeries::write(std::span<const fem::Mesh> meshes, double time) {
-  return write(grid(meshes, time));
+fs::path ElementSeries::write(std::span<const fem::Mesh> meshes, std::span<const fem::Bars> bars,
+                              double time) {
+  return write(grid(meshes, bars, time));
 }
 
-std::function<void()> ElementSeries::prepare(std::span<const fem::Mesh> meshes, double time) {
-  UnstructuredGrid prepared = grid(meshes, time);
+std::function<void()> ElementSeries::prepare(std::span<const fem::Mesh> meshes,
+                                             std::span<const fem::Bars> bars, double time) {
+  UnstructuredGrid prepared = grid(meshes, bars, time);
   prepared.evaluate();
   return [this, prepared = std::move(prepared)]() mutable { write(std::move(prepared)); };
 }
@@ -81,7 +110,8 @@ fs::path ElementSeries::write(UnstructuredGrid grid) {
   });
 }
 
-UnstructuredGrid ElementSeries::grid(std::span<const fem::Mesh> meshes, double time) const {
+UnstructuredGrid ElementSeries::grid(std::span<const fem::Mesh> meshes, std::span<const fem::Bars> bars,
+                                     double time) const {
   struct All {
     std::vector<Vector3> position, velocity;
     std::vector<std::uint64_t> id;
@@ -91,17 +121,21 @@ UnstructuredGrid ElementSeries::grid(std::span<const fem::Mesh> meshes, double t
   };
   const auto all = std::make_shared<All>();  // as long as the arrays are
   const auto append = [](auto& to, const auto& more) { to.insert(to.end(), more.begin(), more.end()); };
-  for (const fem::Mesh& mesh : meshes) {
+  const auto append_body = [&](const fem::Nodes& nodes, const auto& nodes_of_element) {
     const auto first = static_cast<std::int64_t>(all->position.size());
-    append(all->position, mesh.nodes.position);
-    append(all->velocity, mesh.nodes.velocity);
-    append(all->id, mesh.nodes.id);
-    append(all->in_transition, mesh.nodes.in_transition);
-    for (const fem::Corners& corners : mesh.elements.corners) {
-      for (const std::uint32_t a : corners) all->connectivity.push_back(first + static_cast<std::int64_t>(a));
+    append(all->position, nodes.position);
+    append(all->velocity, nodes.velocity);
+    append(all->id, nodes.id);
+    append(all->in_transition, nodes.in_transition);
+    for (const auto& of_element : nodes_of_element) {
+      for (const std::uint32_t a : of_element)
+        all->connectivity.push_back(first + static_cast<std::int64_t>(a));
     }
-  }
-  all->elements = elements_as_points(meshes);
+  };
+  for (const fem::Mesh& mesh : meshes) append_body(mesh.nodes, mesh.elements.corners);
+  const std::size_t hexahedra = all->connectivity.size() / 8;
+  for (const fem::Bars& of_body : bars) append_body(of_body.nodes, of_body.elements.ends);
+  all->elements = elements_as_points(meshes, bars);
   const std::uint64_t n = all->elements.size(), nodes = all->position.size();
   const auto rank = static_cast<std::uint64_t>(ranks_.rank()),
              partitions = static_cast<std::uint64_t>(ranks_.count());
@@ -110,16 +144,18 @@ UnstructuredGrid ElementSeries::grid(std::span<const fem::Mesh> meshes, double t
   UnstructuredGrid grid{
       .time = time, .points = nodes, .cells = n, .connectivity_ids = all->connectivity.size()};
   grid.geometry.emplace_back("Points", of_nodes, [all](std::size_t i) { return all->position[i]; });
-  const hdf5::Slab of_corners{8 * of_cells.first, 8 * n, 8 * of_cells.total};
-  grid.geometry.emplace_back("Connectivity", of_corners,
+  grid.geometry.emplace_back("Connectivity", ranks_.slab(all->connectivity.size()),
                              [all](std::size_t i) { return all->connectivity[i]; });
   const hdf5::Slab bounds{of_cells.first + rank, n + 1, of_cells.total + partitions};
   grid.geometry.emplace_back(
-      "Offsets", bounds, [](std::size_t e) { return static_cast<std::int64_t>(8 * e); },
+      "Offsets", bounds,
+      [hexahedra](std::size_t e) {
+        return static_cast<std::int64_t>(8 * std::min(e, hexahedra) + 2 * (e - std::min(e, hexahedra)));
+      },
       Array::From::row_number);
-  constexpr std::uint8_t hexahedron = 12;  // VTK_HEXAHEDRON
   grid.geometry.emplace_back(
-      "Types", of_cells, [](std::size_t) { return hexahedron; }, Array::From::row_number);
+      "Types", of_cells, [hexahedra](std::size_t e) { return e < hexahedra ? vtk_hexahedron : vtk_line; },
+      Array::From::row_number);
   grid.cell_data = arrays_of(fields_, {all->elements, options_.material_of_body}, of_cells);
   grid.point_data.emplace_back("velocity", of_nodes, [all](std::size_t i) { return all->velocity[i]; });
   grid.point_data.back().set_attribute("unit", "m/s");

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "src/fem/bars.hpp"
 #include "src/fem/mesh.hpp"
 #include "src/io/particle_series.hpp"
 #include "src/io/series.hpp"
@@ -13,13 +14,14 @@
 namespace whipple::io {
 
 /// Every element as a point: its state (means over its Gauss points; `failed` if one of them is), at its
-/// centre with its mean velocity.
-Particles elements_as_points(std::span<const fem::Mesh> meshes);
+/// centre with its mean velocity. Then every bar: its stress is axial, a broken one has failed by plastic
+/// strain, a temperature it has not (0).
+Particles elements_as_points(std::span<const fem::Mesh> meshes, std::span<const fem::Bars> bars = {});
 
-/// Snapshots of finite elements: RUN.elements.NNNNNN.hdf (VTKHDF 1.0 unstructured hexahedra; the fields of
-/// the particles as cell data, velocity, id and transition of the nodes as point data) and their index. A
-/// snapshot without elements is written as well. One partition per rank; a node that ranks share stands in
-/// the partition of each.
+/// Snapshots of finite elements: RUN.elements.NNNNNN.hdf (VTKHDF 1.0 unstructured grid of hexahedra and, for
+/// bars, lines; the fields of the particles as cell data, velocity, id and transition of the nodes as point
+/// data) and their index. A snapshot without elements is written as well. One partition per rank; a node that
+/// ranks share stands in the partition of each.
 class ElementSeries {
  public:
   /// @throws InputError if a field is unknown
@@ -27,14 +29,17 @@ class ElementSeries {
 
   /// As of `Series`.
   void restart(double time) { series_.restart(time); }
-  std::filesystem::path write(std::span<const fem::Mesh> meshes, double time);
+  std::filesystem::path write(std::span<const fem::Mesh> meshes, std::span<const fem::Bars> bars,
+                              double time);
   /// As of `ParticleSeries`.
-  [[nodiscard]] std::function<void()> prepare(std::span<const fem::Mesh> meshes, double time);
+  [[nodiscard]] std::function<void()> prepare(std::span<const fem::Mesh> meshes,
+                                              std::span<const fem::Bars> bars, double time);
   [[nodiscard]] std::size_t size() const { return series_.size(); }
   [[nodiscard]] std::filesystem::path index_path() const { return series_.index_path(); }
 
  private:
-  [[nodiscard]] UnstructuredGrid grid(std::span<const fem::Mesh> meshes, double time) const;
+  [[nodiscard]] UnstructuredGrid grid(std::span<const fem::Mesh> meshes, std::span<const fem::Bars> bars,
+                                      double time) const;
   std::filesystem::path write(UnstructuredGrid grid);
 
   SeriesOptions options_;

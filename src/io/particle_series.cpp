@@ -42,8 +42,8 @@ UnstructuredGrid ParticleSeries::grid(const Particles& particles, double time) c
   grid.geometry.emplace_back("Connectivity", points, row_number, Array::From::row_number);
   const hdf5::Slab bounds{points.first + rank, n + 1, points.total + partitions};
   grid.geometry.emplace_back("Offsets", bounds, row_number, Array::From::row_number);
-  constexpr std::uint8_t vertex = 1;  // VTK_VERTEX
-  grid.geometry.emplace_back("Types", points, [](std::size_t) { return vertex; }, Array::From::row_number);
+  grid.geometry.emplace_back(
+      "Types", points, [](std::size_t) { return vtk_vertex; }, Array::From::row_number);
   grid.point_data = arrays_of(fields_, {particles, options_.material_of_body}, points);
   return grid;
 }

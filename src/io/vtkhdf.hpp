@@ -99,6 +99,9 @@ class Array {
   std::vector<std::pair<std::string, std::string>> attributes_;
 };
 
+/// Cell types of VTK.
+constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3, vtk_hexahedron = 12;
+
 /// An unstructured grid of VTKHDF 1.0, one partition per rank.
 struct UnstructuredGrid {
   double time = 0.0;                                          ///< s

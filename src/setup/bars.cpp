@@ -117,9 +117,10 @@ fem::BarMaterial bar_material(const Material& material, const Body& body) {
   return bar;
 }
 
-std::vector<fem::Bars> make_bars(const Case& setup) {
+std::vector<fem::Bars> make_bars(const Case& setup, std::uint64_t first_node_id,
+                                 std::uint64_t first_element_id) {
   std::vector<fem::Bars> all;
-  std::uint64_t node_id = 0, bar_id = 0;
+  std::uint64_t node_id = first_node_id, bar_id = first_element_id;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Body& body = setup.bodies[b];
     if (!body.discretization.is_bars()) continue;

@@ -23,8 +23,10 @@ std::optional<std::string> fault_of_bars(const Case& setup, const Body& bars);
 /// @throws InputError for other models of strength, and for failure criteria, which bars do not know
 fem::BarMaterial bar_material(const Material& material, const Body& body);
 
-/// Bars of all bodies that are made of them, with their initial velocities.
+/// Bars of all bodies that are made of them, with their initial velocities. Ids of nodes and bars go on from
+/// those of the elements.
 /// @throws InputError if bars are too short to be divided or the material is not one of bars
-std::vector<fem::Bars> make_bars(const Case& setup);
+std::vector<fem::Bars> make_bars(const Case& setup, std::uint64_t first_node_id,
+                                 std::uint64_t first_element_id);
 
 }  // namespace whipple::setup

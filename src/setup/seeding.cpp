@@ -368,7 +368,12 @@ Seeding seed(const Case& setup, int rank, int ranks) {
                            setup.bodies[mesh.body].shape->volume();
     }
   }
-  seeding.bars = make_bars(setup);
+  std::uint64_t nodes = 0, elements = (first_id + 7) / 8;
+  for (const fem::Mesh& mesh : seeding.meshes) {
+    nodes += mesh.nodes.size();
+    elements += mesh.elements.size();
+  }
+  seeding.bars = make_bars(setup, nodes, elements);
   for (const fem::Bars& bars : seeding.bars) {
     setup::BodySummary& summary = seeding.bodies[bars.body];
     summary.mass = std::accumulate(bars.nodes.mass.begin(), bars.nodes.mass.end(), 0.0);

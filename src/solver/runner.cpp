@@ -180,11 +180,12 @@ io::SeriesOptions series_options(const setup::Case& setup, const io::RunDirector
 /// The series of snapshots of a run.
 struct Snapshots {
   io::ParticleSeries particles;
-  std::optional<io::ElementSeries> elements;  // of cases with bodies of elements
+  std::optional<io::ElementSeries> elements;  // of cases with bodies of elements or bars
 
   Snapshots(const setup::Case& setup, const io::RunDirectory& directory, const fs::path& folder)
       : particles(series_options(setup, directory, folder), parallel::world()) {
-    if (setup.has_elements()) elements.emplace(series_options(setup, directory, folder), parallel::world());
+    if (setup.has_elements() || setup.has_bars())
+      elements.emplace(series_options(setup, directory, folder), parallel::world());
   }
   void restart(double time) {
     particles.restart(time);
@@ -192,13 +193,13 @@ struct Snapshots {
   }
   void write(const Simulation& simulation) {
     particles.write(simulation.particles(), simulation.state().time);
-    if (elements) elements->write(simulation.meshes(), simulation.state().time);
+    if (elements) elements->write(simulation.meshes(), simulation.bars(), simulation.state().time);
   }
   /// Takes the state of now; what is returned writes it. Of a run on one rank.
   [[nodiscard]] std::function<void()> prepare(const Simulation& simulation) {
     const double time = simulation.state().time;
     const std::function<void()> of_elements =
-        elements ? elements->prepare(simulation.meshes(), time) : std::function<void()>();
+        elements ? elements->prepare(simulation.meshes(), simulation.bars(), time) : std::function<void()>();
     return [of_particles = particles.prepare(simulation.particles(), time), of_elements] {
       of_particles();
       if (of_elements) of_elements();
