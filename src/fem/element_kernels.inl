@@ -283,7 +283,7 @@ struct OnePoint {
                                  DeformationReport& report) const {
     GaussPoints& points = step.mesh.points;
     Elements& elements = step.mesh.elements;
-    if (const std::size_t first = group.index[0]; prefetches(first)) {
+    if (const std::size_t first = group.index[0]; group.lane == 0) {
       prefetch(first + prefetch_distance, points.mass, points.pressure, points.artificial_viscosity,
                points.deviatoric_stress, points.sound_speed, points.plastic_strain, points.length,
                points.specific_internal_energy, elements.hourglass_force, elements.hourglass_energy,
@@ -404,7 +404,7 @@ WHIPPLE_INLINE inline Modes<Vector> mean_gradient_forces(const Columns<Vector>& 
 struct ForcesOfOnePoint {
   WHIPPLE_INLINE Modes<Vector> operator()(const Mesh& mesh, const Group& group,
                                           const Modes<Vector>& x) const {
-    if (const std::size_t first = group.index[0]; prefetches(first)) {
+    if (const std::size_t first = group.index[0]; group.lane == 0) {
       prefetch(first + prefetch_distance, mesh.points.pressure, mesh.points.artificial_viscosity,
                mesh.points.deviatoric_stress, mesh.elements.hourglass_force);
     }
@@ -456,6 +456,19 @@ struct ForcesOfBBar {
   }
 };
 
+/// Has a part of what the next block copies of its nodes fetched: group g's share of it.
+template <class... Fields>
+WHIPPLE_INLINE inline void prefetch_next_block(const Mesh& mesh, std::size_t block, std::size_t g,
+                                               const Fields&... fields) {
+  const Blocks& blocks = mesh.blocks;
+  if (block + 1 >= block_count(mesh)) return;
+  const std::size_t groups = blocks.first_group[block + 1] - blocks.first_group[block];
+  const std::size_t first = blocks.first_slot[block + 1], count = blocks.first_slot[block + 2] - first;
+  for (std::size_t s = first + count * g / groups; s < first + count * (g + 1) / groups; ++s) {
+    (__builtin_prefetch(fields[blocks.slot_node[s]].data(), 0, 2), ...);
+  }
+}
+
 /// The entries. Everything they call is inlined into them.
 struct Kernels {
   /// Calls kernel(step, group, position, mean and end velocity by modes, report) for the elements of a block.
@@ -467,8 +480,10 @@ struct Kernels {
     position.copy(step.mesh, block, step.mesh.nodes.position);
     mean.copy(step.mesh, block, motion.mean);
     end.copy(step.mesh, block, motion.end);
-    for (const ElementGroup& all : groups_of(step.mesh, block)) {
-      for_each_part(all, [&](const Group& group) WHIPPLE_INLINE {
+    const std::span<const ElementGroup> groups = groups_of(step.mesh, block);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      prefetch_next_block(step.mesh, block, g, step.mesh.nodes.position, motion.mean, motion.end);
+      for_each_part(groups[g], [&](const Group& group) WHIPPLE_INLINE {
         kernel(step, group, position.modes(group), mean.modes(group), end.modes(group), report);
       });
     }
@@ -486,6 +501,7 @@ struct Kernels {
     constexpr std::array<std::size_t, 4> white = {0, 2, 5, 7}, black = {1, 3, 4, 6};
     const std::span<const ElementGroup> groups = groups_of(mesh, block);
     for (std::size_t g = 0; g < groups.size(); ++g) {
+      prefetch_next_block(mesh, block, g, mesh.nodes.position);
       for_each_part(groups[g], [&](const Group& group) WHIPPLE_INLINE {
         force.put(group, kernel(mesh, group, position.modes(group)), g % 2);
       });

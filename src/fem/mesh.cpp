@@ -102,19 +102,26 @@ void make_blocks(Mesh& mesh) {
   blocks.groups.clear();
   blocks.first_slot.assign(1, 0);
   blocks.slot_node.clear();
-  std::vector<std::uint32_t> slot(mesh.nodes.size()), nodes;
+  constexpr std::uint32_t none = 0xffffffff;
+  std::vector<std::uint32_t> slot(mesh.nodes.size(), none), nodes;
   std::vector<Corners> slots;
   for (std::size_t begin = 0; begin < corners.size(); begin += Blocks::size) {
     const auto of_block = std::span(corners).subspan(begin, std::min(Blocks::size, corners.size() - begin));
     nodes.clear();
-    for (const Corners& c : of_block) nodes.insert(nodes.end(), c.begin(), c.end());
+    for (const Corners& c : of_block) {
+      for (const std::uint32_t node : c) {
+        if (slot[node] != none) continue;
+        slot[node] = 0;
+        nodes.push_back(node);
+      }
+    }
     std::ranges::sort(nodes);
-    nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
     for (std::uint32_t s = 0; s < nodes.size(); ++s) slot[nodes[s]] = s;
     slots.assign(of_block.begin(), of_block.end());
     for (Corners& c : slots) {
       for (std::uint32_t& node : c) node = slot[node];
     }
+    for (const std::uint32_t node : nodes) slot[node] = none;
     make_groups(blocks, begin, slots);
     blocks.first_group.push_back(static_cast<std::uint32_t>(blocks.groups.size()));
     blocks.slot_node.insert(blocks.slot_node.end(), nodes.begin(), nodes.end());

@@ -114,7 +114,7 @@ void move_nodes(Nodes& nodes, const Motion& motion, double dt) {
 void add_heat(Mesh& mesh, std::span<const double> node_heat) {
   if (node_heat.size() != mesh.nodes.size()) throw InternalError("fem::add_heat: one heat per node");
   const std::size_t n = points_per_element(mesh.quadrature);
-  parallel::for_each(mesh.elements.size(), [&](std::size_t e) {
+  const auto add_to = [&](std::size_t e) {
     double heat = 0.0;  // of the shares of the element in its nodes
     for (std::size_t a = 0; a < 8; ++a) {
       const std::uint32_t node = mesh.elements.corners[e][a];
@@ -123,6 +123,16 @@ void add_heat(Mesh& mesh, std::span<const double> node_heat) {
     if (heat == 0.0) return;
     const double per_mass = heat / mass(mesh, e);
     for (std::size_t q = 0; q < n; ++q) mesh.points.specific_internal_energy[n * e + q] += per_mass;
+  };
+  // Few nodes have heat: those that move with the grid.
+  const Blocks& blocks = mesh.blocks;
+  parallel::for_each(blocks.first_slot.size() - 1, [&](std::size_t block) {
+    const auto nodes =
+        std::span(blocks.slot_node)
+            .subspan(blocks.first_slot[block], blocks.first_slot[block + 1] - blocks.first_slot[block]);
+    if (std::ranges::none_of(nodes, [&](std::uint32_t a) { return node_heat[a] != 0.0; })) return;
+    const std::size_t end = std::min((block + 1) * Blocks::size, mesh.elements.size());
+    for (std::size_t e = block * Blocks::size; e < end; ++e) add_to(e);
   });
 }
 
