@@ -5,9 +5,11 @@
 
 #include <Eigen/Geometry>
 #include <numbers>
+#include <numeric>
 
 #include "src/fem/hexahedron.hpp"
 #include "src/parallel/threads.hpp"
+#include "src/particles/rows.hpp"
 #include "tests/unit/fem_support.hpp"
 
 namespace whipple::fem_test {
@@ -25,9 +27,11 @@ std::array<Triple<double>, 8> random_hexahedron(std::mt19937_64& generator, doub
   return x;
 }
 
-/// A body in a state of random velocities, with stresses after a few steps.
-Body shaken(Quadrature quadrature, fem::HourglassControl hourglass, double viscosity = 0.0) {
-  Body body(Solid{}.material(), distorted_box(3, 1e-3, 0.2), quadrature);
+/// A body in a state of random velocities, with stresses after a few steps. With three elements along an edge
+/// the kernels take what elements there are, with nine rows of them (ElementGroup).
+Body shaken(Quadrature quadrature, fem::HourglassControl hourglass, double viscosity = 0.0,
+            std::size_t edge = 3) {
+  Body body(Solid{}.material(), distorted_box(edge, 1e-3, 0.2), quadrature);
   body.hourglass = hourglass;
   body.viscosity = {viscosity, 4.0 * viscosity};
   std::mt19937_64 generator(3);
@@ -283,13 +287,14 @@ Body hourglassing(fem::HourglassControl control, std::size_t mode, double speed 
   return body;
 }
 
-/// Twenty steps with kernels for either set of registers; 27 elements fill three groups of eight and a part.
+/// Twenty steps with kernels for either set of registers; 27 elements fill three groups of eight and a part,
+/// 729 are rows of four and five.
 TEST(Invariance, WideRegistersGiveTheSameNumbers) {
   if (!wide_registers()) GTEST_SKIP() << "this processor has no AVX-512";
   const auto numbers_after_steps = [](Quadrature quadrature, const fem::HourglassControl& hourglass,
-                                      bool wide) {
+                                      std::size_t edge, bool wide) {
     wide_registers() = wide;
-    Body body = shaken(quadrature, hourglass, 0.25);
+    Body body = shaken(quadrature, hourglass, 0.25, edge);
     const double dt = 0.3 * body.critical_time_step();
     for (int n = 0; n < 20; ++n) body.step(dt);
     std::vector<double> numbers = body.mesh.points.specific_internal_energy;
@@ -310,11 +315,47 @@ TEST(Invariance, WideRegistersGiveTheSameNumbers) {
   };
   for (const Quadrature quadrature : both) {
     for (const auto& hourglass : {stiffness, viscous}) {
-      const auto narrow = numbers_after_steps(quadrature, hourglass, false),
-                 wide = numbers_after_steps(quadrature, hourglass, true);
-      ASSERT_EQ(narrow.size(), wide.size());
-      for (std::size_t i = 0; i < wide.size(); ++i) ASSERT_EQ(narrow[i], wide[i]) << name(quadrature) << i;
+      for (const std::size_t edge : {3, 9}) {
+        const auto narrow = numbers_after_steps(quadrature, hourglass, edge, false),
+                   wide = numbers_after_steps(quadrature, hourglass, edge, true);
+        ASSERT_EQ(narrow.size(), wide.size());
+        for (std::size_t i = 0; i < wide.size(); ++i) ASSERT_EQ(narrow[i], wide[i]) << name(quadrature) << i;
+      }
     }
+  }
+}
+
+/// The same elements in an order without rows: only the sums at the nodes are taken in another order.
+TEST(Invariance, RowsOfElementsAreOnlyAnOrder) {
+  for (const Quadrature quadrature : both) {
+    Body rows = shaken(quadrature, stiffness, 0.25, 9), mixed = shaken(quadrature, stiffness, 0.25, 9);
+    const auto is_row = [](const fem::ElementGroup& group) { return group.is_row != 0; };
+    EXPECT_GT(std::ranges::count_if(rows.mesh.blocks.groups, is_row),
+              std::ssize(rows.mesh.blocks.groups) * 9 / 10);
+    fem::Mesh& mesh = mixed.mesh;
+    std::vector<std::uint32_t> order(mesh.elements.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::shuffle(order, std::mt19937_64(5));
+    const auto n = static_cast<std::uint32_t>(fem::points_per_element(quadrature));
+    std::vector<std::uint32_t> points;
+    for (const std::uint32_t e : order) {
+      for (std::uint32_t i = 0; i < n; ++i) points.push_back(n * e + i);
+    }
+    select_rows(mesh.elements, order);
+    select_rows(mesh.points, points);
+    fem::connect(mesh);
+    EXPECT_TRUE(std::ranges::none_of(mesh.blocks.groups, is_row));
+    const double dt = 0.4 * rows.critical_time_step();
+    for (int i = 0; i < 20; ++i) {
+      rows.step(dt);
+      mixed.step(dt);
+    }
+    double difference = 0.0, moved = 0.0;
+    for (std::size_t a = 0; a < rows.mesh.nodes.size(); ++a) {
+      difference = std::max(difference, (rows.mesh.nodes.velocity[a] - mixed.mesh.nodes.velocity[a]).norm());
+      moved = std::max(moved, rows.mesh.nodes.velocity[a].norm());
+    }
+    EXPECT_LT(difference, 1e-11 * moved) << name(quadrature);
   }
 }
 

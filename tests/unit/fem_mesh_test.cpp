@@ -10,11 +10,13 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <sstream>
 
 #include "src/base/error.hpp"
 #include "src/fem/facets.hpp"
 #include "src/fem/gmsh.hpp"
+#include "src/fem/order.hpp"
 #include "tests/unit/fem_support.hpp"
 #include "tests/unit/folder_test.hpp"
 
@@ -183,6 +185,62 @@ TEST(Meshes, TransformKeepsElementsUpright) {
   fem::transform(box, mirror, Vector3(10, 0, 0));
   fem::check(box, "mirrored");
   EXPECT_NEAR(volume_of(box), 6.0, 1e-14);
+}
+
+/// Share of the elements that the kernels take as rows, after a check that the groups are the elements in
+/// their order, with the right slots.
+double share_in_rows(const Hexahedra& hexahedra) {
+  const fem::Mesh mesh = fem::make_mesh(hexahedra, fem::Quadrature::one_point);
+  const fem::Blocks& blocks = mesh.blocks;
+  std::size_t next = 0, in_rows = 0;
+  for (std::size_t block = 0; block + 1 < blocks.first_group.size(); ++block) {
+    for (std::size_t g = blocks.first_group[block]; g < blocks.first_group[block + 1]; ++g) {
+      const fem::ElementGroup& group = blocks.groups[g];
+      EXPECT_EQ(group.first, next);
+      EXPECT_EQ(group.first / fem::Blocks::size, block);
+      next += group.count;
+      if (group.is_row != 0) in_rows += group.count;
+      for (std::size_t l = 0; l < group.count; ++l) {
+        for (std::size_t a = 0; a < 8; ++a) {
+          EXPECT_EQ(blocks.slot_node[blocks.first_slot[block] + group.slot[a][l]],
+                    mesh.elements.corners[group.first + l][a]);
+          if (group.is_row != 0) {
+            EXPECT_EQ(group.slot[a][l], group.slot[a][0] + l);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_EQ(next, hexahedra.elements.size());
+  return static_cast<double>(in_rows) / static_cast<double>(next);
+}
+
+// Structured meshes are rows but for a few elements, also beyond the mirror planes on which quarters are
+// joined, and whichever direction is the long one.
+TEST(Order, StructuredMeshesAreRows) {
+  EXPECT_EQ(share_in_rows(fem::make_box(Vector3::Zero(), Vector3(16, 3, 2), {16, 3, 2})), 1.0);
+  EXPECT_EQ(share_in_rows(fem::make_box(Vector3::Zero(), Vector3(3, 37, 2), {3, 37, 2})), 1.0);
+  EXPECT_EQ(share_in_rows(fem::make_box(Vector3::Zero(), Vector3(3, 2, 21), {3, 2, 21})), 1.0);
+  EXPECT_GT(share_in_rows(fem::make_cylinder(2.0, 10.0, 0.4)), 0.98);  // blocks end within rows
+  EXPECT_GT(share_in_rows(fem::make_ogive(2.0, 6.6, 5.0, 0.5)), 0.98);
+  EXPECT_EQ(share_in_rows(fem::make_box(Vector3::Zero(), Vector3(2, 2, 2), {2, 2, 2})), 0.0);
+}
+
+// A ring of elements is cut open somewhere; every element and node is there once.
+TEST(Order, HoldsEveryElementAndNodeOnce) {
+  for (const Hexahedra& mesh :
+       {fem::make_tube(1.0, 2.0, 3.0, 0.4), fem::make_sphere(2.0, 0.4), fem::make_cylinder(2.0, 1.0, 0.4)}) {
+    fem::StorageOrder order = fem::storage_order(mesh.nodes, mesh.elements);
+    const auto is_permutation = [](std::vector<std::uint32_t>& numbers, std::size_t of) {
+      std::ranges::sort(numbers);
+      std::vector<std::uint32_t> all(of);
+      std::iota(all.begin(), all.end(), 0U);
+      return numbers == all;
+    };
+    EXPECT_TRUE(is_permutation(order.elements, mesh.elements.size()));
+    EXPECT_TRUE(is_permutation(order.nodes, mesh.nodes.size()));
+    share_in_rows(mesh);
+  }
 }
 
 TEST(Checks, SayWhatIsWrong) {
