@@ -368,7 +368,6 @@ void migrate(Bars& bars, std::span<const int> destination, MPI_Comm communicator
   std::iota(order.begin(), order.end(), 0U);
   std::ranges::sort(order, {}, [&](std::uint32_t b) { return elements.id[b]; });
   select_rows(elements, order);
-  std::iota(order.begin(), order.end(), 0U);
   std::vector<std::uint32_t> used = nodes_of(elements.ends, order);
   std::ranges::sort(used, {}, [&](std::uint32_t a) { return bars.nodes.id[a]; });
   renumber(bars.nodes, elements.ends, used);

@@ -75,6 +75,7 @@ class BlockField {
     const std::uint32_t count = mesh.blocks.first_slot[block + 1] - mesh.blocks.first_slot[block];
     for (auto& component : at_) std::fill_n(component, count, 0.0);
   }
+  /// The values at the slots.
   void copy_to(std::span<Vector3> values) const {
     for (std::size_t s = 0; s < values.size(); s += width) {
       const auto along = [&](std::size_t i) WHIPPLE_INLINE { return load_lanes(&at_[i][s], width); };
