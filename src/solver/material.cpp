@@ -82,8 +82,9 @@ void Simulation::update_material_with(std::string_view stage, EnergyUpdate energ
     step_.limited_domains += static_cast<double>(limited_domains);
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const std::string of_body =
-          book(reports[b], *setup_.materials[b],
-               [&](std::size_t p, const std::string& reason) { return describe_state(p, reason); });
+          book(reports[b], *setup_.materials[b], [&](std::size_t p, const std::string& reason) {
+            return describe_state(p, state_.time + state_.time_step, reason);
+          });
       if (error.empty()) error = of_body;
     }
   });

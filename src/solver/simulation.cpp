@@ -217,8 +217,8 @@ void Simulation::begin_step(double until) {
       const std::string reason = fmt::format("the stable time step is {} s", dt);
       for (std::size_t p = 0; p < particles_.size(); ++p) {
         if (std::isfinite(particles_.sound_speed[p] + particles_.velocity[p].sum())) continue;
-        throw StateError(
-            describe_state(p, fmt::format("{}; speed of sound {} m/s", reason, particles_.sound_speed[p])));
+        throw StateError(describe_state(
+            p, state_.time, fmt::format("{}; speed of sound {} m/s", reason, particles_.sound_speed[p])));
       }
       throw StateError(fmt::format("step {}, t = {} s: {}", state_.step, state_.time, reason));
     }
@@ -399,15 +399,15 @@ void Simulation::end_step() {
   });
 }
 
-std::string Simulation::describe_state(std::size_t p, const std::string& reason) const {
+std::string Simulation::describe_state(std::size_t p, double time, const std::string& reason) const {
   const Vector3& x = particles_.position[p];
   const Vector3& v = particles_.velocity[p];
   return fmt::format(
       "step {}, t = {} s, body \"{}\", particle {}: {}\n  position ({}, {}, {}) m, velocity ({}, "
       "{}, {}) m/s\n  density "
       "{} kg/m^3, specific internal energy {} J/kg, pressure {} Pa, temperature {} K, failed {}",
-      state_.step + 1, state_.time + state_.time_step, setup_.bodies[particles_.body[p]].name,
-      particles_.id[p], reason, x[0], x[1], x[2], v[0], v[1], v[2], particles_.mass[p] / particles_.volume[p],
+      state_.step + 1, time, setup_.bodies[particles_.body[p]].name, particles_.id[p], reason, x[0], x[1],
+      x[2], v[0], v[1], v[2], particles_.mass[p] / particles_.volume[p],
       particles_.specific_internal_energy[p], particles_.pressure[p], particles_.temperature[p],
       particles_.failed[p]);
 }

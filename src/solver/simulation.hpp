@@ -167,7 +167,9 @@ class Simulation {
   void find_free_flight();
   [[nodiscard]] double affine_inertia() const;
   [[nodiscard]] double particle_affine_inertia() const;
-  [[nodiscard]] std::string describe_state(std::size_t particle, const std::string& reason) const;
+  /// @param time  s, of the state; the step is the one under way
+  [[nodiscard]] std::string describe_state(std::size_t particle, double time,
+                                           const std::string& reason) const;
   [[nodiscard]] std::string describe_element(const fem::Mesh& mesh, std::size_t point,
                                              const std::string& reason) const;
 
