@@ -29,19 +29,14 @@ std::vector<std::uint32_t> rows_of(const std::vector<std::uint32_t>& elements, Q
   return rows;
 }
 
-/// Ascending, each number once.
-std::vector<std::uint32_t> sorted_once(std::vector<std::uint32_t> numbers) {
-  std::ranges::sort(numbers);
-  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
-  return numbers;
-}
-
 /// Nodes of items by their links, ascending.
 template <class Links>
 std::vector<std::uint32_t> nodes_of(const Links& links, std::span<const std::uint32_t> items) {
   std::vector<std::uint32_t> nodes;
   for (const std::uint32_t i : items) nodes.insert(nodes.end(), links[i].begin(), links[i].end());
-  return sorted_once(std::move(nodes));
+  std::ranges::sort(nodes);
+  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  return nodes;
 }
 
 }  // namespace

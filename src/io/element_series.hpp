@@ -16,7 +16,7 @@ namespace whipple::io {
 /// Every element as a point: its state (means over its Gauss points; `failed` if one of them is), at its
 /// centre with its mean velocity. Then every bar: its stress is axial, a broken one has failed by plastic
 /// strain, a temperature it has not (0).
-Particles elements_as_points(std::span<const fem::Mesh> meshes, std::span<const fem::Bars> bars = {});
+Particles elements_as_points(std::span<const fem::Mesh> meshes, std::span<const fem::Bars> bars);
 
 /// Snapshots of finite elements: RUN.elements.NNNNNN.hdf (VTKHDF 1.0 unstructured grid of hexahedra and, for
 /// bars, lines; the fields of the particles as cell data, velocity, id and transition of the nodes as point

@@ -105,4 +105,23 @@ inline fem::Hexahedra distorted_box(std::size_t n, double size, double share, un
   return box;
 }
 
+/// A body in a state of random velocities, with stresses after a few steps. With three elements along an edge
+/// the kernels take what elements there are, with nine rows of them (ElementGroup).
+inline Body shaken(Quadrature quadrature, fem::HourglassControl hourglass, double viscosity = 0.0,
+                   std::size_t edge = 3) {
+  Body body(Solid{}.material(), distorted_box(edge, 1e-3, 0.2), quadrature);
+  body.hourglass = hourglass;
+  body.viscosity = {viscosity, 4.0 * viscosity};
+  std::mt19937_64 generator(3);
+  std::uniform_real_distribution<double> uniform(-30.0, 30.0);
+  body.set_velocity([&](const Vector3&) {
+    return Vector3(100.0 + uniform(generator), uniform(generator), uniform(generator));
+  });
+  return body;
+}
+
+inline constexpr fem::HourglassControl stiffness = {fem::HourglassControl::Kind::stiffness, 0.05};
+inline constexpr fem::HourglassControl viscous = {fem::HourglassControl::Kind::viscous, 0.1};
+inline constexpr fem::HourglassControl no_control = {fem::HourglassControl::Kind::stiffness, 0.0};
+
 }  // namespace whipple::fem_test

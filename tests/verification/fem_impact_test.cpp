@@ -150,10 +150,6 @@ Shape taylor_bar(Quadrature quadrature, fem::HourglassControl hourglass, double 
   return shape;
 }
 
-constexpr fem::HourglassControl viscous = {fem::HourglassControl::Kind::viscous, 0.1};
-
-constexpr fem::HourglassControl stiffness = {fem::HourglassControl::Kind::stiffness, 0.05};
-
 TEST(FiniteElementTaylorBar, MatchesTheExperiment) {
   struct Variant {
     Quadrature quadrature;
