@@ -283,6 +283,12 @@ double mass(const Mesh& mesh, std::size_t element) {
   return sum;
 }
 
+double volume(const Hexahedra& hexahedra) {
+  double sum = 0.0;
+  for (const Corners& corners : hexahedra.elements) sum += volume_of(modes(hexahedra.nodes, corners));
+  return sum;
+}
+
 double volume(const Mesh& mesh, std::size_t element) {
   return volume_of(modes(mesh.nodes.position, mesh.elements.corners[element]));
 }

@@ -155,6 +155,9 @@ struct Fault {
 };
 std::optional<Fault> first_fault(const Hexahedra& hexahedra);
 
+/// m^3
+double volume(const Hexahedra& hexahedra);
+
 /// @param name  of the mesh, begins the message
 /// @throws InputError for the first fault, for a mesh without elements, for nodes of no element
 void check(const Hexahedra& hexahedra, const std::string& name);

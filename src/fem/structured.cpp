@@ -88,6 +88,52 @@ void complete(Hexahedra& mesh, std::size_t axes, const Halved& halved, double si
 constexpr double core_corner = 0.62, core_middle = 0.5;
 constexpr double eighth_turn = 0.25 * std::numbers::pi;
 
+/// Elements from the axis of a round section to the edge of its core, and from there to its surface.
+struct Section {
+  std::size_t core, ring;
+  double radius;
+
+  Section(double outer_radius, double size)
+      : core(divisions(core_middle * outer_radius, size)),
+        ring(divisions((1.0 - core_middle) * outer_radius, size)),
+        radius(outer_radius) {}
+
+  /// Of the square core with bulged edges, u and v from 0 on the axis to 1 on the edge.
+  [[nodiscard]] Vector3 core_point(double u, double v) const {
+    const double corner = core_corner * radius * std::sqrt(0.5), bulge = core_middle * radius - corner;
+    return {u * (corner + bulge * (1.0 - v * v)), v * (corner + bulge * (1.0 - u * u)), 0.0};
+  }
+};
+
+/// A quarter of a length of a body of revolution: a core, and two blocks between it and the surface.
+/// @param core     (u, v, w), w from 0 to 1 along the axis
+/// @param surface  (eighths of a turn from the x axis, w)
+template <class Core, class Surface>
+void add_butterfly(Hexahedra& mesh, const Section& section, std::size_t axial, const Core& core,
+                   const Surface& surface) {
+  const auto between = [](const Vector3& inner, const Vector3& outer, double share) {
+    return Vector3(inner + share * (outer - inner));
+  };
+  add_block(mesh, {section.core, section.core, axial}, core);
+  add_block(mesh, {section.ring, section.core, axial},
+            [&](double share, double v, double w) { return between(core(1.0, v, w), surface(v, w), share); });
+  add_block(mesh, {section.core, section.ring, axial}, [&](double u, double share, double w) {
+    return between(core(u, 1.0, w), surface(2.0 - u, w), share);
+  });
+}
+
+Vector3 on_circle(double radius, double eighths, double z) {
+  return {radius * std::cos(eighths * eighth_turn), radius * std::sin(eighths * eighth_turn), z};
+}
+
+/// Moves the nodes away from the z axis, so that sections that are polygons with `around` corners per quarter
+/// have the area of the circles: bodies have their mass and their stiffness in bending whatever the size.
+void widen_to_circles(Hexahedra& mesh, std::size_t around) {
+  const double angle = 2.0 * eighth_turn / static_cast<double>(around);
+  const double factor = std::sqrt(angle / std::sin(angle));
+  for (Vector3& x : mesh.nodes) x.head<2>() *= factor;
+}
+
 }  // namespace
 
 void transform(Hexahedra& hexahedra, const Matrix3& rotation, const Vector3& translation) {
@@ -164,41 +210,70 @@ Hexahedra make_cylinder(double radius, double length, double size, const Halved&
   require_positive("cylinder", "the radius", radius);
   require_positive("cylinder", "the length", length);
   require_positive("cylinder", "the size of an element", size);
-  const std::size_t core = divisions(core_middle * radius, size);
-  const std::size_t ring = divisions((1.0 - core_middle) * radius, size);
-  const std::size_t axial = divisions(length, size);
-  const double corner = core_corner * radius * std::sqrt(0.5), bulge = core_middle * radius - corner;
-  const auto core_point = [=](double u, double v) {
-    return Vector3(u * (corner + bulge * (1.0 - v * v)), v * (corner + bulge * (1.0 - u * u)), 0.0);
-  };
-  const auto between = [=](const Vector3& inner, double angle, double share, double w) {
-    const Vector3 outer(radius * std::cos(angle), radius * std::sin(angle), 0.0);
-    return Vector3(inner + share * (outer - inner) + Vector3(0.0, 0.0, w * length));
-  };
+  const Section section(radius, size);
   Hexahedra mesh;  // a quarter
-  add_block(mesh, {core, core, axial}, [&](double u, double v, double w) {
-    return Vector3(core_point(u, v) + Vector3(0.0, 0.0, w * length));
-  });
-  add_block(mesh, {ring, core, axial}, [&](double share, double v, double w) {
-    return between(core_point(1.0, v), v * eighth_turn, share, w);
-  });
-  add_block(mesh, {core, ring, axial}, [&](double u, double share, double w) {
-    return between(core_point(u, 1.0), (2.0 - u) * eighth_turn, share, w);
-  });
+  add_butterfly(
+      mesh, section, divisions(length, size),
+      [&](double u, double v, double w) {
+        return Vector3(section.core_point(u, v) + Vector3(0.0, 0.0, w * length));
+      },
+      [&](double eighths, double w) { return on_circle(radius, eighths, w * length); });
+  widen_to_circles(mesh, 2 * section.core);
   complete(mesh, 2, halved, size);
   return mesh;
 }
 
 Hexahedra make_ogive(double radius, double nose, double shank, double size, const Halved& halved) {
+  require_positive("ogive", "the radius", radius);
   require_positive("ogive", "the length of the nose", nose);
-  Hexahedra mesh = make_cylinder(radius, shank + nose, size, halved);
+  require_positive("ogive", "the size of an element", size);
+  const Section section(radius, size);
   const double arc = (radius * radius + nose * nose) / (2.0 * radius), depth = arc - radius;
-  for (Vector3& x : mesh.nodes) {
-    const double along = std::clamp(x[2] - shank, 0.0, nose);
-    const double share = std::max((std::sqrt(arc * arc - along * along) - depth) / radius, ogive_tip);
-    x[0] *= share;
-    x[1] *= share;
+  const auto radius_at = [=](double z) { return std::sqrt(arc * arc - z * z) - depth; };
+  const auto height_at = [=](double r) { return std::sqrt(arc * arc - (r + depth) * (r + depth)); };
+
+  // A cap closes the tip, as a face of its cube does for a sphere. Its edge is wider at its corner, where
+  // three blocks meet; the core ends deeper than the edge. Chosen for the best elements (scaled Jacobian).
+  constexpr double edge_share = 0.55, corner_share = 1.06 * edge_share, slope = 1.1;
+  const auto edge_radius = [=](double eighths) {
+    const double v = std::min(eighths, 2.0 - eighths);
+    return radius * (edge_share + (corner_share - edge_share) * v * v);
+  };
+  const double edge = height_at(radius * edge_share);
+  const double core_end = edge - slope * radius * edge_share * (1.0 - core_middle);
+  const auto core_point = [&](double u, double v, double w) {
+    return Vector3(section.core_point(u, v) * (radius_at(w * edge) / radius) +
+                   Vector3(0.0, 0.0, shank + w * core_end));
+  };
+  const auto edge_point = [&](double eighths) {
+    return on_circle(edge_radius(eighths), eighths, shank + height_at(edge_radius(eighths)));
+  };
+
+  Hexahedra mesh;  // a quarter
+  if (shank > 0.0) {
+    add_butterfly(
+        mesh, section, divisions(shank, size),
+        [&](double u, double v, double w) {
+          return Vector3(section.core_point(u, v) + Vector3(0.0, 0.0, w * shank));
+        },
+        [&](double eighths, double w) { return on_circle(radius, eighths, w * shank); });
   }
+  add_butterfly(mesh, section, divisions(edge, size), core_point, [&](double eighths, double w) {
+    const double z = w * height_at(edge_radius(eighths));
+    return on_circle(radius_at(z), eighths, shank + z);
+  });
+  add_block(mesh, {section.core, section.core, section.ring}, [&](double u, double v, double share) {
+    // Coons' patch between the planes of symmetry and the edge, at its height on the ogive
+    const Vector3 x_axis = edge_point(0.0), y_axis = edge_point(2.0), diagonal = edge_point(1.0);
+    Vector3 outer = (1.0 - u) * v * y_axis + u * edge_point(v) + (1.0 - v) * u * x_axis +
+                    v * edge_point(2.0 - u) - u * (1.0 - v) * x_axis - (1.0 - u) * v * y_axis -
+                    u * v * diagonal;
+    outer[2] = shank + height_at(outer.head<2>().norm());
+    const Vector3 inner = core_point(u, v, 1.0);
+    return Vector3(inner + share * (outer - inner));
+  });
+  widen_to_circles(mesh, 2 * section.core);
+  complete(mesh, 2, halved, size);
   return mesh;
 }
 
@@ -212,9 +287,9 @@ Hexahedra make_tube(double inner_radius, double outer_radius, double length, dou
   const std::size_t around = std::max<std::size_t>(2, divisions(2.0 * eighth_turn * outer_radius, size));
   Hexahedra mesh;
   add_block(mesh, {radial, around, divisions(length, size)}, [&](double u, double v, double w) {
-    const double r = inner_radius + u * (outer_radius - inner_radius), angle = 2.0 * eighth_turn * v;
-    return Vector3(r * std::cos(angle), r * std::sin(angle), w * length);
+    return on_circle(inner_radius + u * (outer_radius - inner_radius), 2.0 * v, w * length);
   });
+  widen_to_circles(mesh, around);
   complete(mesh, 2, halved, size);
   return mesh;
 }
@@ -249,6 +324,8 @@ Hexahedra make_sphere(double radius, double size, const Halved& halved) {
     const Vector3 x = towards_x(share, v, w);
     return Vector3(x[1], x[2], x[0]);
   });
+  const double factor = std::cbrt(std::numbers::pi / 6.0 * radius * radius * radius / volume(mesh));
+  for (Vector3& x : mesh.nodes) x *= factor;
   complete(mesh, 3, halved, size);
   return mesh;
 }

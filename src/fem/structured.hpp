@@ -8,8 +8,8 @@
 
 /// Structured meshes of simple bodies (docs/theory/fem.md, 7). Lengths in m; `size` is the wanted edge of an
 /// element, met as nearly as whole numbers allow, with at least one element per part. Curved surfaces are
-/// those of the trilinear elements with their nodes on the exact surface: the volume is smaller than that of
-/// the body, by O(size^2).
+/// those of the trilinear elements; their nodes lie a little outside of the exact surface, by O(size^2), so
+/// that the volume is that of the body.
 namespace whipple::fem {
 
 /// Which half of a body along each axis is made: all, or what lies at positive coordinates (models with
@@ -26,13 +26,9 @@ Hexahedra make_box(const Vector3& lower, const Vector3& upper, double size);
 /// @throws InputError if a length is not positive
 Hexahedra make_cylinder(double radius, double length, double size, const Halved& halved = {});
 
-/// Radius of the flat end that meshes of ogives have in the place of a tip, over that of the shank: elements
-/// do not become arbitrarily small.
-constexpr double ogive_tip = 0.25;
-
-/// Tangent ogive about the z axis: a shank from z = 0 to `shank`, then a nose of the length `nose` that ends
-/// in a disc of `ogive_tip`; a butterfly mesh as that of a cylinder. `halved[2]` is not used.
-/// @throws InputError if radius or nose is not positive
+/// Tangent ogive about the z axis: a shank from z = 0 to `shank`, then a nose of the length `nose`; a
+/// butterfly mesh as that of a cylinder, closed at the tip by a cap. `halved[2]` is not used.
+/// @throws InputError if radius, nose or size is not positive
 Hexahedra make_ogive(double radius, double nose, double shank, double size, const Halved& halved = {});
 
 /// Tube about the z axis from z = 0 to `length`; `halved[2]` is not used.

@@ -109,10 +109,12 @@ Shape taylor_bar(Quadrature quadrature, fem::HourglassControl hourglass, double 
   body.hourglass = hourglass;
   body.viscosity = {0.25, 1.0};
   body.set_velocity([](const Vector3&) { return Vector3(0, 0, -190.0); });
+  double outermost = 0.0;  // a little more than the radius: corners of the mesh's section
+  for (const Vector3& x : body.mesh.nodes.position) outermost = std::max(outermost, x[0]);
   std::vector<std::uint32_t> side;
   for (std::uint32_t a = 0; a < body.mesh.nodes.size(); ++a) {
     const Vector3& x = body.mesh.nodes.position[a];
-    if (std::abs(x[1]) < 1e-9 && std::abs(x[0] - radius) < 1e-9) side.push_back(a);
+    if (std::abs(x[1]) < 1e-9 && std::abs(x[0] - outermost) < 1e-9) side.push_back(a);
   }
   for (int axis = 0; axis < 3; ++axis) {
     constrain(body.mesh, nodes_on_plane(body.mesh, axis, 0.0, 1e-9), fem::constraint::axis(axis));
