@@ -53,6 +53,15 @@ struct Geometry {
     const double plane = face % 2 == 0 ? lower[axis] : upper(axis);
     return std::abs(position[axis] - plane) < tolerance();
   }
+  /// Is a position beyond a face through which matter leaves?
+  [[nodiscard]] bool has_left(const Vector3& position) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool low = position[axis] < lower[axis], beyond = low || position[axis] > upper(axis);
+      const auto face = static_cast<std::size_t>(2 * axis + (low ? 0 : 1));
+      if (beyond && boundary[face] == Boundary::outflow) return true;
+    }
+    return false;
+  }
   /// Blocks along an axis that hold cells of the domain (without the layer outside).
   [[nodiscard]] std::int32_t blocks(int axis) const { return (cells[axis] + block_edge - 1) / block_edge; }
 };

@@ -21,6 +21,7 @@ struct Lattice {
   Vector3 lower;
   Vector3 spacing;
   std::array<long, 3> count{};
+  int halvings = 0;  ///< mirror planes through the middle of the body
 
   [[nodiscard]] Vector3 point(long i, long j, long k) const {
     return lower +
@@ -90,6 +91,7 @@ Lattice lattice_of(const Case& setup, const Body& body) {
     const double part = halved ? 0.5 * length : length;
     const long n = std::max(1L, std::lround(part / wanted)) * (halved ? 2 : 1);
     lattice.count[a] = n;
+    lattice.halvings += halved ? 1 : 0;
     lattice.spacing[axis] = length / static_cast<double>(n);
   }
   return lattice;
@@ -182,6 +184,24 @@ void for_each_site(const Case& setup, const Body& body, const Lattice& lattice, 
     f(site);
     return false;
   });
+}
+
+/// Volume of the particles of a body over that of the part of its shape inside the domain, less 1; 0 where a
+/// mirror plane cuts the body elsewhere than in its middle, so that this part is not known.
+double excess_volume(const Case& setup, const Body& body) {
+  const Lattice lattice = lattice_of(setup, body);
+  const Shape::Bounds bounds = body.shape->bounds(), domain = domain_of(setup);
+  const double tolerance = 1e-9 * setup.geometry.cell_size;
+  int cuts = 0;
+  for (int a = 0; a < 3; ++a) {
+    if (bounds.lower[a] < domain.lower[a] - tolerance || bounds.upper[a] > domain.upper[a] + tolerance) {
+      ++cuts;
+    }
+  }
+  if (cuts != lattice.halvings) return 0.0;
+  double sites = 0.0;
+  for_each_site(setup, body, lattice, [&](const Site& site) { sites += site.share; });
+  return std::ldexp(sites * lattice.spacing.prod(), cuts) / body.shape->volume() - 1.0;
 }
 
 bool boxes_meet(const Shape::Bounds& a, const Shape::Bounds& b) {
@@ -283,11 +303,19 @@ std::vector<std::string> placement_warnings(const Case& setup) {
     if (body.discretization.is_bars() || body.discretization.has_elements()) continue;
     Eigen::Index axis = 0;
     const double thickness = (body.shape->bounds().upper - body.shape->bounds().lower).minCoeff(&axis);
-    if (thickness > (1.0 - 1e-9) * cell) continue;
-    warnings.push_back(fmt::format(
-        "body \"{}\" is thinner than a cell: {:.4g} mm along {}, cells of {:.4g} mm; the grid sees "
-        "no wave that crosses it",
-        body.name, 1e3 * thickness, "xyz"[axis], 1e3 * cell));
+    if (thickness < (1.0 - 1e-9) * cell) {
+      warnings.push_back(fmt::format(
+          "body \"{}\" is thinner than a cell: {:.4g} mm along {}, cells of {:.4g} mm; the grid sees "
+          "no wave that crosses it",
+          body.name, 1e3 * thickness, "xyz"[axis], 1e3 * cell));
+    }
+    constexpr double tolerance = 0.01;
+    if (const double excess = excess_volume(setup, body); std::abs(excess) > tolerance) {
+      warnings.push_back(fmt::format(
+          "body \"{}\": its particles have {:.2g} % {} volume and mass than its shape; "
+          "discretization.partial_volumes = true gives those at its surface the part that lies in it",
+          body.name, 100.0 * std::abs(excess), excess > 0.0 ? "more" : "less"));
+    }
   }
   return warnings;
 }

@@ -25,7 +25,7 @@ double expected_memory(const Case& setup);
 std::vector<PlacementFault> placement_faults(const Case& setup);
 
 /// What is wrong with no case but seldom meant: a warning for each body of particles that is thinner than a
-/// cell.
+/// cell, or whose particles have another volume than its shape.
 std::vector<std::string> placement_warnings(const Case& setup);
 
 /// What a body became.

@@ -79,28 +79,17 @@ void Simulation::advance_bars() {
 
 /// Bars with an end outside of the domain are gone.
 void Simulation::remove_bars_outside() {
-  const grid::Geometry& g = setup_.geometry;
-  const auto outside = [&](const Vector3& x) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const bool low = x[axis] < g.lower[axis], beyond = low || x[axis] > g.upper(axis);
-      const auto face = static_cast<std::size_t>(2 * axis + (low ? 0 : 1));
-      if (beyond && g.boundary[face] == grid::Boundary::outflow) return true;
-    }
-    return false;
-  };
   for (fem::Bars& bars : bars_) {
     std::vector<std::uint8_t> removed(bars.elements.size());
     for (std::size_t b = 0; b < removed.size(); ++b) {
-      removed[b] = std::ranges::any_of(bars.elements.ends[b],
-                                       [&](std::uint32_t a) { return outside(bars.nodes.position[a]); });
+      removed[b] = std::ranges::any_of(bars.elements.ends[b], [&](std::uint32_t a) {
+        return setup_.geometry.has_left(bars.nodes.position[a]);
+      });
     }
     if (std::ranges::count(removed, 1) == 0) continue;
     const Totals before = totals_of(bars, particle_affine_inertia());
     fem::remove_bars(bars, removed);
-    Totals gone = totals_of(bars, particle_affine_inertia());
-    for_each_number(gone, [](const std::string&, double& x) { x = -x; });
-    gone += before;
-    step_.outflow += gone;
+    book_outflow(before, totals_of(bars, particle_affine_inertia()));
   }
 }
 

@@ -190,21 +190,18 @@ void Simulation::advance_elements() {
   update_element_material();
 }
 
+void Simulation::book_outflow(const Totals& before, Totals after) {
+  for_each_number(after, [](const std::string&, double& x) { x = -x; });
+  after += before;
+  step_.outflow += after;
+}
+
 /// Elements that lie outside of the domain as a whole are gone, and their shares of the nodes.
 void Simulation::remove_elements_outside() {
-  const grid::Geometry& g = setup_.geometry;
   bool gone_any = false;
   for (fem::Mesh& mesh : meshes_) {
-    const auto is_outside = [&](std::size_t a) {
-      const Vector3& x = mesh.nodes.position[a];
-      for (int axis = 0; axis < 3; ++axis) {
-        // Nodes on walls may stand beyond them by round-off.
-        const bool low = x[axis] < g.lower[axis], beyond = low || x[axis] > g.upper(axis);
-        const auto face = static_cast<std::size_t>(2 * axis + (low ? 0 : 1));
-        if (beyond && g.boundary[face] == grid::Boundary::outflow) return true;
-      }
-      return false;
-    };
+    // (Nodes on walls may stand beyond them by round-off: those faces do not count.)
+    const auto is_outside = [&](std::size_t a) { return setup_.geometry.has_left(mesh.nodes.position[a]); };
     const double any =
         parallel::maximum(mesh.nodes.size(), 0.0, [&](std::size_t a) { return is_outside(a) ? 1.0 : 0.0; });
     if (any == 0.0) continue;
@@ -221,10 +218,7 @@ void Simulation::remove_elements_outside() {
     }
     fem::remove_elements(mesh, removed);
     gone_any = true;
-    Totals gone = totals_of(mesh, particle_affine_inertia());
-    for_each_number(gone, [](const std::string&, double& x) { x = -x; });
-    gone += before;
-    step_.outflow += gone;
+    book_outflow(before, totals_of(mesh, particle_affine_inertia()));
   }
   if (!meshes_.empty() && parallel::any(communicator_, gone_any)) elements_removed();
 }

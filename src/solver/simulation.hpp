@@ -137,6 +137,8 @@ class Simulation {
   void compute_bar_forces();
   void advance_bars();
   void remove_bars_outside();
+  /// What left the domain, by the totals of a body before and after.
+  void book_outflow(const Totals& before, Totals after);
   void remove_elements_outside();
   void warn_of_contact() const;
   bool bin(grid::Stencil stencil);

@@ -112,6 +112,26 @@ TEST(Case, WarnsOfBodiesThinnerThanACell) {
   EXPECT_TRUE(placement_warnings(read_case_text(plate("-4 mm"), "case.toml")).empty());
 }
 
+// A quarter of a coarse sphere of whole particles is heavier than a quarter of the sphere, one of partial
+// volumes is not; of a sphere that a mirror plane cuts beside its middle nobody knows what is left.
+TEST(Case, WarnsOfBodiesWithoutTheirMass) {
+  const auto warnings = [](const char* center, const std::string& more) {
+    return placement_warnings(
+        read_case_text(domain + "[[body]]\nname = \"sphere\"\nmaterial = \"copper.toml\"\n" + more +
+                           "shape = { sphere = { radius = \"3.535 mm\", center = " + center + " } }\n",
+                       "case.toml"));
+  };
+  const std::vector<std::string> heavy = warnings("[\"0 mm\", \"0 mm\", \"-4 mm\"]", "");
+  ASSERT_EQ(heavy.size(), 1U);
+  EXPECT_EQ(heavy[0].find("body \"sphere\": its particles have 2.5 % more volume and mass than its shape"),
+            0U)
+      << heavy[0];
+  EXPECT_NE(heavy[0].find("discretization.partial_volumes = true"), std::string::npos);
+  const std::string partial = "discretization = { partial_volumes = true }\n";
+  EXPECT_TRUE(warnings("[\"0 mm\", \"0 mm\", \"-4 mm\"]", partial).empty());
+  EXPECT_TRUE(warnings("[\"1 mm\", \"0 mm\", \"-4 mm\"]", "").empty());
+}
+
 // Their meshes would fill the memory before anything can refuse them.
 TEST(Case, RefusesMoreElementsThanAMachineHolds) {
   const std::string elements = sphere + "discretization = { method = \"finite_elements\" }\n";
