@@ -126,6 +126,16 @@ Vector3 on_circle(double radius, double eighths, double z) {
   return {radius * std::cos(eighths * eighth_turn), radius * std::sin(eighths * eighth_turn), z};
 }
 
+/// A quarter of a cylinder, from z = 0 to `length`.
+void add_cylinder(Hexahedra& mesh, const Section& section, double length, double size) {
+  add_butterfly(
+      mesh, section, divisions(length, size),
+      [&](double u, double v, double w) {
+        return Vector3(section.core_point(u, v) + Vector3(0.0, 0.0, w * length));
+      },
+      [&](double eighths, double w) { return on_circle(section.radius, eighths, w * length); });
+}
+
 /// Moves the nodes away from the z axis, so that sections that are polygons with `around` corners per quarter
 /// have the area of the circles: bodies have their mass and their stiffness in bending whatever the size.
 void widen_to_circles(Hexahedra& mesh, std::size_t around) {
@@ -212,12 +222,7 @@ Hexahedra make_cylinder(double radius, double length, double size, const Halved&
   require_positive("cylinder", "the size of an element", size);
   const Section section(radius, size);
   Hexahedra mesh;  // a quarter
-  add_butterfly(
-      mesh, section, divisions(length, size),
-      [&](double u, double v, double w) {
-        return Vector3(section.core_point(u, v) + Vector3(0.0, 0.0, w * length));
-      },
-      [&](double eighths, double w) { return on_circle(radius, eighths, w * length); });
+  add_cylinder(mesh, section, length, size);
   widen_to_circles(mesh, 2 * section.core);
   complete(mesh, 2, halved, size);
   return mesh;
@@ -250,24 +255,14 @@ Hexahedra make_ogive(double radius, double nose, double shank, double size, cons
   };
 
   Hexahedra mesh;  // a quarter
-  if (shank > 0.0) {
-    add_butterfly(
-        mesh, section, divisions(shank, size),
-        [&](double u, double v, double w) {
-          return Vector3(section.core_point(u, v) + Vector3(0.0, 0.0, w * shank));
-        },
-        [&](double eighths, double w) { return on_circle(radius, eighths, w * shank); });
-  }
+  if (shank > 0.0) add_cylinder(mesh, section, shank, size);
   add_butterfly(mesh, section, divisions(edge, size), core_point, [&](double eighths, double w) {
     const double z = w * height_at(edge_radius(eighths));
     return on_circle(radius_at(z), eighths, shank + z);
   });
   add_block(mesh, {section.core, section.core, section.ring}, [&](double u, double v, double share) {
     // Coons' patch between the planes of symmetry and the edge, at its height on the ogive
-    const Vector3 x_axis = edge_point(0.0), y_axis = edge_point(2.0), diagonal = edge_point(1.0);
-    Vector3 outer = (1.0 - u) * v * y_axis + u * edge_point(v) + (1.0 - v) * u * x_axis +
-                    v * edge_point(2.0 - u) - u * (1.0 - v) * x_axis - (1.0 - u) * v * y_axis -
-                    u * v * diagonal;
+    Vector3 outer = u * edge_point(v) + v * edge_point(2.0 - u) - u * v * edge_point(1.0);
     outer[2] = shank + height_at(outer.head<2>().norm());
     const Vector3 inner = core_point(u, v, 1.0);
     return Vector3(inner + share * (outer - inner));
