@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "src/base/marks.hpp"
 #include "src/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/grid/block_table.hpp"
@@ -144,15 +145,12 @@ bool lies_on_mirror(const fem::Mesh& mesh, const fem::Facet& facet, const grid::
   return false;
 }
 
-/// Calls f(mesh index, node, index among the transition nodes) for every marked node.
+/// Calls f(mesh index, node, index among the transition nodes) for every one of them.
 template <class Meshes, class Function>
-void for_each_marked(Meshes& meshes, Function&& f) {
+void for_each_transition_node(Meshes& meshes, Function&& f) {
   std::size_t index = 0;
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const std::vector<std::uint8_t>& marked = meshes[m].nodes.in_transition;
-    for (std::size_t a = 0; a < marked.size(); ++a) {
-      if (marked[a] != 0) f(m, a, index++);
-    }
+    for_each_marked(meshes[m].nodes.in_transition, [&](std::size_t a) { f(m, a, index++); });
   }
 }
 
@@ -238,6 +236,8 @@ double mark_transition(std::vector<fem::Mesh>& meshes, const Particles& particle
   for (Neighbourhood& of_surface : of_surfaces) sets.push_back(&of_surface);
   add_of_other_ranks(meshes, geometry, sets, communicator);
   for (Neighbourhood* set : sets) set->widen();
+  const bool alone =
+      std::ranges::all_of(sets, [](const Neighbourhood* set) { return set->blocks().empty(); });
   const auto meets = [&](std::size_t body, const Vector3& position) {
     if (of_particles.contains(position)) return true;
     for (std::size_t m = 0; m < of_surfaces.size(); ++m) {
@@ -249,32 +249,42 @@ double mark_transition(std::vector<fem::Mesh>& meshes, const Particles& particle
   std::vector<double> heat;
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     fem::Nodes& nodes = meshes[m].nodes;
+    const auto belongs = [&](std::size_t a) {
+      return nodes.on_surface[a] != 0 && inside(geometry, nodes.position[a]) && meets(m, nodes.position[a]) &&
+             (nodes.constrained[a] == fem::constraint::none || keeps_to_planes_only(nodes, a, geometry));
+    };
+    std::vector<std::uint32_t> released;
+    if (alone) {
+      for_each_marked(nodes.in_transition,
+                      [&](std::size_t a) { released.push_back(static_cast<std::uint32_t>(a)); });
+      std::ranges::fill(nodes.in_transition, std::uint8_t{0});
+    } else {
+      released = parallel::where(nodes.size(), [&](std::size_t a) {
+        const bool before = nodes.in_transition[a] != 0;
+        if (!before && nodes.on_surface[a] == 0) return false;
+        const bool now = belongs(a);
+        nodes.in_transition[a] = now ? 1 : 0;
+        return before && !now;
+      });
+    }
+    if (released.empty()) continue;
     heat.assign(nodes.size(), 0.0);
-    const double mesh_heat = parallel::sum<double>(nodes.size(), [&](std::size_t a) {
-      if (nodes.on_surface[a] == 0 && nodes.in_transition[a] == 0) return 0.0;
-      const bool now =
-          nodes.on_surface[a] != 0 && inside(geometry, nodes.position[a]) && meets(m, nodes.position[a]) &&
-          (nodes.constrained[a] == fem::constraint::none || keeps_to_planes_only(nodes, a, geometry));
-      if (nodes.in_transition[a] != 0 && !now) {
-        heat[a] = 0.5 * nodes.mass[a] * affine_inertia * nodes.affine_velocity[a].squaredNorm();
-        nodes.affine_velocity[a].setZero();
-      }
-      nodes.in_transition[a] = now ? 1 : 0;
-      return heat[a];
-    });
-    if (mesh_heat == 0.0) continue;
+    for (const std::uint32_t a : released) {
+      heat[a] = 0.5 * nodes.mass[a] * affine_inertia * nodes.affine_velocity[a].squaredNorm();
+      nodes.affine_velocity[a].setZero();
+      total_heat += heat[a];
+    }
     fem::add_heat(meshes[m], heat);
-    total_heat += mesh_heat;
   }
   return total_heat;
 }
 
 void collect(const std::vector<fem::Mesh>& meshes, transfer::TransitionNodes& nodes) {
   std::size_t count = 0;
-  for_each_marked(meshes, [&](std::size_t, std::size_t, std::size_t) { ++count; });
+  for_each_transition_node(meshes, [&](std::size_t, std::size_t, std::size_t) { ++count; });
   nodes.resize(count);
   nodes.unrelaxed = count;
-  for_each_marked(meshes, [&](std::size_t m, std::size_t a, std::size_t i) {
+  for_each_transition_node(meshes, [&](std::size_t m, std::size_t a, std::size_t i) {
     const fem::Nodes& from = meshes[m].nodes;
     nodes.mass[i] = from.mass[a];
     nodes.sound_speed[i] = sound_speed_at(meshes[m], a);
@@ -293,7 +303,7 @@ void distribute(const transfer::TransitionNodes& nodes, std::vector<fem::Mesh>& 
     motions[m].end.resize(n);
     heat[m].assign(n, 0.0);
   }
-  for_each_marked(meshes, [&](std::size_t m, std::size_t a, std::size_t i) {
+  for_each_transition_node(meshes, [&](std::size_t m, std::size_t a, std::size_t i) {
     fem::Nodes& to = meshes[m].nodes;
     to.velocity[a] = nodes.velocity[i];
     to.affine_velocity[a] = nodes.affine_velocity[i];
@@ -329,13 +339,17 @@ Vector3 stop_at_faces(fem::Nodes& nodes, const grid::Geometry& geometry, double 
       heat[a] -= mass * change * motion.mean[a][axis];
     }
   };
-  const Lanes lower = load_vector(geometry.lower.data()),
-              upper = {geometry.upper(0), geometry.upper(1), geometry.upper(2), 0.0};
   const auto impulse = [&](std::size_t begin, std::size_t end) {
     fem::ConstraintBalance balance;
-    for (std::size_t a = begin; a < end; ++a) {
-      const Lanes next = load_vector(nodes.position[a].data()) + dt * load_vector(motion.end[a].data());
-      if (bits((next >= lower) & (next <= upper)) != all_lanes) stop(a, balance);
+    for (std::size_t first = begin; first < end; first += 4) {
+      const std::size_t count = std::min<std::size_t>(4, end - first);
+      if (count == 4) {
+        const double* const position = nodes.position[first].data();
+        const double* const velocity = motion.end[first].data();
+        const auto next = [&](std::size_t j) { return load(position + j) + dt * load(velocity + j); };
+        if (geometry.contains_four({next(0), next(4), next(8)})) continue;
+      }
+      for (std::size_t a = first; a < first + count; ++a) stop(a, balance);
     }
     return balance;
   };

@@ -74,6 +74,24 @@ inline std::array<Lanes, 4> transposed(const std::array<Lanes, 4>& rows) {
           Lanes(_mm256_permute2f128_pd(a, c, 0x31)), Lanes(_mm256_permute2f128_pd(b, d, 0x31))};
 }
 
+/// Four vectors that follow one another in memory, by components.
+struct FourVectors {
+  Lanes x, y, z;
+};
+inline FourVectors load_four_vectors(const double* from) {
+  const Lanes a = load(from), b = load(from + 4), c = load(from + 8);  // x y z x, y z x y, z x y z
+  const Lanes ab_x = __builtin_shufflevector(a, b, 0, 3, 6, 6),
+              ab_y = __builtin_shufflevector(a, b, 1, 4, 7, 7),
+              ab_z = __builtin_shufflevector(a, b, 2, 5, 5, 5);
+  return {__builtin_shufflevector(ab_x, c, 0, 1, 2, 5), __builtin_shufflevector(ab_y, c, 0, 1, 2, 6),
+          __builtin_shufflevector(ab_z, c, 0, 1, 4, 7)};
+}
+/// A number of each of four vectors beside every one of their twelve components, in their order.
+inline std::array<Lanes, 3> beside_components(Lanes four) {
+  return {__builtin_shufflevector(four, four, 0, 0, 0, 1), __builtin_shufflevector(four, four, 1, 1, 2, 2),
+          __builtin_shufflevector(four, four, 2, 3, 3, 3)};
+}
+
 /// What a comparison of Lanes gives; `mask ? a : b` selects lane by lane.
 using LanesMask = decltype(Lanes{} < Lanes{});
 /// One bit per lane of a comparison.

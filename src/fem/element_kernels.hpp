@@ -28,7 +28,7 @@ struct DeformationStep {
   Mesh& mesh;
   double dt;
   const HourglassControl& hourglass;
-  std::span<Matrix3> gradient;
+  VelocityGradients& gradient;
 };
 
 inline std::size_t block_count(const Mesh& mesh) { return mesh.blocks.first_slot.size() - 1; }
@@ -57,12 +57,34 @@ WHIPPLE_INLINE inline Vector root(Vector x) { return whipple::sqrt(x); }
 WHIPPLE_INLINE inline Vector minimum(Vector a, Vector b) { return whipple::minimum(a, b); }
 WHIPPLE_INLINE inline Vector maximum(Vector a, Vector b) { return whipple::maximum(a, b); }
 WHIPPLE_INLINE inline bool all_positive(Vector x) { return bits(x > 0.0) == all_lanes; }
-/// Four numbers of each element (a row) to one register per number (a column), and back.
+WHIPPLE_INLINE inline Vector first_lanes(Vector x, std::size_t count) {
+  for (std::size_t l = count; l < width; ++l) x[l] = 0.0;
+  return x;
+}
+/// As many vectors of three as there are lanes, one after the other, by components, and back.
+WHIPPLE_INLINE inline std::array<Vector, 3> load_vectors(const double* from) {
+  const FourVectors four = load_four_vectors(from);
+  return {four.x, four.y, four.z};
+}
+WHIPPLE_INLINE inline void store_vectors(double* to, Vector x, Vector y, Vector z) {
+  const Vector xy = __builtin_shufflevector(x, y, 0, 4, 1, 5), yx = __builtin_shufflevector(x, y, 5, 2, 6, 2),
+               xy_last = __builtin_shufflevector(x, y, 3, 7, 3, 7);
+  whipple::store(to, __builtin_shufflevector(xy, z, 0, 1, 4, 2));
+  whipple::store(to + 4, __builtin_shufflevector(yx, z, 0, 5, 1, 2));
+  whipple::store(to + 8, __builtin_shufflevector(xy_last, z, 6, 0, 1, 7));
+}
+/// Adds what the elements of a row give to the nodes behind and before each of them, to a line of nodes. Four
+/// elements after four, so that sums are the same bits in all registers.
+WHIPPLE_INLINE inline void add_to_line(double* line, Vector behind, Vector before, std::size_t count) {
+  behind = first_lanes(behind, count);
+  before = first_lanes(before, count);
+  const Vector ahead = __builtin_shufflevector(before, Vector{}, 4, 0, 1, 2);
+  whipple::store(line, (whipple::load(line) + behind) + ahead);
+  line[width] += before[width - 1];
+}
+/// Four numbers of each element (a row) to one register per number (a column).
 WHIPPLE_INLINE inline std::array<Vector, 4> columns(const std::array<Lanes, width>& rows) {
   return transposed(rows);
-}
-WHIPPLE_INLINE inline std::array<Lanes, width> rows(const std::array<Vector, 4>& columns) {
-  return transposed(columns);
 }
 
 #include "src/fem/element_kernels.inl"
@@ -100,6 +122,36 @@ WHIPPLE_INLINE inline Vector maximum(Vector a, Vector b) {
 WHIPPLE_INLINE inline bool all_positive(Vector x) {
   return _mm512_cmp_pd_mask(__m512d(x), _mm512_setzero_pd(), _CMP_GT_OQ) == 0xff;
 }
+WHIPPLE_INLINE inline Vector first_lanes(Vector x, std::size_t count) {
+  return Vector(_mm512_maskz_mov_pd(static_cast<__mmask8>((1U << count) - 1U), __m512d(x)));
+}
+WHIPPLE_INLINE inline void add_to_line(double* line, Vector behind, Vector before, std::size_t count) {
+  const unsigned lanes = (1U << count) - 1U, ahead = lanes << 1U, fifth = 1U << 4U;
+  const __m512d turned = __m512d(__builtin_shufflevector(before, before, 7, 0, 1, 2, 3, 4, 5, 6));
+  __m512d sum = _mm512_loadu_pd(line);
+  sum = _mm512_mask_add_pd(sum, static_cast<__mmask8>(ahead & fifth), sum, turned);
+  sum = _mm512_mask_add_pd(sum, static_cast<__mmask8>(lanes), sum, __m512d(behind));
+  sum = _mm512_mask_add_pd(sum, static_cast<__mmask8>(ahead & ~fifth), sum, turned);
+  _mm512_storeu_pd(line, sum);
+  line[width] += count == width ? before[width - 1] : 0.0;
+}
+WHIPPLE_INLINE inline std::array<Vector, 3> load_vectors(const double* from) {
+  const Vector a = load_lanes(from, 8), b = load_lanes(from + 8, 8), c = load_lanes(from + 16, 8);
+  const Vector x = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0),
+               y = __builtin_shufflevector(a, b, 1, 4, 7, 10, 13, 0, 0, 0),
+               z = __builtin_shufflevector(a, b, 2, 5, 8, 11, 14, 0, 0, 0);
+  return {__builtin_shufflevector(x, c, 0, 1, 2, 3, 4, 5, 10, 13),
+          __builtin_shufflevector(y, c, 0, 1, 2, 3, 4, 8, 11, 14),
+          __builtin_shufflevector(z, c, 0, 1, 2, 3, 4, 9, 12, 15)};
+}
+WHIPPLE_INLINE inline void store_vectors(double* to, Vector x, Vector y, Vector z) {
+  const Vector a = __builtin_shufflevector(x, y, 0, 8, 0, 1, 9, 1, 2, 10),
+               b = __builtin_shufflevector(x, y, 2, 3, 11, 3, 4, 12, 4, 5),
+               c = __builtin_shufflevector(x, y, 13, 5, 6, 14, 6, 7, 15, 7);
+  store_lanes(to, __builtin_shufflevector(a, z, 0, 1, 8, 3, 4, 9, 6, 7), 8);
+  store_lanes(to + 8, __builtin_shufflevector(b, z, 10, 1, 2, 11, 4, 5, 12, 7), 8);
+  store_lanes(to + 16, __builtin_shufflevector(c, z, 0, 13, 2, 3, 14, 5, 6, 15), 8);
+}
 /// Pairs of halves: row n in the lower one, row n + 4 in the upper one.
 WHIPPLE_INLINE inline std::array<Vector, 4> columns(const std::array<Lanes, width>& rows) {
   std::array<Vector, 4> pair;
@@ -114,23 +166,6 @@ WHIPPLE_INLINE inline std::array<Vector, 4> columns(const std::array<Lanes, widt
           __builtin_shufflevector(odd_low, odd_high, 0, 1, 8, 9, 4, 5, 12, 13),
           __builtin_shufflevector(even_low, even_high, 2, 3, 10, 11, 6, 7, 14, 15),
           __builtin_shufflevector(odd_low, odd_high, 2, 3, 10, 11, 6, 7, 14, 15)};
-}
-WHIPPLE_INLINE inline std::array<Lanes, width> rows(const std::array<Vector, 4>& columns) {
-  const Vector even_low = __builtin_shufflevector(columns[0], columns[1], 0, 8, 2, 10, 4, 12, 6, 14),
-               odd_low = __builtin_shufflevector(columns[0], columns[1], 1, 9, 3, 11, 5, 13, 7, 15),
-               even_high = __builtin_shufflevector(columns[2], columns[3], 0, 8, 2, 10, 4, 12, 6, 14),
-               odd_high = __builtin_shufflevector(columns[2], columns[3], 1, 9, 3, 11, 5, 13, 7, 15);
-  const std::array<Vector, 4> pair = {
-      __builtin_shufflevector(even_low, even_high, 0, 1, 8, 9, 4, 5, 12, 13),
-      __builtin_shufflevector(odd_low, odd_high, 0, 1, 8, 9, 4, 5, 12, 13),
-      __builtin_shufflevector(even_low, even_high, 2, 3, 10, 11, 6, 7, 14, 15),
-      __builtin_shufflevector(odd_low, odd_high, 2, 3, 10, 11, 6, 7, 14, 15)};
-  std::array<Lanes, width> rows;
-  for (std::size_t n = 0; n < 4; ++n) {
-    rows[n] = __builtin_shufflevector(pair[n], pair[n], 0, 1, 2, 3);
-    rows[n + 4] = __builtin_shufflevector(pair[n], pair[n], 4, 5, 6, 7);
-  }
-  return rows;
 }
 
 #include "src/fem/element_kernels.inl"

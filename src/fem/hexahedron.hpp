@@ -19,6 +19,7 @@ constexpr std::array<std::array<double, 3>, 8> corner_coordinates = {
 constexpr double gauss_coordinate = 0.57735026918962576451;  ///< 1/sqrt(3)
 
 inline double root(double x) { return std::sqrt(x); }
+inline bool all_positive(double x) { return x > 0.0; }
 
 #include "src/fem/hexahedron.inl"
 

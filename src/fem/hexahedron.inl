@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Included by hexahedron.hpp for numbers and by element_kernels.hpp for each set of registers. `root`,
-// `minimum` and `maximum` are those of the number.
+// `minimum`, `maximum` and `all_positive` are those of the number.
 
 template <class T>
 struct Triple {
@@ -92,15 +92,33 @@ template <class S, class T>
   return {s * a.xi, s * a.eta, s * a.zeta, s * a.eta_zeta, s * a.zeta_xi, s * a.xi_eta, s * a.xi_eta_zeta};
 }
 
-/// From the corners to the modes: u_k = 1/8 sum_a phi_ka u_a (eq. 2.2).
+/// From the corners to the modes: u_k = sum_a phi_ka u_a / 8 (eq. 2.2) of one component of a field, given
+/// u_a / 8.
+template <class T>
+[[gnu::always_inline]] inline std::array<T, 7> modes_of_eighths(const std::array<T, 8>& u) {
+  const T s0 = u[1] + u[0], d0 = u[1] - u[0], s1 = u[2] + u[3], d1 = u[2] - u[3];
+  const T s2 = u[5] + u[4], d2 = u[5] - u[4], s3 = u[6] + u[7], d3 = u[6] - u[7];
+  const T ss0 = s1 + s0, ds0 = s1 - s0, sd0 = d1 + d0, dd0 = d1 - d0;
+  const T ss1 = s3 + s2, ds1 = s3 - s2, sd1 = d3 + d2, dd1 = d3 - d2;
+  return {sd1 + sd0, ds1 + ds0, ss1 - ss0, ds1 - ds0, sd1 - sd0, dd1 + dd0, dd1 - dd0};
+}
+/// The modes of a field by those of its components.
+template <class T>
+[[gnu::always_inline]] inline Modes<T> modes_by_components(const std::array<T, 7>& x,
+                                                           const std::array<T, 7>& y,
+                                                           const std::array<T, 7>& z) {
+  const auto mode = [&](std::size_t k) __attribute__((always_inline)) { return Triple<T>{x[k], y[k], z[k]}; };
+  return {mode(0), mode(1), mode(2), mode(3), mode(4), mode(5), mode(6)};
+}
 template <class T>
 [[gnu::always_inline]] inline Modes<T> modes_of(const std::array<Triple<T>, 8>& u) {
-  const Triple<T> s0 = u[1] + u[0], d0 = u[1] - u[0], s1 = u[2] + u[3], d1 = u[2] - u[3];
-  const Triple<T> s2 = u[5] + u[4], d2 = u[5] - u[4], s3 = u[6] + u[7], d3 = u[6] - u[7];
-  const Triple<T> ss0 = s1 + s0, ds0 = s1 - s0, sd0 = d1 + d0, dd0 = d1 - d0;
-  const Triple<T> ss1 = s3 + s2, ds1 = s3 - s2, sd1 = d3 + d2, dd1 = d3 - d2;
-  return {0.125 * (sd1 + sd0), 0.125 * (ds1 + ds0), 0.125 * (ss1 - ss0), 0.125 * (ds1 - ds0),
-          0.125 * (sd1 - sd0), 0.125 * (dd1 + dd0), 0.125 * (dd1 - dd0)};
+  std::array<T, 8> x, y, z;
+  for (std::size_t a = 0; a < 8; ++a) {
+    x[a] = 0.125 * u[a].x;
+    y[a] = 0.125 * u[a].y;
+    z[a] = 0.125 * u[a].z;
+  }
+  return modes_by_components(modes_of_eighths(x), modes_of_eighths(y), modes_of_eighths(z));
 }
 
 /// From the modes to the corners: u_a = sum_k phi_ka u_k, without the constant mode.
@@ -158,18 +176,17 @@ template <class T>
                 (1.0 / 3.0) * (dot(b, cross(d, f)) + dot(c, cross(e, d))));
 }
 
-/// sum_a u_a B_a^T: the mean gradient of the field times the volume.
+/// sum_k u_k beta_k: the mean gradient of one component of a field times an eighth of the volume.
 template <class T>
-[[gnu::always_inline]] inline Columns<T> mean_gradient_times_volume(const Modes<T>& u,
-                                                                    const VolumeGradient<T>& g) {
-  Columns<T> sum{};
-  add_dyad(sum, u.xi, g.xi);
-  add_dyad(sum, u.eta, g.eta);
-  add_dyad(sum, u.zeta, g.zeta);
-  add_dyad(sum, u.eta_zeta, g.eta_zeta);
-  add_dyad(sum, u.zeta_xi, g.zeta_xi);
-  add_dyad(sum, u.xi_eta, g.xi_eta);
-  return {8.0 * sum.x, 8.0 * sum.y, 8.0 * sum.z};
+[[gnu::always_inline]] inline Triple<T> mean_gradient_times_eighth(const std::array<T, 7>& u,
+                                                                   const VolumeGradient<T>& g) {
+  Triple<T> sum = u[0] * g.xi;
+  sum += u[1] * g.eta;
+  sum += u[2] * g.zeta;
+  sum += u[3] * g.eta_zeta;
+  sum += u[4] * g.zeta_xi;
+  sum += u[5] * g.xi_eta;
+  return sum;
 }
 
 /// Derivatives of a field with respect to the natural coordinates at a point (columns).
@@ -181,17 +198,20 @@ template <class T>
           u.zeta + eta * u.eta_zeta + xi * u.zeta_xi + (xi * eta) * u.xi_eta_zeta};
 }
 
-/// x^(1/3) for x in [1/2, 2] to round-off: two steps of Halley's iteration from the cubic at 1. Outside of
-/// that range, a positive number.
+/// x^(1/3) for x in [1/2, 2] to round-off: the series at 1 where |x - 1| is below 0.002, two steps of
+/// Halley's iteration from the cubic elsewhere. Outside of that range, a positive number.
 template <class T>
 [[gnu::always_inline]] inline T cube_root_near_one(T x) {
-  const T e = x - 1.0;
+  const T e = x - 1.0, room = 4e-6 - e * e, e2 = e * e;
+  const T series = (1.0 + (1.0 / 3.0) * e) +
+                   e2 * ((-1.0 / 9.0 + (5.0 / 81.0) * e) + e2 * (-10.0 / 243.0 + (22.0 / 729.0) * e));
+  if (all_positive(room)) return series;
   T y = 1.0 + e * (1.0 / 3.0 + e * (-1.0 / 9.0 + (5.0 / 81.0) * e));
   for (int i = 0; i < 2; ++i) {
     const T cube = y * y * y;
     y = y * (cube + 2.0 * x) / (2.0 * cube + x);
   }
-  return y;
+  return room > 0.0 ? series : y;
 }
 
 /// Length of a one-point element (m): V sqrt(3/2 / sum_a |B_a|^2), the edge of a cube (eq. 5.2).

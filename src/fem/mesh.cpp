@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "src/base/error.hpp"
+#include "src/base/vector_math.hpp"
 #include "src/fem/hexahedron.hpp"
 #include "src/fem/lists.hpp"
 #include "src/fem/order.hpp"
@@ -90,8 +91,37 @@ void make_groups(Blocks& blocks, std::size_t first_element, std::span<const Corn
     for (std::size_t a = 0; a < 8; ++a) {
       for (std::size_t l = 0; l < ElementGroup::size; ++l)
         group.slot[a][l] = l < count ? static_cast<std::uint16_t>(slots[e + l][a]) : std::uint16_t{0};
+      group.place[a] =
+          is_row ? group.slot[a][0] : static_cast<std::uint16_t>(ElementGroup::gathered_place(a));
+    }
+    group.along = 0;
+    constexpr std::array<std::size_t, 3> next_corner = {1, 3, 4};  // to the first, along each direction
+    for (std::uint8_t axis = 0; is_row && axis < 3; ++axis) {
+      if (group.slot[next_corner[axis]][0] == group.slot[0][0] + 1) group.along = axis + 1;
     }
     e += count;
+  }
+}
+
+void find_runs(Blocks& blocks) {
+  constexpr std::uint32_t longest = 64;  // so that threads find enough of them
+  blocks.runs.clear();
+  blocks.shared_nodes.clear();
+  for (std::uint32_t a = 0; a + 1 < blocks.first_of_node.size(); ++a) {
+    const std::uint32_t first = blocks.first_of_node[a];
+    if (blocks.first_of_node[a + 1] != first + 1) {
+      blocks.shared_nodes.push_back(a);
+      continue;
+    }
+    const std::uint32_t slot = blocks.slots_of_node[first];
+    if (!blocks.runs.empty()) {
+      Blocks::Run& last = blocks.runs.back();
+      if (last.node + last.count == a && last.slot + last.count == slot && last.count < longest) {
+        ++last.count;
+        continue;
+      }
+    }
+    blocks.runs.push_back({a, slot, 1});
   }
 }
 
@@ -128,7 +158,9 @@ void make_blocks(Mesh& mesh) {
     blocks.first_slot.push_back(static_cast<std::uint32_t>(blocks.slot_node.size()));
   }
   list_by_item(blocks.slot_node, mesh.nodes.size(), blocks.first_of_node, blocks.slots_of_node);
+  find_runs(blocks);
   blocks.slot_force.resize(blocks.slot_node.size());
+  blocks.forces_stand = false;
 }
 
 template <class Points>
@@ -211,7 +243,8 @@ Mesh make_mesh(const Hexahedra& hexahedra, Quadrature quadrature, std::uint32_t 
     std::ranges::fill(*zero, Vector3::Zero());
   }
   std::ranges::fill(mesh.nodes.affine_velocity, Matrix3::Zero());
-  std::ranges::fill(mesh.elements.hourglass_force, HourglassForce::Zero());
+  for (const auto component : Elements::hourglass_components())
+    std::ranges::fill(mesh.elements.*component, 0.0);
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const Modes<double> x = modes(mesh.nodes.position, mesh.elements.corners[e]);
     const VolumeGradient<double> g = volume_gradient(x);
@@ -328,7 +361,6 @@ void constrain(Nodes& nodes, std::span<const std::uint32_t> which, std::uint8_t 
 MeshTotals& MeshTotals::operator+=(const MeshTotals& other) {
   mass += other.mass;
   momentum += other.momentum;
-  angular_momentum += other.angular_momentum;
   momentum_scale += other.momentum_scale;
   kinetic_energy += other.kinetic_energy;
   internal_energy += other.internal_energy;
@@ -336,22 +368,66 @@ MeshTotals& MeshTotals::operator+=(const MeshTotals& other) {
   return *this;
 }
 
-MeshTotals totals(const Mesh& mesh) {
-  const Nodes& nodes = mesh.nodes;
-  MeshTotals sum = parallel::sum<MeshTotals>(nodes.size(), [&](std::size_t a) {
-    MeshTotals t;
-    t.mass = nodes.mass[a];
-    t.momentum = nodes.mass[a] * nodes.velocity[a];
-    t.angular_momentum = nodes.position[a].cross(t.momentum);
-    t.momentum_scale = t.momentum.norm();
-    t.kinetic_energy = 0.5 * t.momentum.dot(nodes.velocity[a]);
-    return t;
+namespace {
+
+/// Sums of nodes, four at a time.
+MeshTotals totals_of_nodes(const Nodes& nodes, std::size_t begin, std::size_t end) {
+  Lanes mass{}, scale{}, twice_kinetic{};
+  FourVectors momentum{};
+  const auto add = [&](Lanes m, const FourVectors& v) {
+    const Lanes px = m * v.x, py = m * v.y, pz = m * v.z;
+    mass += m;
+    momentum.x += px;
+    momentum.y += py;
+    momentum.z += pz;
+    scale += sqrt(px * px + py * py + pz * pz);
+    twice_kinetic += px * v.x + py * v.y + pz * v.z;
+  };
+  std::size_t a = begin;
+  for (; a + 4 <= end; a += 4) add(load(&nodes.mass[a]), load_four_vectors(nodes.velocity[a].data()));
+  for (; a < end; ++a) {
+    const Vector3& v = nodes.velocity[a];
+    add(Lanes{nodes.mass[a]}, {Lanes{v[0]}, Lanes{v[1]}, Lanes{v[2]}});
+  }
+  MeshTotals sum;
+  sum.mass = sum4(mass);
+  sum.momentum = Vector3(sum4(momentum.x), sum4(momentum.y), sum4(momentum.z));
+  sum.momentum_scale = sum4(scale);
+  sum.kinetic_energy = 0.5 * sum4(twice_kinetic);
+  return sum;
+}
+
+/// Sum over i of value(four i from there on, how many there are), four at a time.
+template <class Value>
+double sum_by_four(std::size_t n, Value&& value) {
+  return parallel::sum_of_chunks<double>(n, [&](std::size_t begin, std::size_t end) {
+    Lanes sum{};
+    for (std::size_t i = begin; i < end; i += 4) sum += value(i, std::min<std::size_t>(4, end - i));
+    return sum4(sum);
   });
-  const auto& points = mesh.points;
-  sum.internal_energy = parallel::sum<double>(
-      points.size(), [&](std::size_t i) { return points.mass[i] * points.specific_internal_energy[i]; });
-  sum.hourglass_energy = parallel::sum<double>(
-      mesh.elements.size(), [&](std::size_t e) { return mesh.elements.hourglass_energy[e]; });
+}
+
+}  // namespace
+
+MeshTotals totals(const Mesh& mesh) {
+  MeshTotals sum = parallel::sum_of_chunks<MeshTotals>(
+      mesh.nodes.size(),
+      [&](std::size_t begin, std::size_t end) { return totals_of_nodes(mesh.nodes, begin, end); });
+  const GaussPoints& points = mesh.points;
+  sum.internal_energy = sum_by_four(points.size(), [&](std::size_t i, std::size_t count) {
+    return load(&points.mass[i], count, 0.0) * load(&points.specific_internal_energy[i], count, 0.0);
+  });
+  sum.hourglass_energy = sum_by_four(mesh.elements.size(), [&](std::size_t e, std::size_t count) {
+    return load(&mesh.elements.hourglass_energy[e], count, 0.0);
+  });
+  return sum;
+}
+
+Vector3 angular_momentum(const Mesh& mesh) {
+  const Nodes& nodes = mesh.nodes;
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    sum += nodes.position[a].cross(nodes.mass[a] * nodes.velocity[a]);
   return sum;
 }
 

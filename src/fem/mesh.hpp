@@ -69,24 +69,37 @@ struct Nodes {
   }
 };
 
-/// Generalised forces (N) of the four hourglass modes, one column per mode (docs/theory/fem.md, 3).
-using HourglassForce = Eigen::Matrix<double, 3, 4>;
-
 struct Elements {
   std::vector<std::uint64_t> id;  ///< unique, never changes
   std::vector<Corners> corners;
-  std::vector<HourglassForce> hourglass_force;  ///< zero with Quadrature::b_bar
+  /// Generalised forces Q_k (N) of the four hourglass modes (docs/theory/fem.md, 3), an array per component
+  /// because kernels take several elements at a time; zero with Quadrature::b_bar.
+  std::vector<double> hourglass_1x, hourglass_1y, hourglass_1z, hourglass_2x, hourglass_2y, hourglass_2z,
+      hourglass_3x, hourglass_3y, hourglass_3z, hourglass_4x, hourglass_4y, hourglass_4z;
   std::vector<double> hourglass_energy;         ///< J, work against the stiffness of the hourglass modes
   std::vector<double> returned_plastic_strain;  ///< up to which hourglass forces have returned (eq. 3.7)
 
   [[nodiscard]] std::size_t size() const { return id.size(); }
 
+  /// Mode after mode.
+  static constexpr std::array<std::vector<double> Elements::*, 12> hourglass_components() {
+    using E = Elements;
+    return {&E::hourglass_1x, &E::hourglass_1y, &E::hourglass_1z, &E::hourglass_2x,
+            &E::hourglass_2y, &E::hourglass_2z, &E::hourglass_3x, &E::hourglass_3y,
+            &E::hourglass_3z, &E::hourglass_4x, &E::hourglass_4y, &E::hourglass_4z};
+  }
   static constexpr auto fields() {
     using E = Elements;
-    return std::make_tuple(Field{"id", "1", &E::id}, Field{"corners", "1", &E::corners},
-                           Field{"hourglass_force", "N", &E::hourglass_force},
-                           Field{"hourglass_energy", "J", &E::hourglass_energy},
-                           Field{"returned_plastic_strain", "1", &E::returned_plastic_strain});
+    return std::make_tuple(
+        Field{"id", "1", &E::id}, Field{"corners", "1", &E::corners},
+        Field{"hourglass_1x", "N", &E::hourglass_1x}, Field{"hourglass_1y", "N", &E::hourglass_1y},
+        Field{"hourglass_1z", "N", &E::hourglass_1z}, Field{"hourglass_2x", "N", &E::hourglass_2x},
+        Field{"hourglass_2y", "N", &E::hourglass_2y}, Field{"hourglass_2z", "N", &E::hourglass_2z},
+        Field{"hourglass_3x", "N", &E::hourglass_3x}, Field{"hourglass_3y", "N", &E::hourglass_3y},
+        Field{"hourglass_3z", "N", &E::hourglass_3z}, Field{"hourglass_4x", "N", &E::hourglass_4x},
+        Field{"hourglass_4y", "N", &E::hourglass_4y}, Field{"hourglass_4z", "N", &E::hourglass_4z},
+        Field{"hourglass_energy", "J", &E::hourglass_energy},
+        Field{"returned_plastic_strain", "1", &E::returned_plastic_strain});
   }
 };
 
@@ -107,11 +120,17 @@ struct GaussPoints : MaterialPoints {
 struct ElementGroup {
   static constexpr std::size_t size = 8;
 
-  std::uint32_t first;   ///< element
-  std::uint16_t count;   ///< of elements
-  std::uint16_t is_row;  ///< corner a of its elements: consecutive slots
+  std::uint32_t first;  ///< element
+  std::uint16_t count;  ///< of elements
+  std::uint8_t is_row;  ///< corner a of its elements: consecutive slots
+  std::uint8_t along;   ///< 1 xi, 2 eta, 3 zeta: of rows in which each shares a face with the next; else 0
   /// Of each corner of each element, counted in the block; of lanes without an element, 0.
   std::array<std::array<std::uint16_t, size>, 8> slot;
+  /// Of each corner, where kernels find what all elements have there, one after the other: their slots if
+  /// they are a row, else `gathered_place`.
+  std::array<std::uint16_t, 8> place;
+
+  static constexpr std::size_t gathered_place(std::size_t corner);
 };
 
 /// Consecutive elements whose nodes the kernels take together: positions and velocities of the nodes are
@@ -124,9 +143,21 @@ struct Blocks {
   std::vector<std::uint32_t> first_slot;  ///< the slots of block b: [first_slot[b], first_slot[b + 1])
   std::vector<std::uint32_t> slot_node;   ///< node of each slot, ascending in a block
   std::vector<std::uint32_t> first_of_node,
-      slots_of_node;                ///< of node a, ascending, as in Mesh::first_corner
-  std::vector<Vector3> slot_force;  ///< scratch of `internal_forces`
+      slots_of_node;  ///< of node a, ascending, as in Mesh::first_corner
+  /// `count` nodes from `node` on that have one slot each, from `slot` on.
+  struct Run {
+    std::uint32_t node, slot, count;
+  };
+  std::vector<Run> runs;                    ///< of nodes that have one slot
+  std::vector<std::uint32_t> shared_nodes;  ///< those that have more, in several blocks
+  std::vector<Vector3> slot_force;          ///< N, scratch of `internal_forces`
+  bool forces_stand = false;                ///< `slot_force` is of the present positions and stresses
 };
+
+/// Behind all slots that a block may have.
+constexpr std::size_t ElementGroup::gathered_place(std::size_t corner) {
+  return 8 * Blocks::size + size * corner;
+}
 
 /// The elements of one body on one rank.
 struct Mesh {
@@ -209,8 +240,7 @@ inline void constrain(Mesh& mesh, std::span<const std::uint32_t> which, std::uin
 struct MeshTotals {
   double mass = 0.0;
   Vector3 momentum = Vector3::Zero();
-  Vector3 angular_momentum = Vector3::Zero();  ///< about the origin
-  double momentum_scale = 0.0;                 ///< sum m |v|, to judge momentum errors by
+  double momentum_scale = 0.0;  ///< sum m |v|, to judge momentum errors by
   double kinetic_energy = 0.0;
   double internal_energy = 0.0;
   double hourglass_energy = 0.0;
@@ -219,5 +249,7 @@ struct MeshTotals {
   MeshTotals& operator+=(const MeshTotals& other);
 };
 MeshTotals totals(const Mesh& mesh);
+/// kg m^2/s, about the origin
+Vector3 angular_momentum(const Mesh& mesh);
 
 }  // namespace whipple::fem

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -72,6 +73,19 @@ inline ConstraintBalance advance_velocities(Mesh& mesh, double dt, Motion& motio
 ConstraintBalance advance_velocity(Nodes& nodes, std::size_t node, const Vector3& acceleration, double dt,
                                    Motion& motion);
 
+/// Velocity gradients (1/s), one per Gauss point, component by component: L_ij in component[3 i + j].
+struct VelocityGradients {
+  std::array<std::vector<double>, 9> component;
+
+  void resize(std::size_t n) {
+    for (std::vector<double>& values : component) values.resize(n);
+  }
+  [[nodiscard]] std::size_t size() const { return component[0].size(); }
+  [[nodiscard]] Matrix3 at(std::size_t point) const;
+  /// Those of the points from `first` on, as `update_material` takes them.
+  [[nodiscard]] std::array<const double*, 9> from(std::size_t first) const;
+};
+
 /// What the deformation of a step did to the elements.
 struct DeformationReport {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
@@ -83,16 +97,19 @@ struct DeformationReport {
   DeformationReport& operator+=(const DeformationReport& other);
 };
 
-/// Called with Gauss points [begin, end) whose gradients and energies stand: the constitutive update, while
-/// they are in the cache. Runs in several threads on disjoint points.
-using AfterBlock = std::function<void(std::size_t begin, std::size_t end)>;
+/// Called with Gauss points [begin, end) whose gradients and energies stand: the constitutive update. Runs in
+/// several threads on disjoint points, those of whole elements.
+using BlockUpdate = std::function<void(std::size_t begin, std::size_t end)>;
 
 /// Velocity gradients, work and hourglass forces of the step that takes the nodes from their present
 /// positions to x + dt motion.end (eq. 2.5 to 2.8, 3.1 to 3.6, 4.1 to 4.4); `points.length` becomes that of
 /// the end of the step. The volume that `update_material` makes of a gradient is exactly that of the element.
-/// @param velocity_gradient  1/s, one per Gauss point
+/// With `update`, block by block while all of it is in the cache, also the new stresses and their forces at
+/// the end of the step: the next `internal_forces` only sums them. Until then nothing but `move_nodes` may
+/// change positions and stresses (what calls `connect` may: it has forces computed anew).
+/// @param velocity_gradient  as many as the mesh has Gauss points
 DeformationReport deform(Mesh& mesh, const Motion& motion, double dt, const HourglassControl& hourglass,
-                         std::span<Matrix3> velocity_gradient, const AfterBlock& after_block = {});
+                         VelocityGradients& velocity_gradient, const BlockUpdate& update = {});
 
 /// x <- x + dt motion.end (eq. 1.3)
 void move_nodes(Nodes& nodes, const Motion& motion, double dt);
@@ -100,5 +117,7 @@ inline void move_nodes(Mesh& mesh, const Motion& motion, double dt) { move_nodes
 
 /// Shares heat given at the nodes (J) among their elements by mass (specific internal energy).
 void add_heat(Mesh& mesh, std::span<const double> node_heat);
+/// The shares of the elements [begin, end).
+void add_heat(Mesh& mesh, std::span<const double> node_heat, std::size_t begin, std::size_t end);
 
 }  // namespace whipple::fem

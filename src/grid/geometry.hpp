@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "src/base/tensor.hpp"
+#include "src/base/vector_math.hpp"
 
 namespace whipple::grid {
 
@@ -61,6 +62,20 @@ struct Geometry {
       if (beyond && boundary[face] == Boundary::outflow) return true;
     }
     return false;
+  }
+  /// Are four positions within the faces? Their twelve components follow one another.
+  [[nodiscard]] bool contains_four(const std::array<Lanes, 3>& positions) const {
+    unsigned within = all_lanes;
+    for (int j = 0; j < 3; ++j) {
+      Lanes low, high;
+      for (int k = 0; k < 4; ++k) {
+        low[k] = lower[(4 * j + k) % 3];
+        high[k] = upper((4 * j + k) % 3);
+      }
+      const Lanes x = positions[static_cast<std::size_t>(j)];
+      within &= bits((x >= low) & (x <= high));
+    }
+    return within == all_lanes;
   }
   /// Blocks along an axis that hold cells of the domain (without the layer outside).
   [[nodiscard]] std::int32_t blocks(int axis) const { return (cells[axis] + block_edge - 1) / block_edge; }

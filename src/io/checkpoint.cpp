@@ -43,11 +43,6 @@ struct Numbers<Matrix3> {
   static constexpr std::uint64_t columns = 9;
 };
 template <>
-struct Numbers<fem::HourglassForce> {
-  using Type = double;
-  static constexpr std::uint64_t columns = 12;
-};
-template <>
 struct Numbers<fem::Corners> {
   using Type = std::uint32_t;
   static constexpr std::uint64_t columns = 8;

@@ -124,7 +124,8 @@ inline bool any_positive(const Lanes& values, std::size_t size) {
 struct Step {
   const Material& material;
   MaterialPoints& points;
-  std::span<const Matrix3> gradient;  // of this chunk
+  std::span<const Matrix3> gradient;  // of this chunk, or
+  GradientComponents components;      // the same by components
   const UpdateSettings& settings;
   MaterialReport& report;
 };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "src/base/simd.hpp"
 #include "src/base/vector_math.hpp"
@@ -24,9 +26,16 @@ using material::components;
 using material::Lanes;
 using material::Step;
 
-/// Columns of L, one matrix after the other, to lanes.
+/// L to lanes: as it is, or its columns, one matrix after the other.
 void gather_gradient(const Step& step, Chunk& chunk) {
   material::MatrixLanes& gradient = chunk.motion.gradient;
+  if (step.gradient.empty()) {
+    for (std::size_t e = 0; e < 9; ++e) {
+      std::copy_n(step.components[e], chunk.size, gradient[e].begin());
+      std::fill_n(gradient[e].data() + chunk.size, material::padded(chunk.size) - chunk.size, 0.0);
+    }
+    return;
+  }
   const auto row_major = [](std::size_t e) { return e % 3 * 3 + e / 3; };
   const double* from = step.gradient[0].data();
   std::size_t k = 0;
@@ -412,20 +421,36 @@ void update_chunk(Step& step, Chunk& chunk, Energy energy) {
   chunk.deposit(chunk.specific_internal_energy, step.points.specific_internal_energy);
 }
 
-template <class IndexOf>
+/// @param gradient_of  gradient_of(first, count): matrices or components of points from there on
+template <class IndexOf, class GradientOf>
 MaterialReport update_all(const Material& material, MaterialPoints& points, std::size_t count,
-                          IndexOf index_of, std::span<const Matrix3> velocity_gradient,
-                          const UpdateSettings& settings, Energy energy) {
+                          IndexOf index_of, GradientOf gradient_of, const UpdateSettings& settings,
+                          Energy energy) {
   MaterialReport report;
   Chunk chunk;
   for (std::size_t first = 0; first < count; first += chunk_size) {
     chunk.size = std::min(chunk_size, count - first);
     for (std::size_t k = 0; k < chunk.size; ++k) chunk.index[k] = index_of(first + k);
     chunk.find_runs();
-    Step step{material, points, velocity_gradient.subspan(first, chunk.size), settings, report};
+    Step step{material, points, {}, {}, settings, report};
+    std::tie(step.gradient, step.components) = gradient_of(first, chunk.size);
     update_chunk(step, chunk, energy);
   }
   return report;
+}
+
+auto by_matrices(std::span<const Matrix3> gradient) {
+  return [=](std::size_t first, std::size_t count) {
+    return std::pair(gradient.subspan(first, count), GradientComponents{});
+  };
+}
+
+auto by_components(const GradientComponents& gradient) {
+  return [=](std::size_t first, std::size_t) {
+    GradientComponents from = gradient;
+    for (const double*& component : from) component += first;
+    return std::pair(std::span<const Matrix3>(), from);
+  };
 }
 
 }  // namespace
@@ -442,8 +467,16 @@ MaterialReport update_material(const Material& material, MaterialPoints& points,
                                std::size_t end, std::span<const Matrix3> velocity_gradient,
                                const UpdateSettings& settings) {
   return update_all(
-      material, points, end - begin, [=](std::size_t k) { return begin + k; }, velocity_gradient, settings,
-      Energy::from_grid);
+      material, points, end - begin, [=](std::size_t k) { return begin + k; }, by_matrices(velocity_gradient),
+      settings, Energy::from_grid);
+}
+
+MaterialReport update_material(const Material& material, MaterialPoints& points, std::size_t begin,
+                               std::size_t end, const GradientComponents& velocity_gradient,
+                               const UpdateSettings& settings) {
+  return update_all(
+      material, points, end - begin, [=](std::size_t k) { return begin + k; },
+      by_components(velocity_gradient), settings, Energy::from_grid);
 }
 
 MaterialReport update_material(const Material& material, MaterialPoints& points,
@@ -451,15 +484,15 @@ MaterialReport update_material(const Material& material, MaterialPoints& points,
                                std::span<const Matrix3> velocity_gradient, const UpdateSettings& settings) {
   return update_all(
       material, points, indices.size(), [=](std::size_t k) { return std::size_t{indices[k]}; },
-      velocity_gradient, settings, Energy::from_grid);
+      by_matrices(velocity_gradient), settings, Energy::from_grid);
 }
 
 MaterialReport update_material_and_energy(const Material& material, MaterialPoints& points, std::size_t begin,
                                           std::size_t end, std::span<const Matrix3> velocity_gradient,
                                           const UpdateSettings& settings) {
   return update_all(
-      material, points, end - begin, [=](std::size_t k) { return begin + k; }, velocity_gradient, settings,
-      Energy::integrated);
+      material, points, end - begin, [=](std::size_t k) { return begin + k; }, by_matrices(velocity_gradient),
+      settings, Energy::integrated);
 }
 
 MaterialReport update_material_and_energy(const Material& material, MaterialPoints& points,
@@ -468,7 +501,7 @@ MaterialReport update_material_and_energy(const Material& material, MaterialPoin
                                           const UpdateSettings& settings) {
   return update_all(
       material, points, indices.size(), [=](std::size_t k) { return std::size_t{indices[k]}; },
-      velocity_gradient, settings, Energy::integrated);
+      by_matrices(velocity_gradient), settings, Energy::integrated);
 }
 
 }  // namespace whipple

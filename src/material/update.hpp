@@ -28,6 +28,10 @@ struct UpdateSettings {
   double time = 0.0;  ///< s, at the end of the step
 };
 
+/// Velocity gradients of points that follow one another, component by component: L_ij (1/s) of the k-th point
+/// is [3 i + j][k].
+using GradientComponents = std::array<const double*, 9>;
+
 /// What an update met. Indices are those of the points (not of the range or list).
 struct MaterialReport {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
@@ -52,6 +56,10 @@ struct MaterialReport {
 /// + k
 MaterialReport update_material(const Material& material, MaterialPoints& points, std::size_t begin,
                                std::size_t end, std::span<const Matrix3> velocity_gradient,
+                               const UpdateSettings& settings);
+/// The same with the gradients component by component.
+MaterialReport update_material(const Material& material, MaterialPoints& points, std::size_t begin,
+                               std::size_t end, const GradientComponents& velocity_gradient,
                                const UpdateSettings& settings);
 /// The same for a list of points (sorted or not, without repetition); entry k belongs to point indices[k].
 MaterialReport update_material(const Material& material, MaterialPoints& points,

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <limits>
 
 #include "src/afemp/conversion.hpp"
 #include "src/afemp/transition.hpp"
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
+#include "src/base/vector_math.hpp"
+#include "src/material/update.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
 #include "src/solver/simulation.hpp"
@@ -145,7 +148,52 @@ void Simulation::book_gravity(const fem::Nodes& nodes, const fem::Motion& motion
   }
 }
 
-/// Nodes by themselves or as the grid moved them; strain, work and heat of their elements.
+/// Strain, work, heat, new stresses and their forces of the elements of a mesh, block by block.
+/// @param heated  is there heat at any of its nodes?
+/// @returns an error that ends the run, or nothing
+std::string Simulation::deform_elements(std::size_t m, bool heated) {
+  using Clock = std::chrono::steady_clock;
+  fem::Mesh& mesh = meshes_[m];
+  const setup::Body& body = setup_.bodies[mesh.body];
+  const Material& material = *setup_.materials[mesh.body];
+  UpdateSettings settings = update_settings(mesh.body);
+  settings.lengths = mesh.points.length;
+  const std::size_t rows = fem::points_per_element(mesh.quadrature), block = fem::Blocks::size * rows;
+  fem::VelocityGradients& gradient = element_gradient_[m];
+  gradient.resize(mesh.points.size());
+  std::vector<MaterialReport> reports((mesh.points.size() + block - 1) / block);
+  std::vector<Clock::duration> durations(reports.size());
+  const auto update = [&](std::size_t begin, std::size_t end) {
+    const Clock::time_point start = Clock::now();
+    if (heated) fem::add_heat(mesh, node_heat_[m], begin / rows, end / rows);
+    reports[begin / block] =
+        whipple::update_material(material, mesh.points, begin, end, gradient.from(begin), settings);
+    durations[begin / block] = Clock::now() - start;
+  };
+  const fem::DeformationReport report =
+      fem::deform(mesh, motions_[m], state_.time_step, hourglass(body.discretization), gradient, update);
+  step_.work += report.work;
+  Clock::duration in_material{};  // of all threads
+  MaterialReport sum;
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    sum.merge(reports[i]);
+    in_material += durations[i];
+  }
+  profile_.reassign("elements", "material",
+                    std::chrono::duration<double>(in_material).count() / parallel::threads());
+  const std::string of_material = book(sum, material, [&](std::size_t p, const std::string& reason) {
+    return describe_element(mesh, p, reason);
+  });
+  if (report.inverted == 0) return of_material;
+  return describe_element(
+      mesh, report.first_inverted * rows,
+      body.discretization.converts()
+          ? "is inverted: raise conversion.jacobian or conversion.time_step_ratio, or lower "
+            "conversion.plastic_strain, so that it becomes particles earlier"
+          : "is inverted: discretization.method = \"adaptive\" turns such elements into particles");
+}
+
+/// Nodes by themselves or as the grid moved them, and what that does to their elements.
 void Simulation::advance_elements() {
   if (meshes_.empty() && bars_.empty()) return;
   profile_.time("elements", [&] {
@@ -157,27 +205,22 @@ void Simulation::advance_elements() {
     std::string error;
     for (std::size_t m = 0; m < meshes_.size(); ++m) {
       fem::Mesh& mesh = meshes_[m];
-      const setup::Body& body = setup_.bodies[mesh.body];
       const fem::ConstraintBalance balance = advance_free_nodes(m);
       step_.wall_impulse += balance.impulse;
       step_.external_work += balance.work;
       step_.wall_impulse += afemp::stop_at_faces(mesh.nodes, setup_.geometry, dt, motions_[m], node_heat_[m]);
-      const bool heated = std::ranges::any_of(node_heat_[m], [](double heat) { return heat != 0.0; });
-      for (const double heat : node_heat_[m]) step_.transfer_heat += heat;
+      Lanes heat{};
+      bool heated = false;
+      for (std::size_t a = 0; a < mesh.nodes.size(); a += 4) {
+        const Lanes four = load(&node_heat_[m][a], std::min<std::size_t>(4, mesh.nodes.size() - a), 0.0);
+        heat += four;
+        heated = heated || any(four != 0.0);
+      }
+      step_.transfer_heat += sum4(heat);
       book_gravity(mesh.nodes, motions_[m]);
-      element_gradient_[m].resize(mesh.points.size());
-      const fem::DeformationReport report =
-          fem::deform(mesh, motions_[m], dt, hourglass(body.discretization), element_gradient_[m]);
-      step_.work += report.work;
-      if (heated) fem::add_heat(mesh, node_heat_[m]);
+      const std::string of_mesh = deform_elements(m, heated);
+      if (error.empty()) error = of_mesh;
       fem::move_nodes(mesh, motions_[m], dt);
-      if (report.inverted == 0 || !error.empty()) continue;
-      error = describe_element(
-          mesh, report.first_inverted * fem::points_per_element(mesh.quadrature),
-          body.discretization.converts()
-              ? "is inverted: raise conversion.jacobian or conversion.time_step_ratio, or lower "
-                "conversion.plastic_strain, so that it becomes particles earlier"
-              : "is inverted: discretization.method = \"adaptive\" turns such elements into particles");
     }
     const auto of_bars = static_cast<std::ptrdiff_t>(bar_node_count());
     for (auto heat = transition_.contact_heat.begin(); heat != transition_.contact_heat.end() - of_bars;
@@ -187,7 +230,6 @@ void Simulation::advance_elements() {
     advance_bars();
     parallel::throw_together(communicator_, error);
   });
-  update_element_material();
 }
 
 void Simulation::book_outflow(const Totals& before, Totals after) {
@@ -202,8 +244,16 @@ void Simulation::remove_elements_outside() {
   for (fem::Mesh& mesh : meshes_) {
     // (Nodes on walls may stand beyond them by round-off: those faces do not count.)
     const auto is_outside = [&](std::size_t a) { return setup_.geometry.has_left(mesh.nodes.position[a]); };
-    const double any =
-        parallel::maximum(mesh.nodes.size(), 0.0, [&](std::size_t a) { return is_outside(a) ? 1.0 : 0.0; });
+    const std::size_t nodes = mesh.nodes.size();
+    const double any = parallel::maximum((nodes + 3) / 4, 0.0, [&](std::size_t four) {
+      const std::size_t first = 4 * four, end = std::min(nodes, first + 4);
+      const double* const x = mesh.nodes.position[first].data();
+      if (end == first + 4 && setup_.geometry.contains_four({load(x), load(x + 4), load(x + 8)})) return 0.0;
+      for (std::size_t a = first; a < end; ++a) {
+        if (is_outside(a)) return 1.0;
+      }
+      return 0.0;
+    });
     if (any == 0.0) continue;
     std::vector<std::uint8_t> removed(mesh.elements.size(), 0);
     for (std::size_t e = 0; e < removed.size(); ++e) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/marks.hpp"
 #include "src/base/vector_math.hpp"
 #include "src/io/output_fields.hpp"
 #include "src/parallel/threads.hpp"
@@ -75,16 +76,15 @@ Totals totals_of(const Particles& particles, double affine_inertia) {
 Totals totals_of(const fem::Mesh& mesh, double affine_inertia) {
   const fem::MeshTotals of_mesh = fem::totals(mesh);
   const fem::Nodes& nodes = mesh.nodes;
+  double affine = 0.0;
+  for_each_marked(nodes.in_transition, [&](std::size_t a) {
+    affine += 0.5 * nodes.mass[a] * affine_inertia * nodes.affine_velocity[a].squaredNorm();
+  });
   return {.mass = of_mesh.mass,
           .momentum = of_mesh.momentum,
           .momentum_scale = of_mesh.momentum_scale,
           .kinetic_energy = of_mesh.kinetic_energy,
-          .affine_kinetic_energy = parallel::sum<double>(nodes.size(),
-                                                         [&](std::size_t a) {
-                                                           if (nodes.in_transition[a] == 0) return 0.0;
-                                                           return 0.5 * nodes.mass[a] * affine_inertia *
-                                                                  nodes.affine_velocity[a].squaredNorm();
-                                                         }),
+          .affine_kinetic_energy = affine,
           .internal_energy = of_mesh.internal_energy,
           .hourglass_energy = of_mesh.hourglass_energy};
 }

@@ -93,30 +93,4 @@ void Simulation::update_material_with(std::string_view stage, EnergyUpdate energ
   parallel::throw_together(communicator_, error);
 }
 
-void Simulation::update_element_material() {
-  profile_.time("material", [&] {
-    std::string error;
-    for (std::size_t m = 0; m < meshes_.size(); ++m) {
-      fem::Mesh& mesh = meshes_[m];
-      const Material& material = *setup_.materials[mesh.body];
-      UpdateSettings settings = update_settings(mesh.body);
-      settings.lengths = mesh.points.length;
-      const std::size_t count = mesh.points.size();
-      std::vector<MaterialReport> reports((count + parallel::chunk_size - 1) / parallel::chunk_size);
-      parallel::for_each_chunk(count, [&](std::size_t begin, std::size_t end) {
-        reports[begin / parallel::chunk_size] =
-            whipple::update_material(material, mesh.points, begin, end,
-                                     std::span(element_gradient_[m]).subspan(begin, end - begin), settings);
-      });
-      MaterialReport report;
-      for (const MaterialReport& part : reports) report.merge(part);
-      const std::string of_mesh = book(report, material, [&](std::size_t p, const std::string& reason) {
-        return describe_element(mesh, p, reason);
-      });
-      if (error.empty()) error = of_mesh;
-    }
-    parallel::throw_together(communicator_, error);
-  });
-}
-
 }  // namespace whipple::solver

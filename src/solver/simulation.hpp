@@ -157,7 +157,7 @@ class Simulation {
   void update_material_with(std::string_view stage, EnergyUpdate energy,
                             const std::function<void(const transfer::TakeGradients&)>& gather);
   [[nodiscard]] UpdateSettings update_settings(std::size_t body) const;
-  void update_element_material();
+  [[nodiscard]] std::string deform_elements(std::size_t mesh, bool heated);
   [[nodiscard]] std::string book(const MaterialReport& report, const Material& material,
                                  const std::function<std::string(std::size_t, const std::string&)>& describe);
   [[nodiscard]] std::size_t deform_domains(std::span<const std::uint32_t> particles,
@@ -208,7 +208,7 @@ class Simulation {
   // Of each mesh, in the step under way:
   std::vector<fem::Motion> motions_;
   std::vector<std::vector<double>> node_heat_;
-  std::vector<std::vector<Matrix3>> element_gradient_;
+  std::vector<fem::VelocityGradients> element_gradient_;
 };
 
 /// Symplectic scheme with exact energy (docs/theory/mpm.md, section 4).

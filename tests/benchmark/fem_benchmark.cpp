@@ -28,15 +28,16 @@ void elements(benchmark::State& state, const char* name, fem::Quadrature quadrat
   for (Vector3& v : mesh.nodes.velocity)
     v = Vector3(uniform(generator), uniform(generator), uniform(generator));
   fem::Motion motion;
-  std::vector<Matrix3> gradients(mesh.points.size());
+  fem::VelocityGradients gradients;
+  gradients.resize(mesh.points.size());
   const fem::ViscosityCoefficients viscosity;
   double dt = 0.0;
   const auto update = [&](std::size_t begin, std::size_t end) {
     UpdateSettings settings;
     settings.time_step = dt;
     settings.lengths = mesh.points.length;
-    const std::span<const Matrix3> own = std::span(gradients).subspan(begin, end - begin);
-    const MaterialReport report = update_material(material, mesh.points, begin, end, own, settings);
+    const MaterialReport report =
+        update_material(material, mesh.points, begin, end, gradients.from(begin), settings);
     if (!report.valid()) state.SkipWithError("a point left the range of its model");
   };
   const auto step = [&] {
@@ -47,11 +48,14 @@ void elements(benchmark::State& state, const char* name, fem::Quadrature quadrat
     fem::move_nodes(mesh, motion, dt);
   };
   step();
-  std::vector<Matrix3> reversed = gradients;
-  for (Matrix3& gradient : reversed) gradient = -gradient;
+  fem::VelocityGradients reversed = gradients;
+  for (std::vector<double>& component : reversed.component) {
+    for (double& rate : component) rate = -rate;
+  }
   for (auto _ : state) {
     switch (part) {
       case Part::forces:
+        mesh.blocks.forces_stand = false;
         fem::internal_forces(mesh);
         break;
       case Part::motion:
@@ -64,7 +68,7 @@ void elements(benchmark::State& state, const char* name, fem::Quadrature quadrat
         break;
       case Part::material:  // back and forth, so that the points stay near their state
         update(0, mesh.points.size());
-        gradients.swap(reversed);
+        std::swap(gradients, reversed);
         break;
       case Part::step:
         step();

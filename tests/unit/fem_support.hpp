@@ -82,8 +82,8 @@ struct Body {
     std::mutex one_at_a_time;
     deformation +=
         fem::deform(mesh, motion, dt, hourglass, gradients, [&](std::size_t begin, std::size_t end) {
-          const std::span<const Matrix3> part = std::span(gradients).subspan(begin, end - begin);
-          const MaterialReport met = update_material(material, mesh.points, begin, end, part, settings);
+          const MaterialReport met =
+              update_material(material, mesh.points, begin, end, gradients.from(begin), settings);
           const std::scoped_lock lock(one_at_a_time);
           report.merge(met);
         });
@@ -92,24 +92,30 @@ struct Body {
 
   MaterialReport report;
   fem::Motion motion;
-  std::vector<Matrix3> gradients;
+  fem::VelocityGradients gradients;
 };
 
 /// A box with every node moved by a random part of the element size.
-inline fem::Hexahedra distorted_box(std::size_t n, double size, double share, unsigned seed = 7) {
-  fem::Hexahedra box =
-      fem::make_box(Vector3::Zero(), Vector3::Constant(static_cast<double>(n) * size), {n, n, n});
+inline fem::Hexahedra distorted_box(std::array<std::size_t, 3> n, double size, double share,
+                                    unsigned seed = 7) {
+  const Vector3 edges(static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2]));
+  fem::Hexahedra box = fem::make_box(Vector3::Zero(), size * edges, n);
   std::mt19937_64 generator(seed);
   std::uniform_real_distribution<double> uniform(-share * size, share * size);
   for (Vector3& x : box.nodes) x += Vector3(uniform(generator), uniform(generator), uniform(generator));
   return box;
 }
 
+inline fem::Hexahedra distorted_box(std::size_t n, double size, double share, unsigned seed = 7) {
+  return distorted_box(std::array{n, n, n}, size, share, seed);
+}
+
 /// A body in a state of random velocities, with stresses after a few steps. With three elements along an edge
-/// the kernels take what elements there are, with nine rows of them (ElementGroup).
+/// the kernels take what elements there are, with more along one of the directions rows of them
+/// (ElementGroup).
 inline Body shaken(Quadrature quadrature, fem::HourglassControl hourglass, double viscosity = 0.0,
-                   std::size_t edge = 3) {
-  Body body(Solid{}.material(), distorted_box(edge, 1e-3, 0.2), quadrature);
+                   std::array<std::size_t, 3> cells = {3, 3, 3}) {
+  Body body(Solid{}.material(), distorted_box(cells, 1e-3, 0.2), quadrature);
   body.hourglass = hourglass;
   body.viscosity = {viscosity, 4.0 * viscosity};
   std::mt19937_64 generator(3);
@@ -123,5 +129,23 @@ inline Body shaken(Quadrature quadrature, fem::HourglassControl hourglass, doubl
 inline constexpr fem::HourglassControl stiffness = {fem::HourglassControl::Kind::stiffness, 0.05};
 inline constexpr fem::HourglassControl viscous = {fem::HourglassControl::Kind::viscous, 0.1};
 inline constexpr fem::HourglassControl no_control = {fem::HourglassControl::Kind::stiffness, 0.0};
+
+/// Generalised forces (N) of the four hourglass modes of an element, one column per mode.
+using HourglassForce = Eigen::Matrix<double, 3, 4>;
+
+inline HourglassForce hourglass_force(const fem::Elements& elements, std::size_t element) {
+  HourglassForce force;
+  double* to = force.data();
+  for (const auto component : fem::Elements::hourglass_components()) *to++ = (elements.*component)[element];
+  return force;
+}
+inline void set_hourglass_force(fem::Elements& elements, std::size_t element, const HourglassForce& force) {
+  const double* from = force.data();
+  for (const auto component : fem::Elements::hourglass_components()) (elements.*component)[element] = *from++;
+}
+
+/// Elements without rows, and rows along each direction.
+inline constexpr std::array<std::array<std::size_t, 3>, 4> box_cells = {
+    {{3, 3, 3}, {21, 3, 3}, {3, 21, 3}, {3, 3, 21}}};
 
 }  // namespace whipple::fem_test

@@ -3,6 +3,8 @@
 // empty space costs nothing, and a position outside of the domain is an error.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
 #include <random>
@@ -73,6 +75,31 @@ void check_lists(const BlockGrid& grid, const std::vector<Vector3>& x) {
     }
   }
   for (const int count : seen) EXPECT_EQ(count, 1);
+}
+
+/// Four positions are within the faces if each of them is.
+TEST(Geometry, ContainsFourIfItContainsEach) {
+  Geometry box;
+  box.lower = Vector3(-1.0, 2.0, -3.0);
+  box.cells = {2, 4, 6};
+  box.cell_size = 0.5;
+  std::mt19937_64 generator(9);
+  std::uniform_real_distribution<double> around(-0.15, 1.1);
+  int inside = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::array<double, 12> x;
+    bool expected = true;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const int axis = static_cast<int>(k % 3);
+      const double low = box.lower[axis], high = box.upper(axis);
+      x[k] = std::clamp(low + around(generator) * (high - low), i % 2 == 0 ? low : -1e9, 1e9);
+      expected = expected && x[k] >= low && x[k] <= high;
+    }
+    inside += expected ? 1 : 0;
+    EXPECT_EQ(box.contains_four({load(&x[0]), load(&x[4]), load(&x[8])}), expected);
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_LT(inside, 1900);
 }
 
 /// What goes on at the same time works with nodes apart, for single blocks (few slots) and for cubes of them.

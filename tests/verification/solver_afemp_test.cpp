@@ -152,7 +152,8 @@ shape = {{ box = {{ lower = ["-1.5 mm", "-1.5 mm", "-8 mm"], upper = ["1.5 mm", 
     Simulation simulation(setup, parallel::world());
     fem::Mesh mesh = simulation.meshes().front();
     fem::Motion motion;
-    std::vector<Matrix3> gradient(mesh.points.size());
+    fem::VelocityGradients gradient;
+    gradient.resize(mesh.points.size());
     while (simulation.state().time < 5e-6) {
       const double time = simulation.state().time;
       simulation.advance(5e-6);
@@ -161,7 +162,7 @@ shape = {{ box = {{ lower = ["-1.5 mm", "-1.5 mm", "-8 mm"], upper = ["1.5 mm", 
       fem::advance_velocities(mesh, dt, motion);
       fem::deform(mesh, motion, dt, {}, gradient);
       fem::move_nodes(mesh, motion, dt);
-      update_material(*setup.materials[0], mesh.points, 0, mesh.points.size(), gradient,
+      update_material(*setup.materials[0], mesh.points, 0, mesh.points.size(), gradient.from(0),
                       {.time_step = dt, .lengths = mesh.points.length, .time = time + dt});
     }
     const fem::Mesh& same = simulation.meshes().front();

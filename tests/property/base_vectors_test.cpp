@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loops that take several items at a time give what one item after the other gives.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+#include <vector>
+
+#include "src/base/marks.hpp"
+#include "src/base/vector_math.hpp"
+
+namespace whipple {
+namespace {
+
+TEST(FourVectors, AreTheirComponents) {
+  std::array<double, 12> numbers;
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = 10.0 * static_cast<double>(i) + 1.0;
+  const FourVectors v = load_four_vectors(numbers.data());
+  const std::array<Lanes, 3> beside = beside_components(Lanes{0.0, 1.0, 2.0, 3.0});
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(v.x[k], numbers[3 * k]);
+    EXPECT_EQ(v.y[k], numbers[3 * k + 1]);
+    EXPECT_EQ(v.z[k], numbers[3 * k + 2]);
+  }
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    EXPECT_EQ(beside[i / 4][i % 4], static_cast<double>(i / 3)) << i;
+  }
+}
+
+TEST(Marks, AreFoundInTheirOrder) {
+  std::mt19937 generator(3);
+  for (const std::size_t n : {0, 1, 7, 8, 9, 64, 1000}) {
+    for (const unsigned one_in : {1U, 3U, 40U}) {
+      std::vector<std::uint8_t> marks(n);
+      std::vector<std::size_t> expected, found;
+      for (std::size_t i = 0; i < n; ++i) {
+        marks[i] = generator() % one_in == 0 ? 1 : 0;
+        if (marks[i] != 0) expected.push_back(i);
+      }
+      for_each_marked(marks, [&](std::size_t i) { found.push_back(i); });
+      EXPECT_EQ(found, expected) << n;
+      for (std::size_t i = 0; i + 4 <= n; ++i) {
+        const bool none = marks[i] + marks[i + 1] + marks[i + 2] + marks[i + 3] == 0;
+        EXPECT_EQ(none_of_four(marks, i), none) << n;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace whipple
