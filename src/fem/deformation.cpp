@@ -63,8 +63,8 @@ DeformationReport deform(Mesh& mesh, const Motion& motion, double dt, const Hour
     throw InternalError("fem::deform: velocities or gradients do not fit the mesh");
   }
   const DeformationStep step{mesh, dt, hourglass, velocity_gradient};
-  std::vector<DeformationReport> reports(block_count(mesh));
-  parallel::for_each(block_count(mesh), [&](std::size_t block) {
+  std::vector<DeformationReport> reports(mesh.blocks.count());
+  parallel::for_each(mesh.blocks.count(), [&](std::size_t block) {
     with_kernels([&]<class Kernels>(Kernels) {
       typename Kernels::Field position;
       Kernels::copy_positions(mesh, block, position);
@@ -83,7 +83,7 @@ DeformationReport deform(Mesh& mesh, const Motion& motion, double dt, const Hour
 
 void internal_forces(Mesh& mesh) {
   if (!mesh.blocks.forces_stand) {
-    parallel::for_each(block_count(mesh), [&](std::size_t block) {
+    parallel::for_each(mesh.blocks.count(), [&](std::size_t block) {
       with_kernels([&]<class Kernels>(Kernels) {
         typename Kernels::Field position;
         Kernels::copy_positions(mesh, block, position);

@@ -31,8 +31,6 @@ struct DeformationStep {
   VelocityGradients& gradient;
 };
 
-inline std::size_t block_count(const Mesh& mesh) { return mesh.blocks.first_slot.size() - 1; }
-
 namespace narrow {
 
 using Vector = Lanes;

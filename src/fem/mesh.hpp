@@ -138,6 +138,7 @@ struct ElementGroup {
 struct Blocks {
   static constexpr std::size_t size = 256;  ///< elements
 
+  [[nodiscard]] std::size_t count() const { return first_slot.size() - 1; }
   std::vector<std::uint32_t> first_group;  ///< the groups of block b: [first_group[b], first_group[b + 1])
   std::vector<ElementGroup> groups;
   std::vector<std::uint32_t> first_slot;  ///< the slots of block b: [first_slot[b], first_slot[b + 1])

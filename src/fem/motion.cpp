@@ -143,9 +143,15 @@ void move_nodes(Nodes& nodes, const Motion& motion, double dt) {
   });
 }
 
-void add_heat(Mesh& mesh, std::span<const double> node_heat, std::size_t begin, std::size_t end) {
-  const std::size_t n = points_per_element(mesh.quadrature);
-  for (std::size_t e = begin; e < end; ++e) {
+void add_heat(Mesh& mesh, std::span<const double> node_heat, std::size_t block) {
+  const Blocks& blocks = mesh.blocks;
+  const auto nodes =
+      std::span(blocks.slot_node)
+          .subspan(blocks.first_slot[block], blocks.first_slot[block + 1] - blocks.first_slot[block]);
+  // Few nodes have heat: those that move with the grid.
+  if (std::ranges::none_of(nodes, [&](std::uint32_t a) { return node_heat[a] != 0.0; })) return;
+  const std::size_t n = points_per_element(mesh.quadrature), begin = block * Blocks::size;
+  for (std::size_t e = begin; e < std::min(begin + Blocks::size, mesh.elements.size()); ++e) {
     double heat = 0.0;  // of the shares of the element in its nodes
     for (std::size_t a = 0; a < 8; ++a) {
       const std::uint32_t node = mesh.elements.corners[e][a];
@@ -159,16 +165,7 @@ void add_heat(Mesh& mesh, std::span<const double> node_heat, std::size_t begin, 
 
 void add_heat(Mesh& mesh, std::span<const double> node_heat) {
   if (node_heat.size() != mesh.nodes.size()) throw InternalError("fem::add_heat: one heat per node");
-  // Few nodes have heat: those that move with the grid.
-  const Blocks& blocks = mesh.blocks;
-  parallel::for_each(blocks.first_slot.size() - 1, [&](std::size_t block) {
-    const auto nodes =
-        std::span(blocks.slot_node)
-            .subspan(blocks.first_slot[block], blocks.first_slot[block + 1] - blocks.first_slot[block]);
-    if (std::ranges::none_of(nodes, [&](std::uint32_t a) { return node_heat[a] != 0.0; })) return;
-    const std::size_t begin = block * Blocks::size;
-    add_heat(mesh, node_heat, begin, std::min(begin + Blocks::size, mesh.elements.size()));
-  });
+  parallel::for_each(mesh.blocks.count(), [&](std::size_t block) { add_heat(mesh, node_heat, block); });
 }
 
 }  // namespace whipple::fem

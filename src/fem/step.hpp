@@ -117,7 +117,7 @@ inline void move_nodes(Mesh& mesh, const Motion& motion, double dt) { move_nodes
 
 /// Shares heat given at the nodes (J) among their elements by mass (specific internal energy).
 void add_heat(Mesh& mesh, std::span<const double> node_heat);
-/// The shares of the elements [begin, end).
-void add_heat(Mesh& mesh, std::span<const double> node_heat, std::size_t begin, std::size_t end);
+/// The shares of the elements of a block.
+void add_heat(Mesh& mesh, std::span<const double> node_heat, std::size_t block);
 
 }  // namespace whipple::fem

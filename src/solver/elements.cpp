@@ -165,7 +165,7 @@ std::string Simulation::deform_elements(std::size_t m, bool heated) {
   std::vector<Clock::duration> durations(reports.size());
   const auto update = [&](std::size_t begin, std::size_t end) {
     const Clock::time_point start = Clock::now();
-    if (heated) fem::add_heat(mesh, node_heat_[m], begin / rows, end / rows);
+    if (heated) fem::add_heat(mesh, node_heat_[m], begin / block);
     reports[begin / block] =
         whipple::update_material(material, mesh.points, begin, end, gradient.from(begin), settings);
     durations[begin / block] = Clock::now() - start;

@@ -13,7 +13,6 @@
 #include "src/base/log.hpp"
 #include "src/base/progress.hpp"
 #include "src/base/text.hpp"
-#include "src/base/vector_math.hpp"
 #include "src/io/background_writer.hpp"
 #include "src/io/element_series.hpp"
 #include "src/io/history.hpp"
@@ -49,33 +48,12 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
   sum_over_ranks(simulation.communicator(), by_body);
   PhaseMasses all;
   for (const PhaseMasses& body : by_body) all += body;
-  const auto largest_of_chunks = [](std::size_t n, double so_far, auto&& of_four) {
-    return parallel::maximum((n + parallel::chunk_size - 1) / parallel::chunk_size, so_far,
-                             [&](std::size_t c) {
-                               const std::size_t end = std::min(n, (c + 1) * parallel::chunk_size);
-                               Lanes most = broadcast(so_far);
-                               for (std::size_t p = c * parallel::chunk_size; p < end; p += 4) {
-                                 most = maximum(of_four(p, std::min<std::size_t>(4, end - p)), most);
-                               }
-                               return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
-                             });
+  const auto largest = [](const std::vector<double>& values, double so_far) {
+    return parallel::maximum(values.size(), so_far, [&](std::size_t p) { return values[p]; });
   };
-  const auto largest = [&](const std::vector<double>& values, double so_far) {
-    return largest_of_chunks(values.size(), so_far, [&](std::size_t p, std::size_t count) {
-      return load(&values[p], count, so_far);
-    });
-  };
-  const auto fastest = [&](const std::vector<Vector3>& velocity, double so_far) {
-    return std::sqrt(
-        largest_of_chunks(velocity.size(), so_far * so_far, [&](std::size_t p, std::size_t count) {
-          if (count == 4) {
-            const FourVectors v = load_four_vectors(velocity[p].data());
-            return v.x * v.x + v.y * v.y + v.z * v.z;
-          }
-          Lanes squared{};
-          for (std::size_t k = 0; k < count; ++k) squared[k] = velocity[p + k].squaredNorm();
-          return squared;
-        }));
+  const auto fastest = [](const std::vector<Vector3>& velocity, double so_far) {
+    return std::sqrt(parallel::maximum(velocity.size(), so_far * so_far,
+                                       [&](std::size_t p) { return velocity[p].squaredNorm(); }));
   };
   constexpr double none = -std::numeric_limits<double>::infinity();
   std::array<double, 3> maxima = {fastest(particles.velocity, 0.0), largest(particles.pressure, none),
