@@ -186,6 +186,40 @@ void for_each_site(const Case& setup, const Body& body, const Lattice& lattice, 
   });
 }
 
+/// Which sites of a body become particles, and of how much volume. A particle of a few per cent of a cell is
+/// squeezed without bound between heavy ones, which it cannot stop; sites with less than `least_share` are
+/// left out, and the others at the surface get their volume in proportion, unless there is too little of
+/// them.
+struct Allotment {
+  std::size_t particles = 0;
+  double volume = 0.0;    // of the body, in cells of the lattice
+  double least = 0.0;     // share of the smallest site that becomes a particle
+  double enlarged = 1.0;  // factor of the share of a cut site
+
+  [[nodiscard]] bool takes(const Site& site) const { return site.share >= least; }
+  [[nodiscard]] double share(const Site& site) const {
+    return site.share < 1.0 ? enlarged * site.share : site.share;
+  }
+};
+
+Allotment allotment_of(const Case& setup, const Body& body, const Lattice& lattice) {
+  constexpr double least_share = 0.125;
+  std::size_t small_sites = 0, sites = 0;
+  double small = 0.0, cut = 0.0, volume = 0.0;
+  for_each_site(setup, body, lattice, [&](const Site& site) {
+    const bool is_small = site.share < least_share;
+    ++sites;
+    small_sites += is_small ? 1 : 0;
+    volume += site.share;
+    if (site.share < 1.0) (is_small ? small : cut) += site.share;
+  });
+  if (small > 0.25 * cut) return {.particles = sites, .volume = volume};
+  return {.particles = sites - small_sites,
+          .volume = volume,
+          .least = least_share,
+          .enlarged = small > 0.0 ? 1.0 + small / cut : 1.0};
+}
+
 /// Volume of the particles of a body over that of the part of its shape inside the domain, less 1; 0 where a
 /// mirror plane cuts the body elsewhere than in its middle, so that this part is not known.
 double excess_volume(const Case& setup, const Body& body) {
@@ -312,9 +346,11 @@ std::vector<std::string> placement_warnings(const Case& setup) {
     constexpr double tolerance = 0.01;
     if (const double excess = excess_volume(setup, body); std::abs(excess) > tolerance) {
       warnings.push_back(fmt::format(
-          "body \"{}\": its particles have {:.2g} % {} volume and mass than its shape; "
-          "discretization.partial_volumes = true gives those at its surface the part that lies in it",
-          body.name, 100.0 * std::abs(excess), excess > 0.0 ? "more" : "less"));
+          "body \"{}\": its particles have {:.2g} % {} volume and mass than its shape; {}", body.name,
+          100.0 * std::abs(excess), excess > 0.0 ? "more" : "less",
+          body.discretization.partial_volumes
+              ? "smaller cells or a larger 'per_cell' meet it more closely"
+              : "discretization.partial_volumes = true gives those at its surface the part that lies in it"));
     }
   }
   return warnings;
@@ -338,14 +374,9 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       continue;
     }
     const Lattice lattice = lattice_of(setup, body);
-    std::size_t total = 0;
-    double total_share = 0;
-    for_each_site(setup, body, lattice, [&](const Site& site) {
-      ++total;
-      total_share += site.share;
-    });
+    const Allotment allotment = allotment_of(setup, body, lattice);
     const auto share_begin = [&](int r) {
-      return total * static_cast<std::size_t>(r) / static_cast<std::size_t>(ranks);
+      return allotment.particles * static_cast<std::size_t>(r) / static_cast<std::size_t>(ranks);
     };
     const std::size_t begin = share_begin(rank), behind = share_begin(rank + 1);
     BodySummary summary{.first = particles.size(), .count = behind - begin};
@@ -363,12 +394,13 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     spin << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
     std::size_t index = 0;
     for_each_site(setup, body, lattice, [&](const Site& site) {
+      if (!allotment.takes(site)) return;
       const std::size_t number = index++;
       if (number < begin || number >= behind) return;
       const std::size_t p = summary.first + number - begin;
       particles.id[p] = first_id + number;
       particles.body[p] = static_cast<std::uint32_t>(b);
-      particles.mass[p] = mass * site.share;
+      particles.mass[p] = mass * allotment.share(site);
       particles.position[p] = site.position;
       particles.velocity[p] = body.velocity + spin * (site.position - center);
       particles.affine_velocity[p] = spin;
@@ -381,8 +413,8 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       particles.failure_threshold_factor[p] =
           body.failure_scatter.factor(particles.id[p], lattice.spacing.prod());
     }
-    summary.mass = mass * total_share;
-    first_id += total;
+    summary.mass = mass * allotment.volume;
+    first_id += allotment.particles;
     summary.shape_mass = density * body.shape->volume();
     seeding.bodies.push_back(summary);
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <numbers>
 
 #include "src/fem/hexahedron.hpp"
@@ -393,6 +394,34 @@ TEST(Heat, GivenAtNodesGoesToTheirElementsByMass) {
     const double share = 5.0 * fem::corner_mass(body.mesh, 0, 6) / body.mesh.nodes.mass[node(13)];
     EXPECT_NEAR(first, 2.0 + share, 1e-12);
     EXPECT_EQ(body.mesh.points.specific_internal_energy[n - 1], body.mesh.points.specific_internal_energy[0]);
+  }
+}
+
+// The time step of a mesh is that of its stiffest element, wherever it stands and whatever the others are:
+// equal to it, a little less stiff, or far from it.
+TEST(CriticalTimeStep, IsThatOfTheStiffestElement) {
+  std::mt19937_64 generator(11);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (const Quadrature quadrature : both) {
+    for (const double spread : {0.0, 1e-12, 1e-3, 0.9}) {
+      for (int trial = 0; trial < 20; ++trial) {
+        Body body = shaken(quadrature, stiffness, 0.25);
+        fem::GaussPoints& points = body.mesh.points;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          points.sound_speed[i] = 5000.0 * (1.0 - spread * uniform(generator));
+          points.length[i] = 1e-3 * (1.0 - spread * uniform(generator));
+          points.artificial_viscosity[i] = i % 3 == 0 ? 0.0 : 1e9 * uniform(generator) * spread;
+        }
+        for (const fem::ViscosityCoefficients viscosity :
+             {fem::ViscosityCoefficients{}, {0.0, 2.0}, {0.1, 0.0}}) {
+          double least = std::numeric_limits<double>::infinity();
+          for (std::size_t e = 0; e < body.mesh.elements.size(); ++e) {
+            least = std::min(least, critical_time_step(body.mesh, e, viscosity));
+          }
+          EXPECT_NEAR(critical_time_step(body.mesh, viscosity), least, 1e-15 * least);
+        }
+      }
+    }
   }
 }
 

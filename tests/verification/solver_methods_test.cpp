@@ -3,8 +3,10 @@
 // separating walls, division of particles, free flight, partial volumes, random shifts of the grid.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -286,7 +288,8 @@ TEST(RandomShift, LeavesFreeMotionAndConservationExact) {
   EXPECT_LT(simulation.state().ledger.momentum_error(simulation.totals()), 1e-13);
 }
 
-// The mass of a sphere: whole particles meet it to per cents, partial ones to some 1e-4.
+// The mass of a sphere: whole particles meet it to per cents, partial ones to some 1e-4, and none of those is
+// much lighter than its neighbours.
 TEST(PartialVolumes, MeetTheMassOfACurvedBody) {
   const auto error = [](bool partial) {
     const setup::Case setup = read(
@@ -299,6 +302,8 @@ TEST(PartialVolumes, MeetTheMassOfACurvedBody) {
     const setup::Seeding seeding = setup::seed(setup);
     Vector3 center = Vector3::Zero();
     double mass = 0, second = 0;
+    const auto [lightest, heaviest] = std::ranges::minmax(seeding.particles.mass);
+    EXPECT_GE(lightest, 0.125 * heaviest);
     for (std::size_t p = 0; p < seeding.particles.size(); ++p) {
       const double m = seeding.particles.mass[p];
       const SymmetricTensor& e = seeding.particles.extent[p];
@@ -319,6 +324,24 @@ TEST(PartialVolumes, MeetTheMassOfACurvedBody) {
   EXPECT_GT(whole.first, 2e-3);
   EXPECT_LT(partial.first, 1e-3);
   EXPECT_LT(partial.second, 1e-3);
+}
+
+// An oblique plate of a third of a particle has slivers in many cells, and keeps its mass whichever of them
+// become particles.
+TEST(PartialVolumes, KeepAPlateThinnerThanAParticle) {
+  const setup::Case setup = read(
+      Method{}, 1.0, "",
+      "[domain]\nlower = [-0.01, -0.01, -0.01]\nupper = [0.01, 0.01, 0.01]\ncell_size = "
+      "0.001\n[[body]]\nname = \"plate\"\nmaterial = \"" +
+          elastic_aluminium() +
+          "\"\ndiscretization = { partial_volumes = true }\nshape = { moved = { angle = \"20 deg\", axis = "
+          "[0, 1, 0], shape = { box = { lower = [-0.005, -0.004, 0], upper = [0.005, 0.004, 0.00017] } } } "
+          "}\n");
+  const setup::Seeding seeding = setup::seed(setup);
+  const double mass = std::reduce(seeding.particles.mass.begin(), seeding.particles.mass.end());
+  EXPECT_GT(seeding.particles.size(), 100U);
+  EXPECT_NEAR(mass, seeding.bodies[0].mass, 1e-12 * mass);
+  EXPECT_NEAR(mass, seeding.bodies[0].shape_mass, 0.1 * mass);  // sampled every 0.125 mm or less
 }
 
 }  // namespace
