@@ -538,7 +538,7 @@ template <class... Fields>
 WHIPPLE_INLINE inline void prefetch_next_block(const Mesh& mesh, std::size_t block, std::size_t g,
                                                const Fields&... fields) {
   const Blocks& blocks = mesh.blocks;
-  if (block + 1 >= mesh.blocks.count()) return;
+  if (block + 1 >= blocks.count()) return;
   const std::size_t groups = blocks.first_group[block + 1] - blocks.first_group[block];
   const std::size_t first = blocks.first_slot[block + 1], count = blocks.first_slot[block + 2] - first;
   for (std::size_t s = first + count * g / groups; s < first + count * (g + 1) / groups; ++s) {

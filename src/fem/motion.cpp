@@ -45,7 +45,8 @@ double critical_time_step(const Mesh& mesh, const ViscosityCoefficients& viscosi
       const Lanes q = load4(points.artificial_viscosity);
       const Lanes closing = (q > 0.0 ? q : Lanes{}) * load4(points.volume);
       // Most elements are below the greatest rate so far, which is seen without roots and divisions: with
-      // r = most l, the rate is less if 0 < n = r^2 - 3 c^2 and b q V (6 r)^2 < m n (n - 6 r a).
+      // r = most l, a and b the linear and quadratic part of the viscosity, the rate is less if
+      // 0 < N = r^2 - 3 c^2 and b q V (6 r)^2 < m N (N - 6 r a).
       const Lanes r = most * length, six_r = 6.0 * r, excess = (1.0 - 1e-12) * r * r - 3.0 * (c * c);
       const LanesMask less = (excess > 0.0) & (viscosity.quadratic * closing * six_r * six_r <
                                                mass * excess * (excess - six_r * linear));
