@@ -64,8 +64,7 @@ class Neighbourhood {
   static_assert(grid::block_edge == 4 && grid::nodes_per_block == 64);
 
   [[nodiscard]] Cell cell_of(const Vector3& position) const {
-    return floor_of_three((load_vector(position.data()) - load_vector(geometry_.lower.data())) /
-                          geometry_.cell_size);
+    return floor_of_three(geometry_.in_cells(position));
   }
   static grid::BlockCoordinate block_of(const Cell& cell) {
     // Shifts of negative numbers round down, as wanted.

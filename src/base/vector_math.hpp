@@ -34,6 +34,11 @@ inline Lanes sqrt(Lanes x) { return Lanes(_mm256_sqrt_pd(__m256d(x))); }
 /// Lane by lane the smaller and the greater; b where one is NaN.
 inline Lanes minimum(Lanes a, Lanes b) { return Lanes(_mm256_min_pd(__m256d(a), __m256d(b))); }
 inline Lanes maximum(Lanes a, Lanes b) { return Lanes(_mm256_max_pd(__m256d(a), __m256d(b))); }
+inline Lanes floor(Lanes x) { return Lanes(_mm256_floor_pd(__m256d(x))); }
+/// a b + c, rounded once: written out where two ways to compute the same must give the same bits.
+inline Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
+  return Lanes(_mm256_fmadd_pd(__m256d(a), __m256d(b), __m256d(c)));
+}
 inline Lanes absolute(Lanes x) { return Lanes(_mm256_andnot_pd(_mm256_set1_pd(-0.0), __m256d(x))); }
 /// Four numbers from memory without alignment.
 inline Lanes load(const double* from) { return Lanes(_mm256_loadu_pd(from)); }
@@ -44,7 +49,7 @@ inline Lanes load_vector(const double* from) {
 }
 /// Lanes 0 to 2, rounded down.
 inline std::array<int, 3> floor_of_three(Lanes x) {
-  const __m128i down = _mm256_cvttpd_epi32(_mm256_floor_pd(__m256d(x)));
+  const __m128i down = _mm256_cvttpd_epi32(__m256d(floor(x)));
   return {_mm_extract_epi32(down, 0), _mm_extract_epi32(down, 1), _mm_extract_epi32(down, 2)};
 }
 inline void store_vector(double* to, Lanes x) {

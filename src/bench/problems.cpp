@@ -24,6 +24,9 @@ const Overrides whole_model = {{"domain.lower", "['-80.56 mm', '-118.72 mm', '-1
                                {"domain.boundary.y_lower", "outflow"},
                                {"domain.boundary.z_lower", "outflow"}};
 
+const Overrides johnson_cook_bar = {{"domain.cell_size", "0.475 mm"},
+                                    {"body.0.material", "copper_johnson_cook.toml"}};
+
 Overrides together(Overrides first, const Overrides& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
@@ -38,13 +41,13 @@ std::vector<Problem> all_problems() {
       {.name = "taylor_bar",
        .what = "Johnson-Cook, Mie-Grueneisen, default scheme",
        .case_file = taylor,
-       .overrides = {{"domain.cell_size", "0.475 mm"}},
+       .overrides = johnson_cook_bar,
        .steps_before = 20,
        .steps = 100},
       {.name = "taylor_bar_musl",
        .what = "the same with linear MUSL",
        .case_file = taylor,
-       .overrides = together({{"domain.cell_size", "0.475 mm"}}, linear_musl),
+       .overrides = together(johnson_cook_bar, linear_musl),
        .steps_before = 20,
        .steps = 100},
       {.name = "lead_impact",

@@ -102,9 +102,11 @@ void for_each_place_of(const Points& points, std::uint32_t p, unsigned field,
                        const BlockGrid& grid, Function&& f) {
   static constexpr grid::ReachMap map = grid::reach_map();
   constexpr int count = Shape::count;
-  const transfer::Weights<count> w =
-      transfer::weights_at<Shape>(points, p, transfer::BlockFrame(grid.geometry(), block));
-  const std::array<int, 3> first_node = w.first_node();
+  const grid::Geometry& geometry = grid.geometry();
+  const grid::PlaceInStencil in_stencil = grid::StencilPlaces(Shape::stencil)(
+      grid::position_in_block(geometry.in_cells(points.position[p]), grid::corner_of(block)));
+  const transfer::Weights<count> w = transfer::weights_at<Shape>(points, p, in_stencil, geometry.cell_size);
+  const std::array<int, 3> first_node = in_stencil.first_node(Shape::stencil);
   const std::array<FoldedAxis<count>, 3> axes = {fold<count>(grid, 0, block[0], first_node[0]),
                                                  fold<count>(grid, 1, block[1], first_node[1]),
                                                  fold<count>(grid, 2, block[2], first_node[2])};

@@ -20,13 +20,6 @@ BlockCoordinate shifted(const BlockCoordinate& block, int neighbour) {
   return {block[0] + neighbour / 9 - 1, block[1] + neighbour / 3 % 3 - 1, block[2] + neighbour % 3 - 1};
 }
 
-/// Lower corner of a block, in cells.
-Lanes corner_of(const BlockCoordinate& block) {
-  Lanes corner{};
-  for (int a = 0; a < 3; ++a) corner[a] = block_edge * block[static_cast<std::size_t>(a)];
-  return corner;
-}
-
 /// Is a position, in cells from the lower corner of a block, inside of it?
 bool is_inside(Lanes local) { return bits((local >= 0.0) & (local < double{block_edge})) == all_lanes; }
 
@@ -49,9 +42,9 @@ BlockGrid::BlockGrid(const Geometry& geometry, MPI_Comm communicator)
 
 std::optional<BlockCoordinate> BlockGrid::block_of(const Vector3& position) const {
   BlockCoordinate block{};
-  const Vector3 in_cells = geometry_.in_cells(position);
+  const Lanes at = in_cells(position);
   for (std::size_t a = 0; a < 3; ++a) {
-    const double cells = in_cells[static_cast<Eigen::Index>(a)];
+    const double cells = at[a];
     if (!(cells > -1.0 && cells < geometry_.cells[a] + 1.0)) return std::nullopt;
     block[a] = static_cast<std::int32_t>(std::floor(cells / block_edge));
   }
@@ -87,6 +80,8 @@ bool BlockGrid::look_up(std::span<const Vector3> position) {
 
 /// Updates the slot of every particle from its former slot; false if a particle left the active set.
 bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
+  place_of_particle_.resize(position.size());
+  const StencilPlaces places(stencil);
   std::atomic<bool> complete = true;
   parallel::for_each_chunk(position.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
@@ -101,7 +96,6 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
           const double offset = block - blocks_.coordinate[slot][static_cast<std::size_t>(a)];
           far = far || !(std::abs(offset) <= 1.0);
           neighbour = neighbour * 3 + (far ? 0 : static_cast<int>(offset) + 1);
-          local[a] = at[a] - block * block_edge;
         }
         const std::int32_t moved = far ? no_slot : neighbours_[slot][static_cast<std::size_t>(neighbour)];
         if (moved == no_slot) {
@@ -110,7 +104,11 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
         }
         slot = static_cast<std::size_t>(moved);
         slot_of_particle_[p] = moved;
+        local = position_in_block(at, corner_[slot]);
       }
+      place_of_particle_[p] = places(local);
+      constexpr std::uint32_t all_neighbours = (1U << 27) - 1;
+      if (existing_[slot] == all_neighbours) continue;
       if ((touched_neighbours(local, stencil) & ~existing_[slot]) != 0) complete = false;
     }
   });
@@ -120,13 +118,16 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
 /// Guests come and go, so each one's block is looked up; false if a stencil reaches beyond the active set.
 bool BlockGrid::locate_guests(std::span<const Vector3> guests, Stencil stencil) {
   slot_of_guest_.resize(guests.size());
+  place_of_guest_.resize(guests.size());
+  const StencilPlaces places(stencil);
   for (std::size_t g = 0; g < guests.size(); ++g) {
     const std::int32_t slot = slot_at(guests[g]);
     if (slot == no_slot) return false;
     slot_of_guest_[g] = slot;
     const auto at = static_cast<std::size_t>(slot);
-    const std::uint32_t touched = touched_neighbours(in_cells(guests[g]) - corner_[at], stencil);
-    if ((touched & ~existing_[at]) != 0) return false;
+    const Lanes local = position_in_block(in_cells(guests[g]), corner_[at]);
+    place_of_guest_[g] = places(local);
+    if ((touched_neighbours(local, stencil) & ~existing_[at]) != 0) return false;
   }
   return true;
 }
@@ -385,6 +386,15 @@ void BlockGrid::list_points() {
   list_by_slot(slots(), slot_of_guest_, {}, guests_);
 }
 
+std::vector<std::uint32_t> BlockGrid::particles_by_stencil() const {
+  std::vector<std::uint32_t> order = particles_.points;
+  parallel::for_each_uneven(slots(), [&](std::size_t slot) {
+    std::ranges::sort(std::span(order).subspan(particles_.begin[slot], particles_in(slot).size()), {},
+                      [&](std::uint32_t p) { return std::pair(place_of_particle_[p].first_node(), p); });
+  });
+  return order;
+}
+
 void BlockGrid::set_apart() {
   const int halved = slots() >= slots_for_cubes ? 1 : 0;
   const auto group_of = [&](std::uint32_t slot) {
@@ -429,7 +439,8 @@ void BlockGrid::clear() {
 
 std::size_t BlockGrid::bytes() const {
   return nodes_.size() * sizeof(Node) + slots() * (sizeof(neighbours_[0]) + sizeof(BlockCoordinate)) +
-         slot_of_particle_.size() * 8;
+         slot_of_particle_.size() * 8 +
+         (place_of_particle_.size() + place_of_guest_.size()) * sizeof(PlaceInStencil);
 }
 
 }  // namespace whipple::grid

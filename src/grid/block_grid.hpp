@@ -13,6 +13,7 @@
 #include "src/grid/block_table.hpp"
 #include "src/grid/forest.hpp"
 #include "src/grid/geometry.hpp"
+#include "src/grid/stencil.hpp"
 #include "src/parallel/threads.hpp"
 
 namespace whipple::grid {
@@ -26,38 +27,12 @@ struct alignas(64) Node {
   Lanes second;
 };
 
-/// Nodes that a kernel reaches from a particle: `count` nodes per direction, the first at floor(X - shift)
-/// where X is the position in cells.
-struct Stencil {
-  double shift = 0.5;
-  int count = 3;
-};
-
 /// Work of a step, in any unit that all ranks share.
 struct Work {
   std::span<const double> of_particle;  ///< of this rank; those that are not listed count as 1
   double of_block = 0.0;                ///< of the nodes of a block with particles, whatever their number
   std::size_t apart = 0;  ///< of the points listed, the last so many are work but reach no nodes
 };
-
-/// Edge of the region of nodes that the particles of one block reach: one before, four inside, two behind.
-constexpr int reach_edge = block_edge + 3;
-
-/// Place of a node of that region, per direction: offset of the block that owns it (0 before, 1 same, 2
-/// behind) and index inside that block. Position 0 is the node before the block's first.
-struct ReachMap {
-  std::array<int, reach_edge> block{};
-  std::array<int, reach_edge> node{};
-};
-constexpr ReachMap reach_map() {
-  ReachMap map;
-  for (int i = 0; i < reach_edge; ++i) {
-    const int shifted = i - 1 + block_edge;
-    map.block[static_cast<std::size_t>(i)] = shifted / block_edge;
-    map.node[static_cast<std::size_t>(i)] = shifted % block_edge;
-  }
-  return map;
-}
 
 constexpr int node_index(int x, int y, int z) { return (x * block_edge + y) * block_edge + z; }
 constexpr int neighbour_index(int x, int y, int z) { return (x * 3 + y) * 3 + z; }
@@ -179,6 +154,8 @@ class BlockGrid {
   [[nodiscard]] std::size_t place_of(std::size_t slot) const { return particles_.begin[slot]; }
   /// All particles, block by block: an order that keeps neighbours in memory near one another.
   [[nodiscard]] std::span<const std::uint32_t> particles_by_block() const { return particles_.points; }
+  /// The same, those of a block by the first node of their stencils.
+  [[nodiscard]] std::vector<std::uint32_t> particles_by_stencil() const;
   /// The border are the slots whose points may reach nodes that other ranks wait for or send: worked on first
   /// when points bring something to the nodes, and last when they take something, so that the exchange goes
   /// on behind the interior. Each rank has its own; alone it has no border.
@@ -208,6 +185,11 @@ class BlockGrid {
   enum class Points { particles, guests };
   [[nodiscard]] std::span<const std::uint32_t> members(Points points, std::size_t slot) const {
     return points == Points::particles ? particles_in(slot) : guests_in(slot);
+  }
+  /// Where each of them stood in its stencil at the last `bin`: the transfers of a step see them there,
+  /// wherever their positions have gone since.
+  [[nodiscard]] std::span<const PlaceInStencil> places(Points points) const {
+    return points == Points::particles ? place_of_particle_ : place_of_guest_;
   }
   /// Calls f(points of one field, field) for the points of a slot, in the order of their indices; once for
   /// all of them where they reach no contact slot, and not at all where there are none.
@@ -339,10 +321,7 @@ class BlockGrid {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  /// As Geometry::in_cells, the directions in lanes.
-  [[nodiscard]] Lanes in_cells(const Vector3& position) const {
-    return (load_vector(position.data()) - load_vector(geometry_.lower.data())) / geometry_.cell_size;
-  }
+  [[nodiscard]] Lanes in_cells(const Vector3& position) const { return geometry_.in_cells(position); }
   bool look_up(std::span<const Vector3> position);
   bool locate(std::span<const Vector3> position, Stencil stencil);
   [[nodiscard]] std::vector<WantedBlock> wanted_blocks(std::span<const Vector3> position,
@@ -415,6 +394,7 @@ class BlockGrid {
   std::vector<std::uint8_t> unshared_;     // slots that no other rank works with
   std::vector<std::uint8_t> released_;     // of each particle, or empty
   std::vector<std::int32_t> slot_of_guest_;
+  std::vector<PlaceInStencil> place_of_particle_, place_of_guest_;
   PointList particles_, guests_;
   /// Slots in groups: single blocks, or where there are many, cubes of two by two by two. A thread works
   /// through a cube on its own: its blocks follow one another in memory, and so do their particles.

@@ -51,7 +51,7 @@ constexpr std::array<std::uint32_t, 64> masks_by_direction() {
 /// side.
 inline std::uint32_t touched_neighbours(Lanes local, Lanes ahead, Stencil stencil, double around = 0.0) {
   static constexpr std::array<std::uint32_t, 64> by_direction = masks_by_direction();
-  const auto first_node = [&](Lanes at) { return Lanes(_mm256_floor_pd(__m256d(at - stencil.shift))); };
+  const auto first_node = [&](Lanes at) { return floor(at - stencil.shift); };
   const Lanes first = first_node(local + minimum(ahead, broadcast(-around)));
   const Lanes last = first_node(local + maximum(ahead, broadcast(around)));
   const unsigned before = bits(first < 0.0) & 7U;

@@ -38,9 +38,12 @@ struct Geometry {
   /// Faces in the order x_lower, x_upper, y_lower, y_upper, z_lower, z_upper.
   std::array<Boundary, 6> boundary{};
 
-  /// Position in cells from the lower corner. Whoever asks for the cell, block or stencil of a position takes
-  /// it from here: two ways of rounding would disagree about positions on the edge between two stencils.
-  [[nodiscard]] Vector3 in_cells(const Vector3& position) const { return (position - lower) / cell_size; }
+  /// Position in cells from the lower corner, the directions in lanes. Whoever asks for the cell, block or
+  /// stencil of a position takes it from here: two ways of rounding would disagree about positions on the
+  /// edge between two stencils.
+  [[nodiscard]] Lanes in_cells(const Vector3& position) const {
+    return (load_vector(position.data()) - load_vector(lower.data())) / cell_size;
+  }
   [[nodiscard]] double upper(int axis) const { return lower[axis] + cells[axis] * cell_size; }
   /// Does matter go on beyond a face as its own image?
   [[nodiscard]] bool mirrors(std::size_t face) const {

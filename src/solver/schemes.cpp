@@ -21,16 +21,15 @@ void step_symplectic(Simulation& s, double until) {
 }
 
 void step_usf(Simulation& s, double until) {
-  using enum Simulation::Positions;
   s.begin_step(until);  // (6.1)
   s.split_particles();
   s.bin_particles();
   s.conduct_heat();
-  s.map_momentum_to_grid();          // (5.5) v^n on nodes
-  s.update_material(stay);           // (5.6) grad v^n, by it stress and e
-  s.map_particles_to_grid();         // (3.1)-(3.3) with the new stress
-  s.advance_grid();                  // (3.4), (5.9)
-  s.update_particle_velocity(move);  // (5.1)-(5.2) v, x at n+1
+  s.map_momentum_to_grid();      // (5.5) v^n on nodes
+  s.update_material();           // (5.6) grad v^n, by it stress and e
+  s.map_particles_to_grid();     // (3.1)-(3.3) with the new stress
+  s.advance_grid();              // (3.4), (5.9)
+  s.update_particle_velocity();  // (5.1)-(5.2) v, x at n+1
   s.reflect_and_remove();
   s.end_step();
 }
@@ -48,16 +47,15 @@ void step_usl(Simulation& s, double until) {
 }
 
 void step_musl(Simulation& s, double until) {
-  using enum Simulation::Positions;
   s.begin_step(until);  // (6.1)
   s.split_particles();
   s.bin_particles();
   s.conduct_heat();
-  s.map_particles_to_grid();         // (3.1)-(3.3)
-  s.advance_grid();                  // (3.4), (5.9)
-  s.update_particle_velocity(stay);  // (5.1)-(5.2) v^{n+1}
-  s.map_momentum_to_grid();          // (5.3) grid velocity from the new v
-  s.update_material(move);           // (5.4) grad v at the old positions, by it stress and e; x^{n+1}
+  s.map_particles_to_grid();     // (3.1)-(3.3)
+  s.advance_grid();              // (3.4), (5.9)
+  s.update_particle_velocity();  // (5.1)-(5.2) v, x at n+1; the grid sees the places of `bin_particles`
+  s.map_momentum_to_grid();      // (5.3) grid velocity from the new v
+  s.update_material();           // (5.4) grad v at the old places, by it stress and e
   s.reflect_and_remove();
   s.end_step();
 }

@@ -260,12 +260,12 @@ bool Simulation::bin(grid::Stencil stencil) {
   return grid_.bin(particles_.position, stencil, transition_.position);
 }
 
-/// By body (so that a material is a range), then by block.
+/// By body (so that a material is a range), then by block, then by stencil.
 void Simulation::sort_particles() {
   std::vector<std::uint32_t> next;
   for (const setup::BodySummary& body : bodies_) next.push_back(static_cast<std::uint32_t>(body.first));
   std::vector<std::uint32_t> order(particles_.size());
-  for (const std::uint32_t p : grid_.particles_by_block()) order[next[particles_.body[p]]++] = p;
+  for (const std::uint32_t p : grid_.particles_by_stencil()) order[next[particles_.body[p]]++] = p;
   reorder(particles_, order);
   grid_.particles_reordered(order);
 }
@@ -337,27 +337,22 @@ void Simulation::map_grid_to_particles() {
   update_material_with("grid to particles", EnergyUpdate::by_work_identity, gather);
 }
 
-void Simulation::gather_velocity(Positions positions, const transfer::TakeGradients& take) {
-  displacement_.resize(positions == Positions::stay ? particles_.size() : 0);
+void Simulation::gather_velocity(const transfer::TakeGradients& take) {
   const transfer::TransferBalance balance = transfer::update_velocity(
-      shape_, particles_, grid_, state_.time_step, relaxation(setup_.transfer).fixed, displacement_, take,
+      shape_, particles_, grid_, state_.time_step, relaxation(setup_.transfer).fixed, take,
       external_acceleration_, [&] { finish_exchange(); });
   step_.external_work += balance.external_work;
   squared_change_ = balance.squared_change;
-  std::vector<Vector3>& moved = positions == Positions::stay ? displacement_ : particles_.position;
-  for (const std::uint32_t p : flying_) {
-    const Vector3 displacement = state_.time_step * particles_.velocity[p];
-    moved[p] = positions == Positions::stay ? displacement : Vector3(moved[p] + displacement);
-  }
+  for (const std::uint32_t p : flying_) particles_.position[p] += state_.time_step * particles_.velocity[p];
 }
 
-void Simulation::update_particle_velocity(Positions positions) {
-  profile_.time("grid to particles", [&] { gather_velocity(positions, {}); });
+void Simulation::update_particle_velocity() {
+  profile_.time("grid to particles", [&] { gather_velocity({}); });
 }
 
 void Simulation::update_velocity_and_material() {
   update_material_with("grid to particles", EnergyUpdate::by_constitutive_model,
-                       [&](const transfer::TakeGradients& take) { gather_velocity(Positions::move, take); });
+                       [&](const transfer::TakeGradients& take) { gather_velocity(take); });
 }
 
 void Simulation::map_momentum_to_grid() {
@@ -368,16 +363,11 @@ void Simulation::map_momentum_to_grid() {
   });
 }
 
-void Simulation::update_material(Positions positions) {
-  const std::span<const Vector3> displacement =
-      positions == Positions::move ? std::span<const Vector3>(displacement_) : std::span<const Vector3>();
-  update_material_with("velocity gradient", EnergyUpdate::by_constitutive_model,
-                       [&](const transfer::TakeGradients& take) {
-                         transfer::gather_velocity_gradient(shape_, particles_, grid_, displacement, take,
-                                                            [&] { finish_exchange(); });
-                         if (positions == Positions::stay) return;
-                         for (const std::uint32_t p : flying_) particles_.position[p] += displacement_[p];
-                       });
+void Simulation::update_material() {
+  update_material_with(
+      "velocity gradient", EnergyUpdate::by_constitutive_model, [&](const transfer::TakeGradients& take) {
+        transfer::gather_velocity_gradient(shape_, particles_, grid_, take, [&] { finish_exchange(); });
+      });
 }
 
 void Simulation::end_step() {
@@ -413,7 +403,7 @@ std::string Simulation::describe_state(std::size_t p, double time, const std::st
 }
 
 std::size_t Simulation::bytes() const {
-  std::size_t bytes = grid_.bytes() + displacement_.size() * sizeof(Vector3);
+  std::size_t bytes = grid_.bytes();
   const auto add = [&]<class Points>(const Points& points) {
     for_each_field<Points>([&](const auto& field) {
       const auto& values = points.*(field.values);

@@ -112,11 +112,10 @@ class Simulation {
   void advance_grid();
   void map_grid_to_particles();
   void advance_elements();
-  enum class Positions { stay, move };
-  void update_particle_velocity(Positions positions);
+  void update_particle_velocity();
   void update_velocity_and_material();
   void map_momentum_to_grid();
-  void update_material(Positions positions);
+  void update_material();
   void reflect_and_remove();
   void end_step();
 
@@ -127,7 +126,7 @@ class Simulation {
   void find_surfaces();
   void apply_contact();
   void finish_exchange();
-  void gather_velocity(Positions positions, const transfer::TakeGradients& take);
+  void gather_velocity(const transfer::TakeGradients& take);
   void convert_elements();
   void add_gravity(fem::Nodes& nodes) const;
   void book_gravity(const fem::Nodes& nodes, const fem::Motion& motion);
@@ -196,8 +195,7 @@ class Simulation {
   Totals totals_;
   std::size_t particle_count_ = 0, element_count_ = 0;
   Profile profile_;
-  std::vector<Vector3> displacement_;  // of the step, of positions that stay until the material is updated
-  double squared_change_ = 0.0;        // m^2/s^2, the largest of a particle's velocity in the step under way
+  double squared_change_ = 0.0;  // m^2/s^2, the largest of a particle's velocity in the step under way
   Acceleration acceleration_;
   std::vector<Vector3> external_acceleration_;  // of this step; empty without external forces
   std::vector<std::uint32_t> flying_;           // particles that fly without the grid in this step

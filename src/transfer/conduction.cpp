@@ -17,10 +17,11 @@ constexpr double no_capacity = 1e-300;  // J/K; below it the temperature of a no
 
 /// Calls f(node, N, grad N) for the nodes of a particle.
 template <class Access, class Function>
-void for_each_node(const Particles& particles, std::size_t p, const BlockFrame& frame, Access& access,
+void for_each_node(const Particles& particles, std::size_t p, const BlockGrid& grid, Access& access,
                    Function&& f) {
-  const Weights<Shape::count> w = weights_at<Shape>(particles, p, frame);
-  const auto nodes = access.stencil(w.first_node());
+  const grid::PlaceInStencil& place = grid.places(BlockGrid::Points::particles)[p];
+  const Weights<Shape::count> w = weights_at<Shape>(particles, p, place, grid.geometry().cell_size);
+  const auto nodes = access.stencil(w.first_node);
   for (std::size_t i = 0; i < Shape::count; ++i) {
     for (std::size_t j = 0; j < Shape::count; ++j) {
       for (std::size_t k = 0; k < Shape::count; ++k) {
@@ -37,11 +38,10 @@ void for_each_node(const Particles& particles, std::size_t p, const BlockFrame& 
 template <class Bring>
 void scatter(const Particles& particles, BlockGrid& grid, Bring&& bring) {
   grid.for_each_apart([&](std::size_t slot) {
-    const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
     narrow::add_to_nodes<Shape, Node>(
         grid, BlockGrid::Points::particles, slot, [&](std::span<const std::uint32_t> members, auto& access) {
           for (const std::uint32_t p : members) {
-            for_each_node(particles, p, frame, access, [&](Node& node, double n, const Vector3& gradient) {
+            for_each_node(particles, p, grid, access, [&](Node& node, double n, const Vector3& gradient) {
               bring(node, p, n, gradient);
             });
           }
@@ -54,11 +54,10 @@ template <class Function>
 void gather(const Particles& particles, BlockGrid& grid, Function&& f) {
   parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
     if (grid.particles_in(slot).empty()) return;
-    const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
     narrow::read_nodes<Shape, Node>(
         grid, BlockGrid::Points::particles, slot, [&](std::span<const std::uint32_t> members, auto& access) {
           for (const std::uint32_t p : members) {
-            f(p, [&](auto&& of_node) { for_each_node(particles, p, frame, access, of_node); });
+            f(p, [&](auto&& of_node) { for_each_node(particles, p, grid, access, of_node); });
           }
         });
   });

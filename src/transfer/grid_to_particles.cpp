@@ -184,8 +184,8 @@ TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
 
 template <class Shape, bool with_gradient>
 TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double dt, double relaxation,
-                                  std::span<Vector3> displacement, const TakeGradients& take_gradients,
-                                  std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
+                                  const TakeGradients& take_gradients, std::span<const Vector3> acceleration,
+                                  const BeforeBorder& before_border) {
   return gather_particles(
       grid, take_gradients, before_border,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
@@ -197,12 +197,8 @@ TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double 
           balance.squared_change =
               std::max(balance.squared_change, squared_change(updated, particles.velocity[p]));
           store_vector(velocity, updated);
-          if (displacement.empty()) {
-            double* const position = particles.position[p].data();
-            store_vector(position, load_vector(position) + dt * after);
-          } else {
-            store_vector(displacement[p].data(), dt * after);
-          }
+          double* const position = particles.position[p].data();
+          store_vector(position, load_vector(position) + dt * after);
           particles.specific_internal_energy[p] += increment[3];  // of contact
           if constexpr (with_gradient) {
             if (prefetches(p)) prefetch_state(particles, p);  // for who takes the gradients
@@ -282,13 +278,13 @@ void grid_to_nodes(ShapeFunction shape, TransitionNodes& nodes, BlockGrid& grid,
 }
 
 TransferBalance update_velocity(ShapeFunction shape, Particles& particles, BlockGrid& grid, double dt,
-                                double relaxation, std::span<Vector3> displacement, const TakeGradients& take,
+                                double relaxation, const TakeGradients& take,
                                 std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
   return with_shape(shape, [&]<class Shape>(Shape) {
-    return take ? update_velocities<Shape, true>(particles, grid, dt, relaxation, displacement, take,
-                                                 acceleration, before_border)
-                : update_velocities<Shape, false>(particles, grid, dt, relaxation, displacement, take,
-                                                  acceleration, before_border);
+    return take ? update_velocities<Shape, true>(particles, grid, dt, relaxation, take, acceleration,
+                                                 before_border)
+                : update_velocities<Shape, false>(particles, grid, dt, relaxation, take, acceleration,
+                                                  before_border);
   });
 }
 
@@ -311,17 +307,12 @@ void gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& gr
 
 }  // namespace
 
-void gather_velocity_gradient(ShapeFunction shape, Particles& particles, BlockGrid& grid,
-                              std::span<const Vector3> displacement, const TakeGradients& take,
-                              const BeforeBorder& before_border) {
+void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
+                              const TakeGradients& take, const BeforeBorder& before_border) {
   gather_first(shape, particles, grid, take, before_border,
                [&](std::size_t p, const ValueAndGradient<>& sums, Matrix3& gradient) WHIPPLE_INLINE {
                  if (prefetches(p)) prefetch_state(particles, p);  // for who takes the gradients
                  gradient = matrix(sums.gradient);
-                 if (displacement.empty()) return;
-                 if (prefetches(p)) prefetch(p + prefetch_distance, displacement);
-                 double* const position = particles.position[p].data();
-                 store_vector(position, load_vector(position) + load_vector(displacement[p].data()));
                });
 }
 

@@ -58,19 +58,16 @@ TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, gri
 
 /// Gather of the schemes without exact energy (equations 5.1, 5.2): velocity and position.
 /// @param relaxation    towards the grid's velocity: 0 FLIP, 1 PIC
-/// @param displacement  takes the displacements of the step, and positions stay; or empty
 /// @param take          the gradients of the advanced grid velocity; empty if they are not wanted
 /// @returns external work and largest change
 TransferBalance update_velocity(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid, double dt,
-                                double relaxation, std::span<Vector3> displacement, const TakeGradients& take,
+                                double relaxation, const TakeGradients& take,
                                 std::span<const Vector3> acceleration = {},
                                 const BeforeBorder& before_border = {});
 
 /// Velocity gradient of the nodes' velocities (Node::first).
-/// @param displacement  of every particle: moves it as soon as its gradient is known; or empty
-void gather_velocity_gradient(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid,
-                              std::span<const Vector3> displacement, const TakeGradients& take,
-                              const BeforeBorder& before_border = {});
+void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
+                              const TakeGradients& take, const BeforeBorder& before_border = {});
 
 /// The nodes' velocities (Node::first) at the particles.
 void gather_velocity(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,

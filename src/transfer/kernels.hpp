@@ -66,6 +66,7 @@ namespace narrow {
 /// One point at a time.
 using Vector = Lanes;
 constexpr std::size_t together = 1;
+using whipple::multiply_add;
 
 /// get(0)
 template <class Get>
@@ -82,11 +83,6 @@ WHIPPLE_INLINE inline Vector lane(Vector v, std::size_t a) { return broadcast(v[
 /// Lanes 1, 2, 0, 3.
 WHIPPLE_INLINE inline Vector turned(Vector v) { return __builtin_shufflevector(v, v, 1, 2, 0, 3); }
 WHIPPLE_INLINE inline Vector root(Vector v) { return sqrt(v); }
-/// a b + c, rounded once: written out where the compiler would take the product out of a loop for one set of
-/// registers and not for the other.
-WHIPPLE_INLINE inline Vector multiply_add(Vector a, Vector b, Vector c) {
-  return Lanes(_mm256_fmadd_pd(__m256d(a), __m256d(b), __m256d(c)));
-}
 /// Lane 3 of the first register of the points' nodes, in all lanes.
 template <class Nodes>
 WHIPPLE_INLINE inline Vector relaxation(Vector, const Nodes& node) {
@@ -102,8 +98,15 @@ WHIPPLE_INLINE inline Both both(Lanes first, Lanes second) { return {first, seco
 WHIPPLE_INLINE inline Both spread_both(double first, double second) {
   return {broadcast(first), broadcast(second)};
 }
+WHIPPLE_INLINE inline Both spread_both(double same) { return spread_both(same, same); }
 WHIPPLE_INLINE inline Both operator*(Both a, Both b) { return {a.first * b.first, a.second * b.second}; }
 WHIPPLE_INLINE inline Both operator+(Both a, Both b) { return {a.first + b.first, a.second + b.second}; }
+WHIPPLE_INLINE inline Both operator-(Both a, Both b) { return {a.first - b.first, a.second - b.second}; }
+WHIPPLE_INLINE inline Both multiply_add(Both a, Both b, Both c) {
+  return {multiply_add(a.first, b.first, c.first), multiply_add(a.second, b.second, c.second)};
+}
+WHIPPLE_INLINE inline Lanes first_of(Both both) { return both.first; }
+WHIPPLE_INLINE inline Lanes second_of(Both both) { return both.second; }
 /// sum += a b; in the second register only where the first one's b is 0.
 template <bool first>
 WHIPPLE_INLINE inline void add_product(Both& sum, Both a, Both b) {
@@ -127,6 +130,7 @@ namespace wide {
 /// Two points at a time, one in each half.
 using Vector [[gnu::vector_size(64)]] = double;
 constexpr std::size_t together = 2;
+using whipple::multiply_add;
 
 WHIPPLE_INLINE inline Vector join(Lanes low, Lanes high) {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
@@ -175,10 +179,13 @@ WHIPPLE_INLINE inline Vector relaxation(Vector first, const Nodes&) {
 using Both = Vector;
 using NodeRegister [[gnu::vector_size(64), gnu::may_alias]] = double;
 WHIPPLE_INLINE inline Both both(Lanes first, Lanes second) { return join(first, second); }
+WHIPPLE_INLINE inline Lanes first_of(Both both) { return part(both, 0); }
+WHIPPLE_INLINE inline Lanes second_of(Both both) { return part(both, 1); }
 /// One number in all lanes of the first half, another in those of the second.
 WHIPPLE_INLINE inline Both spread_both(double first, double second) {
   return Vector(_mm512_mask_broadcastsd_pd(_mm512_set1_pd(first), 0xf0, _mm_set_sd(second)));
 }
+WHIPPLE_INLINE inline Both spread_both(double same) { return Vector(_mm512_set1_pd(same)); }
 /// sum += a b
 template <bool>
 WHIPPLE_INLINE inline void add_product(Both& sum, Both a, Both b) {

@@ -24,8 +24,7 @@ WHIPPLE_INLINE inline Lanes& first_register(Lanes& first) { return first; }
 template <class Shape, class Content = grid::Node>
 class ReachCopy {
  public:
-  static constexpr int before = Shape::stencil.shift > 0.0 ? 1 : 0;  ///< nodes before the block
-  static constexpr int edge = before == 0 ? grid::block_edge + 1 : grid::reach_edge;
+  static constexpr int before = Shape::stencil.before(), edge = Shape::stencil.edge();
   static constexpr int size = edge * edge * edge;
   static_assert(Shape::stencil.count <= edge - grid::block_edge + 1);
 
@@ -36,10 +35,8 @@ class ReachCopy {
       return origin[(i * edge + j) * edge + k];
     }
   };
-  /// From the first node, counted from the block's lower corner.
-  Stencil stencil(const std::array<int, 3>& first) {
-    return {&nodes_[index(first[0] + before, first[1] + before, first[2] + before)]};
-  }
+  /// @param first  node, as of grid::PlaceInStencil
+  Stencil stencil(std::int32_t first) { return {&nodes_[static_cast<std::size_t>(first)]}; }
 
   void clear() {
     for (Content& node : nodes_) clear_node(node);
@@ -112,15 +109,19 @@ class DirectAccess {
     static constexpr std::size_t count = Shape::count;
     std::array<grid::Node*, count * count * count> node_;
   };
-  Stencil stencil(const std::array<int, 3>& first) {
+  /// @param first  node, as of grid::PlaceInStencil
+  Stencil stencil(std::int32_t first) {
     static constexpr grid::ReachMap map = grid::reach_map();
+    constexpr int edge = Shape::stencil.edge(), skipped = 1 - Shape::stencil.before();
+    const int x = first / (edge * edge) + skipped, y = first / edge % edge + skipped,
+              z = first % edge + skipped;
     Stencil all;
     grid::Node** next = all.node_.data();
-    for (int i = first[0] + 1; i <= first[0] + Shape::count; ++i) {
-      for (int j = first[1] + 1; j <= first[1] + Shape::count; ++j) {
+    for (int i = x; i < x + Shape::count; ++i) {
+      for (int j = y; j < y + Shape::count; ++j) {
         const auto ux = static_cast<std::size_t>(i), uy = static_cast<std::size_t>(j);
         const int row = grid::node_index(map.node[ux], map.node[uy], 0);
-        for (int k = first[2] + 1; k <= first[2] + Shape::count; ++k) {
+        for (int k = z; k < z + Shape::count; ++k) {
           const auto uz = static_cast<std::size_t>(k);
           const std::int32_t owner = neighbours_[static_cast<std::size_t>(
               grid::neighbour_index(map.block[ux], map.block[uy], map.block[uz]))];
@@ -419,9 +420,56 @@ struct TransferSums {
     return {sums.velocity, sums.increment, velocity(points, p) + change, c, heat};
   }
 };
+/// Value and gradient between the eight nodes of a cell, direction by direction.
+/// @tparam Value  Lanes or Both
+/// @param node    node(i, j, k)
+template <class Value, class GetNode>
+WHIPPLE_INLINE inline ValueAndGradient<Value> between_nodes(const std::array<Value, 3>& from_first,
+                                                            const Value& per_cell, const GetNode& node) {
+  struct Edge {
+    Value value, along;
+  };
+  const auto between = [](const Value& f, const Value& before, const Value& behind) WHIPPLE_INLINE {
+    const Value along = behind - before;
+    return Edge{multiply_add(f, along, before), along};
+  };
+  struct Face {
+    Edge y;
+    Value z;
+  };
+  std::array<Face, 2> faces;
+#pragma GCC unroll 2
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Edge low = between(from_first[2], node(i, 0, 0), node(i, 0, 1)),
+               high = between(from_first[2], node(i, 1, 0), node(i, 1, 1));
+    faces[i] = {between(from_first[1], low.value, high.value),
+                between(from_first[1], low.along, high.along).value};
+  }
+  const Edge x = between(from_first[0], faces[0].y.value, faces[1].y.value);
+  return {x.value,
+          {per_cell * x.along, per_cell * between(from_first[0], faces[0].y.along, faces[1].y.along).value,
+           per_cell * between(from_first[0], faces[0].z, faces[1].z).value}};
+}
+
 /// New velocity of the grid, and what of it the step brought.
 struct UpdateSums {
   using Content = grid::Node;
+  template <class Stencil>
+  WHIPPLE_INLINE static VelocityUpdate<> between(const grid::PlaceInStencil& place, double per_cell,
+                                                 const Stencil& nodes) {
+    const auto node = [&](auto... at) WHIPPLE_INLINE { return load_node(nodes(at...)); };
+    const ValueAndGradient<Both> sums =
+        between_nodes<Both>({spread_both(place.from_first(0)), spread_both(place.from_first(1)),
+                             spread_both(place.from_first(2))},
+                            spread_both(per_cell), node);
+    VelocityUpdate<> update;
+    update.increment = second_of(sums.value);
+    update.after.value = first_of(sums.value) + update.increment;
+    for (std::size_t a = 0; a < 3; ++a) {
+      update.after.gradient[a] = first_of(sums.gradient[a]) + second_of(sums.gradient[a]);
+    }
+    return update;
+  }
   template <class Points, class Group>
   WHIPPLE_INLINE VelocityUpdate<Vector> of(const Points&, const Group& group) const {
     const auto after = [&](auto... node) { return group.first(node...) + group.second(node...); };
@@ -431,6 +479,14 @@ struct UpdateSums {
 /// Sums of the first registers.
 struct FirstSums {
   using Content = Lanes;
+  template <class Stencil>
+  WHIPPLE_INLINE static ValueAndGradient<> between(const grid::PlaceInStencil& place, double per_cell,
+                                                   const Stencil& nodes) {
+    const auto node = [&](auto... at) WHIPPLE_INLINE { return Lanes(first_register(nodes(at...))); };
+    return between_nodes<Lanes>(
+        {broadcast(place.from_first(0)), broadcast(place.from_first(1)), broadcast(place.from_first(2))},
+        broadcast(per_cell), node);
+  }
   template <class Points, class Group>
   WHIPPLE_INLINE ValueAndGradient<Vector> of(const Points&, const Group& group) const {
     return sums_of(group, [&](auto... node) { return group.first(node...); });
@@ -457,13 +513,15 @@ constexpr std::size_t ahead = 8;
 /// Calls f(points of a block, their weights) for a few points at a time: weights are a long chain of
 /// dependent instructions, and too far from those of the next point for the processor to see.
 template <class Shape, class Points, class Function>
-WHIPPLE_INLINE inline void for_some(const Points& points, std::span<const std::uint32_t> members,
-                                    const BlockFrame& frame, Function&& f) {
+WHIPPLE_INLINE inline void for_some(const Points& points, std::span<const grid::PlaceInStencil> places,
+                                    double cell_size, std::span<const std::uint32_t> members, Function&& f) {
   std::array<Weights<Shape::count>, ahead> weights;
   for (std::size_t first = 0; first < members.size(); first += ahead) {
     const std::span<const std::uint32_t> some =
         members.subspan(first, std::min(ahead, members.size() - first));
-    for (std::size_t m = 0; m < some.size(); ++m) weights[m] = weights_at<Shape>(points, some[m], frame);
+    for (std::size_t m = 0; m < some.size(); ++m) {
+      weights[m] = weights_at<Shape>(points, some[m], places[some[m]], cell_size);
+    }
     f(some, weights);
   }
 }
@@ -529,6 +587,82 @@ WHIPPLE_INLINE inline void add_payload(Lanes load, const Weights<Shape::count>& 
   }
 }
 
+/// What the points of one cell bring to its eight nodes by linear functions, as long as they follow one
+/// another: the nodes themselves are touched once for all of them.
+/// @tparam Content  of the nodes: grid::Node takes everything, Lanes mass and momentum
+template <class Content>
+class NodesOfCell {
+ public:
+  WHIPPLE_INLINE void add(const Payload& load, const grid::PlaceInStencil& place, double per_cell) {
+    const Weight x = weight(place, 0), y = weight(place, 1), z = weight(place, 2);
+    const Lanes none{};
+    const Both whole = both(load.a0, load.b0), of_x = both(none, per_cell * load.bx),
+               of_y = both(none, per_cell * load.by);
+    const Lanes of_z = per_cell * load.bz;
+#pragma GCC unroll 2
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Both across = spread_both(x[i]), from_x = across * whole,
+                 plane = i == 0 ? from_x - of_x : from_x + of_x, plane_y = across * of_y;
+      const Lanes plane_z = x[i] * of_z;
+#pragma GCC unroll 2
+      for (std::size_t j = 0; j < 2; ++j) {
+        const Both from_y = spread_both(y[j]) * plane, row = j == 0 ? from_y - plane_y : from_y + plane_y;
+        slope_[i][j] += y[j] * plane_z;
+#pragma GCC unroll 2
+        for (std::size_t k = 0; k < 2; ++k)
+          sum_[i][j][k] = multiply_add(spread_both(z[k]), row, sum_[i][j][k]);
+      }
+    }
+  }
+  WHIPPLE_INLINE void add(const Lanes& load, const grid::PlaceInStencil& place, double) {
+    const Weight x = weight(place, 0), y = weight(place, 1), z = weight(place, 2);
+#pragma GCC unroll 2
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Lanes plane = x[i] * load;
+#pragma GCC unroll 2
+      for (std::size_t j = 0; j < 2; ++j) {
+        const Lanes row = y[j] * plane;
+#pragma GCC unroll 2
+        for (std::size_t k = 0; k < 2; ++k) sum_[i][j][k] += z[k] * row;
+      }
+    }
+  }
+  template <class Stencil>
+  WHIPPLE_INLINE void hand_over(const Stencil& nodes) {
+#pragma GCC unroll 2
+    for (std::size_t i = 0; i < 2; ++i) {
+#pragma GCC unroll 2
+      for (std::size_t j = 0; j < 2; ++j) {
+        if constexpr (whole) {
+          const Both slope = both(Lanes{}, slope_[i][j]);
+          grid::Node &before = nodes(i, j, 0), &behind = nodes(i, j, 1);
+          store_node(before, load_node(before) + (sum_[i][j][0] - slope));
+          store_node(behind, load_node(behind) + (sum_[i][j][1] + slope));
+        } else {
+#pragma GCC unroll 2
+          for (std::size_t k = 0; k < 2; ++k) first_register(nodes(i, j, k)) += sum_[i][j][k];
+        }
+      }
+    }
+    *this = {};
+  }
+
+ private:
+  static constexpr bool whole = std::is_same_v<Content, grid::Node>;
+  using Sum = std::conditional_t<whole, Both, Lanes>;
+  template <class T>
+  using Pair = std::array<T, 2>;
+  using Weight = Pair<double>;
+  WHIPPLE_INLINE static Weight weight(const grid::PlaceInStencil& place, std::size_t direction) {
+    const double f = place.from_first(direction);
+    return {1.0 - f, f};
+  }
+
+  Pair<Pair<Pair<Sum>>> sum_{};
+  Pair<Pair<Lanes>> slope_{};  // of the functions along z: what the second register of the node behind gets
+                               // of it, the one before loses
+};
+
 /// The entries. Everything they call is inlined into them.
 struct Kernels {
   template <AffineField field>
@@ -542,10 +676,19 @@ struct Kernels {
   WHIPPLE_WHOLE_KERNEL static void gather(const Points& points, grid::BlockGrid& grid,
                                           grid::BlockGrid::Points kind, std::size_t slot, const Sums& sums,
                                           const Take& take) {
-    const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
+    const double cell_size = grid.geometry().cell_size;
+    const std::span<const grid::PlaceInStencil> places = grid.places(kind);
     const std::uint32_t* const list = grid.members(kind, slot).data();
     read_nodes<Shape, typename Sums::Content>(grid, kind, slot, [&](const auto& members, auto& access) {
-      for_some<Shape>(points, members, frame, [&](const auto& some, const auto& weights) {
+      if constexpr (std::is_same_v<Shape, Linear> && !requires { typename Sums::Sum; }) {
+        const double per_cell = 1.0 / cell_size;
+        for (const std::uint32_t& p : members) {
+          take(static_cast<std::size_t>(&p - list), p,
+               Sums::between(places[p], per_cell, access.stencil(places[p].first_node())));
+        }
+        return;
+      }
+      for_some<Shape>(points, places, cell_size, members, [&](const auto& some, const auto& weights) {
         using Group = Group<Shape, std::remove_reference_t<decltype(access)>>;
         const std::size_t groups = (some.size() + together - 1) / together;
         const auto group_at = [&](std::size_t g) WHIPPLE_INLINE {
@@ -554,7 +697,7 @@ struct Kernels {
             const std::size_t at = std::min(g * together + i, some.size() - 1);
             group.point[i] = some[at];
             group.weights[i] = &weights[at];
-            group.stencil[i] = access.stencil(weights[at].first_node());
+            group.stencil[i] = access.stencil(weights[at].first_node);
           }
           return group;
         };
@@ -574,7 +717,7 @@ struct Kernels {
             sum[g] = sums.of(points, group);
           }
           for (std::size_t g = 0; g < groups; ++g) {
-            result[g] = sums.template advance<Shape>(points, point[g], sum[g], frame.cell_size);
+            result[g] = sums.template advance<Shape>(points, point[g], sum[g], cell_size);
           }
           for (std::size_t g = 0; g < groups; ++g) give(g, result[g]);
         } else {
@@ -587,16 +730,37 @@ struct Kernels {
   /// Adds what the points of a slot bring to the nodes.
   template <class Shape, class What>
   WHIPPLE_WHOLE_KERNEL static void scatter(const What& what, grid::BlockGrid& grid, std::size_t slot) {
-    const BlockFrame frame(grid.geometry(), grid.coordinate(slot));
+    const double cell_size = grid.geometry().cell_size;
+    const std::span<const grid::PlaceInStencil> places = grid.places(What::kind);
+    const auto load = [&](std::size_t p) WHIPPLE_INLINE {
+      if (prefetches(p)) {
+        what.prefetch_from(p + prefetch_distance);
+        prefetch(p + prefetch_distance, places);
+      }
+      return what.template load<CarriesAffineField<Shape>>(p);
+    };
     add_to_nodes<Shape, typename What::Content>(
         grid, What::kind, slot, [&](const auto& members, auto& access) {
-          for_some<Shape>(what.points, members, frame, [&](const auto& some, const auto& weights) {
-            for (std::size_t m = 0; m < some.size(); ++m) {
-              if (prefetches(some[m])) what.prefetch_from(some[m] + prefetch_distance);
-              add_payload<Shape>(what.template load<CarriesAffineField<Shape>>(some[m]), weights[m],
-                                 access.stencil(weights[m].first_node()));
+          if constexpr (std::is_same_v<Shape, Linear>) {
+            const double per_cell = 1.0 / cell_size;
+            NodesOfCell<typename What::Content> cell;
+            std::int32_t first_node = places[members.front()].first_node();
+            for (const std::uint32_t p : members) {
+              if (const std::int32_t first = places[p].first_node(); first != first_node) {
+                cell.hand_over(access.stencil(first_node));
+                first_node = first;
+              }
+              cell.add(load(p), places[p], per_cell);
             }
-          });
+            cell.hand_over(access.stencil(first_node));
+          } else {
+            for_some<Shape>(
+                what.points, places, cell_size, members, [&](const auto& some, const auto& weights) {
+                  for (std::size_t m = 0; m < some.size(); ++m) {
+                    add_payload<Shape>(load(some[m]), weights[m], access.stencil(weights[m].first_node));
+                  }
+                });
+          }
         });
   }
 };

@@ -9,9 +9,15 @@
 namespace whipple::transfer {
 namespace {
 
+/// Lane 0, then a vector: the lanes of mass and momentum, or of a force.
+[[gnu::always_inline]] inline Lanes beside(Lanes first, const double* v) {
+  return __builtin_shufflevector(first, load_vector(v), 0, 4, 5, 6);
+}
 /// Mass times a vector, in the lanes of a momentum or force.
-[[gnu::always_inline]] inline Lanes times(double mass, const double* v) {
-  return mass * Lanes{0.0, v[0], v[1], v[2]};
+[[gnu::always_inline]] inline Lanes times(double mass, const double* v) { return mass * beside(Lanes{}, v); }
+/// Mass and momentum.
+[[gnu::always_inline]] inline Lanes with_momentum(double mass, const double* v) {
+  return mass * beside(broadcast(1.0), v);
 }
 
 /// Mass and momentum, with the sound speed and no force; b_a is left open. (Clearing the whole payload would
@@ -21,7 +27,7 @@ template <bool affine, class Points>
   const double m = points.mass[p];
   Payload out;
   const double* v = points.velocity[p].data();
-  out.a0 = m * Lanes{1.0, v[0], v[1], v[2]};
+  out.a0 = with_momentum(m, v);
   if constexpr (affine) {
     const double* c = points.affine_velocity[p].data();
     out.ax = times(m, c);
@@ -44,21 +50,24 @@ struct Everything : OfParticles {
   using Content = grid::Node;
   std::span<const Vector3> acceleration;
   WHIPPLE_INLINE void prefetch_from(std::size_t p) const {
-    prefetch(p, points.mass, points.position, points.velocity, points.sound_speed, points.volume,
-             points.pressure, points.artificial_viscosity, points.deviatoric_stress);
+    prefetch(p, points.mass, points.velocity, points.sound_speed, points.volume, points.pressure,
+             points.artificial_viscosity, points.deviatoric_stress);
     if (!points.affine_velocity.empty()) prefetch(p, points.affine_velocity);
   }
   /// The internal force on node i is -V sigma . grad N_i, sigma = s - (p + q) I.
   template <bool affine>
   [[nodiscard, gnu::always_inline]] Payload load(std::size_t p) const {
-    const SymmetricTensor& s = points.deviatoric_stress[p];
     const double mean = -(points.pressure[p] + points.artificial_viscosity[p]);
-    const double minus_volume = -points.volume[p];
+    static_assert(offsetof(SymmetricTensor, zx) == 5 * sizeof(double));
+    const double* const s = &points.deviatoric_stress[p].xx;
+    const Lanes a = whipple::load(s) + mean * Lanes{1.0, 1.0, 1.0, 0.0},  // xx, yy, zz, xy
+        b = whipple::load(s + 2) + mean * Lanes{1.0, 0.0, 0.0, 0.0},      // zz, xy, yz, zx
+        minus_volume = -points.volume[p] * Lanes{0.0, 1.0, 1.0, 1.0};
     Payload out = inertia<affine>(points, p);
     if (!acceleration.empty()) out.b0 += times(points.mass[p], acceleration[p].data());
-    out.bx = minus_volume * Lanes{0.0, s.xx + mean, s.xy, s.zx};
-    out.by = minus_volume * Lanes{0.0, s.xy, s.yy + mean, s.yz};
-    out.bz = minus_volume * Lanes{0.0, s.zx, s.yz, s.zz + mean};
+    out.bx = minus_volume * __builtin_shufflevector(a, b, 0, 0, 5, 7);
+    out.by = minus_volume * __builtin_shufflevector(a, b, 0, 5, 1, 6);
+    out.bz = minus_volume * __builtin_shufflevector(a, b, 0, 7, 6, 4);
     return out;
   }
 };
@@ -81,13 +90,10 @@ struct OfNodes {
 struct Momentum : OfParticles {
   using Content = Lanes;
   std::span<const Vector3> velocity;
-  WHIPPLE_INLINE void prefetch_from(std::size_t p) const {
-    prefetch(p, points.mass, points.position, velocity);
-  }
+  WHIPPLE_INLINE void prefetch_from(std::size_t p) const { prefetch(p, points.mass, velocity); }
   template <bool affine>
   [[nodiscard, gnu::always_inline]] Lanes load(std::size_t p) const {
-    const double* v = velocity[p].data();
-    return points.mass[p] * Lanes{1.0, v[0], v[1], v[2]};
+    return with_momentum(points.mass[p], velocity[p].data());
   }
 };
 

@@ -22,18 +22,15 @@ namespace whipple::transfer {
 
 enum class ShapeFunction : std::uint8_t { linear, gimp, convected_gimp, quadratic_bspline, cubic_bspline };
 
-/// Weights, derivatives and distances of the nodes that a particle reaches along one direction.
+/// Weights, derivatives and distances of the nodes that a particle reaches along one direction, from its
+/// distance to the first of them in cells: `shift` to `shift` + 1 of the stencil.
 /// @tparam Number double, or Lanes for the three directions at once (lane = direction)
 template <int Count, class Number = double>
 struct AxisWeights {
-  Number first{};  ///< first node, a whole number, counted from the block's lower corner (>= -1)
   std::array<Number, Count> weight;      ///< N
   std::array<Number, Count> derivative;  ///< dN/dx, 1/m
   std::array<Number, Count> distance;    ///< node position minus particle position, m
 };
-
-inline double whole_below(double x) { return std::floor(x); }
-inline Lanes whole_below(Lanes x) { return Lanes(_mm256_floor_pd(__m256d(x))); }
 
 /// Piecewise linear functions of the cells: two nodes per direction, gradients jump at the faces of cells.
 struct Linear {
@@ -42,12 +39,10 @@ struct Linear {
   static constexpr int count = 2;
   static constexpr grid::Stencil stencil{.shift = 0.0, .count = count};
 
-  /// @param local position in cells from the block's lower corner
   template <class Number>
-  static AxisWeights<count, Number> weights(Number local, double cell_size) {
+  static AxisWeights<count, Number> weights(Number f, double cell_size) {
     AxisWeights<count, Number> w;
-    w.first = whole_below(local);
-    const Number f = local - w.first, zero{};
+    const Number zero{};
     const double per_cell = 1.0 / cell_size;
     w.weight = {1.0 - f, f};
     w.derivative = {zero - per_cell, zero + per_cell};
@@ -67,10 +62,8 @@ struct QuadraticBSpline {
   static constexpr double second_moment = 1.0 / 4.0;
 
   template <class Number>
-  static AxisWeights<count, Number> weights(Number local, double cell_size) {
+  static AxisWeights<count, Number> weights(Number g, double cell_size) {
     AxisWeights<count, Number> w;
-    w.first = whole_below(local - 0.5);
-    const Number g = local - w.first;  // 0.5 .. 1.5
     const double per_cell = 1.0 / cell_size;
     w.weight = {0.5 * (1.5 - g) * (1.5 - g), 0.75 - (g - 1.0) * (g - 1.0), 0.5 * (g - 0.5) * (g - 0.5)};
     w.derivative = {(g - 1.5) * per_cell, (g - 1.0) * (-2.0 * per_cell), (g - 0.5) * per_cell};
@@ -89,11 +82,9 @@ struct CubicBSpline {
   static constexpr double second_moment = 1.0 / 3.0;
 
   template <class Number>
-  static AxisWeights<count, Number> weights(Number local, double cell_size) {
+  static AxisWeights<count, Number> weights(Number from_first, double cell_size) {
     AxisWeights<count, Number> w;
-    w.first = whole_below(local - 1.0);
-    const Number f = local - w.first - 1.0;  // 0 .. 1
-    const Number b = 1.0 - f;
+    const Number f = from_first - 1.0, b = 1.0 - f;
     const double per_cell = 1.0 / cell_size;
     w.weight = {b * b * b / 6.0, 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), 2.0 / 3.0 - b * b * (1.0 - 0.5 * b),
                 f * f * f / 6.0};
@@ -107,10 +98,8 @@ struct CubicBSpline {
 /// Generalised interpolation (GIMP; Bardenhagen & Kober, CMES 5 (2004) 477): the linear functions averaged
 /// over the particle's own domain, a box of half-sizes h along the axes (in cells).
 template <int nodes>
-AxisWeights<nodes> averaged_linear_weights(double local, double h, double shift, double cell_size) {
+AxisWeights<nodes> averaged_linear_weights(double from_first, double h, double cell_size) {
   AxisWeights<nodes> w;
-  const double base = std::floor(local - shift);
-  w.first = base;
   const auto tent = [](double u) { return std::max(0.0, 1.0 - std::abs(u)); };
   // Integral of the tent over [u - h, u + h], without differences of nearly equal numbers: a weight that is
   // all round-off would give its node a mass that is none.
@@ -122,7 +111,7 @@ AxisWeights<nodes> averaged_linear_weights(double local, double h, double shift,
     return from < 0.0 ? left + to * (1.0 - 0.5 * to) : 2.0 * h * (1.0 - std::abs(u));
   };
   for (std::size_t i = 0; i < nodes; ++i) {
-    const double u = local - base - static_cast<double>(i);
+    const double u = from_first - static_cast<double>(i);
     w.weight[i] = integral(u) / (2.0 * h);
     w.derivative[i] = (tent(u + h) - tent(u - h)) / (2.0 * h * cell_size);
     w.distance[i] = -u * cell_size;
@@ -139,8 +128,8 @@ struct Gimp {
   static constexpr grid::Stencil stencil{.shift = 0.5, .count = count};
   static constexpr double largest_half_size = 0.5;
 
-  static AxisWeights<count> weights(double local, double half_size, double cell_size) {
-    return averaged_linear_weights<count>(local, half_size, 0.5, cell_size);
+  static AxisWeights<count> weights(double from_first, double half_size, double cell_size) {
+    return averaged_linear_weights<count>(from_first, half_size, cell_size);
   }
 };
 
@@ -154,8 +143,8 @@ struct ConvectedGimp {
   static constexpr grid::Stencil stencil{.shift = 1.0, .count = count};
   static constexpr double largest_half_size = 1.0;
 
-  static AxisWeights<count> weights(double local, double half_size, double cell_size) {
-    return averaged_linear_weights<count>(local, std::min(half_size, largest_half_size), 1.0, cell_size);
+  static AxisWeights<count> weights(double from_first, double half_size, double cell_size) {
+    return averaged_linear_weights<count>(from_first, std::min(half_size, largest_half_size), cell_size);
   }
 };
 
@@ -213,37 +202,10 @@ inline Vector3 half_sizes(const SymmetricTensor& extent, double cell_size) {
   return Vector3(std::sqrt(extent.xx), std::sqrt(extent.yy), std::sqrt(extent.zz)) / cell_size;
 }
 
-/// A block as the weights see it: made once for all of its particles.
-struct BlockFrame {
-  Lanes lower;   ///< of the grid, m
-  Lanes corner;  ///< of the block, in cells
-  double cell_size;
-
-  BlockFrame(const grid::Geometry& geometry, const grid::BlockCoordinate& block)
-      : lower(load_vector(geometry.lower.data())),
-        corner{static_cast<double>(grid::block_edge * block[0]),
-               static_cast<double>(grid::block_edge * block[1]),
-               static_cast<double>(grid::block_edge * block[2]), 0.0},
-        cell_size(geometry.cell_size) {}
-
-  /// Position in cells from the lower corner of the block (lane = direction), below its upper one. Rounds as
-  /// Geometry::in_cells does.
-  [[nodiscard]] Lanes local(const Vector3& position) const {
-    const Lanes in_cells = (load_vector(position.data()) - lower) / cell_size;
-    // The difference may round up where the position is just below a corner at zero.
-    constexpr double below_end = grid::block_edge * (1.0 - std::numeric_limits<double>::epsilon());
-    return minimum(in_cells - corner, broadcast(below_end));
-  }
-};
-
 /// Weights of all three directions.
 template <int Count>
 struct Weights : AxisWeights<Count, Lanes> {
-  /// Index of the first node, counted from the block's lower corner.
-  [[nodiscard]] std::array<int, 3> first_node() const {
-    const __m128i whole = _mm256_cvttpd_epi32(__m256d(this->first));
-    return {_mm_cvtsi128_si32(whole), _mm_extract_epi32(whole, 1), _mm_extract_epi32(whole, 2)};
-  }
+  std::int32_t first_node;  ///< as of grid::PlaceInStencil
 };
 
 /// Values of one direction for all nodes of a stencil, each in all lanes.
@@ -255,18 +217,18 @@ template <std::size_t Count>
   return all;
 }
 
-/// Weights of all three directions for a particle, or another point with a position.
+/// Weights of all three directions for a particle, or another point.
 template <class Shape, class Points>
 [[gnu::always_inline]] inline Weights<Shape::count> weights_at(const Points& points, std::size_t p,
-                                                               const BlockFrame& frame) {
-  const Lanes local = frame.local(points.position[p]);
-  const double dx = frame.cell_size;
+                                                               const grid::PlaceInStencil& place,
+                                                               double cell_size) {
+  const Lanes from_first = place.from_first();
   if constexpr (Sized<Shape>) {
-    const Vector3 h = half_sizes(points.extent[p], dx);
+    const Vector3 h = half_sizes(points.extent[p], cell_size);
     Weights<Shape::count> all{};
+    all.first_node = place.first_node();
     for (int a = 0; a < 3; ++a) {
-      const AxisWeights<Shape::count> axis = Shape::weights(local[a], h[a], dx);
-      all.first[a] = axis.first;
+      const AxisWeights<Shape::count> axis = Shape::weights(from_first[a], h[a], cell_size);
       for (std::size_t i = 0; i < Shape::count; ++i) {
         all.weight[i][a] = axis.weight[i];
         all.derivative[i][a] = axis.derivative[i];
@@ -275,7 +237,7 @@ template <class Shape, class Points>
     }
     return all;
   } else {
-    return {Shape::weights(local, dx)};
+    return {Shape::weights(from_first, cell_size), place.first_node()};
   }
 }
 

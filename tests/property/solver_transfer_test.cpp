@@ -342,12 +342,8 @@ TYPED_TEST(Transfer, NodesOfEveryStencilAreActiveWhereTheDivisionRounds) {
       ASSERT_TRUE(grid.bin(x, TypeParam::stencil)) << half_cells << " " << cell_size;
       for (std::size_t slot = 0; slot < grid.slots(); ++slot) {
         if (grid.particles_in(slot).empty()) continue;
-        Particles one;
-        resize(one, 1);
-        one.position[0] = x[0];
-        one.extent = {{cell_size * cell_size, cell_size * cell_size, cell_size * cell_size, 0, 0, 0}};
-        const auto weights = weights_at<TypeParam>(one, 0, BlockFrame(fine, grid.coordinate(slot)));
-        const int first = weights.first_node()[0];
+        const grid::PlaceInStencil& place = grid.places(grid::BlockGrid::Points::particles)[0];
+        const int first = place.first_node(TypeParam::stencil)[0];
         for (const int node : {first, first + TypeParam::count - 1}) {
           const int block = node < 0 ? 0 : node < grid::block_edge ? 1 : 2;
           EXPECT_NE(grid.neighbours(slot)[static_cast<std::size_t>(grid::neighbour_index(block, 1, 1))],

@@ -51,13 +51,12 @@ TYPED_TEST(TransferKernels, GradientsComeOnceEachAndRight) {
       worst = std::max(worst, (gradients[k] - field).cwiseAbs().maxCoeff());
     }
   };
-  gather_velocity_gradient(TypeParam::kind, q, grid, {}, take);
+  gather_velocity_gradient(TypeParam::kind, q, grid, take);
   EXPECT_TRUE(std::ranges::all_of(taken, [](int times) { return times == 1; }));
   EXPECT_GT(stretches, 3U);
   EXPECT_LT(worst, 1e-12);
 
-  std::vector<Vector3> displacement(q.size());
-  const TransferBalance flip = update_velocity(TypeParam::kind, q, grid, 0.05, 0.0, displacement, take);
+  const TransferBalance flip = update_velocity(TypeParam::kind, q, grid, 0.05, 0.0, take);
   EXPECT_TRUE(std::ranges::all_of(taken, [](int times) { return times == 2; }));
   EXPECT_LT(worst, 1e-12);
   EXPECT_NEAR(flip.squared_change, 9.0, 1e-11);
@@ -104,16 +103,15 @@ std::vector<double> numbers_after_all_transfers(bool wide) {
     GridUpdate().advance(grid, dt, {.kappa = 0.7});
   };
   std::vector<Matrix3> gradient(q.size());
-  std::vector<Vector3> displacement(q.size());
   advance();
-  take(
-      std::array{update_velocity(Shape::kind, q, grid, dt, 0.1, displacement, into(gradient)).external_work});
+  take(std::array{update_velocity(Shape::kind, q, grid, dt, 0.1, into(gradient)).external_work});
   momentum_to_grid(Shape::kind, q, q.velocity, grid);
   take(grid.all_nodes());
-  gather_velocity_gradient(Shape::kind, q, grid, {}, into(gradient));
+  gather_velocity_gradient(Shape::kind, q, grid, into(gradient));
   take(gradient);
-  gather_velocity(Shape::kind, q, grid, displacement);
-  take(displacement);
+  std::vector<Vector3> at_particles(q.size());
+  gather_velocity(Shape::kind, q, grid, at_particles);
+  take(at_particles);
   advance();
   const TransferBalance balance = grid_to_particles(
       Shape::kind, q, grid, dt, CarriesAffineField<Shape> ? AffineField::deformed : AffineField::none,

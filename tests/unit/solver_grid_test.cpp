@@ -56,6 +56,10 @@ void check_lists(const BlockGrid& grid, const std::vector<Vector3>& x) {
       for (int a = 0; a < 3; ++a) {
         const double local = x[p][a] - 4 * grid.coordinate(s)[static_cast<std::size_t>(a)];
         EXPECT_TRUE(local >= 0 && local < 4);
+        const PlaceInStencil& place = grid.places(BlockGrid::Points::particles)[p];
+        const double from_first = place.from_first(static_cast<std::size_t>(a));
+        EXPECT_TRUE(from_first >= 0.5 && from_first <= 1.5);  // of a quadratic B-spline
+        EXPECT_NEAR(place.first_node(Stencil{})[static_cast<std::size_t>(a)] + from_first, local, 1e-15);
       }
       // All 27 nodes of a quadratic B-spline lie in active blocks.
       for (int n = 0; n < 27; ++n) {
@@ -75,6 +79,15 @@ void check_lists(const BlockGrid& grid, const std::vector<Vector3>& x) {
     }
   }
   for (const int count : seen) EXPECT_EQ(count, 1);
+  // In the order by stencil every particle comes once, those of one stencil follow one another.
+  const std::vector<std::uint32_t> ordered = grid.particles_by_stencil();
+  EXPECT_TRUE(std::ranges::is_permutation(ordered, grid.particles_by_block()));
+  const auto places = grid.places(BlockGrid::Points::particles);
+  for (std::size_t s = 0; s < grid.slots(); ++s) {
+    const auto of_slot = std::span(ordered).subspan(grid.place_of(s), grid.particles_in(s).size());
+    EXPECT_TRUE(std::ranges::is_permutation(of_slot, grid.particles_in(s)));
+    EXPECT_TRUE(std::ranges::is_sorted(of_slot, {}, [&](std::uint32_t p) { return places[p].first_node(); }));
+  }
 }
 
 /// Four positions are within the faces if each of them is.

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "src/base/vector_math.hpp"
+#include "src/grid/geometry.hpp"
+
+/// The nodes that a point reaches, and those that the points of a block reach together.
+namespace whipple::grid {
+
+/// Edge of the widest region of nodes that the points of one block reach: one before, four inside, two
+/// behind.
+constexpr int reach_edge = block_edge + 3;
+
+/// Nodes that a kernel reaches from a particle: `count` nodes per direction, the first at floor(X - shift)
+/// where X is the position in cells.
+struct Stencil {
+  double shift = 0.5;
+  int count = 3;
+
+  /// Nodes that points of a block reach before those of the block, and edge of all that they reach.
+  [[nodiscard]] constexpr int before() const { return shift > 0.0 ? 1 : 0; }
+  [[nodiscard]] constexpr int edge() const { return before() == 0 ? block_edge + 1 : reach_edge; }
+};
+
+/// Lower corner of a block, in cells.
+inline Lanes corner_of(const BlockCoordinate& block) {
+  return Lanes{static_cast<double>(block_edge * block[0]), static_cast<double>(block_edge * block[1]),
+               static_cast<double>(block_edge * block[2]), 0.0};
+}
+/// Position in cells from the corner of the block that it lies in, below the block's upper corner: where it
+/// is just below a corner at zero, the difference may round up.
+inline Lanes position_in_block(Lanes in_cells, Lanes corner) {
+  constexpr double below_end = block_edge * (1.0 - std::numeric_limits<double>::epsilon());
+  return minimum(in_cells - corner, broadcast(below_end));
+}
+
+/// Place of a node of the widest region, per direction: offset of the block that owns it (0 before, 1 same, 2
+/// behind) and index inside that block. Position 0 is the node before the block's first.
+struct ReachMap {
+  std::array<int, reach_edge> block{};
+  std::array<int, reach_edge> node{};
+};
+constexpr ReachMap reach_map() {
+  ReachMap map;
+  for (int i = 0; i < reach_edge; ++i) {
+    const int shifted = i - 1 + block_edge;
+    map.block[static_cast<std::size_t>(i)] = shifted / block_edge;
+    map.node[static_cast<std::size_t>(i)] = shifted % block_edge;
+  }
+  return map;
+}
+
+/// Where a point stands among the nodes of its stencil.
+class PlaceInStencil {
+ public:
+  /// Position in cells from the first node; lane 3 is some number.
+  [[nodiscard]] Lanes from_first() const { return lanes_; }
+  /// The same along one direction.
+  [[nodiscard]] double from_first(std::size_t direction) const {
+    return reinterpret_cast<const double*>(&lanes_)[direction];
+  }
+  /// Number of the first node among those that the points of the block reach, z fastest.
+  [[nodiscard]] std::int32_t first_node() const {
+    static_assert(std::endian::native == std::endian::little);
+    std::int32_t low;
+    __builtin_memcpy(&low, reinterpret_cast<const double*>(&lanes_) + 3, sizeof(low));
+    return low;
+  }
+  /// The same from the block's lower corner, by direction.
+  [[nodiscard]] std::array<int, 3> first_node(Stencil stencil) const {
+    const int edge = stencil.edge(), before = stencil.before(), first = first_node();
+    return {first / (edge * edge) - before, first / edge % edge - before, first % edge - before};
+  }
+
+ private:
+  friend class StencilPlaces;
+  Lanes lanes_;  ///< the last bits of lane 3 are those of the first node's number
+};
+
+/// Makes the places of a kind of stencil.
+class StencilPlaces {
+ public:
+  explicit StencilPlaces(Stencil stencil) : shift_(broadcast(stencil.shift)) {
+    const double edge = stencil.edge();
+    strides_ = Lanes{edge * edge, edge, 1.0, 0.0};
+    origin_ = Lanes{integer, 0.0, 0.0, 0.0} + stencil.before() * strides_;
+  }
+  /// @param local  position in cells from the block's lower corner, inside the block
+  [[nodiscard]] PlaceInStencil operator()(Lanes local) const {
+    const Lanes first = floor(local - shift_), parts = multiply_add(first, strides_, origin_);
+    const Lanes pairs = parts + __builtin_shufflevector(parts, parts, 2, 3, 0, 1);
+    const Lanes sum = pairs + __builtin_shufflevector(pairs, pairs, 1, 0, 3, 2);
+    PlaceInStencil place;
+    place.lanes_ = __builtin_shufflevector(local - first, sum, 0, 1, 2, 7);
+    return place;
+  }
+
+ private:
+  /// The last bits of 2^52 + i are those of the whole number i: nothing needs to be converted, and every lane
+  /// holds a number that arithmetic does not stumble over.
+  static constexpr double integer = 4503599627370496.0;
+  Lanes shift_, strides_, origin_;
+};
+
+}  // namespace whipple::grid
