@@ -29,6 +29,20 @@ inline Lanes exp(Lanes x) { return Lanes(libmvec::_ZGVdN4v_exp(__m256d(x))); }
 inline Lanes exp_minus_1(Lanes x) { return Lanes(libmvec::_ZGVdN4v_expm1(__m256d(x))); }
 /// Not `log`: that is the namespace of the messages (src/base/log.hpp).
 inline Lanes natural_log(Lanes x) { return Lanes(libmvec::_ZGVdN4v_log(__m256d(x))); }
+/// Natural logarithm of positive normal numbers to 4e-8: for starting values, at a third of the cost.
+inline Lanes rough_log(Lanes x) {
+  using Bits [[gnu::vector_size(32)]] = long long;
+  // x = 2^k m with m from sqrt(1/2) to sqrt(2)
+  constexpr long long least = 0x3fe6a09e667f3bcd, exponent = ~0xfffffffffffffLL, one = 0x4330000000000000;
+  const Bits from_least = Bits(x) - least;
+  const Lanes m = Lanes(Bits(x) - (from_least & exponent));
+  // k in [-2048, 2047] as the last bits of 2^52 + 2048 + k
+  const Bits k = Bits(_mm256_srli_epi64(__m256i(from_least), 52)) ^ 2048;
+  const Lanes whole = Lanes(k | one) - (4503599627370496.0 + 2048.0);
+  const Lanes s = (m - 1.0) / (m + 1.0), square = s * s;  // ln m = 2 artanh s
+  return 0.6931471805599453 * whole +
+         s * (2.0 + square * (2.0 / 3.0 + square * (2.0 / 5.0 + square * (2.0 / 7.0))));
+}
 inline Lanes pow(Lanes x, Lanes y) { return Lanes(libmvec::_ZGVdN4vv_pow(__m256d(x), __m256d(y))); }
 inline Lanes sqrt(Lanes x) { return Lanes(_mm256_sqrt_pd(__m256d(x))); }
 /// Lane by lane the smaller and the greater; b where one is NaN.

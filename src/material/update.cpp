@@ -211,6 +211,21 @@ void store_cold_work(const Step& step, Chunk& chunk, std::size_t k, double work)
   chunk.stored_cold_work[k] += (1.0 - step.material.taylor_quinney) * work * chunk.volume[k] / chunk.mass[k];
 }
 
+/// The radial return by the increments of the plastic strain.
+WHIPPLE_KERNEL void return_radially(Chunk& chunk) {
+  material::Kinematics& motion = chunk.motion;
+  Lanes kept;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double increment = chunk.increment[k], trial = motion.trial[k];
+    const double after = std::fmax(0.0, trial - 3.0 * motion.modulus[k] * increment);
+    kept[k] = increment > 0.0 ? after / trial : 1.0;
+    chunk.plastic_strain[k] += increment;
+  }
+  for (Lanes& lane : motion.deviator) {
+    for (std::size_t k = 0; k < chunk.size; ++k) lane[k] *= kept[k];
+  }
+}
+
 /// Deviatoric stress: rotation, elastic trial, radial return (eq. 3 to 7, 16).
 void advance_deviator(Step& step, Chunk& chunk, Energy energy) {
   material::Kinematics& motion = chunk.motion;
@@ -242,17 +257,21 @@ void advance_deviator(Step& step, Chunk& chunk, Energy energy) {
                                             chunk.view(kinematic ? shifted_modulus : motion.modulus),
                                             chunk.view(chunk.solid_fraction), dt,
                                             chunk.view(chunk.increment));
+  if (!kinematic) {
+    return_radially(chunk);
+    if (!stores) return;
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      const double increment = chunk.increment[k];
+      const double after = std::fmax(0.0, motion.trial[k] - 3.0 * motion.modulus[k] * increment);
+      store_cold_work(step, chunk, k, after * increment);
+    }
+    return;
+  }
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const double increment = chunk.increment[k];
     if (!(increment > 0.0)) continue;
     chunk.plastic_strain[k] += increment;
     const double stiffness = 3.0 * motion.modulus[k];
-    if (!kinematic) {
-      const double kept = std::max(0.0, 1.0 - stiffness * increment / motion.trial[k]);
-      material::scale(motion.deviator, k, kept);
-      if (stores) store_cold_work(step, chunk, k, kept * motion.trial[k] * increment);
-      continue;
-    }
     const double per_trial = increment / motion.trial[k];
     const double hardening = step.material.strength->kinematic_modulus() * chunk.solid_fraction[k];
     double work = 0.0;  // stress : plastic strain increment

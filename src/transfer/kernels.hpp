@@ -41,7 +41,7 @@ struct Moments {
   ValueAndGradient<Vector> velocity;   ///< v + d
   ValueAndGradient<Vector> increment;  ///< d
   ValueAndGradient<Vector> change;     ///< d - beta D, with N r instead of the derivatives
-  Vector loss;                         ///< beta D (2 D - beta D) + (d - beta D)^2, per component
+  Vector loss;                         ///< (d - beta D)^2 + beta D (2 D - beta D), per component
 };
 
 /// What the grid makes of a point in the step.
@@ -107,12 +107,6 @@ WHIPPLE_INLINE inline Both multiply_add(Both a, Both b, Both c) {
 }
 WHIPPLE_INLINE inline Lanes first_of(Both both) { return both.first; }
 WHIPPLE_INLINE inline Lanes second_of(Both both) { return both.second; }
-/// sum += a b; in the second register only where the first one's b is 0.
-template <bool first>
-WHIPPLE_INLINE inline void add_product(Both& sum, Both a, Both b) {
-  if constexpr (first) sum.first += a.first * b.first;
-  sum.second += a.second * b.second;
-}
 WHIPPLE_INLINE inline Both load_node(const grid::Node& node) { return {node.first, node.second}; }
 WHIPPLE_INLINE inline void store_node(grid::Node& node, Both value) { node = {value.first, value.second}; }
 
@@ -186,11 +180,6 @@ WHIPPLE_INLINE inline Both spread_both(double first, double second) {
   return Vector(_mm512_mask_broadcastsd_pd(_mm512_set1_pd(first), 0xf0, _mm_set_sd(second)));
 }
 WHIPPLE_INLINE inline Both spread_both(double same) { return Vector(_mm512_set1_pd(same)); }
-/// sum += a b
-template <bool>
-WHIPPLE_INLINE inline void add_product(Both& sum, Both a, Both b) {
-  sum += a * b;
-}
 WHIPPLE_INLINE inline Both load_node(const grid::Node& node) {
   return *reinterpret_cast<const NodeRegister*>(&node);
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Included by kernels.hpp, once per set of registers.
 
-/// Blocks with fewer particles than this use direct access.
-constexpr std::size_t direct_access_below = 6;
+/// Blocks with fewer particles than this use direct access: that costs by the stencil, of which linear
+/// functions have one for all particles of a cell.
+template <class Shape>
+constexpr std::size_t direct_access_below = Shape::count == 2 ? 16 : 6;
 
 /// What a copy holds of a node: all of it, or only the first register.
 WHIPPLE_INLINE inline void copy_node(const grid::Node& from, grid::Node& to) {
@@ -142,7 +144,7 @@ class DirectAccess {
 template <class Shape, class Content, class Function>
 void read_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::size_t slot, Function&& f) {
   grid.for_each_field(points, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
-    if (members.size() < direct_access_below) {
+    if (members.size() < direct_access_below<Shape>) {
       DirectAccess<Shape> access(grid, slot, field);
       f(members, access);
     } else {
@@ -156,7 +158,7 @@ void read_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::size
 template <class Shape, class Content, class Function>
 void add_to_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::size_t slot, Function&& f) {
   grid.for_each_field(points, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
-    if (members.size() < direct_access_below) {
+    if (members.size() < direct_access_below<Shape>) {
       DirectAccess<Shape> access(grid, slot, field);
       f(members, access);
     } else {
@@ -171,65 +173,15 @@ void add_to_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::si
   });
 }
 
-/// sum of weight[i] * value[i]
-template <std::size_t n>
-WHIPPLE_INLINE inline Vector sum(const std::array<Vector, n>& weight, const std::array<Vector, n>& value) {
-  Vector sum = weight[0] * value[0];
-  for (std::size_t i = 1; i < n; ++i) sum += weight[i] * value[i];
-  return sum;
-}
-/// The same with weights that add up to 1 (N), and with slopes that add up to 0 (its derivatives, or N r).
-/// Three nodes take differences from the middle one, which both share.
-template <std::size_t n>
-WHIPPLE_INLINE inline void sum_both(const std::array<Vector, n>& weight, const std::array<Vector, n>& slopes,
-                                    const std::array<Vector, n>& value, Vector& of_weight,
-                                    Vector& of_slopes) {
-  if constexpr (n == 3) {
-    const Vector before = value[0] - value[1], behind = value[2] - value[1];
-    of_weight = value[1] + weight[0] * before + weight[2] * behind;
-    of_slopes = slopes[0] * before + slopes[2] * behind;
-  } else {
-    of_weight = sum(weight, value);
-    of_slopes = sum(slopes, value);
-  }
-}
-
-/// Sums of one vector per node, built up direction by direction: along the rows in z, over the rows of a
-/// plane, over the planes. `slope` stands for the derivatives of N, or for N r.
-template <std::size_t n>
-struct RowSums {
-  std::array<Vector, n> value, slope;
-  WHIPPLE_INLINE void set(std::size_t row, const std::array<Vector, n>& weight,
-                          const std::array<Vector, n>& slopes, const std::array<Vector, n>& nodes) {
-    sum_both(weight, slopes, nodes, value[row], slope[row]);
-  }
-};
-template <std::size_t n>
-struct PlaneSums {
-  std::array<Vector, n> value, slope_y, slope_z;
-  WHIPPLE_INLINE void set(std::size_t plane, const std::array<Vector, n>& weight,
-                          const std::array<Vector, n>& slopes, const RowSums<n>& rows) {
-    sum_both(weight, slopes, rows.value, value[plane], slope_y[plane]);
-    slope_z[plane] = sum(weight, rows.slope);
-  }
-  WHIPPLE_INLINE ValueAndGradient<Vector> total(const std::array<Vector, n>& weight,
-                                                const std::array<Vector, n>& slopes) const {
-    ValueAndGradient<Vector> total;
-    sum_both(weight, slopes, value, total.value, total.gradient[0]);
-    total.gradient[1] = sum(weight, slope_y);
-    total.gradient[2] = sum(weight, slope_z);
-    return total;
-  }
-};
-
 /// Points that take something at a time; if there are fewer, the last stands for the others.
 using PointsOfGroup = std::array<std::uint32_t, together>;
 
-/// These points with their weights and nodes.
-template <class Shape, class Access>
+/// These points with their places, or weights where the place alone is not enough, and nodes.
+template <class ShapeOfGroup, class Access>
 struct Group {
-  static constexpr std::size_t nodes = Shape::count;  ///< per direction
+  using Shape = ShapeOfGroup;
   PointsOfGroup point;
+  std::array<const grid::PlaceInStencil*, together> place;
   std::array<const Weights<Shape::count>*, together> weights;
   std::array<typename Access::Stencil, together> stencil;
 
@@ -241,33 +193,157 @@ struct Group {
   }
 };
 
-/// Weights of one direction for all nodes of the points, each in all lanes of its point.
-template <std::size_t n>
-struct Direction {
-  std::array<Vector, n> weight, derivative, distance, moment;  ///< N, dN/dx, r, N r
-  template <class Shape, class Access>
-  WHIPPLE_INLINE Direction(const Group<Shape, Access>& group, std::size_t a) {
+/// One direction of the stencils of a group: of values at its nodes the sum with N, and with it the sum with
+/// slopes: the derivatives of N (`derivatives` of them make 1/m), or N r, whose sums over the nodes vanish.
+template <class Shape>
+class Direction {
+ public:
+  static constexpr std::size_t n = Shape::count;
+  using Values = std::array<Vector, n>;
+  Values distance;  ///< r, m
+
+  template <class Group>
+  WHIPPLE_INLINE Direction(const Group& group, std::size_t a, double) {
     const auto& w = group.weights;
     for (std::size_t k = 0; k < n; ++k) {
-      weight[k] = spread([&](std::size_t m) -> const Lanes& { return w[m]->weight[k]; }, a);
-      derivative[k] = spread([&](std::size_t m) -> const Lanes& { return w[m]->derivative[k]; }, a);
+      weight_[k] = spread([&](std::size_t m) -> const Lanes& { return w[m]->weight[k]; }, a);
+      derivative_[k] = spread([&](std::size_t m) -> const Lanes& { return w[m]->derivative[k]; }, a);
       distance[k] = spread([&](std::size_t m) -> const Lanes& { return w[m]->distance[k]; }, a);
-      moment[k] = weight[k] * distance[k];
+      moment_[k] = weight_[k] * distance[k];
     }
+  }
+  WHIPPLE_INLINE Vector sum(const Values& f) const {
+    Vector of_weight, of_slopes;
+    both(weight_, f, of_weight, of_slopes);
+    return of_weight;
+  }
+  WHIPPLE_INLINE void with_derivatives(const Values& f, Vector& of_weight, Vector& of_derivatives) const {
+    both(derivative_, f, of_weight, of_derivatives);
+  }
+  WHIPPLE_INLINE void with_moments(const Values& f, Vector& of_weight, Vector& of_moments) const {
+    both(moment_, f, of_weight, of_moments);
+  }
+  WHIPPLE_INLINE Vector derivatives(Vector sum) const { return sum; }
+
+ private:
+  /// Three nodes take differences from the middle one, which both sums share.
+  WHIPPLE_INLINE void both(const Values& slopes, const Values& f, Vector& of_weight,
+                           Vector& of_slopes) const {
+    if constexpr (n == 3) {
+      const Vector before = f[0] - f[1], behind = f[2] - f[1];
+      of_weight = multiply_add(weight_[2], behind, multiply_add(weight_[0], before, f[1]));
+      of_slopes = multiply_add(slopes[2], behind, slopes[0] * before);
+    } else {
+      of_weight = weight_[0] * f[0];
+      of_slopes = slopes[0] * f[0];
+      for (std::size_t k = 1; k < n; ++k) {
+        of_weight = multiply_add(weight_[k], f[k], of_weight);
+        of_slopes = multiply_add(slopes[k], f[k], of_slopes);
+      }
+    }
+  }
+
+  Values weight_, derivative_, moment_;  // N, dN/dx, N r
+};
+
+/// Quadratic B-splines: with a = x - 3/2, x in cells from the first node, N_0 = a^2/2, N_2 = (a + 1)^2/2 and
+/// dx dN/dx = {a, -2 a - 1, a + 1}, so that the sum with the derivatives serves in the one with N.
+template <>
+class Direction<QuadraticBSpline> {
+ public:
+  static constexpr std::size_t n = 3;
+  using Values = std::array<Vector, n>;
+  Values distance;
+
+  template <class Group>
+  WHIPPLE_INLINE Direction(const Group& group, std::size_t a, double cell_size) {
+    const Vector x = of_group([&](std::size_t m) { return broadcast(group.place[m]->from_first(a)); });
+    a_ = x - 1.5;
+    half_a_ = 0.5 * a_;
+    half_c_ = half_a_ + 0.5;
+    before_ = half_a_ * a_;
+    behind_ = half_c_ * (a_ + 1.0);
+    distance = {-cell_size * x, cell_size * (1.0 - x), cell_size * (2.0 - x)};
+    moment_before_ = before_ * distance[0];
+    moment_behind_ = behind_ * distance[2];
+    per_cell_ = 1.0 / cell_size;
+  }
+  WHIPPLE_INLINE Vector sum(const Values& f) const {
+    return multiply_add(behind_, f[2] - f[1], multiply_add(before_, f[0] - f[1], f[1]));
+  }
+  WHIPPLE_INLINE void with_derivatives(const Values& f, Vector& of_weight, Vector& of_derivatives) const {
+    const Vector before = f[0] - f[1], behind = f[2] - f[1];
+    of_derivatives = multiply_add(a_, before + behind, behind);
+    of_weight = multiply_add(half_a_, of_derivatives, multiply_add(half_c_, behind, f[1]));
+  }
+  WHIPPLE_INLINE void with_moments(const Values& f, Vector& of_weight, Vector& of_moments) const {
+    const Vector before = f[0] - f[1], behind = f[2] - f[1];
+    of_weight = multiply_add(behind_, behind, multiply_add(before_, before, f[1]));
+    of_moments = multiply_add(moment_behind_, behind, moment_before_ * before);
+  }
+  WHIPPLE_INLINE Vector derivatives(Vector sum) const { return per_cell_ * sum; }
+
+ private:
+  Vector a_, half_a_, half_c_;            // a, a/2, (a + 1)/2
+  Vector before_, behind_;                // N_0, N_2
+  Vector moment_before_, moment_behind_;  // N_0 r_0, N_2 r_2
+  double per_cell_;
+};
+
+enum class Slopes { derivatives, moments };
+
+/// Sums of one vector per node, built up direction by direction: along the rows in z, over the rows of a
+/// plane, over the planes.
+template <class Direction, Slopes kind>
+struct NodeSums {
+  static constexpr std::size_t n = Direction::n;
+  using Values = std::array<Vector, n>;
+  struct Rows {
+    Values value, slope;
+  };
+  Values value, slope_y, slope_z;
+
+  WHIPPLE_INLINE static void add_up(const Direction& along, const Values& f, Vector& value, Vector& slope) {
+    if constexpr (kind == Slopes::derivatives) {
+      along.with_derivatives(f, value, slope);
+    } else {
+      along.with_moments(f, value, slope);
+    }
+  }
+  WHIPPLE_INLINE static void set_row(Rows& rows, std::size_t row, const Direction& z, const Values& f) {
+    add_up(z, f, rows.value[row], rows.slope[row]);
+  }
+  WHIPPLE_INLINE void set_plane(std::size_t plane, const Direction& y, const Rows& rows) {
+    add_up(y, rows.value, value[plane], slope_y[plane]);
+    slope_z[plane] = y.sum(rows.slope);
+  }
+  WHIPPLE_INLINE ValueAndGradient<Vector> total(const Direction& x) const {
+    ValueAndGradient<Vector> total;
+    add_up(x, value, total.value, total.gradient[0]);
+    total.gradient[1] = x.sum(slope_y);
+    total.gradient[2] = x.sum(slope_z);
+    if constexpr (kind == Slopes::derivatives) {
+      for (Vector& slope : total.gradient) slope = x.derivatives(slope);
+    }
+    return total;
   }
 };
 
 /// D = a_p(x_i) - v_i is the difference of the particle's affine field and the grid's velocity at node i.
 template <bool affine, class Group>
-WHIPPLE_INLINE inline Moments<Vector> moments(const Group& group, Vector v, const std::array<Vector, 3>& c) {
-  constexpr std::size_t n = Group::nodes;
-  const Direction<n> x(group, 0), y(group, 1), z(group, 2);
-  PlaneSums<n> velocity, increment, change;
+WHIPPLE_INLINE inline Moments<Vector> moments(const Group& group, double cell_size, Vector v,
+                                              const std::array<Vector, 3>& c) {
+  using Along = Direction<typename Group::Shape>;
+  constexpr std::size_t n = Along::n;
+  const Along x(group, 0, cell_size), y(group, 1, cell_size), z(group, 2, cell_size);
+  NodeSums<Along, Slopes::derivatives> velocity, increment;
+  NodeSums<Along, Slopes::moments> change;
   std::array<Vector, n> loss;
   for (std::size_t i = 0; i < n; ++i) {
     Vector field_x = v;
     if constexpr (affine) field_x = multiply_add(x.distance[i], c[0], field_x);
-    RowSums<n> row_velocity, row_increment, row_change;
+    typename NodeSums<Along, Slopes::derivatives>::Rows row_velocity, row_increment;
+    typename NodeSums<Along, Slopes::moments>::Rows row_change;
     std::array<Vector, n> row_loss;
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < n; ++j) {
@@ -284,22 +360,21 @@ WHIPPLE_INLINE inline Moments<Vector> moments(const Group& group, Vector v, cons
         const Vector difference = field - first;
         d[k] = group.second(i, j, k);
         velocities[k] = first;
-        changed[k] = multiply_add(-beta, difference, d[k]);
-        const Vector rest = multiply_add(-beta, difference, difference) + difference;
-        lost[k] = multiply_add(changed[k], changed[k], beta * difference * rest);
+        const Vector relaxed = beta * difference, rest = difference - d[k];
+        changed[k] = d[k] - relaxed;
+        lost[k] = multiply_add(relaxed, rest + rest, d[k] * d[k]);
       }
-      row_velocity.set(j, z.weight, z.derivative, velocities);
-      row_increment.set(j, z.weight, z.derivative, d);
-      row_change.set(j, z.weight, z.moment, changed);
-      row_loss[j] = sum(z.weight, lost);
+      velocity.set_row(row_velocity, j, z, velocities);
+      increment.set_row(row_increment, j, z, d);
+      change.set_row(row_change, j, z, changed);
+      row_loss[j] = z.sum(lost);
     }
-    velocity.set(i, y.weight, y.derivative, row_velocity);
-    increment.set(i, y.weight, y.derivative, row_increment);
-    change.set(i, y.weight, y.moment, row_change);
-    loss[i] = sum(y.weight, row_loss);
+    velocity.set_plane(i, y, row_velocity);
+    increment.set_plane(i, y, row_increment);
+    change.set_plane(i, y, row_change);
+    loss[i] = y.sum(row_loss);
   }
-  Moments<Vector> total = {velocity.total(x.weight, x.derivative), increment.total(x.weight, x.derivative),
-                           change.total(x.weight, x.moment), sum(x.weight, loss)};
+  Moments<Vector> total = {velocity.total(x), increment.total(x), change.total(x), x.sum(loss)};
   total.velocity.value += total.increment.value;
   for (std::size_t a = 0; a < 3; ++a) total.velocity.gradient[a] += total.increment.gradient[a];
   return total;
@@ -307,23 +382,24 @@ WHIPPLE_INLINE inline Moments<Vector> moments(const Group& group, Vector v, cons
 
 /// Sums of one vector per node, value(i, j, k).
 template <class Group, class Value>
-WHIPPLE_INLINE inline ValueAndGradient<Vector> sums_of(const Group& group, Value&& value) {
-  constexpr std::size_t n = Group::nodes;
-  const Direction<n> x(group, 0), y(group, 1), z(group, 2);
-  PlaneSums<n> planes;
+WHIPPLE_INLINE inline ValueAndGradient<Vector> sums_of(const Group& group, double cell_size, Value&& value) {
+  using Along = Direction<typename Group::Shape>;
+  constexpr std::size_t n = Along::n;
+  const Along x(group, 0, cell_size), y(group, 1, cell_size), z(group, 2, cell_size);
+  NodeSums<Along, Slopes::derivatives> planes;
 #pragma GCC unroll 4
   for (std::size_t i = 0; i < n; ++i) {
-    RowSums<n> rows;
+    typename NodeSums<Along, Slopes::derivatives>::Rows rows;
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < n; ++j) {
       std::array<Vector, n> nodes;
 #pragma GCC unroll 4
       for (std::size_t k = 0; k < n; ++k) nodes[k] = value(i, j, k);
-      rows.set(j, z.weight, z.derivative, nodes);
+      planes.set_row(rows, j, z, nodes);
     }
-    planes.set(i, y.weight, y.derivative, rows);
+    planes.set_plane(i, y, rows);
   }
-  return planes.total(x.weight, x.derivative);
+  return planes.total(x);
 }
 
 /// Sum of lanes 0 to 2, in all lanes.
@@ -389,8 +465,9 @@ struct TransferSums {
   }
 
   template <class Points, class Group>
-  WHIPPLE_INLINE Moments<Vector> of(const Points& points, const Group& group) const {
-    return moments<affine>(group, velocity(points, group.point), affine_field(points, group.point));
+  WHIPPLE_INLINE Moments<Vector> of(const Points& points, const Group& group, double cell_size) const {
+    return moments<affine>(group, cell_size, velocity(points, group.point),
+                           affine_field(points, group.point));
   }
   template <class Shape, class Points>
   WHIPPLE_INLINE Advance<Vector> advance(const Points& points, const PointsOfGroup& p,
@@ -471,9 +548,10 @@ struct UpdateSums {
     return update;
   }
   template <class Points, class Group>
-  WHIPPLE_INLINE VelocityUpdate<Vector> of(const Points&, const Group& group) const {
+  WHIPPLE_INLINE VelocityUpdate<Vector> of(const Points&, const Group& group, double cell_size) const {
     const auto after = [&](auto... node) { return group.first(node...) + group.second(node...); };
-    return {sums_of(group, after), sums_of(group, [&](auto... node) { return group.second(node...); }).value};
+    return {sums_of(group, cell_size, after),
+            sums_of(group, cell_size, [&](auto... node) { return group.second(node...); }).value};
   }
 };
 /// Sums of the first registers.
@@ -488,8 +566,8 @@ struct FirstSums {
         broadcast(per_cell), node);
   }
   template <class Points, class Group>
-  WHIPPLE_INLINE ValueAndGradient<Vector> of(const Points&, const Group& group) const {
-    return sums_of(group, [&](auto... node) { return group.first(node...); });
+  WHIPPLE_INLINE ValueAndGradient<Vector> of(const Points&, const Group& group, double cell_size) const {
+    return sums_of(group, cell_size, [&](auto... node) { return group.first(node...); });
   }
 };
 
@@ -512,18 +590,44 @@ constexpr std::size_t ahead = 8;
 
 /// Calls f(points of a block, their weights) for a few points at a time: weights are a long chain of
 /// dependent instructions, and too far from those of the next point for the processor to see.
-template <class Shape, class Points, class Function>
+/// @tparam with_weights  else they are left open
+template <class Shape, bool with_weights = true, class Points, class Function>
 WHIPPLE_INLINE inline void for_some(const Points& points, std::span<const grid::PlaceInStencil> places,
                                     double cell_size, std::span<const std::uint32_t> members, Function&& f) {
   std::array<Weights<Shape::count>, ahead> weights;
   for (std::size_t first = 0; first < members.size(); first += ahead) {
     const std::span<const std::uint32_t> some =
         members.subspan(first, std::min(ahead, members.size() - first));
-    for (std::size_t m = 0; m < some.size(); ++m) {
+    for (std::size_t m = 0; with_weights && m < some.size(); ++m) {
       weights[m] = weights_at<Shape>(points, some[m], places[some[m]], cell_size);
     }
     f(some, weights);
   }
+}
+
+/// What the nodes of one direction get of what is shared out with N, and of what is with slopes, whose sum
+/// over the nodes vanishes: of three nodes the middle one, whose N is the greatest, gets the rest.
+template <std::size_t n>
+WHIPPLE_INLINE inline std::array<Both, n> shares(const std::array<Both, n>& weight,
+                                                 const std::array<Both, n>& slope, const Both& whole,
+                                                 const Both& of_slope) {
+  std::array<Both, n> share;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (n == 3 && k == 1) continue;
+    share[k] = multiply_add(slope[k], of_slope, weight[k] * whole);
+  }
+  if constexpr (n == 3) share[1] = whole - (share[0] + share[2]);
+  return share;
+}
+template <std::size_t n>
+WHIPPLE_INLINE inline std::array<Both, n> shares(const std::array<Both, n>& weight, const Both& whole) {
+  std::array<Both, n> share;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (n == 3 && k == 1) continue;
+    share[k] = weight[k] * whole;
+  }
+  if constexpr (n == 3) share[1] = whole - multiply_add(weight[2], whole, share[0]);
+  return share;
 }
 
 /// Adds what a point brings to its nodes (equation 4.1 and the forces): node += N P_0 + sum over directions
@@ -532,40 +636,33 @@ template <class Shape, class Stencil>
 WHIPPLE_INLINE inline void add_payload(const Payload& load, const Weights<Shape::count>& w,
                                        const Stencil& nodes) {
   constexpr std::size_t n = Shape::count;
-  constexpr bool affine = CarriesAffineField<Shape>;
-  const auto weight = [&](std::size_t i, std::size_t a) {
-    return spread_both(w.weight[i][a], w.weight[i][a]);
+  constexpr bool affine = CarriesAffineField<Shape>;  // else the first register takes no slopes
+  struct Direction {
+    std::array<Both, n> weight, slope;
   };
-  std::array<Lanes, n> moment{};  // nothing is carried by it where there is no affine field
-  if constexpr (affine) {
-    for (std::size_t i = 0; i < n; ++i) moment[i] = w.weight[i] * w.distance[i];
-  }
-  const auto slope = [&](std::size_t i, std::size_t a) {
-    return spread_both(moment[i][a], w.derivative[i][a]);
+  const auto direction = [&](std::size_t a) WHIPPLE_INLINE {
+    Direction direction;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double weight = w.weight[k][a];
+      direction.weight[k] = spread_both(weight);
+      direction.slope[k] = spread_both(affine ? weight * w.distance[k][a] : 0.0, w.derivative[k][a]);
+    }
+    return direction;
   };
-  std::array<Both, n> weight_z, slope_z;
-  for (std::size_t k = 0; k < n; ++k) {
-    weight_z[k] = weight(k, 2);
-    slope_z[k] = slope(k, 2);
-  }
-  const Both whole = both(load.a0, load.b0), of_x = both(load.ax, load.bx), of_y = both(load.ay, load.by),
-             of_z = both(load.az, load.bz);
+  const Direction x = direction(0), y = direction(1), z = direction(2);
+  const auto planes = shares(x.weight, x.slope, both(load.a0, load.b0), both(load.ax, load.bx)),
+             planes_y = shares(x.weight, both(load.ay, load.by)),
+             planes_z = shares(x.weight, both(load.az, load.bz));
   for (std::size_t i = 0; i < n; ++i) {
-    const Both wx = weight(i, 0), plane_y = wx * of_y, plane_z = wx * of_z;
-    Both plane = wx * whole;
-    add_product<affine>(plane, slope(i, 0), of_x);
+    const auto rows = shares(y.weight, y.slope, planes[i], planes_y[i]),
+               rows_z = shares(y.weight, planes_z[i]);
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < n; ++j) {
-      const Both wy = weight(j, 1), row_z = wy * plane_z;
-      Both row = wy * plane;
-      add_product<affine>(row, slope(j, 1), plane_y);
+      const auto share = shares(z.weight, z.slope, rows[j], rows_z[j]);
 #pragma GCC unroll 4
       for (std::size_t k = 0; k < n; ++k) {
         grid::Node& node = nodes(i, j, k);
-        Both sum = load_node(node);
-        add_product<true>(sum, weight_z[k], row);
-        add_product<affine>(sum, slope_z[k], row_z);
-        store_node(node, sum);
+        store_node(node, load_node(node) + share[k]);
       }
     }
   }
@@ -682,13 +779,19 @@ struct Kernels {
     read_nodes<Shape, typename Sums::Content>(grid, kind, slot, [&](const auto& members, auto& access) {
       if constexpr (std::is_same_v<Shape, Linear> && !requires { typename Sums::Sum; }) {
         const double per_cell = 1.0 / cell_size;
+        std::int32_t first_node = places[members.front()].first_node();
+        auto stencil = access.stencil(first_node);
         for (const std::uint32_t& p : members) {
-          take(static_cast<std::size_t>(&p - list), p,
-               Sums::between(places[p], per_cell, access.stencil(places[p].first_node())));
+          if (const std::int32_t first = places[p].first_node(); first != first_node) {
+            first_node = first;
+            stencil = access.stencil(first);
+          }
+          take(static_cast<std::size_t>(&p - list), p, Sums::between(places[p], per_cell, stencil));
         }
         return;
       }
-      for_some<Shape>(points, places, cell_size, members, [&](const auto& some, const auto& weights) {
+      constexpr bool with_weights = !std::is_same_v<Shape, QuadraticBSpline>;
+      const auto gather_some = [&](const auto& some, const auto& weights) WHIPPLE_INLINE {
         using Group = Group<Shape, std::remove_reference_t<decltype(access)>>;
         const std::size_t groups = (some.size() + together - 1) / together;
         const auto group_at = [&](std::size_t g) WHIPPLE_INLINE {
@@ -696,8 +799,9 @@ struct Kernels {
           for (std::size_t i = 0; i < together; ++i) {
             const std::size_t at = std::min(g * together + i, some.size() - 1);
             group.point[i] = some[at];
+            group.place[i] = &places[some[at]];
             group.weights[i] = &weights[at];
-            group.stencil[i] = access.stencil(weights[at].first_node);
+            group.stencil[i] = access.stencil(group.place[i]->first_node());
           }
           return group;
         };
@@ -714,16 +818,17 @@ struct Kernels {
           for (std::size_t g = 0; g < groups; ++g) {
             const Group group = group_at(g);
             point[g] = group.point;
-            sum[g] = sums.of(points, group);
+            sum[g] = sums.of(points, group, cell_size);
           }
           for (std::size_t g = 0; g < groups; ++g) {
             result[g] = sums.template advance<Shape>(points, point[g], sum[g], cell_size);
           }
           for (std::size_t g = 0; g < groups; ++g) give(g, result[g]);
         } else {
-          for (std::size_t g = 0; g < groups; ++g) give(g, sums.of(points, group_at(g)));
+          for (std::size_t g = 0; g < groups; ++g) give(g, sums.of(points, group_at(g), cell_size));
         }
-      });
+      };
+      for_some<Shape, with_weights>(points, places, cell_size, members, gather_some);
     });
   }
 

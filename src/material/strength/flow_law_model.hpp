@@ -19,7 +19,8 @@ namespace whipple::strength {
 ///   require_consistent()                                                          throws InputError
 /// and, if it hardens kinematically, kinematic_modulus                             Pa
 /// and, if it is a FourfoldLaw,
-///   may_yield(trial, temperature, solid_fraction)                                 false: the increment is 0
+///   may_yield(trial, temperature, solid_fraction)                                 of four points; false: the
+///                                                                                 increment is 0
 template <class Law>
 class FlowLawModel final : public Strength {
  public:
@@ -34,8 +35,8 @@ class FlowLawModel final : public Strength {
                          std::span<const double> solid_fraction, double dt,
                          std::span<double> increment) const override {
     if constexpr (FourfoldLaw<Law>) {
-      return_by_fours(law_, state, trial, modulus, solid_fraction, dt, increment, [&](std::size_t i) {
-        return law_.may_yield(trial[i], state.temperature[i], solid_fraction[i]);
+      return_by_fours(law_, state, trial, modulus, solid_fraction, dt, increment, [&](const auto& four) {
+        return law_.may_yield(four.trial, four.temperature, four.solid);
       });
     } else {
       for (std::size_t i = 0; i < trial.size(); ++i) {

@@ -137,8 +137,8 @@ class SteinbergGuinanModel final : public Strength {
                          std::span<const double> solid_fraction, double dt,
                          std::span<double> increment) const override {
     // Y >= Y_0 G/G_0: spares the powers of most elastic points.
-    return_by_fours(constants_, state, trial, modulus, solid_fraction, dt, increment, [&](std::size_t i) {
-      return trial[i] > modulus[i] / constants_.shear_modulus * constants_.yield_stress;
+    return_by_fours(constants_, state, trial, modulus, solid_fraction, dt, increment, [&](const auto& four) {
+      return four.trial > four.modulus / constants_.shear_modulus * constants_.yield_stress;
     });
   }
   void flow_stress(const State& state, std::span<const double>, std::span<double> stress) const override {
