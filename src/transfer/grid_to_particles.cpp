@@ -8,6 +8,7 @@
 #include "src/base/error.hpp"
 #include "src/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
+#include "src/transfer/stress_columns.hpp"
 #include "src/transfer/transition_nodes.hpp"
 
 namespace whipple::transfer {
@@ -18,10 +19,15 @@ using grid::Node;
 
 Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
 
-/// The matrix with these columns.
+/// Lanes 0 to 2 of three vectors, as the columns of a matrix.
+[[gnu::always_inline]] inline void store_columns(Matrix3& m, const std::array<Lanes, 3>& columns) {
+  store(m.data(), columns[0]);  // what is too much is overwritten
+  store(m.data() + 3, columns[1]);
+  store_vector(m.data() + 6, columns[2]);
+}
 Matrix3 matrix(const std::array<Lanes, 3>& columns) {
   Matrix3 m;
-  for (int a = 0; a < 3; ++a) store_vector(m.col(a).data(), columns[static_cast<std::size_t>(a)]);
+  store_columns(m, columns);
   return m;
 }
 
@@ -50,9 +56,7 @@ template <AffineField field, class Points>
   if constexpr (field == AffineField::turned) {
     turn_affine_field(columns, matrix(advance.grid_velocity.gradient), dt);
   }
-  for (int a = 0; a < 3; ++a) {
-    store_vector(points.affine_velocity[p].col(a).data(), columns[static_cast<std::size_t>(a)]);
-  }
+  store_columns(points.affine_velocity[p], columns);
 }
 
 /// |dv|^2 of a particle in the step (m^2/s^2).
@@ -65,19 +69,17 @@ template <AffineField field>
 [[gnu::always_inline]] inline TransferBalance update_particle(Particles& particles, std::size_t p, double dt,
                                                               const Advance<>& advance, Matrix3& gradient,
                                                               std::span<const Vector3> acceleration) {
-  const SymmetricTensor& s = particles.deviatoric_stress[p];
   const double mean_stress = -(particles.pressure[p] + particles.artificial_viscosity[p]);
-  const std::array<Lanes, 3> stress = {Lanes{s.xx + mean_stress, s.xy, s.zx, 0.0},
-                                       Lanes{s.xy, s.yy + mean_stress, s.yz, 0.0},
-                                       Lanes{s.zx, s.yz, s.zz + mean_stress, 0.0}};
+  const std::array<Lanes, 3> stress = stress_columns<0>(particles.deviatoric_stress[p], mean_stress);
   const double change = squared_change(advance.velocity, particles.velocity[p]);
   advance_point<field>(particles, p, dt, advance);
   // The mean of old and new grid velocity makes the exact work identity (4.6).
-  Lanes power{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    power += stress[a] * (advance.grid_velocity.gradient[a] - 0.5 * advance.increment.gradient[a]);
-    store_vector(gradient.col(static_cast<int>(a)).data(), advance.grid_velocity.gradient[a]);
-  }
+  const auto mean_gradient = [&](std::size_t a) {
+    return advance.grid_velocity.gradient[a] - 0.5 * advance.increment.gradient[a];
+  };
+  const Lanes power =
+      stress[0] * mean_gradient(0) + stress[1] * mean_gradient(1) + stress[2] * mean_gradient(2);
+  store_columns(gradient, advance.grid_velocity.gradient);
   const double mass = particles.mass[p], heat = advance.heat[0];
   const double work = sum3(power) * particles.volume[p] * dt;
   const double heat_of_contact = advance.increment.value[3];  // docs/theory/contact.md, 4.6

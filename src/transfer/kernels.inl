@@ -424,16 +424,15 @@ WHIPPLE_INLINE inline Vector advect_affine_field(std::array<Vector, 3>& c,
   // A deformation that large in a step has no meaningful inverse.
   const auto too_large = determinant <= 0.1;
   const Vector before = squared_norm(c), inverse = 1.0 / determinant;
-  const std::array<Vector, 3> scaled = {inverse * c[0], inverse * c[1], inverse * c[2]};
-  std::array<Vector, 3> carried;
+  std::array<Vector, 3> carried;  // times the determinant
   for (std::size_t a = 0; a < 3; ++a) {
-    carried[a] = lane(rows[0], a) * scaled[0] + lane(rows[1], a) * scaled[1] + lane(rows[2], a) * scaled[2];
+    carried[a] = lane(rows[0], a) * c[0] + lane(rows[1], a) * c[1] + lane(rows[2], a) * c[2];
   }
   const Vector after = squared_norm(carried);
-  const Vector ratio = before / after;  // 0/0 is not less than 1
-  const Vector cap = root(ratio < 1.0 ? ratio : Vector{} + 1.0);
-  for (std::size_t a = 0; a < 3; ++a) c[a] = too_large ? c[a] : cap * carried[a];
-  return too_large ? Vector{} : before - cap * cap * after;
+  const Vector cap = root(before / after);  // 0/0 is not less than the inverse
+  const Vector scale = cap < inverse ? cap : inverse;
+  for (std::size_t a = 0; a < 3; ++a) c[a] = too_large ? c[a] : scale * carried[a];
+  return too_large ? Vector{} : before - scale * scale * after;
 }
 
 /// What points take from their nodes: `of` sums over the nodes of a group, of which it reads `Content`; where
@@ -456,10 +455,10 @@ struct TransferSums {
   WHIPPLE_INLINE static std::array<Vector, 3> affine_field(const Points& points, const PointsOfGroup& p) {
     std::array<Vector, 3> c{};
     if constexpr (affine) {
-      for (std::size_t a = 0; a < 3; ++a) {
-        c[a] =
-            of_group([&](std::size_t m) { return load_vector(points.affine_velocity[p[m]].data() + 3 * a); });
-      }
+      // Lane 3 is that of the next column, or 0.
+      c[0] = of_group([&](std::size_t m) { return load(points.affine_velocity[p[m]].data()); });
+      c[1] = of_group([&](std::size_t m) { return load(points.affine_velocity[p[m]].data() + 3); });
+      c[2] = of_group([&](std::size_t m) { return load_vector(points.affine_velocity[p[m]].data() + 6); });
     }
     return c;
   }

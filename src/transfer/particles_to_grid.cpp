@@ -4,6 +4,7 @@
 #include "src/base/prefetch.hpp"
 #include "src/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
+#include "src/transfer/stress_columns.hpp"
 #include "src/transfer/transition_nodes.hpp"
 
 namespace whipple::transfer {
@@ -58,16 +59,13 @@ struct Everything : OfParticles {
   template <bool affine>
   [[nodiscard, gnu::always_inline]] Payload load(std::size_t p) const {
     const double mean = -(points.pressure[p] + points.artificial_viscosity[p]);
-    static_assert(offsetof(SymmetricTensor, zx) == 5 * sizeof(double));
-    const double* const s = &points.deviatoric_stress[p].xx;
-    const Lanes a = whipple::load(s) + mean * Lanes{1.0, 1.0, 1.0, 0.0},  // xx, yy, zz, xy
-        b = whipple::load(s + 2) + mean * Lanes{1.0, 0.0, 0.0, 0.0},      // zz, xy, yz, zx
-        minus_volume = -points.volume[p] * Lanes{0.0, 1.0, 1.0, 1.0};
+    const std::array<Lanes, 3> stress = stress_columns<1>(points.deviatoric_stress[p], mean);
+    const Lanes minus_volume = -points.volume[p] * Lanes{0.0, 1.0, 1.0, 1.0};
     Payload out = inertia<affine>(points, p);
     if (!acceleration.empty()) out.b0 += times(points.mass[p], acceleration[p].data());
-    out.bx = minus_volume * __builtin_shufflevector(a, b, 0, 0, 5, 7);
-    out.by = minus_volume * __builtin_shufflevector(a, b, 0, 5, 1, 6);
-    out.bz = minus_volume * __builtin_shufflevector(a, b, 0, 7, 6, 4);
+    out.bx = minus_volume * stress[0];
+    out.by = minus_volume * stress[1];
+    out.bz = minus_volume * stress[2];
     return out;
   }
 };
