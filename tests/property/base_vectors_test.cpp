@@ -2,7 +2,10 @@
 // Loops that take several items at a time give what one item after the other gives.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -25,6 +28,21 @@ TEST(FourVectors, AreTheirComponents) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     EXPECT_EQ(beside[i / 4][i % 4], static_cast<double>(i / 3)) << i;
   }
+}
+
+TEST(RoughLog, IsTheLogarithmTo4em8) {
+  std::mt19937_64 generator(5);
+  std::uniform_real_distribution<double> exponent(-700.0, 700.0);
+  double worst = 0.0;
+  for (int i = 0; i < 100000; ++i) {
+    // Everywhere, and close to 1 and to the ends of the range that x is reduced to.
+    const double x = i % 2 == 0 ? std::exp(exponent(generator)) : std::exp(exponent(generator) / 700.0);
+    worst = std::max(worst, std::abs(rough_log(broadcast(x))[0] - std::log(x)));
+  }
+  EXPECT_LT(worst, 4e-8);
+  EXPECT_EQ(rough_log(broadcast(1.0))[0], 0.0);
+  EXPECT_NEAR(rough_log(broadcast(std::numeric_limits<double>::min()))[0],
+              std::log(std::numeric_limits<double>::min()), 4e-8);
 }
 
 TEST(Marks, AreFoundInTheirOrder) {
