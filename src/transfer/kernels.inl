@@ -636,19 +636,19 @@ WHIPPLE_INLINE inline void add_payload(const Payload& load, const Weights<Shape:
                                        const Stencil& nodes) {
   constexpr std::size_t n = Shape::count;
   constexpr bool affine = CarriesAffineField<Shape>;  // else the first register takes no slopes
-  struct Direction {
+  struct Factors {
     std::array<Both, n> weight, slope;
   };
   const auto direction = [&](std::size_t a) WHIPPLE_INLINE {
-    Direction direction;
+    Factors along;
     for (std::size_t k = 0; k < n; ++k) {
       const double weight = w.weight[k][a];
-      direction.weight[k] = spread_both(weight);
-      direction.slope[k] = spread_both(affine ? weight * w.distance[k][a] : 0.0, w.derivative[k][a]);
+      along.weight[k] = spread_both(weight);
+      along.slope[k] = spread_both(affine ? weight * w.distance[k][a] : 0.0, w.derivative[k][a]);
     }
-    return direction;
+    return along;
   };
-  const Direction x = direction(0), y = direction(1), z = direction(2);
+  const Factors x = direction(0), y = direction(1), z = direction(2);
   const auto planes = shares(x.weight, x.slope, both(load.a0, load.b0), both(load.ax, load.bx)),
              planes_y = shares(x.weight, both(load.ay, load.by)),
              planes_z = shares(x.weight, both(load.az, load.bz));
@@ -729,7 +729,7 @@ class NodesOfCell {
     for (std::size_t i = 0; i < 2; ++i) {
 #pragma GCC unroll 2
       for (std::size_t j = 0; j < 2; ++j) {
-        if constexpr (whole) {
+        if constexpr (takes_all) {
           const Both slope = both(Lanes{}, slope_[i][j]);
           grid::Node &before = nodes(i, j, 0), &behind = nodes(i, j, 1);
           store_node(before, load_node(before) + (sum_[i][j][0] - slope));
@@ -744,8 +744,8 @@ class NodesOfCell {
   }
 
  private:
-  static constexpr bool whole = std::is_same_v<Content, grid::Node>;
-  using Sum = std::conditional_t<whole, Both, Lanes>;
+  static constexpr bool takes_all = std::is_same_v<Content, grid::Node>;
+  using Sum = std::conditional_t<takes_all, Both, Lanes>;
   template <class T>
   using Pair = std::array<T, 2>;
   using Weight = Pair<double>;
