@@ -103,6 +103,11 @@ class ConstantHeatCapacity {
   static constexpr double least_sound_speed_ratio = 0.01;  ///< of the reference state's
   static constexpr bool has_phases =
       requires(const C& curve, Lanes lanes) { curve.isochore(lanes).vaporised_fraction(lanes); };
+  /// p = A + B e at constant density.
+  static constexpr bool linear_in_energy = requires(const C& curve, Lanes lanes) {
+    curve.isochore(lanes).A;
+    curve.isochore(lanes).B;
+  };
   static ParameterTable<Constants> parameters() { return C::parameters(); }
 
   /// @throws InputError naming the constants that contradict each other
@@ -122,7 +127,19 @@ class ConstantHeatCapacity {
     return state_at_temperature(density, least_temperature).specific_internal_energy;
   }
 
-  RangeReport evaluate(const Batch& batch) const;
+  /// Energies that the pressure works on; empty: they are given.
+  struct Work {
+    std::span<double> energy;
+    std::span<const double> half_change;
+  };
+  RangeReport evaluate(const Batch& batch) const { return evaluate(batch, Work{}); }
+  /// See EquationOfState: here the slope of the pressure is known.
+  RangeReport integrate(const Batch& batch, std::span<double> energy,
+                        std::span<const double> half_change) const
+    requires linear_in_energy
+  {
+    return evaluate(batch, {energy, half_change});
+  }
   [[nodiscard]] State state(double density, double specific_internal_energy) const;
   [[nodiscard]] State state_at_temperature(double density, double temperature) const;
 
@@ -139,10 +156,29 @@ class ConstantHeatCapacity {
     }
   }
 
+  RangeReport evaluate(const Batch& batch, const Work& work) const;
+  /// e = e_0 - h p(e) with p = A + B max(e, coldest). Where the slope is too steep, by iteration from the
+  /// pressure before the step.
+  template <class Isochore>
+  static Lanes solve_work(const Isochore& isochore, Lanes without, Lanes half_change, Lanes coldest,
+                          Lanes pressure_before) {
+    const auto after = [&](Lanes energy) {
+      return without - half_change * (isochore.A + isochore.B * maximum(energy, coldest));
+    };
+    const Lanes slope = half_change * isochore.B;
+    const LanesMask resolved = slope > least_work_slope;
+    const Lanes linear =
+        (without - half_change * isochore.A) / select(resolved, 1.0 + slope, broadcast(1.0));
+    if (bits(resolved & (linear >= coldest)) == all_lanes) [[likely]] return linear;
+    const Lanes iterated = after(after(without - half_change * pressure_before));
+    return select(resolved, select(linear >= coldest, linear, after(coldest)), iterated);
+  }
+
   /// `n` points, a multiple of `width`; leaves the bound of the report empty. `melted` and `vaporised` may be
-  /// null. Not to be inlined or cloned: a single point must run through the very instructions of a batch.
-  [[gnu::noipa]] RangeReport evaluate_whole(const double* __restrict densities,
-                                            const double* __restrict energies, double* __restrict p,
+  /// null, and so may `worked`, where the energies go that the pressure has worked on (it may be `energies`). Not to be inlined or
+  /// cloned: a single point must run through the very instructions of a batch.
+  [[gnu::noipa]] RangeReport evaluate_whole(const double* densities, const double* energies, double* worked,
+                                            const double* half_changes, double* __restrict p,
                                             double* __restrict T, double* __restrict c,
                                             double* __restrict melted, double* __restrict vaporised,
                                             std::size_t n) const;
@@ -164,24 +200,31 @@ class ConstantHeatCapacity {
 };
 
 template <Curve C>
-RangeReport ConstantHeatCapacity<C>::evaluate(const Batch& batch) const {
+RangeReport ConstantHeatCapacity<C>::evaluate(const Batch& batch, const Work& work) const {
   const std::size_t n = batch.density.size(), whole = n / width * width, rest = n - whole;
   const bool melted = !batch.melted_fraction.empty(), vaporised = !batch.vaporised_fraction.empty();
   RangeReport report = evaluate_whole(
-      batch.density.data(), batch.specific_internal_energy.data(), batch.pressure.data(),
-      batch.temperature.data(), batch.sound_speed.data(), melted ? batch.melted_fraction.data() : nullptr,
+      batch.density.data(), batch.specific_internal_energy.data(), work.energy.data(), work.half_change.data(),
+      batch.pressure.data(), batch.temperature.data(), batch.sound_speed.data(), melted ? batch.melted_fraction.data() : nullptr,
       vaporised ? batch.vaporised_fraction.data() : nullptr, whole);
   if (rest > 0) {
     // The last points, with the reference state beside them.
     using Group = std::array<double, width>;
-    Group density, energy, p, T, c, melt, vapour;
+    Group density, energy, half_change{}, p{}, T, c, melt, vapour;
     density.fill(reference_density());
     energy.fill(reference_energy());
     const auto from = static_cast<std::ptrdiff_t>(whole);
+    const bool works = !work.energy.empty();
+    if (works) {
+      std::copy_n(work.half_change.begin() + from, rest, half_change.begin());
+      std::copy_n(batch.pressure.begin() + from, rest, p.begin());
+    }
     std::copy_n(batch.density.begin() + from, rest, density.begin());
     std::copy_n(batch.specific_internal_energy.begin() + from, rest, energy.begin());
-    RangeReport last = evaluate_whole(density.data(), energy.data(), p.data(), T.data(), c.data(),
-                                      melt.data(), vapour.data(), width);
+    RangeReport last = evaluate_whole(density.data(), energy.data(), works ? energy.data() : nullptr,
+                                      half_change.data(), p.data(), T.data(), c.data(), melt.data(),
+                                      vapour.data(), width);
+    if (works) std::copy_n(energy.begin(), rest, work.energy.begin() + from);
     if (last.first != RangeReport::none) last.first += whole;
     report.merge(last);
     std::copy_n(p.begin(), rest, batch.pressure.begin() + from);
@@ -197,11 +240,11 @@ RangeReport ConstantHeatCapacity<C>::evaluate(const Batch& batch) const {
 }
 
 template <Curve C>
-RangeReport ConstantHeatCapacity<C>::evaluate_whole(const double* __restrict densities,
-                                                    const double* __restrict energies, double* __restrict p,
-                                                    double* __restrict T, double* __restrict c,
-                                                    double* __restrict melted, double* __restrict vaporised,
-                                                    std::size_t n) const {
+RangeReport ConstantHeatCapacity<C>::evaluate_whole(const double* densities, const double* energies,
+                                                    double* worked, const double* half_changes,
+                                                    double* __restrict p, double* __restrict T,
+                                                    double* __restrict c, double* __restrict melted,
+                                                    double* __restrict vaporised, std::size_t n) const {
   constexpr double largest = std::numeric_limits<double>::max();
   const double greatest_density = maximum_density();
   double least_density = std::numeric_limits<double>::denorm_min();
@@ -235,6 +278,13 @@ RangeReport ConstantHeatCapacity<C>::evaluate_whole(const double* __restrict den
         density = valid ? density : broadcast(reference_rho);
         energy = valid ? energy : broadcast(reference_e);
         isochore = curve_.isochore(density);
+      }
+      if constexpr (linear_in_energy) {
+        if (worked != nullptr) {
+          energy = solve_work(isochore, energy, load(half_changes + i),
+                              isochore.cold_energy + heat * least_temperature, load(p + i));
+          store(worked + i, energy);
+        }
       }
       Lanes temperature = (energy - isochore.cold_energy) * inverse_heat;
       if (bits((temperature >= least_temperature) & (energy <= largest)) != all_lanes) [[unlikely]] {

@@ -66,6 +66,14 @@ class ModelEquationOfState final : public EquationOfState {
   }
   [[nodiscard]] double least_temperature() const override { return M::least_temperature; }
   RangeReport evaluate(const Batch& batch) const override { return model_.evaluate(batch); }
+  RangeReport integrate(const Batch& batch, std::span<double> energy,
+                        std::span<const double> half_change) const override {
+    if constexpr (requires { model_.integrate(batch, energy, half_change); }) {
+      return model_.integrate(batch, energy, half_change);
+    } else {
+      return EquationOfState::integrate(batch, energy, half_change);
+    }
+  }
   [[nodiscard]] State state(double density, double specific_internal_energy) const override {
     return derived(model_.state(density, specific_internal_energy));
   }

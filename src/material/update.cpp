@@ -354,8 +354,8 @@ WHIPPLE_KERNEL void prepare_energy(const Step& step, Chunk& chunk) {
   for (std::size_t k = 0; k < chunk.size; ++k) chunk.energy[k] -= chunk.stored_cold_work[k];
 }
 
-/// One call for the chunk; density, pressure and temperature become the new ones.
-eos::RangeReport evaluate(Step& step, Chunk& chunk) {
+/// What the equation of state is asked of the chunk; density, pressure and temperature become the new ones.
+eos::Batch ask(Step& step, Chunk& chunk) {
   for (std::size_t k = 0; k < chunk.size; ++k) chunk.density[k] = chunk.mass[k] / chunk.volume[k];
   eos::Batch batch{chunk.view(chunk.density),
                    chunk.view(chunk.energy),
@@ -368,52 +368,47 @@ eos::RangeReport evaluate(Step& step, Chunk& chunk) {
     batch.melted_fraction = chunk.view(chunk.melted);
     batch.vaporised_fraction = chunk.view(chunk.vaporised);
   }
-  if (step.material.porous) {  // always from the distension before the step, which `finish` replaces
+  if (step.material.porous) {
     chunk.fetch(step.points.distension, chunk.distension);
     batch.distension = chunk.view(chunk.distension);
   }
-  eos::RangeReport range = step.material.eos->evaluate(batch);
+  return batch;
+}
+
+void book(Step& step, const Chunk& chunk, eos::RangeReport range) {
   if (range.first != eos::RangeReport::none) range.first = chunk.index[range.first];
-  return range;
+  step.report.equation_of_state.merge(range);
 }
 
 /// The trapezoidal energy step of the schemes without a work identity (eq. 14): e = e_0 - h p(e), h = dV /
-/// 2m, where e_0 holds all work but that of the new pressure. Two evaluations and the secant through them:
-/// exact for an equation of state that is linear in e at constant density.
-WHIPPLE_KERNEL eos::RangeReport integrate_energy(Step& step, Chunk& chunk) {
-  Lanes without_new_pressure, first_energy, first_pressure, half_change;
+/// 2m, where e_0 holds all work but that of the new pressure.
+WHIPPLE_KERNEL void work_without_new_pressure(const Step& step, Chunk& chunk, Lanes& half_change) {
   for (std::size_t k = 0; k < chunk.size; ++k) {
     double strain_work = 0.0;  // mean stress : strain increment
     for (std::size_t j = 0; j < 6; ++j) {
       const double mean = 0.5 * (chunk.motion.deviator[j][k] + chunk.old_deviator[j][k]);
       strain_work += (j < 3 ? 1.0 : 2.0) * mean * chunk.motion.strain[j][k];
     }
-    const double per_mass = 1.0 / chunk.mass[k], h = 0.5 * chunk.volume_change[k] * per_mass;
+    const double per_mass = 1.0 / chunk.mass[k];
     const double work = strain_work * 0.5 * (chunk.volume[k] + chunk.old_volume[k]) -
                         chunk.volume_change[k] * (0.5 * chunk.pressure[k] + chunk.artificial_viscosity[k]);
-    half_change[k] = h;
-    const double stored = step.material.stores_cold_work() ? chunk.stored_cold_work[k] : 0.0;
-    without_new_pressure[k] = chunk.specific_internal_energy[k] - stored + work * per_mass;
-    first_energy[k] = without_new_pressure[k] - h * chunk.pressure[k];
-    chunk.energy[k] = first_energy[k];
+    half_change[k] = 0.5 * chunk.volume_change[k] * per_mass;
+    chunk.energy[k] = chunk.specific_internal_energy[k] + work * per_mass;
   }
-  eos::RangeReport range = evaluate(step, chunk);
+  if (!step.material.stores_cold_work()) return;
+  for (std::size_t k = 0; k < chunk.size; ++k) chunk.energy[k] -= chunk.stored_cold_work[k];
+}
+
+void integrate_energy(Step& step, Chunk& chunk) {
+  Lanes half_change;
+  work_without_new_pressure(step, chunk, half_change);
+  const eos::Batch batch = ask(step, chunk);
+  book(step, chunk, step.material.eos->integrate(batch, chunk.view(chunk.energy), chunk.view(half_change)));
+  std::copy_n(chunk.energy.data(), chunk.size, chunk.specific_internal_energy.data());
+  if (!step.material.stores_cold_work()) return;
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    first_pressure[k] = chunk.pressure[k];
-    chunk.energy[k] = without_new_pressure[k] - half_change[k] * first_pressure[k];
+    chunk.specific_internal_energy[k] += chunk.stored_cold_work[k];
   }
-  range.merge(evaluate(step, chunk));
-  for (std::size_t k = 0; k < chunk.size; ++k) {
-    const double h = half_change[k], span = chunk.energy[k] - first_energy[k];
-    const double slope = (chunk.pressure[k] - first_pressure[k]) / (span != 0.0 ? span : 1.0);
-    const bool resolved = std::abs(span) > 1e-9 * std::abs(chunk.energy[k]) && h * slope > -0.5;
-    const double gain = h * (first_pressure[k] - chunk.pressure[k]) / (resolved ? 1.0 + h * slope : 1.0);
-    chunk.energy[k] += gain;
-    chunk.pressure[k] += resolved ? slope * gain : 0.0;
-    chunk.specific_internal_energy[k] =
-        chunk.energy[k] + (step.material.stores_cold_work() ? chunk.stored_cold_work[k] : 0.0);
-  }
-  return range;
 }
 
 void update_chunk(Step& step, Chunk& chunk, Energy energy) {
@@ -424,12 +419,12 @@ void update_chunk(Step& step, Chunk& chunk, Energy energy) {
   advance_viscosity(step, chunk);
   if (energy == Energy::from_grid) {
     prepare_energy(step, chunk);
-    step.report.equation_of_state.merge(evaluate(step, chunk));
+    book(step, chunk, step.material.eos->evaluate(ask(step, chunk)));
     material::apply_failure(step, chunk);
     material::finish(step, chunk);
     return;
   }
-  step.report.equation_of_state.merge(integrate_energy(step, chunk));
+  integrate_energy(step, chunk);
   material::apply_failure(step, chunk);
   material::finish(step, chunk);
   // The work of the step took the pressure of the equation of state; a failed point acts with less (eq. 15).
