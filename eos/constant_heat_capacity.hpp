@@ -167,16 +167,16 @@ class ConstantHeatCapacity {
     };
     const Lanes slope = half_change * isochore.B;
     const LanesMask resolved = slope > least_work_slope;
-    const Lanes linear =
-        (without - half_change * isochore.A) / select(resolved, 1.0 + slope, broadcast(1.0));
-    if (bits(resolved & (linear >= coldest)) == all_lanes) [[likely]] return linear;
+    const Lanes linear = (without - half_change * isochore.A) / select(resolved, 1.0 + slope, broadcast(1.0));
+    if (bits(resolved & (linear >= coldest)) == all_lanes) [[likely]]
+      return linear;
     const Lanes iterated = after(after(without - half_change * pressure_before));
     return select(resolved, select(linear >= coldest, linear, after(coldest)), iterated);
   }
 
   /// `n` points, a multiple of `width`; leaves the bound of the report empty. `melted` and `vaporised` may be
-  /// null, and so may `worked`, where the energies go that the pressure has worked on (it may be `energies`). Not to be inlined or
-  /// cloned: a single point must run through the very instructions of a batch.
+  /// null, and so may `worked`, where the energies go that the pressure has worked on (it may be `energies`).
+  /// Not to be inlined or cloned: a single point must run through the very instructions of a batch.
   [[gnu::noipa]] RangeReport evaluate_whole(const double* densities, const double* energies, double* worked,
                                             const double* half_changes, double* __restrict p,
                                             double* __restrict T, double* __restrict c,
@@ -203,10 +203,11 @@ template <Curve C>
 RangeReport ConstantHeatCapacity<C>::evaluate(const Batch& batch, const Work& work) const {
   const std::size_t n = batch.density.size(), whole = n / width * width, rest = n - whole;
   const bool melted = !batch.melted_fraction.empty(), vaporised = !batch.vaporised_fraction.empty();
-  RangeReport report = evaluate_whole(
-      batch.density.data(), batch.specific_internal_energy.data(), work.energy.data(), work.half_change.data(),
-      batch.pressure.data(), batch.temperature.data(), batch.sound_speed.data(), melted ? batch.melted_fraction.data() : nullptr,
-      vaporised ? batch.vaporised_fraction.data() : nullptr, whole);
+  RangeReport report =
+      evaluate_whole(batch.density.data(), batch.specific_internal_energy.data(), work.energy.data(),
+                     work.half_change.data(), batch.pressure.data(), batch.temperature.data(),
+                     batch.sound_speed.data(), melted ? batch.melted_fraction.data() : nullptr,
+                     vaporised ? batch.vaporised_fraction.data() : nullptr, whole);
   if (rest > 0) {
     // The last points, with the reference state beside them.
     using Group = std::array<double, width>;
@@ -221,9 +222,9 @@ RangeReport ConstantHeatCapacity<C>::evaluate(const Batch& batch, const Work& wo
     }
     std::copy_n(batch.density.begin() + from, rest, density.begin());
     std::copy_n(batch.specific_internal_energy.begin() + from, rest, energy.begin());
-    RangeReport last = evaluate_whole(density.data(), energy.data(), works ? energy.data() : nullptr,
-                                      half_change.data(), p.data(), T.data(), c.data(), melt.data(),
-                                      vapour.data(), width);
+    RangeReport last =
+        evaluate_whole(density.data(), energy.data(), works ? energy.data() : nullptr, half_change.data(),
+                       p.data(), T.data(), c.data(), melt.data(), vapour.data(), width);
     if (works) std::copy_n(energy.begin(), rest, work.energy.begin() + from);
     if (last.first != RangeReport::none) last.first += whole;
     report.merge(last);

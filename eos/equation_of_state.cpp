@@ -21,7 +21,8 @@ RangeReport integrate_block(const EquationOfState& eos, const Batch& batch, std:
   const std::size_t n = energy.size();
   std::array<double, block_size> before, first_energy, first_pressure, distension;
   std::copy_n(energy.begin(), n, before.begin());
-  std::ranges::copy(batch.distension, distension.begin());  // both evaluations begin with that before the step
+  std::ranges::copy(batch.distension,
+                    distension.begin());  // both evaluations begin with that before the step
   for (std::size_t k = 0; k < n; ++k) {
     energy[k] = first_energy[k] = before[k] - half_change[k] * batch.pressure[k];
   }
@@ -51,10 +52,14 @@ RangeReport EquationOfState::integrate(const Batch& batch, std::span<double> ene
   for (std::size_t begin = 0; begin < energy.size(); begin += block_size) {
     const std::size_t count = std::min(block_size, energy.size() - begin);
     const auto of = [&](auto values) { return part(values, begin, count); };
-    const Batch block = {of(batch.density),         of(batch.specific_internal_energy),
-                         of(batch.pressure),        of(batch.temperature),
-                         of(batch.sound_speed),     of(batch.melted_fraction),
-                         of(batch.vaporised_fraction), of(batch.distension)};
+    const Batch block = {of(batch.density),
+                         of(batch.specific_internal_energy),
+                         of(batch.pressure),
+                         of(batch.temperature),
+                         of(batch.sound_speed),
+                         of(batch.melted_fraction),
+                         of(batch.vaporised_fraction),
+                         of(batch.distension)};
     RangeReport met = integrate_block(*this, block, of(energy), of(half_change));
     if (met.first != RangeReport::none) met.first += begin;
     range.merge(met);

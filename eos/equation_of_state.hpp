@@ -50,8 +50,8 @@ struct RangeReport {
   }
 };
 
-/// Where h dp/de falls to this, a step compresses so much that the work of the new pressure is taken by iteration
-/// instead of by the slope, whose sum with 1 would vanish soon.
+/// Where h dp/de falls to this, a step compresses so much that the work of the new pressure is taken by
+/// iteration instead of by the slope, whose sum with 1 would vanish soon.
 constexpr double least_work_slope = -0.5;
 
 /// The run-time face of every model: one virtual call per batch, never per point. A model itself is a plain
@@ -80,9 +80,9 @@ class EquationOfState {
   /// p, T, c (and phase fractions) from density and specific internal energy. Does not throw, does not
   /// allocate.
   virtual RangeReport evaluate(const Batch& batch) const = 0;
-  /// The same at the energy that the work of the pressure itself leaves: e = e_0 - h p(rho, e), the trapezoidal
-  /// rule of docs/theory/material.md, eq. 14. Two evaluations and the secant through them, exact where p is
-  /// linear in e; models that know its slope need one.
+  /// The same at the energy that the work of the pressure itself leaves: e = e_0 - h p(rho, e), the
+  /// trapezoidal rule of docs/theory/material.md, eq. 14. Two evaluations and the secant through them, exact
+  /// where p is linear in e; models that know its slope need one.
   /// @param batch        its energies are those of `energy`; pressure on entry: before the step
   /// @param energy       e_0, all but the work of the new pressure (J/kg); on return e
   /// @param half_change  h, half the change of the specific volume (m^3/kg)

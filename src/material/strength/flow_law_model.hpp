@@ -7,7 +7,7 @@
 #include <span>
 
 #include "src/base/parameter_table.hpp"
-#include "src/material/strength/fourfold_return.hpp"
+#include "src/material/strength/return_in_batch.hpp"
 #include "src/material/strength/strength.hpp"
 
 namespace whipple::strength {
@@ -18,9 +18,9 @@ namespace whipple::strength {
 ///   increment(trial, plastic_strain, temperature, modulus, solid_fraction, dt)    see Strength
 ///   require_consistent()                                                          throws InputError
 /// and, if it hardens kinematically, kinematic_modulus                             Pa
-/// and, if it is a FourfoldLaw,
-///   may_yield(trial, temperature, solid_fraction)                                 of four points; false: the
-///                                                                                 increment is 0
+/// and, if it is a BatchLaw,
+///   may_yield(trial, temperature, modulus, solid_fraction)                        false: the increment is 0
+///   solve(points, dt)                                                             instead of `increment`
 template <class Law>
 class FlowLawModel final : public Strength {
  public:
@@ -34,10 +34,8 @@ class FlowLawModel final : public Strength {
   void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
                          std::span<const double> solid_fraction, double dt,
                          std::span<double> increment) const override {
-    if constexpr (FourfoldLaw<Law>) {
-      return_by_fours(law_, state, trial, modulus, solid_fraction, dt, increment, [&](const auto& four) {
-        return law_.may_yield(four.trial, four.temperature, four.solid);
-      });
+    if constexpr (BatchLaw<Law>) {
+      return_in_batch(law_, state, trial, modulus, solid_fraction, dt, increment);
     } else {
       for (std::size_t i = 0; i < trial.size(); ++i) {
         increment[i] = law_.increment(trial[i], state.plastic_strain[i], state.temperature[i], modulus[i],

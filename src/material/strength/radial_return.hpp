@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/vector_math.hpp"
-
 namespace whipple::strength {
 
 /// Flow stress of the solid (Pa) and its slope by the increment of the equivalent plastic strain.
@@ -37,37 +35,6 @@ double radial_return(double trial, double modulus, double solid, double least, F
     if (upper - lower <= 1e-15 * upper || upper < 1e-30) return lower;  // yields at no strain: elastic
     const double newton = x + residual / (stiffness + solid * y.slope);
     x = newton > lower && newton < upper ? newton : lower > 0.0 ? std::sqrt(lower * upper) : 1e-3 * upper;
-  }
-  return x;
-}
-
-/// `FlowStress` of four points.
-struct FlowStresses {
-  Lanes value;
-  Lanes slope;
-};
-
-/// The same of four points: from the tangent at x = 0, which for hardening that slackens is the smaller side
-/// of the root. A step of less than 1e-7 x is the last one: the error of the next one goes with its square.
-template <class Flow>
-Lanes radial_return(Lanes trial, Lanes modulus, Lanes solid, Flow&& flow) {
-  const Lanes stiffness = 3.0 * modulus;
-  const FlowStresses start = flow(Lanes{});
-  const Lanes excess = trial - solid * start.value;
-  LanesMask active = excess > 0.0;
-  Lanes lower{}, upper = excess / stiffness;
-  Lanes x = select(active, excess / (stiffness + solid * start.slope), Lanes{});
-  for (int iteration = 0; iteration < 60 && any(active); ++iteration) {
-    const FlowStresses y = flow(x);
-    const Lanes residual = trial - stiffness * x - solid * y.value;
-    active &= absolute(residual) > 1e-12 * trial;
-    const LanesMask left = residual > 0.0;
-    lower = select(active & left, x, lower);
-    upper = select(active & ~left, x, upper);
-    const Lanes newton = x + residual / (stiffness + solid * y.slope);
-    const LanesMask inside = (newton > lower) & (newton < upper);
-    x = select(active, select(inside, newton, 0.5 * (lower + upper)), x);
-    active &= ~(inside & (absolute(residual) <= 1e-7 * stiffness * x)) & (upper - lower > 1e-15 * upper);
   }
   return x;
 }

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/error.hpp"
 #include "src/base/parameter_table.hpp"
 #include "src/base/vector_math.hpp"
-#include "src/material/strength/fourfold_return.hpp"
 #include "src/material/strength/radial_return.hpp"
+#include "src/material/strength/return_in_batch.hpp"
 #include "src/material/strength/strength.hpp"
 
 namespace whipple::strength {
@@ -77,39 +78,14 @@ struct SteinbergGuinan {
     return {power, power * hardening_exponent * hardening_coefficient / base};
   }
 
-  /// The return of four points: see FourfoldLaw.
-  struct Return {
-    Lanes trial, plastic_strain, temperature, modulus, solid;
-    Lanes increment;
-  };
-  void solve(std::span<Return> groups, double) const {
-    for (Return& r : groups) {
-      const Lanes ratio = r.modulus / (r.solid * shear_modulus);
-      r.increment = radial_return(r.trial, r.modulus, r.solid, [&](Lanes x) {
-        FlowStresses y = hardening(r.plastic_strain + x);
-        return FlowStresses{ratio * y.value, ratio * y.slope};
-      });
-    }
+  /// False where a point stays elastic: Y >= Y_0 G/G_0 spares the powers of most elastic points.
+  [[nodiscard]] bool may_yield(double trial, double /*temperature*/, double modulus, double /*solid*/) const {
+    return trial > modulus * (yield_stress / shear_modulus);
   }
+  /// The increments: see BatchLaw.
+  void solve(YieldingPoints& points, double dt) const;
   [[nodiscard]] double increment(double trial, double plastic_strain, double modulus, double solid) const {
-    Return one{.trial = broadcast(trial),
-               .plastic_strain = broadcast(plastic_strain),
-               .temperature = Lanes{},
-               .modulus = broadcast(modulus),
-               .solid = broadcast(solid),
-               .increment = Lanes{}};
-    solve({&one, 1}, 0.0);
-    return one.increment[0];
-  }
-
- private:
-  /// `hardening` of four points.
-  [[nodiscard]] FlowStresses hardening(Lanes plastic_strain) const {
-    const Lanes base = 1.0 + hardening_coefficient * (plastic_strain + initial_plastic_strain);
-    const Lanes power = yield_stress * exp(hardening_exponent * natural_log(base));
-    const LanesMask bounded = power >= maximum_flow_stress;
-    return {select(bounded, broadcast(maximum_flow_stress), power),
-            select(bounded, Lanes{}, (hardening_exponent * hardening_coefficient) * power / base)};
+    return increment_of_one(*this, trial, plastic_strain, 0.0, modulus, solid, 0.0);
   }
 };
 
@@ -136,10 +112,7 @@ class SteinbergGuinanModel final : public Strength {
   void plastic_increment(const State& state, std::span<const double> trial, std::span<const double> modulus,
                          std::span<const double> solid_fraction, double dt,
                          std::span<double> increment) const override {
-    // Y >= Y_0 G/G_0: spares the powers of most elastic points.
-    return_by_fours(constants_, state, trial, modulus, solid_fraction, dt, increment, [&](const auto& four) {
-      return four.trial > four.modulus / constants_.shear_modulus * constants_.yield_stress;
-    });
+    return_in_batch(constants_, state, trial, modulus, solid_fraction, dt, increment);
   }
   void flow_stress(const State& state, std::span<const double>, std::span<double> stress) const override {
     for (std::size_t i = 0; i < stress.size(); ++i) {

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/material/strength/johnson_cook.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "src/base/simd.hpp"
+#include "src/base/vector_math.hpp"
+
+namespace whipple::strength {
+namespace {
+
+constexpr double least_strain = 1e-300;  ///< whose power is taken to be 0
+
+/// (1 + t)^n for 0 <= t <= 0.01: the terms that are left out are below 1e-16.
+class Binomial {
+ public:
+  explicit Binomial(double n) {
+    c_[0] = 1.0;
+    for (std::size_t k = 1; k < c_.size(); ++k) {
+      c_[k] = c_[k - 1] * (n - static_cast<double>(k - 1)) / static_cast<double>(k);
+    }
+  }
+  [[nodiscard]] double operator()(double t) const {
+    const double t2 = t * t;
+    return (c_[0] + c_[1] * t) +
+           t2 * ((c_[2] + c_[3] * t) + t2 * ((c_[4] + c_[5] * t) + t2 * (c_[6] + c_[7] * t)));
+  }
+
+ private:
+  std::array<double, 8> c_;
+};
+
+/// What the solution works with, of points that are not done.
+struct Work {
+  std::size_t size = 0;
+  std::array<std::size_t, batch_size> point;
+  BatchValues trial, strain, power, softening, stiffness, lower, upper;
+  BatchValues x;       ///< the increment so far
+  BatchValues raised;  ///< (strain + x)^n
+  BatchValues rate;    ///< ln of x over that of the reference rate, at least 0
+  std::array<std::uint64_t, batch_size> active;
+};
+
+std::size_t padded(std::size_t size) { return (size + 7) / 8 * 8; }
+
+/// x^n of the first values, in place; 0 for what is too small.
+void raise(BatchValues& values, std::size_t size, double n) {
+  BatchValues base;
+  for (std::size_t k = 0; k < size; ++k) {
+    base[k] = values[k];
+    values[k] = std::max(values[k], least_strain);
+  }
+  logarithms(values.data(), size);
+  for (std::size_t k = 0; k < size; ++k) values[k] *= n;
+  exponentials(values.data(), size);
+  for (std::size_t k = 0; k < size; ++k) values[k] = base[k] > least_strain ? values[k] : 0.0;
+}
+
+/// Where the increment is small beside the strain by the binomial series, else from scratch.
+void raise_strains(Work& w, double n, const Binomial& binomial) {
+  std::array<std::size_t, batch_size> large;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < w.size; ++k) {
+    w.raised[k] = w.power[k] * binomial(w.x[k] / std::max(w.strain[k], 100.0 * w.x[k]));
+  }
+  for (std::size_t k = 0; k < w.size; ++k) {
+    large[count] = k;
+    count += 100.0 * w.x[k] < w.strain[k] ? 0 : 1;
+  }
+  if (count == 0) return;
+  BatchValues values;
+  for (std::size_t k = 0; k < count; ++k) values[k] = w.strain[large[k]] + w.x[large[k]];
+  std::fill(values.begin() + count, values.begin() + padded(count), 1.0);
+  raise(values, padded(count), n);
+  for (std::size_t k = 0; k < count; ++k) w.raised[large[k]] = values[k];
+}
+
+/// The increments go to their points; those that are still active stay.
+void drop_solved(Work& w, YieldingPoints& points) {
+  std::array<std::size_t, batch_size> left;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < w.size; ++k) {
+    points.increment[w.point[k]] = w.x[k];
+    left[count] = k;
+    count += w.active[k] != 0 ? 1 : 0;
+  }
+  if (count == w.size) return;
+  w.size = padded(count);
+  const auto keep = [&](auto& values) {
+    for (std::size_t k = 0; k < count; ++k) values[k] = values[left[k]];
+    for (std::size_t k = count; k < w.size; ++k) values[k] = values[count - 1];  // padding
+  };
+  keep(w.point), keep(w.trial), keep(w.strain), keep(w.power), keep(w.softening), keep(w.stiffness);
+  keep(w.lower), keep(w.upper), keep(w.x);
+}
+
+}  // namespace
+
+/// Root of f(x) = q - 3 G x - w Y(ep + x, x/dt, T). f falls monotonically from f(0) > 0 to
+/// f((q - w Y(ep, 0, T)) / 3G) <= 0, which brackets it. Halley's method from the root for linear hardening;
+/// where a step leaves the bracket (the logarithm is steep for small increments), Newton in ln x, which
+/// approaches from the right, replaces it, and bisection at the kink of the reference rate. Mostly one
+/// evaluation. Every point takes the steps that it would take alone.
+WHIPPLE_KERNEL void JohnsonCook::solve(YieldingPoints& points, double dt) const {
+  const std::size_t n = points.size;
+  const double A = yield_stress, B = hardening_coefficient, C = rate_coefficient,
+               exponent = hardening_exponent;
+  const double least = reference_rate * dt, per_least = 1.0 / least;
+  Work w;
+  w.size = n;
+  // 1 - T*^m
+  BatchValues thermal;
+  const double per_span = 1.0 / (melting_temperature - reference_temperature);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double homologous = (points.temperature[k] - reference_temperature) * per_span;
+    thermal[k] = homologous > 0.0 ? std::min(homologous, 1.0) : 1.0;
+  }
+  logarithms(thermal.data(), n);
+  for (std::size_t k = 0; k < n; ++k) thermal[k] *= thermal_exponent;
+  exponentials(thermal.data(), n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const bool warm = points.temperature[k] > reference_temperature;
+    w.softening[k] = points.solid[k] * (warm ? 1.0 - thermal[k] : 1.0);
+    w.power[k] = w.strain[k] = std::max(points.plastic_strain[k], 0.0);
+    w.trial[k] = points.trial[k];
+    w.point[k] = k;
+  }
+  if (B > 0.0) {
+    raise(w.power, n, exponent);
+  } else {
+    std::fill_n(w.power.begin(), n, 0.0);
+  }
+  // Bracket, and the root without the rate. With rate it is, for linear hardening, the root of
+  // S x + a ln(x/l) = b, b = q - w Y(ep, 0, T) and a = C w Y: z + ln z = K of z = S x/a.
+  BatchValues slope, logarithmic, logarithm, argument;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double yield = w.softening[k] * (A + B * w.power[k]);
+    const double excess = w.trial[k] - yield;
+    const bool yields = excess > 0.0;
+    w.stiffness[k] = 3.0 * points.modulus[k];
+    w.active[k] = yields ? 1 : 0;
+    w.lower[k] = 0.0;
+    w.upper[k] = excess / w.stiffness[k];
+    slope[k] =
+        w.stiffness[k] + w.softening[k] * (B * exponent) * w.power[k] / std::max(w.strain[k], w.upper[k]);
+    w.x[k] = yields ? excess / slope[k] : 0.0;
+    const double a = std::max(C * yield, 1e-9 * excess);
+    logarithmic[k] = yields ? a / slope[k] : 1.0;
+    argument[k] = yields ? excess / a : 1.0;
+  }
+  if (C > 0.0) {
+    // z by the asymptotic series of Wright's omega function (R. M. Corless and D. J. Jeffrey, LNCS 2385
+    // (2002) 76), for K < 1 roughly, and a step of fourth order (F. N. Fritsch, R. E. Shafer and W. P.
+    // Crowley, Commun. ACM 16 (1973) 123); then what the rate adds to the hardening.
+    BatchValues start;
+    for (std::size_t k = 0; k < n; ++k) {
+      logarithm[k] = rough_log(logarithmic[k] * per_least);
+      argument[k] -= logarithm[k];
+      start[k] = std::min(argument[k], 1.0);
+    }
+    exponentials(start.data(), n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double K = std::max(argument[k], 1.0), ln_K = rough_log(K), inverse = 1.0 / K;
+      double z = argument[k] < 1.0 ? start[k] / (1.0 + start[k])
+                                   : K - ln_K + ln_K * inverse * (1.0 + (0.5 * ln_K - 1.0) * inverse);
+      z = std::max(z, std::numeric_limits<double>::min());
+      const double miss = argument[k] - z - rough_log(z), after = 1.0 + z,
+                   q = 2.0 * after * (after + (2.0 / 3.0) * miss);
+      z += z * (miss * (q - miss)) / (after * (q - 2.0 * miss));
+      const double rate_logarithm = argument[k] - z + logarithm[k];
+      z -= z * z / (1.0 + z) * ((slope[k] - w.stiffness[k]) / slope[k] * (C * rate_logarithm));
+      w.x[k] = std::min(w.x[k], std::max(logarithmic[k] * z, least));
+    }
+  }
+  for (std::size_t k = 0; k < n; ++k) w.x[k] = w.active[k] != 0 ? w.x[k] : 0.0;
+  drop_solved(w, points);
+
+  const Binomial binomial(exponent);
+  for (int iteration = 0; iteration < 30 && w.size > 0; ++iteration) {
+    if (B > 0.0) {
+      raise_strains(w, exponent, binomial);
+    } else {
+      std::fill_n(w.raised.begin(), w.size, 0.0);
+    }
+    for (std::size_t k = 0; k < w.size; ++k) w.rate[k] = std::max(w.x[k] * per_least, 1.0);
+    if (C > 0.0) logarithms(w.rate.data(), w.size);
+    BatchValues next, newton;
+    std::uint64_t left_bracket = 0;
+    for (std::size_t k = 0; k < w.size; ++k) {
+      const double x = w.x[k], strain = w.strain[k] + x, raised = w.raised[k];
+      const double rate_factor = C > 0.0 ? 1.0 + C * w.rate[k] : 1.0;
+      const double hardening = A + B * raised;
+      const double residual = w.trial[k] - w.stiffness[k] * x - w.softening[k] * hardening * rate_factor;
+      const bool open = std::abs(residual) > 1e-11 * w.trial[k], left = residual > 0.0;
+      w.lower[k] = open && left ? x : w.lower[k];
+      w.upper[k] = open && !left ? x : w.upper[k];
+      const double inverse = 1.0 / (strain * x), per_strain = inverse * x, per_x = inverse * strain;
+      const double work_hardening = (B * exponent) * raised * per_strain;
+      const double rate_hardening = x > least ? C * per_x : 0.0;
+      const double steepness =
+          w.stiffness[k] + w.softening[k] * (work_hardening * rate_factor + hardening * rate_hardening);
+      const double curvature =
+          w.softening[k] * ((exponent - 1.0) * per_strain * work_hardening * rate_factor +
+                            rate_hardening * (2.0 * work_hardening - hardening * per_x));
+      newton[k] = residual / (steepness * x);
+      next[k] = x + 2.0 * residual * steepness / (2.0 * steepness * steepness + residual * curvature);
+      w.active[k] = open ? 1 : 0;
+    }
+    for (std::size_t k = 0; k < w.size; ++k) {
+      const bool inside = next[k] > w.lower[k] && next[k] < w.upper[k];
+      left_bracket |= inside ? 0 : w.active[k];
+    }
+    if (left_bracket != 0) {
+      exponentials(newton.data(), w.size);
+      for (std::size_t k = 0; k < w.size; ++k) {
+        const double instead = w.lower[k] > 0.0 ? 0.5 * (w.lower[k] + w.upper[k]) : w.x[k] * newton[k];
+        const bool inside = next[k] > w.lower[k] && next[k] < w.upper[k];
+        // The error of a step of Halley's method goes with the third power of the one before, over three at
+        // most: a step that is not small is not the last one.
+        const double step = inside ? next[k] : instead;
+        w.active[k] |= inside ? 0 : 2;
+        next[k] = step;
+      }
+    }
+    for (std::size_t k = 0; k < w.size; ++k) {
+      const bool near = w.active[k] == 1 && std::abs(next[k] - w.x[k]) <= 3e-4 * w.x[k];
+      const bool open = (w.active[k] & 1) != 0 && !near && w.upper[k] - w.lower[k] > 1e-15 * w.upper[k];
+      w.x[k] = (w.active[k] & 1) != 0 ? next[k] : w.x[k];
+      w.active[k] = open ? 1 : 0;
+    }
+    drop_solved(w, points);
+  }
+}
+
+}  // namespace whipple::strength
