@@ -1,22 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "src/base/gaps.hpp"
 #include "src/base/vector_math.hpp"
 #include "src/parallel/threads.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {
+namespace {
+
+/// Particles outside of the domain, ascending. Four are passed over at once where none of them is.
+std::vector<std::uint32_t> outside_of(const grid::Geometry& g, std::span<const Vector3> position) {
+  const Lanes lower = {g.lower[0], g.lower[1], g.lower[2], 0.0};
+  const Lanes upper = {g.upper(0), g.upper(1), g.upper(2), 0.0};
+  const auto turned = [](Lanes bound) {  // beside x y z x, y z x y, z x y z of four positions
+    return std::array{Lanes{bound[0], bound[1], bound[2], bound[0]},
+                      Lanes{bound[1], bound[2], bound[0], bound[1]},
+                      Lanes{bound[2], bound[0], bound[1], bound[2]}};
+  };
+  const std::array<Lanes, 3> lowers = turned(lower), uppers = turned(upper);
+  std::vector<std::vector<std::uint32_t>> found((position.size() + parallel::chunk_size - 1) /
+                                                parallel::chunk_size);
+  parallel::for_each_chunk(position.size(), [&](std::size_t begin, std::size_t end) {
+    const auto look_at = [&](std::size_t p) {
+      const Lanes at = load_vector(position[p].data());
+      if (bits((at >= lower) & (at <= upper)) == all_lanes) return;
+      found[begin / parallel::chunk_size].push_back(static_cast<std::uint32_t>(p));
+    };
+    std::size_t p = begin;
+    for (; p + 4 <= end; p += 4) {
+      const double* const from = position[p].data();
+      LanesMask inside = (load(from) >= lowers[0]) & (load(from) <= uppers[0]);
+      for (std::size_t i = 1; i < 3; ++i) {
+        inside &= (load(from + 4 * i) >= lowers[i]) & (load(from + 4 * i) <= uppers[i]);
+      }
+      if (bits(inside) == all_lanes) continue;
+      for (std::size_t k = p; k < p + 4; ++k) look_at(k);
+    }
+    for (; p < end; ++p) look_at(p);
+  });
+  std::vector<std::uint32_t> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace
 
 void Simulation::reflect_and_remove() {
   profile_.time("boundaries", [&] {
     remove_elements_outside();
     remove_bars_outside();
     const grid::Geometry& g = setup_.geometry;
-    const Lanes lower = {g.lower[0], g.lower[1], g.lower[2], 0.0};
-    const Lanes upper = {g.upper(0), g.upper(1), g.upper(2), 0.0};
-    const std::vector<std::uint32_t> outside = parallel::where(particles_.size(), [&](std::size_t p) {
-      const Lanes position = load_vector(particles_.position[p].data());
-      return bits((position >= lower) & (position <= upper)) != all_lanes;
-    });
+    const std::vector<std::uint32_t> outside = outside_of(g, particles_.position);
     std::vector<std::uint32_t> leaving;
     for (const std::uint32_t p : outside) {
       bool leaves = false;

@@ -37,32 +37,47 @@ Totals totals_of(const Particles& particles, std::size_t p, double affine_inerti
 
 namespace {
 
-/// Sums of particles one after the other, in a few registers.
-Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_t end,
-                       double affine_inertia) {
-  Lanes momentum{}, affine{};
-  double mass = 0.0, scale = 0.0, twice_kinetic = 0.0, internal = 0.0, affine_rest = 0.0;
+/// Sums of m |C|^2 of particles one after the other, in a few registers.
+double affine_sum(const Particles& particles, std::size_t begin, std::size_t end) {
+  Lanes sum{};
+  double rest = 0.0;
   for (std::size_t p = begin; p < end; ++p) {
     const double m = particles.mass[p];
-    const Lanes v = load_vector(particles.velocity[p].data());
-    const double speed2 = sum3(v * v);
-    mass += m;
-    momentum += m * v;
-    scale += m * std::sqrt(speed2);
-    twice_kinetic += m * speed2;
-    internal += m * particles.specific_internal_energy[p];
-    if (affine_inertia == 0.0) continue;
     const double* c = particles.affine_velocity[p].data();
     const Lanes first = load(c), second = load(c + 4);
-    affine += m * (first * first + second * second);
-    affine_rest += m * c[8] * c[8];
+    sum += m * (first * first + second * second);
+    rest += m * c[8] * c[8];
   }
-  return {.mass = mass,
-          .momentum = Vector3(momentum[0], momentum[1], momentum[2]),
-          .momentum_scale = scale,
-          .kinetic_energy = 0.5 * twice_kinetic,
-          .affine_kinetic_energy = 0.5 * affine_inertia * (sum3(affine) + affine[3] + affine_rest),
-          .internal_energy = internal};
+  return sum4(sum) + rest;
+}
+
+/// Sums of particles, four at a time.
+Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_t end,
+                       double affine_inertia) {
+  Lanes mass{}, x{}, y{}, z{}, scale{}, twice_kinetic{}, internal{};
+  std::size_t p = begin;
+  for (; p + 4 <= end; p += 4) {
+    const Lanes m = load(&particles.mass[p]);
+    const FourVectors v = load_four_vectors(particles.velocity[p].data());
+    const Lanes speed2 = v.x * v.x + v.y * v.y + v.z * v.z;
+    mass += m;
+    x += m * v.x;
+    y += m * v.y;
+    z += m * v.z;
+    scale += m * sqrt(speed2);
+    twice_kinetic += m * speed2;
+    internal += m * load(&particles.specific_internal_energy[p]);
+  }
+  Totals sum = {.mass = sum4(mass),
+                .momentum = Vector3(sum4(x), sum4(y), sum4(z)),
+                .momentum_scale = sum4(scale),
+                .kinetic_energy = 0.5 * sum4(twice_kinetic),
+                .internal_energy = sum4(internal)};
+  for (; p < end; ++p) sum += totals_of(particles, p, 0.0);
+  if (affine_inertia > 0.0) {
+    sum.affine_kinetic_energy = 0.5 * affine_inertia * affine_sum(particles, begin, end);
+  }
+  return sum;
 }
 
 }  // namespace

@@ -45,6 +45,26 @@ TEST(RoughLog, IsTheLogarithmTo4em8) {
               4e-8);
 }
 
+TEST(ArrayFunctions, AreExponentialAndLogarithmInBothRegisters) {
+  std::mt19937_64 generator(9);
+  std::uniform_real_distribution<double> uniform(-700.0, 700.0);
+  std::vector<double> x(800);
+  for (double& value : x) value = uniform(generator);
+  const bool has_wide = wide_registers();
+  for (const bool wide : {false, has_wide}) {
+    wide_registers() = wide;
+    std::vector<double> raised = x;
+    exponentials(raised.data(), raised.size());
+    std::vector<double> back = raised;
+    logarithms(back.data(), back.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      EXPECT_NEAR(raised[i], std::exp(x[i]), 1e-15 * std::exp(x[i])) << x[i];
+      EXPECT_NEAR(back[i], std::log(raised[i]), 1e-15 * std::abs(x[i])) << x[i];
+    }
+  }
+  wide_registers() = has_wide;
+}
+
 TEST(Marks, AreFoundInTheirOrder) {
   std::mt19937 generator(3);
   for (const std::size_t n : {0, 1, 7, 8, 9, 64, 1000}) {

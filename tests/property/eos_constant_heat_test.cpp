@@ -4,6 +4,7 @@
 // temperature.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -148,6 +149,57 @@ TEST_P(ConstantHeat, EdgesOfTheRangeAreCountedAndSaid) {
   EXPECT_NEAR(held.pressure, least.pressure, 1e-9 * rho0 * least.sound_speed * least.sound_speed);
   EXPECT_THROW(static_cast<void>(eos_->state_at_temperature(rho0, 0.5)), StateError);
   EXPECT_THROW(static_cast<void>(eos_->state_at_temperature(beyond, 300)), StateError);
+}
+
+TEST_P(ConstantHeat, WorkOfTheNewPressureSolvesItsEquation) {
+  // e = e_0 - h p(e), and that the general way, two evaluations and a secant, finds the same where it meets
+  // no cold curve. Among the steps are ones that compress to half the volume and ones that end colder than
+  // the coldest state.
+  constexpr std::size_t n = 203;
+  std::vector<double> rho(n), without(n), before(n), h(n);
+  std::vector<bool> cold(n), steep(n);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    double e = 0.0;
+    std::tie(rho[i], e) = random_state();
+    const double coldest = eos_->minimum_energy(rho[i]);
+    if (i % 7 == 0) e = coldest;
+    const State state = eos_->state(rho[i], e);
+    before[i] = state.pressure;
+    h[i] = (i % 5 == 0 ? -0.5 : 0.01 * (uniform(random_) - 0.5)) / rho[i];
+    without[i] = e + 1.2 * h[i] * before[i];
+    const double first = without[i] - h[i] * before[i];
+    const double second = without[i] - h[i] * eos_->state(rho[i], std::max(first, coldest)).pressure;
+    cold[i] = std::min(first, second) < coldest;
+    steep[i] = h[i] * state.gruneisen * rho[i] < least_work_slope;
+  }
+  struct Result {
+    std::vector<double> e, p;
+  };
+  const auto integrated = [&](auto&& integrate) {
+    Result result{without, before};
+    std::vector<double> T(n), c(n), melted(n), vapour(n);
+    EXPECT_EQ(integrate(Batch{rho, result.e, result.p, T, c, melted, vapour}, result.e).out_of_range, 0u);
+    return result;
+  };
+  const auto [e, p] =
+      integrated([&](const Batch& batch, auto& energy) { return eos_->integrate(batch, energy, h); });
+  const Result general = integrated(
+      [&](const Batch& batch, auto& energy) { return eos_->EquationOfState::integrate(batch, energy, h); });
+  const bool linear = std::string_view(GetParam().name) != "tillotson";
+  for (std::size_t i = 0; i < n; ++i) {
+    const double scale = std::abs(without[i]) + std::abs(h[i] * p[i]);
+    if (!cold[i]) {
+      EXPECT_NEAR(e[i], general.e[i], 1e-9 * scale) << i;
+    }
+    if (!linear) continue;
+    const State state = eos_->state(rho[i], std::max(e[i], eos_->minimum_energy(rho[i])));
+    EXPECT_NEAR(p[i], state.pressure, 1e-9 * rho[i] * scale) << i;
+    if (!steep[i]) {
+      EXPECT_NEAR(e[i], without[i] - h[i] * p[i], 1e-12 * scale) << i;
+    }
+  }
+  EXPECT_GT(std::ranges::count(cold, false), 100);
 }
 
 class ConstantHeatWithEntropy : public ConstantHeat {};

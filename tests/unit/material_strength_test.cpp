@@ -239,6 +239,42 @@ TEST(StrengthModels, YieldConditionHoldsAfterTheReturnOfEveryHardeningLaw) {
   });
 }
 
+/// Points of a batch, some of which yield, have the increments that each has alone, bit by bit.
+void expect_independent_points(const strength::Strength& model) {
+  std::mt19937_64 generator(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  constexpr std::size_t n = 203;
+  std::vector<double> density(n, 8930.0), pressure(n, 1e9), temperature(n), strain(n), solid(n), trial(n),
+      modulus(n), together(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    temperature[i] = 200.0 + 900.0 * unit(generator);
+    strain[i] = i % 5 == 0 ? 0.0 : unit(generator);
+    solid[i] = i % 3 == 0 ? unit(generator) + 1e-3 : 1.0;
+    trial[i] =
+        i >= 64 && i < 128 ? 5e9 : std::pow(10.0, 7.0 + 3.0 * unit(generator));  // in one batch all yield
+  }
+  constexpr double dt = 1e-8;
+  model.shear_modulus({density, pressure, temperature, strain}, modulus);
+  for (std::size_t i = 0; i < n; ++i) modulus[i] *= solid[i];
+  model.plastic_increment({density, pressure, temperature, strain}, trial, modulus, solid, dt, together);
+  std::size_t yielding = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto one = [&](std::vector<double>& of) { return std::span<double>(&of[i], 1); };
+    double alone = -1.0;
+    model.plastic_increment({one(density), one(pressure), one(temperature), one(strain)}, one(trial),
+                            one(modulus), one(solid), dt, {&alone, 1});
+    EXPECT_EQ(alone, together[i]) << model.model() << " point " << i;
+    yielding += alone > 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(yielding, 100u);
+  EXPECT_LT(yielding, n - 20);
+}
+
+TEST(StrengthModels, PointsOfABatchAreIndependent) {
+  expect_independent_points(strength::JohnsonCookModel(ofhc_copper()));
+  expect_independent_points(strength::SteinbergGuinanModel(steinberg_copper()));
+}
+
 TEST(StrengthModels, ShearModulusFromYoungsModulusAndPoissonRatio) {
   strength::VonMises constants = taylor_copper();
   constants.shear_modulus = 0.0;
