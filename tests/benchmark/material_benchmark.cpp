@@ -58,6 +58,35 @@ BENCHMARK_CAPTURE(update, lead_with_open_voids, "lead_mie_gruneisen", Matter::fa
 BENCHMARK_CAPTURE(update, gray_johnson_cook, "copper", Matter::intact, false);
 BENCHMARK_CAPTURE(update, gray_with_open_voids, "copper", Matter::failed, false);
 
+/// The plastic increments of a chunk of yielding points alone.
+void plastic_return(benchmark::State& state, const char* name) {
+  const Material material = read_material(name);
+  constexpr std::size_t points = 64;
+  using Values = std::vector<double>;
+  Values density(points, material.reference.density), pressure(points, 1e9), temperature(points),
+      strain(points), rate(points, 1e5), flow(points), trial(points), modulus(points), solid(points, 1.0),
+      increment(points);
+  std::mt19937_64 generator(5);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (std::size_t k = 0; k < points; ++k) {
+    temperature[k] = 300.0 + 200.0 * uniform(generator);
+    strain[k] = 0.05 + 0.45 * uniform(generator);
+  }
+  const strength::State at{density, pressure, temperature, strain};
+  material.strength->shear_modulus(at, modulus);
+  material.strength->flow_stress(at, rate, flow);
+  for (std::size_t k = 0; k < points; ++k) trial[k] = flow[k] * (1.0 + 0.5 * uniform(generator));
+  for (auto _ : state) {
+    material.strength->plastic_increment(at, trial, modulus, solid, 5e-8, increment);
+    benchmark::DoNotOptimize(increment.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points));
+}
+
+BENCHMARK_CAPTURE(plastic_return, johnson_cook, "copper_johnson_cook");
+BENCHMARK_CAPTURE(plastic_return, steinberg_guinan, "lead");
+
 }  // namespace
 }  // namespace whipple
 
