@@ -20,9 +20,13 @@ PeakDecay::PeakDecay(const Snapshot& first, const Frame& frame, std::size_t body
 }
 
 void PeakDecay::add(const Snapshot& snapshot) {
-  const std::vector<double>* pressure = snapshot.scalar("pressure");
+  // The solver keeps the greatest pressure of every step. The pressure of the snapshots alone misses the top
+  // of a front that passes between two of them.
+  const std::vector<double>* pressure = snapshot.scalar("maximum_pressure");
+  if (pressure == nullptr) pressure = snapshot.scalar("pressure");
   if (pressure == nullptr)
-    throw InputError("error: the peak pressure needs the field pressure in the snapshots");
+    throw InputError(
+        "error: the peak pressure needs the field maximum_pressure, or pressure, in the snapshots");
   for (std::size_t k = 0; k < id_.size(); ++k) {
     const auto found = std::ranges::lower_bound(snapshot.id, id_[k]);
     if (found == snapshot.id.end() || *found != id_[k]) continue;  // has left the domain
@@ -52,13 +56,17 @@ Table PeakDecay::profile(double layer) const {
   return table;
 }
 
-Quantities PeakDecay::measures(double diameter) const {
-  double contact = 0.0, count = 0.0;
+double PeakDecay::mean_to(double depth) const {
+  double sum = 0.0, count = 0.0;
   for (std::size_t k = 0; k < id_.size(); ++k) {
-    if (depth_[k] > 0.3 * diameter) continue;
-    contact += peak_[k];
+    if (depth_[k] > depth) continue;
+    sum += peak_[k];
     count += 1.0;
   }
+  return count > 0.0 ? sum / count : nan;
+}
+
+Quantities PeakDecay::measures(double diameter) const {
   // ln P = a - n ln(depth / diameter) between 2 and 5 diameters.
   double n = 0, x_mean = 0, y_mean = 0, xx = 0, xy = 0;
   const auto each = [&](auto&& body) {
@@ -81,7 +89,9 @@ Quantities PeakDecay::measures(double diameter) const {
   const double slope = n > 2.0 ? xy / xx : nan;
   return {
       {"peak_pressure_contact", "Pa", "mean peak over depths of 0 to 0.6 radii of the projectile",
-       count > 0.0 ? contact / count : nan},
+       mean_to(0.3 * diameter)},
+      {"peak_pressure_contact_wide", "Pa", "mean peak over depths of 0 to 1.2 radii of the projectile",
+       mean_to(0.6 * diameter)},
       {"peak_pressure_exponent", "1", "n of P ~ depth^-n over 2 to 5 diameters of the projectile", -slope},
       {"peak_pressure_4_diameters", "Pa", "peak at 4 diameters of the projectile, from the same fit",
        std::exp(y_mean + slope * (std::log(4.0) - x_mean))}};

@@ -422,6 +422,28 @@ TEST(PeakDecay, PowerLawFront) {
   const Table profile = peaks.profile(1e-3);
   ASSERT_EQ(profile.rows(), 60U);
   EXPECT_NEAR(profile["peak_pressure"][20], 40e9 * std::pow(2.05, -1.3), 1.0);
+  const auto mean_of = [](int layers) {
+    double sum = 0.0;
+    for (int k = 0; k < layers; ++k) sum += 40e9 * std::pow((k + 0.5) / 10.0, -1.3);
+    return sum / layers;
+  };
+  EXPECT_NEAR(value(row, "peak_pressure_contact"), mean_of(3), 1.0);
+  EXPECT_NEAR(value(row, "peak_pressure_contact_wide"), mean_of(6), 1.0);
+}
+
+TEST(PeakDecay, FrontBetweenTwoSnapshots) {
+  // The front has passed every layer before the only snapshot: the pressure is back to 0.1 GPa, the greatest
+  // of all steps still tells the peak.
+  Maker maker(1e-3);
+  for (int k = 0; k < 60; ++k) maker.add({0.5e-3, 0.5e-3, (k + 0.5) * 1e-3}, Vector3::Zero(), 1);
+  PeakDecay peaks(maker.snapshot, quarter(), 1, 1e-3, 0.0);
+  maker.snapshot.scalars["pressure"].assign(60, 1e8);
+  std::vector<double>& greatest = maker.snapshot.scalars["maximum_pressure"];
+  for (int k = 0; k < 60; ++k) greatest.push_back(40e9 * std::pow((k + 0.5) / 10.0, -1.3));
+  peaks.add(maker.snapshot);
+  const Quantities row = peaks.measures(10e-3);
+  EXPECT_NEAR(value(row, "peak_pressure_exponent"), 1.3, 1e-9);
+  EXPECT_NEAR(value(row, "peak_pressure_4_diameters"), 40e9 * std::pow(4.0, -1.3), 1.0);
 }
 
 }  // namespace
