@@ -44,8 +44,6 @@ struct Work {
   std::array<std::uint64_t, batch_size> active;
 };
 
-std::size_t padded(std::size_t size) { return (size + 7) / 8 * 8; }
-
 /// x^n of the first values, in place; 0 for what is too small.
 void raise(BatchValues& values, std::size_t size, double n) {
   BatchValues base;
@@ -73,8 +71,9 @@ void raise_strains(Work& w, double n, const Binomial& binomial) {
   if (count == 0) return;
   BatchValues values;
   for (std::size_t k = 0; k < count; ++k) values[k] = w.strain[large[k]] + w.x[large[k]];
-  std::fill(values.begin() + count, values.begin() + padded(count), 1.0);
-  raise(values, padded(count), n);
+  const std::size_t size = material::padded(count);
+  std::fill(values.begin() + count, values.begin() + size, 1.0);
+  raise(values, size, n);
   for (std::size_t k = 0; k < count; ++k) w.raised[large[k]] = values[k];
 }
 
@@ -88,7 +87,7 @@ void drop_solved(Work& w, YieldingPoints& points) {
     count += w.active[k] != 0 ? 1 : 0;
   }
   if (count == w.size) return;
-  w.size = padded(count);
+  w.size = material::padded(count);
   const auto keep = [&](auto& values) {
     for (std::size_t k = 0; k < count; ++k) values[k] = values[left[k]];
     for (std::size_t k = count; k < w.size; ++k) values[k] = values[count - 1];  // padding
@@ -213,23 +212,15 @@ WHIPPLE_KERNEL void JohnsonCook::solve(YieldingPoints& points, double dt) const 
       const bool inside = next[k] > w.lower[k] && next[k] < w.upper[k];
       left_bracket |= inside ? 0 : w.active[k];
     }
-    if (left_bracket != 0) {
-      exponentials(newton.data(), w.size);
-      for (std::size_t k = 0; k < w.size; ++k) {
-        const double instead = w.lower[k] > 0.0 ? 0.5 * (w.lower[k] + w.upper[k]) : w.x[k] * newton[k];
-        const bool inside = next[k] > w.lower[k] && next[k] < w.upper[k];
-        // The error of a step of Halley's method goes with the third power of the one before, over three at
-        // most: a step that is not small is not the last one.
-        const double step = inside ? next[k] : instead;
-        w.active[k] |= inside ? 0 : 2;
-        next[k] = step;
-      }
-    }
+    if (left_bracket != 0) exponentials(newton.data(), w.size);
     for (std::size_t k = 0; k < w.size; ++k) {
-      const bool near = w.active[k] == 1 && std::abs(next[k] - w.x[k]) <= 3e-4 * w.x[k];
-      const bool open = (w.active[k] & 1) != 0 && !near && w.upper[k] - w.lower[k] > 1e-15 * w.upper[k];
-      w.x[k] = (w.active[k] & 1) != 0 ? next[k] : w.x[k];
-      w.active[k] = open ? 1 : 0;
+      const bool open = w.active[k] != 0, inside = next[k] > w.lower[k] && next[k] < w.upper[k];
+      const double instead = w.lower[k] > 0.0 ? 0.5 * (w.lower[k] + w.upper[k]) : w.x[k] * newton[k];
+      // The error of a step of Halley's method goes with the third power of the one before, over three at
+      // most.
+      const bool near = inside && std::abs(next[k] - w.x[k]) <= 3e-4 * w.x[k];
+      w.x[k] = open ? (inside ? next[k] : instead) : w.x[k];
+      w.active[k] = open && !near && w.upper[k] - w.lower[k] > 1e-15 * w.upper[k] ? 1 : 0;
     }
     drop_solved(w, points);
   }

@@ -7,11 +7,12 @@
 #include <cstddef>
 #include <span>
 
+#include "src/material/kinematics.hpp"
 #include "src/material/strength/strength.hpp"
 
 namespace whipple::strength {
 
-constexpr std::size_t batch_size = 64;  ///< points that are solved together
+constexpr std::size_t batch_size = material::chunk_size;  ///< points that are solved together
 using BatchValues = std::array<double, batch_size>;
 
 /// Points of a batch that may yield, one array per quantity. The arrays are padded to a multiple of eight,
@@ -54,7 +55,7 @@ void return_in_batch(const Law& law, const State& state, std::span<const double>
         count += may_yield(k) ? 1 : 0;
       }
     }
-    points.size = (count + 7) / 8 * 8;
+    points.size = material::padded(count);
     const auto take = [&](std::span<const double> from, BatchValues& to) {
       if (all) {
         std::copy_n(from.begin() + begin, count, to.begin());
@@ -82,12 +83,12 @@ template <BatchLaw Law>
 double increment_of_one(const Law& law, double trial, double plastic_strain, double temperature,
                         double modulus, double solid_fraction, double dt) {
   YieldingPoints points;
-  points.size = 8;
-  std::fill_n(points.trial.begin(), 8, trial);
-  std::fill_n(points.plastic_strain.begin(), 8, plastic_strain);
-  std::fill_n(points.temperature.begin(), 8, temperature);
-  std::fill_n(points.modulus.begin(), 8, modulus);
-  std::fill_n(points.solid.begin(), 8, solid_fraction);
+  points.size = material::lane_count;
+  std::fill_n(points.trial.begin(), points.size, trial);
+  std::fill_n(points.plastic_strain.begin(), points.size, plastic_strain);
+  std::fill_n(points.temperature.begin(), points.size, temperature);
+  std::fill_n(points.modulus.begin(), points.size, modulus);
+  std::fill_n(points.solid.begin(), points.size, solid_fraction);
   law.solve(points, dt);
   return points.increment[0];
 }
