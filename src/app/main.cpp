@@ -56,5 +56,7 @@ int main(int argc, char** argv) {
   // Large arrays go back to the system when they are freed. Left to itself, glibc raises this limit up to 32
   // MB and keeps their holes: a tenth more memory in a cloud of 140,000 particles.
   mallopt(M_MMAP_THRESHOLD, 4 << 20);
+  // Smaller ones stay: every step takes and frees some, and new pages cost more than what is done with them.
+  mallopt(M_TRIM_THRESHOLD, 32 << 20);
   return whipple::run_guarded("whipple", whipple_main, argc, argv);
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include "src/base/error.hpp"
 #include "src/base/vector_math.hpp"
@@ -83,21 +84,26 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
   place_of_particle_.resize(position.size());
   const StencilPlaces places(stencil);
   std::atomic<bool> complete = true;
+  // Do all particles of a run, which are in one slot, reach active blocks only? The box around their stencils
+  // mostly tells.
+  const auto is_active = [&](std::size_t slot, std::size_t begin, std::size_t end, Lanes first, Lanes last) {
+    const std::uint32_t absent = ~existing_[slot];
+    if ((touched_neighbours_of_box(first, last, stencil) & absent) == 0) return true;
+    for (std::size_t p = begin; p < end; ++p) {
+      const Lanes local = position_in_block(in_cells(position[p]), corner_[slot]);
+      if ((touched_neighbours(local, stencil) & absent) != 0) return false;
+    }
+    return true;
+  };
   parallel::for_each_chunk(position.size(), [&](std::size_t begin, std::size_t end) {
+    std::size_t run_slot = static_cast<std::size_t>(slot_of_particle_[begin]), run_begin = begin;
+    Lanes least = broadcast(block_edge), greatest = broadcast(-1.0);
     for (std::size_t p = begin; p < end; ++p) {
       auto slot = static_cast<std::size_t>(slot_of_particle_[p]);
       const Lanes at = in_cells(position[p]);
       Lanes local = at - corner_[slot];
       if (!is_inside(local)) {
-        int neighbour = 0;
-        bool far = false;
-        for (int a = 0; a < 3; ++a) {
-          const double block = std::floor(at[a] / block_edge);
-          const double offset = block - blocks_.coordinate[slot][static_cast<std::size_t>(a)];
-          far = far || !(std::abs(offset) <= 1.0);
-          neighbour = neighbour * 3 + (far ? 0 : static_cast<int>(offset) + 1);
-        }
-        const std::int32_t moved = far ? no_slot : neighbours_[slot][static_cast<std::size_t>(neighbour)];
+        const std::int32_t moved = slot_of_neighbour(slot, at);
         if (moved == no_slot) {
           complete = false;
           return;
@@ -106,13 +112,33 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
         slot_of_particle_[p] = moved;
         local = position_in_block(at, corner_[slot]);
       }
-      place_of_particle_[p] = places(local);
-      constexpr std::uint32_t all_neighbours = (1U << 27) - 1;
-      if (existing_[slot] == all_neighbours) continue;
-      if ((touched_neighbours(local, stencil) & ~existing_[slot]) != 0) complete = false;
+      const Lanes first = places.first_node(local);
+      place_of_particle_[p] = places.at(local, first);
+      if (slot != run_slot) {
+        if (!is_active(run_slot, run_begin, p, least, greatest)) complete = false;
+        run_slot = slot, run_begin = p;
+        least = greatest = first;
+      } else {
+        least = minimum(least, first);
+        greatest = maximum(greatest, first);
+      }
     }
+    if (!is_active(run_slot, run_begin, end, least, greatest)) complete = false;
   });
   return complete;
+}
+
+/// Slot of the block around a position in a slot's block or one of its neighbours; `no_slot` if that is not
+/// active or farther away.
+std::int32_t BlockGrid::slot_of_neighbour(std::size_t slot, Lanes in_cells) const {
+  int neighbour = 0;
+  for (int a = 0; a < 3; ++a) {
+    const double block = std::floor(in_cells[a] / block_edge);
+    const double offset = block - blocks_.coordinate[slot][static_cast<std::size_t>(a)];
+    if (!(std::abs(offset) <= 1.0)) return no_slot;
+    neighbour = neighbour * 3 + static_cast<int>(offset) + 1;
+  }
+  return neighbours_[slot][static_cast<std::size_t>(neighbour)];
 }
 
 /// Guests come and go, so each one's block is looked up; false if a stencil reaches beyond the active set.
@@ -349,7 +375,14 @@ template <class Function>
 void for_each_run(std::span<const std::int32_t> slot_of, Function&& f) {
   for (std::size_t begin = 0, end = 0; begin < slot_of.size(); begin = end) {
     const std::int32_t slot = slot_of[begin];
-    for (end = begin + 1; end < slot_of.size() && slot_of[end] == slot;) ++end;
+    end = begin + 1;
+    const auto eight_more = [&] {
+      bool same = true;
+      for (std::size_t i = 0; i < 8; ++i) same &= slot_of[end + i] == slot;
+      return same;
+    };
+    while (end + 8 <= slot_of.size() && eight_more()) end += 8;
+    while (end < slot_of.size() && slot_of[end] == slot) ++end;
     f(static_cast<std::size_t>(slot), begin, end);
   }
 }
@@ -387,10 +420,18 @@ void BlockGrid::list_points() {
 }
 
 std::vector<std::uint32_t> BlockGrid::particles_by_stencil() const {
-  std::vector<std::uint32_t> order = particles_.points;
-  parallel::for_each_uneven(slots(), [&](std::size_t slot) {
-    std::ranges::sort(std::span(order).subspan(particles_.begin[slot], particles_in(slot).size()), {},
-                      [&](std::uint32_t p) { return std::pair(place_of_particle_[p].first_node(), p); });
+  std::vector<std::uint32_t> order(particles_.points.size());
+  parallel::for_each_uneven(slots(), [&](std::size_t slot) {  // counting sort
+    const std::span<const std::uint32_t> members = particles_in(slot);
+    if (members.empty()) return;
+    std::array<std::uint32_t, reach_edge * reach_edge * reach_edge + 1> next{};
+    const auto first_node = [&](std::uint32_t p) {
+      return static_cast<std::size_t>(place_of_particle_[p].first_node());
+    };
+    for (const std::uint32_t p : members) ++next[first_node(p) + 1];
+    next[0] = particles_.begin[slot];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (const std::uint32_t p : members) order[next[first_node(p)]++] = p;
   });
   return order;
 }

@@ -324,6 +324,7 @@ class BlockGrid {
   [[nodiscard]] Lanes in_cells(const Vector3& position) const { return geometry_.in_cells(position); }
   bool look_up(std::span<const Vector3> position);
   bool locate(std::span<const Vector3> position, Stencil stencil);
+  [[nodiscard]] std::int32_t slot_of_neighbour(std::size_t slot, Lanes in_cells) const;
   [[nodiscard]] std::vector<WantedBlock> wanted_blocks(std::span<const Vector3> position,
                                                        std::span<const Vector3> velocity, double lookahead,
                                                        Stencil stencil, const Work& work) const;

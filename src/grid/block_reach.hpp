@@ -46,17 +46,21 @@ constexpr std::array<std::uint32_t, 64> masks_by_direction() {
   return by_direction;
 }
 
+/// Neighbours that the nodes of stencils fall into whose first nodes lie between two corners of a box (cells
+/// from the block's lower corner; the directions in lanes).
+inline std::uint32_t touched_neighbours_of_box(Lanes first, Lanes last, Stencil stencil) {
+  static constexpr std::array<std::uint32_t, 64> by_direction = masks_by_direction();
+  const unsigned before = bits(first < 0.0) & 7U;
+  const unsigned after = bits(last > static_cast<double>(block_edge - stencil.count)) & 7U;
+  return by_direction[before | after << 3U];
+}
 /// Neighbours that the nodes of a stencil fall into when the particle is at `local` (cells from the block's
 /// lower corner; the directions in lanes), with `ahead` cells of motion before it, and `around` it on either
 /// side.
 inline std::uint32_t touched_neighbours(Lanes local, Lanes ahead, Stencil stencil, double around = 0.0) {
-  static constexpr std::array<std::uint32_t, 64> by_direction = masks_by_direction();
   const auto first_node = [&](Lanes at) { return floor(at - stencil.shift); };
-  const Lanes first = first_node(local + minimum(ahead, broadcast(-around)));
-  const Lanes last = first_node(local + maximum(ahead, broadcast(around)));
-  const unsigned before = bits(first < 0.0) & 7U;
-  const unsigned after = bits(last > static_cast<double>(block_edge - stencil.count)) & 7U;
-  return by_direction[before | after << 3U];
+  return touched_neighbours_of_box(first_node(local + minimum(ahead, broadcast(-around))),
+                                   first_node(local + maximum(ahead, broadcast(around))), stencil);
 }
 /// The same without motion.
 inline std::uint32_t touched_neighbours(Lanes local, Stencil stencil) {

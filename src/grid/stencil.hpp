@@ -91,9 +91,13 @@ class StencilPlaces {
     strides_ = Lanes{edge * edge, edge, 1.0, 0.0};
     origin_ = Lanes{integer, 0.0, 0.0, 0.0} + stencil.before() * strides_;
   }
+  /// First node of the stencil, in cells like `local`.
   /// @param local  position in cells from the block's lower corner, inside the block
-  [[nodiscard]] PlaceInStencil operator()(Lanes local) const {
-    const Lanes first = floor(local - shift_), parts = multiply_add(first, strides_, origin_);
+  [[nodiscard]] Lanes first_node(Lanes local) const { return floor(local - shift_); }
+  [[nodiscard]] PlaceInStencil operator()(Lanes local) const { return at(local, first_node(local)); }
+  /// @param first  as of `first_node`
+  [[nodiscard]] PlaceInStencil at(Lanes local, Lanes first) const {
+    const Lanes parts = multiply_add(first, strides_, origin_);
     const Lanes pairs = parts + __builtin_shufflevector(parts, parts, 2, 3, 0, 1);
     const Lanes sum = pairs + __builtin_shufflevector(pairs, pairs, 1, 0, 3, 2);
     PlaceInStencil place;

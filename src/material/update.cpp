@@ -217,7 +217,7 @@ WHIPPLE_KERNEL void return_radially(Chunk& chunk) {
   Lanes kept;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const double increment = chunk.increment[k], trial = motion.trial[k];
-    const double after = std::fmax(0.0, trial - 3.0 * motion.modulus[k] * increment);
+    const double after = std::max(0.0, trial - 3.0 * motion.modulus[k] * increment);
     kept[k] = increment > 0.0 ? after / trial : 1.0;
     chunk.plastic_strain[k] += increment;
   }
@@ -262,7 +262,7 @@ void advance_deviator(Step& step, Chunk& chunk, Energy energy) {
     if (!stores) return;
     for (std::size_t k = 0; k < chunk.size; ++k) {
       const double increment = chunk.increment[k];
-      const double after = std::fmax(0.0, motion.trial[k] - 3.0 * motion.modulus[k] * increment);
+      const double after = std::max(0.0, motion.trial[k] - 3.0 * motion.modulus[k] * increment);
       store_cold_work(step, chunk, k, after * increment);
     }
     return;
@@ -299,23 +299,24 @@ void advance_strain(Step& step, Chunk& chunk) {
   }
 }
 
-/// Artificial viscosity (eq. 8): none in failed or brittle matter beside an open void.
+/// Density, and artificial viscosity (eq. 8): none in failed or brittle matter beside an open void.
 WHIPPLE_KERNEL void advance_viscosity(Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
   const auto advance = [&](const auto& length) {
     for (std::size_t k = 0; k < chunk.size; ++k) {
       const double closing = -chunk.motion.divergence[k] * length(k);  // l |D|, m/s
+      chunk.density[k] = chunk.mass[k] / chunk.volume[k];
       const double viscosity =
-          chunk.mass[k] / chunk.volume[k] * closing *
+          chunk.density[k] * closing *
           (settings.quadratic_viscosity * closing + settings.linear_viscosity * chunk.sound_speed[k]);
       chunk.artificial_viscosity[k] = closing > 0.0 ? viscosity : 0.0;
     }
     if (settings.expansion_viscosity == 0.0) return;
     for (std::size_t k = 0; k < chunk.size; ++k) {
-      const double opening = std::fmax(chunk.motion.divergence[k], 0.0) * length(k);
+      const double opening = std::max(chunk.motion.divergence[k], 0.0) * length(k);
       const double viscosity =
-          chunk.mass[k] / chunk.volume[k] * opening * settings.expansion_viscosity * chunk.sound_speed[k];
-      chunk.artificial_viscosity[k] -= std::fmin(viscosity, std::fmax(chunk.pressure[k], 0.0));
+          chunk.density[k] * opening * settings.expansion_viscosity * chunk.sound_speed[k];
+      chunk.artificial_viscosity[k] -= std::min(viscosity, std::max(chunk.pressure[k], 0.0));
     }
   };
   if (settings.lengths.empty()) {
@@ -331,7 +332,7 @@ WHIPPLE_KERNEL void advance_viscosity(Step& step, Chunk& chunk) {
   }
 }
 
-/// Density and the energy that the equation of state of the symplectic scheme takes: half a step ahead of
+/// The energy that the equation of state of the symplectic scheme takes: half a step ahead of
 /// e^n+1 (pressure and stresses then stand at the end of the step), less the elastic energy of the deviator
 /// (eq. 9, 10).
 WHIPPLE_KERNEL void prepare_energy(const Step& step, Chunk& chunk) {
@@ -354,9 +355,8 @@ WHIPPLE_KERNEL void prepare_energy(const Step& step, Chunk& chunk) {
   for (std::size_t k = 0; k < chunk.size; ++k) chunk.energy[k] -= chunk.stored_cold_work[k];
 }
 
-/// What the equation of state is asked of the chunk; density, pressure and temperature become the new ones.
+/// What the equation of state is asked of the chunk; pressure and temperature become the new ones.
 eos::Batch ask(Step& step, Chunk& chunk) {
-  for (std::size_t k = 0; k < chunk.size; ++k) chunk.density[k] = chunk.mass[k] / chunk.volume[k];
   eos::Batch batch{chunk.view(chunk.density),
                    chunk.view(chunk.energy),
                    chunk.view(chunk.pressure),
@@ -427,8 +427,9 @@ void update_chunk(Step& step, Chunk& chunk, Energy energy) {
   integrate_energy(step, chunk);
   material::apply_failure(step, chunk);
   material::finish(step, chunk);
-  // The work of the step took the pressure of the equation of state; a failed point acts with less (eq. 15).
-  for (std::size_t k = 0; k < chunk.size; ++k) {
+  // The work of the step took the pressure of the equation of state; a failed point, beside a void, acts with
+  // less (eq. 15).
+  for (std::size_t k = 0; chunk.any_void && k < chunk.size; ++k) {
     const double excess = chunk.pressure[k] - chunk.acting_pressure[k];
     chunk.specific_internal_energy[k] += 0.5 * chunk.volume_change[k] * excess / chunk.mass[k];
   }
