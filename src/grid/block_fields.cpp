@@ -74,7 +74,7 @@ void BlockGrid::lay_out_nodes() {
   const std::size_t nodes = (slots() + slot_of_further_.size()) * nodes_per_block;
   if (nodes > nodes_.capacity()) {
     std::vector<Node>().swap(nodes_);   // every step begins with clear nodes
-    nodes_.reserve(nodes + nodes / 2);  // takes addresses, but memory only when it is reached
+    nodes_.reserve(4 * nodes);  // takes addresses, but memory only when it is reached, and then new pages
   }
   nodes_.resize(nodes);
   find_mirror_nodes();
