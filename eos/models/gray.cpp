@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -345,40 +346,32 @@ RangeReport Gray::evaluate(const Batch& batch) const {
   const std::size_t size = batch.density.size();
   for (std::size_t first = 0; first < size; first += 4) {
     const std::size_t count = std::min<std::size_t>(4, size - first);
-    Lanes rho = broadcast(reference_density()), E = broadcast(reference_energy());
-    if (count == 4) {
-      rho = load(&batch.density[first]);
-      E = load(&batch.specific_internal_energy[first]);
-    } else {
-      for (std::size_t i = 0; i < count; ++i) {
-        rho[i] = batch.density[first + i];
-        E[i] = batch.specific_internal_energy[first + i];
-      }
-    }
+    const Lanes rho = load(&batch.density[first], count, reference_density()),
+                E = load(&batch.specific_internal_energy[first], count, reference_energy());
     const FourPoints p = four_points(1.0 / rho, E);
     const Lanes c = whipple::sqrt(maximum(p.squared_sound_speed, broadcast(least_squared_sound_speed_)));
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t at = first + i;
-      if (p.broken >> i & 1u) {
-        if (report.out_of_range++ == 0) {
-          report.first = at;
-          report.bound = broken_bound(1.0 / rho[i], E[i], least_volume_);
-        }
-        batch.pressure[at] = batch.temperature[at] = batch.sound_speed[at] = State::unknown;
-        if (melted) batch.melted_fraction[at] = State::unknown;
-        if (vaporised) batch.vaporised_fraction[at] = State::unknown;
-        continue;
+    report.below_cold_curve += static_cast<std::size_t>(std::popcount(p.cold & ((1u << count) - 1u)));
+    Lanes vapour{};
+    if (melted || vaporised) {
+      for (std::size_t i = 0; i < count; ++i) {
+        if (!(p.V[i] > coldest_dome_volume) || p.phase[i] == Phase::solid) continue;
+        vapour[i] = dome_.vaporised_fraction(p.V[i], p.E[i]);
       }
-      report.below_cold_curve += p.cold >> i & 1u;
-      batch.pressure[at] = p.P[i];
-      batch.temperature[at] = p.T[i];
-      batch.sound_speed[at] = c[i];
-      double vapour = 0;
-      if ((melted || vaporised) && p.V[i] > coldest_dome_volume && p.phase[i] != Phase::solid) {
-        vapour = dome_.vaporised_fraction(p.V[i], p.E[i]);
+    }
+    store(&batch.pressure[first], p.P, count);
+    store(&batch.temperature[first], p.T, count);
+    store(&batch.sound_speed[first], c, count);
+    if (melted) store(&batch.melted_fraction[first], maximum(p.melted_fraction, vapour), count);
+    if (vaporised) store(&batch.vaporised_fraction[first], vapour, count);
+    for (unsigned broken = p.broken & ((1u << count) - 1u); broken != 0; broken &= broken - 1u) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(broken)), at = first + i;
+      if (report.out_of_range++ == 0) {
+        report.first = at;
+        report.bound = broken_bound(1.0 / rho[i], E[i], least_volume_);
       }
-      if (melted) batch.melted_fraction[at] = std::max(p.melted_fraction[i], vapour);
-      if (vaporised) batch.vaporised_fraction[at] = vapour;
+      batch.pressure[at] = batch.temperature[at] = batch.sound_speed[at] = State::unknown;
+      if (melted) batch.melted_fraction[at] = State::unknown;
+      if (vaporised) batch.vaporised_fraction[at] = State::unknown;
     }
   }
   return report;

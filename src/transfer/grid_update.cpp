@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <utility>
+#include <vector>
 
 #include "src/base/vector_math.hpp"
 #include "src/parallel/threads.hpp"
@@ -91,16 +92,18 @@ struct Energies {
 void GridUpdate::remember_nodes_at_planes(const BlockGrid& grid) {
   if (at_planes_of_ == grid.layout()) return;
   at_planes_of_ = grid.layout();
-  std::map<std::uint32_t, std::uint8_t> nodes;  // node -> is it only an image?
+  std::vector<std::pair<std::uint32_t, std::uint8_t>> nodes;  // and whether it is only an image
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
-    for (const BlockGrid::MirrorPair& pair : plane.pairs) nodes[pair.outside] = 0;
+    for (const BlockGrid::MirrorPair& pair : plane.pairs) nodes.emplace_back(pair.outside, 0);
     // Another rank may be the one that folds onto them.
-    for (const std::uint32_t near : plane.near) nodes.try_emplace(near, std::uint8_t{1});
-    for (const std::uint32_t on_plane : plane.on_plane) nodes[on_plane] = 0;
+    for (const std::uint32_t near : plane.near) nodes.emplace_back(near, 1);
+    for (const std::uint32_t on_plane : plane.on_plane) nodes.emplace_back(on_plane, 0);
   }
+  std::ranges::sort(nodes);  // what is more than an image comes first
   at_planes_.clear();
   may_be_unchanged_.clear();
   for (const auto& [node, only_image] : nodes) {
+    if (!at_planes_.empty() && at_planes_.back() == node) continue;
     at_planes_.push_back(node);
     may_be_unchanged_.push_back(only_image);
   }
