@@ -81,9 +81,11 @@ std::string percent(double part, double whole) { return fmt::format("{:.0f} %", 
 /// Stages beside what memory and arithmetic units of these cores would need at least.
 void print(const Measurement& m, const bench::MachineRates& rates, double reference_kernel) {
   fmt::print(
-      "\n{}: {}\n{} particles, {} steps, {} ranks x {} threads; {:.1f} particles per block of 64 cells; ",
-      m.problem, bench::find_problem(m.problem).what, m.particles, m.steps, m.ranks, m.threads,
-      m.particles_per_block);
+      "\n{}: {}\n{} particles, of which {:.0f} % rest, {} steps, {} ranks x {} threads; {:.1f} particles per "
+      "block of "
+      "64 cells; ",
+      m.problem, bench::find_problem(m.problem).what, m.particles, 100.0 * m.share_at_rest, m.steps, m.ranks,
+      m.threads, m.particles_per_block);
   fmt::print("{:.0f} bytes per particle, peak {:.0f} MB\n", m.bytes_per_particle, 1e-6 * m.peak_memory);
   std::vector<std::vector<std::string>> rows = {
       {"  stage", "ns/particle", "share", "bytes", "of bandwidth", "flops", "of arithmetic"}};

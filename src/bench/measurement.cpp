@@ -53,6 +53,7 @@ double node_count(const solver::Simulation& simulation) {
 
 struct Part {
   double particle_steps = 0.0;
+  double at_rest = 0.0;                                          // of them, on this rank
   double nanoseconds = std::numeric_limits<double>::infinity();  // per particle and step
   std::vector<solver::Profile::Stage> stages;
 };
@@ -66,6 +67,7 @@ Part time_steps(solver::Simulation& simulation, std::size_t steps) {
   for (std::size_t i = 0; i < steps && simulation.state().time < end; ++i) {
     part.particle_steps += point_count(simulation);
     simulation.advance(end);
+    part.at_rest += static_cast<double>(simulation.particles_at_rest());
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   part.nanoseconds = 1e9 * seconds / part.particle_steps;
@@ -105,6 +107,8 @@ Measurement measure(const Problem& problem, int threads, Length length) {
   const double nodes = node_count(*simulation), points = point_count(*simulation);
   std::array<double, 1> memory = {static_cast<double>(simulation->bytes())};
   parallel::sum(world, memory);
+  std::array<double, 1> at_rest = {best.at_rest};
+  parallel::sum(world, at_rest);
   std::array<double, 1> peak = {peak_memory()};
   parallel::maximum(world, peak);
   Measurement result{.problem = problem.name,
@@ -113,6 +117,7 @@ Measurement measure(const Problem& problem, int threads, Length length) {
                      .particles = static_cast<std::size_t>(points),
                      .steps = static_cast<std::size_t>(simulation->state().step - first_step),
                      .nanoseconds = best.nanoseconds,
+                     .share_at_rest = at_rest[0] / best.particle_steps,
                      .particles_per_block = points / nodes * grid::nodes_per_block,
                      .bytes_per_particle = memory[0] / points,
                      .peak_memory = peak[0],
@@ -138,6 +143,7 @@ nlohmann::json to_json(const Measurement& m) {
           {"particles", m.particles},
           {"steps", m.steps},
           {"ns_per_particle_step", m.nanoseconds},
+          {"share_at_rest", m.share_at_rest},
           {"particles_per_block", m.particles_per_block},
           {"bytes_per_particle", m.bytes_per_particle},
           {"peak_memory_bytes", m.peak_memory},
@@ -152,6 +158,7 @@ Measurement from_json(const nlohmann::json& json) {
                   .particles = json.at("particles"),
                   .steps = json.at("steps"),
                   .nanoseconds = json.at("ns_per_particle_step"),
+                  .share_at_rest = json.value("share_at_rest", 0.0),
                   .particles_per_block = json.at("particles_per_block"),
                   .bytes_per_particle = json.at("bytes_per_particle"),
                   .peak_memory = json.at("peak_memory_bytes"),

@@ -26,7 +26,8 @@ struct Measurement {
   int threads = 1;            ///< of each rank
   std::size_t particles = 0;  ///< and elements
   std::size_t steps = 0;
-  double nanoseconds = 0.0;  ///< wall clock per particle and step, best of several parts of the run
+  double nanoseconds = 0.0;    ///< wall clock per particle and step, best of several parts of the run
+  double share_at_rest = 0.0;  ///< of the particles, mean over the steps
   double particles_per_block = 0.0;
   double bytes_per_particle = 0.0;  ///< memory of the fields and the grid, all ranks
   double peak_memory = 0.0;         ///< bytes, resident, of the largest rank's process

@@ -164,14 +164,14 @@ void BlockGrid::borrow_from_owners(ContactValues& values) {
                   [](Lanes& value, const Lanes& in) { value = in; });
 }
 
-/// Every rank that works with a slot learns the fields of all of them.
-void BlockGrid::join_fields_of_ranks(std::vector<std::uint64_t>& fields) {
+/// Every rank that works with a slot learns the bits that all of them have set.
+void BlockGrid::join_bits_of_ranks(std::vector<std::uint64_t>& of_slot) {
   const auto one = [](std::size_t) { return std::size_t{1}; };
-  const auto pack = [&](std::size_t slot, std::uint64_t* out) { *out = fields[slot]; };
+  const auto pack = [&](std::size_t slot, std::uint64_t* out) { *out = of_slot[slot]; };
   exchange<std::uint64_t>(&BlockSet::Peer::borrowed, &BlockSet::Peer::lent, one, pack,
-                          [&](std::size_t slot, const std::uint64_t* in) { fields[slot] |= *in; });
+                          [&](std::size_t slot, const std::uint64_t* in) { of_slot[slot] |= *in; });
   exchange<std::uint64_t>(&BlockSet::Peer::lent, &BlockSet::Peer::borrowed, one, pack,
-                          [&](std::size_t slot, const std::uint64_t* in) { fields[slot] = *in; });
+                          [&](std::size_t slot, const std::uint64_t* in) { of_slot[slot] = *in; });
 }
 
 }  // namespace whipple::grid

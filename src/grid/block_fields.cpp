@@ -37,7 +37,7 @@ void BlockGrid::separate_fields(Stencil stencil, const FieldPoints& particles, c
         if (neighbour != no_slot) present[s] |= reached[static_cast<std::size_t>(neighbour)][26 - n];
       }
     });
-    join_fields_of_ranks(present);
+    join_bits_of_ranks(present);
   }
   if (present == fields_) return;
   fields_ = std::move(present);
@@ -73,7 +73,7 @@ void BlockGrid::lay_out_nodes() {
   }
   const std::size_t nodes = (slots() + slot_of_further_.size()) * nodes_per_block;
   if (nodes > nodes_.capacity()) {
-    std::vector<Node>().swap(nodes_);   // every step begins with clear nodes
+    std::vector<Node>().swap(nodes_);  // every step begins with clear nodes
     nodes_.reserve(4 * nodes);  // takes addresses, but memory only when it is reached, and then new pages
   }
   nodes_.resize(nodes);

@@ -57,6 +57,7 @@ bool BlockGrid::bin(std::span<const Vector3> position, Stencil stencil, std::spa
   const bool complete = known && locate(position, stencil) && locate_guests(guests, stencil);
   if (parallel::any(communicator_, !complete)) return false;
   released_.clear();
+  resting_.clear();
   list_points();
   return true;
 }
@@ -82,13 +83,15 @@ bool BlockGrid::look_up(std::span<const Vector3> position) {
 /// Updates the slot of every particle from its former slot; false if a particle left the active set.
 bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
   place_of_particle_.resize(position.size());
+  reached_.assign(slots(), 0);
   const StencilPlaces places(stencil);
   std::atomic<bool> complete = true;
   // Do all particles of a run, which are in one slot, reach active blocks only? The box around their stencils
   // mostly tells.
   const auto is_active = [&](std::size_t slot, std::size_t begin, std::size_t end, Lanes first, Lanes last) {
-    const std::uint32_t absent = ~existing_[slot];
-    if ((touched_neighbours_of_box(first, last, stencil) & absent) == 0) return true;
+    const std::uint32_t absent = ~existing_[slot], touched = touched_neighbours_of_box(first, last, stencil);
+    std::atomic_ref(reached_[slot]).fetch_or(touched, std::memory_order_relaxed);
+    if ((touched & absent) == 0) return true;
     for (std::size_t p = begin; p < end; ++p) {
       const Lanes local = position_in_block(in_cells(position[p]), corner_[slot]);
       if ((touched_neighbours(local, stencil) & absent) != 0) return false;
@@ -153,7 +156,9 @@ bool BlockGrid::locate_guests(std::span<const Vector3> guests, Stencil stencil) 
     const auto at = static_cast<std::size_t>(slot);
     const Lanes local = position_in_block(in_cells(guests[g]), corner_[at]);
     place_of_guest_[g] = places(local);
-    if ((touched_neighbours(local, stencil) & ~existing_[at]) != 0) return false;
+    const std::uint32_t touched = touched_neighbours(local, stencil);
+    reached_[at] |= touched;
+    if ((touched & ~existing_[at]) != 0) return false;
   }
   return true;
 }
@@ -390,10 +395,14 @@ void for_each_run(std::span<const std::int32_t> slot_of, Function&& f) {
 /// Counting sort by slot; stable, so that the points of a block keep the order of their indices. The points
 /// are nearly sorted, so whole runs go at a time.
 /// @param released  of each point; or empty: none
+/// @param resting   of each slot; or empty: none
 void list_by_slot(std::size_t slots, std::span<const std::int32_t> slot_of,
-                  std::span<const std::uint8_t> released, PointList& list) {
+                  std::span<const std::uint8_t> released, std::span<const std::uint8_t> resting,
+                  PointList& list) {
   list.begin.assign(slots + 1, 0);
+  const auto rests = [&](std::size_t slot) { return !resting.empty() && resting[slot] != 0; };
   for_each_run(slot_of, [&](std::size_t slot, std::size_t begin, std::size_t end) {
+    if (rests(slot)) return;
     std::size_t count = end - begin;
     if (!released.empty()) {
       for (std::size_t p = begin; p < end; ++p) count -= released[p];
@@ -404,6 +413,7 @@ void list_by_slot(std::size_t slots, std::span<const std::int32_t> slot_of,
   list.points.resize(list.begin.back());
   std::vector<std::uint32_t> next(list.begin.begin(), list.begin.end() - 1);
   for_each_run(slot_of, [&](std::size_t slot, std::size_t begin, std::size_t end) {
+    if (rests(slot)) return;
     std::uint32_t* to = &list.points[0] + next[slot];
     for (std::size_t p = begin; p < end; ++p) {
       if (released.empty() || released[p] == 0) *to++ = static_cast<std::uint32_t>(p);
@@ -415,8 +425,41 @@ void list_by_slot(std::size_t slots, std::span<const std::int32_t> slot_of,
 }  // namespace
 
 void BlockGrid::list_points() {
-  list_by_slot(slots(), slot_of_particle_, released_, particles_);
-  list_by_slot(slots(), slot_of_guest_, {}, guests_);
+  list_by_slot(slots(), slot_of_particle_, released_, resting_, particles_);
+  list_by_slot(slots(), slot_of_guest_, {}, {}, guests_);
+}
+
+std::size_t BlockGrid::let_rest(int layers, const std::function<bool(std::size_t)>& is_restless) {
+  const auto for_each_reached = [&](std::size_t s, auto&& f) {
+    for_each_bit(reached_[s], [&](unsigned n) {
+      if (neighbours_[s][n] != no_slot) f(static_cast<std::size_t>(neighbours_[s][n]));
+    });
+  };
+  std::vector<std::uint8_t> awake(slots(), 0);
+  parallel::for_each_uneven(slots(), [&](std::size_t s) {
+    awake[s] = !guests_in(s).empty() || particles_in(s).empty() || is_restless(s) ? 1 : 0;
+  });
+  for (int layer = 0; layer < layers; ++layer) {  // what shares nodes with what is awake awakes
+    std::vector<std::uint64_t> stirred(slots(), 0);
+    for (std::size_t s = 0; s < slots(); ++s) {
+      if (awake[s] != 0) for_each_reached(s, [&](std::size_t reached) { stirred[reached] = 1; });
+    }
+    join_bits_of_ranks(stirred);
+    for (std::size_t s = 0; s < slots(); ++s) {
+      if (awake[s] != 0) continue;
+      bool stirs = false;
+      for_each_reached(s, [&](std::size_t reached) { stirs |= stirred[reached] != 0; });
+      if (stirs) awake[s] = 1;
+    }
+  }
+  resting_.resize(slots());
+  std::size_t at_rest = 0;
+  for (std::size_t s = 0; s < slots(); ++s) {
+    resting_[s] = awake[s] == 0 ? 1 : 0;
+    if (resting_[s] != 0) at_rest += particles_in(s).size();
+  }
+  if (at_rest > 0) list_points();
+  return at_rest;
 }
 
 std::vector<std::uint32_t> BlockGrid::particles_by_stencil() const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -113,6 +114,12 @@ class BlockGrid {
   /// Takes particles (ascending) off the lists of their blocks until the next `bin`: the transfers do not see
   /// them.
   void release(std::span<const std::uint32_t> particles);
+  /// Takes the particles of blocks at rest off the lists until the next `bin`; after `bin` and `release`.
+  /// Awake are blocks that are restless or hold guests, and `layers` of blocks around them, one after the
+  /// other: those that reach nodes of blocks whose nodes an awake one reaches. Collective.
+  /// @param is_restless  is_restless(slot): does something in it move?
+  /// @returns number of particles of this rank that were taken off
+  std::size_t let_rest(int layers, const std::function<bool(std::size_t)>& is_restless);
 
   /// Points of the grid with the velocity field (below `maximum_fields`) of each.
   struct FieldPoints {
@@ -376,7 +383,7 @@ class BlockGrid {
   [[nodiscard]] std::size_t node_block(std::size_t slot, std::size_t i) const;
   template <class Combine>
   void exchange_values(ContactValues& values, SharedSlots from, SharedSlots to, Combine&& combine);
-  void join_fields_of_ranks(std::vector<std::uint64_t>& fields);
+  void join_bits_of_ranks(std::vector<std::uint64_t>& of_slot);
 
   MPI_Comm communicator_;
   Geometry geometry_;       // with the shift
@@ -391,9 +398,11 @@ class BlockGrid {
   std::vector<Lanes> corner_;            // of each slot, in cells
   std::vector<Node> nodes_;
   std::vector<std::int32_t> slot_of_particle_;
+  std::vector<std::uint32_t> reached_;     // of each slot: bit per neighbour whose nodes its points may reach
   std::vector<std::uint16_t> cell_count_;  // particles in each cell of each slot
   std::vector<std::uint8_t> unshared_;     // slots that no other rank works with
   std::vector<std::uint8_t> released_;     // of each particle, or empty
+  std::vector<std::uint8_t> resting_;      // of each slot, or empty
   std::vector<std::int32_t> slot_of_guest_;
   std::vector<PlaceInStencil> place_of_particle_, place_of_guest_;
   PointList particles_, guests_;

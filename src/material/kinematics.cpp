@@ -148,7 +148,7 @@ void elastic_trial_by(std::size_t size, double dt, Kinematics& step) {
     const Motion motion = motion_of<rule>(load(step.gradient, k), dt);
     const Symmetric& e = motion.strain;
     const Symmetric t = turned(load(step.deviator, k), motion.rotation);
-    const double twice = 2.0 * step.modulus[k], mean = (1.0 / 3.0) * (e.xx + e.yy + e.zz);
+    const double twice = 2.0 * step.modulus[k], mean = (e.xx + e.yy + e.zz) / 3.0;
     const Symmetric s = {t.xx + twice * (e.xx - mean), t.yy + twice * (e.yy - mean),
                          t.zz + twice * (e.zz - mean), t.xy + twice * e.xy,
                          t.yz + twice * e.yz,          t.zx + twice * e.zx};

@@ -23,7 +23,7 @@ ParameterTable<Domain> Domain::parameters() {
 }
 
 ParameterTable<Domain> Domain::boundary_parameters() {
-  const auto face = [](const char* name, std::string Domain::* member) {
+  const auto face = [](const char* name, std::string Domain::*member) {
     return choice(name, member, {"outflow", "symmetry", "no_slip", "separating"},
                   "matter leaves and is counted | frictionless mirror plane | wall that matter sticks to | "
                   "frictionless wall that pushes but does not hold")
@@ -92,6 +92,11 @@ ParameterTable<TransferControl> TransferControl::parameters() {
           .optional(),
       boolean("free_flight", &TransferControl::free_flight,
               "failed particles without stress and neighbours fly on without the grid")
+          .optional(),
+      real("rest_tolerance", &TransferControl::rest_tolerance, "", range::between(0.0, 1e-3),
+           "blocks of matter slower than this share of its sound speed c, and stressed less than this share "
+           "of "
+           "rho c^2, are left as they are until a wave reaches them; 0: never")
           .optional()};
 }
 

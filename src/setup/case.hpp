@@ -49,6 +49,7 @@ struct TransferControl {
   bool random_shift = false;
   std::int64_t random_seed = 1;
   bool free_flight = false;
+  double rest_tolerance = 1e-12;
   static ParameterTable<TransferControl> parameters();
 };
 

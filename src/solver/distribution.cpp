@@ -9,6 +9,7 @@
 #include "src/afemp/transition.hpp"
 #include "src/base/error.hpp"
 #include "src/parallel/mpi.hpp"
+#include "src/parallel/threads.hpp"
 #include "src/particles/migrate.hpp"
 #include "src/particles/rows.hpp"
 #include "src/solver/simulation.hpp"
@@ -202,6 +203,9 @@ void Simulation::follow_particles(grid::Stencil stencil) {
   };
   std::vector<double> work = work_of_particles(setup_, bodies_);
   elements_astray_ = parallel::size(communicator_) > 1;
+  if (elements_astray_ && matter_rests_) {
+    parallel::for_each(work.size(), [&](std::size_t p) { work[p] *= is_restless(p) ? 1.0 : share_of_rest; });
+  }
   if (!elements_astray_ || meshes_.empty()) {
     grid_.adapt(positions(), velocities(), lookahead, stencil, {work, work_of_block});
   } else {  // elements are work, too

@@ -244,6 +244,7 @@ void Simulation::bin_particles() {
       if (!bin(stencil)) follow_particles(stencil);
     }
     if (setup_.transfer.free_flight) find_free_flight();
+    let_matter_rest();
     separate_fields();
     external_acceleration_.clear();
     if (!acceleration_) return;

@@ -76,6 +76,8 @@ class Simulation {
   [[nodiscard]] std::vector<fem::Mesh> meshes_for_checkpoint() const;
   /// The bars, all on one rank. Collective.
   [[nodiscard]] std::vector<fem::Bars> bars_for_checkpoint() const;
+  /// How many of this rank's particles the last step has left at rest.
+  [[nodiscard]] std::size_t particles_at_rest() const { return at_rest_; }
   /// Number of elements of all ranks.
   [[nodiscard]] std::size_t element_count() const { return element_count_; }
   /// The bodies of bars: the share of this rank, with copies of the nodes that it shares with other ranks.
@@ -166,6 +168,9 @@ class Simulation {
   [[nodiscard]] bool carries_affine_velocity() const;
   void shift_grid();
   void find_free_flight();
+  [[nodiscard]] bool is_restless(std::size_t particle) const;
+  [[nodiscard]] int blocks_per_step() const;
+  void let_matter_rest();
   [[nodiscard]] double affine_inertia() const;
   [[nodiscard]] double particle_affine_inertia() const;
   /// @param time  s, of the state; the step is the one under way
@@ -199,6 +204,8 @@ class Simulation {
   Acceleration acceleration_;
   std::vector<Vector3> external_acceleration_;  // of this step; empty without external forces
   std::vector<std::uint32_t> flying_;           // particles that fly without the grid in this step
+  std::size_t at_rest_ = 0;                     // particles that keep their state in this step
+  bool matter_rests_ = true;                    // on any rank; at first, it may
   transfer::TransitionNodes transition_;        // nodes of elements that move with the grid in this step
   fem::SharedNodes shared_nodes_;
   std::vector<std::array<double, 5>> shared_;  // force (N), mass (kg), sound speed of all copies of each

@@ -32,7 +32,7 @@ Vector3 FullMassMatrix::apply(ShapeFunction shape, const Particles& particles, g
     nodes[i].second += Lanes{1.0, 1.0, 1.0, 0.0} * nodes[i].first;
     nodes[i].first = nodes[i].second;
   });
-  at_particles_.resize(particles.size());
+  at_particles_.assign(particles.size(), Vector3::Zero());  // stays so where the grid does not reach
   term_.resize(nodes.size());
   // Without planes the series keeps the momentum; what it adds with planes is their doing.
   const bool planes = !grid.mirror_planes().empty();

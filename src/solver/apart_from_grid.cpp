@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Particles and grid apart: free flight, matter at rest, and random shifts of the grid (docs/theory/mpm.md,
+// section 8).
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "src/parallel/mpi.hpp"
+#include "src/solver/simulation.hpp"
+
+namespace whipple::solver {
+namespace {
+
+constexpr std::int64_t look_for_rest_every = 20;  // steps
+
+/// A number in [0, 1) that depends on its arguments only: the same on all ranks and after a restart
+/// (splitmix64: Steele, Lea & Flood, OOPSLA 2014).
+double random_number(std::uint64_t seed, std::uint64_t step, std::uint64_t axis) {
+  std::uint64_t z = (seed << 40U) + 4 * step + axis;
+  for (int round = 0; round < 2; ++round) {
+    z += 0x9e3779b97f4a7c15ULL;
+    z = (z ^ z >> 30U) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ z >> 27U) * 0x94d049bb133111ebULL;
+    z ^= z >> 31U;
+  }
+  return static_cast<double>(z >> 11U) * 0x1p-53;
+}
+
+}  // namespace
+
+/// Walls lie on nodes, so the grid keeps its place along their normals.
+void Simulation::shift_grid() {
+  Vector3 cells = Vector3::Zero();
+  for (int a = 0; a < 3; ++a) {
+    const auto face = static_cast<std::size_t>(2 * a);
+    if (setup_.geometry.boundary[face] != grid::Boundary::outflow ||
+        setup_.geometry.boundary[face + 1] != grid::Boundary::outflow) {
+      continue;
+    }
+    cells[a] = random_number(static_cast<std::uint64_t>(setup_.transfer.random_seed),
+                             static_cast<std::uint64_t>(state_.step), static_cast<std::uint64_t>(a)) -
+               0.5;
+  }
+  grid_.shift(cells);
+}
+
+/// A failed particle without stress whose surroundings of two cells hold no other one moves on by itself: the
+/// transfers would give back what they were given.
+void Simulation::find_free_flight() {
+  flying_.clear();
+  const auto without_stress = [&](std::size_t p) {
+    return particles_.failed[p] != 0 && particles_.pressure[p] == 0.0 &&
+           particles_.artificial_viscosity[p] == 0.0;
+  };
+  grid_.count_cells(particles_.position, transition_.position);
+  for (std::uint32_t p = 0; p < particles_.size(); ++p) {
+    if (without_stress(p) && grid_.is_alone(p, particles_.position[p])) flying_.push_back(p);
+  }
+  grid_.release(flying_);
+}
+
+/// Does a particle move, or feel a stress?
+bool Simulation::is_restless(std::size_t p) const {
+  const double tolerance = setup_.transfer.rest_tolerance, sound_speed = particles_.sound_speed[p];
+  const double speed = tolerance * sound_speed;
+  // The negations also catch NaN.
+  if (!(particles_.velocity[p].cwiseAbs().maxCoeff() <= speed)) return true;
+  if (!particles_.affine_velocity.empty() &&
+      !(setup_.domain.cell_size * particles_.affine_velocity[p].cwiseAbs().maxCoeff() <= speed)) {
+    return true;
+  }
+  const SymmetricTensor& s = particles_.deviatoric_stress[p];
+  const double stress = std::abs(particles_.pressure[p]) + std::abs(particles_.artificial_viscosity[p]) +
+                        std::sqrt(s.squared_norm());
+  return !(stress * particles_.volume[p] <= speed * sound_speed * particles_.mass[p]);
+}
+
+/// Blocks of four cells that motion at the edge of a block may come through in one step: the first time that
+/// particles bring it to the nodes it gets one cell far, and `count` - 1 cells farther each further time
+/// (docs/theory/mpm.md, section 8).
+int Simulation::blocks_per_step() const {
+  const std::string& scheme = setup_.time.scheme;
+  int further = scheme == "musl" || scheme == "usf" ? 1 : 0;
+  if (setup_.transfer.particle_update == "fmpm") further += static_cast<int>(setup_.transfer.fmpm_order);
+  const int cells = 3 + further * (transfer::stencil(shape_).count - 1);
+  return (cells + grid::block_edge - 1) / grid::block_edge;
+}
+
+/// Blocks without motion and stress keep their state until motion may reach them. The layers between take
+/// part and are quiet: what is missing at their outer nodes is below the tolerance. What takes part keeps
+/// mass, momentum and energy among itself.
+void Simulation::let_matter_rest() {
+  if (setup_.transfer.rest_tolerance == 0.0 || acceleration_ || setup_.heat.conduction) return;
+  // What has been stirred hardly comes to rest again: where nothing rests, that is seldom looked for.
+  if (!matter_rests_ && state_.step % look_for_rest_every != 0) return;
+  at_rest_ = grid_.let_rest(blocks_per_step(), [&](std::size_t slot) {
+    return std::ranges::any_of(grid_.particles_in(slot), [&](std::uint32_t p) { return is_restless(p); });
+  });
+  matter_rests_ = parallel::any(communicator_, at_rest_ > 0);
+}
+
+}  // namespace whipple::solver
