@@ -80,13 +80,11 @@ std::string percent(double part, double whole) { return fmt::format("{:.0f} %", 
 
 /// Stages beside what memory and arithmetic units of these cores would need at least.
 void print(const Measurement& m, const bench::MachineRates& rates, double reference_kernel) {
-  fmt::print(
-      "\n{}: {}\n{} particles, of which {:.0f} % rest, {} steps, {} ranks x {} threads; {:.1f} particles per "
-      "block of "
-      "64 cells; ",
-      m.problem, bench::find_problem(m.problem).what, m.particles, 100.0 * m.share_at_rest, m.steps, m.ranks,
-      m.threads, m.particles_per_block);
-  fmt::print("{:.0f} bytes per particle, peak {:.0f} MB\n", m.bytes_per_particle, 1e-6 * m.peak_memory);
+  fmt::print("\n{}: {}\n{} particles, of which {:.0f} % rest, {} steps, {} ranks x {} threads; ", m.problem,
+             bench::find_problem(m.problem).what, m.particles, 100.0 * m.share_at_rest, m.steps, m.ranks,
+             m.threads);
+  fmt::print("{:.1f} particles per block of 64 cells; {:.0f} bytes per particle, peak {:.0f} MB\n",
+             m.particles_per_block, m.bytes_per_particle, 1e-6 * m.peak_memory);
   std::vector<std::vector<std::string>> rows = {
       {"  stage", "ns/particle", "share", "bytes", "of bandwidth", "flops", "of arithmetic"}};
   const auto row = [&](const std::string& name, double ns, double bytes, double flops) {

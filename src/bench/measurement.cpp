@@ -53,7 +53,7 @@ double node_count(const solver::Simulation& simulation) {
 
 struct Part {
   double particle_steps = 0.0;
-  double at_rest = 0.0;                                          // of them, on this rank
+  double at_rest = 0.0;                                          // of them
   double nanoseconds = std::numeric_limits<double>::infinity();  // per particle and step
   std::vector<solver::Profile::Stage> stages;
 };
@@ -67,7 +67,7 @@ Part time_steps(solver::Simulation& simulation, std::size_t steps) {
   for (std::size_t i = 0; i < steps && simulation.state().time < end; ++i) {
     part.particle_steps += point_count(simulation);
     simulation.advance(end);
-    part.at_rest += static_cast<double>(simulation.particles_at_rest());
+    part.at_rest += static_cast<double>(simulation.state().particles_at_rest);
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   part.nanoseconds = 1e9 * seconds / part.particle_steps;
@@ -107,8 +107,6 @@ Measurement measure(const Problem& problem, int threads, Length length) {
   const double nodes = node_count(*simulation), points = point_count(*simulation);
   std::array<double, 1> memory = {static_cast<double>(simulation->bytes())};
   parallel::sum(world, memory);
-  std::array<double, 1> at_rest = {best.at_rest};
-  parallel::sum(world, at_rest);
   std::array<double, 1> peak = {peak_memory()};
   parallel::maximum(world, peak);
   Measurement result{.problem = problem.name,
@@ -117,7 +115,7 @@ Measurement measure(const Problem& problem, int threads, Length length) {
                      .particles = static_cast<std::size_t>(points),
                      .steps = static_cast<std::size_t>(simulation->state().step - first_step),
                      .nanoseconds = best.nanoseconds,
-                     .share_at_rest = at_rest[0] / best.particle_steps,
+                     .share_at_rest = best.at_rest / best.particle_steps,
                      .particles_per_block = points / nodes * grid::nodes_per_block,
                      .bytes_per_particle = memory[0] / points,
                      .peak_memory = peak[0],

@@ -9,6 +9,11 @@
 #include "src/parallel/threads.hpp"
 
 namespace whipple::grid {
+namespace {
+
+constexpr std::size_t most_nodes_ahead = (std::size_t{1} << 30) / sizeof(Node);
+
+}  // namespace
 
 void BlockGrid::separate_fields(Stencil stencil, const FieldPoints& particles, const FieldPoints& guests,
                                 unsigned fields, bool everywhere) {
@@ -74,7 +79,8 @@ void BlockGrid::lay_out_nodes() {
   const std::size_t nodes = (slots() + slot_of_further_.size()) * nodes_per_block;
   if (nodes > nodes_.capacity()) {
     std::vector<Node>().swap(nodes_);  // every step begins with clear nodes
-    nodes_.reserve(4 * nodes);  // takes addresses, but memory only when it is reached, and then new pages
+    // Takes addresses, but memory only when it is reached, and then new pages.
+    nodes_.reserve(nodes + std::min(3 * nodes, most_nodes_ahead));
   }
   nodes_.resize(nodes);
   find_mirror_nodes();

@@ -89,6 +89,7 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
   // Do all particles of a run, which are in one slot, reach active blocks only? The box around their stencils
   // mostly tells.
   const auto is_active = [&](std::size_t slot, std::size_t begin, std::size_t end, Lanes first, Lanes last) {
+    if (begin == end) return true;
     const std::uint32_t absent = ~existing_[slot], touched = touched_neighbours_of_box(first, last, stencil);
     std::atomic_ref(reached_[slot]).fetch_or(touched, std::memory_order_relaxed);
     if ((touched & absent) == 0) return true;
@@ -435,10 +436,10 @@ std::size_t BlockGrid::let_rest(int layers, const std::function<bool(std::size_t
       if (neighbours_[s][n] != no_slot) f(static_cast<std::size_t>(neighbours_[s][n]));
     });
   };
-  std::vector<std::uint8_t> awake(slots(), 0);
-  parallel::for_each_uneven(slots(), [&](std::size_t s) {
-    awake[s] = !guests_in(s).empty() || particles_in(s).empty() || is_restless(s) ? 1 : 0;
-  });
+  std::vector<std::uint64_t> awake(slots(), 0);
+  parallel::for_each_uneven(
+      slots(), [&](std::size_t s) { awake[s] = !guests_in(s).empty() || is_restless(s) ? 1 : 0; });
+  join_bits_of_ranks(awake);
   for (int layer = 0; layer < layers; ++layer) {  // what shares nodes with what is awake awakes
     std::vector<std::uint64_t> stirred(slots(), 0);
     for (std::size_t s = 0; s < slots(); ++s) {

@@ -93,7 +93,7 @@ ParameterTable<TransferControl> TransferControl::parameters() {
       boolean("free_flight", &TransferControl::free_flight,
               "failed particles without stress and neighbours fly on without the grid")
           .optional(),
-      real("rest_tolerance", &TransferControl::rest_tolerance, "", range::between(0.0, 1e-3),
+      real("rest_tolerance", &TransferControl::rest_tolerance, "", range::between(0.0, 1e-6),
            "blocks of matter slower than this share of its sound speed c, and stressed less than this share "
            "of "
            "rho c^2, are left as they are until a wave reaches them; 0: never")

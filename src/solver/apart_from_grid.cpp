@@ -2,6 +2,7 @@
 // Particles and grid apart: free flight, matter at rest, and random shifts of the grid (docs/theory/mpm.md,
 // section 8).
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -75,28 +76,33 @@ bool Simulation::is_restless(std::size_t p) const {
   return !(stress * particles_.volume[p] <= speed * sound_speed * particles_.mass[p]);
 }
 
-/// Blocks of four cells that motion at the edge of a block may come through in one step: the first time that
-/// particles bring it to the nodes it gets one cell far, and `count` - 1 cells farther each further time
-/// (docs/theory/mpm.md, section 8).
-int Simulation::blocks_per_step() const {
+bool Simulation::matter_may_rest() const {
+  return setup_.transfer.rest_tolerance > 0.0 && !acceleration_ && !setup_.heat.conduction;
+}
+
+/// How often particles bring something to the nodes in a step: each time, motion gets to blocks that share
+/// nodes with those where it was (docs/theory/mpm.md, section 8).
+int Simulation::layers_ahead_of_motion() const {
   const std::string& scheme = setup_.time.scheme;
-  int further = scheme == "musl" || scheme == "usf" ? 1 : 0;
-  if (setup_.transfer.particle_update == "fmpm") further += static_cast<int>(setup_.transfer.fmpm_order);
-  const int cells = 3 + further * (transfer::stencil(shape_).count - 1);
-  return (cells + grid::block_edge - 1) / grid::block_edge;
+  const int layers = scheme == "musl" || scheme == "usf" ? 2 : 1;
+  return setup_.transfer.particle_update == "fmpm" ? layers + static_cast<int>(setup_.transfer.fmpm_order) - 1
+                                                   : layers;
 }
 
 /// Blocks without motion and stress keep their state until motion may reach them. The layers between take
 /// part and are quiet: what is missing at their outer nodes is below the tolerance. What takes part keeps
 /// mass, momentum and energy among itself.
 void Simulation::let_matter_rest() {
-  if (setup_.transfer.rest_tolerance == 0.0 || acceleration_ || setup_.heat.conduction) return;
+  if (!matter_may_rest()) return;
   // What has been stirred hardly comes to rest again: where nothing rests, that is seldom looked for.
-  if (!matter_rests_ && state_.step % look_for_rest_every != 0) return;
-  at_rest_ = grid_.let_rest(blocks_per_step(), [&](std::size_t slot) {
+  if (state_.particles_at_rest == 0 && state_.step % look_for_rest_every != 0) return;
+  const std::size_t at_rest = grid_.let_rest(layers_ahead_of_motion(), [&](std::size_t slot) {
     return std::ranges::any_of(grid_.particles_in(slot), [&](std::uint32_t p) { return is_restless(p); });
   });
-  matter_rests_ = parallel::any(communicator_, at_rest_ > 0);
+  std::array<double, 1> of_all_ranks = {static_cast<double>(at_rest)};
+  parallel::sum(communicator_, of_all_ranks);
+  state_.particles_at_rest = static_cast<std::int64_t>(of_all_ranks[0]);
+  most_at_rest_ = std::max(most_at_rest_, state_.particles_at_rest);
 }
 
 }  // namespace whipple::solver

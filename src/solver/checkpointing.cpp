@@ -22,6 +22,7 @@ void for_each_real(State& state, Function&& f) {
 io::CheckpointValues to_checkpoint(const RunState& state) {
   io::CheckpointValues values;
   values.integers["step"] = state.step;
+  values.integers["particles_at_rest"] = state.particles_at_rest;
   for_each_real(state, [&](const std::string& name, double value) { values.reals[name] = value; });
   return values;
 }
@@ -29,6 +30,7 @@ io::CheckpointValues to_checkpoint(const RunState& state) {
 RunState from_checkpoint(const io::CheckpointValues& values) {
   RunState state;
   state.step = values.integer("step");
+  state.particles_at_rest = values.integer("particles_at_rest");
   for_each_real(state, [&](const std::string& name, double& value) { value = values.real(name); });
   return state;
 }

@@ -203,8 +203,9 @@ void Simulation::follow_particles(grid::Stencil stencil) {
   };
   std::vector<double> work = work_of_particles(setup_, bodies_);
   elements_astray_ = parallel::size(communicator_) > 1;
-  if (elements_astray_ && matter_rests_) {
+  if (elements_astray_ && matter_may_rest()) {
     parallel::for_each(work.size(), [&](std::size_t p) { work[p] *= is_restless(p) ? 1.0 : share_of_rest; });
+    most_at_rest_ = 0;
   }
   if (!elements_astray_ || meshes_.empty()) {
     grid_.adapt(positions(), velocities(), lookahead, stencil, {work, work_of_block});

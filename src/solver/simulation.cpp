@@ -23,6 +23,8 @@ namespace whipple::solver {
 namespace {
 
 constexpr std::int64_t sort_every = 20;  // steps between sorts of the particle arrays
+/// Of the matter at rest when the blocks were shared out among the ranks, part below which that is done anew.
+constexpr double rest_of_old_shares = 0.8;
 
 transfer::AffineField affine_field(const setup::TransferControl& control) {
   using enum transfer::AffineField;
@@ -238,7 +240,10 @@ void Simulation::bin_particles() {
   profile_.time("bin particles", [&] {
     if (setup_.transfer.random_shift) shift_grid();
     const grid::Stencil stencil = transfer::stencil(shape_);
-    if (!bin(stencil)) follow_particles(stencil);
+    const bool shares_are_old =
+        parallel::size(communicator_) > 1 && static_cast<double>(state_.particles_at_rest) <
+                                                 rest_of_old_shares * static_cast<double>(most_at_rest_);
+    if (!bin(stencil) || shares_are_old) follow_particles(stencil);
     if (state_.step % sort_every == 0) {
       sort_particles();
       if (!bin(stencil)) follow_particles(stencil);

@@ -35,6 +35,7 @@ struct RunState {
   double time_step = 0.0;             ///< s, of the last step; 0 before the first
   double maximum_acceleration = 0.0;  ///< m/s^2, in the last step
   std::int64_t step = 0;
+  std::int64_t particles_at_rest = 0;  ///< of all ranks, left as they were by the last step
   Ledger ledger;
 };
 
@@ -76,8 +77,6 @@ class Simulation {
   [[nodiscard]] std::vector<fem::Mesh> meshes_for_checkpoint() const;
   /// The bars, all on one rank. Collective.
   [[nodiscard]] std::vector<fem::Bars> bars_for_checkpoint() const;
-  /// How many of this rank's particles the last step has left at rest.
-  [[nodiscard]] std::size_t particles_at_rest() const { return at_rest_; }
   /// Number of elements of all ranks.
   [[nodiscard]] std::size_t element_count() const { return element_count_; }
   /// The bodies of bars: the share of this rank, with copies of the nodes that it shares with other ranks.
@@ -169,7 +168,8 @@ class Simulation {
   void shift_grid();
   void find_free_flight();
   [[nodiscard]] bool is_restless(std::size_t particle) const;
-  [[nodiscard]] int blocks_per_step() const;
+  [[nodiscard]] bool matter_may_rest() const;
+  [[nodiscard]] int layers_ahead_of_motion() const;
   void let_matter_rest();
   [[nodiscard]] double affine_inertia() const;
   [[nodiscard]] double particle_affine_inertia() const;
@@ -204,8 +204,7 @@ class Simulation {
   Acceleration acceleration_;
   std::vector<Vector3> external_acceleration_;  // of this step; empty without external forces
   std::vector<std::uint32_t> flying_;           // particles that fly without the grid in this step
-  std::size_t at_rest_ = 0;                     // particles that keep their state in this step
-  bool matter_rests_ = true;                    // on any rank; at first, it may
+  std::int64_t most_at_rest_ = 0;               // since the blocks were shared out among the ranks
   transfer::TransitionNodes transition_;        // nodes of elements that move with the grid in this step
   fem::SharedNodes shared_nodes_;
   std::vector<std::array<double, 5>> shared_;  // force (N), mass (kg), sound speed of all copies of each

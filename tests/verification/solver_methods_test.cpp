@@ -134,10 +134,10 @@ TEST(EveryMethod, LeavesMatterAtRestAheadOfWaves) {
     while (all.state().time < end) {
       all.advance(end);
       awake.advance(end);
-      EXPECT_EQ(all.particles_at_rest(), 0U);
-      most = std::max(most, awake.particles_at_rest());
+      EXPECT_EQ(all.state().particles_at_rest, 0);
+      most = std::max(most, static_cast<std::size_t>(awake.state().particles_at_rest));
     }
-    const std::size_t last = awake.particles_at_rest();
+    const auto last = static_cast<std::size_t>(awake.state().particles_at_rest);
     EXPECT_GT(most, awake.particles().size() / 2) << name_of(method);
     EXPECT_GT(last, 0U) << name_of(method);
     EXPECT_LT(last, 3 * most / 4) << name_of(method);  // the wave goes on
