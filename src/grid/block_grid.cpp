@@ -302,9 +302,9 @@ void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vect
 
 void BlockGrid::particles_reordered(std::span<const std::uint32_t> order) {
   if (is_shared()) return particles_reordered();
-  std::vector<std::int32_t> reordered(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) reordered[i] = slot_of_particle_[order[i]];
-  slot_of_particle_ = std::move(reordered);
+  reordered_.resize(order.size());
+  parallel::for_each(order.size(), [&](std::size_t i) { reordered_[i] = slot_of_particle_[order[i]]; });
+  slot_of_particle_.swap(reordered_);
 }
 
 void BlockGrid::particles_removed(std::span<const Move> moves, std::size_t size) {
@@ -463,8 +463,8 @@ std::size_t BlockGrid::let_rest(int layers, const std::function<bool(std::size_t
   return at_rest;
 }
 
-std::vector<std::uint32_t> BlockGrid::particles_by_stencil() const {
-  std::vector<std::uint32_t> order(particles_.points.size());
+void BlockGrid::list_by_stencil(std::vector<std::uint32_t>& order) const {
+  order.resize(particles_.points.size());
   parallel::for_each_uneven(slots(), [&](std::size_t slot) {  // counting sort
     const std::span<const std::uint32_t> members = particles_in(slot);
     if (members.empty()) return;
@@ -477,7 +477,6 @@ std::vector<std::uint32_t> BlockGrid::particles_by_stencil() const {
     std::partial_sum(next.begin(), next.end(), next.begin());
     for (const std::uint32_t p : members) order[next[first_node(p)]++] = p;
   });
-  return order;
 }
 
 void BlockGrid::set_apart() {

@@ -162,7 +162,7 @@ class BlockGrid {
   /// All particles, block by block: an order that keeps neighbours in memory near one another.
   [[nodiscard]] std::span<const std::uint32_t> particles_by_block() const { return particles_.points; }
   /// The same, those of a block by the first node of their stencils.
-  [[nodiscard]] std::vector<std::uint32_t> particles_by_stencil() const;
+  void list_by_stencil(std::vector<std::uint32_t>& order) const;
   /// The border are the slots whose points may reach nodes that other ranks wait for or send: worked on first
   /// when points bring something to the nodes, and last when they take something, so that the exchange goes
   /// on behind the interior. Each rank has its own; alone it has no border.
@@ -397,7 +397,7 @@ class BlockGrid {
   std::vector<std::uint32_t> existing_;  // bit per neighbour
   std::vector<Lanes> corner_;            // of each slot, in cells
   std::vector<Node> nodes_;
-  std::vector<std::int32_t> slot_of_particle_;
+  std::vector<std::int32_t> slot_of_particle_, reordered_;  // the latter: memory for the next sort
   std::vector<std::uint32_t> reached_;     // of each slot: bit per neighbour whose nodes its points may reach
   std::vector<std::uint16_t> cell_count_;  // particles in each cell of each slot
   std::vector<std::uint8_t> unshared_;     // slots that no other rank works with

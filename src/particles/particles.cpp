@@ -2,7 +2,6 @@
 #include "src/particles/particles.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <numeric>
 #include <type_traits>
@@ -24,30 +23,35 @@ void for_each_field_of(Particles& particles, Function&& f) {
   });
 }
 
-/// Fields of one type hand their memory on to one another: new pages cost more than the copy. Tensors go
-/// three numbers at a time, so that no more memory than that of a vector is needed beside the particles'.
+/// Vectors and numbers hand their memory on to one another, by way of the buffer. Tensors go through it three
+/// numbers at a time, and what few fields are of as a whole.
 template <class Value>
-void reorder_fields_of(Particles& particles, std::span<const std::uint32_t> order) {
-  if constexpr (sizeof(Value) > sizeof(Vector3)) {
-    using Part = std::array<double, 3>;
-    static_assert(sizeof(Value) % sizeof(Part) == 0);
-    std::vector<Part> sorted(order.size());
-    for_each_field_of<Value>(particles, [&](std::vector<Value>& values) {
-      for (std::size_t begin = 0; begin < sizeof(Value); begin += sizeof(Part)) {
-        const auto part = [&](std::size_t i) { return reinterpret_cast<char*>(&values[i]) + begin; };
-        parallel::for_each(order.size(),
-                           [&](std::size_t i) { std::memcpy(&sorted[i], part(order[i]), sizeof(Part)); });
-        parallel::for_each(order.size(),
-                           [&](std::size_t i) { std::memcpy(part(i), &sorted[i], sizeof(Part)); });
-      }
-      values.resize(order.size());
-    });
-  } else {
-    std::vector<Value> sorted;
+void reorder_fields_of(Particles& particles, std::span<const std::uint32_t> order, SortBuffers& buffers) {
+  const auto reorder_into = [&](auto& sorted) {
     for_each_field_of<Value>(particles, [&](std::vector<Value>& values) {
       sorted.resize(order.size());
       parallel::for_each(order.size(), [&](std::size_t i) { sorted[i] = values[order[i]]; });
       values.swap(sorted);
+    });
+  };
+  if constexpr (std::is_same_v<Value, Vector3>) {
+    reorder_into(buffers.vectors);
+  } else if constexpr (std::is_same_v<Value, double>) {
+    reorder_into(buffers.numbers);
+  } else {
+    constexpr std::size_t size = std::min(sizeof(Value), sizeof(Vector3));
+    static_assert(sizeof(Value) % size == 0);
+    buffers.vectors.resize(order.size());
+    for_each_field_of<Value>(particles, [&](std::vector<Value>& values) {
+      for (std::size_t begin = 0; begin < sizeof(Value); begin += size) {
+        const auto part = [&](std::size_t i) { return reinterpret_cast<char*>(&values[i]) + begin; };
+        const auto place = [&](std::size_t i) {
+          return reinterpret_cast<char*>(buffers.vectors.data()) + size * i;
+        };
+        parallel::for_each(order.size(), [&](std::size_t i) { std::memcpy(place(i), part(order[i]), size); });
+        parallel::for_each(order.size(), [&](std::size_t i) { std::memcpy(part(i), place(i), size); });
+      }
+      values.resize(order.size());
     });
   }
 }
@@ -56,11 +60,11 @@ template <class... Values>
 struct Types {
   template <class Value>
   static constexpr bool hold = (std::is_same_v<Value, Values> || ...);
-  static void reorder(Particles& particles, std::span<const std::uint32_t> order) {
+  static void reorder(Particles& particles, std::span<const std::uint32_t> order, SortBuffers& buffers) {
     for_each_field<Particles>([]<class Points, class Value>(const Field<Points, Value>&) {
       static_assert(hold<Value>, "a field of a type that is not reordered");
     });
-    (reorder_fields_of<Values>(particles, order), ...);
+    (reorder_fields_of<Values>(particles, order, buffers), ...);
   }
 };
 using FieldTypes =
@@ -68,8 +72,8 @@ using FieldTypes =
 
 }  // namespace
 
-void reorder(Particles& particles, std::span<const std::uint32_t> order) {
-  FieldTypes::reorder(particles, order);
+void reorder(Particles& particles, std::span<const std::uint32_t> order, SortBuffers& buffers) {
+  FieldTypes::reorder(particles, order, buffers);
 }
 
 void remove(Particles& particles, std::span<const Move> moves, std::size_t size) {
@@ -84,7 +88,8 @@ void sort_by_body(Particles& particles) {
   std::vector<std::uint32_t> order(particles.size());
   std::iota(order.begin(), order.end(), 0U);
   std::ranges::stable_sort(order, {}, [&](std::uint32_t p) { return particles.body[p]; });
-  reorder(particles, order);
+  SortBuffers buffers;
+  reorder(particles, order, buffers);
 }
 
 }  // namespace whipple

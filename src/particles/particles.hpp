@@ -36,9 +36,15 @@ struct Particles : MaterialPoints {
   }
 };
 
+/// Memory that is kept from one sort to the next: new pages cost more than the copy.
+struct SortBuffers {
+  std::vector<Vector3> vectors;
+  std::vector<double> numbers;
+};
+
 /// Brings every field into the order new[i] = old[order[i]]; `order` may be shorter than the particles
 /// (removal). Two calls that give the same order give bitwise the same particles.
-void reorder(Particles& particles, std::span<const std::uint32_t> order);
+void reorder(Particles& particles, std::span<const std::uint32_t> order, SortBuffers& buffers);
 
 /// Removes particles: `moves` as of `moves_into_gaps` over their bodies, `size` particles stay.
 void remove(Particles& particles, std::span<const Move> moves, std::size_t size);

@@ -201,8 +201,9 @@ void Simulation::follow_particles(grid::Stencil stencil) {
   const auto velocities = [&] {
     return with_guests(particles_.velocity, transition_.velocity, all_velocities);
   };
-  std::vector<double> work = work_of_particles(setup_, bodies_);
   elements_astray_ = parallel::size(communicator_) > 1;
+  std::vector<double> work;  // one rank has nothing to share out
+  if (elements_astray_) work = work_of_particles(setup_, bodies_);
   if (elements_astray_ && matter_may_rest()) {
     parallel::for_each(work.size(), [&](std::size_t p) { work[p] *= is_restless(p) ? 1.0 : share_of_rest; });
     most_at_rest_ = 0;
@@ -224,8 +225,8 @@ void Simulation::follow_particles(grid::Stencil stencil) {
     }
     grid_.adapt(at, moving, lookahead, stencil, {work, work_of_block, centres.size()});
   }
-  const std::vector<int> owners = grid_.owners(particles_.position);
-  if (migrate(particles_, owners, communicator_)) {
+  if (parallel::size(communicator_) > 1 &&
+      migrate(particles_, grid_.owners(particles_.position), communicator_)) {
     find_bodies();
   }
   grid_.activate(positions(), velocities(), lookahead, stencil, transition_.size());

@@ -270,10 +270,11 @@ bool Simulation::bin(grid::Stencil stencil) {
 void Simulation::sort_particles() {
   std::vector<std::uint32_t> next;
   for (const setup::BodySummary& body : bodies_) next.push_back(static_cast<std::uint32_t>(body.first));
-  std::vector<std::uint32_t> order(particles_.size());
-  for (const std::uint32_t p : grid_.particles_by_stencil()) order[next[particles_.body[p]]++] = p;
-  reorder(particles_, order);
-  grid_.particles_reordered(order);
+  grid_.list_by_stencil(by_stencil_);
+  sorted_.resize(particles_.size());
+  for (const std::uint32_t p : by_stencil_) sorted_[next[particles_.body[p]]++] = p;
+  reorder(particles_, sorted_, sort_buffers_);
+  grid_.particles_reordered(sorted_);
 }
 
 /// After particles came, went or changed their places.

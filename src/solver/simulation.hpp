@@ -202,10 +202,12 @@ class Simulation {
   Profile profile_;
   double squared_change_ = 0.0;  // m^2/s^2, the largest of a particle's velocity in the step under way
   Acceleration acceleration_;
-  std::vector<Vector3> external_acceleration_;  // of this step; empty without external forces
-  std::vector<std::uint32_t> flying_;           // particles that fly without the grid in this step
-  std::int64_t most_at_rest_ = 0;               // since the blocks were shared out among the ranks
-  transfer::TransitionNodes transition_;        // nodes of elements that move with the grid in this step
+  std::vector<Vector3> external_acceleration_;      // of this step; empty without external forces
+  std::vector<std::uint32_t> flying_;               // particles that fly without the grid in this step
+  std::vector<std::uint32_t> by_stencil_, sorted_;  // of the last sort; their memory is kept for the next
+  SortBuffers sort_buffers_;
+  std::int64_t most_at_rest_ = 0;         // since the blocks were shared out among the ranks
+  transfer::TransitionNodes transition_;  // nodes of elements that move with the grid in this step
   fem::SharedNodes shared_nodes_;
   std::vector<std::array<double, 5>> shared_;  // force (N), mass (kg), sound speed of all copies of each
   bool elements_astray_ = false;               // the forest was divided anew since elements were

@@ -41,7 +41,8 @@ class RanksTest : public ::testing::Test {
       std::iota(order.begin(), order.end(), static_cast<std::uint32_t>(begin));
     }
     Particles mine = all;
-    reorder(mine, order);
+    SortBuffers buffers;
+    reorder(mine, order, buffers);
     return mine;
   }
   Ranks ranks_{MPI_COMM_WORLD};
@@ -71,7 +72,8 @@ TEST_F(RanksTest, a_checkpoint_does_not_depend_on_the_number_of_ranks) {
   std::vector<std::uint32_t> order(part.particles.size());
   std::iota(order.begin(), order.end(), first);
   Particles expected = all;
-  reorder(expected, order);
+  SortBuffers buffers;
+  reorder(expected, order, buffers);
   EXPECT_EQ(differing_fields(part.particles, expected), "");
 }
 

@@ -161,7 +161,8 @@ TYPED_TEST(AffineTransfer, NodesMoveLikeParticlesUnderTheSameForce) {
   Particles alone = q;
   std::vector<std::uint32_t> order(first);
   std::iota(order.begin(), order.end(), 0U);
-  reorder(alone, order);
+  SortBuffers buffers;
+  reorder(alone, order, buffers);
   const auto step = [&](Particles& particles, TransitionNodes* guests) {
     grid::BlockGrid grid(geometry(planes), parallel::world());
     grid.adapt(q.position, q.velocity, 0.0, TypeParam::stencil);

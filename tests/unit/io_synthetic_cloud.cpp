@@ -207,7 +207,8 @@ int write_cloud(int argc, char** argv) {
     }
   }
   Particles start = all;
-  reorder(start, order);
+  SortBuffers buffers;
+  reorder(start, order, buffers);
 
   ParticleSeries series({.folder = path,
                          .name = "cloud",

@@ -80,7 +80,8 @@ void check_lists(const BlockGrid& grid, const std::vector<Vector3>& x) {
   }
   for (const int count : seen) EXPECT_EQ(count, 1);
   // In the order by stencil every particle comes once, those of one stencil follow one another.
-  const std::vector<std::uint32_t> ordered = grid.particles_by_stencil();
+  std::vector<std::uint32_t> ordered;
+  grid.list_by_stencil(ordered);
   EXPECT_TRUE(std::ranges::is_permutation(ordered, grid.particles_by_block()));
   const auto places = grid.places(BlockGrid::Points::particles);
   for (std::size_t s = 0; s < grid.slots(); ++s) {
