@@ -17,7 +17,7 @@ template <class Points, class Value>
 struct Field {
   const char* name;
   const char* unit;
-  std::vector<Value> Points::*values;
+  std::vector<Value> Points::* values;
   bool optional = false;  ///< empty unless a material or method of the run needs it
   double neutral = 0.0;   ///< of optional numbers: what points have that do not need them
 

@@ -34,7 +34,7 @@ struct Totals {
 
 /// Calls f(name, number) for every number of the sums: one list for checkpoints and sums over ranks.
 template <class T, class Function>
-requires std::same_as<std::remove_const_t<T>, Totals>
+  requires std::same_as<std::remove_const_t<T>, Totals>
 void for_each_number(T& totals, Function&& f) {
   f("mass", totals.mass);
   f("momentum_x", totals.momentum[0]);
@@ -97,7 +97,7 @@ struct Ledger {
 
 /// Calls f(name, number) for every number of the ledger.
 template <class L, class Function>
-requires std::same_as<std::remove_const_t<L>, Ledger>
+  requires std::same_as<std::remove_const_t<L>, Ledger>
 void for_each_number(L& ledger, Function&& f) {
   for_each_number(ledger.initial, [&](const std::string& name, auto& x) { f("initial_" + name, x); });
   for_each_number(ledger.outflow, [&](const std::string& name, auto& x) { f("outflow_" + name, x); });
