@@ -76,7 +76,9 @@ class BlockGrid {
   /// Collective over `communicator`.
   BlockGrid(const Geometry& geometry, MPI_Comm communicator);
 
-  /// Finds the block of every particle and lists the particles by block, in the order of their index.
+  /// Finds the block of every particle and lists the particles by block, in the order of their index. Blocks
+  /// that rest (`let_rest`) stay off the lists until something comes to them: their particles must not have
+  /// moved.
   /// @param guests other points that work with the nodes (nodes of finite elements): listed apart
   /// @returns false, on every rank, if the stencil of some particle or guest reaches beyond the active
   /// blocks: then `adapt` and `activate` must follow, and another `bin`. Collective.
@@ -114,12 +116,18 @@ class BlockGrid {
   /// Takes particles (ascending) off the lists of their blocks until the next `bin`: the transfers do not see
   /// them.
   void release(std::span<const std::uint32_t> particles);
-  /// Takes the particles of blocks at rest off the lists until the next `bin`; after `bin` and `release`.
+  /// Finds the blocks at rest and takes their particles off the lists; after `bin` and `release`.
   /// Awake are blocks that are restless or hold guests, and `layers` of blocks around them, one after the
   /// other: those that reach nodes of blocks whose nodes an awake one reaches. Collective.
-  /// @param is_restless  is_restless(slot): does something in it move?
-  /// @returns number of particles of this rank that were taken off
+  /// @param is_restless  is_restless(slot): does something in it move? Not asked of blocks that rested before
+  /// @returns number of particles of this rank at rest
   std::size_t let_rest(int layers, const std::function<bool(std::size_t)>& is_restless);
+  /// No block rests any longer.
+  void wake();
+  /// Do the particles from `chunk` times parallel::chunk_size on all rest?
+  [[nodiscard]] bool chunk_rests(std::size_t chunk) const;
+  /// Changes whenever particles may have come, gone or changed their order.
+  [[nodiscard]] std::size_t arrangement() const { return arrangement_; }
 
   /// Points of the grid with the velocity field (below `maximum_fields`) of each.
   struct FieldPoints {
@@ -134,7 +142,7 @@ class BlockGrid {
                        unsigned fields, bool everywhere = false);
 
   /// Particles changed their order or number: the next `bin` looks every block up anew.
-  void particles_reordered() { slot_of_particle_.clear(); }
+  void particles_reordered();
   /// The same when every particle is still there: new[i] = old[order[i]]. On one rank the blocks stay known.
   void particles_reordered(std::span<const std::uint32_t> order);
   /// Particles left and others took their places: the blocks stay known.
@@ -336,7 +344,9 @@ class BlockGrid {
                                                        std::span<const Vector3> velocity, double lookahead,
                                                        Stencil stencil, const Work& work) const;
   bool locate_guests(std::span<const Vector3> guests, Stencil stencil);
-  void list_points();
+  void list_particles();
+  void list_guests();
+  void forget_runs();
   void lay_out_nodes();
   void find_mirror_nodes();
   void find_border();
@@ -401,11 +411,21 @@ class BlockGrid {
   std::vector<std::uint32_t> reached_;     // of each slot: bit per neighbour whose nodes its points may reach
   std::vector<std::uint16_t> cell_count_;  // particles in each cell of each slot
   std::vector<std::uint8_t> unshared_;     // slots that no other rank works with
-  std::vector<std::uint8_t> released_;     // of each particle, or empty
-  std::vector<std::uint8_t> resting_;      // of each slot, or empty
+  std::vector<std::uint32_t> released_;    // particles, ascending
+  std::vector<std::uint8_t> resting_;      // of each slot, while `runs_known_`
   std::vector<std::int32_t> slot_of_guest_;
   std::vector<PlaceInStencil> place_of_particle_, place_of_guest_;
   PointList particles_, guests_;
+  /// Particles of one block that follow one another in memory.
+  struct Run {
+    std::uint32_t slot = 0;
+    std::uint32_t begin = 0, end = 0;
+    std::uint32_t place = 0;  ///< of the first in the list of particles
+  };
+  std::vector<std::vector<Run>> runs_;  // of each chunk of particles
+  bool runs_known_ = false;             // from the last `bin`
+  std::size_t arrangement_ = 0;
+  std::vector<std::uint32_t> next_;  // place for the next point of each slot, while lists are made
   /// Slots in groups: single blocks, or where there are many, cubes of two by two by two. A thread works
   /// through a cube on its own: its blocks follow one another in memory, and so do their particles.
   struct SlotGroups {

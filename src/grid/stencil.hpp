@@ -35,6 +35,10 @@ inline Lanes corner_of(const BlockCoordinate& block) {
 }
 /// Position in cells from the corner of the block that it lies in, below the block's upper corner: where it
 /// is just below a corner at zero, the difference may round up.
+/// Is a position, in cells from the lower corner of a block, inside of it?
+inline bool is_inside(Lanes local) {
+  return bits((local >= 0.0) & (local < double{block_edge})) == all_lanes;
+}
 inline Lanes position_in_block(Lanes in_cells, Lanes corner) {
   constexpr double below_end = block_edge * (1.0 - std::numeric_limits<double>::epsilon());
   return minimum(in_cells - corner, broadcast(below_end));

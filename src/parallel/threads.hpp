@@ -43,14 +43,22 @@ void for_each_chunk(std::size_t n, Body&& body) {
   for_each_uneven(chunks, [&](std::size_t c) { body(c * chunk_size, std::min(n, (c + 1) * chunk_size)); });
 }
 
+/// Sets of_chunk[c] to value(begin, end) of every chunk of at most `chunk_size` items, but where stays(c)
+/// leaves it as it is.
+template <class Value, class Stays, class Evaluate>
+void update_chunks(std::size_t n, std::vector<Value>& of_chunk, Stays&& stays, Evaluate&& value) {
+  of_chunk.resize((n + chunk_size - 1) / chunk_size);
+  for_each(of_chunk.size(), [&](std::size_t c) {
+    if (!stays(c)) of_chunk[c] = value(c * chunk_size, std::min(n, (c + 1) * chunk_size));
+  });
+}
+
 /// Sum over chunks of at most `chunk_size` items of term(begin, end), whose value is default-constructible to
 /// zero and has +=. Chunks are summed in their order.
 template <class Sum, class Term>
 Sum sum_of_chunks(std::size_t n, Term&& term) {
-  const std::size_t chunks = (n + chunk_size - 1) / chunk_size;
-  std::vector<Sum> partial(chunks);
-  for_each(chunks,
-           [&](std::size_t c) { partial[c] = term(c * chunk_size, std::min(n, (c + 1) * chunk_size)); });
+  std::vector<Sum> partial;
+  update_chunks(n, partial, [](std::size_t) { return false; }, term);
   Sum total{};
   for (const Sum& part : partial) total += part;
   return total;

@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 
 #include "src/parallel/mpi.hpp"
+#include "src/parallel/threads.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {
@@ -53,10 +55,11 @@ void Simulation::find_free_flight() {
     return particles_.failed[p] != 0 && particles_.pressure[p] == 0.0 &&
            particles_.artificial_viscosity[p] == 0.0;
   };
+  const std::vector<std::uint32_t> loose = parallel::where(particles_.size(), without_stress);
+  if (loose.empty()) return;
   grid_.count_cells(particles_.position, transition_.position);
-  for (std::uint32_t p = 0; p < particles_.size(); ++p) {
-    if (without_stress(p) && grid_.is_alone(p, particles_.position[p])) flying_.push_back(p);
-  }
+  std::ranges::copy_if(loose, std::back_inserter(flying_),
+                       [&](std::uint32_t p) { return grid_.is_alone(p, particles_.position[p]); });
   grid_.release(flying_);
 }
 
@@ -93,7 +96,10 @@ int Simulation::layers_ahead_of_motion() const {
 /// part and are quiet: what is missing at their outer nodes is below the tolerance. What takes part keeps
 /// mass, momentum and energy among itself.
 void Simulation::let_matter_rest() {
-  if (!matter_may_rest()) return;
+  if (!matter_may_rest()) {
+    grid_.wake();  // forces may have been set
+    return;
+  }
   // What has been stirred hardly comes to rest again: where nothing rests, that is seldom looked for.
   if (state_.particles_at_rest == 0 && state_.step % look_for_rest_every != 0) return;
   const std::size_t at_rest = grid_.let_rest(layers_ahead_of_motion(), [&](std::size_t slot) {

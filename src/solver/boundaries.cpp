@@ -12,8 +12,10 @@
 namespace whipple::solver {
 namespace {
 
-/// Particles outside of the domain, ascending. Four are passed over at once where none of them is.
-std::vector<std::uint32_t> outside_of(const grid::Geometry& g, std::span<const Vector3> position) {
+/// Particles outside of the domain, ascending; those at rest were inside before. Four are passed over at once
+/// where none of them is.
+std::vector<std::uint32_t> outside_of(const grid::Geometry& g, std::span<const Vector3> position,
+                                      const grid::BlockGrid& grid) {
   const Lanes lower = {g.lower[0], g.lower[1], g.lower[2], 0.0};
   const Lanes upper = {g.upper(0), g.upper(1), g.upper(2), 0.0};
   const auto turned = [](Lanes bound) {  // beside x y z x, y z x y, z x y z of four positions
@@ -25,6 +27,7 @@ std::vector<std::uint32_t> outside_of(const grid::Geometry& g, std::span<const V
   std::vector<std::vector<std::uint32_t>> found((position.size() + parallel::chunk_size - 1) /
                                                 parallel::chunk_size);
   parallel::for_each_chunk(position.size(), [&](std::size_t begin, std::size_t end) {
+    if (grid.chunk_rests(begin / parallel::chunk_size)) return;
     const auto look_at = [&](std::size_t p) {
       const Lanes at = load_vector(position[p].data());
       if (bits((at >= lower) & (at <= upper)) == all_lanes) return;
@@ -54,7 +57,7 @@ void Simulation::reflect_and_remove() {
     remove_elements_outside();
     remove_bars_outside();
     const grid::Geometry& g = setup_.geometry;
-    const std::vector<std::uint32_t> outside = outside_of(g, particles_.position);
+    const std::vector<std::uint32_t> outside = outside_of(g, particles_.position, grid_);
     std::vector<std::uint32_t> leaving;
     for (const std::uint32_t p : outside) {
       bool leaves = false;

@@ -82,10 +82,19 @@ Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_
 
 }  // namespace
 
-Totals totals_of(const Particles& particles, double affine_inertia) {
-  return parallel::sum_of_chunks<Totals>(particles.size(), [&](std::size_t begin, std::size_t end) {
+Totals totals_of(const Particles& particles, double affine_inertia, std::vector<Totals>& of_chunk,
+                 const std::function<bool(std::size_t)>& stays) {
+  parallel::update_chunks(particles.size(), of_chunk, stays, [&](std::size_t begin, std::size_t end) {
     return totals_of_range(particles, begin, end, affine_inertia);
   });
+  Totals sum;
+  for (const Totals& part : of_chunk) sum += part;
+  return sum;
+}
+
+Totals totals_of(const Particles& particles, double affine_inertia) {
+  std::vector<Totals> of_chunk;
+  return totals_of(particles, affine_inertia, of_chunk, [](std::size_t) { return false; });
 }
 
 Totals totals_of(const fem::Mesh& mesh, double affine_inertia) {

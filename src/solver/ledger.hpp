@@ -4,6 +4,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -52,6 +53,11 @@ void for_each_number(T& totals, Function&& f) {
 Totals totals_of(const Particles& particles, std::size_t p, double affine_inertia);
 /// Of all particles of this rank; bitwise independent of the number of threads.
 Totals totals_of(const Particles& particles, double affine_inertia);
+/// The same.
+/// @param of_chunk  sums of each chunk of particles, by the last call
+/// @param stays     stays(chunk): are its particles as they were then?
+Totals totals_of(const Particles& particles, double affine_inertia, std::vector<Totals>& of_chunk,
+                 const std::function<bool(std::size_t)>& stays);
 /// Of the elements of a mesh and their nodes; bitwise independent of the number of threads.
 Totals totals_of(const fem::Mesh& mesh, double affine_inertia);
 Totals totals_of(const fem::Bars& bars, double affine_inertia);

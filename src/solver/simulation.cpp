@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "src/afemp/transition.hpp"
 #include "src/base/error.hpp"
@@ -131,7 +132,8 @@ void Simulation::require_fields() const {
 
 /// Totals of all ranks, and what the step did to them.
 void Simulation::sum_over_ranks() {
-  totals_ = totals_of(particles_, particle_affine_inertia());
+  totals_ = totals_of(particles_, particle_affine_inertia(), totals_of_chunk_.values,
+                      stays_since(totals_of_chunk_.arrangement));
   for (const fem::Mesh& mesh : meshes_) totals_ += totals_of(mesh, affine_inertia());
   for (const fem::Bars& bars : bars_) totals_ += totals_of(bars, affine_inertia());
   std::array<double, 2> counts = {static_cast<double>(particles_.size()), 0.0};
@@ -169,17 +171,34 @@ void Simulation::advance(double until) {
 }
 
 /// For what moves with the grid; infinite if nothing does.
-double Simulation::grid_time_step() const {
-  const auto fastest = [](const auto& points) {
-    return parallel::maximum(points.size(), 0.0, [&](std::size_t p) {
-      return points.sound_speed[p] + points.velocity[p].cwiseAbs().maxCoeff();
-    });
+double Simulation::grid_time_step() {
+  const auto speed_of = [](const auto& points, std::size_t p) {
+    return points.sound_speed[p] + points.velocity[p].cwiseAbs().maxCoeff();
   };
-  const double speed = parallel::maximum(communicator_, std::max(fastest(particles_), fastest(transition_)));
+  parallel::update_chunks(particles_.size(), fastest_of_chunk_.values,
+                          stays_since(fastest_of_chunk_.arrangement),
+                          [&](std::size_t begin, std::size_t end) {
+                            double fastest = 0.0;
+                            for (std::size_t p = begin; p < end; ++p) {
+                              fastest = std::max(fastest, speed_of(particles_, p));
+                            }
+                            return fastest;
+                          });
+  double speed =
+      parallel::maximum(transition_.size(), 0.0, [&](std::size_t p) { return speed_of(transition_, p); });
+  for (const double fastest : fastest_of_chunk_.values) speed = std::max(speed, fastest);
+  speed = parallel::maximum(communicator_, speed);
   return setup_.time.courant * setup_.domain.cell_size / speed;
 }
 
-double Simulation::stable_time_step() const {
+/// For values by chunk of particles that are kept from step to step: those of matter at rest stay.
+/// @param arrangement  of the particles when the values were found; set to that of now
+std::function<bool(std::size_t)> Simulation::stays_since(std::size_t& arrangement) const {
+  const bool same = std::exchange(arrangement, grid_.arrangement()) == grid_.arrangement();
+  return [this, same](std::size_t chunk) { return same && grid_.chunk_rests(chunk); };
+}
+
+double Simulation::stable_time_step() {
   const double dx = setup_.domain.cell_size;
   double dt = std::min({grid_time_step(), diffusive_time_step(), element_time_step()});
   if (state_.maximum_acceleration > 0.0) {
@@ -245,6 +264,7 @@ void Simulation::bin_particles() {
                                                  rest_of_old_shares * static_cast<double>(most_at_rest_);
     if (!bin(stencil) || shares_are_old) follow_particles(stencil);
     if (state_.step % sort_every == 0) {
+      grid_.wake();
       sort_particles();
       if (!bin(stencil)) follow_particles(stencil);
     }

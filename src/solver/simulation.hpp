@@ -100,8 +100,8 @@ class Simulation {
 
   // The calls of the schemes, in the order of the step.
   void adapt_elements();
-  [[nodiscard]] double stable_time_step() const;
-  [[nodiscard]] double grid_time_step() const;
+  [[nodiscard]] double stable_time_step();
+  [[nodiscard]] double grid_time_step();
   [[nodiscard]] double element_time_step() const;
   [[nodiscard]] double diffusive_time_step() const;
   void begin_step(double until);
@@ -143,6 +143,7 @@ class Simulation {
   void warn_of_contact() const;
   bool bin(grid::Stencil stencil);
   void sum_over_ranks();
+  [[nodiscard]] std::function<bool(std::size_t)> stays_since(std::size_t& arrangement) const;
   void follow_particles(grid::Stencil stencil);
   void find_bodies();
   void keep_own_elements();
@@ -198,6 +199,13 @@ class Simulation {
   RunState state_;
   Ledger step_;  // what happened on this rank in the step under way
   Totals totals_;
+  template <class Value>
+  struct KeptByChunk {
+    std::vector<Value> values;
+    std::size_t arrangement = 0;  // of the particles then
+  };
+  KeptByChunk<Totals> totals_of_chunk_;
+  KeptByChunk<double> fastest_of_chunk_;  // sound speed and velocity, m/s
   std::size_t particle_count_ = 0, element_count_ = 0;
   Profile profile_;
   double squared_change_ = 0.0;  // m^2/s^2, the largest of a particle's velocity in the step under way

@@ -196,5 +196,78 @@ TEST(BlockGrid, RefusesPositionsOutsideOfTheDomain) {
   }
 }
 
+/// A row of particles, one per cell along z, of which those with z below `end` move.
+struct Row {
+  std::vector<Vector3> x;
+  double end = 0.0;
+
+  Row() {
+    for (int i = 0; i < 400; ++i) x.emplace_back(22.25, 18.25, i + 0.5);
+  }
+  /// One step's way through the grid. @returns the number of particles at rest
+  std::size_t bin_and_rest(BlockGrid& grid) const {
+    const std::vector<Vector3> v(x.size(), Vector3::Zero());
+    bin(grid, x, v, 0.0, {.shift = 0.5, .count = 3});
+    return grid.let_rest(1, [&](std::size_t slot) {
+      return std::ranges::any_of(grid.particles_in(slot), [&](std::uint32_t p) { return x[p][2] < end; });
+    });
+  }
+};
+
+std::size_t listed(const BlockGrid& grid) { return grid.particles_by_block().size(); }
+
+TEST(BlockGrid, BlocksAtRestStayOffTheListsUntilMotionComesToThem) {
+  BlockGrid grid(geometry(), parallel::world());
+  Row row;
+  row.end = 8.0;  // the first two blocks, and with them the two that share nodes with the second
+  EXPECT_EQ(row.bin_and_rest(grid), 400U - 16U);
+  EXPECT_EQ(listed(grid), 16U);
+  EXPECT_EQ(row.bin_and_rest(grid), 400U - 16U) << "what rested is not asked again";
+  row.end = 12.0;
+  EXPECT_EQ(row.bin_and_rest(grid), 400U - 20U);
+  // One comes flying into a block at rest: all of that block are listed from the next `bin` on.
+  row.x[0] = Vector3(22.25, 18.25, 15.9);
+  row.bin_and_rest(grid);
+  row.x[0][2] = 16.1;
+  row.bin_and_rest(grid);
+  ASSERT_TRUE(grid.bin(row.x, {.shift = 0.5, .count = 3}));
+  const auto slot = static_cast<std::size_t>(grid.slot_at(row.x[0]));
+  EXPECT_EQ(grid.particles_in(slot).size(), 5U);
+  EXPECT_EQ(grid.particles_in(slot).front(), 0U);
+  grid.wake();
+  EXPECT_EQ(listed(grid), 400U);
+  check_lists(grid, row.x);
+}
+
+TEST(BlockGrid, AReleasedParticleKeepsItsBlockAwake) {
+  BlockGrid grid(geometry(), parallel::world());
+  Row row;  // nothing moves
+  EXPECT_EQ(row.bin_and_rest(grid), 400U);
+  ASSERT_TRUE(grid.bin(row.x, {.shift = 0.5, .count = 3}));
+  const std::array<std::uint32_t, 2> released = {201U, 202U};
+  grid.release(released);
+  const auto none_moves = [](std::size_t) { return false; };
+  EXPECT_EQ(grid.let_rest(1, none_moves), 400U - 12U);
+  EXPECT_EQ(listed(grid), 10U) << "three blocks without the two";
+  row.x[201][2] += 4.0;  // may fly on, into another block
+  ASSERT_TRUE(grid.bin(row.x, {.shift = 0.5, .count = 3}));
+  grid.wake();
+  check_lists(grid, row.x);
+}
+
+TEST(BlockGrid, AnOtherArrangementWakesEverything) {
+  BlockGrid grid(geometry(), parallel::world());
+  Row row;
+  EXPECT_EQ(row.bin_and_rest(grid), 400U);
+  EXPECT_TRUE(grid.chunk_rests(0));
+  const std::size_t arrangement = grid.arrangement();
+  std::ranges::reverse(row.x);
+  grid.particles_reordered();
+  EXPECT_FALSE(grid.chunk_rests(0));
+  EXPECT_NE(grid.arrangement(), arrangement);
+  ASSERT_TRUE(grid.bin(row.x, {.shift = 0.5, .count = 3}));
+  check_lists(grid, row.x);
+}
+
 }  // namespace
 }  // namespace whipple::grid

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the points of the grid are: the block of each, its place there, the lists of the blocks, and which of
+// the blocks rest (docs/theory/mpm.md, section 8).
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+#include "src/grid/block_grid.hpp"
+#include "src/grid/block_reach.hpp"
+#include "src/parallel/mpi.hpp"
+#include "src/parallel/threads.hpp"
+
+namespace whipple::grid {
+
+bool BlockGrid::bin(std::span<const Vector3> position, Stencil stencil, std::span<const Vector3> guests) {
+  const bool known = slot_of_particle_.size() == position.size() || (!is_shared() && look_up(position));
+  const bool complete = known && locate(position, stencil) && locate_guests(guests, stencil);
+  if (parallel::any(communicator_, !complete)) {
+    forget_runs();
+    return false;
+  }
+  released_.clear();
+  list_particles();
+  list_guests();
+  return true;
+}
+
+/// Finds the slot of every particle; false if one is outside of the active set.
+bool BlockGrid::look_up(std::span<const Vector3> position) {
+  forget_runs();
+  slot_of_particle_.resize(position.size());
+  std::atomic<bool> complete = true;
+  parallel::for_each_chunk(position.size(), [&](std::size_t begin, std::size_t end) {
+    std::int32_t slot = no_slot;
+    for (std::size_t p = begin; p < end; ++p) {
+      // Neighbours in memory are mostly in one block.
+      if (slot == no_slot || !is_inside(in_cells(position[p]) - corner_[static_cast<std::size_t>(slot)])) {
+        slot = slot_at(position[p]);
+      }
+      if (slot == no_slot) complete = false;
+      slot_of_particle_[p] = slot;
+    }
+  });
+  if (!complete) slot_of_particle_.clear();
+  return complete;
+}
+
+/// Updates the slot of every particle from its former slot; false if a particle left the active set. Where
+/// matter rests all is as it was.
+bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
+  place_of_particle_.resize(position.size());
+  if (!runs_known_) {
+    resting_.assign(slots(), 0);
+    reached_.assign(slots(), 0);
+    runs_.resize((position.size() + parallel::chunk_size - 1) / parallel::chunk_size);
+    for (std::size_t c = 0; c < runs_.size(); ++c) {
+      const std::size_t begin = c * parallel::chunk_size;
+      const std::size_t end = std::min(position.size(), begin + parallel::chunk_size);
+      runs_[c].assign(1,
+                      {.begin = static_cast<std::uint32_t>(begin), .end = static_cast<std::uint32_t>(end)});
+    }
+    runs_known_ = true;
+  }
+  for (std::size_t s = 0; s < slots(); ++s) {
+    if (resting_[s] == 0) reached_[s] = 0;
+  }
+  const StencilPlaces places(stencil);
+  std::atomic<bool> complete = true;
+  // Do all particles of a run reach active blocks only? The box around their stencils mostly tells.
+  const auto is_active = [&](const Run& run, Lanes first, Lanes last) {
+    const std::uint32_t absent = ~existing_[run.slot];
+    const std::uint32_t touched = touched_neighbours_of_box(first, last, stencil);
+    std::atomic_ref(reached_[run.slot]).fetch_or(touched, std::memory_order_relaxed);
+    if ((touched & absent) == 0) return true;
+    for (std::size_t p = run.begin; p < run.end; ++p) {
+      const Lanes local = position_in_block(in_cells(position[p]), corner_[run.slot]);
+      if ((touched_neighbours(local, stencil) & absent) != 0) return false;
+    }
+    return true;
+  };
+  parallel::for_each_uneven(runs_.size(), [&](std::size_t c) {
+    thread_local std::vector<Run> found;
+    found.clear();
+    Run now;  // of the particles before
+    Lanes least{}, greatest{};
+    const auto finish = [&] {
+      if (now.begin == now.end) return;
+      if (!is_active(now, least, greatest)) complete = false;
+      found.push_back(now);
+      now = {};
+    };
+    for (const Run& before : runs_[c]) {
+      if (std::atomic_ref(resting_[before.slot]).load(std::memory_order_relaxed) != 0) {
+        finish();
+        found.push_back(before);
+        continue;
+      }
+      for (std::uint32_t p = before.begin; p < before.end; ++p) {
+        auto slot = static_cast<std::uint32_t>(slot_of_particle_[p]);
+        const Lanes at = in_cells(position[p]);
+        Lanes local = at - corner_[slot];
+        if (!is_inside(local)) {
+          const std::int32_t moved = slot_of_neighbour(slot, at);
+          if (moved == no_slot) {
+            complete = false;
+            return;
+          }
+          slot = static_cast<std::uint32_t>(moved);
+          slot_of_particle_[p] = moved;
+          local = position_in_block(at, corner_[slot]);
+          // Where something comes to is not at rest.
+          std::atomic_ref(resting_[slot]).store(0, std::memory_order_relaxed);
+        }
+        const Lanes first = places.first_node(local);
+        place_of_particle_[p] = places.at(local, first);
+        if (slot == now.slot && now.begin != now.end) {
+          least = minimum(least, first);
+          greatest = maximum(greatest, first);
+        } else {
+          finish();
+          now.slot = slot, now.begin = p;
+          least = greatest = first;
+        }
+        now.end = p + 1;
+      }
+    }
+    finish();
+    runs_[c].assign(found.begin(), found.end());
+  });
+  return complete;
+}
+
+/// Slot of the block around a position in a slot's block or one of its neighbours; `no_slot` if that is not
+/// active or farther away.
+std::int32_t BlockGrid::slot_of_neighbour(std::size_t slot, Lanes in_cells) const {
+  int neighbour = 0;
+  for (int a = 0; a < 3; ++a) {
+    const double block = std::floor(in_cells[a] / block_edge);
+    const double offset = block - blocks_.coordinate[slot][static_cast<std::size_t>(a)];
+    if (!(std::abs(offset) <= 1.0)) return no_slot;
+    neighbour = neighbour * 3 + static_cast<int>(offset) + 1;
+  }
+  return neighbours_[slot][static_cast<std::size_t>(neighbour)];
+}
+
+/// Guests come and go, so each one's block is looked up; false if a stencil reaches beyond the active set.
+bool BlockGrid::locate_guests(std::span<const Vector3> guests, Stencil stencil) {
+  slot_of_guest_.resize(guests.size());
+  place_of_guest_.resize(guests.size());
+  const StencilPlaces places(stencil);
+  for (std::size_t g = 0; g < guests.size(); ++g) {
+    const std::int32_t slot = slot_at(guests[g]);
+    if (slot == no_slot) return false;
+    slot_of_guest_[g] = slot;
+    const auto at = static_cast<std::size_t>(slot);
+    const Lanes local = position_in_block(in_cells(guests[g]), corner_[at]);
+    place_of_guest_[g] = places(local);
+    const std::uint32_t touched = touched_neighbours(local, stencil);
+    reached_[at] |= touched;
+    if ((touched & ~existing_[at]) != 0) return false;
+  }
+  return true;
+}
+
+/// Counting sort of whole runs by slot; stable, so that the particles of a block keep the order of their
+/// indices.
+void BlockGrid::list_particles() {
+  PointList& list = particles_;
+  list.begin.assign(slots() + 1, 0);
+  for (const std::vector<Run>& runs : runs_) {
+    for (const Run& run : runs) {
+      if (resting_[run.slot] == 0) list.begin[run.slot + 1] += run.end - run.begin;
+    }
+  }
+  for (const std::uint32_t p : released_) --list.begin[static_cast<std::size_t>(slot_of_particle_[p]) + 1];
+  std::partial_sum(list.begin.begin(), list.begin.end(), list.begin.begin());
+  list.points.resize(list.begin.back());
+  next_.assign(list.begin.begin(), list.begin.end() - 1);
+  auto left_out = released_.begin();
+  for (std::vector<Run>& runs : runs_) {
+    for (Run& run : runs) {
+      run.place = next_[run.slot];
+      if (resting_[run.slot] != 0) continue;
+      next_[run.slot] += run.end - run.begin;
+      for (; left_out != released_.end() && *left_out < run.end; ++left_out) --next_[run.slot];
+    }
+  }
+  parallel::for_each(runs_.size(), [&](std::size_t c) {
+    auto skipped = std::ranges::lower_bound(released_, runs_[c].empty() ? 0U : runs_[c].front().begin);
+    for (const Run& run : runs_[c]) {
+      if (resting_[run.slot] != 0) continue;
+      std::uint32_t* to = list.points.data() + run.place;
+      std::uint32_t p = run.begin;
+      for (; skipped != released_.end() && *skipped < run.end; ++skipped, ++p) {
+        for (; p < *skipped; ++p) *to++ = p;
+      }
+      for (; p < run.end; ++p) *to++ = p;
+    }
+  });
+}
+
+void BlockGrid::list_guests() {
+  guests_.begin.assign(slots() + 1, 0);
+  for (const std::int32_t slot : slot_of_guest_) ++guests_.begin[static_cast<std::size_t>(slot) + 1];
+  std::partial_sum(guests_.begin.begin(), guests_.begin.end(), guests_.begin.begin());
+  guests_.points.resize(slot_of_guest_.size());
+  next_.assign(guests_.begin.begin(), guests_.begin.end() - 1);
+  for (std::uint32_t g = 0; g < slot_of_guest_.size(); ++g) {
+    guests_.points[next_[static_cast<std::size_t>(slot_of_guest_[g])]++] = g;
+  }
+}
+
+void BlockGrid::list_by_stencil(std::vector<std::uint32_t>& order) const {
+  order.resize(particles_.points.size());
+  parallel::for_each_uneven(slots(), [&](std::size_t slot) {  // counting sort
+    const std::span<const std::uint32_t> members = particles_in(slot);
+    if (members.empty()) return;
+    std::array<std::uint32_t, reach_edge * reach_edge * reach_edge + 1> next{};
+    const auto first_node = [&](std::uint32_t p) {
+      return static_cast<std::size_t>(place_of_particle_[p].first_node());
+    };
+    for (const std::uint32_t p : members) ++next[first_node(p) + 1];
+    next[0] = particles_.begin[slot];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (const std::uint32_t p : members) order[next[first_node(p)]++] = p;
+  });
+}
+
+void BlockGrid::particles_reordered() {
+  forget_runs();
+  slot_of_particle_.clear();
+}
+
+void BlockGrid::particles_reordered(std::span<const std::uint32_t> order) {
+  if (is_shared()) return particles_reordered();
+  forget_runs();
+  reordered_.resize(order.size());
+  parallel::for_each(order.size(), [&](std::size_t i) { reordered_[i] = slot_of_particle_[order[i]]; });
+  slot_of_particle_.swap(reordered_);
+}
+
+void BlockGrid::particles_removed(std::span<const Move> moves, std::size_t size) {
+  forget_runs();
+  if (!slot_of_particle_.empty()) close_gaps(slot_of_particle_, moves, size);
+}
+
+void BlockGrid::forget_runs() {
+  runs_known_ = false;
+  ++arrangement_;
+}
+
+void BlockGrid::release(std::span<const std::uint32_t> particles) {
+  if (particles.empty()) return;
+  released_.assign(particles.begin(), particles.end());
+  for (const std::uint32_t p : particles) resting_[static_cast<std::size_t>(slot_of_particle_[p])] = 0;
+  list_particles();
+}
+
+std::size_t BlockGrid::let_rest(int layers, const std::function<bool(std::size_t)>& is_restless) {
+  const auto for_each_reached = [&](std::size_t s, auto&& f) {
+    for_each_bit(reached_[s], [&](unsigned n) {
+      if (neighbours_[s][n] != no_slot) f(static_cast<std::size_t>(neighbours_[s][n]));
+    });
+  };
+  std::vector<std::uint64_t> awake(slots(), 0);
+  parallel::for_each_uneven(slots(), [&](std::size_t s) {
+    awake[s] = !guests_in(s).empty() || (resting_[s] == 0 && is_restless(s)) ? 1 : 0;
+  });
+  for (const std::uint32_t p : released_) awake[static_cast<std::size_t>(slot_of_particle_[p])] = 1;
+  join_bits_of_ranks(awake);
+  for (int layer = 0; layer < layers; ++layer) {  // what shares nodes with what is awake awakes
+    std::vector<std::uint64_t> stirred(slots(), 0);
+    parallel::for_each(slots(), [&](std::size_t s) {
+      if (awake[s] == 0) return;
+      for_each_reached(s, [&](std::size_t reached) {
+        std::atomic_ref(stirred[reached]).store(1, std::memory_order_relaxed);
+      });
+    });
+    join_bits_of_ranks(stirred);
+    parallel::for_each(slots(), [&](std::size_t s) {
+      if (awake[s] != 0) return;
+      for_each_reached(s, [&](std::size_t reached) { awake[s] |= stirred[reached]; });
+    });
+  }
+  bool changed = false;
+  for (std::size_t s = 0; s < slots(); ++s) {
+    const std::uint8_t rests = awake[s] == 0 ? 1 : 0;
+    changed |= rests != resting_[s];
+    resting_[s] = rests;
+  }
+  if (changed) list_particles();
+  return slot_of_particle_.size() - released_.size() - particles_.points.size();
+}
+
+void BlockGrid::wake() {
+  if (std::ranges::find(resting_, 1) == resting_.end()) return;
+  std::ranges::fill(resting_, std::uint8_t{0});
+  list_particles();
+}
+
+bool BlockGrid::chunk_rests(std::size_t chunk) const {
+  return runs_known_ &&
+         std::ranges::all_of(runs_[chunk], [&](const Run& run) { return resting_[run.slot] != 0; });
+}
+
+void BlockGrid::count_cells(std::span<const Vector3> position, std::span<const Vector3> guests) {
+  cell_count_.assign(slots() * nodes_per_block, 0);
+  const auto count = [&](std::size_t slot, const Vector3& point) {
+    const std::array<int, 3> cell = floor_of_three(in_cells(point) - corner_[slot]);
+    ++cell_count_[slot * nodes_per_block + static_cast<std::size_t>(node_index(cell[0], cell[1], cell[2]))];
+  };
+  for (std::size_t p = 0; p < position.size(); ++p) {
+    count(static_cast<std::size_t>(slot_of_particle_[p]), position[p]);
+  }
+  for (std::size_t g = 0; g < guests.size(); ++g) {
+    count(static_cast<std::size_t>(slot_of_guest_[g]), guests[g]);
+  }
+  // Other ranks may have particles, unseen here, in blocks that they borrow and in blocks of their own.
+  unshared_.assign(slots(), 1);
+  for (std::size_t s = blocks_.owned; s < slots(); ++s) unshared_[s] = 0;
+  for (const BlockSet::Peer& peer : blocks_.peers) {
+    for (const std::uint32_t s : peer.lent) unshared_[s] = 0;
+  }
+}
+
+bool BlockGrid::is_alone(std::uint32_t particle, const Vector3& position) const {
+  constexpr int ring = 2;
+  const Lanes place = in_cells(position);
+  for (const MirrorPlane& plane : planes_) {
+    const auto axis = static_cast<std::size_t>(plane.axis);
+    const double depth = plane.face % 2 == 0 ? place[axis] : geometry_.cells[axis] - place[axis];
+    if (depth < ring) return false;
+  }
+  const auto slot = static_cast<std::size_t>(slot_of_particle_[particle]);
+  const std::array<int, 3> cell = floor_of_three(place - corner_[slot]);
+  int count = 0;
+  for (int x = cell[0] - ring; x <= cell[0] + ring; ++x) {
+    for (int y = cell[1] - ring; y <= cell[1] + ring; ++y) {
+      for (int z = cell[2] - ring; z <= cell[2] + ring; ++z) {
+        const auto block = [](int c) { return c < 0 ? 0 : c < block_edge ? 1 : 2; };
+        const std::int32_t owner =
+            neighbours_[slot][static_cast<std::size_t>(neighbour_index(block(x), block(y), block(z)))];
+        if (owner == no_slot) {
+          if (is_shared()) return false;
+          continue;
+        }
+        const auto of = static_cast<std::size_t>(owner);
+        if (unshared_[of] == 0) return false;
+        const auto inside = [](int c) { return (c + block_edge) % block_edge; };
+        count += cell_count_[of * nodes_per_block +
+                             static_cast<std::size_t>(node_index(inside(x), inside(y), inside(z)))];
+        if (count > 1) return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace whipple::grid
