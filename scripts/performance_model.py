@@ -87,7 +87,7 @@ def main(arguments):
         sys.exit(f"{options.bench}: no measurement of {options.problem} on one rank and one thread")
     one = known[(1, 1)]
     kernels = kernels_of(one)
-    memory = record["bandwidth_bytes_per_s"]
+    memory = one["bandwidth_bytes_per_s"]
     per_block = one["particles_per_block"]
     print(f"{options.problem}: {one['ns_per_particle_step']:.0f} ns per particle and step on one core, "
           f"{per_block:.0f} particles per block\n")

@@ -19,7 +19,6 @@
 #include "src/base/text_table.hpp"
 #include "src/bench/machine.hpp"
 #include "src/bench/measurement.hpp"
-#include "src/bench/reference_kernel.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/process/mpirun.hpp"
@@ -79,7 +78,7 @@ Measurement measure_in_own_processes(const BenchOptions& options, const std::str
 std::string percent(double part, double whole) { return fmt::format("{:.0f} %", 100.0 * part / whole); }
 
 /// Stages beside what memory and arithmetic units of these cores would need at least.
-void print(const Measurement& m, const bench::MachineRates& rates, double reference_kernel) {
+void print(const Measurement& m) {
   fmt::print("\n{}: {}\n{} particles, of which {:.0f} % rest, {} steps, {} ranks x {} threads; ", m.problem,
              bench::find_problem(m.problem).what, m.particles, 100.0 * m.share_at_rest, m.steps, m.ranks,
              m.threads);
@@ -88,7 +87,7 @@ void print(const Measurement& m, const bench::MachineRates& rates, double refere
   std::vector<std::vector<std::string>> rows = {
       {"  stage", "ns/particle", "share", "bytes", "of bandwidth", "flops", "of arithmetic"}};
   const auto row = [&](const std::string& name, double ns, double bytes, double flops) {
-    const double memory_ns = 1e9 * bytes / rates.bandwidth, flops_ns = 1e9 * flops / rates.arithmetic;
+    const double memory_ns = 1e9 * bytes / m.machine.bandwidth, flops_ns = 1e9 * flops / m.machine.arithmetic;
     rows.push_back(
         {"  " + name, fmt::format("{:.1f}", ns), percent(ns, m.nanoseconds),
          bytes > 0.0 ? fmt::format("{:.0f}", bytes) : "", bytes > 0.0 ? percent(memory_ns, ns) : "",
@@ -102,64 +101,61 @@ void print(const Measurement& m, const bench::MachineRates& rates, double refere
   }
   row("whole step", m.nanoseconds, bytes, flops);
   fmt::print("{}", text_table(rows, "lr"));
-  fmt::print("  {:.2f} times the reference kernel on as many cores\n",
-             1e-9 * m.nanoseconds * m.cores() / reference_kernel);
+  fmt::print(
+      "  {:.2f} times the reference kernel on as many cores ({:.1f} ns; triad {:.1f} GB/s, multiply-adds "
+      "{:.1f} "
+      "Gflop/s)\n",
+      1e-9 * m.nanoseconds / m.machine.reference_kernel, 1e9 * m.machine.reference_kernel,
+      1e-9 * m.machine.bandwidth, 1e-9 * m.machine.arithmetic);
 }
 
-/// How a problem gains by cores: speed over that of its first configuration, per core of it.
+/// How a problem gains by cores: speed over that of its first configuration, per core of it, and per what the
+/// reference kernel, whose threads share nothing, gains on the same cores.
 void print_scaling(const std::vector<Measurement>& all) {
-  std::vector<std::vector<std::string>> rows = {
-      {"problem", "ranks", "threads", "ns/particle", "speed-up", "efficiency"}};
+  std::vector<std::vector<std::string>> rows = {{"problem", "ranks", "threads", "ns/particle", "speed-up",
+                                                 "efficiency", "kernel's speed-up", "of the kernel's"}};
   for (const Measurement& m : all) {
     const auto first = std::ranges::find(all, m.problem, &Measurement::problem);
     const double gain = first->nanoseconds / m.nanoseconds;
+    const double of_kernel = first->machine.reference_kernel / m.machine.reference_kernel;
     rows.push_back({m.problem, std::to_string(m.ranks), std::to_string(m.threads),
                     fmt::format("{:.1f}", m.nanoseconds), fmt::format("{:.2f}", gain),
-                    percent(gain * first->cores(), m.cores())});
+                    percent(gain * first->cores(), m.cores()), fmt::format("{:.2f}", of_kernel),
+                    percent(gain, of_kernel)});
   }
   fmt::print("\n{}", text_table(rows, "lr"));
 }
 
-struct Record {
-  bench::MachineRates rates;  // of the first configuration
-  double reference_kernel;    // s per particle and step on one core; 0: not in the file
-  std::vector<Measurement> measurements;
-};
-
-Record read_record(const fs::path& file) {
+std::vector<Measurement> read_measurements(const fs::path& file) {
   try {
     const nlohmann::json json = nlohmann::json::parse(io::read_text(file));
-    Record record{{json.at("bandwidth_bytes_per_s"), json.at("arithmetic_flops_per_s")},
-                  1e-9 * json.value("reference_kernel_ns_per_particle_step", 0.0),
-                  {}};
-    for (const nlohmann::json& m : json.at("measurements"))
-      record.measurements.push_back(bench::from_json(m));
-    return record;
+    std::vector<Measurement> all;
+    for (const nlohmann::json& m : json.at("measurements")) all.push_back(bench::from_json(m));
+    return all;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: not written by whipple bench --json: {}", file.string(), error.what()));
   }
 }
 
-/// Ratios of times, plain and with each time in units of what the machine could do in its own call, and of
-/// the reference kernel there.
-void print_comparison(const Record& now, const Record& before, const std::string& file) {
+/// Ratios of times, plain and with each time in units of what the machine could do beside it.
+void print_comparison(const std::vector<Measurement>& now, const std::vector<Measurement>& before,
+                      const std::string& file) {
   std::vector<std::vector<std::string>> rows = {{"problem", "ranks", "threads", "before", "now",
                                                  "now / before", "by arithmetic", "by bandwidth",
                                                  "by kernel"}};
-  for (const Measurement& m : now.measurements) {
-    const auto old = std::ranges::find_if(before.measurements, [&](const Measurement& other) {
+  for (const Measurement& m : now) {
+    const auto old = std::ranges::find_if(before, [&](const Measurement& other) {
       return other.problem == m.problem && other.ranks == m.ranks && other.threads == m.threads;
     });
-    if (old == before.measurements.end()) continue;
+    if (old == before.end()) continue;
     const double ratio = m.nanoseconds / old->nanoseconds;
-    rows.push_back({m.problem, std::to_string(m.ranks), std::to_string(m.threads),
-                    fmt::format("{:.1f} ns", old->nanoseconds), fmt::format("{:.1f} ns", m.nanoseconds),
-                    fmt::format("{:.2f}", ratio),
-                    fmt::format("{:.2f}", ratio * now.rates.arithmetic / before.rates.arithmetic),
-                    fmt::format("{:.2f}", ratio * now.rates.bandwidth / before.rates.bandwidth),
-                    before.reference_kernel > 0.0
-                        ? fmt::format("{:.2f}", ratio * before.reference_kernel / now.reference_kernel)
-                        : "-"});
+    rows.push_back(
+        {m.problem, std::to_string(m.ranks), std::to_string(m.threads),
+         fmt::format("{:.1f} ns", old->nanoseconds), fmt::format("{:.1f} ns", m.nanoseconds),
+         fmt::format("{:.2f}", ratio),
+         fmt::format("{:.2f}", ratio * m.machine.arithmetic / old->machine.arithmetic),
+         fmt::format("{:.2f}", ratio * m.machine.bandwidth / old->machine.bandwidth),
+         fmt::format("{:.2f}", ratio * old->machine.reference_kernel / m.machine.reference_kernel)});
   }
   if (rows.size() == 1) {
     fmt::print("\n{} holds none of these problems on these ranks and threads\n", file);
@@ -168,25 +164,22 @@ void print_comparison(const Record& now, const Record& before, const std::string
   fmt::print("\nbeside {}:\n{}", file, text_table(rows, "lr"));
 }
 
-nlohmann::json to_json(const Record& record, const BenchOptions& options) {
+nlohmann::json to_json(const std::vector<Measurement>& all, const BenchOptions& options) {
   nlohmann::json measurements = nlohmann::json::array();
-  for (const Measurement& m : record.measurements) measurements.push_back(bench::to_json(m));
+  for (const Measurement& m : all) measurements.push_back(bench::to_json(m));
   return {{"version", build_info().version},
           {"revision", build_info().revision},
           {"length", options.whole   ? "whole"
                      : options.quick ? "quick"
                                      : "normal"},
-          {"bandwidth_bytes_per_s", record.rates.bandwidth},
-          {"arithmetic_flops_per_s", record.rates.arithmetic},
-          {"reference_kernel_ns_per_particle_step", 1e9 * record.reference_kernel},
           {"measurements", measurements}};
 }
 
 void run_bench(BenchOptions options) {
   if (!options.worker.empty()) return run_worker(options);
   require_new_file(options.json, options.force);
-  std::optional<Record> before;
-  if (!options.compare.empty()) before = read_record(options.compare);
+  std::vector<Measurement> before;
+  if (!options.compare.empty()) before = read_measurements(options.compare);
   if (options.problems.empty()) {
     for (const bench::Problem& problem : bench::problems()) {
       if (!problem.only_by_name) options.problems.push_back(problem.name);
@@ -194,25 +187,22 @@ void run_bench(BenchOptions options) {
   }
   for (const std::string& name : options.problems) static_cast<void>(bench::find_problem(name));
 
-  Record record{bench::measure_machine(1), bench::measure_reference_kernel(), {}};
-  fmt::print(
-      "whipple {} ({}); one core: triad {:.1f} GB/s, multiply-adds {:.1f} Gflop/s, reference kernel {:.1f} "
-      "ns\n",
-      build_info().version, build_info().revision, 1e-9 * record.rates.bandwidth,
-      1e-9 * record.rates.arithmetic, 1e9 * record.reference_kernel);
+  std::vector<Measurement> all;
+  fmt::print("whipple {} ({})\n", build_info().version, build_info().revision);
   for (const std::string& problem : options.problems) {
     for (const int ranks : options.ranks) {
       for (const int threads : options.threads) {
-        const Measurement m = measure_in_own_processes(options, problem, ranks, threads);
-        print(m, m.cores() == 1 ? record.rates : bench::measure_machine(m.cores()), record.reference_kernel);
-        record.measurements.push_back(m);
+        Measurement m = measure_in_own_processes(options, problem, ranks, threads);
+        m.machine = bench::measure_machine(m.cores());
+        print(m);
+        all.push_back(std::move(m));
       }
     }
   }
-  if (options.ranks.size() * options.threads.size() > 1) print_scaling(record.measurements);
-  if (before) print_comparison(record, *before, options.compare);
+  if (options.ranks.size() * options.threads.size() > 1) print_scaling(all);
+  if (!options.compare.empty()) print_comparison(all, before, options.compare);
   if (options.json.empty()) return;
-  io::write_text_atomically(options.json, to_json(record, options).dump(2) + "\n");
+  io::write_text_atomically(options.json, to_json(all, options).dump(2) + "\n");
   fmt::print("\nwrote {}\n", options.json);
 }
 

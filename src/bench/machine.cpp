@@ -9,6 +9,7 @@
 
 #include "src/base/error.hpp"
 #include "src/base/simd.hpp"
+#include "src/bench/reference_kernel.hpp"
 #include "src/parallel/threads.hpp"
 
 namespace whipple::bench {
@@ -64,11 +65,24 @@ double multiply_adds(int threads) {
   return 2.0 * 4.0 * chains * static_cast<double>(rounds) * threads / seconds;
 }
 
+/// Cores may differ in speed, and what else the machine does may slow some of them: what all of them could do
+/// is the sum of their rates.
+double reference_kernel(int threads) {
+  std::vector<double> seconds(static_cast<std::size_t>(threads));
+  parallel::for_each(seconds.size(),
+                     [&](std::size_t thread) { seconds[thread] = measure_reference_kernel(); });
+  double rate = 0.0;
+  for (const double of_thread : seconds) rate += 1.0 / of_thread;
+  return 1.0 / rate;
+}
+
 }  // namespace
 
 MachineRates measure_machine(int threads) {
   parallel::set_threads(threads);
-  return {.bandwidth = triad(), .arithmetic = multiply_adds(threads)};
+  return {.bandwidth = triad(),
+          .arithmetic = multiply_adds(threads),
+          .reference_kernel = reference_kernel(threads)};
 }
 
 }  // namespace whipple::bench

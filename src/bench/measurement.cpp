@@ -119,7 +119,8 @@ Measurement measure(const Problem& problem, int threads, Length length) {
                      .particles_per_block = points / nodes * grid::nodes_per_block,
                      .bytes_per_particle = memory[0] / points,
                      .peak_memory = peak[0],
-                     .stages = {}};
+                     .stages = {},
+                     .machine = {}};
   for (const solver::Profile::Stage& stage : best.stages) {
     const StageCost cost = stage_cost(stage.name, setup, nodes / points);
     result.stages.push_back({stage.name, 1e9 * stage.seconds / best.particle_steps, cost.bytes, cost.flops});
@@ -145,7 +146,10 @@ nlohmann::json to_json(const Measurement& m) {
           {"particles_per_block", m.particles_per_block},
           {"bytes_per_particle", m.bytes_per_particle},
           {"peak_memory_bytes", m.peak_memory},
-          {"stages", stages}};
+          {"stages", stages},
+          {"bandwidth_bytes_per_s", m.machine.bandwidth},
+          {"arithmetic_flops_per_s", m.machine.arithmetic},
+          {"reference_kernel_ns_per_particle_step", 1e9 * m.machine.reference_kernel}};
 }
 
 Measurement from_json(const nlohmann::json& json) {
@@ -160,7 +164,11 @@ Measurement from_json(const nlohmann::json& json) {
                   .particles_per_block = json.at("particles_per_block"),
                   .bytes_per_particle = json.at("bytes_per_particle"),
                   .peak_memory = json.at("peak_memory_bytes"),
-                  .stages = {}};
+                  .stages = {},
+                  .machine = {.bandwidth = json.at("bandwidth_bytes_per_s"),
+                              .arithmetic = json.at("arithmetic_flops_per_s"),
+                              .reference_kernel =
+                                  1e-9 * json.at("reference_kernel_ns_per_particle_step").get<double>()}};
     for (const nlohmann::json& stage : json.at("stages")) {
       m.stages.push_back({stage.at("stage"), stage.at("ns_per_particle_step"),
                           stage.at("bytes_per_particle_step"), stage.at("flops_per_particle_step")});

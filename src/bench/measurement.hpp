@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "src/bench/machine.hpp"
 #include "src/bench/problems.hpp"
 
 namespace whipple::bench {
@@ -32,6 +33,7 @@ struct Measurement {
   double bytes_per_particle = 0.0;  ///< memory of the fields and the grid, all ranks
   double peak_memory = 0.0;         ///< bytes, resident, of the largest rank's process
   std::vector<StageMeasurement> stages;
+  MachineRates machine;  ///< what as many cores could do, measured right after it; 0: not known
 
   [[nodiscard]] int cores() const { return ranks * threads; }
 };
