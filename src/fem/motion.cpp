@@ -60,8 +60,7 @@ double critical_time_step(const Mesh& mesh, const ViscosityCoefficients& viscosi
   };
   // The greatest of 1/dt: an infinite time step without elements. 1/(sqrt(1 + xi^2) - xi) = sqrt(1 + xi^2) +
   // xi.
-  const std::size_t chunks = (n + parallel::chunk_size - 1) / parallel::chunk_size;
-  return 1.0 / parallel::maximum(chunks, 0.0, rate_of_chunk);
+  return 1.0 / parallel::maximum(parallel::chunk_count(n), 0.0, rate_of_chunk);
 }
 
 double critical_time_step(const Mesh& mesh, std::size_t element, const ViscosityCoefficients& viscosity) {

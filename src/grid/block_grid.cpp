@@ -57,8 +57,7 @@ std::vector<WantedBlock> BlockGrid::wanted_blocks(std::span<const Vector3> posit
     WantedBlock block;
     std::uint32_t wanted = 0;  // bit per neighbour; none without points on the grid
   };
-  std::vector<std::vector<Home>> homes_of((position.size() + parallel::chunk_size - 1) /
-                                          parallel::chunk_size);
+  std::vector<std::vector<Home>> homes_of(parallel::chunk_count(position.size()));
   std::atomic<bool> outside = false;
   parallel::for_each_chunk(position.size(), [&](std::size_t begin, std::size_t end) {
     std::vector<Home>& homes = homes_of[begin / parallel::chunk_size];

@@ -167,9 +167,10 @@ class BlockGrid {
   /// Place of the first particle of a slot in `particles_by_block`; of the slot behind the last: how many
   /// there are.
   [[nodiscard]] std::size_t place_of(std::size_t slot) const { return particles_.begin[slot]; }
-  /// All particles, block by block: an order that keeps neighbours in memory near one another.
+  /// All particles that do not rest, block by block: an order that keeps neighbours in memory near one
+  /// another.
   [[nodiscard]] std::span<const std::uint32_t> particles_by_block() const { return particles_.points; }
-  /// The same, those of a block by the first node of their stencils.
+  /// The same, those of a block by the first node of their stencils; all particles only after `wake`.
   void list_by_stencil(std::vector<std::uint32_t>& order) const;
   /// The border are the slots whose points may reach nodes that other ranks wait for or send: worked on first
   /// when points bring something to the nodes, and last when they take something, so that the exchange goes

@@ -53,7 +53,7 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
   if (!runs_known_) {
     resting_.assign(slots(), 0);
     reached_.assign(slots(), 0);
-    runs_.resize((position.size() + parallel::chunk_size - 1) / parallel::chunk_size);
+    runs_.resize(parallel::chunk_count(position.size()));
     for (std::size_t c = 0; c < runs_.size(); ++c) {
       const std::size_t begin = c * parallel::chunk_size;
       const std::size_t end = std::min(position.size(), begin + parallel::chunk_size);

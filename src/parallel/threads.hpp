@@ -21,6 +21,8 @@ inline int free_cores() { return std::max(0, omp_get_num_procs() - threads()); }
 inline bool is_first_thread() { return omp_get_thread_num() == 0; }
 
 constexpr std::size_t chunk_size = 1024;
+/// Chunks of at most `chunk_size` items.
+constexpr std::size_t chunk_count(std::size_t items) { return (items + chunk_size - 1) / chunk_size; }
 
 /// body(i) for i in [0, n).
 template <class Body>
@@ -29,25 +31,28 @@ void for_each(std::size_t n, Body&& body) {
   for (std::size_t i = 0; i < n; ++i) body(i);
 }
 
-/// body(i) for i in [0, n) where the cost differs from one to the next.
+/// body(i) for i in [0, n) where the cost differs from one to the next. Threads take several at a time: to ask
+/// for each would cost more than the shortest bodies do.
 template <class Body>
 void for_each_uneven(std::size_t n, Body&& body) {
-#pragma omp parallel for schedule(dynamic, 1)
+  constexpr std::size_t turns = 128;  // of each thread, at least, if there is enough
+  const std::size_t together = std::max(std::size_t{1}, n / (turns * static_cast<std::size_t>(threads())));
+#pragma omp parallel for schedule(dynamic, together)
   for (std::size_t i = 0; i < n; ++i) body(i);
 }
 
 /// body(begin, end) over chunks of at most `chunk_size` items.
 template <class Body>
 void for_each_chunk(std::size_t n, Body&& body) {
-  const std::size_t chunks = (n + chunk_size - 1) / chunk_size;
-  for_each_uneven(chunks, [&](std::size_t c) { body(c * chunk_size, std::min(n, (c + 1) * chunk_size)); });
+  for_each_uneven(chunk_count(n),
+                  [&](std::size_t c) { body(c * chunk_size, std::min(n, (c + 1) * chunk_size)); });
 }
 
 /// Sets of_chunk[c] to value(begin, end) of every chunk of at most `chunk_size` items, but where stays(c)
 /// leaves it as it is.
 template <class Value, class Stays, class Evaluate>
 void update_chunks(std::size_t n, std::vector<Value>& of_chunk, Stays&& stays, Evaluate&& value) {
-  of_chunk.resize((n + chunk_size - 1) / chunk_size);
+  of_chunk.resize(chunk_count(n));
   for_each(of_chunk.size(), [&](std::size_t c) {
     if (!stays(c)) of_chunk[c] = value(c * chunk_size, std::min(n, (c + 1) * chunk_size));
   });

@@ -24,8 +24,7 @@ std::vector<std::uint32_t> outside_of(const grid::Geometry& g, std::span<const V
                       Lanes{bound[2], bound[0], bound[1], bound[2]}};
   };
   const std::array<Lanes, 3> lowers = turned(lower), uppers = turned(upper);
-  std::vector<std::vector<std::uint32_t>> found((position.size() + parallel::chunk_size - 1) /
-                                                parallel::chunk_size);
+  std::vector<std::vector<std::uint32_t>> found(parallel::chunk_count(position.size()));
   parallel::for_each_chunk(position.size(), [&](std::size_t begin, std::size_t end) {
     if (grid.chunk_rests(begin / parallel::chunk_size)) return;
     const auto look_at = [&](std::size_t p) {

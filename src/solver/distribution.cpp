@@ -201,14 +201,15 @@ void Simulation::follow_particles(grid::Stencil stencil) {
   const auto velocities = [&] {
     return with_guests(particles_.velocity, transition_.velocity, all_velocities);
   };
-  elements_astray_ = parallel::size(communicator_) > 1;
+  const bool several_ranks = parallel::size(communicator_) > 1;
+  elements_astray_ = several_ranks;
   std::vector<double> work;  // one rank has nothing to share out
-  if (elements_astray_) work = work_of_particles(setup_, bodies_);
-  if (elements_astray_ && matter_may_rest()) {
+  if (several_ranks) work = work_of_particles(setup_, bodies_);
+  if (several_ranks && matter_may_rest()) {
     parallel::for_each(work.size(), [&](std::size_t p) { work[p] *= is_restless(p) ? 1.0 : share_of_rest; });
     most_at_rest_ = 0;
   }
-  if (!elements_astray_ || meshes_.empty()) {
+  if (!several_ranks || meshes_.empty()) {
     grid_.adapt(positions(), velocities(), lookahead, stencil, {work, work_of_block});
   } else {  // elements are work, too
     const std::vector<Vector3> centres = centres_of(meshes_, setup_.geometry);
@@ -225,10 +226,7 @@ void Simulation::follow_particles(grid::Stencil stencil) {
     }
     grid_.adapt(at, moving, lookahead, stencil, {work, work_of_block, centres.size()});
   }
-  if (parallel::size(communicator_) > 1 &&
-      migrate(particles_, grid_.owners(particles_.position), communicator_)) {
-    find_bodies();
-  }
+  if (several_ranks && migrate(particles_, grid_.owners(particles_.position), communicator_)) find_bodies();
   grid_.activate(positions(), velocities(), lookahead, stencil, transition_.size());
   if (!bin(stencil)) {
     throw InternalError("adaptation left a particle without its blocks");
