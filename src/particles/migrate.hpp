@@ -9,10 +9,10 @@
 
 namespace whipple {
 
-/// Sends every particle to the rank that is named for it, with all of its fields. Afterwards the particles
-/// stand by body; within a body those that stayed first, in their order, then the newcomers by rank and
-/// order. Collective.
-/// @returns whether any particle changed its rank or its place on this rank
+/// Sends every particle to the rank that is named for it, with all of its fields. Particles stand by body,
+/// before and after; within a body newcomers and the last ones take the places of those that left.
+/// Collective.
+/// @returns whether any particle changed its rank
 bool migrate(Particles& particles, std::span<const int> destination, MPI_Comm communicator);
 
 }  // namespace whipple

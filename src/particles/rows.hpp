@@ -28,36 +28,48 @@ void select_rows(Points& points, std::span<const std::uint32_t> order) {
   });
 }
 
+/// Sends values[p] of the rows p of leaving[r] to rank r; nothing of an empty array. Collective.
+/// @returns what came from each rank, as bytes
+template <class Value>
+std::vector<std::vector<std::byte>> send_rows(const std::vector<Value>& values,
+                                              const std::vector<std::vector<std::uint32_t>>& leaving,
+                                              MPI_Comm communicator) {
+  std::vector<std::vector<std::byte>> outgoing(leaving.size());
+  for (std::size_t r = 0; !values.empty() && r < leaving.size(); ++r) {
+    outgoing[r].resize(leaving[r].size() * sizeof(Value));
+    std::byte* to = outgoing[r].data();
+    for (const std::uint32_t p : leaving[r]) {
+      const auto* from = reinterpret_cast<const std::byte*>(&values[p]);
+      to = std::copy(from, from + sizeof(Value), to);
+    }
+  }
+  return parallel::exchange_bytes(communicator, outgoing);
+}
+
+/// Appends what `send_rows` returned, rank by rank.
+template <class Value>
+void append_rows(std::vector<Value>& values, const std::vector<std::vector<std::byte>>& incoming) {
+  for (const std::vector<std::byte>& bytes : incoming) {
+    const std::size_t first = values.size();
+    values.resize(first + bytes.size() / sizeof(Value));
+    std::copy(bytes.begin(), bytes.end(), reinterpret_cast<std::byte*>(values.data() + first));
+  }
+}
+
 /// Sends the rows leaving[r] to rank r, with all of their fields. Afterwards the rows `staying` come first,
 /// in their order, then the newcomers by rank and order. Collective.
 template <class Points>
 void exchange_rows(Points& points, std::span<const std::uint32_t> staying,
                    const std::vector<std::vector<std::uint32_t>>& leaving, MPI_Comm communicator) {
-  const std::size_t before = points.size();
   for_each_field<Points>([&](const auto& field) {
     auto& values = points.*(field.values);
-    using Value = typename std::decay_t<decltype(values)>::value_type;
-    const bool in_use = values.size() == before;  // else an optional field that is empty on all ranks
-    std::vector<std::vector<std::byte>> outgoing(leaving.size());
-    for (std::size_t r = 0; in_use && r < leaving.size(); ++r) {
-      outgoing[r].resize(leaving[r].size() * sizeof(Value));
-      std::byte* to = outgoing[r].data();
-      for (const std::uint32_t p : leaving[r]) {
-        const auto* from = reinterpret_cast<const std::byte*>(&values[p]);
-        to = std::copy(from, from + sizeof(Value), to);
-      }
-    }
-    const auto incoming = parallel::exchange_bytes(communicator, outgoing);
+    const auto incoming = send_rows(values, leaving, communicator);
     std::remove_reference_t<decltype(values)> now;
     now.reserve(staying.size());
-    if (in_use) {
+    if (!values.empty()) {  // else an optional field that is empty on all ranks
       for (const std::uint32_t p : staying) now.push_back(values[p]);
     }
-    for (const std::vector<std::byte>& bytes : incoming) {
-      const std::size_t first = now.size();
-      now.resize(first + bytes.size() / sizeof(Value));
-      std::copy(bytes.begin(), bytes.end(), reinterpret_cast<std::byte*>(now.data() + first));
-    }
+    append_rows(now, incoming);
     values.swap(now);
   });
 }
