@@ -143,9 +143,15 @@ std::vector<int> BlockGrid::owners(std::span<const Vector3> position) const {
   if (parallel::size(communicator_) == 1) return owner;
   BlockTable known;
   known.reserve(slots() + 64);
+  Lanes corner{};  // of the block before: neighbours in memory are mostly in one
   for (std::size_t p = 0; p < position.size(); ++p) {
+    if (p > 0 && is_inside(in_cells(position[p]) - corner)) {
+      owner[p] = owner[p - 1];
+      continue;
+    }
     const std::optional<BlockCoordinate> block = block_of(position[p]);
     if (!block) throw InternalError("the owner of a particle outside of the domain was asked for");
+    corner = corner_of(*block);
     std::int32_t& rank = known.find_or_insert(*block, BlockTable::none);
     if (rank == BlockTable::none) rank = forest_.owner(*block);
     owner[p] = rank;

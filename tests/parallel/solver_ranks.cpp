@@ -20,6 +20,7 @@
 #include "src/io/checkpoint.hpp"
 #include "src/io/ranks.hpp"
 #include "src/parallel/mpi.hpp"
+#include "src/particles/migrate.hpp"
 #include "src/solver/checkpointing.hpp"
 #include "src/solver/gauges.hpp"
 #include "src/solver/simulation.hpp"
@@ -108,6 +109,57 @@ TEST_F(SolverRanks, ShareOutTheWork) {
   EXPECT_LT(heaviest({work, 0.0}), 1.15);
   if (ranks_.is_parallel()) {
     EXPECT_GT(heaviest({}), 1.3);  // by number
+  }
+}
+
+// Particles go to and fro, also from and to ranks that have none: every one arrives once with its fields, and
+// the bodies stay together.
+TEST_F(SolverRanks, MigrateWithAllFieldsAndStandByBody) {
+  const auto value = [](std::uint64_t id) { return 0.5 * static_cast<double>(id) + 1.0; };
+  const std::size_t own = ranks_.rank() == 1 ? 0 : 200 + 30 * static_cast<std::size_t>(ranks_.rank());
+  Particles particles;
+  resize(particles, own);
+  particles.affine_velocity.resize(own);
+  for (std::size_t p = 0; p < own; ++p) {
+    const std::uint64_t id = 1000 * static_cast<std::uint64_t>(ranks_.rank()) + p;
+    particles.id[p] = id;
+    particles.body[p] = static_cast<std::uint32_t>(4 * p / own);
+    particles.mass[p] = value(id);
+    particles.position[p] = Vector3(value(id), value(2 * id), value(3 * id));
+    particles.affine_velocity[p] = Matrix3::Constant(value(id));
+  }
+  std::array<double, 2> sums = {static_cast<double>(own), 0.0};
+  for (const std::uint64_t id : particles.id) sums[1] += static_cast<double>(id);
+  parallel::sum(MPI_COMM_WORLD, sums);
+  const auto ranks = static_cast<std::uint64_t>(ranks_.count());
+  // Everywhere by turns, all but body 1 to the last rank, a few away from there, nobody anywhere.
+  const auto destination = [&](int round, std::size_t p) {
+    const std::uint64_t id = particles.id[p];
+    if (round == 0) return static_cast<int>((id * 7 + id / 3) % ranks);
+    if (round == 1 && particles.body[p] != 1) return static_cast<int>(ranks) - 1;
+    if (round == 2 && id % 11 == 0) return static_cast<int>(id / 11 % ranks);
+    return ranks_.rank();
+  };
+  for (int round = 0; round < 4; ++round) {
+    std::vector<int> to;
+    for (std::size_t p = 0; p < particles.size(); ++p) to.push_back(destination(round, p));
+    EXPECT_EQ(migrate(particles, to, MPI_COMM_WORLD), round < 3 && ranks > 1);
+    std::array<double, 2> now = {static_cast<double>(particles.size()), 0.0};
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const std::uint64_t id = particles.id[p];
+      now[1] += static_cast<double>(id);
+      EXPECT_EQ(particles.mass[p], value(id));
+      EXPECT_EQ(particles.position[p], Vector3(value(id), value(2 * id), value(3 * id)));
+      EXPECT_EQ(particles.affine_velocity[p], Matrix3::Constant(value(id)));
+      EXPECT_EQ(destination(round, p), ranks_.rank());
+    }
+    parallel::sum(MPI_COMM_WORLD, now);
+    EXPECT_EQ(now, sums) << "round " << round;
+    EXPECT_TRUE(std::ranges::is_sorted(particles.body));
+    for_each_field<Particles>([&](const auto& field) {
+      const auto& values = particles.*(field.values);
+      EXPECT_TRUE(values.size() == particles.size() || (field.optional && values.empty())) << field.name;
+    });
   }
 }
 
