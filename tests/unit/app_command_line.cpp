@@ -113,8 +113,10 @@ TEST_F(CommandLine, BenchWritesItsFiguresAndComparesThem) {
     EXPECT_THAT(first.out, HasSubstr(what));
   }
   const nlohmann::json record = nlohmann::json::parse(text_of(folder_ / "first.json"));
-  EXPECT_GT(record.at("bandwidth_bytes_per_s"), 1e8);
   const nlohmann::json& measured = record.at("measurements").at(0);
+  EXPECT_GT(measured.at("bandwidth_bytes_per_s"), 1e8);
+  EXPECT_GT(measured.at("arithmetic_flops_per_s"), 1e8);
+  EXPECT_GT(measured.at("reference_kernel_ns_per_particle_step"), 1.0);
   double of_stages = 0.0;
   for (const nlohmann::json& stage : measured.at("stages")) {
     of_stages += stage.at("ns_per_particle_step").get<double>();
@@ -129,6 +131,7 @@ TEST_F(CommandLine, BenchWritesItsFiguresAndComparesThem) {
   ASSERT_EQ(second.code, 0) << second.err;
   EXPECT_THAT(second.out, HasSubstr("now / before"));
   EXPECT_THAT(second.out, HasSubstr("efficiency"));
+  EXPECT_THAT(second.out, HasSubstr("kernel's speed-up"));
 }
 
 TEST_F(CommandLine, BenchRefusesWhatItDoesNotKnowBeforeItMeasures) {
