@@ -31,8 +31,8 @@ void for_each(std::size_t n, Body&& body) {
   for (std::size_t i = 0; i < n; ++i) body(i);
 }
 
-/// body(i) for i in [0, n) where the cost differs from one to the next. Threads take several at a time: to ask
-/// for each would cost more than the shortest bodies do.
+/// body(i) for i in [0, n) where the cost differs from one to the next. Threads take several at a time: to
+/// ask for each would cost more than the shortest bodies do.
 template <class Body>
 void for_each_uneven(std::size_t n, Body&& body) {
   constexpr std::size_t turns = 128;  // of each thread, at least, if there is enough
