@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -102,9 +101,8 @@ void print(const Measurement& m) {
   row("whole step", m.nanoseconds, bytes, flops);
   fmt::print("{}", text_table(rows, "lr"));
   fmt::print(
-      "  {:.2f} times the reference kernel on as many cores ({:.1f} ns; triad {:.1f} GB/s, multiply-adds "
-      "{:.1f} "
-      "Gflop/s)\n",
+      "  {:.2f} times the reference kernel on as many cores ({:.1f} ns; triad {:.1f} GB/s, "
+      "multiply-adds {:.1f} Gflop/s)\n",
       1e-9 * m.nanoseconds / m.machine.reference_kernel, 1e9 * m.machine.reference_kernel,
       1e-9 * m.machine.bandwidth, 1e-9 * m.machine.arithmetic);
 }

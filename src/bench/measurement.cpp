@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "src/base/error.hpp"
 #include "src/bench/stage_cost.hpp"
 #include "src/io/ranks.hpp"
 #include "src/parallel/mpi.hpp"
@@ -153,30 +152,26 @@ nlohmann::json to_json(const Measurement& m) {
 }
 
 Measurement from_json(const nlohmann::json& json) {
-  try {
-    Measurement m{.problem = json.at("problem"),
-                  .ranks = json.at("ranks"),
-                  .threads = json.at("threads"),
-                  .particles = json.at("particles"),
-                  .steps = json.at("steps"),
-                  .nanoseconds = json.at("ns_per_particle_step"),
-                  .share_at_rest = json.value("share_at_rest", 0.0),
-                  .particles_per_block = json.at("particles_per_block"),
-                  .bytes_per_particle = json.at("bytes_per_particle"),
-                  .peak_memory = json.at("peak_memory_bytes"),
-                  .stages = {},
-                  .machine = {.bandwidth = json.at("bandwidth_bytes_per_s"),
-                              .arithmetic = json.at("arithmetic_flops_per_s"),
-                              .reference_kernel =
-                                  1e-9 * json.at("reference_kernel_ns_per_particle_step").get<double>()}};
-    for (const nlohmann::json& stage : json.at("stages")) {
-      m.stages.push_back({stage.at("stage"), stage.at("ns_per_particle_step"),
-                          stage.at("bytes_per_particle_step"), stage.at("flops_per_particle_step")});
-    }
-    return m;
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(std::string("no measurement of whipple bench: ") + error.what());
+  Measurement m{
+      .problem = json.at("problem"),
+      .ranks = json.at("ranks"),
+      .threads = json.at("threads"),
+      .particles = json.at("particles"),
+      .steps = json.at("steps"),
+      .nanoseconds = json.at("ns_per_particle_step"),
+      .share_at_rest = json.value("share_at_rest", 0.0),
+      .particles_per_block = json.at("particles_per_block"),
+      .bytes_per_particle = json.at("bytes_per_particle"),
+      .peak_memory = json.at("peak_memory_bytes"),
+      .stages = {},
+      .machine = {.bandwidth = json.at("bandwidth_bytes_per_s"),
+                  .arithmetic = json.at("arithmetic_flops_per_s"),
+                  .reference_kernel = 1e-9 * json.at("reference_kernel_ns_per_particle_step").get<double>()}};
+  for (const nlohmann::json& stage : json.at("stages")) {
+    m.stages.push_back({stage.at("stage"), stage.at("ns_per_particle_step"),
+                        stage.at("bytes_per_particle_step"), stage.at("flops_per_particle_step")});
   }
+  return m;
 }
 
 }  // namespace whipple::bench

@@ -48,7 +48,7 @@ enum class Length {
 Measurement measure(const Problem& problem, int threads, Length length);
 
 nlohmann::json to_json(const Measurement& measurement);
-/// @throws InputError if keys are missing
+/// @throws nlohmann::json::exception if keys are missing
 Measurement from_json(const nlohmann::json& json);
 
 }  // namespace whipple::bench
