@@ -47,7 +47,7 @@ class Forest {
   /// refinement brings along) are finest leaves; divides the curve anew if the heaviest rank has more than
   /// `imbalance` times the mean weight. Collective.
   /// @param wanted without repetition, any order
-  void adapt(std::span<const WantedBlock> wanted, double imbalance = 1.1);
+  void adapt(std::span<const WantedBlock> wanted, double imbalance = 1.02);
 
   /// Rank that owns a block since the last `adapt`.
   [[nodiscard]] int owner(const BlockCoordinate& block) const;

@@ -203,14 +203,14 @@ void Simulation::follow_particles(grid::Stencil stencil) {
   };
   const bool several_ranks = parallel::size(communicator_) > 1;
   elements_astray_ = several_ranks;
-  std::vector<double> work;  // one rank has nothing to share out
-  if (several_ranks) work = work_of_particles(setup_, bodies_);
+  if (several_ranks) work_of_particles(setup_, bodies_, work_);  // one rank has nothing to share out
   if (several_ranks && matter_may_rest()) {
-    parallel::for_each(work.size(), [&](std::size_t p) { work[p] *= is_restless(p) ? 1.0 : share_of_rest; });
+    parallel::for_each(work_.size(),
+                       [&](std::size_t p) { work_[p] *= is_restless(p) ? 1.0 : share_of_rest; });
     most_at_rest_ = 0;
   }
   if (!several_ranks || meshes_.empty()) {
-    grid_.adapt(positions(), velocities(), lookahead, stencil, {work, work_of_block});
+    grid_.adapt(positions(), velocities(), lookahead, stencil, {work_, work_of_block});
   } else {  // elements are work, too
     const std::vector<Vector3> centres = centres_of(meshes_, setup_.geometry);
     const auto append = [&](std::span<const Vector3> points, std::span<const Vector3> more) {
@@ -220,11 +220,11 @@ void Simulation::follow_particles(grid::Stencil stencil) {
     };
     const std::vector<Vector3> at = append(positions(), centres),
                                moving = append(velocities(), std::vector<Vector3>(centres.size()));
-    work.resize(at.size() - centres.size(), 1.0);
+    work_.resize(at.size() - centres.size(), 1.0);
     for (const fem::Mesh& mesh : meshes_) {
-      work.insert(work.end(), mesh.elements.size(), work_of_element(mesh.quadrature));
+      work_.insert(work_.end(), mesh.elements.size(), work_of_element(mesh.quadrature));
     }
-    grid_.adapt(at, moving, lookahead, stencil, {work, work_of_block, centres.size()});
+    grid_.adapt(at, moving, lookahead, stencil, {work_, work_of_block, centres.size()});
   }
   if (several_ranks && migrate(particles_, grid_.owners(particles_.position), communicator_)) find_bodies();
   grid_.activate(positions(), velocities(), lookahead, stencil, transition_.size());

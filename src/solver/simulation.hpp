@@ -214,6 +214,7 @@ class Simulation {
   std::vector<std::uint32_t> flying_;               // particles that fly without the grid in this step
   std::vector<std::uint32_t> by_stencil_, sorted_;  // of the last sort; their memory is kept for the next
   SortBuffers sort_buffers_;
+  std::vector<double> work_;              // of the particles (and elements) for the shares of the ranks
   std::int64_t most_at_rest_ = 0;         // since the blocks were shared out among the ranks
   transfer::TransitionNodes transition_;  // nodes of elements that move with the grid in this step
   fem::SharedNodes shared_nodes_;

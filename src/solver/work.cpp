@@ -12,14 +12,14 @@ double work_of_material(const Material& material) { return material.eos->model()
 
 }  // namespace
 
-std::vector<double> work_of_particles(const setup::Case& setup, std::span<const setup::BodySummary> bodies) {
-  std::vector<double> work;
+void work_of_particles(const setup::Case& setup, std::span<const setup::BodySummary> bodies,
+                       std::vector<double>& work) {
+  work.clear();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     work.resize(std::max(work.size(), bodies[b].first + bodies[b].count), 1.0);
     std::fill_n(work.begin() + static_cast<std::ptrdiff_t>(bodies[b].first), bodies[b].count,
                 1.0 + work_of_material(*setup.materials[b]));
   }
-  return work;
 }
 
 }  // namespace whipple::solver

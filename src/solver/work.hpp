@@ -25,6 +25,8 @@ constexpr double work_of_element(fem::Quadrature quadrature) {
 
 /// Of every particle: its transfers and its material.
 /// @param bodies  the ranges of this rank's particles
-std::vector<double> work_of_particles(const setup::Case& setup, std::span<const setup::BodySummary> bodies);
+/// @param work    resized; its memory serves the next time (new pages cost more than the values)
+void work_of_particles(const setup::Case& setup, std::span<const setup::BodySummary> bodies,
+                       std::vector<double>& work);
 
 }  // namespace whipple::solver
