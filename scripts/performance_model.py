@@ -78,7 +78,7 @@ def main(arguments):
     parser.add_argument("--bandwidth", type=float, default=4e8, help="bytes/s, of the network for each core")
     parser.add_argument("--machine-latency", type=float, default=5e-7, help="s, within the measured machine")
     parser.add_argument("--machine-bandwidth", type=float, default=4e9, help="bytes/s, between two ranks of it")
-    parser.add_argument("--imbalance", type=float, default=1.1, help="work of the busiest core over the mean one")
+    parser.add_argument("--imbalance", type=float, default=1.02, help="work of the busiest core over the mean one")
     options = parser.parse_args(arguments)
     with open(options.bench, encoding="utf-8") as file:
         record = json.load(file)
