@@ -85,6 +85,12 @@ TEST(Document, SyntaxErrorHasItsPosition) {
   EXPECT_THAT(read_text("[domain]\ncell_size = = 3\n"), HasSubstr("case.toml:2:13: error: "));
 }
 
+// The parser below asserts that a key begins as keys do; in a build with assertions such input aborted.
+TEST(Document, AKeyMayBeginWithAnything) {
+  EXPECT_THAT(read_text("[domain]\ncell_size = 1\n[=]\n"), HasSubstr("case.toml:3:2: error: "));
+  EXPECT_THAT(read_text("x = { = 1 }\n"), HasSubstr("case.toml:1:"));
+}
+
 // Bare keys and values are ASCII in TOML; the parser below would run into undefined behaviour.
 TEST(Document, CharactersBeyondAsciiBelongInQuotesOrComments) {
   const std::string fault = ": error: a character beyond ASCII outside of quotes";
