@@ -39,10 +39,11 @@ def folder_of(case, run, resolution):
     return RESULTS / case.name / f"{run.name}.{resolution}"
 
 
-def command_of(case, run, resolution):
-    command = ["whipple", "run", str(case.file.relative_to(ROOT)), "-o",
-               str(folder_of(case, run, resolution).relative_to(ROOT)), "--force"]
-    for assignment in run.assignments(resolution):
+def command_of(case, run, resolution, folder=None, more=()):
+    """Command line of a run, in its folder of run/results or another one, with more assignments."""
+    folder = folder or folder_of(case, run, resolution)
+    command = ["whipple", "run", str(case.file.relative_to(ROOT)), "-o", str(folder.relative_to(ROOT)), "--force"]
+    for assignment in [*run.assignments(resolution), *more]:
         command += ["--set", assignment]
     return command
 
