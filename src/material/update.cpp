@@ -411,6 +411,16 @@ void integrate_energy(Step& step, Chunk& chunk) {
   }
 }
 
+/// What bounds the next time step: how fast matter is compressed, unless it only closes a void.
+WHIPPLE_KERNEL void find_compression_rate(Step& step, const Chunk& chunk) {
+  const Lanes& divergence = chunk.motion.divergence;
+  double rate = step.report.compression_rate;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    rate = std::max(rate, chunk.acting_pressure[k] > 0.0 ? -divergence[k] : 0.0);
+  }
+  step.report.compression_rate = rate;
+}
+
 void update_chunk(Step& step, Chunk& chunk, Energy energy) {
   gather(step, chunk, energy);
   advance_volume(step, chunk);
@@ -422,11 +432,13 @@ void update_chunk(Step& step, Chunk& chunk, Energy energy) {
     book(step, chunk, step.material.eos->evaluate(ask(step, chunk)));
     material::apply_failure(step, chunk);
     material::finish(step, chunk);
+    find_compression_rate(step, chunk);
     return;
   }
   integrate_energy(step, chunk);
   material::apply_failure(step, chunk);
   material::finish(step, chunk);
+  find_compression_rate(step, chunk);
   // The work of the step took the pressure of the equation of state; a failed point, beside a void, acts with
   // less (eq. 15).
   for (std::size_t k = 0; chunk.any_void && k < chunk.size; ++k) {
@@ -475,6 +487,7 @@ void MaterialReport::merge(const MaterialReport& other) {
   undefined += other.undefined;
   first_undefined = std::min(first_undefined, other.first_undefined);
   limited_volume_changes += other.limited_volume_changes;
+  compression_rate = std::max(compression_rate, other.compression_rate);
   for (std::size_t code = 0; code < failed.size(); ++code) failed[code] += other.failed[code];
 }
 

@@ -39,7 +39,8 @@ struct MaterialReport {
   std::size_t undefined = 0;  ///< points with a volume that is not positive, or NaN in gradient or energy
   std::size_t first_undefined = none;  ///< index of the first of them
   std::size_t limited_volume_changes =
-      0;  ///< steps with J outside [1/2, 2]: limited, counted (time step too large)
+      0;                          ///< steps with J outside [1/2, 2]: limited, counted (time step too large)
+  double compression_rate = 0.0;  ///< 1/s, the largest -tr L of points that come under pressure
   std::array<std::size_t, failure::code_count> failed{};  ///< points that failed in this step, by code
 
   /// Nothing that ends a run: `undefined` and `equation_of_state.out_of_range` are 0.

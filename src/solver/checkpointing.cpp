@@ -14,6 +14,7 @@ void for_each_real(State& state, Function&& f) {
   f("time", state.time);
   f("time_step", state.time_step);
   f("maximum_acceleration", state.maximum_acceleration);
+  f("compression_rate", state.compression_rate);
   for_each_number(state.ledger, f);
 }
 

@@ -29,6 +29,7 @@ std::string Simulation::book(const MaterialReport& report, const Material& mater
                              const std::function<std::string(std::size_t, const std::string&)>& describe) {
   step_.clamped_to_cold_curve += static_cast<double>(report.equation_of_state.below_cold_curve);
   step_.held_at_pressure_floor += static_cast<double>(report.equation_of_state.at_pressure_floor);
+  compression_rate_ = std::max(compression_rate_, report.compression_rate);
   step_.limited_volume_changes += static_cast<double>(report.limited_volume_changes);
   if (report.undefined != 0) {
     return describe(report.first_undefined,

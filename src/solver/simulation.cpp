@@ -204,8 +204,11 @@ double Simulation::stable_time_step() {
   if (state_.maximum_acceleration > 0.0) {
     dt = std::min(dt, std::sqrt(setup_.time.acceleration_limit * dx / state_.maximum_acceleration));
   }
-  if (state_.time_step > 0.0) dt = std::min(dt, setup_.time.maximum_growth * state_.time_step);
-  return dt;
+  if (state_.compression_rate > 0.0)
+    dt = std::min(dt, setup_.time.compression_limit / state_.compression_rate);
+  // The first step does not know yet how hard bodies that touch will meet.
+  if (state_.time_step == 0.0) return setup_.time.first_step * dt;
+  return std::min(dt, setup_.time.maximum_growth * state_.time_step);
 }
 
 /// Explicit diffusion of momentum and of heat is stable below dx^2 / (9 a), a the diffusivity, whatever the
@@ -399,8 +402,11 @@ void Simulation::update_material() {
 
 void Simulation::end_step() {
   profile_.time("ledger", [&] {
-    const double acceleration = std::sqrt(squared_change_) / state_.time_step;
-    state_.maximum_acceleration = parallel::maximum(communicator_, acceleration);
+    std::array<double, 2> fastest = {std::sqrt(squared_change_) / state_.time_step,
+                                     std::exchange(compression_rate_, 0.0)};
+    parallel::maximum(communicator_, fastest);
+    state_.maximum_acceleration = fastest[0];
+    state_.compression_rate = fastest[1];
     sum_over_ranks();
     state_.ledger.observe(totals_);
     ++state_.step;

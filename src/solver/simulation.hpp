@@ -34,6 +34,7 @@ struct RunState {
   double time = 0.0;                  ///< s
   double time_step = 0.0;             ///< s, of the last step; 0 before the first
   double maximum_acceleration = 0.0;  ///< m/s^2, in the last step
+  double compression_rate = 0.0;      ///< 1/s, the largest of matter under pressure in the last step
   std::int64_t step = 0;
   std::int64_t particles_at_rest = 0;  ///< of all ranks, left as they were by the last step
   Ledger ledger;
@@ -208,7 +209,8 @@ class Simulation {
   KeptByChunk<double> fastest_of_chunk_;  // sound speed and velocity, m/s
   std::size_t particle_count_ = 0, element_count_ = 0;
   Profile profile_;
-  double squared_change_ = 0.0;  // m^2/s^2, the largest of a particle's velocity in the step under way
+  double squared_change_ = 0.0;    // m^2/s^2, the largest of a particle's velocity in the step under way
+  double compression_rate_ = 0.0;  // 1/s, the largest of matter under pressure in the step under way
   Acceleration acceleration_;
   std::vector<Vector3> external_acceleration_;      // of this step; empty without external forces
   std::vector<std::uint32_t> flying_;               // particles that fly without the grid in this step
