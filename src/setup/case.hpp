@@ -34,7 +34,7 @@ struct TimeControl {
   double first_step = 0.05;
   double maximum_growth = 1.05;
   double acceleration_limit = 0.1;
-  double compression_limit = 0.05;
+  double compression_limit = 0.04;
   double element_safety = 0.9;
   std::string scheme = "symplectic";
   std::string stress_rotation = "hughes_winget";

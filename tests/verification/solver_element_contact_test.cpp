@@ -279,7 +279,7 @@ TEST(ElementContact, ARestartIsBitwiseTheRunThatGoesOn) {
   const TemporaryFolder folder;
   const setup::Case setup = impact({.friction = 0.3}, ball).read();
   solver::Simulation whole(setup, parallel::world());
-  for (int step = 0; step < 25; ++step) whole.advance(2e-6);
+  for (int step = 0; step < 50; ++step) whole.advance(2e-6);
   solver::Simulation restarted = restored(setup, save(whole, folder.path()), parallel::world());
   const double before = whole.state().ledger.contact_impulse;
   for (int step = 0; step < 15; ++step) {

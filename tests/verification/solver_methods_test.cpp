@@ -66,8 +66,9 @@ std::string name_of(const Method& m) { return m.scheme + " " + m.shape_function 
 // invariant.)
 TEST(EveryMethod, IsGalileanInvariantAndKeepsMomentum) {
   const Vector3 common(3000, -2000, 1000);
-  for (const Method& method : all_methods()) {
+  for (Method method : all_methods()) {
     constexpr double dt = 2e-8;
+    method.first_step = 1.0;
     const setup::Case setup = read(method, 1.0, "", block_of_aluminium());
     Particles particles = setup::seed(setup).particles;
     std::mt19937 random(1);

@@ -217,7 +217,7 @@ shape = { box = { lower = [0, 0, 0], upper = [1, %.17g, %.17g] } }
                 plane ? 1.0 : dx, dx, dx, barotropic_material(motion.solid()).c_str(), plane ? 1.0 : dx, dx,
                 discretization.c_str());
   Method chosen = method;
-  chosen.courant = 1.0;  // the time step is set by who advances
+  chosen.courant = chosen.first_step = 1.0;  // the time step is set by who advances
   chosen.linear_viscosity = chosen.quadratic_viscosity = 0;
   return setup::read_case_text(chosen.time_toml(motion.end()) + chosen.toml() + text, "motion.toml");
 }

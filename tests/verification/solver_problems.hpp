@@ -24,6 +24,7 @@ struct Method {
   double courant = 0.5;
   double linear_viscosity = 0.25;
   double quadratic_viscosity = 1.0;
+  double first_step = 0.05;
   int fmpm_order = 2;
   std::string options = {};  ///< further lines of the table `transfer`
 
@@ -37,7 +38,7 @@ struct Method {
   }
   [[nodiscard]] std::string time_toml(double end) const {
     return "[time]\nend = " + std::to_string(end * 1e9) + "e-9\ncourant = " + std::to_string(courant) +
-           "\nscheme = \"" + scheme + "\"\n";
+           "\nfirst_step = " + std::to_string(first_step) + "\nscheme = \"" + scheme + "\"\n";
   }
 };
 
