@@ -406,6 +406,24 @@ TEST(Viscosity, ActsInCompressionOnlyWithThePublishedForm) {
   EXPECT_EQ(points.artificial_viscosity[1], 0.0);
 }
 
+// What bounds the next time step: matter that ends the step in tension, or expands, does not count.
+TEST(Report, NamesTheFastestCompressionOfMatterUnderPressure) {
+  const Material material = with(taylor_copper());
+  MaterialPoints points = points_of(material, 4);
+  points.volume[2] *= 1.02;
+  std::array<Matrix3, 4> gradients;
+  gradients.fill(Matrix3::Zero());
+  gradients[0](0, 0) = -1e5;
+  gradients[1].diagonal() = Vector3(-1e5, -2e5, 1e5);
+  gradients[2](0, 0) = -5e5;
+  gradients[3](0, 0) = 5e5;
+  MaterialReport report = update_material(material, points, 0, 4, gradients, without_viscosity(1e-12));
+  ASSERT_LT(points.pressure[2], 0.0);
+  EXPECT_DOUBLE_EQ(report.compression_rate, 2e5);
+  report.merge(update_material(material, points, 0, 1, gradients, without_viscosity(1e-12)));
+  EXPECT_DOUBLE_EQ(report.compression_rate, 2e5);
+}
+
 /// It takes energy out of the flow and never turns pressure into tension.
 TEST(Viscosity, InExpansionActsWhereAskedForAndNeverExceedsThePressure) {
   const Material material = with(taylor_copper());

@@ -125,13 +125,33 @@ TEST(DebrisCloud, IsTheSameForEveryTimeStep) {
   const Cloud usual = cloud("0.5");
   for (const char* courant : {"0.2", "0.8"}) {
     const Cloud other = cloud(courant);
-    for (const auto member :
-         {&Cloud::internal_energy, &Cloud::debris_mass, &Cloud::debris_momentum, &Cloud::front}) {
-      EXPECT_NEAR(other.*member, usual.*member, 0.02 * usual.*member) << courant;
+    for (const auto member : {&Cloud::internal_energy, &Cloud::debris_mass, &Cloud::debris_momentum,
+                              &Cloud::front, &Cloud::melted}) {
+      EXPECT_NEAR(other.*member, usual.*member, 0.01 * usual.*member) << courant;
     }
-    // With three cells across the plate; 2 % with cells of 0.6 mm (docs/theory/mpm.md, 7.6).
-    EXPECT_NEAR(other.melted, usual.melted, 0.06 * usual.melted) << courant;
   }
+}
+
+// Seven cells across the sphere, to 10 us. What boils is decided where the bodies touch at the start: without
+// a small first step and a limit of the compression in a step it differs by 4 % (docs/theory/mpm.md, 7.6).
+TEST(LeadCloud, BoilsTheSameForEveryTimeStep) {
+  const auto vaporised = [](const char* courant) {
+    const setup::Case setup = setup::read_case(
+        std::string(WHIPPLE_SOURCE_DIR) + "/cases/lead_sphere_on_plate_gray/case.toml",
+        {{"domain.cell_size", "2.1428571429 mm"}, {"time.end", "10 us"}, {"time.courant", courant}});
+    solver::Simulation simulation(setup, parallel::world());
+    run_to(simulation, setup.time.end);
+    const Particles& q = simulation.particles();
+    double mass = 0;
+    for (std::size_t p = 0; p < q.size(); ++p) mass += q.vaporised_fraction[p] * q.mass[p];
+    std::printf("courant %s: %.4f g of vapour, %lld steps\n", courant, 1e3 * mass,
+                static_cast<long long>(simulation.state().step));
+    return mass;
+  };
+  const double usual = vaporised("0.5");
+  EXPECT_GT(usual, 1e-3);
+  EXPECT_NEAR(vaporised("0.2"), usual, 0.01 * usual);
+  EXPECT_NEAR(vaporised("0.8"), usual, 0.01 * usual);
 }
 
 TEST(DebrisCloud, AnUndefinedStateStopsWithItsParticleNamed) {

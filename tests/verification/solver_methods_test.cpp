@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Properties that every scheme, shape function and particle update must have, and the options of the method:
 // separating walls, division of particles, free flight, partial volumes, random shifts of the grid.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,6 +61,49 @@ std::vector<Method> all_methods() {
 }
 
 std::string name_of(const Method& m) { return m.scheme + " " + m.shape_function + " " + m.particle_update; }
+
+// Bodies that touch at the start meet in small steps, and no step compresses matter by more than the limit,
+// at the rate of the step before.
+TEST(TimeStep, BeginsSmallAndFollowsTheCompression) {
+  struct Steps {
+    double first = 0, most = 0;  // s; share of its volume that matter loses in a step
+  };
+  const auto steps = [](const std::string& method, double first_step, double limit) {
+    const std::string slab = "material = \"" + elastic_aluminium() + "\"\ndiscretization = { method = \"" +
+                             method + "\" }\nshape = { box = { ";
+    const setup::Case setup = setup::read_case_text(
+        fmt::format("[time]\nend = 1\ncourant = 0.8\nfirst_step = {}\ncompression_limit = {}\n", first_step,
+                    limit) +
+            "[domain]\nlower = [-0.01, 0, 0]\nupper = [0.01, 0.002, 0.002]\ncell_size = 0.001\n"
+            "boundary = { y_lower = \"symmetry\", y_upper = \"symmetry\", z_lower = \"symmetry\", "
+            "z_upper = \"symmetry\" }\n"
+            "[[body]]\nname = \"left\"\nvelocity = [5000, 0, 0]\n" +
+            slab + "lower = [-0.006, 0, 0], upper = [0, 0.002, 0.002] } }\n" +
+            "[[body]]\nname = \"right\"\n" + slab + "lower = [0, 0, 0], upper = [0.006, 0.002, 0.002] } }\n",
+        "time_step.toml");
+    solver::Simulation simulation(setup, parallel::world());
+    Steps result;
+    for (int step = 0; step < 100; ++step) {
+      const solver::RunState before = simulation.state();
+      simulation.advance(1.0);
+      const double dt = simulation.state().time_step;
+      if (step == 0) {
+        result.first = dt;
+        continue;
+      }
+      EXPECT_LE(dt, 1.05 * before.time_step * (1 + 1e-12));
+      EXPECT_LE(dt * before.compression_rate, limit * (1 + 1e-12));
+      result.most = std::max(result.most, dt * before.compression_rate);
+    }
+    return result;
+  };
+  for (const char* method : {"particles", "finite_elements"}) {
+    const Steps usual = steps(method, 0.05, 0.02), unlimited = steps(method, 1.0, 1e9);
+    EXPECT_NEAR(usual.first, 0.05 * unlimited.first, 1e-12 * usual.first) << method;
+    EXPECT_NEAR(usual.most, 0.02, 1e-12) << method;
+    EXPECT_GT(unlimited.most, 0.06) << method;
+  }
+}
 
 // One step of a block with random velocities and stresses, at rest and in motion: all that a step changes is
 // the same. (Over many steps the grid is passed at other places, and only the error of the method is
