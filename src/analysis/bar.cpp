@@ -105,20 +105,24 @@ Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Fra
   }
   if (matter.size() < 2) return {};
   std::sort(matter.begin(), matter.end());
-  double below = 0.0, below_gap = 0.0, gap = 0.0;
-  for (std::size_t i = 0; i + 1 < matter.size(); ++i) {
-    below += matter[i].second;
-    if (matter[i + 1].first - matter[i].first > gap) {
-      gap = matter[i + 1].first - matter[i].first;
-      below_gap = below;
-    }
-  }
+  const auto gap_behind = [&](std::size_t i) { return matter[i + 1].first - matter[i].first; };
+  double largest = 0.0;
+  for (std::size_t i = 0; i + 1 < matter.size(); ++i) largest = std::max(largest, gap_behind(i));
+  // Metal often parts on several planes at once; the layer that flies off ends at the foremost.
+  constexpr double is_open = 0.5;  // of the largest gap
+  std::size_t foremost = matter.size() - 1;
+  double ahead = 0.0;
+  do {
+    ahead += matter[foremost].second;
+  } while (--foremost > 0 && gap_behind(foremost) < is_open * largest);
   const double length = axial_extent(first, frame, body, input.spacing).length();
-  return {
-      {fmt::format("spall_thickness.{}", input.name), "m",
-       "initial thickness of the matter ahead of the largest gap along the axis",
-       length * (total - below_gap) / total},
-      {fmt::format("largest_gap.{}", input.name), "m", "largest gap between particles along the axis", gap}};
+  return {{fmt::format("spall_thickness.{}", input.name), "m",
+           "initial thickness of the matter ahead of the foremost gap along the axis that is at least half "
+           "as wide "
+           "as the largest",
+           length * ahead / total},
+          {fmt::format("largest_gap.{}", input.name), "m", "largest gap between particles along the axis",
+           largest}};
 }
 
 Quantities rod_measures(const Snapshot& first, const Snapshot& last, std::size_t body, const BodyInput& input,

@@ -15,7 +15,7 @@ Table diameter_profile(const Snapshot& snapshot, const Frame& frame, const Run& 
 Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,
                         const BodyInput& input, double cell_size, double diameter_at);
 
-/// Spall of a body in planar impact, from the largest gap along the axis at the last snapshot.
+/// Spall of a body in planar impact, from the gaps along the axis at the last snapshot.
 Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Frame& frame, std::size_t body,
                           const BodyInput& input);
 

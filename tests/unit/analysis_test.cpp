@@ -291,6 +291,12 @@ TEST(Bar, SpallLayerAndPullback) {
       spall_measures(start.snapshot, end.snapshot, quarter(), 0, {"target", Vector3::Zero(), 0.1e-3});
   EXPECT_NEAR(value(row, "spall_thickness.target"), 1.4e-3, 1e-9);
   EXPECT_NEAR(value(row, "largest_gap.target"), 0.8e-3, 1e-9);
+  // A second plane 0.5 mm behind, wider open: what flies off is still the layer ahead of the first.
+  for (std::size_t i = 0; i < 21; ++i) end.snapshot.position[i].z() -= 0.9e-3;
+  const Quantities planes =
+      spall_measures(start.snapshot, end.snapshot, quarter(), 0, {"target", Vector3::Zero(), 0.1e-3});
+  EXPECT_NEAR(value(planes, "spall_thickness.target"), 1.4e-3, 1e-9);
+  EXPECT_NEAR(value(planes, "largest_gap.target"), 1.0e-3, 1e-9);
   EXPECT_DOUBLE_EQ(pullback({0, 100, 480, 500, 500, 430, 345, 350, 410, 300}), 155.0);
   EXPECT_TRUE(std::isnan(pullback({0, 100, 500, 499, 498})));
 }
