@@ -26,6 +26,8 @@ namespace {
 constexpr std::int64_t sort_every = 20;  // steps between sorts of the particle arrays
 /// Of the matter at rest when the blocks were shared out among the ranks, part below which that is done anew.
 constexpr double rest_of_old_shares = 0.8;
+/// Of the stable time step: a few particles of thin matter must not hold up the others for accuracy's sake.
+constexpr double least_share_for_accuracy = 0.125;
 
 transfer::AffineField affine_field(const setup::TransferControl& control) {
   using enum transfer::AffineField;
@@ -204,8 +206,10 @@ double Simulation::stable_time_step() {
   if (state_.maximum_acceleration > 0.0) {
     dt = std::min(dt, std::sqrt(setup_.time.acceleration_limit * dx / state_.maximum_acceleration));
   }
-  if (state_.compression_rate > 0.0)
-    dt = std::min(dt, setup_.time.compression_limit / state_.compression_rate);
+  if (state_.compression_rate > 0.0) {
+    const double accurate = setup_.time.compression_limit / state_.compression_rate;
+    dt = std::min(dt, std::max(accurate, least_share_for_accuracy * dt));
+  }
   // The first step does not know yet how hard bodies that touch will meet.
   if (state_.time_step == 0.0) return setup_.time.first_step * dt;
   return std::min(dt, setup_.time.maximum_growth * state_.time_step);
