@@ -117,9 +117,7 @@ Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Fra
   } while (--foremost > 0 && gap_behind(foremost) < is_open * largest);
   const double length = axial_extent(first, frame, body, input.spacing).length();
   return {{fmt::format("spall_thickness.{}", input.name), "m",
-           "initial thickness of the matter ahead of the foremost gap along the axis that is at least half "
-           "as wide "
-           "as the largest",
+           "initial thickness of the matter ahead of the foremost gap at least half as wide as the largest",
            length * ahead / total},
           {fmt::format("largest_gap.{}", input.name), "m", "largest gap between particles along the axis",
            largest}};

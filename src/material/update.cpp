@@ -430,15 +430,13 @@ void update_chunk(Step& step, Chunk& chunk, Energy energy) {
   if (energy == Energy::from_grid) {
     prepare_energy(step, chunk);
     book(step, chunk, step.material.eos->evaluate(ask(step, chunk)));
-    material::apply_failure(step, chunk);
-    material::finish(step, chunk);
-    find_compression_rate(step, chunk);
-    return;
+  } else {
+    integrate_energy(step, chunk);
   }
-  integrate_energy(step, chunk);
   material::apply_failure(step, chunk);
   material::finish(step, chunk);
   find_compression_rate(step, chunk);
+  if (energy == Energy::from_grid) return;
   // The work of the step took the pressure of the equation of state; a failed point, beside a void, acts with
   // less (eq. 15).
   for (std::size_t k = 0; chunk.any_void && k < chunk.size; ++k) {
