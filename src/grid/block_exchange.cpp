@@ -164,7 +164,6 @@ void BlockGrid::borrow_from_owners(ContactValues& values) {
                   [](Lanes& value, const Lanes& in) { value = in; });
 }
 
-/// Every rank that works with a slot learns the bits that all of them have set.
 void BlockGrid::join_bits_of_ranks(std::vector<std::uint64_t>& of_slot) {
   const auto one = [](std::size_t) { return std::size_t{1}; };
   const auto pack = [&](std::size_t slot, std::uint64_t* out) { *out = of_slot[slot]; };

@@ -150,6 +150,7 @@ class BlockGrid {
   void particles_removed(std::span<const Move> moves, std::size_t size);
 
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
+  [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
   [[nodiscard]] std::size_t slots() const { return blocks_.coordinate.size(); }
   /// The first so many slots are blocks of this rank; the others are borrowed.
   [[nodiscard]] std::size_t owned_slots() const { return blocks_.owned; }
@@ -288,6 +289,8 @@ class BlockGrid {
   void borrow_from_owners(ContactValues& values);
   /// Replaces the owners' values by the largest of all ranks. Collective.
   void maximum_to_owners(ContactValues& values);
+  /// Sets the bits of each slot on all ranks that work with it if any of them has. Collective.
+  void join_bits_of_ranks(std::vector<std::uint64_t>& of_slot);
 
   /// A node beyond a mirror plane, its image inside, and the node between them on the plane (`no_node` if its
   /// block is not active), as indices into all_nodes().
@@ -394,7 +397,6 @@ class BlockGrid {
   [[nodiscard]] std::size_t node_block(std::size_t slot, std::size_t i) const;
   template <class Combine>
   void exchange_values(ContactValues& values, SharedSlots from, SharedSlots to, Combine&& combine);
-  void join_bits_of_ranks(std::vector<std::uint64_t>& of_slot);
 
   MPI_Comm communicator_;
   Geometry geometry_;       // with the shift

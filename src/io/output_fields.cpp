@@ -42,6 +42,10 @@ const auto table = std::to_array<OutputField>({
      [](const Source& s, std::size_t i) { return s.particles.mass[i] / s.particles.volume[i]; }},
     {"internal_energy", "J/kg", "specific internal energy", false,
      [](const Source& s, std::size_t i) { return s.particles.specific_internal_energy[i]; }},
+    {"unresolved_energy", "J/kg", "kinetic energy of motion that the cells do not resolve, no heat yet", false,
+     [](const Source& s, std::size_t i) {
+       return s.particles.unresolved_energy.empty() ? 0.0 : s.particles.unresolved_energy[i];
+     }},
     {"phase", "", "0 solid, 1 melting, 2 liquid, 3 vapour (at least half of the mass)", false,
      [](const Source& s, std::size_t i) {
        return static_cast<std::uint8_t>(phase(s.particles.melted_fraction[i], s.particles.vaporised_fraction[i]));

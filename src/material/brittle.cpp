@@ -72,6 +72,7 @@ void relax_brittle(Step& step, Chunk& chunk) {
   for (std::size_t k = 0; k < chunk.size; ++k) {
     if (chunk.failed[k] != failure::intact) continue;
     if (equivalent[k] < chunk.motion.trial[k]) {
+      step.report.plastic_work += equivalent[k] * chunk.increment[k] * chunk.volume[k];
       scale(chunk.motion.deviator, k, equivalent[k] / chunk.motion.trial[k]);
     }
     if (gained[k] > 0.0) {  // (12): 1/alpha falls by the gain over K1

@@ -48,6 +48,7 @@ struct Chunk {
   Lanes distension;        // of porous matter only
   Lanes least_pressure;    // of brittle matter only: the tension at which its gaps open
   Lanes stored_cold_work;  // of materials that store some only
+  Lanes heating_viscosity;  // of points with an affine field only
 
   template <class Array>
   auto view(Array& array) {
@@ -126,8 +127,12 @@ struct Step {
   MaterialPoints& points;
   std::span<const Matrix3> gradient;  // of this chunk, or
   GradientComponents components;      // the same by components
+  std::span<const double> affine_divergence;  // of this chunk, or empty
   const UpdateSettings& settings;
   MaterialReport& report;
+
+  /// Do the points distinguish the viscosity that heats?
+  [[nodiscard]] bool keeps_losses() const { return !points.heating_viscosity.empty(); }
 };
 
 constexpr std::array<double SymmetricTensor::*, 6> components = {&SymmetricTensor::xx, &SymmetricTensor::yy,

@@ -206,6 +206,7 @@ WHIPPLE_KERNEL void finish(Step& step, Chunk& chunk) {
                            raise(maximum_temperature, chunk.temperature, chunk.size);
   chunk.deposit(chunk.volume, points.volume);
   chunk.deposit(chunk.artificial_viscosity, points.artificial_viscosity);
+  if (step.keeps_losses()) chunk.deposit(chunk.heating_viscosity, points.heating_viscosity);
   chunk.deposit(chunk.acting_pressure, points.pressure);
   chunk.deposit(chunk.plastic_strain, points.plastic_strain);
   chunk.deposit(chunk.temperature, points.temperature);

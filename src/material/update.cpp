@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <tuple>
 #include <utility>
 
@@ -19,6 +20,8 @@ constexpr double greatest_volume_ratio = 2.0;
 /// Of the reference density. Thinner matter expands no further: long before, it fills more than the nodes
 /// that its pressure acts on, and without a bound lone vapour would grow by the same factor in every step.
 constexpr double least_density_ratio = 1e-9;
+/// Of the reference density: thinner matter has gaps, whether they have opened already or not.
+constexpr double least_density_of_intact = 0.95;
 
 using material::Chunk;
 using material::chunk_size;
@@ -211,19 +214,22 @@ void store_cold_work(const Step& step, Chunk& chunk, std::size_t k, double work)
   chunk.stored_cold_work[k] += (1.0 - step.material.taylor_quinney) * work * chunk.volume[k] / chunk.mass[k];
 }
 
-/// The radial return by the increments of the plastic strain.
-WHIPPLE_KERNEL void return_radially(Chunk& chunk) {
+/// The radial return by the increments of the plastic strain. @returns the plastic work (J)
+WHIPPLE_KERNEL double return_radially(Chunk& chunk) {
   material::Kinematics& motion = chunk.motion;
   Lanes kept;
+  double work = 0.0;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const double increment = chunk.increment[k], trial = motion.trial[k];
     const double after = std::max(0.0, trial - 3.0 * motion.modulus[k] * increment);
     kept[k] = increment > 0.0 ? after / trial : 1.0;
     chunk.plastic_strain[k] += increment;
+    work += after * increment * chunk.volume[k];
   }
   for (Lanes& lane : motion.deviator) {
     for (std::size_t k = 0; k < chunk.size; ++k) lane[k] *= kept[k];
   }
+  return work;
 }
 
 /// Deviatoric stress: rotation, elastic trial, radial return (eq. 3 to 7, 16).
@@ -258,7 +264,7 @@ void advance_deviator(Step& step, Chunk& chunk, Energy energy) {
                                             chunk.view(chunk.solid_fraction), dt,
                                             chunk.view(chunk.increment));
   if (!kinematic) {
-    return_radially(chunk);
+    step.report.plastic_work += return_radially(chunk);
     if (!stores) return;
     for (std::size_t k = 0; k < chunk.size; ++k) {
       const double increment = chunk.increment[k];
@@ -281,6 +287,7 @@ void advance_deviator(Step& step, Chunk& chunk, Energy energy) {
       chunk.back_stress[j][k] += hardening * per_trial * shifted;
       work += (j < 3 ? 1.5 : 3.0) * per_trial * motion.deviator[j][k] * shifted;
     }
+    step.report.plastic_work += work * chunk.volume[k];
     if (stores) store_cold_work(step, chunk, k, work);
   }
 }
@@ -296,6 +303,33 @@ void advance_strain(Step& step, Chunk& chunk) {
                  chunk.motion.gradient, chunk.strain);
   for (std::size_t j = 0; j < 6; ++j) {
     for (std::size_t k = 0; k < chunk.size; ++k) chunk.strain[j][k] += chunk.motion.strain[j][k];
+  }
+}
+
+/// The part of the artificial viscosity whose work is heat: by the rate of the grid, or where matter meets at
+/// first, by that of the particle's own affine field (docs/theory/dissipation.md, eq. 6). Loose matter takes that of
+/// the grid: the affine field of a cloud still expands when it meets a wall.
+WHIPPLE_KERNEL void find_heating_viscosity(const Step& step, Chunk& chunk) {
+  const UpdateSettings& settings = step.settings;
+  static const bool trial_a = std::getenv("TRIAL_A") != nullptr;
+  const double per_reference = 1.0 / step.material.reference.density;
+  const double per_range = 1.0 / settings.affine_compression;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double of_grid = -chunk.motion.divergence[k] * settings.cell_size,
+                 of_field = std::max(-step.affine_divergence[k], 0.0) * settings.cell_size;
+    const double compressed = chunk.density[k] * per_reference;
+    const bool intact = chunk.intact[k] != 0.0 && compressed > least_density_of_intact;
+    const double share = std::clamp(1.0 - (compressed - 1.0) * per_range, 0.0, 1.0);
+    const double closing = of_grid + share * (of_field - of_grid);
+    const double viscosity =
+        chunk.density[k] * closing *
+        (settings.quadratic_viscosity * closing + settings.linear_viscosity * chunk.sound_speed[k]);
+    const double whole = chunk.artificial_viscosity[k];
+    if (trial_a) {
+      chunk.artificial_viscosity[k] = chunk.heating_viscosity[k] = intact && of_grid > 0.0 ? viscosity : whole;
+      continue;
+    }
+    chunk.heating_viscosity[k] = intact && of_grid > 0.0 ? std::min(viscosity, whole) : whole;
   }
 }
 
@@ -324,6 +358,13 @@ WHIPPLE_KERNEL void advance_viscosity(Step& step, Chunk& chunk) {
   } else {
     advance([&](std::size_t k) { return settings.lengths[chunk.index[k]]; });
   }
+  if (step.keeps_losses()) {
+    if (step.affine_divergence.empty()) {
+      chunk.heating_viscosity = chunk.artificial_viscosity;
+    } else {
+      find_heating_viscosity(step, chunk);
+    }
+  }
   const bool brittle = step.material.brittle;
   if (!(chunk.any_failed || brittle) || !chunk.any_void) return;
   for (std::size_t k = 0; k < chunk.size; ++k) {
@@ -339,12 +380,13 @@ WHIPPLE_KERNEL void prepare_energy(const Step& step, Chunk& chunk) {
   const double half_step = 0.5 * step.settings.time_step;
   const material::SymmetricLanes& lanes = chunk.motion.deviator;
   const material::MatrixLanes& l = chunk.motion.gradient;
+  const Lanes& viscosity = step.keeps_losses() ? chunk.heating_viscosity : chunk.artificial_viscosity;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const SymmetricTensor s = material::tensor(lanes, k);
     const double deviatoric = s.xx * l[0][k] + s.yy * l[4][k] + s.zz * l[8][k] + s.xy * (l[1][k] + l[3][k]) +
                               s.yz * (l[5][k] + l[7][k]) + s.zx * (l[2][k] + l[6][k]);
     const double power =
-        deviatoric - (chunk.pressure[k] + chunk.artificial_viscosity[k]) * chunk.motion.divergence[k];
+        deviatoric - (chunk.pressure[k] + viscosity[k]) * chunk.motion.divergence[k];
     const double modulus = chunk.motion.modulus[k];
     const double elastic = s.squared_norm() / (4.0 * (modulus > 0.0 ? modulus : 1.0));
     const double specific_volume = chunk.volume[k] / chunk.mass[k];
@@ -457,8 +499,11 @@ MaterialReport update_all(const Material& material, MaterialPoints& points, std:
     chunk.size = std::min(chunk_size, count - first);
     for (std::size_t k = 0; k < chunk.size; ++k) chunk.index[k] = index_of(first + k);
     chunk.find_runs();
-    Step step{material, points, {}, {}, settings, report};
+    Step step{material, points, {}, {}, {}, settings, report};
     std::tie(step.gradient, step.components) = gradient_of(first, chunk.size);
+    if (!settings.affine_divergence.empty() && settings.affine_compression > 0.0) {
+      step.affine_divergence = settings.affine_divergence.subspan(first, chunk.size);
+    }
     update_chunk(step, chunk, energy);
   }
   return report;
@@ -486,6 +531,7 @@ void MaterialReport::merge(const MaterialReport& other) {
   first_undefined = std::min(first_undefined, other.first_undefined);
   limited_volume_changes += other.limited_volume_changes;
   compression_rate = std::max(compression_rate, other.compression_rate);
+  plastic_work += other.plastic_work;
   for (std::size_t code = 0; code < failed.size(); ++code) failed[code] += other.failed[code];
 }
 

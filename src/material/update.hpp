@@ -24,6 +24,10 @@ struct UpdateSettings {
   double linear_viscosity = 0.25;        ///< c1 of q = rho l |D| (c2 l |D| + c1 c)
   double quadratic_viscosity = 1.0;      ///< c2
   double expansion_viscosity = 0.0;      ///< c1 of q = -rho l |D| c1 c in expansion
+  /// 1/s, tr C of the affine field of each point of the list, which has a share in the rate of the artificial
+  /// viscosity (docs/theory/dissipation.md, eq. 6); empty: none has
+  std::span<const double> affine_divergence = {};
+  double affine_compression = 0.0;  ///< g of eq. 6
   material::StressRotation rotation = material::StressRotation::hughes_winget;
   double time = 0.0;  ///< s, at the end of the step
 };
@@ -41,6 +45,7 @@ struct MaterialReport {
   std::size_t limited_volume_changes =
       0;                          ///< steps with J outside [1/2, 2]: limited, counted (time step too large)
   double compression_rate = 0.0;  ///< 1/s, the largest -tr L of points that come under pressure
+  double plastic_work = 0.0;      ///< J
   std::array<std::size_t, failure::code_count> failed{};  ///< points that failed in this step, by code
 
   /// Nothing that ends a run: `undefined` and `equation_of_state.out_of_range` are 0.

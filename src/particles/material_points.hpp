@@ -73,6 +73,9 @@ struct MaterialPoints {
   std::vector<SymmetricTensor> back_stress;      ///< Pa, centre of the yield surface; optional
   std::vector<SymmetricTensor> strain;           ///< logarithmic strain, turned with the matter; optional
   std::vector<double> stored_cold_work;          ///< J/kg, plastic work that did not become heat; optional
+  /// Pa, part of the artificial viscosity whose work is heat, the rest makes unresolved energy
+  /// (docs/theory/dissipation.md, 3); optional
+  std::vector<double> heating_viscosity;
 
   static constexpr auto fields() {
     using P = MaterialPoints;
@@ -90,7 +93,8 @@ struct MaterialPoints {
         Field{"melting_time", "s", &P::melting_time}, Field{"distension", "1", &P::distension, true, 1.0},
         Field{"failure_threshold_factor", "1", &P::failure_threshold_factor, true, 1.0},
         Field{"back_stress", "Pa", &P::back_stress, true}, Field{"strain", "1", &P::strain, true},
-        Field{"stored_cold_work", "J/kg", &P::stored_cold_work, true});
+        Field{"stored_cold_work", "J/kg", &P::stored_cold_work, true},
+        Field{"heating_viscosity", "Pa", &P::heating_viscosity, true});
   }
 };
 

@@ -21,6 +21,10 @@ struct Particles : MaterialPoints {
   std::vector<Matrix3> affine_velocity;
   /// m^2: sum of r r^T over the three half-edges r of the particle's domain (docs/theory/mpm.md, 2); optional
   std::vector<SymmetricTensor> extent;
+  /// J/kg, >= 0: kinetic energy that the transfers took from the motion of the grid and that is no heat yet
+  /// (docs/theory/dissipation.md, 2); optional
+  std::vector<double> unresolved_energy;
+  std::vector<double> closing_rate;      ///< 1/s, -tr L of the last step, 0 in expansion; optional
   std::vector<std::uint8_t> generation;  ///< divisions that the particle comes from (0: as seeded)
 
   [[nodiscard]] std::size_t size() const { return mass.size(); }
@@ -32,7 +36,9 @@ struct Particles : MaterialPoints {
         std::make_tuple(Field{"id", "1", &P::id}, Field{"body", "1", &P::body},
                         Field{"position", "m", &P::position}, Field{"velocity", "m/s", &P::velocity},
                         Field{"affine_velocity", "1/s", &P::affine_velocity, true},
-                        Field{"extent", "m^2", &P::extent, true}, Field{"generation", "1", &P::generation}));
+                        Field{"extent", "m^2", &P::extent, true},
+                        Field{"unresolved_energy", "J/kg", &P::unresolved_energy, true},
+                        Field{"closing_rate", "1/s", &P::closing_rate, true}, Field{"generation", "1", &P::generation}));
   }
 };
 

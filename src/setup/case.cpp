@@ -254,7 +254,19 @@ void check_conduction(const Case& setup, input::Table& heat) {
   }
 }
 
+/// Only the work identity of the symplectic scheme says what the transfers lose.
+void check_dissipation(Case& setup, input::Table& root) {
+  if (setup.time.scheme == "symplectic") return;
+  if (auto table = root.optional_table("dissipation"); table && table->has("losses") && setup.dissipation.keeps_losses()) {
+    table->error_at("losses", fmt::format("losses = \"unresolved\" needs scheme = \"symplectic\": \"{}\" does not know "
+                                          "what its transfers lose",
+                                          setup.time.scheme));
+  }
+  setup.dissipation.losses = "heat";
+}
+
 void check_combinations(Case& setup, input::Table& root) {
+  check_dissipation(setup, root);
   auto transfer = root.optional_table("transfer");
   check_transfer(setup, transfer ? &*transfer : nullptr);
   const bool separating = std::ranges::count(faces(setup.domain), "separating") > 0;
@@ -297,6 +309,7 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   if (auto table = root.optional_table("artificial_viscosity")) {
     table->read(ArtificialViscosity::parameters(), setup.viscosity);
   }
+  if (auto table = root.optional_table("dissipation")) table->read(Dissipation::parameters(), setup.dissipation);
   if (auto table = root.optional_table("output")) table->read(OutputControl::parameters(), setup.output);
   auto heat = root.optional_table("heat");
   if (heat) heat->read(HeatControl::parameters(), setup.heat);
@@ -364,6 +377,7 @@ std::string to_toml(const Case& setup, const std::vector<std::string>& material_
   text += section("transfer", TransferControl::parameters(), setup.transfer);
   text += section("splitting", Splitting::parameters(), setup.splitting);
   text += section("artificial_viscosity", ArtificialViscosity::parameters(), setup.viscosity);
+  text += section("dissipation", Dissipation::parameters(), setup.dissipation);
   text += section("heat", HeatControl::parameters(), setup.heat);
   text += section("contact", ContactControl::parameters(), setup.contact);
   text += section("gravity", Gravity::parameters(), setup.gravity);
@@ -385,6 +399,7 @@ std::string describe_case() {
   text += "\n[transfer]\n" + describe_table(TransferControl::parameters());
   text += "\n[splitting]\n" + describe_table(Splitting::parameters());
   text += "\n[artificial_viscosity]\n" + describe_table(ArtificialViscosity::parameters());
+  text += "\n[dissipation]\n" + describe_table(Dissipation::parameters());
   text += "\n[heat]\n" + describe_table(HeatControl::parameters());
   text += "\n[contact]\n" + describe_table(ContactControl::parameters());
   text += "\n[gravity]\n" + describe_table(Gravity::parameters());

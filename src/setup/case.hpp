@@ -13,6 +13,7 @@
 #include "src/material/material.hpp"
 #include "src/setup/body.hpp"
 #include "src/setup/contact.hpp"
+#include "src/setup/dissipation.hpp"
 #include "src/setup/gauges.hpp"
 
 namespace whipple::setup {
@@ -95,6 +96,7 @@ struct Case {
   TransferControl transfer;
   Splitting splitting;
   ArtificialViscosity viscosity;  ///< of bodies that bring none of their own
+  Dissipation dissipation;
   HeatControl heat;
   ContactControl contact;
   Gravity gravity;

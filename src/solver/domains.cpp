@@ -47,9 +47,9 @@ Vector3 longest_half_edge(const SymmetricTensor& extent) {
 
 /// Divides a particle in two halves of its domain along a half-edge (2.6), (2.7). Its second half becomes
 /// `other`, a copy of it. Mass, momentum, angular momentum and second moments of the mass stay exactly; what
-/// the affine field loses becomes internal energy.
+/// the affine field loses becomes unresolved energy if there is a store of it, else internal energy.
 /// @param inertia  of the affine field; 0 without one
-/// @returns that heat (J)
+/// @returns J, that loss
 double divide(Particles& particles, std::size_t p, std::size_t other, const Vector3& half_edge,
               double inertia) {
   particles.mass[p] *= 0.5;
@@ -67,7 +67,8 @@ double divide(Particles& particles, std::size_t p, std::size_t other, const Vect
     const double before = 0.5 * inertia * c.squaredNorm();
     c -= difference * offset.transpose() / inertia;
     heat = before - 0.5 * inertia * c.squaredNorm() - 0.5 * difference.squaredNorm();
-    particles.specific_internal_energy[p] += heat;
+    (particles.unresolved_energy.empty() ? particles.specific_internal_energy : particles.unresolved_energy)[p] +=
+        heat;
   }
   for_each_field<Particles>([&](const auto& field) {
     auto& values = particles.*(field.values);
@@ -125,7 +126,7 @@ void Simulation::split_particles() {
     const std::size_t before = particles_.size();
     resize(particles_, before + divided.size());
     for (std::size_t i = 0; i < divided.size(); ++i) {
-      step_.transfer_heat +=
+      (losses_.kept ? step_.unresolved_kept : step_.transfer_heat) +=
           divide(particles_, divided[i].first, before + i, divided[i].second, particle_affine_inertia());
       particles_.id[before + i] = next++;
     }

@@ -181,6 +181,7 @@ std::string Simulation::deform_elements(std::size_t m, bool heated) {
   }
   profile_.reassign("elements", "material",
                     std::chrono::duration<double>(in_material).count() / parallel::threads());
+  element_compression_rate_ = std::max(element_compression_rate_, sum.compression_rate);
   const std::string of_material = book(sum, material, [&](std::size_t p, const std::string& reason) {
     return describe_element(mesh, p, reason);
   });

@@ -18,6 +18,7 @@ Totals& Totals::operator+=(const Totals& other) {
   kinetic_energy += other.kinetic_energy;
   affine_kinetic_energy += other.affine_kinetic_energy;
   internal_energy += other.internal_energy;
+  unresolved_energy += other.unresolved_energy;
   hourglass_energy += other.hourglass_energy;
   return *this;
 }
@@ -32,7 +33,8 @@ Totals totals_of(const Particles& particles, std::size_t p, double affine_inerti
           .momentum_scale = m * std::sqrt(speed2),
           .kinetic_energy = 0.5 * m * speed2,
           .affine_kinetic_energy = 0.5 * m * affine_inertia * affine,
-          .internal_energy = m * particles.specific_internal_energy[p]};
+          .internal_energy = m * particles.specific_internal_energy[p],
+          .unresolved_energy = particles.unresolved_energy.empty() ? 0.0 : m * particles.unresolved_energy[p]};
 }
 
 namespace {
@@ -74,6 +76,13 @@ Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_
                 .kinetic_energy = 0.5 * sum4(twice_kinetic),
                 .internal_energy = sum4(internal)};
   for (; p < end; ++p) sum += totals_of(particles, p, 0.0);
+  if (!particles.unresolved_energy.empty()) {
+    Lanes unresolved{};  // of those before `p` that were taken four at a time
+    for (std::size_t i = begin; i + 4 <= end; i += 4) {
+      unresolved += load(&particles.mass[i]) * load(&particles.unresolved_energy[i]);
+    }
+    sum.unresolved_energy += sum4(unresolved);
+  }
   if (affine_inertia > 0.0) {
     sum.affine_kinetic_energy = 0.5 * affine_inertia * affine_sum(particles, begin, end);
   }
@@ -133,7 +142,12 @@ void Ledger::add(const Ledger& step) {
   external_impulse += step.external_impulse;
   external_work += step.external_work;
   work += step.work;
+  viscous_work += step.viscous_work;
+  plastic_work += step.plastic_work;
   transfer_heat += step.transfer_heat;
+  unresolved_kept += step.unresolved_kept;
+  unresolved_returned += step.unresolved_returned;
+  conducted_heat += step.conducted_heat;
   contact_heat += step.contact_heat;
   friction_heat += step.friction_heat;
   contact_impulse += step.contact_impulse;
@@ -149,7 +163,8 @@ void Ledger::add(const Ledger& step) {
 namespace {
 
 double moving_energy(const Totals& totals) {
-  return totals.kinetic_energy + totals.affine_kinetic_energy + totals.hourglass_energy;
+  return totals.kinetic_energy + totals.affine_kinetic_energy + totals.unresolved_energy +
+         totals.hourglass_energy;
 }
 
 // The round-off of an internal energy at rest is no error of what little the run exchanges.

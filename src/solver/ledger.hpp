@@ -25,10 +25,16 @@ struct Totals {
   double kinetic_energy = 0.0;         ///< of the particles' and nodes' own velocities
   double affine_kinetic_energy = 0.0;  ///< of their affine fields: m inertia |C|^2 / 2
   double internal_energy = 0.0;
-  double hourglass_energy = 0.0;  ///< stored in the hourglass modes of elements
+  double unresolved_energy = 0.0;  ///< kinetic, of motion that the cells do not resolve
+  double hourglass_energy = 0.0;   ///< stored in the hourglass modes of elements
 
   [[nodiscard]] double energy() const {
-    return kinetic_energy + affine_kinetic_energy + internal_energy + hourglass_energy;
+    return kinetic_energy + affine_kinetic_energy + unresolved_energy + internal_energy + hourglass_energy;
+  }
+  /// Of the kinetic energy of resolved motion, what is unresolved; 0 where nothing moves.
+  [[nodiscard]] double unresolved_share() const {
+    const double resolved = kinetic_energy + affine_kinetic_energy;
+    return resolved > 0.0 ? unresolved_energy / resolved : 0.0;
   }
   Totals& operator+=(const Totals& other);
 };
@@ -45,6 +51,7 @@ void for_each_number(T& totals, Function&& f) {
   f("kinetic_energy", totals.kinetic_energy);
   f("affine_kinetic_energy", totals.affine_kinetic_energy);
   f("internal_energy", totals.internal_energy);
+  f("unresolved_energy", totals.unresolved_energy);
   f("hourglass_energy", totals.hourglass_energy);
 }
 
@@ -72,7 +79,12 @@ struct Ledger {
   Vector3 external_impulse = Vector3::Zero();  ///< N s, by an external acceleration
   double external_work = 0.0;                  ///< J, of the same, and of nodes with prescribed velocities
   double work = 0.0;                           ///< J, stress on strain, into internal energy
-  double transfer_heat = 0.0;                  ///< J, kinetic energy lost in transfers, into internal energy
+  double viscous_work = 0.0;                   ///< J, part of it: of the artificial viscosity
+  double plastic_work = 0.0;                   ///< J, part of it: of the strength on plastic strain
+  double transfer_heat = 0.0;         ///< J, kinetic energy lost in transfers that became internal at once
+  double unresolved_kept = 0.0;       ///< J, the rest of it, into unresolved energy
+  double unresolved_returned = 0.0;   ///< J, unresolved energy that became internal
+  double conducted_heat = 0.0;        ///< J, internal energy that shocks moved between particles
   double contact_heat = 0.0;      ///< J, lost by the normal impulses of contact, into internal energy
   double friction_heat = 0.0;     ///< J, lost by its tangential impulses, into internal energy
   double contact_impulse = 0.0;   ///< N s, sum of the normal impulses (equal and opposite on two bodies)
@@ -115,7 +127,12 @@ void for_each_number(L& ledger, Function&& f) {
   f("external_impulse_z", ledger.external_impulse[2]);
   f("external_work", ledger.external_work);
   f("work", ledger.work);
+  f("viscous_work", ledger.viscous_work);
+  f("plastic_work", ledger.plastic_work);
   f("transfer_heat", ledger.transfer_heat);
+  f("unresolved_kept", ledger.unresolved_kept);
+  f("unresolved_returned", ledger.unresolved_returned);
+  f("conducted_heat", ledger.conducted_heat);
   f("contact_heat", ledger.contact_heat);
   f("friction_heat", ledger.friction_heat);
   f("contact_impulse", ledger.contact_impulse);

@@ -71,13 +71,20 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
       {"kinetic_energy", "J", t.kinetic_energy},
       {"affine_kinetic_energy", "J", t.affine_kinetic_energy},
       {"internal_energy", "J", t.internal_energy},
+      {"unresolved_energy", "J", t.unresolved_energy},
+      {"unresolved_share", "1", t.unresolved_share()},
       {"total_energy", "J", t.energy()},
       {"energy_error", "1", state.ledger.energy_error(t)},
       {"momentum_x", "kg m/s", t.momentum[0]},
       {"momentum_y", "kg m/s", t.momentum[1]},
       {"momentum_z", "kg m/s", t.momentum[2]},
       {"momentum_error", "1", state.ledger.momentum_error(t)},
+      {"viscous_work", "J", state.ledger.viscous_work},
+      {"plastic_work", "J", state.ledger.plastic_work},
       {"transfer_heat", "J", state.ledger.transfer_heat},
+      {"unresolved_kept", "J", state.ledger.unresolved_kept},
+      {"unresolved_returned", "J", state.ledger.unresolved_returned},
+      {"conducted_heat", "J", state.ledger.conducted_heat},
       {"contact_heat", "J", state.ledger.contact_heat},
       {"friction_heat", "J", state.ledger.friction_heat},
       {"contact_impulse", "N s", state.ledger.contact_impulse},
@@ -395,6 +402,12 @@ class Runner {
           "step {} times",
           state.ledger.clamped_to_cold_curve, state.ledger.held_at_pressure_floor,
           state.ledger.limited_volume_changes);
+    }
+    if (totals.unresolved_share() > 0.05) {
+      log::info(
+          "{:.2g} % of the kinetic energy is motion that the cells do not resolve: finer cells would change the "
+          "result",
+          100.0 * totals.unresolved_share());
     }
     log::info("wrote {} ({} snapshots: open {} in ParaView)", directory_.path().string(),
               series_.particles.size(), series_.particles.index_path().string());

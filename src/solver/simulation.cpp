@@ -19,6 +19,7 @@
 #include "src/transfer/conduction.hpp"
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/particles_to_grid.hpp"
+#include "src/transfer/shock_conduction.hpp"
 
 namespace whipple::solver {
 namespace {
@@ -67,6 +68,11 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
     std::ranges::fill(particles_.affine_velocity, Matrix3::Zero().eval());
   }
   if (!carries_extent()) std::vector<SymmetricTensor>().swap(particles_.extent);
+  if (setup_.dissipation.keeps_losses()) {
+    particles_.unresolved_energy.assign(particles_.size(), 0.0);
+    particles_.closing_rate.assign(particles_.size(), 0.0);
+    particles_.heating_viscosity.assign(particles_.size(), 0.0);
+  }
   prepare();
   state_.ledger.initial = totals_;
   // Planes have stopped the nodes on them: their momentum was there before.
@@ -105,6 +111,7 @@ void Simulation::find_bodies() {
 void Simulation::prepare() {
   set_up_bars();
   set_up_contact();
+  set_up_dissipation();
   if (const setup::Gravity g = setup_.gravity; !g.acceleration.isZero(0.0)) {
     acceleration_ = [g](const Particles&, std::size_t, double time) { return g.at(time); };
   }
@@ -121,6 +128,11 @@ void Simulation::require_fields() const {
   }
   if (carries_affine_velocity()) needed.affine_velocity.resize(particles_.size());
   if (carries_extent()) needed.extent.resize(particles_.size());
+  if (setup_.dissipation.keeps_losses()) {
+    needed.unresolved_energy.resize(particles_.size());
+    needed.closing_rate.resize(particles_.size());
+    needed.heating_viscosity.resize(particles_.size());
+  }
   std::string missing;
   for_each_field<Particles>([&](const auto& field) {
     if (field.optional && (needed.*(field.values)).size() > (particles_.*(field.values)).size()) {
@@ -312,6 +324,7 @@ void Simulation::particles_reallocated() {
 }
 
 void Simulation::conduct_heat() {
+  conduct_in_shocks();
   if (!setup_.heat.conduction) return;
   profile_.time("conduction", [&] {
     std::vector<transfer::ThermalConstants> constants;
@@ -357,16 +370,23 @@ void Simulation::finish_exchange() { step_.wall_impulse += grid_update_.finish(g
 void Simulation::map_grid_to_particles() {
   const auto gather = [&](const transfer::TakeGradients& take) {
     const transfer::TransferBalance balance = transfer::grid_to_particles(
-        shape_, particles_, grid_, state_.time_step, affine_field(setup_.transfer), take,
+        shape_, particles_, grid_, state_.time_step, affine_field(setup_.transfer), losses_, take,
         external_acceleration_, [&] { finish_exchange(); });
     step_.work += balance.work;
+    step_.viscous_work += balance.viscous_work;
+    step_.plastic_work += balance.plastic_work;
     step_.transfer_heat += balance.heat;
+    step_.unresolved_kept += balance.kept;
+    step_.unresolved_returned += balance.returned;
     step_.external_work += balance.external_work;
     squared_change_ = balance.squared_change;
     if (transition_.size() > 0) {
       transfer::grid_to_nodes(shape_, transition_, grid_, state_.time_step, affine_field(setup_.transfer));
     }
-    for (const std::uint32_t p : flying_) particles_.position[p] += state_.time_step * particles_.velocity[p];
+    for (const std::uint32_t p : flying_) {
+      particles_.position[p] += state_.time_step * particles_.velocity[p];
+      if (losses_.kept) particles_.closing_rate[p] = 0.0;
+    }
   };
   update_material_with("grid to particles", EnergyUpdate::by_work_identity, gather);
 }
@@ -376,6 +396,7 @@ void Simulation::gather_velocity(const transfer::TakeGradients& take) {
       shape_, particles_, grid_, state_.time_step, relaxation(setup_.transfer).fixed, take,
       external_acceleration_, [&] { finish_exchange(); });
   step_.external_work += balance.external_work;
+  step_.plastic_work += balance.plastic_work;
   squared_change_ = balance.squared_change;
   for (const std::uint32_t p : flying_) particles_.position[p] += state_.time_step * particles_.velocity[p];
 }
@@ -400,17 +421,19 @@ void Simulation::map_momentum_to_grid() {
 void Simulation::update_material() {
   update_material_with(
       "velocity gradient", EnergyUpdate::by_constitutive_model, [&](const transfer::TakeGradients& take) {
-        transfer::gather_velocity_gradient(shape_, particles_, grid_, take, [&] { finish_exchange(); });
+        step_.plastic_work += transfer::gather_velocity_gradient(shape_, particles_, grid_, take,
+                                                                 [&] { finish_exchange(); });
       });
 }
 
 void Simulation::end_step() {
   profile_.time("ledger", [&] {
-    std::array<double, 2> fastest = {std::sqrt(squared_change_) / state_.time_step,
-                                     std::exchange(compression_rate_, 0.0)};
+    std::array<double, 3> fastest = {std::sqrt(squared_change_) / state_.time_step,
+                                     std::exchange(compression_rate_, 0.0),
+                                     std::exchange(element_compression_rate_, 0.0)};
     parallel::maximum(communicator_, fastest);
     state_.maximum_acceleration = fastest[0];
-    state_.compression_rate = fastest[1];
+    state_.compression_rate = std::max(compression_rate_of_most(fastest[1]), fastest[2]);
     sum_over_ranks();
     state_.ledger.observe(totals_);
     ++state_.step;

@@ -25,6 +25,7 @@
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/grid_update.hpp"
 #include "src/transfer/shape_function.hpp"
+#include "src/transfer/shock_conduction.hpp"
 #include "src/transfer/transition_nodes.hpp"
 
 namespace whipple::solver {
@@ -34,7 +35,7 @@ struct RunState {
   double time = 0.0;                  ///< s
   double time_step = 0.0;             ///< s, of the last step; 0 before the first
   double maximum_acceleration = 0.0;  ///< m/s^2, in the last step
-  double compression_rate = 0.0;      ///< 1/s, the largest of matter under pressure in the last step
+  double compression_rate = 0.0;  ///< 1/s, that all but a thousandth of the matter under pressure kept below
   std::int64_t step = 0;
   std::int64_t particles_at_rest = 0;  ///< of all ranks, left as they were by the last step
   Ledger ledger;
@@ -105,11 +106,13 @@ class Simulation {
   [[nodiscard]] double grid_time_step();
   [[nodiscard]] double element_time_step() const;
   [[nodiscard]] double diffusive_time_step() const;
+  [[nodiscard]] double compression_rate_of_most(double largest) const;
   void begin_step(double until);
   void split_particles();
   void compute_element_forces();
   void bin_particles();
   void conduct_heat();
+  void conduct_in_shocks();
   void map_particles_to_grid();
   void advance_grid();
   void map_grid_to_particles();
@@ -124,6 +127,7 @@ class Simulation {
   void prepare();
   void require_fields() const;
   void set_up_contact();
+  void set_up_dissipation();
   void separate_fields();
   void find_surfaces();
   void apply_contact();
@@ -197,6 +201,9 @@ class Simulation {
   std::vector<std::vector<fem::Facet>> surface_facets_;  // of each mesh
   bool surfaces_changed_ = true;                         // since they were found
   contact::SurfacePoints surface_points_;
+  std::vector<double> reference_density_;                           // kg/m^3, of each body
+  std::vector<transfer::ShockConductivity> shock_conductivity_;     // of each body
+  transfer::Losses losses_;
   RunState state_;
   Ledger step_;  // what happened on this rank in the step under way
   Totals totals_;
@@ -210,7 +217,8 @@ class Simulation {
   std::size_t particle_count_ = 0, element_count_ = 0;
   Profile profile_;
   double squared_change_ = 0.0;    // m^2/s^2, the largest of a particle's velocity in the step under way
-  double compression_rate_ = 0.0;  // 1/s, the largest of matter under pressure in the step under way
+  double compression_rate_ = 0.0;  // 1/s, the largest of particles under pressure in the step under way
+  double element_compression_rate_ = 0.0;  // 1/s, the same of elements
   Acceleration acceleration_;
   std::vector<Vector3> external_acceleration_;      // of this step; empty without external forces
   std::vector<std::uint32_t> flying_;               // particles that fly without the grid in this step

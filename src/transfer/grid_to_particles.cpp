@@ -68,6 +68,7 @@ double squared_change(Lanes velocity, const Vector3& former) {
 template <AffineField field>
 [[gnu::always_inline]] inline TransferBalance update_particle(Particles& particles, std::size_t p, double dt,
                                                               const Advance<>& advance, Matrix3& gradient,
+                                                              const Losses& losses,
                                                               std::span<const Vector3> acceleration) {
   const double mean_stress = -(particles.pressure[p] + particles.artificial_viscosity[p]);
   const std::array<Lanes, 3> stress = stress_columns<0>(particles.deviatoric_stress[p], mean_stress);
@@ -77,14 +78,29 @@ template <AffineField field>
   const auto mean_gradient = [&](std::size_t a) {
     return advance.grid_velocity.gradient[a] - 0.5 * advance.increment.gradient[a];
   };
-  const Lanes power =
-      stress[0] * mean_gradient(0) + stress[1] * mean_gradient(1) + stress[2] * mean_gradient(2);
+  const std::array<Lanes, 3> mean = {mean_gradient(0), mean_gradient(1), mean_gradient(2)};
+  const Lanes power = stress[0] * mean[0] + stress[1] * mean[1] + stress[2] * mean[2];
   store_columns(gradient, advance.grid_velocity.gradient);
-  const double mass = particles.mass[p], heat = advance.heat[0];
-  const double work = sum3(power) * particles.volume[p] * dt;
+  const double mass = particles.mass[p], loss = advance.heat[0], volume_and_time = particles.volume[p] * dt;
+  const double work = sum3(power) * volume_and_time;
+  const double viscous_work =
+      -particles.artificial_viscosity[p] * (mean[0][0] + mean[1][1] + mean[2][2]) * volume_and_time;
   const double heat_of_contact = advance.increment.value[3];  // docs/theory/contact.md, 4.6
-  particles.specific_internal_energy[p] += work / mass + heat + heat_of_contact;
-  TransferBalance balance{.work = work, .heat = mass * heat, .squared_change = change};
+  Booking booking{.heat = loss};
+  if (losses.kept) {
+    const auto& l = advance.grid_velocity.gradient;
+    const double divergence = l[0][0] + l[1][1] + l[2][2];
+    booking = book_losses(losses, particles, p, loss, viscous_work / mass, divergence, dt);
+    particles.unresolved_energy[p] += booking.kept - booking.returned;
+    particles.closing_rate[p] = std::fmax(-divergence, 0.0);
+  }
+  particles.specific_internal_energy[p] += work / mass + booking.heat - booking.cooling + booking.returned + heat_of_contact;
+  TransferBalance balance{.work = work,
+                          .viscous_work = viscous_work - mass * booking.cooling,
+                          .heat = mass * booking.heat,
+                          .kept = mass * booking.kept,
+                          .returned = mass * booking.returned,
+                          .squared_change = change};
   if (!acceleration.empty()) {
     balance.external_work =
         external_work(advance.grid_velocity.value, advance.increment.value, mass, acceleration[p], dt);
@@ -146,7 +162,8 @@ TransferBalance gather_particles(BlockGrid& grid, const TakeGradients& take,
       of_slot[slot] = balance;
     }
     if (take && size > 0) {
-      take(grid.particles_by_block().subspan(begin, size), std::span(gradients).first(size));
+      of_slot[first_slot].plastic_work +=
+          take(grid.particles_by_block().subspan(begin, size), std::span(gradients).first(size));
     }
   };
   with_kernels([&](auto kernels) {
@@ -163,7 +180,7 @@ TransferBalance gather_particles(BlockGrid& grid, const TakeGradients& take,
 }
 
 template <class Shape, AffineField field>
-TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
+TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt, const Losses& losses,
                            const TakeGradients& take_gradients, std::span<const Vector3> acceleration,
                            const BeforeBorder& before_border) {
   return gather_particles(
@@ -177,7 +194,7 @@ TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt,
               prefetch(p + prefetch_distance, particles.affine_velocity);
             }
           }
-          balance += update_particle<field>(particles, p, dt, advance, gradients[place], acceleration);
+          balance += update_particle<field>(particles, p, dt, advance, gradients[place], losses, acceleration);
         };
         Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
                                         typename Kernels::template Transfer<field>{dt}, take);
@@ -218,16 +235,16 @@ TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double 
 }  // namespace
 
 TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, BlockGrid& grid, double dt,
-                                  AffineField affine, const TakeGradients& take,
+                                  AffineField affine, const Losses& losses, const TakeGradients& take,
                                   std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
   using enum AffineField;
   return with_shape(shape, [&]<class Shape>(Shape) {
     if (affine == none)
-      return gather_all<Shape, none>(particles, grid, dt, take, acceleration, before_border);
+      return gather_all<Shape, none>(particles, grid, dt, losses, take, acceleration, before_border);
     if constexpr (CarriesAffineField<Shape>) {
       return affine == deformed
-                 ? gather_all<Shape, deformed>(particles, grid, dt, take, acceleration, before_border)
-                 : gather_all<Shape, turned>(particles, grid, dt, take, acceleration, before_border);
+                 ? gather_all<Shape, deformed>(particles, grid, dt, losses, take, acceleration, before_border)
+                 : gather_all<Shape, turned>(particles, grid, dt, losses, take, acceleration, before_border);
     } else {
       throw InternalError("the affine transfer needs B-splines");
       return TransferBalance{};  // the other branch deduces the type
@@ -293,25 +310,27 @@ TransferBalance update_velocity(ShapeFunction shape, Particles& particles, Block
 namespace {
 
 /// Sums of the nodes' velocities, for every particle: take_sums(p, sums, its gradient to be handed on).
+/// @returns J, plastic work, as `take` reports it
 template <class TakeSums>
-void gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& grid, const TakeGradients& take,
+double gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& grid, const TakeGradients& take,
                   const BeforeBorder& before_border, TakeSums&& take_sums) {
-  with_shape(shape, [&]<class Shape>(Shape) {
-    gather_particles(grid, take, before_border,
+  return with_shape(shape, [&]<class Shape>(Shape) {
+    return gather_particles(grid, take, before_border,
                      [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, Matrix3* gradients) {
                        const auto each = [&](std::size_t place, std::size_t p, const ValueAndGradient<>& sums)
                                              WHIPPLE_INLINE { take_sums(p, sums, gradients[place]); };
                        Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
                                                        typename Kernels::First{}, each);
-                     });
+                     })
+        .plastic_work;
   });
 }
 
 }  // namespace
 
-void gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
-                              const TakeGradients& take, const BeforeBorder& before_border) {
-  gather_first(shape, particles, grid, take, before_border,
+double gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
+                                const TakeGradients& take, const BeforeBorder& before_border) {
+  return gather_first(shape, particles, grid, take, before_border,
                [&](std::size_t p, const ValueAndGradient<>& sums, Matrix3& gradient) WHIPPLE_INLINE {
                  if (prefetches(p)) prefetch_state(particles, p);  // for who takes the gradients
                  gradient = matrix(sums.gradient);

@@ -113,7 +113,7 @@ void check_energy_identities(const Relaxation& relaxation, AffineField affine,
   const GridBalance balance = update.advance(grid, dt, relaxation);
   std::vector<Matrix3> gradient(q.size());
   const std::vector<double> energy = q.specific_internal_energy;
-  const TransferBalance transfer = grid_to_particles(Shape::kind, q, grid, dt, affine, into(gradient));
+  const TransferBalance transfer = grid_to_particles(Shape::kind, q, grid, dt, affine, {}, into(gradient));
   for (std::size_t p = 0; p < q.size(); ++p) momentum_after += q.mass[p] * q.velocity[p];
 
   const double scale = std::abs(before) + balance.kinetic_energy_before;
@@ -175,7 +175,7 @@ TYPED_TEST(AffineTransfer, NodesMoveLikeParticlesUnderTheSameForce) {
     GridUpdate update;
     update.advance(grid, dt, {.kappa = 0.7});
     std::vector<Matrix3> gradient(particles.size());
-    grid_to_particles(TypeParam::kind, particles, grid, dt, AffineField::deformed, into(gradient),
+    grid_to_particles(TypeParam::kind, particles, grid, dt, AffineField::deformed, {}, into(gradient),
                       std::span(acceleration).first(particles.size()));
     if (guests) grid_to_nodes(TypeParam::kind, *guests, grid, dt, AffineField::deformed);
   };
@@ -248,7 +248,7 @@ TYPED_TEST(Transfer, MirrorPlaneEqualsATransferOfRealImages) {
     bin<TypeParam>(g, q);
     particles_to_grid(TypeParam::kind, q, g);
     GridUpdate().advance(g, dt, {});
-    grid_to_particles(TypeParam::kind, q, g, dt, carried, into(gradient));
+    grid_to_particles(TypeParam::kind, q, g, dt, carried, {}, into(gradient));
   };
   cycle(half, grid, half_gradient);
   cycle(full, full_grid, full_gradient);
@@ -309,7 +309,7 @@ TYPED_TEST(Transfer, PlanesOneCellApartEqualRealImages) {
     bin<TypeParam>(g, q);
     particles_to_grid(TypeParam::kind, q, g);
     const GridBalance balance = GridUpdate().advance(g, dt, {});
-    grid_to_particles(TypeParam::kind, q, g, dt, carried, into(l));
+    grid_to_particles(TypeParam::kind, q, g, dt, carried, {}, into(l));
     return balance;
   };
   const GridBalance balance = cycle(thin, grid, gradient);
@@ -371,7 +371,7 @@ TYPED_TEST(Transfer, IsGalileanInvariant) {
     bin<TypeParam>(grid, q);
     particles_to_grid(TypeParam::kind, q, grid);
     GridUpdate().advance(grid, 0.02, {});
-    return grid_to_particles(TypeParam::kind, q, grid, 0.02, carried, into(gradient));
+    return grid_to_particles(TypeParam::kind, q, grid, 0.02, carried, {}, into(gradient));
   };
   const TransferBalance b1 = cycle(at_rest, g1);
   const TransferBalance b2 = cycle(moving, g2);

@@ -31,6 +31,7 @@ inline SymmetricTensor random_stress(std::mt19937& random) {
 inline auto into(std::vector<Matrix3>& all) {
   return [&all](std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients) {
     for (std::size_t k = 0; k < particles.size(); ++k) all[particles[k]] = gradients[k];
+    return 0.0;
   };
 }
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/setup/dissipation.hpp"
+
+namespace whipple::setup {
+
+ParameterTable<Dissipation> Dissipation::parameters() {
+  return {
+      choice("losses", &Dissipation::losses, {"unresolved", "heat"},
+             "kinetic energy that the transfers lose is unresolved motion until viscosity or a closing gap makes "
+             "it heat; shocks conduct heat | it is heat at once, as in other codes: for comparison. Schemes other "
+             "than symplectic: \"heat\"")
+          .optional(),
+      real("heat_share", &Dissipation::heat_share, "", range::non_negative(),
+           "losses of a particle become heat up to this share of the work of its artificial viscosity")
+          .optional(),
+      real("collision_rate", &Dissipation::collision_rate, "", range::non_negative(),
+           "share of the unresolved energy of loose matter that becomes heat, per share of its volume that closes")
+          .optional(),
+      real("affine_compression", &Dissipation::affine_compression, "", range::non_negative(),
+           "compression up to which the rate of the artificial viscosity goes over from that of the particle's own "
+           "affine field to that of the grid; 0: always that of the grid")
+          .optional(),
+      real("shock_conduction", &Dissipation::shock_conduction, "", range::non_negative(),
+           "diffusivity of heat inside shocks over that of the artificial viscosity")
+          .optional(),
+      real("conduction_onset", &Dissipation::conduction_onset, "", range::non_negative(),
+           "closing speed over a cell, as a share of the speed of sound, from which on a shock conducts")
+          .optional(),
+      real("conduction_rise", &Dissipation::conduction_rise, "", range::positive(),
+           "further closing speed over which its conduction grows to the full one")
+          .optional()};
+}
+
+}  // namespace whipple::setup

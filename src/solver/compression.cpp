@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How fast matter is compressed, which bounds the time step (docs/theory/mpm.md, section 6).
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+
+#include "src/parallel/mpi.hpp"
+#include "src/parallel/threads.hpp"
+#include "src/solver/simulation.hpp"
+
+namespace whipple::solver {
+namespace {
+
+/// Share of the mass that may be compressed faster than the time step follows: a few particles that are squeezed
+/// between debris and a wall must not hold up all others.
+constexpr double free_share = 1e-3;
+
+/// Bins of positive numbers by exponent and first four bits of the mantissa: 3 to 6 % wide, from 1 to 2^40.
+struct Bins {
+  static constexpr std::size_t count = 40 * 16;
+  static std::size_t of(double x) {
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) >> 48U, one = std::bit_cast<std::uint64_t>(1.0) >> 48U;
+    return bits <= one ? 0 : std::min<std::size_t>(bits - one, count - 1);
+  }
+  static double end(std::size_t bin) {
+    const std::uint64_t one = std::bit_cast<std::uint64_t>(1.0) >> 48U;
+    return std::bit_cast<double>((one + bin + 1) << 48U);
+  }
+};
+
+constexpr double parts_of_mass = 0x1p40;  // masses are counted in these, so that their sums do not depend on the order
+
+}  // namespace
+
+/// Rate that all but `free_share` of the particles' mass keep below, or one that does not bound the next step.
+/// @param largest  1/s, of all particles of all ranks
+double Simulation::compression_rate_of_most(double largest) const {
+  if (!losses_.kept) return largest;
+  const double harmless = setup_.time.compression_limit / (setup_.time.maximum_growth * state_.time_step);
+  if (largest <= harmless) return largest;
+  const auto mass = std::make_unique<std::array<std::atomic<std::int64_t>, Bins::count>>();
+  for (auto& bin : *mass) bin.store(0, std::memory_order_relaxed);
+  const double per_mass = parts_of_mass / totals_.mass;
+  parallel::for_each_chunk(particles_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      if (particles_.closing_rate[p] <= harmless || particles_.pressure[p] <= 0.0) continue;
+      (*mass)[Bins::of(particles_.closing_rate[p])].fetch_add(std::llround(per_mass * particles_.mass[p]),
+                                                             std::memory_order_relaxed);
+    }
+  });
+  std::array<double, Bins::count> of_all_ranks;
+  for (std::size_t bin = 0; bin < Bins::count; ++bin) {
+    of_all_ranks[bin] = static_cast<double>((*mass)[bin].load(std::memory_order_relaxed));
+  }
+  parallel::sum(communicator_, of_all_ranks);
+  double faster = 0.0;
+  for (std::size_t bin = Bins::count; bin-- > 0;) {
+    faster += of_all_ranks[bin];
+    if (faster > free_share * parts_of_mass) return std::min(largest, Bins::end(bin));
+  }
+  return harmless;
+}
+
+}  // namespace whipple::solver

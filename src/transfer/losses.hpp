@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "src/particles/particles.hpp"
+
+namespace whipple::transfer {
+
+/// What becomes of the kinetic energy that the transfers of a step take from a particle
+/// (docs/theory/dissipation.md, 2).
+struct Losses {
+  bool kept = false;            ///< false: it is heat at once
+  double heat_share = 0.0;      ///< f: of the work of the artificial viscosity that heats
+  double collision_rate = 0.0;  ///< r: share of the unresolved energy per share of the volume that closes
+  std::span<const double> reference_density;  ///< kg/m^3, of each body
+};
+
+/// Where the losses of a step went, J/kg.
+struct Booking {
+  double heat = 0.0;      ///< of the transfers: internal energy
+  double kept = 0.0;      ///< of the transfers and the viscosity: unresolved energy
+  double cooling = 0.0;   ///< of the viscosity: what of its work is not internal but unresolved energy
+  double returned = 0.0;  ///< unresolved energy that became internal
+};
+
+/// Matter with gaps, as far as a particle knows: failed, beside a void, in tension, or thinner than at rest.
+inline bool is_loose(const Particles& particles, std::size_t p, double reference_density) {
+  return particles.failed[p] != 0 || particles.void_volume[p] > 0.0 || particles.pressure[p] <= 0.0 ||
+         particles.mass[p] < reference_density * particles.volume[p];
+}
+
+/// Divides the loss of the transfers (J/kg, >= 0 but for round-off) and the work of the artificial viscosity
+/// between internal and unresolved energy (eq. 3 to 5). In matter without gaps the loss is heat as far as the
+/// viscosity that heats does work, which measures what of the motion is a shock. Where gaps close, matter collides:
+/// all of the loss is heat, and so is the share of what had been kept before that the volume loses.
+/// @param viscous_work  J/kg, of the artificial viscosity in the step
+/// @param divergence    1/s, tr L of the step
+inline Booking book_losses(const Losses& losses, const Particles& particles, std::size_t p, double loss,
+                           double viscous_work, double divergence, double dt) {
+  if (divergence < 0.0 && is_loose(particles, p, losses.reference_density[particles.body[p]])) {
+    const double share = -std::expm1(losses.collision_rate * divergence * dt);
+    return {.heat = loss, .returned = share * particles.unresolved_energy[p]};
+  }
+  const double viscosity = particles.artificial_viscosity[p];
+  const double heating = viscosity > 0.0 ? particles.heating_viscosity[p] / viscosity : 1.0;
+  const double work = std::fmax(viscous_work, 0.0), heating_work = heating * work, cooling = work - heating_work;
+  const double heat = std::fmin(loss, losses.heat_share * heating_work);
+  return {.heat = heat, .kept = loss - heat + cooling, .cooling = cooling};
+}
+
+}  // namespace whipple::transfer
