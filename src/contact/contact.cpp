@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "src/contact/pressing.hpp"
 #include "src/parallel/threads.hpp"
 
 namespace whipple::contact {
@@ -12,27 +13,11 @@ namespace {
 
 using grid::Node;
 
-constexpr double no_mass = 1e-300;  // kg
 constexpr int sweeps = 20;          // over the pairs, where more than two bodies meet
 
-Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
-
-/// One field at a node.
-struct Side {
-  Node* node = nullptr;
-  double mass = 0.0;
-  double heat = 0.0;  // J
-  [[nodiscard]] Vector3 before() const { return vector(node->first); }
-  [[nodiscard]] Vector3 after() const { return vector(node->first) + vector(node->second); }
-  void push(const Vector3& impulse) {
-    const Vector3 change = impulse / mass;
-    node->second += Lanes{change[0], change[1], change[2], 0.0};
-  }
-};
-
-/// Two fields that meet at a node (docs/theory/contact.md, equations 4.1 to 4.6); velocities are those of b
-/// relative to a.
-struct Pair {
+/// Impulses between two fields that meet at a node, which stop them (docs/theory/contact.md, 6); velocities
+/// are those of b relative to a.
+struct Stop {
   Side* a;
   Side* b;
   Vector3 normal;
@@ -42,7 +27,7 @@ struct Pair {
   double pushed = 0.0;                // normal impulse, N s
   Vector3 dragged = Vector3::Zero();  // tangential impulse on b, N s
 
-  Pair(Side& first, Side& second, const Vector3& n, double closing)
+  Stop(Side& first, Side& second, const Vector3& n, double closing)
       : a(&first), b(&second), normal(n), reduced_mass(a->mass * b->mass / (a->mass + b->mass)) {
     const Vector3 old = b->before() - a->before(), free = b->after() - a->after();
     target = -std::max(closing, n.dot(old));
@@ -80,14 +65,27 @@ struct Pair {
 
 }  // namespace
 
+/// Distance of the surfaces of two fields beyond what counts as touching.
+double Contact::distance(const grid::BlockGrid& grid, const Surfaces::Gap& gap) const {
+  return settings_.gap_test ? std::max(gap.width - settings_.gap * grid.geometry().cell_size, 0.0) : 0.0;
+}
+
+bool Contact::touch(const grid::BlockGrid& grid, std::size_t contact_slot, std::size_t node,
+                    std::size_t first, std::size_t second) const {
+  const auto fields =
+      static_cast<std::size_t>(std::popcount(grid.fields(grid.contact_slots()[contact_slot])));
+  const Surfaces::Gap gap = surfaces_.at(contact_slot, Surfaces::pair_index(first, second, fields), node);
+  return !gap.normal.isZero(0.0) && distance(grid, gap) == 0.0;
+}
+
 Balance Contact::apply(grid::BlockGrid& grid, double dt) const {
-  const double near = settings_.gap * grid.geometry().cell_size;
   std::vector<Balance> of_slot(grid.owned_contact_slots());
   parallel::for_each(grid.owned_contact_slots(), [&](std::size_t c) {
     const std::uint32_t slot = grid.contact_slots()[c];
     const auto fields = static_cast<std::size_t>(std::popcount(grid.fields(slot)));
     std::vector<Side> sides(fields);
-    std::vector<Pair> pairs;
+    std::vector<Stop> stops;
+    Pressing pressing(settings_.friction);
     for (int i = 0; i < grid::nodes_per_block; ++i) {
       std::size_t next = 0;
       grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
@@ -95,22 +93,28 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt) const {
         sides[next++] = {node, node->second[3], 0.0};
         node->second[3] = 0.0;
       });
-      pairs.clear();
+      stops.clear();
+      pressing.begin(sides);
       for (std::size_t a = 0; a < fields; ++a) {
         for (std::size_t b = a + 1; b < fields; ++b) {
           if (sides[a].mass < no_mass || sides[b].mass < no_mass) continue;
           const Surfaces::Gap gap =
               surfaces_.at(c, Surfaces::pair_index(a, b, fields), static_cast<std::size_t>(i));
           if (gap.normal.isZero(0.0)) continue;
-          const double open = settings_.gap_test ? std::max(gap.width - near, 0.0) : 0.0;
-          pairs.emplace_back(sides[a], sides[b], gap.normal, open / dt);
+          const double open = distance(grid, gap);
+          if (settings_.response == Response::common_field) {
+            pressing.add(a, b, gap.normal, open, dt);
+          } else {
+            stops.emplace_back(sides[a], sides[b], gap.normal, open / dt);
+          }
         }
       }
-      const int repeat = pairs.size() > 1 ? sweeps : 1;
+      pressing.apply(of_slot[c]);
+      const int repeat = stops.size() > 1 ? sweeps : 1;
       for (int sweep = 0; sweep < repeat; ++sweep) {
-        for (Pair& pair : pairs) pair.relax(settings_.friction);
+        for (Stop& stop : stops) stop.relax(settings_.friction);
       }
-      for (const Pair& pair : pairs) pair.heat(of_slot[c]);
+      for (const Stop& stop : stops) stop.heat(of_slot[c]);
       for (Side& side : sides) {
         if (side.heat != 0.0) side.node->second[3] = side.heat / side.mass;
       }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
+#include <cstdint>
 
+#include "src/contact/node_fields.hpp"
 #include "src/contact/surfaces.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
@@ -11,26 +12,18 @@
 /// Contact of bodies with velocity fields of their own (docs/theory/contact.md).
 namespace whipple::contact {
 
-struct Settings {
-  Normal normal = Normal::separating;
-  double friction = 0.0;  ///< Coulomb's coefficient
-  bool gap_test = true;   ///< only surfaces that touch, or would within the step
-  double gap = 0.0;       ///< in cells: surfaces nearer than that touch
+/// What bodies do at a node where their surfaces touch.
+enum class Response : std::uint8_t {
+  common_field,  ///< while they press they have one velocity along the normal
+  impulses,      ///< each has its own, and impulses stop them
 };
 
-/// What contact did in a step on this rank.
-struct Balance {
-  double contact_heat = 0.0;      ///< J, lost by the normal impulses
-  double friction_heat = 0.0;     ///< J, lost by the tangential impulses
-  double impulse = 0.0;           ///< N s, sum of the normal impulses
-  double friction_impulse = 0.0;  ///< N s, sum of the tangential impulses
-  Balance& operator+=(const Balance& other) {
-    contact_heat += other.contact_heat;
-    friction_heat += other.friction_heat;
-    impulse += other.impulse;
-    friction_impulse += other.friction_impulse;
-    return *this;
-  }
+struct Settings {
+  Response response = Response::common_field;
+  Normal normal = Normal::separating;
+  double friction = 0.3;  ///< Coulomb's coefficient
+  bool gap_test = true;   ///< only surfaces that touch, or would within the step
+  double gap = 0.0;       ///< in cells: surfaces nearer than that touch
 };
 
 /// The impulses between velocity fields at the nodes that they share.
@@ -44,11 +37,17 @@ class Contact {
     surfaces_.find(settings_.normal, shape, particles, elements, grid);
   }
 
-  /// Adds the impulses of contact to the velocity increments of the contact slots of this rank, and leaves
-  /// the heat that they make on the nodes: what `GridUpdate::advance` calls.
+  /// Do the surfaces of two fields, by their numbers in a contact slot, touch at a node?
+  [[nodiscard]] bool touch(const grid::BlockGrid& grid, std::size_t contact_slot, std::size_t node,
+                           std::size_t first, std::size_t second) const;
+
+  /// Lets the bodies act on one another at the nodes of the contact slots of this rank, by their velocities,
+  /// increments and relaxations, and leaves the heat that it makes there: what `GridUpdate::advance` calls.
   Balance apply(grid::BlockGrid& grid, double dt) const;
 
  private:
+  [[nodiscard]] double distance(const grid::BlockGrid& grid, const Surfaces::Gap& gap) const;
+
   Settings settings_;
   Surfaces surfaces_;
 };

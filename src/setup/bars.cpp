@@ -80,6 +80,23 @@ std::optional<std::string> fault_of_bars(const Case& setup, const Body& bars) {
   return std::nullopt;
 }
 
+std::optional<std::size_t> body_around_bars(const Case& setup, const Body& bars) {
+  std::vector<double> inside(setup.bodies.size(), 0.0);
+  for_each_bar(bars, [&](const Vector3& from, const Vector3& to) {
+    const double length = (to - from).norm();
+    const int parts = static_cast<int>(std::clamp(length / setup.domain.cell_size, 1.0, 1000.0));
+    for (int i = 0; i < parts; ++i) {
+      const Vector3 point = from + (i + 0.5) / parts * (to - from);
+      for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+        if (setup.bodies[b].shape->contains(point)) inside[b] += length / parts;
+      }
+    }
+  });
+  const auto most = std::ranges::max_element(inside);
+  if (most == inside.end() || !(*most > 0.0)) return std::nullopt;
+  return static_cast<std::size_t>(most - inside.begin());
+}
+
 fem::BarMaterial bar_material(const Material& material, const Body& body) {
   const strength::Strength& strength = *material.strength;
   const bool elastic = strength.model() == "elastic";

@@ -19,6 +19,9 @@ std::unique_ptr<Shape> read_bar_shape(const Body& body, input::Table& table);
 /// Why these bars cannot be where they are: in a body of elements.
 std::optional<std::string> fault_of_bars(const Case& setup, const Body& bars);
 
+/// Number of the body that holds most of the length of these bars; nothing if none holds any.
+std::optional<std::size_t> body_around_bars(const Case& setup, const Body& bars);
+
 /// Constants of bars of a material: elastic or von Mises with linear hardening.
 /// @throws InputError for other models of strength, and for failure criteria, which bars do not know
 fem::BarMaterial bar_material(const Material& material, const Body& body);

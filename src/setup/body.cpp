@@ -31,7 +31,8 @@ ParameterTable<Body> Body::parameters() {
                  "initial rotation about the centre of the body's bounding box")
               .optional(),
           text("contact_group", &Body::contact_group,
-               "bodies of one group do not contact one another but are bonded where they meet; empty: none")
+               "bodies of one group share a velocity field and are bonded where they meet, those of different groups "
+               "never; empty: contact.method decides")
               .optional()};
 }
 
@@ -52,6 +53,7 @@ void read_body(Case& setup, input::Table table, std::set<std::string>& names,
   }
   if (auto discretization = table.optional_table("discretization")) {
     discretization->read(Discretization::parameters(), body.discretization);
+    body.discretization.partial_volumes_given = discretization->has("partial_volumes");
     const double edge = std::cbrt(static_cast<double>(body.discretization.per_cell));
     if (std::abs(edge - std::round(edge)) > 1e-9) {
       discretization->error_at("per_cell", fmt::format("'per_cell' is {}, expected a cube: 1, 8, 27, 64",
@@ -72,7 +74,7 @@ void read_body(Case& setup, input::Table table, std::set<std::string>& names,
       row.error("bars belong to bodies with discretization.method = \"bars\"");
     }
   }
-  if (body.discretization.is_bars() && setup.contact.method != "none" && body.contact_group.empty()) {
+  if (body.discretization.is_bars() && setup.contact.method == "multi_field" && body.contact_group.empty()) {
     table.error_at(
         "contact_group",
         "bars have no surface of their own: 'contact_group' must be that of the body that they reinforce");

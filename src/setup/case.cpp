@@ -326,6 +326,8 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   const bool complete =
       domain && std::ranges::all_of(setup.bodies, [](const Body& b) { return b.shape != nullptr; });
   if (complete && setup.geometry.cells[0] > 0 && setup.geometry.cells[1] > 0 && setup.geometry.cells[2] > 0) {
+    setup.contact_fields = find_contact_fields(setup);
+    choose_volumes(setup);
     for (const PlacementFault& fault : placement_faults(setup))
       bodies[fault.body].error_at("shape", fault.message);
   }

@@ -102,12 +102,11 @@ struct Case {
   Gravity gravity;
   OutputControl output;
   std::vector<Body> bodies;
+  ContactFields contact_fields;
   Gauges gauges;
   std::vector<std::shared_ptr<const Material>> materials;  ///< of each body
   grid::Geometry geometry;
 
-  /// Velocity field of each body: bodies of one contact group share it, any other body has its own.
-  [[nodiscard]] std::vector<std::uint8_t> contact_fields() const;
   [[nodiscard]] const ArtificialViscosity& viscosity_of(std::size_t body) const {
     return bodies[body].viscosity ? *bodies[body].viscosity : viscosity;
   }

@@ -19,6 +19,7 @@ struct Discretization {
   // of particles
   std::int64_t per_cell = 8;
   bool partial_volumes = false;
+  bool partial_volumes_given = false;  ///< in the case file; else `choose_volumes` decides
   // of elements
   double element_size = std::numeric_limits<double>::infinity();  ///< m; infinite: that of the cells
   std::string element = "one_point";

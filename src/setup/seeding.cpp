@@ -356,6 +356,20 @@ std::vector<std::string> placement_warnings(const Case& setup) {
   return warnings;
 }
 
+std::vector<Shape::Bounds> particle_boxes(const Case& setup, const Body& body, const Shape::Bounds& near) {
+  std::vector<Shape::Bounds> boxes;
+  if (too_many(setup, body)) return boxes;  // a fault that is reported elsewhere
+  Body whole = body;
+  whole.discretization.partial_volumes = false;
+  const Lattice lattice = lattice_of(setup, whole);
+  const Vector3 half = 0.5 * lattice.spacing;
+  any_site(setup, whole, lattice, near, [&](const Site& site) {
+    boxes.push_back({site.position - half, site.position + half});
+    return false;
+  });
+  return boxes;
+}
+
 Seeding seed(const Case& setup, int rank, int ranks) {
   Seeding seeding;
   Particles& particles = seeding.particles;

@@ -28,6 +28,9 @@ std::vector<PlacementFault> placement_faults(const Case& setup);
 /// cell, or whose particles have another volume than its shape.
 std::vector<std::string> placement_warnings(const Case& setup);
 
+/// Boxes of the whole particles that fill a body, or would fill one of elements, in and near a part of space.
+std::vector<Shape::Bounds> particle_boxes(const Case& setup, const Body& body, const Shape::Bounds& near);
+
 /// What a body became.
 struct BodySummary {
   std::size_t first = 0;  ///< its particles are [first, first + count)

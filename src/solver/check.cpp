@@ -71,6 +71,7 @@ std::string check(const RunOptions& options) {
                           table->minimum_density(), table->maximum_density());
     }
   }
+  for (const std::string& remark : setup.contact_fields.remarks) text += remark + "\n";
   const std::size_t particles = simulation.particle_count();
   simulation.advance(setup.time.end);  // activates the blocks
   int measured_steps = 0;

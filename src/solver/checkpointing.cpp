@@ -15,6 +15,7 @@ void for_each_real(State& state, Function&& f) {
   f("time_step", state.time_step);
   f("maximum_acceleration", state.maximum_acceleration);
   f("compression_rate", state.compression_rate);
+  f("squeezed_beside_voids", state.squeezed_beside_voids);
   for_each_number(state.ledger, f);
 }
 

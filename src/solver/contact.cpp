@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact of bodies in the step (docs/theory/contact.md).
 #include <algorithm>
+#include <utility>
 
 #include "src/afemp/transition.hpp"
 #include "src/solver/simulation.hpp"
@@ -17,16 +18,19 @@ contact::Normal normal(const std::string& name) {
 
 void Simulation::set_up_contact() {
   const setup::ContactControl& control = setup_.contact;
-  if (control.method == "none") return;
-  contact_.emplace(contact::Settings{.normal = normal(control.normal),
+  if (!setup_.contact_fields.several()) return;
+  contact_.emplace(contact::Settings{.response = control.method == "auto" ? contact::Response::common_field
+                                                                          : contact::Response::impulses,
+                                     .normal = normal(control.normal),
                                      .friction = control.friction,
                                      .gap_test = control.gap_test,
                                      .gap = control.gap});
-  contact_field_of_body_ = setup_.contact_fields();
+  contact_field_of_body_ = setup_.contact_fields.of_body;
 }
 
 void Simulation::separate_fields() {
   if (!contact_) return;
+  surfaces_found_ = false;
   contact_field_.resize(particles_.size());
   for (std::size_t p = 0; p < particles_.size(); ++p) {
     contact_field_[p] = contact_field_of_body_[particles_.body[p]];
@@ -44,8 +48,9 @@ void Simulation::separate_fields() {
                         *std::ranges::max_element(contact_field_of_body_) + 1U, setup_.contact.everywhere);
 }
 
+/// Conduction of heat, which comes before the transfer to the grid, asks for them too.
 void Simulation::find_surfaces() {
-  if (!contact_) return;
+  if (!contact_ || std::exchange(surfaces_found_, true)) return;
   profile_.time("contact", [&] {
     surface_points_.clear();
     if (surfaces_changed_) {
@@ -66,6 +71,14 @@ void Simulation::find_surfaces() {
     surface_points_.send_to_owners(grid_, transfer::stencil(shape_), communicator_);
     contact_->find_surfaces(shape_, particles_, surface_points_, grid_);
   });
+}
+
+/// Where bodies with velocity fields of their own exchange heat; empty without any.
+transfer::TouchAtNode Simulation::touch_at_node() const {
+  if (!contact_) return {};
+  return [this](std::size_t slot, std::size_t node, std::size_t a, std::size_t b) {
+    return contact_->touch(grid_, slot, node, a, b);
+  };
 }
 
 void Simulation::apply_contact() {

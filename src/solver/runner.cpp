@@ -105,6 +105,7 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
       {"below_cold_curve", "1", state.ledger.clamped_to_cold_curve},
       {"at_pressure_floor", "1", state.ledger.held_at_pressure_floor},
       {"limited_volume_changes", "1", state.ledger.limited_volume_changes},
+      {"squeezed_beside_voids", "kg", state.squeezed_beside_voids},
       {"particles", "1", static_cast<double>(simulation.particle_count())},
   };
   if (simulation.setup().has_elements()) {

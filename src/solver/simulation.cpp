@@ -54,6 +54,8 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
       grid_(setup.geometry, communicator) {
   if (parallel::rank(communicator) == 0) {
     for (const std::string& text : setup::placement_warnings(setup)) log::warning("{}", text);
+    for (const std::string& text : setup.contact_fields.warnings) log::warning("{}", text);
+    for (const std::string& text : setup.contact_fields.remarks) log::info("{}", text);
   }
   setup::Seeding seeding = setup::seed(setup, parallel::rank(communicator), parallel::size(communicator));
   particles_ = std::move(seeding.particles);
@@ -298,6 +300,7 @@ void Simulation::bin_particles() {
       step_.external_impulse += particles_.mass[p] * state_.time_step * external_acceleration_[p];
     }
   });
+  look_at_fill();
 }
 
 /// Particles, and nodes of elements as guests.
@@ -326,13 +329,14 @@ void Simulation::particles_reallocated() {
 void Simulation::conduct_heat() {
   conduct_in_shocks();
   if (!setup_.heat.conduction) return;
+  find_surfaces();
   profile_.time("conduction", [&] {
     std::vector<transfer::ThermalConstants> constants;
     for (const auto& material : setup_.materials) {
       const double capacity = material->reference.heat_capacity;
       constants.push_back({material->conductivity, capacity > 0.0 ? capacity : 1.0});
     }
-    transfer::conduct_heat(particles_, grid_, state_.time_step, constants);
+    transfer::conduct_heat(particles_, grid_, state_.time_step, constants, touch_at_node());
   });
 }
 

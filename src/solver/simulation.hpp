@@ -21,6 +21,7 @@
 #include "src/setup/seeding.hpp"
 #include "src/solver/ledger.hpp"
 #include "src/solver/profile.hpp"
+#include "src/transfer/conduction.hpp"
 #include "src/transfer/full_mass_matrix.hpp"
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/grid_update.hpp"
@@ -36,6 +37,7 @@ struct RunState {
   double time_step = 0.0;             ///< s, of the last step; 0 before the first
   double maximum_acceleration = 0.0;  ///< m/s^2, in the last step
   double compression_rate = 0.0;  ///< 1/s, that all but a thousandth of the matter under pressure kept below
+  double squeezed_beside_voids = 0.0;  ///< kg, intact, under pressure in cells that it does not fill
   std::int64_t step = 0;
   std::int64_t particles_at_rest = 0;  ///< of all ranks, left as they were by the last step
   Ledger ledger;
@@ -91,6 +93,9 @@ class Simulation {
   [[nodiscard]] const std::vector<setup::BodySummary>& bodies() const { return bodies_; }
   [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
   [[nodiscard]] Profile& profile() { return profile_; }
+  /// Least share of its cells that matter of more than a pressure (Pa) fills, 1e300 without any: a look at the
+  /// run, for tests. Collective.
+  [[nodiscard]] double least_fill(double pressure);
   /// Memory of this rank.
   [[nodiscard]] std::size_t bytes() const;
 
@@ -129,7 +134,9 @@ class Simulation {
   void set_up_contact();
   void set_up_dissipation();
   void separate_fields();
+  void look_at_fill();
   void find_surfaces();
+  [[nodiscard]] transfer::TouchAtNode touch_at_node() const;
   void apply_contact();
   void finish_exchange();
   void gather_velocity(const transfer::TakeGradients& take);
@@ -197,6 +204,8 @@ class Simulation {
   transfer::FullMassMatrix full_mass_matrix_;
   std::optional<contact::Contact> contact_;  // if bodies have velocity fields of their own
   std::vector<std::uint8_t> contact_field_of_body_;
+  bool surfaces_found_ = false;   // in the step under way
+  bool warned_of_voids_ = false;
   std::vector<std::uint8_t> contact_field_;              // of each particle
   std::vector<std::vector<fem::Facet>> surface_facets_;  // of each mesh
   bool surfaces_changed_ = true;                         // since they were found

@@ -1,102 +1,57 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/transfer/conduction.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "src/parallel/threads.hpp"
-#include "src/transfer/kernels.hpp"
+#include "src/transfer/scalar_fields.hpp"
 
 namespace whipple::transfer {
 namespace {
 
 using grid::BlockGrid;
 using grid::Node;
-using Shape = QuadraticBSpline;
+using scalars::fold_and_sum;
+using scalars::gather;
+using scalars::share;
+constexpr auto particle_kind = BlockGrid::Points::particles;
 
 constexpr double no_capacity = 1e-300;  // J/K; below it the temperature of a node has no meaning
 
-/// Calls f(node, N, grad N) for the nodes of a particle.
-template <class Access, class Function>
-void for_each_node(const Particles& particles, std::size_t p, const BlockGrid& grid, Access& access,
-                   Function&& f) {
-  const grid::PlaceInStencil& place = grid.places(BlockGrid::Points::particles)[p];
-  const Weights<Shape::count> w = weights_at<Shape>(particles, p, place, grid.geometry().cell_size);
-  const auto nodes = access.stencil(w.first_node);
-  for (std::size_t i = 0; i < Shape::count; ++i) {
-    for (std::size_t j = 0; j < Shape::count; ++j) {
-      for (std::size_t k = 0; k < Shape::count; ++k) {
-        const double wx = w.weight[i][0], wy = w.weight[j][1], wz = w.weight[k][2];
-        const Vector3 gradient(w.derivative[i][0] * wy * wz, wx * w.derivative[j][1] * wz,
-                               wx * wy * w.derivative[k][2]);
-        f(nodes(i, j, k), wx * wy * wz, gradient);
+/// Bodies that share nodes share their heat there, as far as they touch.
+void join_fields(BlockGrid& grid, const TouchAtNode& touch) {
+  const auto slots = grid.contact_slots().first(grid.owned_contact_slots());
+  parallel::for_each(slots.size(), [&](std::size_t c) {
+    const std::uint32_t slot = slots[c];
+    std::vector<Lanes*> fields;
+    std::vector<std::size_t> leader;  // of those that touch, the first
+    for (std::size_t i = 0; i < grid::nodes_per_block; ++i) {
+      fields.clear();
+      leader.clear();
+      grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
+        leader.push_back(fields.size());
+        fields.push_back(&grid.nodes(slot, field)[i].first);
+      });
+      for (std::size_t b = 1; b < fields.size(); ++b) {
+        for (std::size_t a = 0; a < b; ++a) {
+          if (leader[a] == leader[b] || (touch && !touch(c, i, a, b))) continue;
+          const std::size_t old = std::max(leader[a], leader[b]), first = std::min(leader[a], leader[b]);
+          std::ranges::replace(leader, old, first);
+        }
       }
+      for (std::size_t b = 0; b < fields.size(); ++b) {
+        if (leader[b] != b) *fields[leader[b]] += *fields[b];
+      }
+      for (std::size_t b = 0; b < fields.size(); ++b) *fields[b] = *fields[leader[b]];
     }
-  }
-}
-
-/// Adds what every particle brings to its nodes: bring(node, p, N, grad N). Node::second stays as it is.
-template <class Bring>
-void scatter(const Particles& particles, BlockGrid& grid, Bring&& bring) {
-  grid.for_each_apart([&](std::size_t slot) {
-    narrow::add_to_nodes<Shape, Node>(
-        grid, BlockGrid::Points::particles, slot, [&](std::span<const std::uint32_t> members, auto& access) {
-          for (const std::uint32_t p : members) {
-            for_each_node(particles, p, grid, access, [&](Node& node, double n, const Vector3& gradient) {
-              bring(node, p, n, gradient);
-            });
-          }
-        });
   });
-}
-
-/// Calls f(p, access to its nodes) for every particle, block by block.
-template <class Function>
-void gather(const Particles& particles, BlockGrid& grid, Function&& f) {
-  parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
-    if (grid.particles_in(slot).empty()) return;
-    narrow::read_nodes<Shape, Node>(
-        grid, BlockGrid::Points::particles, slot, [&](std::span<const std::uint32_t> members, auto& access) {
-          for (const std::uint32_t p : members) {
-            f(p, [&](auto&& of_node) { for_each_node(particles, p, grid, access, of_node); });
-          }
-        });
-  });
-}
-
-/// Scalars of the nodes beyond the mirror planes are those of their images, so what particles brought there
-/// belongs to the images. Bodies that share nodes share their heat, whatever velocity fields they have.
-void fold_and_sum(BlockGrid& grid) {
-  const std::span<Node> nodes = grid.all_nodes();
-  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
-    parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
-      nodes[plane.pairs[i].image].first += nodes[plane.pairs[i].outside].first;
-    });
-  }
-  grid.sum_to_owners(BlockGrid::Part::first);
-  for (const std::uint32_t slot : grid.contact_slots().first(grid.owned_contact_slots())) {
-    for (int i = 0; i < grid::nodes_per_block; ++i) {
-      Lanes sum = broadcast(0.0);
-      grid::for_each_bit(grid.fields(slot), [&](unsigned field) { sum += grid.nodes(slot, field)[i].first; });
-      grid::for_each_bit(grid.fields(slot), [&](unsigned field) { grid.nodes(slot, field)[i].first = sum; });
-    }
-  }
-}
-
-void share(BlockGrid& grid) {
-  grid.borrow_from_owners(BlockGrid::Part::first);
-  const std::span<Node> nodes = grid.all_nodes();
-  const auto planes = grid.mirror_planes();
-  for (std::size_t n = planes.size(); n-- > 0;) {
-    parallel::for_each(planes[n].pairs.size(), [&](std::size_t i) {
-      nodes[planes[n].pairs[i].outside].first = nodes[planes[n].pairs[i].image].first;
-    });
-  }
 }
 
 }  // namespace
 
 void conduct_heat(Particles& particles, BlockGrid& grid, double dt,
-                  std::span<const ThermalConstants> of_body) {
+                  std::span<const ThermalConstants> of_body, const TouchAtNode& touch) {
   const auto constants = [&](std::size_t p) -> const ThermalConstants& { return of_body[particles.body[p]]; };
   const std::span<Node> nodes = grid.all_nodes();
   const auto for_each_owned_node = [&](auto&& f) {
@@ -107,11 +62,12 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt,
   };
 
   grid.clear();  // (eq. 1) heat capacity and temperature of the nodes
-  scatter(particles, grid, [&](Node& node, std::size_t p, double n, const Vector3&) {
+  scalars::scatter(particle_kind, particles, grid, [&](Node& node, std::size_t p, double n, const Vector3&) {
     const double capacity = n * particles.mass[p] * constants(p).heat_capacity;
     node.first += Lanes{capacity, capacity * particles.temperature[p], 0.0, 0.0};
   });
   fold_and_sum(grid);
+  join_fields(grid, touch);
   for_each_owned_node([&](std::size_t i) {
     Lanes& first = nodes[i].first;
     first[1] = first[0] > no_capacity ? first[1] / first[0] : 0.0;
@@ -129,10 +85,11 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt,
     nodes[i].second = nodes[i].first;
     nodes[i].first = broadcast(0.0);
   });
-  scatter(particles, grid, [&](Node& node, std::size_t p, double, const Vector3& gradient) {
+  scalars::scatter(particle_kind, particles, grid, [&](Node& node, std::size_t p, double, const Vector3& gradient) {
     node.first += Lanes{gradient.dot(flux[p]), 0.0, 0.0, 0.0};
   });
   fold_and_sum(grid);
+  join_fields(grid, touch);
   for_each_owned_node([&](std::size_t i) {
     const double capacity = nodes[i].second[0];
     nodes[i].first =

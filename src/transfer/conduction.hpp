@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <span>
 
 #include "src/grid/block_grid.hpp"
@@ -14,13 +16,18 @@ struct ThermalConstants {
   double heat_capacity = 0.0;  ///< J/(kg K), weights the share of a particle in the heat of a node
 };
 
+/// Do two fields of a contact slot, by their numbers there, touch at a node? Empty: wherever both are.
+using TouchAtNode =
+    std::function<bool(std::size_t contact_slot, std::size_t node, std::size_t first, std::size_t second)>;
+
 /// One explicit step of the conduction of heat between particles through the grid, with quadratic B-splines
 /// (docs/theory/conduction.md): temperatures to the nodes, Fourier's flux at the particles, heat to the
 /// nodes and back into the specific internal energies. The sum of the heat is zero to round-off; mirror
 /// planes and free surfaces are adiabatic. Particles must be binned; node contents are lost. Collective;
 /// bitwise independent of the number of threads.
 /// @param of_body  constants of every body of the case
+/// @param touch    bodies with velocity fields of their own exchange heat where they touch
 void conduct_heat(Particles& particles, grid::BlockGrid& grid, double dt,
-                  std::span<const ThermalConstants> of_body);
+                  std::span<const ThermalConstants> of_body, const TouchAtNode& touch = {});
 
 }  // namespace whipple::transfer

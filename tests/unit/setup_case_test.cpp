@@ -153,7 +153,7 @@ TEST(Contact, OptionsAndWhatTheyExclude) {
   const Case both = read_case_text(domain + on + sphere + second, "case.toml");
   EXPECT_EQ(both.contact.normal, "separating");
   EXPECT_TRUE(both.contact.gap_test);
-  EXPECT_EQ(both.contact_fields(), (std::vector<std::uint8_t>{0, 1}));
+  EXPECT_EQ(both.contact_fields.of_body, (std::vector<std::uint8_t>{0, 1}));
   const std::string grouped = replaced(sphere, "[[body]]\n", "[[body]]\ncontact_group = \"a\"\n") +
                               replaced(second, "[[body]]\n", "[[body]]\ncontact_group = \"a\"\n");
   expect_error(domain + on + grouped, {"'method'", "all bodies are one contact group"});

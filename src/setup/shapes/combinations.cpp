@@ -139,6 +139,9 @@ class Moved final : public Shape {
     return {middle - reach, middle + reach};
   }
   [[nodiscard]] double volume() const override { return shape_->volume(); }
+  [[nodiscard]] bool fills_lattice() const override {
+    return rotation_.isIdentity(1e-12) && shape_->fills_lattice();
+  }
   [[nodiscard]] std::string toml() const override {
     std::string keys;
     Motion copy = motion_;

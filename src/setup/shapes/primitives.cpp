@@ -103,6 +103,7 @@ class Box final : public Shape {
   }
   [[nodiscard]] Bounds bounds() const override { return {lower_, upper_}; }
   [[nodiscard]] double volume() const override { return (upper_ - lower_).prod(); }
+  [[nodiscard]] bool fills_lattice() const override { return true; }
   [[nodiscard]] std::string toml() const override { return shape_as_toml("box", *this); }
   [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
     return fem::make_box(lower_.cwiseMax(clip.lower), upper_.cwiseMin(clip.upper), size);

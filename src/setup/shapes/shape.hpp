@@ -24,6 +24,8 @@ class Shape {
   [[nodiscard]] virtual Bounds bounds() const = 0;
   /// Volume (m^3), to judge a discretisation by: exact for primitives, to about 1e-3 for combinations.
   [[nodiscard]] virtual double volume() const = 0;
+  /// Do whole cells of a lattice over its bounds fill it: is it a box along the axes?
+  [[nodiscard]] virtual bool fills_lattice() const { return false; }
   /// `{ NAME = ... }` as it stands in a case file.
   [[nodiscard]] virtual std::string toml() const = 0;
   /// Structured mesh of the shape, or of its part within `clip`, whose finite faces halve it; elements

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "src/base/simd.hpp"
+#include "src/base/tensor.hpp"
+#include "src/grid/block_grid.hpp"
+
+namespace whipple::contact {
+
+constexpr double no_mass = 1e-300;  // kg
+
+inline Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
+
+/// What contact did in a step on this rank.
+struct Balance {
+  double contact_heat = 0.0;      ///< J, lost by the normal impulses
+  double friction_heat = 0.0;     ///< J, lost by the tangential impulses
+  double impulse = 0.0;           ///< N s, sum of the normal impulses
+  double friction_impulse = 0.0;  ///< N s, sum of the tangential impulses
+  Balance& operator+=(const Balance& other) {
+    contact_heat += other.contact_heat;
+    friction_heat += other.friction_heat;
+    impulse += other.impulse;
+    friction_impulse += other.friction_impulse;
+    return *this;
+  }
+};
+
+/// One velocity field at a node.
+struct Side {
+  grid::Node* node = nullptr;
+  double mass = 0.0;  ///< kg
+  double heat = 0.0;  ///< J, that contact makes
+
+  [[nodiscard]] Vector3 before() const { return vector(node->first); }
+  [[nodiscard]] Vector3 increment() const { return vector(node->second); }
+  [[nodiscard]] Vector3 after() const { return before() + increment(); }
+  [[nodiscard]] double relaxation() const { return node->first[3]; }
+  void push(const Vector3& impulse) {
+    const Vector3 change = impulse / mass;
+    node->second += Lanes{change[0], change[1], change[2], 0.0};
+  }
+  void shift_velocity(const Vector3& change) {
+    node->first += Lanes{change[0], change[1], change[2], 0.0};
+  }
+};
+
+}  // namespace whipple::contact

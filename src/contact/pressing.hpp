@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "src/contact/node_fields.hpp"
+
+namespace whipple::contact {
+
+/// Bodies that press on one another at a node move as one along the normal between them, for the share of the
+/// step in which they touch; else each is free (docs/theory/contact.md, equations 4.1 to 4.12). It works on
+/// one node at a time and keeps its memory from one to the next.
+class Pressing {
+ public:
+  /// @param friction  Coulomb's coefficient
+  explicit Pressing(double friction) : friction_(friction) {}
+
+  /// Begins with a node where these fields meet; they must outlive `apply`.
+  void begin(std::span<Side> sides);
+  /// Two of them, numbers of the sides, may touch.
+  /// @param normal  unit vector from a to b
+  /// @param open    m, distance of their surfaces; <= 0: they touch
+  void add(std::size_t a, std::size_t b, const Vector3& normal, double open, double dt);
+  /// Changes velocities, increments and relaxations of the fields that press, and books what that takes.
+  void apply(Balance& balance);
+
+ private:
+  /// Two fields that touch, or would in the step.
+  struct Pair {
+    std::size_t a, b;
+    Vector3 normal;
+    double mass;          // reduced, kg
+    double share;         // theta (4.2): of the step in which they touch
+    double velocity = 0;  // impulse that makes the velocities common, N s
+    double forces = 0;    // the same of the increments
+    double given = 0;     // normal impulse on b, N s
+    double pressed = 0;   // positive: the fields press, N s
+    double dragged = 0;   // tangential impulse, N s
+  };
+  /// A field as it came to the node.
+  struct Former {
+    Vector3 velocity, increment;
+    double logarithm;    // of 1 - beta
+    std::size_t leader;  // of the fields that press on one another, the first
+  };
+
+  [[nodiscard]] Vector3 between(const Pair& pair, Vector3 Former::* value) const {
+    return former_[pair.b].*value - former_[pair.a].*value;
+  }
+  void find_common_relaxation();
+  void solve();
+  bool drop_tension();
+  void mix(Balance& balance);
+  [[nodiscard]] double lost() const;
+  double drag(Pair& pair);
+  std::size_t leader(std::size_t side) const;
+
+  double friction_;
+  std::span<Side> sides_;
+  std::vector<Pair> pairs_;
+  std::vector<Former> former_;       // of each side
+  std::vector<double> relaxation_;   // of each side: beta that it has in common with others
+};
+
+}  // namespace whipple::contact

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/transfer/fill.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "src/transfer/scalar_fields.hpp"
+
+namespace whipple::transfer {
+
+std::vector<double> fill_of_cells(const Particles& particles, const TransitionNodes& elements,
+                                  grid::BlockGrid& grid) {
+  using grid::BlockGrid;
+  using grid::Node;
+  grid.clear();
+  const double dx = grid.geometry().cell_size, per_cell = 1.0 / (dx * dx * dx);
+  scalars::scatter(BlockGrid::Points::particles, particles, grid,
+                   [&](Node& node, std::size_t p, double n, const Vector3&) {
+                     const double volume = particles.volume[p] + particles.void_volume[p];
+                     node.first += Lanes{n * volume * per_cell, 0.0, 0.0, 0.0};
+                   });
+  if (elements.size() > 0) {
+    scalars::scatter(BlockGrid::Points::guests, elements, grid,
+                     [&](Node& node, std::size_t, double n, const Vector3&) {
+                       node.first += Lanes{0.0, n, 0.0, 0.0};
+                     });
+  }
+  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {  // images bring to it as much again
+    for (const std::uint32_t node : plane.on_plane) grid.all_nodes()[node].first *= 2.0;
+  }
+  scalars::fold_and_sum(grid);
+  for (const std::uint32_t slot : grid.contact_slots().first(grid.owned_contact_slots())) {
+    for (int i = 0; i < grid::nodes_per_block; ++i) {
+      Lanes sum{};
+      grid::for_each_bit(grid.fields(slot), [&](unsigned field) { sum += grid.nodes(slot, field)[i].first; });
+      grid::for_each_bit(grid.fields(slot), [&](unsigned field) { grid.nodes(slot, field)[i].first = sum; });
+    }
+  }
+  scalars::share(grid);
+  std::vector<double> fill(particles.size(), std::numeric_limits<double>::infinity());
+  scalars::gather(particles, grid, [&](std::size_t p, auto&& for_nodes) {
+    double filled = 0.0, of_elements = 0.0;
+    for_nodes([&](const Node& node, double n, const Vector3&) {
+      filled += n * node.first[0];
+      of_elements += n * node.first[1];
+    });
+    if (of_elements == 0.0) fill[p] = filled;
+  });
+  return fill;
+}
+
+}  // namespace whipple::transfer

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "src/parallel/threads.hpp"
+#include "src/transfer/kernels.hpp"
+
+/// Scalar fields on the grid by quadratic B-splines, whatever the transfer takes: conduction, fill of the
+/// cells.
+namespace whipple::transfer::scalars {
+
+using grid::BlockGrid;
+using grid::Node;
+using Shape = QuadraticBSpline;
+
+/// Calls f(node, N, grad N) for the nodes of a point.
+template <class Points, class Access, class Function>
+void for_each_node(BlockGrid::Points kind, const Points& points, std::size_t p, const BlockGrid& grid,
+                   Access& access, Function&& f) {
+  const grid::PlaceInStencil& place = grid.places(kind)[p];
+  const Weights<Shape::count> w = weights_at<Shape>(points, p, place, grid.geometry().cell_size);
+  const auto nodes = access.stencil(w.first_node);
+  for (std::size_t i = 0; i < Shape::count; ++i) {
+    for (std::size_t j = 0; j < Shape::count; ++j) {
+      for (std::size_t k = 0; k < Shape::count; ++k) {
+        const double wx = w.weight[i][0], wy = w.weight[j][1], wz = w.weight[k][2];
+        const Vector3 gradient(w.derivative[i][0] * wy * wz, wx * w.derivative[j][1] * wz,
+                               wx * wy * w.derivative[k][2]);
+        f(nodes(i, j, k), wx * wy * wz, gradient);
+      }
+    }
+  }
+}
+
+/// Adds what every point brings to its nodes: bring(node, p, N, grad N). Node::second stays as it is.
+template <class Points, class Bring>
+void scatter(BlockGrid::Points kind, const Points& points, BlockGrid& grid, Bring&& bring) {
+  grid.for_each_apart([&](std::size_t slot) {
+    narrow::add_to_nodes<Shape, Node>(
+        grid, kind, slot, [&](std::span<const std::uint32_t> members, auto& access) {
+          for (const std::uint32_t p : members) {
+            for_each_node(kind, points, p, grid, access, [&](Node& node, double n, const Vector3& gradient) {
+              bring(node, p, n, gradient);
+            });
+          }
+        });
+  });
+}
+
+/// Calls f(p, access to its nodes) for every particle, block by block.
+template <class Function>
+void gather(const Particles& particles, BlockGrid& grid, Function&& f) {
+  constexpr auto kind = BlockGrid::Points::particles;
+  parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
+    if (grid.particles_in(slot).empty()) return;
+    narrow::read_nodes<Shape, Node>(
+        grid, kind, slot, [&](std::span<const std::uint32_t> members, auto& access) {
+          for (const std::uint32_t p : members) {
+            f(p, [&](auto&& of_node) { for_each_node(kind, particles, p, grid, access, of_node); });
+          }
+        });
+  });
+}
+
+/// Adds what particles brought beyond the mirror planes to the images, and the parts of all ranks. Scalars of
+/// the nodes beyond the planes are those of their images.
+inline void fold_and_sum(BlockGrid& grid) {
+  const std::span<Node> nodes = grid.all_nodes();
+  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+    parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
+      nodes[plane.pairs[i].image].first += nodes[plane.pairs[i].outside].first;
+    });
+  }
+  grid.sum_to_owners(BlockGrid::Part::first);
+}
+
+/// Lets other ranks and the nodes beyond the planes have what was found.
+inline void share(BlockGrid& grid) {
+  grid.borrow_from_owners(BlockGrid::Part::first);
+  const std::span<Node> nodes = grid.all_nodes();
+  const auto planes = grid.mirror_planes();
+  for (std::size_t n = planes.size(); n-- > 0;) {
+    parallel::for_each(planes[n].pairs.size(), [&](std::size_t i) {
+      nodes[planes[n].pairs[i].outside].first = nodes[planes[n].pairs[i].image].first;
+    });
+  }
+}
+
+}  // namespace whipple::transfer::scalars

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields that press on one another at a node (docs/theory/contact.md, section 4): for any masses, velocities,
+// forces, normals and gaps momentum and energy are exact, no heat is negative, no pair pulls.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "src/contact/pressing.hpp"
+
+namespace whipple::contact {
+namespace {
+
+struct Meeting {
+  std::size_t a, b;
+  Vector3 normal;
+  double open;  // m
+};
+
+constexpr double dt = 1e-8;  // s
+
+/// Fields at a node as they come, and what contact makes of them.
+struct Trial {
+  std::vector<grid::Node> before, after;
+  std::vector<double> mass;
+  std::vector<Meeting> meetings;
+  Balance balance;
+  double heat = 0.0;  ///< J, on the nodes
+
+  void apply(double friction) {
+    after = before;
+    std::vector<Side> sides;
+    for (std::size_t s = 0; s < after.size(); ++s) {
+      sides.push_back({.node = &after[s], .mass = mass[s]});
+      after[s].second[3] = 0.0;
+    }
+    Pressing pressing(friction);
+    pressing.begin(sides);
+    for (const Meeting& m : meetings) pressing.add(m.a, m.b, m.normal, m.open, dt);
+    balance = {};
+    pressing.apply(balance);
+    heat = 0.0;
+    for (const Side& side : sides) heat += side.heat;
+  }
+
+  /// N s: what the particles of a field get from the node, without that of their own forces. They bring
+  /// m u and take m (d - beta (u - v)), equation (4.3) of mpm.md.
+  [[nodiscard]] Vector3 impulse(std::size_t s) const {
+    const Vector3 u = vector(before[s].first), v = vector(after[s].first);
+    const Vector3 f = vector(before[s].second), d = vector(after[s].second);
+    return mass[s] * (d - f - after[s].first[3] * (u - v));
+  }
+  /// J: change of the energy of the particles of a field, with the heat of their transfer and the work of their
+  /// stresses, (4.5) and (4.6) of mpm.md, summed over them.
+  [[nodiscard]] double energy(std::size_t s) const {
+    const Vector3 u = vector(before[s].first), v = vector(after[s].first);
+    const Vector3 f = vector(before[s].second), d = vector(after[s].second);
+    const double beta = after[s].first[3];
+    const double kinetic = v.dot(d) + 0.5 * d.squaredNorm() + (1.0 - beta) * (u - v).dot(d) - beta * v.dot(u - v);
+    return mass[s] * (kinetic - f.dot(v + 0.5 * d));
+  }
+  [[nodiscard]] double scale() const {
+    double sum = 0.0;
+    for (std::size_t s = 0; s < mass.size(); ++s) {
+      sum += mass[s] * (vector(before[s].first).squaredNorm() + vector(before[s].second).squaredNorm());
+    }
+    return sum;
+  }
+};
+
+class Pressed : public ::testing::TestWithParam<int> {
+ protected:
+  std::mt19937 random{7};
+  double uniform(double lower, double upper) { return std::uniform_real_distribution(lower, upper)(random); }
+  Vector3 direction() {
+    Vector3 n;
+    do {
+      n = Vector3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+    } while (n.squaredNorm() > 1.0 || n.squaredNorm() < 0.01);
+    return n.normalized();
+  }
+  /// @param parallel  all normals along one line, as of the layers of a stack
+  Trial trial(int fields, bool parallel) {
+    Trial t;
+    const Vector3 axis = direction();
+    for (int s = 0; s < fields; ++s) {
+      t.mass.push_back(std::pow(10.0, uniform(-12, -3)));
+      const Vector3 v = 300.0 * Vector3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) + Vector3(900, 0, -200);
+      const Vector3 d = 300.0 * Vector3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+      t.before.push_back({Lanes{v[0], v[1], v[2], uniform(0.0, 1.0)}, Lanes{d[0], d[1], d[2], 0.0}});
+    }
+    for (std::size_t a = 0; a < t.mass.size(); ++a) {
+      for (std::size_t b = a + 1; b < t.mass.size(); ++b) {
+        const double open = uniform(0, 1) < 0.5 ? 0.0 : uniform(0.0, 6e-6);
+        t.meetings.push_back({a, b, parallel ? axis : direction(), open});
+      }
+    }
+    return t;
+  }
+};
+
+TEST_P(Pressed, KeepMomentumAndEnergyAndMakeHeat) {
+  int acted = 0;
+  for (int n = 0; n < 3000; ++n) {
+    Trial t = trial(GetParam(), n % 2 == 0);
+    const double friction = n % 3 == 0 ? 0.0 : n % 3 == 1 ? 0.3 : 1e6;
+    t.apply(friction);
+    Vector3 sum = Vector3::Zero();
+    double energy = t.heat, largest = 0.0;
+    for (std::size_t s = 0; s < t.mass.size(); ++s) {
+      sum += t.impulse(s);
+      largest = std::max(largest, t.mass[s]);
+      energy += t.energy(s);
+    }
+    const double scale = t.scale();
+    EXPECT_LT(sum.norm(), 1e-12 * largest * std::sqrt(scale / largest)) << n;
+    EXPECT_LT(std::abs(energy), 1e-12 * scale) << n;
+    EXPECT_GE(t.balance.contact_heat, -1e-12 * scale) << n;
+    EXPECT_GE(t.balance.friction_heat, -1e-15 * scale) << n;
+    EXPECT_NEAR(t.heat, t.balance.contact_heat + t.balance.friction_heat, 1e-14 * scale) << n;
+    EXPECT_GE(t.balance.impulse, 0.0) << n;
+    EXPECT_LE(t.balance.friction_impulse, (1 + 1e-12) * friction * t.balance.impulse) << n;
+    acted += t.balance.impulse > 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(acted, 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fields, Pressed, ::testing::Values(2, 3, 4, 6));
+
+TEST_F(Pressed, TwoThatTouchMoveAsOneAlongTheNormal) {
+  for (int n = 0; n < 200; ++n) {
+    Trial t = trial(2, false);
+    t.meetings[0].open = 0.0;
+    t.apply(0.0);
+    const Vector3 normal = t.meetings[0].normal;
+    if (t.balance.impulse == 0.0) {
+      for (std::size_t s = 0; s < 2; ++s) {
+        for (int c = 0; c < 4; ++c) EXPECT_EQ(t.after[s].first[c], t.before[s].first[c]);
+      }
+      continue;
+    }
+    EXPECT_NEAR(normal.dot(vector(t.after[1].first) - vector(t.after[0].first)), 0.0, 1e-9);
+    EXPECT_NEAR(normal.dot(vector(t.after[1].second) - vector(t.after[0].second)), 0.0, 1e-9);
+    EXPECT_EQ(t.after[0].first[3], t.after[1].first[3]);
+    EXPECT_NEAR(t.balance.contact_heat, 0.0, 1e-20);
+    EXPECT_GT(normal.dot(t.impulse(1)), 0.0);
+  }
+}
+
+// Surfaces that close their gap within the step just touch at its end.
+TEST_F(Pressed, AGapClosesExactly) {
+  int closed = 0;
+  for (int n = 0; n < 500; ++n) {
+    Trial t = trial(2, false);
+    const Vector3 normal = t.meetings[0].normal;
+    const auto closing = [&](const std::vector<grid::Node>& nodes) {
+      return -normal.dot(vector(nodes[1].first) + vector(nodes[1].second) - vector(nodes[0].first) -
+                         vector(nodes[0].second)) *
+             dt;
+    };
+    t.meetings[0].open = uniform(0.0, 1e-5);
+    t.apply(0.0);
+    if (t.balance.impulse > 0.0) {
+      ++closed;
+      EXPECT_NEAR(closing(t.after), t.meetings[0].open, 1e-17);
+    } else {
+      for (std::size_t s = 0; s < 2; ++s) {
+        for (int c = 0; c < 4; ++c) EXPECT_EQ(t.after[s].first[c], t.before[s].first[c]);
+      }
+    }
+    if (closing(t.before) < t.meetings[0].open) {
+      EXPECT_EQ(t.balance.impulse, 0.0);
+    }
+  }
+  EXPECT_GT(closed, 50);
+}
+
+// A pair that is pressed together only by a third one takes part; one that is pulled does not.
+TEST_F(Pressed, AStackMovesAsOneAndDoesNotPull) {
+  Trial t;
+  t.mass = {1e-6, 2e-6, 3e-6};
+  const auto node = [](double v) { return grid::Node{Lanes{v, 0, 0, 0.1}, Lanes{0, 0, 0, 0}}; };
+  t.before = {node(0), node(0), node(-60)};
+  t.meetings = {{0, 1, Vector3::UnitX(), 0.0}, {1, 2, Vector3::UnitX(), 0.0}, {0, 2, Vector3::UnitX(), 0.0}};
+  t.apply(0.0);
+  for (std::size_t s = 0; s < 3; ++s) EXPECT_NEAR(t.after[s].first[0], -30.0, 1e-6);
+  t.before = {node(-5), node(0), node(-60)};  // the first flees, but slower than all of them go on
+  t.apply(0.0);
+  EXPECT_NEAR(t.after[0].first[0], -185.0 / 6.0, 1e-6);
+  t.before = {node(-90), node(0), node(-60)};  // faster
+  t.apply(0.0);
+  EXPECT_EQ(t.after[0].first[0], -90.0);
+  EXPECT_NEAR(t.after[1].first[0], -36.0, 1e-6);
+  EXPECT_NEAR(t.after[2].first[0], -36.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace whipple::contact
