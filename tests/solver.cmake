@@ -44,3 +44,12 @@ if(WHIPPLE_PYTHON)
                    ${PROJECT_SOURCE_DIR}/cases/copper_disk_on_aluminium/case.toml ${CMAKE_CURRENT_BINARY_DIR}/rank_killed)
   set_tests_properties(solver_rank_killed PROPERTIES LABELS fast TIMEOUT 300 PROCESSORS 2)
 endif()
+
+# Problems with exact solutions: sources shared by the tests and by the program that writes docs/exact_suite.md.
+add_library(whipple_exact STATIC EXCLUDE_FROM_ALL
+  verification/exact/result.cpp verification/exact/gas_solutions.cpp verification/exact/gas_problems.cpp
+  verification/exact/planar_impact.cpp verification/exact/piston.cpp verification/exact/oblique_impact.cpp)
+target_link_libraries(whipple_exact PUBLIC whipple_flags whipple_solver)
+target_compile_definitions(whipple_exact PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+add_executable(exact_suite EXCLUDE_FROM_ALL verification/exact_suite.cpp)
+target_link_libraries(exact_suite PRIVATE whipple_exact)
