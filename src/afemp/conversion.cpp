@@ -190,6 +190,9 @@ void write_particles(const fem::Mesh& mesh, std::size_t element, const Conversio
       const auto& from = mesh.points.*(field.values);
       if (!from.empty()) (particles.*(field.values))[p] = from[row];
     });
+    if (!particles.heating_viscosity.empty()) {  // that of elements heats as a whole
+      particles.heating_viscosity[p] = particles.artificial_viscosity[p];
+    }
     const Fragment& f = conversion.fragment[k];
     particles.mass[p] = f.mass;
     particles.volume[p] *= f.share;

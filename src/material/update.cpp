@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <tuple>
 #include <utility>
 
@@ -20,8 +19,6 @@ constexpr double greatest_volume_ratio = 2.0;
 /// Of the reference density. Thinner matter expands no further: long before, it fills more than the nodes
 /// that its pressure acts on, and without a bound lone vapour would grow by the same factor in every step.
 constexpr double least_density_ratio = 1e-9;
-/// Of the reference density: thinner matter has gaps, whether they have opened already or not.
-constexpr double least_density_of_intact = 0.95;
 
 using material::Chunk;
 using material::chunk_size;
@@ -306,30 +303,25 @@ void advance_strain(Step& step, Chunk& chunk) {
   }
 }
 
-/// The part of the artificial viscosity whose work is heat: by the rate of the grid, or where matter meets at
-/// first, by that of the particle's own affine field (docs/theory/dissipation.md, eq. 6). Loose matter takes that of
-/// the grid: the affine field of a cloud still expands when it meets a wall.
+/// The part of the artificial viscosity whose work is heat (docs/theory/dissipation.md, eq. 6): all of it in a
+/// shock, whose rate the affine field of the particle follows; where matter meets at first, what the affine field
+/// has of the jump. Loose matter collides: all of it heats.
 WHIPPLE_KERNEL void find_heating_viscosity(const Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
-  static const bool trial_a = std::getenv("TRIAL_A") != nullptr;
-  const double per_reference = 1.0 / step.material.reference.density;
+  const double per_initial = 1.0 / settings.initial_density;
   const double per_range = 1.0 / settings.affine_compression;
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    const double of_grid = -chunk.motion.divergence[k] * settings.cell_size,
-                 of_field = std::max(-step.affine_divergence[k], 0.0) * settings.cell_size;
-    const double compressed = chunk.density[k] * per_reference;
-    const bool intact = chunk.intact[k] != 0.0 && compressed > least_density_of_intact;
-    const double share = std::clamp(1.0 - (compressed - 1.0) * per_range, 0.0, 1.0);
-    const double closing = of_grid + share * (of_field - of_grid);
+    const double of_grid = std::max(-chunk.motion.divergence[k], 0.0) * settings.cell_size;
+    const double of_field = std::max(-step.affine_divergence[k], 0.0) * settings.cell_size;
+    const double compression = chunk.density[k] * per_initial - 1.0;
+    const double share = std::clamp(1.0 - compression * per_range, 0.0, 1.0);
+    const double closing = of_grid - share * std::max(of_grid - settings.affine_gain * of_field, 0.0);
     const double viscosity =
         chunk.density[k] * closing *
         (settings.quadratic_viscosity * closing + settings.linear_viscosity * chunk.sound_speed[k]);
+    const bool tight = chunk.intact[k] != 0.0 && compression >= 0.0;
     const double whole = chunk.artificial_viscosity[k];
-    if (trial_a) {
-      chunk.artificial_viscosity[k] = chunk.heating_viscosity[k] = intact && of_grid > 0.0 ? viscosity : whole;
-      continue;
-    }
-    chunk.heating_viscosity[k] = intact && of_grid > 0.0 ? std::min(viscosity, whole) : whole;
+    chunk.heating_viscosity[k] = tight && whole > 0.0 ? std::min(viscosity, whole) : whole;
   }
 }
 

@@ -24,10 +24,12 @@ struct UpdateSettings {
   double linear_viscosity = 0.25;        ///< c1 of q = rho l |D| (c2 l |D| + c1 c)
   double quadratic_viscosity = 1.0;      ///< c2
   double expansion_viscosity = 0.0;      ///< c1 of q = -rho l |D| c1 c in expansion
-  /// 1/s, tr C of the affine field of each point of the list, which has a share in the rate of the artificial
-  /// viscosity (docs/theory/dissipation.md, eq. 6); empty: none has
+  /// 1/s, tr C of the affine field of each point of the list, which says how much of the artificial viscosity heats
+  /// (docs/theory/dissipation.md, eq. 6); empty: all of it does
   std::span<const double> affine_divergence = {};
-  double affine_compression = 0.0;  ///< g of eq. 6
+  double affine_gain = 1.0;         ///< a of eq. 6
+  double affine_compression = 0.0;  ///< g of eq. 6; 0: all of it heats
+  double initial_density = 1.0;     ///< kg/m^3, of the body, from which g counts
   material::StressRotation rotation = material::StressRotation::hughes_winget;
   double time = 0.0;  ///< s, at the end of the step
 };

@@ -42,6 +42,16 @@ struct Particles : MaterialPoints {
   }
 };
 
+/// Brings the fields of unresolved energy into use: none so far, and all viscosity heats.
+inline void use_stores(Particles& particles) {
+  const std::size_t size = particles.size();
+  particles.unresolved_energy.resize(size, 0.0);
+  particles.closing_rate.resize(size, 0.0);
+  const std::vector<double>& viscosity = particles.artificial_viscosity;
+  std::vector<double>& heating = particles.heating_viscosity;
+  heating.insert(heating.end(), viscosity.begin() + static_cast<std::ptrdiff_t>(heating.size()), viscosity.end());
+}
+
 /// Memory that is kept from one sort to the next: new pages cost more than the copy.
 struct SortBuffers {
   std::vector<Vector3> vectors;

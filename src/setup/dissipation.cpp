@@ -16,9 +16,12 @@ ParameterTable<Dissipation> Dissipation::parameters() {
       real("collision_rate", &Dissipation::collision_rate, "", range::non_negative(),
            "share of the unresolved energy of loose matter that becomes heat, per share of its volume that closes")
           .optional(),
+      real("affine_gain", &Dissipation::affine_gain, "", range::non_negative(),
+           "artificial viscosity heats by the rate of closing of the particle's affine field times this, the rest of "
+           "its work is unresolved")
+          .optional(),
       real("affine_compression", &Dissipation::affine_compression, "", range::non_negative(),
-           "compression up to which the rate of the artificial viscosity goes over from that of the particle's own "
-           "affine field to that of the grid; 0: always that of the grid")
+           "compression from the start over which that goes over to all of its work; 0: all of it always heats")
           .optional(),
       real("shock_conduction", &Dissipation::shock_conduction, "", range::non_negative(),
            "diffusivity of heat inside shocks over that of the artificial viscosity")

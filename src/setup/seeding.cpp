@@ -453,6 +453,7 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     summary.mass = std::accumulate(bars.nodes.mass.begin(), bars.nodes.mass.end(), 0.0);
     summary.shape_mass = bars.material.density * setup.bodies[bars.body].shape->volume();
   }
+  if (setup.dissipation.keeps_losses()) use_stores(particles);
   return seeding;
 }
 

@@ -8,12 +8,12 @@ namespace whipple::solver {
 
 void Simulation::set_up_dissipation() {
   const setup::Dissipation& control = setup_.dissipation;
-  reference_density_.clear();
+  initial_density_.clear();
   shock_conductivity_.clear();
   for (std::size_t b = 0; b < setup_.bodies.size(); ++b) {
     const eos::State& reference = setup_.materials[b]->reference;
     const setup::ArtificialViscosity& viscosity = setup_.viscosity_of(b);
-    reference_density_.push_back(reference.density);
+    initial_density_.push_back(setup_.bodies[b].initial.of(*setup_.materials[b]).density);
     shock_conductivity_.push_back({.heat_capacity = std::max(reference.heat_capacity, 0.0),
                                    .linear_viscosity = viscosity.linear,
                                    .quadratic_viscosity = viscosity.quadratic});
@@ -21,7 +21,7 @@ void Simulation::set_up_dissipation() {
   losses_ = {.kept = control.keeps_losses(),
              .heat_share = control.heat_share,
              .collision_rate = control.collision_rate,
-             .reference_density = reference_density_};
+             .initial_density = initial_density_};
 }
 
 void Simulation::conduct_in_shocks() {

@@ -78,6 +78,7 @@ void Simulation::convert_elements() {
     }
     parallel::sum(communicator_, std::span(&converted, 1));
     if (converted == 0.0) return;
+    if (losses_.kept) use_stores(particles_);
     particle_count_ += 8 * static_cast<std::size_t>(converted);
     element_count_ -= static_cast<std::size_t>(converted);
     elements_removed();

@@ -22,7 +22,9 @@ UpdateSettings Simulation::update_settings(std::size_t body) const {
           .linear_viscosity = viscosity.linear,
           .quadratic_viscosity = viscosity.quadratic,
           .expansion_viscosity = viscosity.expansion,
-          .affine_compression = setup_.dissipation.keeps_losses() ? setup_.dissipation.affine_compression : 0.0,
+          .affine_gain = setup_.dissipation.affine_gain,
+          .affine_compression = setup_.dissipation.affine_compression,
+          .initial_density = initial_density_[body],
           .rotation = setup_.time.stress_rotation == "polar" ? material::StressRotation::polar
                                                              : material::StressRotation::hughes_winget,
           .time = state_.time + state_.time_step};
@@ -69,7 +71,7 @@ void Simulation::update_material_with(std::string_view stage, EnergyUpdate energ
   std::size_t limited_domains = 0;
   Clock::duration in_material{};  // of all threads
   std::mutex mutex;
-  const bool has_affine_field = particle_affine_inertia() > 0.0;
+  const bool has_affine_field = losses_.kept && particle_affine_inertia() > 0.0;
   const auto take = [&](std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients) -> double {
     const Clock::time_point begin = Clock::now();
     const std::size_t limited = follows_domains() ? deform_domains(particles, gradients) : 0;

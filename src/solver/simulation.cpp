@@ -70,11 +70,6 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
     std::ranges::fill(particles_.affine_velocity, Matrix3::Zero().eval());
   }
   if (!carries_extent()) std::vector<SymmetricTensor>().swap(particles_.extent);
-  if (setup_.dissipation.keeps_losses()) {
-    particles_.unresolved_energy.assign(particles_.size(), 0.0);
-    particles_.closing_rate.assign(particles_.size(), 0.0);
-    particles_.heating_viscosity.assign(particles_.size(), 0.0);
-  }
   prepare();
   state_.ledger.initial = totals_;
   // Planes have stopped the nodes on them: their momentum was there before.

@@ -15,7 +15,7 @@ struct Losses {
   bool kept = false;            ///< false: it is heat at once
   double heat_share = 0.0;      ///< f: of the work of the artificial viscosity that heats
   double collision_rate = 0.0;  ///< r: share of the unresolved energy per share of the volume that closes
-  std::span<const double> reference_density;  ///< kg/m^3, of each body
+  std::span<const double> initial_density;  ///< kg/m^3, of each body
 };
 
 /// Where the losses of a step went, J/kg.
@@ -26,10 +26,10 @@ struct Booking {
   double returned = 0.0;  ///< unresolved energy that became internal
 };
 
-/// Matter with gaps, as far as a particle knows: failed, beside a void, in tension, or thinner than at rest.
-inline bool is_loose(const Particles& particles, std::size_t p, double reference_density) {
+/// Matter with gaps, as far as a particle knows: failed, beside a void, in tension, or thinner than at the start.
+inline bool is_loose(const Particles& particles, std::size_t p, double initial_density) {
   return particles.failed[p] != 0 || particles.void_volume[p] > 0.0 || particles.pressure[p] <= 0.0 ||
-         particles.mass[p] < reference_density * particles.volume[p];
+         particles.mass[p] < initial_density * particles.volume[p];
 }
 
 /// Divides the loss of the transfers (J/kg, >= 0 but for round-off) and the work of the artificial viscosity
@@ -40,7 +40,7 @@ inline bool is_loose(const Particles& particles, std::size_t p, double reference
 /// @param divergence    1/s, tr L of the step
 inline Booking book_losses(const Losses& losses, const Particles& particles, std::size_t p, double loss,
                            double viscous_work, double divergence, double dt) {
-  if (divergence < 0.0 && is_loose(particles, p, losses.reference_density[particles.body[p]])) {
+  if (divergence < 0.0 && is_loose(particles, p, losses.initial_density[particles.body[p]])) {
     const double share = -std::expm1(losses.collision_rate * divergence * dt);
     return {.heat = loss, .returned = share * particles.unresolved_energy[p]};
   }
