@@ -32,10 +32,10 @@ namespace whipple::solver {
 
 /// State of a run that changes with time, apart from the particles; what a checkpoint must hold.
 struct RunState {
-  double time = 0.0;                  ///< s
-  double time_step = 0.0;             ///< s, of the last step; 0 before the first
-  double maximum_acceleration = 0.0;  ///< m/s^2, in the last step
-  double compression_rate = 0.0;      ///< 1/s, the largest of matter under pressure in the last step
+  double time = 0.0;                   ///< s
+  double time_step = 0.0;              ///< s, of the last step; 0 before the first
+  double maximum_acceleration = 0.0;   ///< m/s^2, in the last step
+  double compression_rate = 0.0;       ///< 1/s, the largest of matter under pressure in the last step
   double squeezed_beside_voids = 0.0;  ///< kg, intact, under pressure in cells that it does not fill
   std::int64_t step = 0;
   std::int64_t particles_at_rest = 0;  ///< of all ranks, left as they were by the last step
@@ -92,8 +92,8 @@ class Simulation {
   [[nodiscard]] const std::vector<setup::BodySummary>& bodies() const { return bodies_; }
   [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
   [[nodiscard]] Profile& profile() { return profile_; }
-  /// Least share of its cells that matter of more than a pressure (Pa) fills, 1e300 without any: a look at the
-  /// run, for tests. Collective.
+  /// Least share of its cells that matter of more than a pressure (Pa) fills, 1e300 without any: a look at
+  /// the run, for tests. Collective.
   [[nodiscard]] double least_fill(double pressure);
   /// Memory of this rank.
   [[nodiscard]] std::size_t bytes() const;
@@ -200,7 +200,7 @@ class Simulation {
   transfer::FullMassMatrix full_mass_matrix_;
   std::optional<contact::Contact> contact_;  // if bodies have velocity fields of their own
   std::vector<std::uint8_t> contact_field_of_body_;
-  bool surfaces_found_ = false;   // in the step under way
+  bool surfaces_found_ = false;  // in the step under way
   bool warned_of_voids_ = false;
   std::vector<std::uint8_t> contact_field_;              // of each particle
   std::vector<std::vector<fem::Facet>> surface_facets_;  // of each mesh
