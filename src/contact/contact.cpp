@@ -13,7 +13,7 @@ namespace {
 
 using grid::Node;
 
-constexpr int sweeps = 20;          // over the pairs, where more than two bodies meet
+constexpr int sweeps = 20;  // over the pairs, where more than two bodies meet
 
 /// Impulses between two fields that meet at a node, which stop them (docs/theory/contact.md, 6); velocities
 /// are those of b relative to a.

@@ -40,9 +40,7 @@ struct Side {
     const Vector3 change = impulse / mass;
     node->second += Lanes{change[0], change[1], change[2], 0.0};
   }
-  void shift_velocity(const Vector3& change) {
-    node->first += Lanes{change[0], change[1], change[2], 0.0};
-  }
+  void shift_velocity(const Vector3& change) { node->first += Lanes{change[0], change[1], change[2], 0.0}; }
 };
 
 }  // namespace whipple::contact

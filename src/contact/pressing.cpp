@@ -137,8 +137,8 @@ void Pressing::solve() {
   }
 }
 
-/// Takes out the pair that pulls most, if one does: surfaces do not hold together. @returns whether others are
-/// to be solved for anew
+/// Takes out the pair that pulls most, if one does: surfaces do not hold together. @returns whether others
+/// are to be solved for anew
 bool Pressing::drop_tension() {
   if (pairs_.empty()) return false;
   const auto least = std::ranges::min_element(pairs_, {}, &Pair::pressed);
@@ -147,8 +147,9 @@ bool Pressing::drop_tension() {
   return !pairs_.empty();
 }
 
-/// J: what the pairs lose by all changes so far, (4.6) from the fields themselves. Where the normals of several
-/// pairs are nearly parallel, the round-off of their impulses would be missed from the sum of the pairs.
+/// J: what the pairs lose by all changes so far, (4.6) from the fields themselves. Where the normals of
+/// several pairs are nearly parallel, the round-off of their impulses would be missed from the sum of the
+/// pairs.
 double Pressing::lost() const {
   const Vector3 frame = former_[pairs_.front().a].velocity;
   double sum = 0.0;
@@ -178,8 +179,7 @@ void Pressing::mix(Balance& balance) {
   double rest = pairs_.size() > 1 ? lost() : 0.0;
   const auto heat_of = [&](const Pair& pair) {
     const double v = pair.velocity, d = pair.forces;
-    return (1.0 - pair.share) / (pair.share * pair.mass) *
-           (0.5 * d * d + relaxation_[pair.a] * v * (v + d));
+    return (1.0 - pair.share) / (pair.share * pair.mass) * (0.5 * d * d + relaxation_[pair.a] * v * (v + d));
   };
   if (pairs_.size() > 1) {
     for (const Pair& pair : pairs_) rest -= heat_of(pair);

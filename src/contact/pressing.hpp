@@ -46,7 +46,7 @@ class Pressing {
     std::size_t leader;  // of the fields that press on one another, the first
   };
 
-  [[nodiscard]] Vector3 between(const Pair& pair, Vector3 Former::* value) const {
+  [[nodiscard]] Vector3 between(const Pair& pair, Vector3 Former::*value) const {
     return former_[pair.b].*value - former_[pair.a].*value;
   }
   void find_common_relaxation();
@@ -60,8 +60,8 @@ class Pressing {
   double friction_;
   std::span<Side> sides_;
   std::vector<Pair> pairs_;
-  std::vector<Former> former_;       // of each side
-  std::vector<double> relaxation_;   // of each side: beta that it has in common with others
+  std::vector<Former> former_;      // of each side
+  std::vector<double> relaxation_;  // of each side: beta that it has in common with others
 };
 
 }  // namespace whipple::contact

@@ -31,7 +31,8 @@ ParameterTable<Body> Body::parameters() {
                  "initial rotation about the centre of the body's bounding box")
               .optional(),
           text("contact_group", &Body::contact_group,
-               "bodies of one group share a velocity field and are bonded where they meet, those of different groups "
+               "bodies of one group share a velocity field and are bonded where they meet, those of "
+               "different groups "
                "never; empty: contact.method decides")
               .optional()};
 }

@@ -23,7 +23,7 @@ ParameterTable<Domain> Domain::parameters() {
 }
 
 ParameterTable<Domain> Domain::boundary_parameters() {
-  const auto face = [](const char* name, std::string Domain::* member) {
+  const auto face = [](const char* name, std::string Domain::*member) {
     return choice(name, member, {"outflow", "symmetry", "no_slip", "separating"},
                   "matter leaves and is counted | frictionless mirror plane | wall that matter sticks to | "
                   "frictionless wall that pushes but does not hold")

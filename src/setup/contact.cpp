@@ -14,11 +14,14 @@ namespace whipple::setup {
 
 ParameterTable<ContactControl> ContactControl::parameters() {
   return {
-      choice("method", &ContactControl::method, {"auto", "none", "multi_field"},
-             "bodies have velocity fields of their own where they meet, but for those that touch at the start and "
-             "have the same velocity: they touch, move as one along the normal while they press, slide and part | "
-             "all bodies move in one velocity field, bonded where they meet | all have their own, and impulses "
-             "stop them")
+      choice(
+          "method", &ContactControl::method, {"auto", "none", "multi_field"},
+          "bodies have velocity fields of their own where they meet, but for those that touch at the start "
+          "and "
+          "have the same velocity: they touch, move as one along the normal while they press, slide and part "
+          "| "
+          "all bodies move in one velocity field, bonded where they meet | all have their own, and impulses "
+          "stop them")
           .optional(),
       choice("normal", &ContactControl::normal, {"collinear", "separating", "logistic_regression"},
              "normal between two bodies: mean of those of both | of one of them or their mean, along which "
@@ -106,8 +109,9 @@ void join_bars(const Case& setup, Bonds& bonds, ContactFields& found) {
     const Body& bars = setup.bodies[b];
     if (!bars.discretization.is_bars() || !bars.contact_group.empty()) continue;
     if (const auto around = body_around_bars(setup, bars)) {
-      found.remarks.push_back(fmt::format("contact: the bars of body \"{}\" move with body \"{}\" around them",
-                                          bars.name, setup.bodies[*around].name));
+      found.remarks.push_back(
+          fmt::format("contact: the bars of body \"{}\" move with body \"{}\" around them", bars.name,
+                      setup.bodies[*around].name));
       bonds.join(b, *around);
     } else {
       found.warnings.push_back(
@@ -146,7 +150,8 @@ void warn_of_gaps(const Case& setup, ContactFields& found) {
       if (!(gap > 0.0)) continue;
       found.warnings.push_back(fmt::format(
           "bodies \"{}\" and \"{}\" meet across a gap of {:.3g} mm in one velocity field: they act on each "
-          "other two cells early, and pressures where they meet come out 3 to 5 times too high: contact.method "
+          "other two cells early, and pressures where they meet come out 3 to 5 times too high: "
+          "contact.method "
           "= \"auto\", without a common contact_group, gives each its own",
           setup.bodies[a].name, setup.bodies[b].name, 1e3 * gap));
     }
@@ -174,10 +179,10 @@ ContactFields find_contact_fields(const Case& setup) {
       found.of_body[b] = static_cast<std::uint8_t>(std::min(fields[b], last));
     }
     if (const unsigned all = *std::ranges::max_element(fields) + 1; all > grid::maximum_fields) {
-      found.warnings.push_back(
-          fmt::format("{} bodies or groups of them can meet, at most {} can have velocity fields of their own: "
-                      "the last {} are bonded to one another where they meet; contact_group chooses which",
-                      all, grid::maximum_fields, all - last));
+      found.warnings.push_back(fmt::format(
+          "{} bodies or groups of them can meet, at most {} can have velocity fields of their own: "
+          "the last {} are bonded to one another where they meet; contact_group chooses which",
+          all, grid::maximum_fields, all - last));
     }
   } else if (method == "auto" && !possible && setup.bodies.size() > 1) {
     found.warnings.push_back(

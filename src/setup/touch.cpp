@@ -13,8 +13,8 @@
 namespace whipple::setup {
 namespace {
 
-constexpr double near = 0.05;            // cells: surfaces nearer than that touch
-constexpr double same_velocity = 1e-9;   // relative to the speeds
+constexpr double near = 0.05;           // cells: surfaces nearer than that touch
+constexpr double same_velocity = 1e-9;  // relative to the speeds
 
 Vector3 velocity_at(const Body& body, const Vector3& x) {
   const Shape::Bounds box = body.shape->bounds();
@@ -52,8 +52,8 @@ class BoxTable {
     return for_each_cell(grown(box, distance), [&](std::uint64_t key) {
       const auto cell = cells_.find(key);
       return cell != cells_.end() && std::ranges::any_of(cell->second, [&](std::uint32_t i) {
-        return meet(boxes_[i], box, distance) && f(boxes_[i]);
-      });
+               return meet(boxes_[i], box, distance) && f(boxes_[i]);
+             });
     });
   }
 
@@ -93,7 +93,8 @@ bool touch_and_move_alike(const Case& setup, const Body& a, const Body& b) {
   if (!turn && !move_alike(a, b, Vector3::Zero())) return false;
   const double cell = setup.geometry.cell_size, distance = near * cell;
   // The boxes of particles may reach beyond the shape, by half a cell at most.
-  const Shape::Bounds of_a = grown(a.shape->bounds(), 0.5 * cell), of_b = grown(b.shape->bounds(), 0.5 * cell);
+  const Shape::Bounds of_a = grown(a.shape->bounds(), 0.5 * cell),
+                      of_b = grown(b.shape->bounds(), 0.5 * cell);
   if (!meet(of_a, of_b, distance)) return false;
   const Shape::Bounds both =
       grown({of_a.lower.cwiseMax(of_b.lower), of_a.upper.cwiseMin(of_b.upper)}, distance);

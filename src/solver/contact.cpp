@@ -19,12 +19,14 @@ contact::Normal normal(const std::string& name) {
 void Simulation::set_up_contact() {
   const setup::ContactControl& control = setup_.contact;
   if (!setup_.contact_fields.several()) return;
-  contact_.emplace(contact::Settings{.response = control.method == "auto" ? contact::Response::common_field
-                                                                          : contact::Response::impulses,
-                                     .normal = normal(control.normal),
-                                     .friction = control.friction,
-                                     .gap_test = control.gap_test,
-                                     .gap = control.gap});
+  // Other schemes strain bodies by velocities before contact, or after it of each body alone.
+  const bool common = control.method == "auto" && setup_.time.scheme == "symplectic";
+  contact_.emplace(
+      contact::Settings{.response = common ? contact::Response::common_field : contact::Response::impulses,
+                        .normal = normal(control.normal),
+                        .friction = control.friction,
+                        .gap_test = control.gap_test,
+                        .gap = control.gap});
   contact_field_of_body_ = setup_.contact_fields.of_body;
 }
 

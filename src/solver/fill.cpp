@@ -14,10 +14,10 @@
 namespace whipple::solver {
 namespace {
 
-constexpr std::int64_t look_every = 20;       // steps
-constexpr double strong = 0.1;                // pressure over rho c^2
-constexpr double filled = 0.85;               // of cells that matter under pressure should fill
-constexpr double share_to_warn_of = 1e-3;     // of the mass
+constexpr std::int64_t look_every = 20;    // steps
+constexpr double strong = 0.1;             // pressure over rho c^2
+constexpr double filled = 0.85;            // of cells that matter under pressure should fill
+constexpr double share_to_warn_of = 1e-2;  // of the mass
 
 }  // namespace
 
@@ -46,7 +46,8 @@ void Simulation::look_at_fill() {
     warned_of_voids_ = true;
     if (parallel::rank(communicator_) != 0) return;
     log::warning(
-        "step {}, t = {:.4g} us: {:.3g} g of intact matter are under high pressure in cells that they do not fill: "
+        "step {}, t = {:.4g} us: {:.3g} g of intact matter are under high pressure in cells that they do not "
+        "fill: "
         "where bodies or layers meet across a gap in one velocity field, pressures come out too high",
         state_.step, 1e6 * state_.time, 1e3 * mass[0]);
   });

@@ -93,8 +93,8 @@ class Simulation {
   [[nodiscard]] const std::vector<setup::BodySummary>& bodies() const { return bodies_; }
   [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
   [[nodiscard]] Profile& profile() { return profile_; }
-  /// Least share of its cells that matter of more than a pressure (Pa) fills, 1e300 without any: a look at the
-  /// run, for tests. Collective.
+  /// Least share of its cells that matter of more than a pressure (Pa) fills, 1e300 without any: a look at
+  /// the run, for tests. Collective.
   [[nodiscard]] double least_fill(double pressure);
   /// Memory of this rank.
   [[nodiscard]] std::size_t bytes() const;
@@ -204,7 +204,7 @@ class Simulation {
   transfer::FullMassMatrix full_mass_matrix_;
   std::optional<contact::Contact> contact_;  // if bodies have velocity fields of their own
   std::vector<std::uint8_t> contact_field_of_body_;
-  bool surfaces_found_ = false;   // in the step under way
+  bool surfaces_found_ = false;  // in the step under way
   bool warned_of_voids_ = false;
   std::vector<std::uint8_t> contact_field_;              // of each particle
   std::vector<std::vector<fem::Facet>> surface_facets_;  // of each mesh

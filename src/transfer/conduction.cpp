@@ -50,8 +50,8 @@ void join_fields(BlockGrid& grid, const TouchAtNode& touch) {
 
 }  // namespace
 
-void conduct_heat(Particles& particles, BlockGrid& grid, double dt,
-                  std::span<const ThermalConstants> of_body, const TouchAtNode& touch) {
+void conduct_heat(Particles& particles, BlockGrid& grid, double dt, std::span<const ThermalConstants> of_body,
+                  const TouchAtNode& touch) {
   const auto constants = [&](std::size_t p) -> const ThermalConstants& { return of_body[particles.body[p]]; };
   const std::span<Node> nodes = grid.all_nodes();
   const auto for_each_owned_node = [&](auto&& f) {
@@ -85,9 +85,10 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt,
     nodes[i].second = nodes[i].first;
     nodes[i].first = broadcast(0.0);
   });
-  scalars::scatter(particle_kind, particles, grid, [&](Node& node, std::size_t p, double, const Vector3& gradient) {
-    node.first += Lanes{gradient.dot(flux[p]), 0.0, 0.0, 0.0};
-  });
+  scalars::scatter(particle_kind, particles, grid,
+                   [&](Node& node, std::size_t p, double, const Vector3& gradient) {
+                     node.first += Lanes{gradient.dot(flux[p]), 0.0, 0.0, 0.0};
+                   });
   fold_and_sum(grid);
   join_fields(grid, touch);
   for_each_owned_node([&](std::size_t i) {

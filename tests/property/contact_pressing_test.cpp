@@ -51,13 +51,14 @@ struct Trial {
     const Vector3 f = vector(before[s].second), d = vector(after[s].second);
     return mass[s] * (d - f - after[s].first[3] * (u - v));
   }
-  /// J: change of the energy of the particles of a field, with the heat of their transfer and the work of their
-  /// stresses, (4.5) and (4.6) of mpm.md, summed over them.
+  /// J: change of the energy of the particles of a field, with the heat of their transfer and the work of
+  /// their stresses, (4.5) and (4.6) of mpm.md, summed over them.
   [[nodiscard]] double energy(std::size_t s) const {
     const Vector3 u = vector(before[s].first), v = vector(after[s].first);
     const Vector3 f = vector(before[s].second), d = vector(after[s].second);
     const double beta = after[s].first[3];
-    const double kinetic = v.dot(d) + 0.5 * d.squaredNorm() + (1.0 - beta) * (u - v).dot(d) - beta * v.dot(u - v);
+    const double kinetic =
+        v.dot(d) + 0.5 * d.squaredNorm() + (1.0 - beta) * (u - v).dot(d) - beta * v.dot(u - v);
     return mass[s] * (kinetic - f.dot(v + 0.5 * d));
   }
   [[nodiscard]] double scale() const {
@@ -86,7 +87,8 @@ class Pressed : public ::testing::TestWithParam<int> {
     const Vector3 axis = direction();
     for (int s = 0; s < fields; ++s) {
       t.mass.push_back(std::pow(10.0, uniform(-12, -3)));
-      const Vector3 v = 300.0 * Vector3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) + Vector3(900, 0, -200);
+      const Vector3 v =
+          300.0 * Vector3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) + Vector3(900, 0, -200);
       const Vector3 d = 300.0 * Vector3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
       t.before.push_back({Lanes{v[0], v[1], v[2], uniform(0.0, 1.0)}, Lanes{d[0], d[1], d[2], 0.0}});
     }

@@ -159,7 +159,7 @@ TEST(Contact, OptionsAndWhatTheyExclude) {
   expect_error(domain + on + grouped, {"'method'", "all bodies are one contact group"});
   expect_error(domain + on + sphere, {"'method'", "all bodies are one contact group"});
   expect_error(domain + replaced(on, "multi_field", "penalty") + sphere + second,
-               {"Accepted: none, multi_field"});
+               {"Accepted: auto, none, multi_field"});
   expect_error(domain + replaced(on, "0.2", "-0.2") + sphere + second, {"'friction'"});
   expect_error(domain + on + "normal = \"up\"\n" + sphere + second,
                {"Accepted: collinear, separating, logistic_regression"});

@@ -19,9 +19,9 @@ struct PlanarGap {
   double gap = 0.0;                                                    // cells
   double offset = 0.0;                                                 // of the grid, cells
   Method method = {};
-  std::string contact = {};                                            // table; empty: the default
-  std::string of_flyer = {}, of_target = {};                           // further lines of the bodies
-  double after = 0.35e-6;                                              // s, end of the run after the touch
+  std::string contact = {};                   // table; empty: the default
+  std::string of_flyer = {}, of_target = {};  // further lines of the bodies
+  double after = 0.35e-6;                     // s, end of the run after the touch
 
   [[nodiscard]] double touch() const { return gap * dx / speed; }
   /// Exact state behind the symmetric shock: u_s = c0 + s u_p.

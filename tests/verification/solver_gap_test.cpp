@@ -70,7 +70,8 @@ Impact impact(const PlanarGap& set) {
   result.early = set.gap > 0.0 ? (set.touch() - first) * set.speed / set.dx : 0.0;
   result.late = (arrival - set.touch() - transit) / transit;
   std::printf(
-      "%s on %s, %s %s, %.1f km/s, gap %.1f, offset %.2f: largest %.3f, plateau %.4f of P_H, first %+.3f cells "
+      "%s on %s, %s %s, %.1f km/s, gap %.1f, offset %.2f: largest %.3f, plateau %.4f of P_H, first %+.3f "
+      "cells "
       "early, shock %+.3f of the transit, target %.4f of the momentum, energy %.1e, momentum %.1e\n",
       set.of_flyer.empty() ? "particles" : "elements", set.of_target.empty() ? "particles" : "elements",
       set.method.shape_function.c_str(), set.method.particle_update.c_str(), 1e-3 * set.speed, set.gap,
@@ -90,8 +91,8 @@ TEST(Gap, Explore) {
       impact({.speed = speed, .gap = gap, .contact = "[contact]\nmethod = \"none\"\n"});
   }
   for (const double gap : {0.0, 2.0}) {
-    for (const auto& [a, b] :
-         {std::pair(elements, std::string()), std::pair(std::string(), elements), std::pair(elements, elements)})
+    for (const auto& [a, b] : {std::pair(elements, std::string()), std::pair(std::string(), elements),
+                               std::pair(elements, elements)})
       impact({.gap = gap, .of_flyer = a, .of_target = b});
     for (const double offset : {0.25, 0.5}) impact({.gap = gap, .offset = offset});
     impact({.gap = gap, .method = {.shape_function = "cubic_bspline"}});
