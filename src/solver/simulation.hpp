@@ -126,6 +126,9 @@ class Simulation {
   void set_up_contact();
   void separate_fields();
   void find_surfaces();
+  void set_up_walls();
+  [[nodiscard]] bool may_meet_images() const;
+  void find_surfaces_at_walls();
   void apply_contact();
   void finish_exchange();
   void gather_velocity(const transfer::TakeGradients& take);
