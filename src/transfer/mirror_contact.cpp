@@ -112,6 +112,22 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
     plane->share.assign(plane->couples.size(), 0.0);
     ++plane;
   }
+  std::vector<std::uint8_t> planes_of(heat_.size(), 0);
+  for (const Plane& of : planes_) {
+    for (const Couple& couple : of.couples) {
+      ++planes_of[place(couple.node) / lanes_per_node];
+      if (couple.mirror != couple.node) ++planes_of[place(couple.mirror) / lanes_per_node];
+    }
+  }
+  for (Plane& of : planes_) {
+    for (std::uint32_t c = 0; c < of.couples.size(); ++c) {
+      const Couple& couple = of.couples[c];
+      if (std::min(planes_of[place(couple.node) / lanes_per_node],
+                   planes_of[place(couple.mirror) / lanes_per_node]) > 1) {
+        of.at_corners.push_back(c);
+      }
+    }
+  }
   for (std::size_t n = mirrors.size(); n-- > 0;) {
     for (const BlockGrid::MirrorPair& pair : mirrors[n].pairs) {
       if (both_concern(pair)) folded_.push_back({pair.outside, pair.image});
@@ -151,6 +167,31 @@ double MirrorContact::gap(const Plane& plane, const Couple& couple) const {
 
 bool MirrorContact::sticks(const Plane& plane, double gap) const {
   return plane.of.kind == grid::Boundary::no_slip && gap < sticking_gap * cell_size_;
+}
+
+/// Where planes meet, all images of a node must have one beta: what one plane has mixed would otherwise change
+/// with the next one. (beta does nothing at nodes that take their own step.)
+void MirrorContact::join_relaxation_at_corners(std::span<Node> nodes, const Among& among) {
+  joint_mass_.resize(heat_.size());
+  const auto mass_of = [&](std::uint32_t node) -> double& { return joint_mass_[place(node) / lanes_per_node]; };
+  for (const Plane& plane : planes_) {
+    for (const std::uint32_t c : plane.at_corners) {
+      for (const std::uint32_t node : {plane.couples[c].node, plane.couples[c].mirror}) {
+        mass_of(node) = own_.values[place(node)][3];
+      }
+    }
+  }
+  for (const Plane& plane : planes_) {
+    for (const std::uint32_t c : plane.at_corners) {
+      const Couple& couple = plane.couples[c];
+      if (couple.node == couple.mirror || !among(couple.node)) continue;
+      double &mass = mass_of(couple.node), &other_mass = mass_of(couple.mirror);
+      if (mass < no_mass || other_mass < no_mass) continue;
+      Lanes &first = nodes[couple.node].first, &other = nodes[couple.mirror].first;
+      first[3] = other[3] = common_relaxation(mass, first[3], other_mass, other[3]);
+      mass = other_mass = mass + other_mass;
+    }
+  }
 }
 
 /// Matter at a node meets its image there, and the matter at the mirror node its own (3.7) to (3.11).
@@ -202,6 +243,7 @@ double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<N
 void MirrorContact::apply(BlockGrid& grid, double dt, const Among& among) {
   if (planes_.empty()) return;
   const std::span<Node> nodes = grid.all_nodes();
+  join_relaxation_at_corners(nodes, among);
   for (Plane& plane : planes_) {
     parallel::for_each(plane.couples.size(), [&](std::size_t i) {
       if (among(plane.couples[i].node)) plane.share[i] = meet(plane, plane.couples[i], nodes, dt);

@@ -65,12 +65,15 @@ class MirrorContact {
     grid::BlockGrid::MirrorPlane of;  // without its lists
     std::vector<Couple> couples;
     std::vector<double> share;  // of the step, that the two touch in: of each couple
+    /// Those of nodes that other planes concern too: up to eight nodes have images of one another.
+    std::vector<std::uint32_t> at_corners;
   };
   [[nodiscard]] std::size_t place(std::uint32_t node) const {
     return first_of_block_[node / grid::nodes_per_block] + lanes_per_node * (node % grid::nodes_per_block);
   }
   [[nodiscard]] double gap(const Plane& plane, const Couple& couple) const;
   [[nodiscard]] bool sticks(const Plane& plane, double gap) const;
+  void join_relaxation_at_corners(std::span<grid::Node> nodes, const Among& among);
   double meet(const Plane& plane, const Couple& couple, std::span<grid::Node> nodes, double dt);
   template <class Shape>
   void extend(const Particles& particles, std::span<const Vector3> guests, grid::BlockGrid& grid);
@@ -87,7 +90,8 @@ class MirrorContact {
   grid::SlotValues extent_;
   /// Of each node: the step that it takes by itself, as Node; lane 3 of `first` is its mass.
   grid::SlotValues own_;
-  std::vector<double> heat_;  // J/kg, of each node
+  std::vector<double> heat_;        // J/kg, of each node
+  std::vector<double> joint_mass_;  // kg, scratch
   bool made_heat_ = false;
   bool shares_known_ = false;  // in this step
   double dt_ = 0.0;            // s, of this step
