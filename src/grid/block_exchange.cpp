@@ -67,14 +67,6 @@ void BlockGrid::exchange(SharedSlots from, SharedSlots to, Size&& size, Pack&& p
   receive(messages, to, size, unpack);
 }
 
-/// Blocks of nodes of a slot: its own, then the further ones.
-std::size_t BlockGrid::node_blocks(std::size_t slot) const {
-  return contact_number(slot) == no_slot ? 1 : static_cast<std::size_t>(std::popcount(fields_[slot]));
-}
-std::size_t BlockGrid::node_block(std::size_t slot, std::size_t i) const {
-  return i == 0 ? slot : further_begin_[static_cast<std::size_t>(contact_number_[slot])] + i - 1;
-}
-
 void BlockGrid::send_nodes(Part part, SharedSlots from, SharedSlots to) {
   const std::size_t registers = part == Part::both ? 2 : 1;
   send(
@@ -133,14 +125,9 @@ void BlockGrid::progress() {
   MPI_Testall(static_cast<int>(requests.size()), requests.data(), &complete, MPI_STATUSES_IGNORE);
 }
 
-template <class Combine>
-void BlockGrid::exchange_values(ContactValues& values, SharedSlots from, SharedSlots to, Combine&& combine) {
-  const auto range = [&](std::size_t slot) {
-    const std::int32_t number = contact_number(slot);
-    if (number == no_slot) return std::span<Lanes>();
-    const auto c = static_cast<std::size_t>(number);
-    return std::span(values.values).subspan(values.begin[c], values.begin[c + 1] - values.begin[c]);
-  };
+/// @param range  range(slot): its values
+template <class Range, class Combine>
+void BlockGrid::exchange_values(Range&& range, SharedSlots from, SharedSlots to, Combine&& combine) {
   exchange<Lanes>(
       from, to, [&](std::size_t slot) { return range(slot).size(); },
       [&](std::size_t slot, Lanes* out) { std::ranges::copy(range(slot), out); },
@@ -149,19 +136,46 @@ void BlockGrid::exchange_values(ContactValues& values, SharedSlots from, SharedS
       });
 }
 
+namespace {
+
+auto values_of(const BlockGrid& grid, ContactValues& values) {
+  return [&](std::size_t slot) {
+    const std::int32_t number = grid.contact_number(slot);
+    if (number == BlockGrid::no_slot) return std::span<Lanes>();
+    const auto c = static_cast<std::size_t>(number);
+    return std::span(values.values).subspan(values.begin[c], values.begin[c + 1] - values.begin[c]);
+  };
+}
+auto values_of(const BlockGrid&, SlotValues& values) {
+  return [&](std::size_t slot) {
+    return std::span(values.values).subspan(values.begin[slot], values.begin[slot + 1] - values.begin[slot]);
+  };
+}
+
+void add(Lanes& value, const Lanes& in) { value += in; }
+void take_larger(Lanes& value, const Lanes& in) { value = value > in ? value : in; }
+void replace(Lanes& value, const Lanes& in) { value = in; }
+
+}  // namespace
+
 void BlockGrid::sum_to_owners(ContactValues& values) {
-  exchange_values(values, &BlockSet::Peer::borrowed, &BlockSet::Peer::lent,
-                  [](Lanes& value, const Lanes& in) { value += in; });
+  exchange_values(values_of(*this, values), &BlockSet::Peer::borrowed, &BlockSet::Peer::lent, add);
 }
 
 void BlockGrid::maximum_to_owners(ContactValues& values) {
-  exchange_values(values, &BlockSet::Peer::borrowed, &BlockSet::Peer::lent,
-                  [](Lanes& value, const Lanes& in) { value = value > in ? value : in; });
+  exchange_values(values_of(*this, values), &BlockSet::Peer::borrowed, &BlockSet::Peer::lent, take_larger);
 }
 
 void BlockGrid::borrow_from_owners(ContactValues& values) {
-  exchange_values(values, &BlockSet::Peer::lent, &BlockSet::Peer::borrowed,
-                  [](Lanes& value, const Lanes& in) { value = in; });
+  exchange_values(values_of(*this, values), &BlockSet::Peer::lent, &BlockSet::Peer::borrowed, replace);
+}
+
+void BlockGrid::maximum_to_owners(SlotValues& values) {
+  exchange_values(values_of(*this, values), &BlockSet::Peer::borrowed, &BlockSet::Peer::lent, take_larger);
+}
+
+void BlockGrid::borrow_from_owners(SlotValues& values) {
+  exchange_values(values_of(*this, values), &BlockSet::Peer::lent, &BlockSet::Peer::borrowed, replace);
 }
 
 void BlockGrid::join_bits_of_ranks(std::vector<std::uint64_t>& of_slot) {

@@ -99,13 +99,20 @@ int nth_bit(std::uint64_t bits, std::size_t n) {
 
 }  // namespace
 
+void BlockGrid::bond_at_planes(const std::array<std::uint64_t, 6>& fields) {
+  for (MirrorPlane& plane : planes_) {
+    const auto face = static_cast<std::size_t>(plane.face);
+    bonded_[face] = plane.kind == Boundary::separating ? 0 : fields[face];
+  }
+  lay_out_nodes();
+}
+
 void BlockGrid::find_mirror_nodes() {
   if (planes_.empty()) return;
   outside_.assign(nodes_.size(), 0);
   for (MirrorPlane& mirror : planes_) {
-    mirror.pairs.clear();
-    mirror.on_plane.clear();
-    mirror.near.clear();
+    for (auto* list : {&mirror.on_plane, &mirror.on_plane_apart, &mirror.near}) list->clear();
+    for (auto* list : {&mirror.pairs, &mirror.pairs_apart}) list->clear();
     const auto axis = static_cast<std::size_t>(mirror.axis);
     const std::int32_t at = mirror.face % 2 == 0 ? 0 : geometry_.cells[axis];
     const std::int32_t outward = mirror.face % 2 == 0 ? -1 : 1;
@@ -123,24 +130,25 @@ void BlockGrid::find_mirror_nodes() {
       } else if (!fields_.empty() && fields_[s] != 0) {
         field = nth_bit(fields_[s], 0);
       }
+      const bool bonded = (bonded_[static_cast<std::size_t>(mirror.face)] >> std::max(field, 0) & 1U) != 0;
+      std::vector<std::uint32_t>& on_plane = bonded ? mirror.on_plane : mirror.on_plane_apart;
+      std::vector<MirrorPair>& pairs = bonded ? mirror.pairs : mirror.pairs_apart;
       for (int i = 0; i < nodes_per_block; ++i) {
         const std::array<int, 3> inside_block = {i / 16, i / 4 % 4, i % 4};
         const std::int32_t along = blocks_.coordinate[s][axis] * block_edge + inside_block[axis];
         const auto index = static_cast<std::uint32_t>(b * nodes_per_block + static_cast<std::size_t>(i));
-        if (along == at) mirror.on_plane.push_back(index);
+        if (along == at) on_plane.push_back(index);
         const std::int32_t inside = (at - along) * outward;
         if (inside > 0 && inside <= mirror_reach) mirror.near.push_back(index);
         if (inside >= 0) continue;
-        if (mirror.kind != Boundary::separating) outside_[index] = 1;
+        if (bonded) outside_[index] = 1;
         std::array<std::int32_t, 3> place{};
         for (std::size_t a = 0; a < 3; ++a)
           place[a] = blocks_.coordinate[s][a] * block_edge + inside_block[a];
-        place[axis] = at;
-        const std::uint32_t foot = active_node(place, field);
         place[axis] = 2 * at - along;
         const std::uint32_t image = active_node(place, field);
         // Without an active image no particle reaches so far beyond the plane: its stencil is symmetric.
-        if (image != no_node) mirror.pairs.push_back({index, image, foot});
+        if (image != no_node) pairs.push_back({index, image});
       }
     }
   }
@@ -158,12 +166,14 @@ void BlockGrid::find_border() {
   for (bool grown = true; grown;) {
     grown = false;
     for (const MirrorPlane& plane : planes_) {
-      for (const MirrorPair& pair : plane.pairs) {
-        std::uint8_t& outside = awaited_[pair.outside / nodes_per_block];
-        std::uint8_t& image = awaited_[pair.image / nodes_per_block];
-        if (outside == image) continue;
-        outside = image = 1;
-        grown = true;
+      for (const auto* pairs : {&plane.pairs, &plane.pairs_apart}) {
+        for (const MirrorPair& pair : *pairs) {
+          std::uint8_t& outside = awaited_[pair.outside / nodes_per_block];
+          std::uint8_t& image = awaited_[pair.image / nodes_per_block];
+          if (outside == image) continue;
+          outside = image = 1;
+          grown = true;
+        }
       }
     }
   }

@@ -30,8 +30,12 @@ BlockGrid::BlockGrid(const Geometry& geometry, MPI_Comm communicator)
   for (int face = 0; face < 6; ++face) {
     const Boundary boundary = geometry.boundary[static_cast<std::size_t>(face)];
     if (boundary == Boundary::outflow) continue;
-    planes_.push_back(
-        {.face = face, .axis = face / 2, .kind = boundary, .pairs = {}, .on_plane = {}, .near = {}});
+    MirrorPlane plane;
+    plane.face = face;
+    plane.axis = face / 2;
+    plane.kind = boundary;
+    planes_.push_back(std::move(plane));
+    bonded_[static_cast<std::size_t>(face)] = boundary == Boundary::separating ? 0 : ~std::uint64_t{0};
   }
   std::ranges::stable_sort(planes_, {},
                            [](const MirrorPlane& plane) { return plane.kind == Boundary::separating; });

@@ -61,6 +61,13 @@ struct ContactValues {
   std::vector<std::uint32_t> begin;
 };
 
+/// Values that go with all blocks of nodes of some slots, of which every rank that works with them knows as
+/// many: those of slot s stand from begin[s] to begin[s + 1].
+struct SlotValues {
+  std::vector<Lanes> values;
+  std::vector<std::uint32_t> begin;
+};
+
 /// The sparse background grid: the blocks where particles are, their nodes, and the list of particles in each
 /// block. Slots number the active blocks of a rank: its own in the order of the forest's space-filling curve,
 /// then those that it borrows from other ranks because its particles reach them.
@@ -255,6 +262,13 @@ class BlockGrid {
   [[nodiscard]] std::int32_t contact_number(std::size_t slot) const {
     return contact_slots_.empty() ? no_slot : contact_number_[slot];
   }
+  /// Blocks of nodes of a slot: its own, then the further ones.
+  [[nodiscard]] std::size_t node_blocks(std::size_t slot) const {
+    return contact_number(slot) == no_slot ? 1 : static_cast<std::size_t>(std::popcount(fields_[slot]));
+  }
+  [[nodiscard]] std::size_t node_block(std::size_t slot, std::size_t i) const {
+    return i == 0 ? slot : further_begin_[static_cast<std::size_t>(contact_number_[slot])] + i - 1;
+  }
   /// Bit per field that reaches a slot, since `separate_fields`.
   [[nodiscard]] std::uint64_t fields(std::size_t slot) const { return fields_[slot]; }
 
@@ -291,26 +305,37 @@ class BlockGrid {
   void maximum_to_owners(ContactValues& values);
   /// Sets the bits of each slot on all ranks that work with it if any of them has. Collective.
   void join_bits_of_ranks(std::vector<std::uint64_t>& of_slot);
+  void borrow_from_owners(SlotValues& values);
+  void maximum_to_owners(SlotValues& values);
 
-  /// A node beyond a mirror plane, its image inside, and the node between them on the plane (`no_node` if its
-  /// block is not active), as indices into all_nodes().
+  /// A node beyond a mirror plane and its image inside, as indices into all_nodes().
   struct MirrorPair {
     std::uint32_t outside;
     std::uint32_t image;
-    std::uint32_t foot;
   };
   static constexpr std::uint32_t no_node = static_cast<std::uint32_t>(-1);
   struct MirrorPlane {
     int face = 0;  ///< in the order of Geometry::boundary
     int axis = 0;
     Boundary kind = Boundary::symmetry;
+    /// Of fields that are one with their images (`bond_at_planes`).
     std::vector<MirrorPair> pairs;
     std::vector<std::uint32_t> on_plane;
+    /// Of fields that meet their images as other bodies.
+    std::vector<MirrorPair> pairs_apart;
+    std::vector<std::uint32_t> on_plane_apart;
     /// Inner nodes that particles may reach from beyond the plane: the images of some rank's `outside` nodes.
     std::vector<std::uint32_t> near;
+    [[nodiscard]] double outward() const { return face % 2 == 0 ? -1.0 : 1.0; }
   };
-  /// Planes with the active nodes that they concern, in the order in which they are folded: separating walls
-  /// last.
+  /// Which fields are one with their images at the mirror planes: a bit per field for each face. Without a
+  /// call all are, but at separating walls none. Before `bin`.
+  void bond_at_planes(const std::array<std::uint64_t, 6>& fields);
+  /// May some field meet its image at a face as another body?
+  [[nodiscard]] bool is_apart_at(std::size_t face) const {
+    return geometry_.boundary[face] != Boundary::outflow && ~bonded_[face] != 0;
+  }
+  /// Planes with the active nodes that they concern, in the order in which they are folded.
   [[nodiscard]] std::span<const MirrorPlane> mirror_planes() const { return planes_; }
   /// Does a node belong to a block that is borrowed, or to one that mirror planes connect with such a block?
   [[nodiscard]] bool is_awaited(std::size_t node) const {
@@ -320,7 +345,7 @@ class BlockGrid {
   }
   /// Are there nodes of which `is_awaited` holds?
   [[nodiscard]] bool awaits() const { return !awaited_.empty(); }
-  /// Is a node an image in any case: beyond a plane that is no separating wall?
+  /// Is a node an image: beyond a plane with which its field is one?
   [[nodiscard]] bool is_image(std::size_t node) const { return !outside_.empty() && outside_[node] != 0; }
 
   /// Slot of the block around a position, `no_slot` if there is none.
@@ -393,10 +418,8 @@ class BlockGrid {
   void send_nodes(Part part, SharedSlots from, SharedSlots to);
   template <class Combine>
   void receive_nodes(Part part, SharedSlots to, Combine&& combine);
-  [[nodiscard]] std::size_t node_blocks(std::size_t slot) const;
-  [[nodiscard]] std::size_t node_block(std::size_t slot, std::size_t i) const;
-  template <class Combine>
-  void exchange_values(ContactValues& values, SharedSlots from, SharedSlots to, Combine&& combine);
+  template <class Range, class Combine>
+  void exchange_values(Range&& range, SharedSlots from, SharedSlots to, Combine&& combine);
 
   MPI_Comm communicator_;
   Geometry geometry_;       // with the shift
@@ -440,6 +463,7 @@ class BlockGrid {
   std::vector<std::uint8_t> awaited_, border_;  // of each slot; empty where nothing is borrowed
   Messages<Lanes> node_messages_;
   std::vector<MirrorPlane> planes_;
+  std::array<std::uint64_t, 6> bonded_{};  // bit per field, of each face
   std::vector<std::uint8_t> outside_;
   std::size_t adaptations_ = 0;
   std::size_t layout_ = 0;

@@ -266,6 +266,31 @@ std::optional<std::string> overlap(const Case& setup, const Body& body, const Bo
 
 }  // namespace
 
+std::vector<std::uint8_t> faces_touched(const Case& setup) {
+  const grid::Geometry& g = setup.geometry;
+  const double near = 0.05 * g.cell_size;
+  std::vector<std::uint8_t> faces(setup.bodies.size(), 0);
+  for (std::size_t b = 0; b < faces.size(); ++b) {
+    const Body& body = setup.bodies[b];
+    if (body.discretization.is_bars()) continue;  // they share the field of the matter around
+    const Shape::Bounds bounds = body.shape->bounds();
+    const Lattice lattice = lattice_of(setup, body);
+    for (int face = 0; face < 6; ++face) {
+      const int a = face / 2;
+      const double plane = face % 2 == 0 ? g.lower[a] : g.upper(a);
+      if (!is_mirror(setup, face)) continue;
+      if (face % 2 == 0 ? bounds.lower[a] > plane + near : bounds.upper[a] < plane - near) continue;
+      // The box may be larger than the shape, and the lattice may have left out what the plane cuts.
+      Shape::Bounds layer = domain_of(setup);
+      const double depth = lattice.spacing[a] + near;
+      (face % 2 == 0 ? layer.upper[a] : layer.lower[a]) = face % 2 == 0 ? plane + depth : plane - depth;
+      const auto is_in_layer = [&](const Site& site) { return std::abs(site.position[a] - plane) <= depth; };
+      if (any_site(setup, body, lattice, layer, is_in_layer)) faces[b] |= static_cast<std::uint8_t>(1U << face);
+    }
+  }
+  return faces;
+}
+
 double expected_memory(const Case& setup) {
   constexpr double bytes_per_particle = 500.0;  // in full blocks: docs/performance.md
   double particles = 0.0;

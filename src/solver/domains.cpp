@@ -17,7 +17,8 @@ bool Simulation::follows_domains() const {
 
 /// Whether anything asks for the domains of the particles.
 bool Simulation::carries_extent() const {
-  return follows_domains() || shape_ == transfer::ShapeFunction::gimp || setup_.contact_fields.several();
+  return follows_domains() || shape_ == transfer::ShapeFunction::gimp || setup_.contact_fields.several() ||
+         may_meet_images();
 }
 
 /// E <- (I + dt L) E (I + dt L)^T (2.4). @returns how many domains are larger than the shape function takes

@@ -64,6 +64,7 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
   bars_ = std::move(seeding.bars);
   for (fem::Mesh& mesh : meshes_) afemp::mark_surface(mesh, setup_.geometry);
   keep_own_elements();
+  set_up_walls();
   if (!carries_affine_velocity()) {
     std::vector<Matrix3>().swap(particles_.affine_velocity);
   } else if (affine_field(setup_.transfer) == transfer::AffineField::none) {
@@ -89,6 +90,7 @@ Simulation::Simulation(const setup::Case& setup, Particles particles, const RunS
       grid_(setup.geometry, communicator),
       state_(state) {
   gather_elements();
+  set_up_walls();
   require_fields();
   sort_by_body(particles_);  // checkpoints hold the particles of several ranks one after the other
   find_bodies();
@@ -347,6 +349,7 @@ void Simulation::map_particles_to_grid() {
     }
   });
   find_surfaces();
+  find_surfaces_at_walls();
 }
 
 void Simulation::advance_grid() {
@@ -364,7 +367,10 @@ void Simulation::advance_grid() {
 }
 
 /// What other ranks own of the nodes arrives, at the latest when the particles of the border need it.
-void Simulation::finish_exchange() { step_.wall_impulse += grid_update_.finish(grid_); }
+void Simulation::finish_exchange() {
+  step_.wall_impulse += grid_update_.finish(grid_);
+  step_.contact_heat += grid_update_.take_contact_heat();
+}
 
 void Simulation::map_grid_to_particles() {
   const auto gather = [&](const transfer::TakeGradients& take) {
@@ -410,6 +416,7 @@ void Simulation::update_velocity_and_material() {
 }
 
 void Simulation::map_momentum_to_grid() {
+  if (setup_.time.scheme == "usf") find_surfaces_at_walls();  // the grid has not been advanced in this step
   profile_.time("momentum to grid", [&] {
     transfer::momentum_to_grid(shape_, particles_, particles_.velocity, grid_,
                                [&] { grid_update_.send(grid_, grid::BlockGrid::Part::first); });

@@ -137,6 +137,9 @@ class Simulation {
   void look_at_fill();
   void find_surfaces();
   [[nodiscard]] transfer::TouchAtNode touch_at_node() const;
+  void set_up_walls();
+  [[nodiscard]] bool may_meet_images() const;
+  void find_surfaces_at_walls();
   void apply_contact();
   void finish_exchange();
   void gather_velocity(const transfer::TakeGradients& take);

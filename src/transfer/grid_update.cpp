@@ -27,8 +27,6 @@ Lanes reflection(const BlockGrid::MirrorPlane& plane, int first_lane) {
   return sign;
 }
 
-bool separates(const BlockGrid::MirrorPlane& plane) { return plane.kind == grid::Boundary::separating; }
-
 /// The image of a particle brings to node j what the particle brings to the mirror node of j, with the
 /// reflected vector. Real particles only were transferred, so what they brought beyond the plane is folded to
 /// the inside.
@@ -94,6 +92,9 @@ void GridUpdate::remember_nodes_at_planes(const BlockGrid& grid) {
   at_planes_of_ = grid.layout();
   std::vector<std::pair<std::uint32_t, std::uint8_t>> nodes;  // and whether it is only an image
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+    // Where matter meets its image as another body it may not do so yet.
+    for (const BlockGrid::MirrorPair& pair : plane.pairs_apart) nodes.emplace_back(pair.outside, 1);
+    for (const std::uint32_t on_plane : plane.on_plane_apart) nodes.emplace_back(on_plane, 1);
     for (const BlockGrid::MirrorPair& pair : plane.pairs) nodes.emplace_back(pair.outside, 0);
     // Another rank may be the one that folds onto them.
     for (const std::uint32_t near : plane.near) nodes.emplace_back(near, 1);
@@ -117,55 +118,15 @@ void GridUpdate::remember_content(const BlockGrid& grid, Nodes which) {
   });
 }
 
-/// Where a separating wall is in contact: the matter on the node of the plane would move into it. All ranks
-/// that hold the node decide alike, by the sums of all.
-void GridUpdate::find_contact(BlockGrid& grid) {
-  const std::span<Node> nodes = grid.all_nodes();
-  std::vector<Node> own;  // this rank's part, which the exchange replaces
-  if (grid.is_shared()) {
-    own.assign(nodes.begin(), nodes.end());
-    grid.sum_to_owners(BlockGrid::Part::both);
-    grid.borrow_from_owners(BlockGrid::Part::both);
-  }
-  in_contact_.assign(nodes.size(), 0);
-  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
-    if (!separates(plane)) continue;
-    const double inward = plane.face % 2 == 0 ? 1.0 : -1.0;
-    parallel::for_each(plane.on_plane.size(), [&](std::size_t i) {
-      const Node& node = nodes[plane.on_plane[i]];
-      const int lane = plane.axis + 1;
-      const double momentum = inward * (node.first[lane] + dt_ * node.second[lane]);
-      if (node.first[0] >= no_mass && momentum <= 0.0) {
-        in_contact_[plane.on_plane[i]] |= static_cast<std::uint8_t>(1U << plane.axis);
-      }
-    });
-  }
-  if (!own.empty()) std::ranges::copy(own, nodes.begin());
-}
-
-bool GridUpdate::touches(const BlockGrid::MirrorPlane& plane, std::uint32_t node) const {
-  return node != BlockGrid::no_node && (in_contact_[node] >> plane.axis & 1U) != 0;
-}
-
-/// Folds every plane and restricts the nodes on it; separating walls where they are in contact. Nodes beyond
-/// such a wall that is not in contact go on as nodes of their own; beyond one in contact they are emptied.
+/// Folds every plane and restricts the nodes on it, where matter is one with its image.
 void GridUpdate::fold_planes(BlockGrid& grid, Nodes which, bool with_forces) {
   const std::span<Node> nodes = grid.all_nodes();
-  bool contact_found = !with_forces;  // by the step that the momenta belong to
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
-    if (separates(plane) && !contact_found) {  // the last planes
-      find_contact(grid);
-      contact_found = true;
-    }
     const Lanes sign = reflection(plane, 1);
     parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
       const BlockGrid::MirrorPair& pair = plane.pairs[i];
       if (!among(grid, pair.image, which)) return;
-      if (separates(plane) && !touches(plane, pair.foot)) return;
       fold(nodes[pair.image], nodes[pair.outside], sign, with_forces);
-      if (!separates(plane)) return;
-      nodes[pair.outside].first = broadcast(0.0);
-      if (with_forces) nodes[pair.outside].second = broadcast(0.0);
     });
   }
   // After all folds, because between two planes one cell apart each folds onto the nodes of the other.
@@ -173,14 +134,13 @@ void GridUpdate::fold_planes(BlockGrid& grid, Nodes which, bool with_forces) {
     const Lanes sign = reflection(plane, 1);
     parallel::for_each(plane.on_plane.size(), [&](std::size_t i) {
       const std::uint32_t node = plane.on_plane[i];
-      if (!among(grid, node, which)) return;
-      if (!separates(plane) || touches(plane, node)) restrict_to_plane(nodes[node], sign, with_forces);
+      if (among(grid, node, which)) restrict_to_plane(nodes[node], sign, with_forces);
     });
   }
 }
 
 /// Velocities beyond the planes are the reflected ones; reverse order, so that corners come out right.
-void GridUpdate::copy_back(BlockGrid& grid, Nodes which) const {
+void GridUpdate::copy_back(BlockGrid& grid, Nodes which) {
   const std::span<Node> nodes = grid.all_nodes();
   const auto planes = grid.mirror_planes();
   for (std::size_t n = planes.size(); n-- > 0;) {
@@ -189,16 +149,30 @@ void GridUpdate::copy_back(BlockGrid& grid, Nodes which) const {
     parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
       const BlockGrid::MirrorPair& pair = plane.pairs[i];
       if (!among(grid, pair.image, which)) return;
-      if (separates(plane) && !touches(plane, pair.foot)) return;
       nodes[pair.outside].first = sign * nodes[pair.image].first;
       nodes[pair.outside].second = sign * nodes[pair.image].second;
     });
   }
 }
 
+/// Contact with the images, then the nodes beyond the planes where matter is one with its image.
+void GridUpdate::meet_images(BlockGrid& grid, Nodes which) {
+  mirror_contact_.apply(grid, dt_, [&](std::uint32_t node) { return among(grid, node, which); });
+  copy_back(grid, which);
+  if (!mirror_contact_.made_heat()) return;
+  for (std::size_t i = 0; i < at_planes_.size(); ++i) {
+    if (!among(grid, at_planes_[i], which)) continue;
+    contact_heat_ += before_[i].first[0] * mirror_contact_.heat_at(at_planes_[i]);
+  }
+}
+
+/// The same of velocities that momenta gave.
+void GridUpdate::meet_images_again(BlockGrid& grid, Nodes which) {
+  mirror_contact_.apply_to_velocities(grid, [&](std::uint32_t node) { return among(grid, node, which); });
+  copy_back(grid, which);
+}
+
 void GridUpdate::send(BlockGrid& grid, BlockGrid::Part part) {
-  // Where separating walls are in contact, all ranks must have brought their part.
-  if (std::ranges::any_of(grid.mirror_planes(), separates)) return;
   const bool with_forces = part == BlockGrid::Part::both;
   if (with_forces) remember_content(grid, Nodes::awaited);
   if (grid.awaits()) fold_planes(grid, Nodes::awaited, with_forces);
@@ -230,12 +204,14 @@ GridBalance GridUpdate::begin_advance(BlockGrid& grid, double dt, const Relaxati
   const std::span<Node> nodes = grid.all_nodes();
   dt_ = dt;
   complete_sums(grid, BlockGrid::Part::both);
+  mirror_contact_.lay_out(grid);
   const double rate = relaxation.kappa * dt / grid.geometry().cell_size;
   std::vector<Energies> of_block(grid.owned_blocks());
   parallel::for_each(grid.owned_blocks(), [&](std::size_t b) {
     const std::size_t block = grid.owned_block(b);
     const std::size_t first = block * grid::nodes_per_block;
-    const double mass_kept = grid.is_contact_block(block) ? 1.0 : 0.0;
+    const double mass_kept =
+        grid.is_contact_block(block) || mirror_contact_.concerns_block(block) ? 1.0 : 0.0;
     const std::array<double, grid::nodes_per_block> betas = relaxation_of(&nodes[first], relaxation, rate);
     for (std::size_t i = first; i < first + grid::nodes_per_block; ++i) {
       Node& node = nodes[i];
@@ -254,10 +230,12 @@ GridBalance GridUpdate::begin_advance(BlockGrid& grid, double dt, const Relaxati
           Energies{0.5 * mass * sum3(node.first * node.first), 0.5 * mass * sum3(advanced * advanced)};
     }
   });
+  mirror_contact_.remember(grid);
   if (at_contact) at_contact();
+  mirror_contact_.tell_others(grid);
   grid.begin_borrow_from_owners(BlockGrid::Part::both);
   awaiting_ = Awaiting::step;
-  copy_back(grid, Nodes::others);
+  meet_images(grid, Nodes::others);
 
   // Sums run in the order of the blocks, where empty blocks add zero: the same bits whatever blocks happen to
   // be active.
@@ -292,8 +270,10 @@ void GridUpdate::velocity_from_momentum(BlockGrid& grid) {
 void GridUpdate::begin_velocity_from_momentum(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
   complete_sums(grid, BlockGrid::Part::first);
+  mirror_contact_.lay_out(grid);
   parallel::for_each(grid.owned_blocks(), [&](std::size_t b) {
-    const std::size_t begin = grid.owned_block(b) * grid::nodes_per_block;
+    const std::size_t block = grid.owned_block(b), begin = block * grid::nodes_per_block;
+    const double mass_kept = mirror_contact_.concerns_block(block) ? 1.0 : 0.0;
     for (std::size_t i = begin; i < begin + grid::nodes_per_block; ++i) {
       Lanes& first = nodes[i].first;
       const double mass = first[0];
@@ -301,12 +281,13 @@ void GridUpdate::begin_velocity_from_momentum(BlockGrid& grid) {
         first = broadcast(0.0);
       } else {
         first = Lanes{first[1], first[2], first[3], 0.0} / mass;
+        first[3] = mass_kept * mass;
       }
     }
   });
   grid.begin_borrow_from_owners(BlockGrid::Part::first);
   awaiting_ = Awaiting::velocity;
-  copy_back(grid, Nodes::others);
+  meet_images_again(grid, Nodes::others);
 }
 
 Vector3 GridUpdate::finish(BlockGrid& grid) {
@@ -315,8 +296,12 @@ Vector3 GridUpdate::finish(BlockGrid& grid) {
   const bool of_step = awaited == Awaiting::step;
   grid.finish_borrow_from_owners(of_step ? BlockGrid::Part::both : BlockGrid::Part::first);
   if (!grid.awaits()) return Vector3::Zero();
-  copy_back(grid, Nodes::awaited);
-  return of_step ? wall_impulse(grid, Nodes::awaited) : Vector3::Zero();
+  if (!of_step) {
+    meet_images_again(grid, Nodes::awaited);
+    return Vector3::Zero();
+  }
+  meet_images(grid, Nodes::awaited);
+  return wall_impulse(grid, Nodes::awaited);
 }
 
 }  // namespace whipple::transfer

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/grid/block_grid.hpp"
+#include "src/transfer/mirror_contact.hpp"
 
 namespace whipple::transfer {
 
@@ -30,18 +31,25 @@ struct GridBalance {
 /// Mirror planes, walls and the momentum equation on the nodes.
 class GridUpdate {
  public:
-  /// Folds the nodes beyond the mirror planes onto their images, adds up the parts of all ranks, solves
-  /// m dv/dt = f (equation 3.4), and copies the result back to the nodes beyond. Collective. Node layout
-  /// changes from the first to the second form (see grid::Node).
+  /// Folds the nodes beyond the mirror planes onto their images where matter is one with its image, adds up
+  /// the parts of all ranks, solves m dv/dt = f (equation 3.4), copies the result back to the nodes beyond,
+  /// and applies the contact with the images elsewhere. Collective. Node layout changes from the first to the
+  /// second form (see grid::Node).
   /// @param at_contact  called when the nodes of this rank have their step, before others learn of it: may
   ///                    change the velocity increments of contact slots (grid::BlockGrid), where it must
   ///                    replace the mass in the last lane of Node::second by the heat that nodes give
   GridBalance advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation,
                       const std::function<void()>& at_contact = {});
 
-  /// Velocity of mass and momentum in `first`, in place (second pass of MUSL, full mass matrix). Separating
-  /// walls are in contact where the last `advance` found them to be. Collective.
+  /// Velocity of mass and momentum in `first`, in place (second pass of MUSL, full mass matrix). Matter and
+  /// image are in contact as the `advance` of the same step found them to be; before it by their approach.
+  /// Collective.
   void velocity_from_momentum(grid::BlockGrid& grid);
+
+  /// Contact of matter with its image: surfaces must be found in every step before the nodes are advanced.
+  [[nodiscard]] MirrorContact& mirror_contact() { return mirror_contact_; }
+  /// Heat that it made since the last call (J), of this rank.
+  double take_contact_heat() { return std::exchange(contact_heat_, 0.0); }
 
   /// @name The same in parts, so that work on the interior hides the exchange
   /// @{
@@ -64,10 +72,10 @@ class GridUpdate {
     return nodes == Nodes::all || grid.is_awaited(node) == (nodes == Nodes::awaited);
   }
   void fold_planes(grid::BlockGrid& grid, Nodes which, bool with_forces);
-  void copy_back(grid::BlockGrid& grid, Nodes which) const;
+  static void copy_back(grid::BlockGrid& grid, Nodes which);
   void complete_sums(grid::BlockGrid& grid, grid::BlockGrid::Part part);
-  void find_contact(grid::BlockGrid& grid);
-  [[nodiscard]] bool touches(const grid::BlockGrid::MirrorPlane& plane, std::uint32_t node) const;
+  void meet_images(grid::BlockGrid& grid, Nodes which);
+  void meet_images_again(grid::BlockGrid& grid, Nodes which);
   void remember_nodes_at_planes(const grid::BlockGrid& grid);
   void remember_content(const grid::BlockGrid& grid, Nodes which);
   [[nodiscard]] Vector3 wall_impulse(const grid::BlockGrid& grid, Nodes which) const;
@@ -76,9 +84,10 @@ class GridUpdate {
   std::vector<std::uint8_t>
       may_be_unchanged_;  // of each: it is only an image, which may have received nothing
   std::size_t at_planes_of_ = static_cast<std::size_t>(-1);  // layout that they belong to
-  std::vector<std::uint8_t> in_contact_;  // of each node on separating walls: a bit per axis
-  std::vector<grid::Node> before_;        // their content before the fold: what the real particles brought
-  bool sent_ = false;                     // by `send`
+  std::vector<grid::Node> before_;  // their content before the fold: what the real particles brought
+  MirrorContact mirror_contact_;
+  double contact_heat_ = 0.0;  // J
+  bool sent_ = false;          // by `send`
   enum class Awaiting { nothing, step, velocity } awaiting_ = Awaiting::nothing;
   double dt_ = 0.0;  // of the step under way
 };

@@ -69,9 +69,11 @@ void gather(const Particles& particles, BlockGrid& grid, Function&& f) {
 inline void fold_and_sum(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
-    parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
-      nodes[plane.pairs[i].image].first += nodes[plane.pairs[i].outside].first;
-    });
+    for (const auto* pairs : {&plane.pairs, &plane.pairs_apart}) {
+      parallel::for_each(pairs->size(), [&](std::size_t i) {
+        nodes[(*pairs)[i].image].first += nodes[(*pairs)[i].outside].first;
+      });
+    }
   }
   grid.sum_to_owners(BlockGrid::Part::first);
 }
@@ -82,9 +84,11 @@ inline void share(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
   const auto planes = grid.mirror_planes();
   for (std::size_t n = planes.size(); n-- > 0;) {
-    parallel::for_each(planes[n].pairs.size(), [&](std::size_t i) {
-      nodes[planes[n].pairs[i].outside].first = nodes[planes[n].pairs[i].image].first;
-    });
+    for (const auto* pairs : {&planes[n].pairs, &planes[n].pairs_apart}) {
+      parallel::for_each(pairs->size(), [&](std::size_t i) {
+        nodes[(*pairs)[i].outside].first = nodes[(*pairs)[i].image].first;
+      });
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
+#include "src/transfer/scalar_fields.hpp"
 
 namespace whipple::transfer {
 namespace {
@@ -99,25 +100,6 @@ void for_each_node(BlockGrid& grid, const std::vector<std::uint64_t>& marked, st
   });
 }
 
-/// Scalars beyond a mirror plane are those of the images, so what particles brought there belongs to these.
-void fold_planes(BlockGrid& grid) {
-  const std::span<Node> nodes = grid.all_nodes();
-  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
-    parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
-      nodes[plane.pairs[i].image].first += nodes[plane.pairs[i].outside].first;
-    });
-  }
-}
-void copy_beyond_planes(BlockGrid& grid) {
-  const std::span<Node> nodes = grid.all_nodes();
-  const auto planes = grid.mirror_planes();
-  for (std::size_t n = planes.size(); n-- > 0;) {
-    parallel::for_each(planes[n].pairs.size(), [&](std::size_t i) {
-      nodes[planes[n].pairs[i].outside].first = nodes[planes[n].pairs[i].image].first;
-    });
-  }
-}
-
 /// The slots whose particles reach nodes that a conducting particle reaches; nothing if none does on any rank.
 std::optional<std::vector<std::uint64_t>> slots_at_shocks(BlockGrid& grid, const Exchange& exchange) {
   std::vector<std::uint64_t> marked(grid.slots(), 0);
@@ -157,8 +139,7 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
         Kernels::template scatter<Shape>(Capacity{particles, exchange}, grid, slot);
       });
     });
-    fold_planes(grid);
-    grid.sum_to_owners(BlockGrid::Part::first);
+    scalars::fold_and_sum(grid);
     for_each_node(grid, reached, grid.owned_slots(), [](Node& node) {  // chi T, chi
       const double capacity = node.first[0];
       if (capacity < no_capacity) {
@@ -168,8 +149,7 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
         node.first = Lanes{share * node.first[1] / capacity, share, 0.0, 0.0};
       }
     });
-    grid.borrow_from_owners(BlockGrid::Part::first);
-    copy_beyond_planes(grid);
+    scalars::share(grid);
 
     std::vector<double> taken_up(grid.slots(), 0.0);
     parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {  // (eq. 9)

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/transfer/mirror_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/vector_math.hpp"
+#include "src/parallel/threads.hpp"
+
+namespace whipple::transfer {
+namespace {
+
+using grid::BlockGrid;
+using grid::Node;
+using grid::nodes_per_block;
+
+constexpr double no_mass = 1e-300;  // kg
+/// Nodes this far from a plane, in cells, may meet their images: what stencils of matter before it hold.
+constexpr std::int32_t reach = 2;
+/// Matter that comes as near as this (cells) to a wall that it sticks to has arrived.
+constexpr double sticking_gap = 0.04;
+
+/// 1 for the components that reflection reverses, in lanes 0 to 2.
+Lanes reversed(const BlockGrid::MirrorPlane& plane) {
+  Lanes lanes{};
+  for (int c = 0; c < 3; ++c) {
+    if (plane.kind == grid::Boundary::no_slip || c == plane.axis) lanes[c] = 1.0;
+  }
+  return lanes;
+}
+
+/// Share of the step in which two surfaces touch that close with a speed (m/s) at its end (3.8).
+double share_in_touch(double gap, double closing_speed, double dt) {
+  if (gap <= 0.0) return 1.0;
+  if (!(closing_speed > 0.0)) return 0.0;
+  return std::clamp(1.0 - gap / (dt * closing_speed), 0.0, 1.0);
+}
+
+/// beta of the common field of two nodes (3.7); none where nodes of elements hold the relaxation.
+double common_relaxation(double mass, double beta, double other_mass, double other_beta) {
+  if (beta == other_beta) return beta;
+  if (beta == 0.0 || other_beta == 0.0) return 0.0;
+  return -std::expm1((mass * std::log1p(-beta) + other_mass * std::log1p(-other_beta)) / (mass + other_mass));
+}
+
+/// Kinetic energy and work that the points of a node lose because they take the step `taken` instead of the
+/// one that the node makes by itself (3.11), J.
+double loss(Lanes own_velocity, Lanes own_increment, const Node& taken) {
+  const double mass = own_velocity[3], beta = taken.first[3];
+  const Lanes v = taken.first, d = taken.second;
+  return mass * sum3((own_increment - d) * (v + 0.5 * d) - (own_velocity - v) * ((1.0 - beta) * d - beta * v));
+}
+
+}  // namespace
+
+void MirrorContact::lay_out(const BlockGrid& grid) {
+  if (layout_ == grid.layout()) return;
+  layout_ = grid.layout();
+  cell_size_ = grid.geometry().cell_size;
+  planes_.clear();
+  first_of_block_.clear();
+  folded_.clear();
+  std::vector<std::uint8_t> concerned(grid.slots(), 0);
+  for (const BlockGrid::MirrorPlane& mirror : grid.mirror_planes()) {
+    if (!grid.is_apart_at(static_cast<std::size_t>(mirror.face))) continue;
+    Plane& plane = planes_.emplace_back();
+    plane.of.face = mirror.face;
+    plane.of.axis = mirror.axis;
+    plane.of.kind = mirror.kind;
+    const auto axis = static_cast<std::size_t>(mirror.axis);
+    const std::int32_t at = mirror.face % 2 == 0 ? 0 : grid.geometry().cells[axis];
+    for (std::size_t s = 0; s < grid.slots(); ++s) {
+      const std::int32_t first = grid.coordinate(s)[axis] * grid::block_edge;
+      if (first <= at + reach && first + grid::block_edge - 1 >= at - reach) concerned[s] = 1;
+    }
+  }
+  for (grid::SlotValues* values : {&extent_, &own_}) {
+    values->begin.assign(1, 0);
+    values->values.clear();
+  }
+  if (planes_.empty()) return;
+  first_of_block_.assign(grid.all_nodes().size() / nodes_per_block, nowhere);
+  near_.assign(grid.slots(), 0);
+  std::uint32_t next = 0;
+  for (std::size_t s = 0; s < grid.slots(); ++s) {
+    if (concerned[s] != 0) {
+      for (std::size_t i = 0; i < grid.node_blocks(s); ++i) {
+        first_of_block_[grid.node_block(s, i)] = next;
+        next += static_cast<std::uint32_t>(lanes_per_node * nodes_per_block);
+      }
+      for (const std::int32_t neighbour : grid.neighbours(s)) {
+        if (neighbour != BlockGrid::no_slot) near_[static_cast<std::size_t>(neighbour)] = 1;
+      }
+    }
+    extent_.begin.push_back(next);
+  }
+  own_.begin = extent_.begin;
+  own_.values.assign(next, Lanes{});
+  extent_.values.assign(next, broadcast(-std::numeric_limits<double>::infinity()));
+  heat_.assign(next / lanes_per_node, 0.0);
+  const auto both_concern = [&](const BlockGrid::MirrorPair& pair) {
+    return concerns_block(pair.outside / nodes_per_block) && concerns_block(pair.image / nodes_per_block);
+  };
+  auto plane = planes_.begin();
+  const auto mirrors = grid.mirror_planes();
+  for (const BlockGrid::MirrorPlane& mirror : mirrors) {
+    if (!grid.is_apart_at(static_cast<std::size_t>(mirror.face))) continue;
+    for (const BlockGrid::MirrorPair& pair : mirror.pairs_apart) {
+      if (both_concern(pair)) plane->couples.push_back({pair.image, pair.outside});
+    }
+    for (const std::uint32_t node : mirror.on_plane_apart) plane->couples.push_back({node, node});
+    plane->share.assign(plane->couples.size(), 0.0);
+    ++plane;
+  }
+  std::vector<std::uint8_t> planes_of(heat_.size(), 0);
+  for (const Plane& of : planes_) {
+    for (const Couple& couple : of.couples) {
+      ++planes_of[place(couple.node) / lanes_per_node];
+      if (couple.mirror != couple.node) ++planes_of[place(couple.mirror) / lanes_per_node];
+    }
+  }
+  for (Plane& of : planes_) {
+    for (std::uint32_t c = 0; c < of.couples.size(); ++c) {
+      const Couple& couple = of.couples[c];
+      if (std::min(planes_of[place(couple.node) / lanes_per_node],
+                   planes_of[place(couple.mirror) / lanes_per_node]) > 1) {
+        of.at_corners.push_back(c);
+      }
+    }
+  }
+  for (std::size_t n = mirrors.size(); n-- > 0;) {
+    for (const BlockGrid::MirrorPair& pair : mirrors[n].pairs) {
+      if (both_concern(pair)) folded_.push_back({pair.outside, pair.image});
+    }
+  }
+}
+
+void MirrorContact::remember(BlockGrid& grid) {
+  made_heat_ = false;
+  if (planes_.empty()) return;
+  std::ranges::fill(heat_, 0.0);
+  const std::span<Node> nodes = grid.all_nodes();
+  parallel::for_each(grid.owned_blocks(), [&](std::size_t b) {
+    const std::size_t block = grid.owned_block(b);
+    if (!concerns_block(block)) return;
+    for (std::size_t i = block * nodes_per_block; i < (block + 1) * nodes_per_block; ++i) {
+      Lanes* own = &own_.values[place(static_cast<std::uint32_t>(i))];
+      own[0] = nodes[i].first;
+      own[1] = nodes[i].second;
+      own[0][3] = nodes[i].second[3];
+      if (!grid.is_contact_block(block)) nodes[i].second[3] = 0.0;
+    }
+  });
+}
+
+void MirrorContact::tell_others(BlockGrid& grid) {
+  if (!planes_.empty() && grid.is_shared()) grid.borrow_from_owners(own_);
+}
+
+/// Between matter and image at a couple of nodes, m: as between two bodies whose surfaces are found at one
+/// node each.
+double MirrorContact::gap(const Plane& plane, const Couple& couple) const {
+  const auto upper = static_cast<std::size_t>(plane.of.face % 2);
+  const auto extent = [&](std::uint32_t node) { return extent_.values[place(node) + upper][plane.of.axis]; };
+  return -(extent(couple.node) + extent(couple.mirror));
+}
+
+bool MirrorContact::sticks(const Plane& plane, double gap) const {
+  return plane.of.kind == grid::Boundary::no_slip && gap < sticking_gap * cell_size_;
+}
+
+/// Where planes meet, all images of a node must have one beta: what one plane has mixed would otherwise change
+/// with the next one. (beta does nothing at nodes that take their own step.)
+void MirrorContact::join_relaxation_at_corners(std::span<Node> nodes, const Among& among) {
+  joint_mass_.resize(heat_.size());
+  const auto mass_of = [&](std::uint32_t node) -> double& { return joint_mass_[place(node) / lanes_per_node]; };
+  for (const Plane& plane : planes_) {
+    for (const std::uint32_t c : plane.at_corners) {
+      for (const std::uint32_t node : {plane.couples[c].node, plane.couples[c].mirror}) {
+        mass_of(node) = own_.values[place(node)][3];
+      }
+    }
+  }
+  for (const Plane& plane : planes_) {
+    for (const std::uint32_t c : plane.at_corners) {
+      const Couple& couple = plane.couples[c];
+      if (couple.node == couple.mirror || !among(couple.node)) continue;
+      double &mass = mass_of(couple.node), &other_mass = mass_of(couple.mirror);
+      if (mass < no_mass || other_mass < no_mass) continue;
+      Lanes &first = nodes[couple.node].first, &other = nodes[couple.mirror].first;
+      first[3] = other[3] = common_relaxation(mass, first[3], other_mass, other[3]);
+      mass = other_mass = mass + other_mass;
+    }
+  }
+}
+
+/// Matter at a node meets its image there, and the matter at the mirror node its own (3.7) to (3.11).
+/// @returns the share of the step in which they touch
+double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<Node> nodes, double dt) {
+  Lanes* const own = &own_.values[place(couple.node)];
+  Lanes* const own_of_mirror = &own_.values[place(couple.mirror)];
+  const double mass = own[0][3], other_mass = own_of_mirror[0][3];
+  if (mass < no_mass || other_mass < no_mass) return 0.0;
+  const double open = gap(plane, couple);
+  const Lanes mixed = reversed(plane.of), sign = 1.0 - 2.0 * mixed;
+  Node& node = nodes[couple.node];
+  Node& mirror = nodes[couple.mirror];
+  // The image at the node.
+  const Lanes v = node.first, d = node.second, v_image = sign * mirror.first, d_image = sign * mirror.second;
+  const double n = plane.of.outward();
+  const double w = n * (v_image - v)[plane.of.axis], e = n * (d_image - d)[plane.of.axis];
+  const double beta = common_relaxation(mass, v[3], other_mass, v_image[3]);
+  double share = 1.0;
+  if (!sticks(plane, open)) {
+    share = share_in_touch(open, -(w + e), dt);
+    if (!(share > 0.0) || !(e + beta * w < 0.0)) return 0.0;  // apart, or in tension
+  }
+  const double before = loss(own[0], own[1], node) + loss(own_of_mirror[0], own_of_mirror[1], mirror);
+  const double total = mass + other_mass;
+  const Lanes v_common = (mass * v + other_mass * v_image) / total;
+  const Lanes d_common = (mass * d + other_mass * d_image) / total;
+  const Lanes to_common = share * mixed;
+  const bool on_plane = couple.node == couple.mirror;
+  node.first = v + to_common * (v_common - v);
+  node.second = d + to_common * (d_common - d);
+  node.first[3] = beta;
+  if (!on_plane) {
+    mirror.first = sign * (v_image + to_common * (v_common - v_image));
+    mirror.second = sign * (d_image + to_common * (d_common - d_image));
+    mirror.first[3] = beta;
+  }
+  const double after = loss(own[0], own[1], node) + loss(own_of_mirror[0], own_of_mirror[1], mirror);
+  const double half = 0.5 * (after - before);
+  const auto add_heat = [&](std::uint32_t to, double heat) {
+    nodes[to].second[3] += heat;
+    heat_[place(to) / lanes_per_node] += heat;
+  };
+  add_heat(couple.node, half / mass);
+  if (!on_plane) add_heat(couple.mirror, half / other_mass);
+  return share;
+}
+
+void MirrorContact::apply(BlockGrid& grid, double dt, const Among& among) {
+  if (planes_.empty()) return;
+  const std::span<Node> nodes = grid.all_nodes();
+  join_relaxation_at_corners(nodes, among);
+  for (Plane& plane : planes_) {
+    parallel::for_each(plane.couples.size(), [&](std::size_t i) {
+      if (among(plane.couples[i].node)) plane.share[i] = meet(plane, plane.couples[i], nodes, dt);
+    });
+    made_heat_ = made_heat_ || std::ranges::any_of(plane.share, [](double share) { return share > 0.0; });
+  }
+  for (const Couple& pair : folded_) {
+    if (among(pair.node)) heat_[place(pair.node) / lanes_per_node] = heat_[place(pair.mirror) / lanes_per_node];
+  }
+  shares_known_ = true;
+}
+
+void MirrorContact::apply_to_velocities(BlockGrid& grid, const Among& among) {
+  const std::span<Node> nodes = grid.all_nodes();
+  for (Plane& plane : planes_) {
+    const Lanes mixed = reversed(plane.of), sign = 1.0 - 2.0 * mixed;
+    parallel::for_each(plane.couples.size(), [&](std::size_t i) {
+      const Couple& couple = plane.couples[i];
+      if (!among(couple.node)) return;
+      Lanes& v = nodes[couple.node].first;
+      Lanes& of_mirror = nodes[couple.mirror].first;
+      const double mass = v[3], other_mass = of_mirror[3];
+      if (mass < no_mass || other_mass < no_mass) return;
+      const Lanes v_image = sign * of_mirror;
+      double share = plane.share[i];
+      if (!shares_known_) {
+        const double open = gap(plane, couple);
+        const double closing = plane.of.outward() * (v - v_image)[plane.of.axis];
+        share = sticks(plane, open) ? 1.0 : closing > 0.0 ? share_in_touch(open, closing, dt_) : 0.0;
+      }
+      const Lanes to_common = share * mixed;
+      const Lanes common = (mass * v + other_mass * v_image) / (mass + other_mass);
+      const Lanes changed = v + to_common * (common - v);
+      if (couple.node != couple.mirror) of_mirror = sign * (v_image + to_common * (common - v_image));
+      v = changed;
+    });
+  }
+}
+
+}  // namespace whipple::transfer

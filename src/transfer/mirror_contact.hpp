@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "src/grid/block_grid.hpp"
+#include "src/particles/particles.hpp"
+#include "src/transfer/shape_function.hpp"
+
+namespace whipple::transfer {
+
+/// Contact of matter with its own image beyond mirror planes and walls, where it is not one with it
+/// (grid::BlockGrid::bond_at_planes): the image is another body with the reflected nodes (docs/theory/mpm.md,
+/// equations 3.6 to 3.11). Matter that flies towards a plane does not act on it before it touches.
+///
+/// A node and its mirror node may belong to different ranks. Every rank whose points reach both computes the
+/// contact of the two alike, from what their owners tell it.
+class MirrorContact {
+ public:
+  /// Which nodes a call concerns; a node and its mirror node alike.
+  using Among = std::function<bool(std::uint32_t node)>;
+
+  /// How far matter reaches, at the nodes near the planes: from particles, and from guests of the grid, which
+  /// have no thickness. After `bin` and `separate_fields`; nothing where all matter is one with its images.
+  /// Collective.
+  void find_surfaces(ShapeFunction shape, const Particles& particles, std::span<const Vector3> guests,
+                     grid::BlockGrid& grid, double dt);
+
+  /// Numbers the nodes near the planes; only what changed since the last call is done.
+  void lay_out(const grid::BlockGrid& grid);
+  /// Do nodes near the planes lie in a block of nodes?
+  [[nodiscard]] bool concerns_block(std::size_t block) const {
+    return !first_of_block_.empty() && first_of_block_[block] != nowhere;
+  }
+  /// Keeps the step that the nodes of this rank take by themselves, with their mass in the last lane of
+  /// Node::second, which it clears where there is no contact of bodies.
+  void remember(grid::BlockGrid& grid);
+  /// Tells the other ranks what was remembered. Collective.
+  void tell_others(grid::BlockGrid& grid);
+  /// Changes velocities, increments and relaxation of the nodes that touch their images, and adds the heat of
+  /// that to the last lane of Node::second (J/kg).
+  void apply(grid::BlockGrid& grid, double dt, const Among& among);
+  /// The same for velocities in Node::first, with the mass in its last lane: matter and image touch by the
+  /// shares that `apply` has found in this step, or, before it, by those that their approach gives.
+  void apply_to_velocities(grid::BlockGrid& grid, const Among& among);
+
+  [[nodiscard]] bool made_heat() const { return made_heat_; }
+  /// J/kg, by the last `apply`; 0 where it does nothing.
+  [[nodiscard]] double heat_at(std::uint32_t node) const {
+    return concerns_block(node / grid::nodes_per_block) ? heat_[place(node) / lanes_per_node] : 0.0;
+  }
+
+ private:
+  static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::size_t lanes_per_node = 2;
+  /// A node and its mirror node; the same one twice on the plane.
+  struct Couple {
+    std::uint32_t node, mirror;
+  };
+  struct Plane {
+    grid::BlockGrid::MirrorPlane of;  // without its lists
+    std::vector<Couple> couples;
+    std::vector<double> share;  // of the step, that the two touch in: of each couple
+    /// Those of nodes that other planes concern too: up to eight nodes have images of one another.
+    std::vector<std::uint32_t> at_corners;
+  };
+  [[nodiscard]] std::size_t place(std::uint32_t node) const {
+    return first_of_block_[node / grid::nodes_per_block] + lanes_per_node * (node % grid::nodes_per_block);
+  }
+  [[nodiscard]] double gap(const Plane& plane, const Couple& couple) const;
+  [[nodiscard]] bool sticks(const Plane& plane, double gap) const;
+  void join_relaxation_at_corners(std::span<grid::Node> nodes, const Among& among);
+  double meet(const Plane& plane, const Couple& couple, std::span<grid::Node> nodes, double dt);
+  template <class Shape>
+  void extend(const Particles& particles, std::span<const Vector3> guests, grid::BlockGrid& grid);
+
+  std::size_t layout_ = static_cast<std::size_t>(-1);  // of the grid
+  double cell_size_ = 0.0;                             // m
+  std::vector<Plane> planes_;
+  std::vector<std::uint32_t> first_of_block_;  // of each block of nodes: place of its first node's values
+  std::vector<std::uint8_t> near_;             // of each slot: do its points reach nodes near a plane?
+  std::vector<Couple> folded_;                 // nodes that other planes fold, and their images: in the order
+                                               // in which they are copied back
+  /// Of each node: m, how far matter that reaches it goes beyond the planes along x, y, z (negative: stays
+  /// before them), first those of lower faces, then those of upper ones.
+  grid::SlotValues extent_;
+  /// Of each node: the step that it takes by itself, as Node; lane 3 of `first` is its mass.
+  grid::SlotValues own_;
+  std::vector<double> heat_;        // J/kg, of each node
+  std::vector<double> joint_mass_;  // kg, scratch
+  bool made_heat_ = false;
+  bool shares_known_ = false;  // in this step
+  double dt_ = 0.0;            // s, of this step
+};
+
+}  // namespace whipple::transfer

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far matter reaches at the nodes near mirror planes (docs/theory/mpm.md, equation 3.6).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "src/base/vector_math.hpp"
+#include "src/transfer/mirror_contact.hpp"
+
+namespace whipple::transfer {
+namespace {
+
+using grid::BlockGrid;
+
+/// Points farther than this from a plane, in cells, reach no node whose image they might meet, or are behind
+/// others that do.
+constexpr double reach_of_points = 3.0;
+
+/// Distances along the axes from the centre of a particle to its surface (m): of its domain at the beginning,
+/// or as it is followed, scaled to its present volume.
+Lanes half_thickness(const Particles& particles, std::size_t p) {
+  const double volume = particles.volume[p] + particles.void_volume[p];
+  if (particles.extent.empty()) return broadcast(0.5 * std::cbrt(volume));
+  const SymmetricTensor& extent = particles.extent[p];
+  const double box = 8.0 * std::sqrt(std::max(extent.matrix().determinant(), 0.0));
+  if (!(box > 0.0)) return broadcast(0.5 * std::cbrt(volume));
+  const Lanes squared = {extent.xx, extent.yy, extent.zz, 0.0};
+  return std::cbrt(volume / box) * sqrt(squared);
+}
+
+/// Positions that work with B-splines, which do not ask for more.
+struct Positions {
+  std::span<const Vector3> position;
+};
+
+}  // namespace
+
+template <class Shape>
+void MirrorContact::extend(const Particles& particles, std::span<const Vector3> guests, BlockGrid& grid) {
+  static constexpr grid::ReachMap map = grid::reach_map();
+  constexpr int count = Shape::count;
+  const grid::Geometry& geometry = grid.geometry();
+  const Lanes upper_corner = {geometry.upper(0), geometry.upper(1), geometry.upper(2), 0.0};
+  const Lanes lower_corner = {geometry.lower[0], geometry.lower[1], geometry.lower[2], 0.0};
+  const auto is_near = [&](Lanes before_lower, Lanes before_upper) {
+    return std::ranges::any_of(planes_, [&](const Plane& plane) {
+      const Lanes& before = plane.of.face % 2 == 0 ? before_lower : before_upper;
+      return before[plane.of.axis] > -reach_of_points * cell_size_;
+    });
+  };
+  /// Raises the extents of the nodes that the points of a slot and field reach.
+  const auto extend_by = [&](std::size_t slot, unsigned field, BlockGrid::Points kind, const auto& points,
+                             std::span<const std::uint32_t> members, auto&& thickness) {
+    std::array<std::uint32_t, 27> first{};  // places of the nodes of the blocks around
+    for (std::size_t n = 0; n < 27; ++n) {
+      const std::int32_t neighbour = grid.neighbours(slot)[n];
+      if (neighbour == BlockGrid::no_slot) {
+        first[n] = nowhere;
+        continue;
+      }
+      const auto block = static_cast<std::size_t>(
+          grid.nodes(static_cast<std::size_t>(neighbour), field) - grid.all_nodes().data());
+      first[n] = first_of_block_[block / grid::nodes_per_block];
+    }
+    for (const std::uint32_t p : members) {
+      const Lanes x = load_vector(points.position[p].data());
+      Lanes beyond_lower = lower_corner - x, beyond_upper = x - upper_corner;
+      if (!is_near(beyond_lower, beyond_upper)) continue;
+      const Lanes half = thickness(p);
+      beyond_lower += half;
+      beyond_upper += half;
+      const grid::PlaceInStencil& in_stencil = grid.places(kind)[p];
+      const Weights<count> w = weights_at<Shape>(points, p, in_stencil, cell_size_);
+      const std::array<int, 3> from = in_stencil.first_node(Shape::stencil);
+      for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t j = 0; j < count; ++j) {
+          for (std::size_t k = 0; k < count; ++k) {
+            if (!(w.weight[i][0] * w.weight[j][1] * w.weight[k][2] > 0.0)) continue;
+            const auto at_x = static_cast<std::size_t>(from[0] + static_cast<int>(i) + 1);
+            const auto at_y = static_cast<std::size_t>(from[1] + static_cast<int>(j) + 1);
+            const auto at_z = static_cast<std::size_t>(from[2] + static_cast<int>(k) + 1);
+            const std::uint32_t of_block = first[static_cast<std::size_t>(
+                grid::neighbour_index(map.block[at_x], map.block[at_y], map.block[at_z]))];
+            if (of_block == nowhere) continue;
+            const int inside = grid::node_index(map.node[at_x], map.node[at_y], map.node[at_z]);
+            Lanes* extent = &extent_.values[of_block + lanes_per_node * static_cast<std::size_t>(inside)];
+            extent[0] = maximum(extent[0], beyond_lower);
+            extent[1] = maximum(extent[1], beyond_upper);
+          }
+        }
+      }
+    }
+  };
+  grid.for_each_apart([&](std::size_t slot) {
+    if (near_[slot] == 0) return;
+    grid.for_each_field(BlockGrid::Points::particles, slot,
+                        [&](std::span<const std::uint32_t> members, unsigned field) {
+                          extend_by(slot, field, BlockGrid::Points::particles, particles, members,
+                                    [&](std::uint32_t p) { return half_thickness(particles, p); });
+                        });
+    if constexpr (CarriesAffineField<Shape>) {  // guests work with B-splines only
+      grid.for_each_field(BlockGrid::Points::guests, slot,
+                          [&](std::span<const std::uint32_t> members, unsigned field) {
+                            extend_by(slot, field, BlockGrid::Points::guests, Positions{guests}, members,
+                                      [](std::uint32_t) { return Lanes{}; });
+                          });
+    }
+  });
+}
+
+void MirrorContact::find_surfaces(ShapeFunction shape, const Particles& particles,
+                                  std::span<const Vector3> guests, BlockGrid& grid, double dt) {
+  shares_known_ = false;
+  dt_ = dt;
+  lay_out(grid);
+  if (planes_.empty()) return;
+  std::ranges::fill(extent_.values, broadcast(-std::numeric_limits<double>::infinity()));
+  with_shape(shape, [&]<class Shape>(Shape) { extend<Shape>(particles, guests, grid); });
+  if (!grid.is_shared()) return;
+  grid.maximum_to_owners(extent_);
+  grid.borrow_from_owners(extent_);
+}
+
+}  // namespace whipple::transfer
