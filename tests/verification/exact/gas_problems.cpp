@@ -66,11 +66,12 @@ struct GasErrors {
     pressure.add(q.pressure[p], exact.pressure, weight, scale.pressure);
     energy.add(q.specific_internal_energy[p], exact.energy(gamma), weight, scale.energy(gamma));
   }
-  void report(Result& result) const {
+  /// @param with_energy  false where it has no bound: the centre of a blast
+  void report(Result& result, bool with_energy = true) const {
     result.add("L1 density", 0, density.value());
     result.add("L1 velocity", 0, velocity.value());
     result.add("L1 pressure", 0, pressure.value());
-    result.add("L1 energy", 0, energy.value());
+    if (with_energy) result.add("L1 energy", 0, energy.value());
   }
 };
 
@@ -277,7 +278,7 @@ shape = {{ box = {{ lower = [0, 0, 0], upper = [{}, {}, {}] }} }}
   double densest = 0;
   for (const double rho : shell_density) densest = std::max(densest, std::isnan(rho) ? 0.0 : rho);
   Result result = result_of(cells, dx);
-  errors.report(result);
+  errors.report(result, false);
   result.add("radius of the shock over exact", 1, radius / front);
   result.add("largest density of a shell over that behind the shock", 1, densest);
   result.add("kinetic share of the energy", exact.kinetic_share(),

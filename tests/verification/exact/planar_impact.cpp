@@ -226,8 +226,7 @@ shape = {{ box = {{ lower = [0, 0, {:.9g}], upper = [{:.9g}, {:.9g}, {:.9g}] }} 
     result.add(of + "e of the plateau at the first release over exact", 1, f.plateau_first_release.value());
     result.add(of + "T max, K", released.temperature, f.hottest);
     if (!released.phase.empty()) {
-      result.add(of + "not solid, cells", released.melted_fraction > 0 ? cells : 0.0,
-                 f.not_solid / f.mass * cells);
+      result.add(of + "share that is not solid", released.melted_fraction > 0 ? 1.0 : 0.0, f.not_solid / f.mass);
     }
     result.add(of + "p behind the shock over exact", 1, f.shock_pressure.value());
     result.add(of + "rho behind the shock over exact", 1, f.shock_density.value());
