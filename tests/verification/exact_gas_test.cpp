@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sod, Noh and Sedov with the default scheme: errors in L1, orders, wall heating, shock radius. Bounds say how
-// good the scheme is today, not how good it should be; docs/exact_suite.md has all figures.
+// Sod, Noh and Sedov with the default scheme: errors in L1, orders, wall heating, shock radius. Bounds say
+// how good the scheme is today, not how good it should be; docs/exact_suite.md has all figures.
 #include "tests/verification/exact/expect.hpp"
 #include "tests/verification/exact/gas_problems.hpp"
 
@@ -65,18 +65,26 @@ constexpr Order gas_orders[] = {
 constexpr std::array<int, 3> sod_cells{100, 200, 400}, noh_cells{100, 200, 400}, octant_cells{12, 16, 24};
 
 TEST(ExactGas, SodsShockTube) { expect_convergence("Sod", sod, sod_cells, false, gas_bounds, gas_orders); }
-TEST(ExactGas, NohAtAWall) { expect_convergence("Noh, planar", noh_planar, noh_cells, false, gas_bounds, gas_orders); }
+TEST(ExactGas, NohAtAWall) {
+  expect_convergence("Noh, planar", noh_planar, noh_cells, false, gas_bounds, gas_orders);
+}
 TEST(ExactGas, NohAtACentre) {
   expect_convergence("Noh, spherical", noh_spherical, octant_cells, false, gas_bounds, gas_orders);
 }
-TEST(ExactGas, SedovsBlast) { expect_convergence("Sedov", sedov, octant_cells, false, gas_bounds, gas_orders); }
+TEST(ExactGas, SedovsBlast) {
+  expect_convergence("Sedov", sedov, octant_cells, false, gas_bounds, gas_orders);
+}
 
 TEST(ExactGasFine, SodsShockTube) { expect_convergence("Sod", sod, sod_cells, true, gas_bounds, gas_orders); }
-TEST(ExactGasFine, NohAtAWall) { expect_convergence("Noh, planar", noh_planar, noh_cells, true, gas_bounds, gas_orders); }
+TEST(ExactGasFine, NohAtAWall) {
+  expect_convergence("Noh, planar", noh_planar, noh_cells, true, gas_bounds, gas_orders);
+}
 TEST(ExactGasFine, NohAtACentre) {
   expect_convergence("Noh, spherical", noh_spherical, octant_cells, true, gas_bounds, gas_orders);
 }
-TEST(ExactGasFine, SedovsBlast) { expect_convergence("Sedov", sedov, octant_cells, true, gas_bounds, gas_orders); }
+TEST(ExactGasFine, SedovsBlast) {
+  expect_convergence("Sedov", sedov, octant_cells, true, gas_bounds, gas_orders);
+}
 
 }  // namespace
 }  // namespace whipple::verification::exact

@@ -66,16 +66,20 @@ TEST(ExactSolidFine, ElasticPlasticPiston) {
 
 void expect_angular_momentum(const ObliqueImpact& impact, bool fine) {
   for (const std::string field : {"", "turned"}) {
-    expect_convergence(
-        impact.name + (field.empty() ? "" : ", " + field), [&](double cell) { return run(impact, cell, field); },
-        oblique_cells, fine, solid_bounds, {});
+    expect_convergence(impact.name + (field.empty() ? "" : ", " + field),
+                       [&](double cell) { return run(impact, cell, field); }, oblique_cells, fine,
+                       solid_bounds, {});
   }
 }
 
 TEST(ExactSolid, ObliqueCubesKeepTheirAngularMomentum) { expect_angular_momentum(oblique_cubes(), false); }
-TEST(ExactSolid, ObliqueSpheresKeepTheirAngularMomentum) { expect_angular_momentum(oblique_spheres(), false); }
+TEST(ExactSolid, ObliqueSpheresKeepTheirAngularMomentum) {
+  expect_angular_momentum(oblique_spheres(), false);
+}
 TEST(ExactSolidFine, ObliqueCubesKeepTheirAngularMomentum) { expect_angular_momentum(oblique_cubes(), true); }
-TEST(ExactSolidFine, ObliqueSpheresKeepTheirAngularMomentum) { expect_angular_momentum(oblique_spheres(), true); }
+TEST(ExactSolidFine, ObliqueSpheresKeepTheirAngularMomentum) {
+  expect_angular_momentum(oblique_spheres(), true);
+}
 
 }  // namespace
 }  // namespace whipple::verification::exact

@@ -29,7 +29,7 @@ reference_temperature = "1e3 K"
 [strength]
 model = "none"
 )toml",
-                                                                           gamma));
+                                                                            gamma));
 }
 
 std::string column(int cells, double width) {
@@ -109,7 +109,9 @@ shape = {{ box = {{ lower = [{}, 0, 0], upper = [{}, {}, {}] }} }}
     const GasState state = exact.at((x - 0.5) / end);
     errors.add(q, p, q.velocity[p][0], state, gamma, {1, 1, gamma - 1});  // scales: 1
     const double density = q.mass[p] / q.volume[p];
-    const auto entropy_of = [&](double pressure, double rho) { return std::log(pressure / std::pow(rho, gamma)); };
+    const auto entropy_of = [&](double pressure, double rho) {
+      return std::log(pressure / std::pow(rho, gamma));
+    };
     entropy.add(entropy_of(q.pressure[p], density), entropy_of(state.pressure, state.density), q.volume[p]);
     // By the matter, not by the place: the entropy that two cells on either side of the contact have.
     const double depth = std::abs(start[q.id[p]][0] - 0.5);
@@ -189,7 +191,8 @@ shape = {{ sphere = {{ center = [0, 0, 0], radius = 1 }} }}
 )",
                                                                                gas(exact.gamma), cold));
   solver::Simulation simulation = start_with(setup, [](Particles& particles) {
-    for (std::size_t p = 0; p < particles.size(); ++p) particles.velocity[p] = -particles.position[p].normalized();
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      particles.velocity[p] = -particles.position[p].normalized();
   });
   const auto start = positions_by_id(simulation.particles());
   run_to(simulation, end);
@@ -230,14 +233,15 @@ Result sedov(int cells) {
   constexpr double end = 1.0, edge = 1.2, gamma = 1.4, energy = 0.851072;
   const Sedov exact(energy, 1.0, gamma);
   const double dx = edge / cells;
-  const setup::Case setup = default_case(end, octant(edge, cells) + fmt::format(R"(
+  const setup::Case setup =
+      default_case(end, octant(edge, cells) + fmt::format(R"(
 [[body]]
 name = "gas"
 material = "{}"
 initial = {{ density = 1, pressure = {} }}
 shape = {{ box = {{ lower = [0, 0, 0], upper = [{}, {}, {}] }} }}
 )",
-                                                                                 gas(gamma), cold, edge, edge, edge));
+                                                          gas(gamma), cold, edge, edge, edge));
   solver::Simulation simulation = start_with(setup, [&](Particles& particles) {
     const eos::EquationOfState& eos = *setup.materials[0]->eos;
     double mass = 0;
@@ -259,7 +263,8 @@ shape = {{ box = {{ lower = [0, 0, 0], upper = [{}, {}, {}] }} }}
   const double front = exact.shock_radius(end);
   const GasState behind = exact.at(front * (1 - 1e-9), end);
   GasErrors errors{.over_mass = true, .density = {}, .velocity = {}, .pressure = {}, .energy = {}};
-  Layers shells(0.5 * dx, static_cast<std::size_t>(2 * cells)), density(0.5 * dx, static_cast<std::size_t>(2 * cells));
+  Layers shells(0.5 * dx, static_cast<std::size_t>(2 * cells)),
+      density(0.5 * dx, static_cast<std::size_t>(2 * cells));
   for (std::size_t p = 0; p < q.size(); ++p) {
     const double r = q.position[p].norm();
     if (r > edge) continue;
@@ -272,7 +277,8 @@ shape = {{ box = {{ lower = [0, 0, 0], upper = [{}, {}, {}] }} }}
   double radius = 0;
   for (std::size_t i = pressure.size() - 1; i > 0 && radius == 0; --i) {
     if (!(pressure[i - 1] > 0.5)) continue;
-    radius = 0.5 * dx * (static_cast<double>(i) - 0.5 + (pressure[i - 1] - 0.5) / (pressure[i - 1] - pressure[i]));
+    radius =
+        0.5 * dx * (static_cast<double>(i) - 0.5 + (pressure[i - 1] - 0.5) / (pressure[i - 1] - pressure[i]));
   }
   const std::vector<double> shell_density = density.values();
   double densest = 0;

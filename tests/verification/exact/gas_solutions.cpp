@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-
 namespace whipple::verification::exact {
 
 double RiemannProblem::jump(const GasState& state, double pressure, double& slope) const {
@@ -102,7 +101,8 @@ Sedov::Sedov(double energy, double density, double gamma)
     const double shell = 4 * std::numbers::pi / 3 * (std::pow(now.radius, 3) - std::pow(last.radius, 3));
     const auto mean = [&](auto&& of) { return 0.5 * shell * (of(now) + of(last)); };
     if (i > 0) {
-      kinetic += mean([&](const Similar& s) { return 0.5 * rho2 * s.density * u2 * u2 * s.velocity * s.velocity; });
+      kinetic +=
+          mean([&](const Similar& s) { return 0.5 * rho2 * s.density * u2 * u2 * s.velocity * s.velocity; });
       internal += mean([&](const Similar& s) { return p2 * s.pressure / (gamma - 1); });
     }
     last = now;
