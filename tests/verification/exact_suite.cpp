@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes docs/exact_suite.md: the default scheme against problems with exact solutions.
 //   build/release/tests/bin/exact_suite docs/exact_suite.md
+//   build/release/tests/bin/exact_suite other.md "Cu-Al" options.toml   # one problem, tables like [transfer]
 #include <fmt/format.h>
 
 #include <chrono>
+#include <exception>
+#include <fstream>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +19,7 @@
 #include "tests/verification/exact/oblique_impact.hpp"
 #include "tests/verification/exact/piston.hpp"
 #include "tests/verification/exact/planar_impact.hpp"
+#include "tests/verification/exact/runs.hpp"
 
 namespace whipple::verification::exact {
 namespace {
@@ -88,12 +93,16 @@ void write_table(const std::string& path, const std::string& only) {
             {[] { return elastic_plastic_piston(50); }, [] { return elastic_plastic_piston(100); },
              [] { return elastic_plastic_piston(200); }});
   for (const ObliqueImpact& impact : {oblique_cubes(), oblique_spheres()}) {
-    suite.add(
-        "Oblique impact: " + impact.name,
-        "Two bodies in free space, half overlapping; affine fields deformed (default) or turned.",
-        {[&] { return run(impact, 1e-3); }, [&] { return run(impact, 0.75e-3); },
-         [&] { return run(impact, 0.5e-3); }, [&] { return run(impact, 1e-3, "turned"); },
-         [&] { return run(impact, 0.75e-3, "turned"); }, [&] { return run(impact, 0.5e-3, "turned"); }});
+    std::vector<std::function<Result()>> runs;
+    for (const char* field : {"", "turned"}) {
+      if (*field != 0 && !options_of_all_cases().empty()) continue;  // they choose it
+      for (const double cell : {1e-3, 0.75e-3, 0.5e-3}) {
+        runs.emplace_back([=] { return run(impact, cell, field); });
+      }
+    }
+    suite.add("Oblique impact: " + impact.name,
+              "Two bodies in free space, half overlapping; affine fields deformed (default) or turned.",
+              runs);
   }
   io::write_text_atomically(path, suite.text());
 }
@@ -102,10 +111,19 @@ void write_table(const std::string& path, const std::string& only) {
 }  // namespace whipple::verification::exact
 
 int main(int argc, char** argv) {
-  if (argc < 2 || argc > 3) {
-    std::cerr << "usage: exact_suite FILE.md [PART OF A TITLE]\n";
+  if (argc < 2 || argc > 4) {
+    std::cerr << "usage: exact_suite FILE.md [PART OF A TITLE [OPTIONS.toml]]\n";
     return 2;
   }
-  whipple::verification::exact::write_table(argv[1], argc == 3 ? argv[2] : "");
+  if (argc == 4) {
+    std::ifstream options(argv[3]);
+    whipple::verification::exact::options_of_all_cases().assign(std::istreambuf_iterator<char>(options), {});
+  }
+  try {
+    whipple::verification::exact::write_table(argv[1], argc > 2 ? argv[2] : "");
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return 1;
+  }
   return 0;
 }
