@@ -149,13 +149,13 @@ shape = {{ box = {{ lower = [0, 0, {:.9g}], upper = [{:.9g}, {:.9g}, {:.9g}] }} 
     return depth > 4 * cell && depth < length[b] - 3 * cell;
   };
   // Between three cells from the contact and six behind the front, while the front is between 80 and 95 % of
-  // the body's length from the contact.
+  // the body's length from the contact; not of fewer than two cells, which hold the noise of single layers.
   const auto watch_shock = [&](const solver::Simulation& now) {
     const Particles& q = now.particles();
     for (std::size_t p = 0; p < q.size(); ++p) {
       const auto b = q.body[p];
       const double front = exact[b].shocked().shock_velocity * now.state().time;
-      if (front < 0.8 * length[b] || front > 0.95 * length[b]) continue;
+      if (front < 0.8 * length[b] || front > 0.95 * length[b] || front < 11 * cell) continue;
       if (depth_of(q, p) < 3 * cell || depth_of(q, p) > front - 6 * cell) continue;
       bodies[b].shock_pressure.add(q.pressure[p] / exact[b].shocked().state.pressure, q.mass[p]);
       bodies[b].shock_energy.add((q.specific_internal_energy[p] - exact[b].initial_energy()) /
