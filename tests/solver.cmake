@@ -53,3 +53,19 @@ target_link_libraries(whipple_exact PUBLIC whipple_flags whipple_solver)
 target_compile_definitions(whipple_exact PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 add_executable(exact_suite EXCLUDE_FROM_ALL verification/exact_suite.cpp)
 target_link_libraries(exact_suite PRIVATE whipple_exact)
+whipple_test(test_exact STARTS_MPI
+  SOURCES verification/exact_solutions_test.cpp verification/exact_gas_test.cpp verification/exact_impact_test.cpp
+          verification/exact_solid_test.cpp
+  DEPENDS whipple_exact LABELS fast)
+# Finer resolutions are long; all of them have the label exact.
+set(exact_labels ${CMAKE_CURRENT_BINARY_DIR}/test_exact_labels.cmake)
+file(WRITE ${exact_labels} [=[
+foreach(test IN LISTS test_exact_TESTS)
+  if(test MATCHES "Fine")
+    set_tests_properties("${test}" PROPERTIES LABELS "long;exact")
+  else()
+    set_tests_properties("${test}" PROPERTIES LABELS "fast;exact")
+  endif()
+endforeach()
+]=])
+set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${exact_labels})

@@ -19,9 +19,9 @@ TEST(ExactSolutions, RiemannProblemsHaveTorosStarStates) {
     GasState left, right;
     double pressure, velocity;
   };
-  for (const Case& c : {Case{{1, 0, 1}, {0.125, 0, 0.1}, 0.30313, 0.92745},
-                        Case{{1, -2, 0.4}, {1, 2, 0.4}, 0.00189, 0.0},
-                        Case{{1, 0, 1000}, {1, 0, 0.01}, 460.894, 19.5975}}) {
+  for (const Case& c :
+       {Case{{1, 0, 1}, {0.125, 0, 0.1}, 0.30313, 0.92745}, Case{{1, -2, 0.4}, {1, 2, 0.4}, 0.00189, 0.0},
+        Case{{1, 0, 1000}, {1, 0, 0.01}, 460.894, 19.5975}}) {
     const RiemannProblem problem(c.left, c.right, 1.4);
     EXPECT_NEAR(problem.star_pressure(), c.pressure, 6e-6 * std::max(1.0, c.pressure * 20));
     EXPECT_NEAR(problem.star_velocity(), c.velocity, 6e-6 * std::max(1.0, c.velocity * 2));
@@ -39,7 +39,8 @@ TEST(ExactSolutions, SodHasTorosDensitiesAndAContinuousFan) {
   EXPECT_NEAR(problem.at(tail - 1e-6).pressure, problem.star_pressure(), 1e-5);
 }
 
-// Kamm & Timmes (2007), table of the standard uniform-density case: E = 0.851072 brings the shock to 1 m at 1 s.
+// Kamm & Timmes (2007), table of the standard uniform-density case: E = 0.851072 brings the shock to 1 m at 1
+// s.
 TEST(ExactSolutions, SedovHasThePublishedEnergyIntegral) {
   const Sedov sedov(0.851072, 1.0, 1.4);
   EXPECT_NEAR(sedov.alpha(), 0.851072, 2e-6);
@@ -67,15 +68,18 @@ TEST(ExactSolutions, NohKeepsMassAndEnergy) {
   }
 }
 
-// Jump conditions of the whole: wall force = momentum that the fronts stop; work of the moving matter = energy.
+// Jump conditions of the whole: wall force = momentum that the fronts stop; work of the moving matter =
+// energy.
 TEST(ExactSolutions, TwoWavesObeyTheJumpConditions) {
   const Material material = read_material(aluminium("two_waves", "1 GPa"));
   const TwoWaves waves(material, 27.6e9, 1e9, 400);
   const PlateauState &rest = waves.ahead(), &elastic = waves.elastic(), &plastic = waves.plastic();
   EXPECT_NEAR(plastic.velocity, 0.0, 1e-9);
-  EXPECT_GT(waves.elastic_speed(), 1.1 * waves.plastic_speed());
-  // Slow limit of the elastic front: sqrt((K + 4/3 G)/rho).
-  EXPECT_NEAR(waves.elastic_speed(), std::sqrt(5328.0 * 5328.0 + 4 * 27.6e9 / (3 * 2785.0)), 100.0);
+  EXPECT_GT(waves.elastic_speed(), 1.05 * waves.plastic_speed());
+  // A weak elastic front runs with sqrt((K + 4/3 G)/rho); this one with half of s times the strain more.
+  const double weak = std::sqrt(5328.0 * 5328.0 + 4 * 27.6e9 / (3 * 2785.0));
+  EXPECT_GT(waves.elastic_speed(), weak);
+  EXPECT_LT(waves.elastic_speed(), 1.03 * weak);
   const double change1 = elastic.velocity - rest.velocity, change2 = plastic.velocity - elastic.velocity;
   EXPECT_NEAR(elastic.stress, rest.density * waves.elastic_speed() * change1, 1e-6 * elastic.stress);
   EXPECT_NEAR(plastic.stress - elastic.stress, rest.density * waves.plastic_speed() * change2,
@@ -96,7 +100,8 @@ TEST(ExactSolutions, ReleaseKeepsTheEntropyOfTheShock) {
     EXPECT_NEAR(exact.energy(shocked.density), shocked.specific_internal_energy - exact.initial_energy(),
                 1e-6 * shocked.specific_internal_energy)
         << impact.name;
-    EXPECT_NEAR(exact.entropy_share(shocked.density, shocked.specific_internal_energy), 1.0, 1e-9) << impact.name;
+    EXPECT_NEAR(exact.entropy_share(shocked.density, shocked.specific_internal_energy), 1.0, 1e-9)
+        << impact.name;
     const double density = 0.9 * shocked.density;
     EXPECT_NEAR(exact.entropy_share(density, exact.energy(density) + exact.initial_energy()), 1.0, 2e-3)
         << impact.name;

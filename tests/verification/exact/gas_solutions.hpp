@@ -60,9 +60,8 @@ class Sedov {
   struct Similar {
     double radius, velocity, density, pressure;  ///< over those at the shock
   };
-  /// @param v  similarity variable, from that of the centre, 2/(5 gamma), to that of the shock,
-  /// 4/(5 (gamma + 1))
-  [[nodiscard]] Similar similar(double v) const;
+  /// @param x  0 at the centre, 1 at the shock; v - 2/(5 gamma) of the similarity variable v goes with x^10
+  [[nodiscard]] Similar similar(double x) const;
 
   double energy_, density_, gamma_, alpha_ = 0, kinetic_share_ = 0;
 };

@@ -37,8 +37,9 @@ ObliqueImpact oblique_spheres() { return {"spheres of aluminium, 3 km/s", true, 
 Result run(const ObliqueImpact& impact, double cell, const std::string& affine_field) {
   const std::string material =
       impact.spheres
-          ? aluminium("oblique_spall", "0.3 GPa",
-                      "[[failure]]\nmodel = \"tensile_pressure\"\nsource = \"test\"\nspall_strength = \"1 GPa\"\n")
+          ? aluminium(
+                "oblique_spall", "0.3 GPa",
+                "[[failure]]\nmodel = \"tensile_pressure\"\nsource = \"test\"\nspall_strength = \"1 GPa\"\n")
           : aluminium("oblique", "0.3 GPa");
   std::string text = fmt::format(R"(
 [domain]
@@ -67,15 +68,15 @@ velocity = [{}, 0, 0]
     } else {
       const Vector3 a = centre.array() - radius, b = centre.array() + radius;
       text += fmt::format(
-          "shape = {{ box = {{ lower = [{:.9g}, {:.9g}, {:.9g}], upper = [{:.9g}, {:.9g}, {:.9g}] }} }}\n", a[0],
-          a[1], a[2], b[0], b[1], b[2]);
+          "shape = {{ box = {{ lower = [{:.9g}, {:.9g}, {:.9g}], upper = [{:.9g}, {:.9g}, {:.9g}] }} }}\n",
+          a[0], a[1], a[2], b[0], b[1], b[2]);
     }
   }
   const std::string more =
       affine_field.empty() ? "" : "[transfer]\naffine_field = \"" + affine_field + "\"\n";
   solver::Simulation simulation(default_case(impact.end, text, more), parallel::world());
-  const double inertia = transfer::affine_inertia(
-      transfer::shape_function(simulation.setup().transfer.shape_function), cell);
+  const double inertia =
+      transfer::affine_inertia(transfer::shape_function(simulation.setup().transfer.shape_function), cell);
   const Vector3 at_start = angular_momentum(simulation.particles(), inertia).total();
   const std::size_t count = simulation.particles().size();
   EnergyWatch watch;
@@ -87,11 +88,13 @@ velocity = [{}, 0, 0]
     worst = std::max(worst, change.norm() / at_start.norm());
   });
   const AngularMomentum at_end = angular_momentum(simulation.particles(), inertia);
-  Result result{fmt::format("{:g} mm{}", 1e3 * cell, affine_field.empty() ? "" : ", " + affine_field), cell, {}, {}};
+  Result result{
+      fmt::format("{:g} mm{}", 1e3 * cell, affine_field.empty() ? "" : ", " + affine_field), cell, {}, {}};
   result.add("change of the angular momentum over that at the start", 0,
              (at_end.total() - at_start).dot(at_start) / at_start.squaredNorm());
   result.add("largest change on the way", 0, worst);
-  result.add("share of the affine fields at the end", 0, at_end.of_fields.dot(at_start) / at_start.squaredNorm());
+  result.add("share of the affine fields at the end", 0,
+             at_end.of_fields.dot(at_start) / at_start.squaredNorm());
   result.add("particles lost", 0, static_cast<double>(count - simulation.particles().size()));
   result.add("largest momentum error", 0, momentum);
   result.add("largest energy error", 0, watch.worst);

@@ -10,10 +10,10 @@ namespace whipple::verification::exact {
 
 struct ObliqueImpact {
   std::string name;
-  bool spheres;  ///< of 6 mm diameter; else cubes of 6 mm
-  double speed;  ///< m/s, each against the other with half of it
-  double offset; ///< m, of the two paths
-  double end;    ///< s
+  bool spheres;   ///< of 6 mm diameter; else cubes of 6 mm
+  double speed;   ///< m/s, each against the other with half of it
+  double offset;  ///< m, of the two paths
+  double end;     ///< s
 };
 
 /// Cubes at 1 km/s and spheres at 3 km/s, both half overlapping.

@@ -12,9 +12,12 @@ namespace whipple::verification::exact {
 namespace {
 
 /// State behind a front in matter of a stress, by the Hugoniot equation of energy at a density.
-PlateauState behind(const eos::EquationOfState& eos, const PlateauState& before, double density, double yield) {
+PlateauState behind(const eos::EquationOfState& eos, const PlateauState& before, double density,
+                    double yield) {
   const double change = 1 / before.density - 1 / density;
-  const auto energy_at = [&](double stress) { return before.energy + 0.5 * (before.stress + stress) * change; };
+  const auto energy_at = [&](double stress) {
+    return before.energy + 0.5 * (before.stress + stress) * change;
+  };
   const auto stress_of = [&](double energy) { return eos.state(density, energy).pressure + 2 * yield / 3; };
   const double guess = stress_of(before.energy);
   const double stress = eos::find_root([&](double s) { return stress_of(energy_at(s)) - s; }, 0.5 * guess,
@@ -31,8 +34,8 @@ TwoWaves::TwoWaves(const Material& material, double shear_modulus, double yield_
   ahead_ = {rest.density, 0, 0, 0, rest.specific_internal_energy, -speed};
   elastic_ = behind(eos, ahead_, rest.density * std::exp(yield_stress / (2 * shear_modulus)), yield_stress);
   const double density = eos::find_root(
-      [&](double rho) { return behind(eos, elastic_, rho, yield_stress).velocity; }, elastic_.density * (1 + 1e-6),
-      1.5 * elastic_.density, "density behind the plastic front");
+      [&](double rho) { return behind(eos, elastic_, rho, yield_stress).velocity; },
+      elastic_.density * (1 + 1e-6), 1.5 * elastic_.density, "density behind the plastic front");
   plastic_ = behind(eos, elastic_, density, yield_stress);
   const auto speed_of = [&](const PlateauState& before, const PlateauState& after) {
     return (after.stress - before.stress) / (after.velocity - before.velocity) / rest.density;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct PlanarImpact {
   double end;                          ///< s, when both are released
   /// m/s, of the frame of the run against that of the target: what differs is not Galilean invariant.
   double frame = 0.0;
+  /// For messages of tests.
+  friend void PrintTo(const PlanarImpact& impact, std::ostream* out) { *out << impact.name; }
 };
 
 /// The problems of the suite.
@@ -33,7 +36,8 @@ class ShockedAndReleased {
   ShockedAndReleased(const Material& material, const eos::ShockState& shocked);
 
   [[nodiscard]] const eos::ShockState& shocked() const { return shocked_; }
-  /// State at zero pressure; without phase if the matter boils before and has none.
+  /// Where the release first has zero pressure, on the model's own surface (not the equilibrium of liquid and
+  /// vapour, which boiling matter does not reach in such times); without phase if it has none.
   [[nodiscard]] const eos::State& released() const { return released_; }
   /// Specific internal energy on the release isentrope (J/kg, above that of the matter at the start), at the
   /// density, at least that at zero pressure.

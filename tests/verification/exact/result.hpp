@@ -48,13 +48,6 @@ double order_of(const Result& coarse, const Result& fine, std::string_view figur
 /// whose name begins with "L1", and its profiles as a second table.
 std::string markdown(std::span<const Result> results);
 
-/// What a figure of a test has to lie between; `exact` is for the reader, the figure brings its own.
-struct Bound {
-  const char* figure;
-  double exact;
-  double least, greatest;
-};
-
 /// Prints the figures and profiles of a result, one a line.
 void print(const std::string& problem, const Result& result);
 

@@ -12,6 +12,12 @@
 /// Runs of the solver with its default scheme, and what is measured in them.
 namespace whipple::verification::exact {
 
+/// Tables of options for every case of the program, to compare methods; empty: the defaults.
+inline std::string& options_of_all_cases() {
+  static std::string options;
+  return options;
+}
+
 /// A case that names no method: that of the solver's defaults.
 /// @param end   s
 /// @param text  domain and bodies
@@ -19,7 +25,7 @@ namespace whipple::verification::exact {
 inline setup::Case default_case(double end, const std::string& text, const std::string& more = {}) {
   char time[64];
   std::snprintf(time, sizeof time, "[time]\nend = %.9g\n", end);
-  return setup::read_case_text(time + more + text, "exact.toml");
+  return setup::read_case_text(time + options_of_all_cases() + more + text, "exact.toml");
 }
 
 /// A simulation of seeded particles after `change` of their state (velocities, energies).
