@@ -13,9 +13,9 @@ namespace whipple::solver {
 /// A velocity field is one with its image where one of its bodies touches the plane at the start.
 void Simulation::set_up_walls() {
   const std::vector<std::uint8_t> touched = setup::faces_touched(setup_);
-  const bool several = setup_.contact.method != "none";
+  const bool several = setup_.contact_fields.several();
   const std::vector<std::uint8_t> field_of_body =
-      several ? setup_.contact_fields() : std::vector<std::uint8_t>(touched.size(), 0);
+      several ? setup_.contact_fields.of_body : std::vector<std::uint8_t>(touched.size(), 0);
   const unsigned fields = several ? *std::ranges::max_element(field_of_body) + 1U : 1U;
   // What no body has is bonded as well: then nothing has to be looked for.
   const std::uint64_t unused =
