@@ -39,15 +39,11 @@ its mass); "orders" are those of the deviation between neighbouring columns. Pro
 )";
 
 const char* const of_impacts =
-    "Planar impact and release, column of two cells by two between mirror planes, free ends, no strength. "
-    "Figures "
-    "in units of the exact value: specific internal energy e above that at the start, entropy above that at "
-    "the "
-    "start; \"plateau\": beyond four cells from the contact and three from the free surface; \"first "
-    "release\": when "
-    "the pressure of a particle first falls to 2 %; the heat of what follows (spall, gaps that close) is "
-    "only in "
-    "the others.";
+    R"(Planar impact and release, column of two cells by two between mirror planes, free ends, no strength. Figures in units of
+the exact value: specific internal energy e above that at the start, entropy above that at the start. "Plateau": beyond four cells from the contact and
+three from the free surface; "behind the shock": from three cells from the contact to six behind the front, late on its way; "first release": when the
+pressure of a particle first falls to 2 %: the heat of what follows (spall, gaps that close) is only in the other figures. Lead is released to where
+its isentrope first has no pressure on the model's own surface, not to the equilibrium of liquid and vapour.)";
 
 class Suite {
  public:
