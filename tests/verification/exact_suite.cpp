@@ -82,7 +82,7 @@ void write_table(const std::string& path, const std::string& only) {
     suite.add(impact.name,
               fmt::format("{} ({:g} mm) on {} ({:g} mm), {:g} us; the target moves with {:g} m/s.",
                           impact.flyer, 1e3 * impact.flyer_length, impact.target, 1e3 * impact.target_length,
-                          1e6 * impact.end, -impact.frame),
+                          1e6 * impact.end, 0.0 - impact.frame),
               {[&] { return run(impact, 0.4e-3); }, [&] { return run(impact, 0.2e-3); },
                [&] { return run(impact, 0.1e-3); }});
   }
