@@ -36,18 +36,13 @@ OMP_NUM_THREADS=1 build/release/tests/bin/exact_suite docs/exact_suite.md
 The default scheme against exact solutions: every figure of each problem, good or bad. `test_exact` holds the coarser ones within
 bounds. "L1" is the mean of the absolute deviation from the exact solution at the place of the particle, over the volume of the matter (in octants over
 its mass); "orders" are those of the deviation between neighbouring columns. Problems and sources: `tests/verification/exact/`.
-)";
 
-const char* const of_impacts =
-    "Planar impact and release, column of two cells by two between mirror planes, free ends, no strength. "
-    "Figures "
-    "in units of the exact value: specific internal energy e above that at the start, entropy above that at "
-    "the "
-    "start; \"plateau\": beyond four cells from the contact and three from the free surface; \"first "
-    "release\": when "
-    "the pressure of a particle first falls to 2 %; the heat of what follows (spall, gaps that close) is "
-    "only in "
-    "the others.";
+Planar impacts with release: column of two cells by two between mirror planes, free ends, no strength. Figures in units of
+the exact value: specific internal energy e above that at the start, entropy above that at the start. "Plateau": beyond four cells from the contact and
+three from the free surface; "behind the shock": from three cells from the contact to six behind the front, late on its way; "first release": when the
+pressure of a particle first falls to 2 %: the heat of what follows (spall, gaps that close) is only in the other figures. Lead is released to where
+its isentrope first has no pressure on the model's own surface, not to the equilibrium of liquid and vapour.
+)";
 
 class Suite {
  public:
@@ -84,7 +79,10 @@ void write_table(const std::string& path, const std::string& only) {
   suite.add("Sedov", "Blast in gas, gamma 1.4, an octant between mirror planes.",
             {[] { return sedov(12); }, [] { return sedov(16); }, [] { return sedov(24); }});
   for (const PlanarImpact& impact : planar_impacts()) {
-    suite.add(impact.name, of_impacts,
+    suite.add(impact.name,
+              fmt::format("{} ({:g} mm) on {} ({:g} mm), {:g} us; the target moves with {:g} m/s.",
+                          impact.flyer, 1e3 * impact.flyer_length, impact.target, 1e3 * impact.target_length,
+                          1e6 * impact.end, 0.0 - impact.frame),
               {[&] { return run(impact, 0.4e-3); }, [&] { return run(impact, 0.2e-3); },
                [&] { return run(impact, 0.1e-3); }});
   }
