@@ -100,6 +100,16 @@ void for_each_node(BlockGrid& grid, const std::vector<std::uint64_t>& marked, st
   });
 }
 
+/// Nodes beyond a mirror plane may be folded onto others whose block is not next to theirs.
+void clear_beyond_planes(BlockGrid& grid) {
+  const std::span<Node> nodes = grid.all_nodes();
+  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+    for (const auto* pairs : {&plane.pairs, &plane.pairs_apart}) {
+      parallel::for_each(pairs->size(), [&](std::size_t i) { nodes[(*pairs)[i].outside].first = broadcast(0.0); });
+    }
+  }
+}
+
 /// The slots whose particles reach nodes that a conducting particle reaches; nothing if none does on any rank.
 std::optional<std::vector<std::uint64_t>> slots_at_shocks(BlockGrid& grid, const Exchange& exchange) {
   std::vector<std::uint64_t> marked(grid.slots(), 0);
@@ -132,6 +142,7 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
     std::vector<std::uint64_t> reached = around(grid, taking_part);
     if (grid.is_shared()) std::ranges::fill(reached, 1U);  // whatever other ranks bring adds to zero
     for_each_node(grid, reached, grid.slots(), [](Node& node) { node.first = broadcast(0.0); });
+    clear_beyond_planes(grid);
 
     grid.for_each_apart([&](std::size_t slot) {
       if (taking_part[slot] == 0 || grid.particles_in(slot).empty()) return;
