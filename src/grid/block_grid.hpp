@@ -328,6 +328,10 @@ class BlockGrid {
   /// Which fields are one with their images at the mirror planes: a bit per field for each face. Without a
   /// call all are, but at separating walls none. Before `bin`.
   void bond_at_planes(const std::array<std::uint64_t, 6>& fields);
+  /// Is a field one with its image at a face?
+  [[nodiscard]] bool is_bonded_at(std::size_t face, unsigned field) const {
+    return geometry_.boundary[face] != Boundary::outflow && (bonded_[face] >> field & 1U) != 0;
+  }
   /// May some field meet its image at a face as another body?
   [[nodiscard]] bool is_apart_at(std::size_t face) const {
     return geometry_.boundary[face] != Boundary::outflow && ~bonded_[face] != 0;
