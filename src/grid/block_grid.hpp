@@ -79,6 +79,8 @@ struct SlotValues {
 class BlockGrid {
  public:
   static constexpr std::int32_t no_slot = BlockTable::none;
+  /// Nodes beyond a mirror plane that the stencil of a particle before it may hold.
+  static constexpr std::int32_t mirror_reach = 2;
 
   /// Collective over `communicator`.
   BlockGrid(const Geometry& geometry, MPI_Comm communicator);
@@ -373,6 +375,8 @@ class BlockGrid {
   [[nodiscard]] std::vector<WantedBlock> wanted_blocks(std::span<const Vector3> position,
                                                        std::span<const Vector3> velocity, double lookahead,
                                                        Stencil stencil, const Work& work) const;
+  template <class Function>
+  void for_each_mirror_block(const BlockCoordinate& block, Function&& f) const;
   bool locate_guests(std::span<const Vector3> guests, Stencil stencil);
   void list_particles();
   void list_guests();

@@ -15,8 +15,6 @@ using grid::Node;
 using grid::nodes_per_block;
 
 constexpr double no_mass = 1e-300;  // kg
-/// Nodes this far from a plane, in cells, may meet their images: what stencils of matter before it hold.
-constexpr std::int32_t reach = 2;
 /// Matter that comes as near as this (cells) to a wall that it sticks to has arrived.
 constexpr double sticking_gap = 0.04;
 
@@ -72,7 +70,10 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
     const std::int32_t at = mirror.face % 2 == 0 ? 0 : grid.geometry().cells[axis];
     for (std::size_t s = 0; s < grid.slots(); ++s) {
       const std::int32_t first = grid.coordinate(s)[axis] * grid::block_edge;
-      if (first <= at + reach && first + grid::block_edge - 1 >= at - reach) concerned[s] = 1;
+      if (first <= at + BlockGrid::mirror_reach &&
+          first + grid::block_edge - 1 >= at - BlockGrid::mirror_reach) {
+        concerned[s] = 1;
+      }
     }
   }
   for (grid::SlotValues* values : {&extent_, &own_}) {
