@@ -25,7 +25,7 @@ whipple_test(test_setup SOURCES unit/setup_bodies_test.cpp unit/setup_case_test.
              DEPENDS whipple_setup LABELS fast)
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
-add_executable(test_solver_ranks parallel/solver_ranks.cpp parallel/solver_element_ranks.cpp)
+add_executable(test_solver_ranks parallel/solver_ranks.cpp parallel/solver_wall_ranks.cpp parallel/solver_element_ranks.cpp)
 target_link_libraries(test_solver_ranks PRIVATE whipple_flags whipple_solver whipple_analysis GTest::gtest)
 foreach(ranks 1 2 4 8)
   if(ranks GREATER 4)

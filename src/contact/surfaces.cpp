@@ -69,14 +69,11 @@ struct FoldedAxis {
 };
 
 template <int count>
-FoldedAxis<count> fold(const BlockGrid& grid, int axis, int block, int first) {
+FoldedAxis<count> fold(const BlockGrid& grid, int axis, int block, int first, unsigned field) {
   FoldedAxis<count> folded;
   const grid::Geometry& g = grid.geometry();
   const auto a = static_cast<std::size_t>(axis);
-  const auto mirrors = [&](std::size_t face) {
-    return g.boundary[face] == grid::Boundary::symmetry || g.boundary[face] == grid::Boundary::no_slip;
-  };
-  const bool lower = mirrors(2 * a), upper = mirrors(2 * a + 1);
+  const bool lower = grid.is_bonded_at(2 * a, field), upper = grid.is_bonded_at(2 * a + 1, field);
   for (int i = 0; i < count; ++i) {
     const auto n = static_cast<std::size_t>(i);
     int place = block * grid::block_edge + first + i;
@@ -107,9 +104,9 @@ void for_each_place_of(const Points& points, std::uint32_t p, unsigned field,
       grid::position_in_block(geometry.in_cells(points.position[p]), grid::corner_of(block)));
   const transfer::Weights<count> w = transfer::weights_at<Shape>(points, p, in_stencil, geometry.cell_size);
   const std::array<int, 3> first_node = in_stencil.first_node(Shape::stencil);
-  const std::array<FoldedAxis<count>, 3> axes = {fold<count>(grid, 0, block[0], first_node[0]),
-                                                 fold<count>(grid, 1, block[1], first_node[1]),
-                                                 fold<count>(grid, 2, block[2], first_node[2])};
+  const std::array<FoldedAxis<count>, 3> axes = {fold<count>(grid, 0, block[0], first_node[0], field),
+                                                 fold<count>(grid, 1, block[1], first_node[1], field),
+                                                 fold<count>(grid, 2, block[2], first_node[2], field)};
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = 0; j < count; ++j) {
       for (std::size_t k = 0; k < count; ++k) {

@@ -88,9 +88,6 @@ void BlockGrid::lay_out_nodes() {
 
 namespace {
 
-/// Nodes beyond a mirror plane that the stencil of a particle before it may hold.
-constexpr std::int32_t mirror_reach = 2;
-
 /// Position of the n-th bit that is set.
 int nth_bit(std::uint64_t bits, std::size_t n) {
   for (; n > 0; --n) bits &= bits - 1;

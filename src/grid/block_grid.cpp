@@ -132,7 +132,32 @@ std::vector<WantedBlock> BlockGrid::wanted_blocks(std::span<const Vector3> posit
       if (n == neighbour_index(1, 1, 1)) wanted[static_cast<std::size_t>(at)].weight = of_block.block.weight;
     }
   }
+  if (is_shared()) {
+    for (std::size_t i = 0; i < wanted.size(); ++i) {  // while it grows
+      for_each_mirror_block(wanted[i].coordinate, [&](const BlockCoordinate& mirror) {
+        const auto next = static_cast<std::int32_t>(wanted.size());
+        if (wanted_table.find_or_insert(mirror, next) == next) wanted.push_back({mirror, 0.0});
+      });
+    }
+  }
   return wanted;
+}
+
+/// Calls f(block) for the blocks with mirror nodes of those of a block that may meet their images: a rank
+/// that works with the one must know the other.
+template <class Function>
+void BlockGrid::for_each_mirror_block(const BlockCoordinate& block, Function&& f) const {
+  for (std::size_t face = 0; face < 6; ++face) {
+    if (!is_apart_at(face)) continue;
+    const std::size_t a = face / 2;
+    const std::int32_t at = face % 2 == 0 ? 0 : geometry_.cells[a];
+    for (std::int32_t k = at - mirror_reach; k <= at + mirror_reach; ++k) {
+      if (k < block[a] * block_edge || k >= (block[a] + 1) * block_edge) continue;
+      BlockCoordinate mirror = block;
+      mirror[a] = (2 * at - k + block_edge) / block_edge - 1;  // floor for >= -4
+      if (mirror[a] >= -1 && mirror[a] <= geometry_.blocks(static_cast<int>(a))) f(mirror);
+    }
+  }
 }
 
 void BlockGrid::adapt(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,

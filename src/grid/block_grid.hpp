@@ -79,6 +79,8 @@ struct SlotValues {
 class BlockGrid {
  public:
   static constexpr std::int32_t no_slot = BlockTable::none;
+  /// Nodes beyond a mirror plane that the stencil of a particle before it may hold.
+  static constexpr std::int32_t mirror_reach = 2;
 
   /// Collective over `communicator`.
   BlockGrid(const Geometry& geometry, MPI_Comm communicator);
@@ -331,6 +333,10 @@ class BlockGrid {
   /// Which fields are one with their images at the mirror planes: a bit per field for each face. Without a
   /// call all are, but at separating walls none. Before `bin`.
   void bond_at_planes(const std::array<std::uint64_t, 6>& fields);
+  /// Is a field one with its image at a face?
+  [[nodiscard]] bool is_bonded_at(std::size_t face, unsigned field) const {
+    return geometry_.boundary[face] != Boundary::outflow && (bonded_[face] >> field & 1U) != 0;
+  }
   /// May some field meet its image at a face as another body?
   [[nodiscard]] bool is_apart_at(std::size_t face) const {
     return geometry_.boundary[face] != Boundary::outflow && ~bonded_[face] != 0;
@@ -372,6 +378,8 @@ class BlockGrid {
   [[nodiscard]] std::vector<WantedBlock> wanted_blocks(std::span<const Vector3> position,
                                                        std::span<const Vector3> velocity, double lookahead,
                                                        Stencil stencil, const Work& work) const;
+  template <class Function>
+  void for_each_mirror_block(const BlockCoordinate& block, Function&& f) const;
   bool locate_guests(std::span<const Vector3> guests, Stencil stencil);
   void list_particles();
   void list_guests();

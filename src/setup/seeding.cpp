@@ -285,7 +285,8 @@ std::vector<std::uint8_t> faces_touched(const Case& setup) {
       const double depth = lattice.spacing[a] + near;
       (face % 2 == 0 ? layer.upper[a] : layer.lower[a]) = face % 2 == 0 ? plane + depth : plane - depth;
       const auto is_in_layer = [&](const Site& site) { return std::abs(site.position[a] - plane) <= depth; };
-      if (any_site(setup, body, lattice, layer, is_in_layer)) faces[b] |= static_cast<std::uint8_t>(1U << face);
+      if (any_site(setup, body, lattice, layer, is_in_layer))
+        faces[b] |= static_cast<std::uint8_t>(1U << face);
     }
   }
   return faces;

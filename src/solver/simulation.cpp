@@ -64,6 +64,7 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
   bars_ = std::move(seeding.bars);
   for (fem::Mesh& mesh : meshes_) afemp::mark_surface(mesh, setup_.geometry);
   keep_own_elements();
+  set_up_contact();
   set_up_walls();
   if (!carries_affine_velocity()) {
     std::vector<Matrix3>().swap(particles_.affine_velocity);
@@ -90,6 +91,7 @@ Simulation::Simulation(const setup::Case& setup, Particles particles, const RunS
       grid_(setup.geometry, communicator),
       state_(state) {
   gather_elements();
+  set_up_contact();
   set_up_walls();
   require_fields();
   sort_by_body(particles_);  // checkpoints hold the particles of several ranks one after the other
@@ -109,7 +111,6 @@ void Simulation::find_bodies() {
 /// What both constructors end with.
 void Simulation::prepare() {
   set_up_bars();
-  set_up_contact();
   set_up_dissipation();
   if (const setup::Gravity g = setup_.gravity; !g.acceleration.isZero(0.0)) {
     acceleration_ = [g](const Particles&, std::size_t, double time) { return g.at(time); };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Matter at mirror planes and walls: one with its image, or in contact with it (docs/theory/mpm.md, section 3).
+// Matter at mirror planes and walls: one with its image, or in contact with it (docs/theory/mpm.md, section
+// 3).
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -13,13 +14,11 @@ namespace whipple::solver {
 /// A velocity field is one with its image where one of its bodies touches the plane at the start.
 void Simulation::set_up_walls() {
   const std::vector<std::uint8_t> touched = setup::faces_touched(setup_);
-  const bool several = setup_.contact_fields.several();
-  const std::vector<std::uint8_t> field_of_body =
-      several ? setup_.contact_fields.of_body : std::vector<std::uint8_t>(touched.size(), 0);
-  const unsigned fields = several ? *std::ranges::max_element(field_of_body) + 1U : 1U;
+  std::vector<std::uint8_t> field_of_body = contact_field_of_body_;
+  field_of_body.resize(touched.size(), 0);  // one field without contact of bodies
+  const unsigned fields = *std::ranges::max_element(field_of_body) + 1U;
   // What no body has is bonded as well: then nothing has to be looked for.
-  const std::uint64_t unused =
-      fields >= grid::maximum_fields ? 0 : ~((std::uint64_t{1} << fields) - 1);
+  const std::uint64_t unused = fields >= grid::maximum_fields ? 0 : ~((std::uint64_t{1} << fields) - 1);
   std::array<std::uint64_t, 6> bonded{};
   bonded.fill(unused);
   for (std::size_t b = 0; b < touched.size(); ++b) {

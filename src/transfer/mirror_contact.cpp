@@ -15,8 +15,6 @@ using grid::Node;
 using grid::nodes_per_block;
 
 constexpr double no_mass = 1e-300;  // kg
-/// Nodes this far from a plane, in cells, may meet their images: what stencils of matter before it hold.
-constexpr std::int32_t reach = 2;
 /// Matter that comes as near as this (cells) to a wall that it sticks to has arrived.
 constexpr double sticking_gap = 0.04;
 
@@ -48,7 +46,8 @@ double common_relaxation(double mass, double beta, double other_mass, double oth
 double loss(Lanes own_velocity, Lanes own_increment, const Node& taken) {
   const double mass = own_velocity[3], beta = taken.first[3];
   const Lanes v = taken.first, d = taken.second;
-  return mass * sum3((own_increment - d) * (v + 0.5 * d) - (own_velocity - v) * ((1.0 - beta) * d - beta * v));
+  return mass *
+         sum3((own_increment - d) * (v + 0.5 * d) - (own_velocity - v) * ((1.0 - beta) * d - beta * v));
 }
 
 }  // namespace
@@ -71,7 +70,10 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
     const std::int32_t at = mirror.face % 2 == 0 ? 0 : grid.geometry().cells[axis];
     for (std::size_t s = 0; s < grid.slots(); ++s) {
       const std::int32_t first = grid.coordinate(s)[axis] * grid::block_edge;
-      if (first <= at + reach && first + grid::block_edge - 1 >= at - reach) concerned[s] = 1;
+      if (first <= at + BlockGrid::mirror_reach &&
+          first + grid::block_edge - 1 >= at - BlockGrid::mirror_reach) {
+        concerned[s] = 1;
+      }
     }
   }
   for (grid::SlotValues* values : {&extent_, &own_}) {
@@ -112,12 +114,16 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
     plane->share.assign(plane->couples.size(), 0.0);
     ++plane;
   }
+  // By where the nodes are, not by which blocks happen to be active around them.
   std::vector<std::uint8_t> planes_of(heat_.size(), 0);
-  for (const Plane& of : planes_) {
-    for (const Couple& couple : of.couples) {
-      ++planes_of[place(couple.node) / lanes_per_node];
-      if (couple.mirror != couple.node) ++planes_of[place(couple.mirror) / lanes_per_node];
-    }
+  const auto count = [&](std::uint32_t node) {
+    if (concerns_block(node / nodes_per_block)) ++planes_of[place(node) / lanes_per_node];
+  };
+  for (const BlockGrid::MirrorPlane& mirror : mirrors) {
+    if (!grid.is_apart_at(static_cast<std::size_t>(mirror.face))) continue;
+    for (const std::uint32_t node : mirror.near) count(node);
+    for (const std::uint32_t node : mirror.on_plane_apart) count(node);
+    for (const BlockGrid::MirrorPair& pair : mirror.pairs_apart) count(pair.outside);
   }
   for (Plane& of : planes_) {
     for (std::uint32_t c = 0; c < of.couples.size(); ++c) {
@@ -169,11 +175,13 @@ bool MirrorContact::sticks(const Plane& plane, double gap) const {
   return plane.of.kind == grid::Boundary::no_slip && gap < sticking_gap * cell_size_;
 }
 
-/// Where planes meet, all images of a node must have one beta: what one plane has mixed would otherwise change
-/// with the next one. (beta does nothing at nodes that take their own step.)
+/// Where planes meet, all images of a node must have one beta: what one plane has mixed would otherwise
+/// change with the next one. (beta does nothing at nodes that take their own step.)
 void MirrorContact::join_relaxation_at_corners(std::span<Node> nodes, const Among& among) {
   joint_mass_.resize(heat_.size());
-  const auto mass_of = [&](std::uint32_t node) -> double& { return joint_mass_[place(node) / lanes_per_node]; };
+  const auto mass_of = [&](std::uint32_t node) -> double& {
+    return joint_mass_[place(node) / lanes_per_node];
+  };
   for (const Plane& plane : planes_) {
     for (const std::uint32_t c : plane.at_corners) {
       for (const std::uint32_t node : {plane.couples[c].node, plane.couples[c].mirror}) {
@@ -251,7 +259,8 @@ void MirrorContact::apply(BlockGrid& grid, double dt, const Among& among) {
     made_heat_ = made_heat_ || std::ranges::any_of(plane.share, [](double share) { return share > 0.0; });
   }
   for (const Couple& pair : folded_) {
-    if (among(pair.node)) heat_[place(pair.node) / lanes_per_node] = heat_[place(pair.mirror) / lanes_per_node];
+    if (among(pair.node))
+      heat_[place(pair.node) / lanes_per_node] = heat_[place(pair.mirror) / lanes_per_node];
   }
   shares_known_ = true;
 }

@@ -17,8 +17,8 @@ namespace whipple::transfer {
 /// (grid::BlockGrid::bond_at_planes): the image is another body with the reflected nodes (docs/theory/mpm.md,
 /// equations 3.6 to 3.11). Matter that flies towards a plane does not act on it before it touches.
 ///
-/// A node and its mirror node may belong to different ranks. Every rank whose points reach both computes the
-/// contact of the two alike, from what their owners tell it.
+/// A node and its mirror node may belong to different ranks. Every rank that works with either has both
+/// active, and computes the contact of the two as the others do, from what their owners tell it.
 class MirrorContact {
  public:
   /// Which nodes a call concerns; a node and its mirror node alike.

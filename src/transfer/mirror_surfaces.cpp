@@ -59,8 +59,8 @@ void MirrorContact::extend(const Particles& particles, std::span<const Vector3> 
         first[n] = nowhere;
         continue;
       }
-      const auto block = static_cast<std::size_t>(
-          grid.nodes(static_cast<std::size_t>(neighbour), field) - grid.all_nodes().data());
+      const auto block = static_cast<std::size_t>(grid.nodes(static_cast<std::size_t>(neighbour), field) -
+                                                  grid.all_nodes().data());
       first[n] = first_of_block_[block / grid::nodes_per_block];
     }
     for (const std::uint32_t p : members) {

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact of matter with its image on several ranks: a node and its mirror node may belong to different
+// ranks.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "src/setup/case.hpp"
+#include "tests/parallel/solver_ranks.hpp"
+#include "tests/verification/contact_problems.hpp"
+#include "tests/verification/same_state.hpp"
+
+namespace whipple::solver {
+namespace {
+
+/// Three blocks that fly into the corner of three walls.
+setup::Case blocks_into_corner(const std::string& contact) {
+  using namespace verification;
+  constexpr double cell = 1e-3;
+  const std::string material = aluminium("aluminium_of_ranks", "0.3 GPa");
+  const auto block = [&](const char* name, const Vector3& lower, double size, const Vector3& velocity) {
+    const Vector3 upper = lower + Vector3::Constant(size);
+    return BodyOptions{name, material, box(cell * lower, cell * upper), velocity}.toml();
+  };
+  return setup::read_case_text(
+      Method{}.time_toml(2e-6) + Method{}.toml() + contact +
+          "[domain]\nlower = [0, 0, 0]\nupper = [0.024, 0.024, 0.024]\ncell_size = 0.001\nboundary = { "
+          "x_lower = \"symmetry\", y_lower = \"separating\", z_lower = \"no_slip\" }\n" +
+          block("first", {0.4, 0.9, 0.7}, 6, {-700, -1500, -800}) +
+          block("second", {0.3, 7.6, 0.7}, 5, {-900, -2500, -300}) +
+          block("third", {0.5, 1.1, 8.0}, 6, {-900, -800, -1900}),
+      "corner.toml");
+}
+
+class WallRanks : public testing::TestWithParam<const char*> {};
+
+TEST_P(WallRanks, AgreeWithOneRank) {
+  const setup::Case setup = blocks_into_corner(GetParam());
+  Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
+  advance_to(together, 2e-6);
+  advance_to(alone, 2e-6);
+  expect_equal(together, alone, 1e-11);
+  const Ledger &a = together.state().ledger, &b = alone.state().ledger;
+  EXPECT_GT(b.contact_heat, 1e-4 * b.initial.energy());
+  EXPECT_NEAR(a.contact_heat, b.contact_heat, 1e-11 * b.initial.energy());
+}
+
+INSTANTIATE_TEST_SUITE_P(Contact, WallRanks,
+                         testing::Values("[contact]\nmethod = \"none\"\n",
+                                         "[contact]\nmethod = \"multi_field\"\nfriction = 0.2\n"));
+
+}  // namespace
+}  // namespace whipple::solver
