@@ -63,6 +63,33 @@ struct Stop {
   }
 };
 
+/// Two fields, by their numbers, at a node where both have mass and a normal.
+struct Meeting {
+  std::size_t a, b;
+  Vector3 normal;
+  double open;   // m, between their surfaces
+  double share;  // of the step in which they touch
+};
+
+/// Which fields are stopped by impulses: those without relaxation, such as of elements, and what touches
+/// them.
+void choose(Response response, const std::vector<Side>& sides, const std::vector<Meeting>& meetings,
+            std::vector<std::uint8_t>& by_impulses) {
+  by_impulses.assign(sides.size(), response == Response::impulses ? 1 : 0);
+  if (response == Response::impulses) return;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    by_impulses[s] = sides[s].mass >= no_mass && sides[s].relaxation() == 0.0 ? 1 : 0;
+  }
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (const Meeting& m : meetings) {
+      if (m.share == 0.0 || by_impulses[m.a] == by_impulses[m.b]) continue;
+      by_impulses[m.a] = by_impulses[m.b] = 1;
+      grown = true;
+    }
+  }
+}
+
 }  // namespace
 
 /// Distance of the surfaces of two fields beyond what counts as touching.
@@ -84,6 +111,8 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt) const {
     const std::uint32_t slot = grid.contact_slots()[c];
     const auto fields = static_cast<std::size_t>(std::popcount(grid.fields(slot)));
     std::vector<Side> sides(fields);
+    std::vector<Meeting> meetings;
+    std::vector<std::uint8_t> by_impulses;  // of each side
     std::vector<Stop> stops;
     Pressing pressing(settings_.friction);
     for (int i = 0; i < grid::nodes_per_block; ++i) {
@@ -93,8 +122,7 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt) const {
         sides[next++] = {node, node->second[3], 0.0};
         node->second[3] = 0.0;
       });
-      stops.clear();
-      pressing.begin(sides);
+      meetings.clear();
       for (std::size_t a = 0; a < fields; ++a) {
         for (std::size_t b = a + 1; b < fields; ++b) {
           if (sides[a].mass < no_mass || sides[b].mass < no_mass) continue;
@@ -102,11 +130,19 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt) const {
               surfaces_.at(c, Surfaces::pair_index(a, b, fields), static_cast<std::size_t>(i));
           if (gap.normal.isZero(0.0)) continue;
           const double open = distance(grid, gap);
-          if (settings_.response == Response::common_field) {
-            pressing.add(a, b, gap.normal, open, dt);
-          } else {
-            stops.emplace_back(sides[a], sides[b], gap.normal, open / dt);
-          }
+          meetings.push_back(
+              {a, b, gap.normal, open, Pressing::share(sides[a], sides[b], gap.normal, open, dt)});
+        }
+      }
+      if (meetings.empty()) continue;
+      choose(settings_.response, sides, meetings, by_impulses);
+      stops.clear();
+      pressing.begin(sides);
+      for (const Meeting& m : meetings) {
+        if (by_impulses[m.a] != 0 || by_impulses[m.b] != 0) {
+          stops.emplace_back(sides[m.a], sides[m.b], m.normal, m.open / dt);
+        } else if (m.share > 0.0) {
+          pressing.add(m.a, m.b, m.normal, m.share);
         }
       }
       pressing.apply(of_slot[c]);

@@ -20,19 +20,16 @@ void Pressing::begin(std::span<Side> sides) {
   pairs_.clear();
 }
 
-void Pressing::add(std::size_t a, std::size_t b, const Vector3& normal, double open, double dt) {
-  const Side &first = sides_[a], &second = sides_[b];
-  double share = 1.0;
-  if (open > 0.0) {  // (4.2)
-    const double closing = -normal.dot(second.after() - first.after()) * dt;
-    if (closing <= open) return;
-    share = 1.0 - open / closing;
-  }
-  pairs_.push_back({.a = a,
-                    .b = b,
-                    .normal = normal,
-                    .mass = first.mass * second.mass / (first.mass + second.mass),
-                    .share = share});
+double Pressing::share(const Side& a, const Side& b, const Vector3& normal, double open, double dt) {
+  if (open <= 0.0) return 1.0;
+  const double closing = -normal.dot(b.after() - a.after()) * dt;
+  return closing > open ? 1.0 - open / closing : 0.0;
+}
+
+void Pressing::add(std::size_t a, std::size_t b, const Vector3& normal, double share) {
+  const double first = sides_[a].mass, second = sides_[b].mass;
+  pairs_.push_back(
+      {.a = a, .b = b, .normal = normal, .mass = first * second / (first + second), .share = share});
 }
 
 void Pressing::apply(Balance& balance) {
@@ -64,8 +61,7 @@ std::size_t Pressing::leader(std::size_t side) const {
   return side;
 }
 
-/// (4.3): of the mean sound speed of all fields that press on one another, directly or by way of others; none
-/// where nodes of elements let none have any (docs/theory/afemp.md, 2).
+/// (4.3): of the mean sound speed of all fields that press on one another, directly or by way of others.
 void Pressing::find_common_relaxation() {
   for (std::size_t s = 0; s < sides_.size(); ++s) former_[s].leader = s;
   for (const Pair& pair : pairs_) {
@@ -81,15 +77,14 @@ void Pressing::find_common_relaxation() {
       continue;
     }
     double mass = 0.0, sum = 0.0;
-    bool equal = true, held = false;  // the first in schemes that prescribe it
+    bool equal = true;  // as in schemes that prescribe it
     for (std::size_t t = s; t < sides_.size(); ++t) {
       if (leader(t) != s || sides_[t].mass < no_mass) continue;
       mass += sides_[t].mass;
       sum += sides_[t].mass * former_[t].logarithm;
       equal = equal && sides_[t].relaxation() == sides_[s].relaxation();
-      held = held || sides_[t].relaxation() == 0.0;
     }
-    relaxation_[s] = held ? 0.0 : equal ? sides_[s].relaxation() : -std::expm1(sum / mass);
+    relaxation_[s] = equal ? sides_[s].relaxation() : -std::expm1(sum / mass);
   }
 }
 
@@ -129,20 +124,15 @@ void Pressing::solve() {
       pair.forces = std::sqrt(pair.mass) * impulses(k, 1);
     }
   }
-  for (Pair& pair : pairs_) {  // (4.5)
-    const double beta = relaxation_[pair.a];
-    pair.given = -(pair.forces + beta * pair.velocity);
-    // Without relaxation forces alone tell nothing of bodies that meet: they have none yet.
-    pair.pressed = beta > 0.0 ? pair.given : -(pair.forces + pair.velocity);
-  }
+  for (Pair& pair : pairs_) pair.given = -(pair.forces + relaxation_[pair.a] * pair.velocity);  // (4.5)
 }
 
 /// Takes out the pair that pulls most, if one does: surfaces do not hold together. @returns whether others
 /// are to be solved for anew
 bool Pressing::drop_tension() {
   if (pairs_.empty()) return false;
-  const auto least = std::ranges::min_element(pairs_, {}, &Pair::pressed);
-  if (least->pressed > 0.0) return false;
+  const auto least = std::ranges::min_element(pairs_, {}, &Pair::given);
+  if (least->given > 0.0) return false;
   pairs_.erase(least);
   return !pairs_.empty();
 }
@@ -187,7 +177,7 @@ void Pressing::mix(Balance& balance) {
   for (const Pair& pair : pairs_) {
     const double heat = heat_of(pair) + rest / static_cast<double>(pairs_.size());
     balance.contact_heat += heat;
-    balance.impulse += std::abs(pair.given);
+    balance.impulse += pair.given;
     sides_[pair.a].heat += 0.5 * heat;
     sides_[pair.b].heat += 0.5 * heat;
   }

@@ -11,18 +11,23 @@ namespace whipple::contact {
 
 /// Bodies that press on one another at a node move as one along the normal between them, for the share of the
 /// step in which they touch; else each is free (docs/theory/contact.md, equations 4.1 to 4.12). It works on
-/// one node at a time and keeps its memory from one to the next.
+/// one node at a time and keeps its memory from one to the next. Fields without relaxation (beta = 0) would
+/// keep what they were apart by; they need other impulses.
 class Pressing {
  public:
   /// @param friction  Coulomb's coefficient
   explicit Pressing(double friction) : friction_(friction) {}
 
-  /// Begins with a node where these fields meet; they must outlive `apply`.
-  void begin(std::span<Side> sides);
-  /// Two of them, numbers of the sides, may touch.
+  /// theta (4.2): share of the step in which two fields touch.
   /// @param normal  unit vector from a to b
   /// @param open    m, distance of their surfaces; <= 0: they touch
-  void add(std::size_t a, std::size_t b, const Vector3& normal, double open, double dt);
+  [[nodiscard]] static double share(const Side& a, const Side& b, const Vector3& normal, double open,
+                                    double dt);
+
+  /// Begins with a node where these fields meet; they must outlive `apply`.
+  void begin(std::span<Side> sides);
+  /// Two of them, numbers of the sides, touch for a share of the step above 0.
+  void add(std::size_t a, std::size_t b, const Vector3& normal, double share);
   /// Changes velocities, increments and relaxations of the fields that press, and books what that takes.
   void apply(Balance& balance);
 
@@ -36,7 +41,6 @@ class Pressing {
     double velocity = 0;  // impulse that makes the velocities common, N s
     double forces = 0;    // the same of the increments
     double given = 0;     // normal impulse on b, N s
-    double pressed = 0;   // positive: the fields press, N s
     double dragged = 0;   // tangential impulse, N s
   };
   /// A field as it came to the node.

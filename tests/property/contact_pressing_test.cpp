@@ -37,7 +37,10 @@ struct Trial {
     }
     Pressing pressing(friction);
     pressing.begin(sides);
-    for (const Meeting& m : meetings) pressing.add(m.a, m.b, m.normal, m.open, dt);
+    for (const Meeting& m : meetings) {
+      const double share = Pressing::share(sides[m.a], sides[m.b], m.normal, m.open, dt);
+      if (share > 0.0) pressing.add(m.a, m.b, m.normal, share);
+    }
     balance = {};
     pressing.apply(balance);
     heat = 0.0;
@@ -90,7 +93,7 @@ class Pressed : public ::testing::TestWithParam<int> {
       const Vector3 v =
           300.0 * Vector3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) + Vector3(900, 0, -200);
       const Vector3 d = 300.0 * Vector3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-      t.before.push_back({Lanes{v[0], v[1], v[2], uniform(0.0, 1.0)}, Lanes{d[0], d[1], d[2], 0.0}});
+      t.before.push_back({Lanes{v[0], v[1], v[2], uniform(0.01, 1.0)}, Lanes{d[0], d[1], d[2], 0.0}});
     }
     for (std::size_t a = 0; a < t.mass.size(); ++a) {
       for (std::size_t b = a + 1; b < t.mass.size(); ++b) {

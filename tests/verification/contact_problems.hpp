@@ -16,8 +16,9 @@ struct ContactOptions {
   std::string normal = "separating";
   double friction = 0.0;
   std::string more = {};
+  std::string method = "auto";
   [[nodiscard]] std::string toml() const {
-    return "[contact]\nmethod = \"multi_field\"\nnormal = \"" + normal +
+    return "[contact]\nmethod = \"" + method + "\"\nnormal = \"" + normal +
            "\"\nfriction = " + std::to_string(friction) + "\n" + more;
   }
 };
@@ -35,9 +36,11 @@ struct BodyOptions {
   std::string name, material, shape;
   Vector3 velocity = Vector3::Zero();
   std::string more = {};  ///< further lines, such as those of its discretization
-  [[nodiscard]] std::string toml() const {
+  /// @param apart  it is bonded to no other body, even if they touch at the start and move alike
+  [[nodiscard]] std::string toml(bool apart) const {
     return "[[body]]\nname = \"" + name + "\"\nmaterial = \"" + material +
-           "\"\nvelocity = " + vector3(velocity) + "\nshape = { " + shape + " }\n" + more;
+           "\"\nvelocity = " + vector3(velocity) + "\nshape = { " + shape + " }\n" +
+           (apart ? "contact_group = \"" + name + "\"\n" : "") + more;
   }
 };
 
@@ -52,13 +55,13 @@ struct Problem {
   Method method;
   double end = 0.0;
   std::string domain;
-  std::string contact;
+  std::string contact;  ///< table; empty: the default, by which bodies may be bonded
   std::vector<BodyOptions> bodies;
   std::string more = {};
   [[nodiscard]] setup::Case read() const {
     std::string text = method.time_toml(end) + method.toml() + "[output]\nmaximum_energy_error = 10.0\n" +
                        domain + contact + more;
-    for (const BodyOptions& body : bodies) text += body.toml();
+    for (const BodyOptions& body : bodies) text += body.toml(!contact.empty());
     return setup::read_case_text(text, "contact.toml");
   }
 };
@@ -76,13 +79,14 @@ struct MeetingBars {
   explicit MeetingBars(int cells) : dx(length / cells), gap(0.3 * dx) {}
   [[nodiscard]] double touch() const { return 0.5 * gap / speed; }
   /// @param left, right  further lines of the bodies
-  [[nodiscard]] Problem problem(const std::string& left = {}, const std::string& right = {}) const {
+  [[nodiscard]] Problem problem(const std::string& left = {}, const std::string& right = {},
+                                const std::string& method = "auto") const {
     Problem problem;
     problem.method.linear_viscosity = problem.method.quadratic_viscosity = 0.0;
     problem.end = 1.6 * 2.0 * length / 5328.0 + touch();
     problem.domain = "[domain]\nlower = [-0.03, 0, 0]\nupper = " + vector3({0.03, dx, dx}) +
                      "\ncell_size = " + number(dx) + "\n" + column_sides;
-    problem.contact = ContactOptions{}.toml();
+    problem.contact = ContactOptions{.method = method}.toml();
     problem.bodies = {{"left",
                        elastic_aluminium(),
                        box({-length - gap / 2, 0, 0}, {-gap / 2, dx, dx}),

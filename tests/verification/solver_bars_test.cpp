@@ -191,7 +191,12 @@ TEST(Bars, FaultsAreNamed) {
         << error_of(replaced(impact(), old, by));
   };
   EXPECT_EQ(error_of(impact()), "");
-  expect_error("contact_group = \"target\"", "", "bars have no surface of their own");
+  const std::string alone = replaced(impact(), "contact_group = \"target\"", "");
+  EXPECT_NE(
+      error_of(replaced(alone, "\"auto\"", "\"multi_field\"")).find("bars have no surface of their own"),
+      std::string::npos);
+  EXPECT_EQ(setup::read_case_text(alone, "bars.toml").contact_fields.of_body,
+            (std::vector<std::uint8_t>{0, 1, 1}));  // with the body around them
   expect_error("bar_diameter = 4e-4, ", "", "bars need a 'bar_diameter'");
   expect_error("from = [0.5e-3, 0, 2e-3]", "from = [0.5e-3, -1e-3, 2e-3]", "reach out of the domain along y");
   expect_error("name = \"block\"\n", "name = \"block\"\ndiscretization = { method = \"finite_elements\" }\n",
