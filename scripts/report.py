@@ -33,6 +33,16 @@ except ImportError as missing:
 COUNTED = (("below_cold_curve", "points clamped to the cold curve"),
            ("at_pressure_floor", "points held at the floor of their pressure"),
            ("limited_volume_changes", "limited changes of volume"))
+# What took kinetic energy from the motion, and where it is (docs/theory/dissipation.md).
+DISSIPATION = (("viscous_work", "artificial viscosity", "internal energy"),
+               ("plastic_work", "plastic work", "internal energy (and stored cold work)"),
+               ("contact_heat", "contact, normal", "internal energy"),
+               ("friction_heat", "contact, friction", "internal energy"),
+               ("transfer_heat", "transfers between particles and grid", "internal energy"),
+               ("unresolved_kept", "transfers and viscosity", "unresolved motion"),
+               ("unresolved_returned", "unresolved motion where gaps close", "internal energy"),
+               ("conducted_heat", "conduction inside shocks", "moved between particles"))
+FINER_CELLS_ADVISED = 0.05  # of the kinetic energy, unresolved
 # Columns of the table of bodies: heading and factor.
 BODY_COLUMNS = {"mass": ("mass (g)", 1e3), "axial_momentum": ("axial momentum (kg m/s)", 1),
                 "mean_axial_velocity": ("mean axial velocity (m/s)", 1), "kinetic_energy": ("kinetic energy (J)", 1),
@@ -222,6 +232,22 @@ class Report:
         self.add_figure("step.png", "Time step, largest pressure and temperature of any particle.",
                         report_curves.step_figure(run))
 
+    def dissipation(self):
+        history, scale = self.run.history, self.run.multiplicity
+        rows = [[cause, number(scale * history.last(name), 4), into] for name, cause, into in DISSIPATION
+                if history.last(name)]
+        if not rows:
+            return
+        self.page.heading("Where the energy went")
+        self.page.table(["cause", "energy (J)", "into"], rows, text_columns=(0, 2))
+        share = history.last("unresolved_share")
+        if share:
+            text = (f"Unresolved motion: {number(scale * history.last('unresolved_energy'), 4)} J, "
+                    f"{100 * share:.2g} % of the kinetic energy.")
+            if share > FINER_CELLS_ADVISED:
+                text += " Above 5 % the cells are too coarse for the motion of the fragments: finer ones would change the result."
+            self.page.note(text)
+
     def gauges(self):
         history = report_gauges.read(self.run)
         figure = report_gauges.figure(history)
@@ -279,6 +305,7 @@ def main(words=None):
         report.given_figures(arguments.figure)
         report.cloud()
         report.curves()
+        report.dissipation()
         report.gauges()
         print(report.write())
     except (NotARun, OSError) as error:

@@ -506,5 +506,39 @@ TEST(Ranges, ListsChunksAndThreadsGiveBitwiseTheSamePoints) {
   });
 }
 
+/// Viscosity that heats over the whole of it, of one step of uniform closing in a point at `density`.
+/// @param of_field  rate of the affine field over that of the grid
+double share_that_heats(double density, double of_field, std::uint8_t failed = 0) {
+  const Material material = make_material("fluid", std::make_shared<LinearInEnergy>());
+  MaterialPoints points = points_of(material, 1);
+  points.volume[0] = points.mass[0] / density;
+  points.failed[0] = failed;
+  points.heating_viscosity.assign(1, 0.0);
+  const double rate = 1e5;  // 1/s
+  const Matrix3 gradient = -rate / 3.0 * Matrix3::Identity();
+  const std::vector<double> affine = {-of_field * rate};
+  const UpdateSettings settings{.time_step = 1e-9,
+                                .cell_size = 1e-3,
+                                .linear_viscosity = 0.0,
+                                .affine_divergence = affine,
+                                .affine_gain = 1.5,
+                                .affine_compression = 0.25,
+                                .initial_density = material.reference.density};
+  update_material(material, points, 0, 1, std::span(&gradient, 1), settings);
+  EXPECT_GT(points.artificial_viscosity[0], 0.0);
+  return points.heating_viscosity[0] / points.artificial_viscosity[0];
+}
+
+// docs/theory/dissipation.md, eq. 5, 6; with c1 = 0 the viscosity goes with the square of the rate.
+TEST(HeatingViscosity, FollowsTheAffineFieldWhereMatterMeetsAndIsAllOfItInShocks) {
+  const double start = make_material("fluid", std::make_shared<LinearInEnergy>()).reference.density;
+  EXPECT_NEAR(share_that_heats(1.0001 * start, 0.0), 0.0, 1e-6);
+  EXPECT_NEAR(share_that_heats(1.0001 * start, 0.4), 0.36, 1e-3);
+  EXPECT_EQ(share_that_heats(1.0001 * start, 1.0), 1.0);  // uniform compression
+  EXPECT_NEAR(share_that_heats(1.125 * start, 0.0), 0.25, 1e-3);
+  EXPECT_EQ(share_that_heats(1.3 * start, 0.0), 1.0);
+  EXPECT_EQ(share_that_heats(0.99 * start, 0.0), 1.0);  // thinner than at the start: gaps close
+}
+
 }  // namespace
 }  // namespace whipple

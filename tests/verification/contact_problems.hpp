@@ -37,7 +37,7 @@ struct BodyOptions {
   Vector3 velocity = Vector3::Zero();
   std::string more = {};  ///< further lines, such as those of its discretization
   /// @param apart  it is bonded to no other body, even if they touch at the start and move alike
-  [[nodiscard]] std::string toml(bool apart) const {
+  [[nodiscard]] std::string toml(bool apart = false) const {
     return "[[body]]\nname = \"" + name + "\"\nmaterial = \"" + material +
            "\"\nvelocity = " + vector3(velocity) + "\nshape = { " + shape + " }\n" +
            (apart ? "contact_group = \"" + name + "\"\n" : "") + more;
