@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -36,6 +37,27 @@ void require_memory(const setup::Case& setup, MPI_Comm communicator) {
       setup.file.string(), format_bytes(needed), format_bytes(available)));
 }
 
+namespace {
+
+/// Faces that a body touches and is one with its image at, and faces whose wall or image it meets as another
+/// body; empty where there are none.
+std::string at_faces(const setup::Case& setup, const Simulation& simulation, std::size_t body) {
+  constexpr std::array<const char*, 6> names = {"x_lower", "x_upper", "y_lower",
+                                                "y_upper", "z_lower", "z_upper"};
+  std::string held, met;
+  for (std::size_t face = 0; face < names.size(); ++face) {
+    if (setup.geometry.boundary[face] == grid::Boundary::outflow) continue;
+    std::string& list = simulation.is_one_with_image(body, face) ? held : met;
+    list += (list.empty() ? "" : ", ") + std::string(names[face]);
+  }
+  std::string text;
+  if (!held.empty()) text += fmt::format("  held at {}: touches at the start\n", held);
+  if (!met.empty()) text += fmt::format("  contact at {} when it comes there\n", met);
+  return text;
+}
+
+}  // namespace
+
 std::string check(const RunOptions& options) {
   const MPI_Comm communicator = parallel::world();
   set_threads(options.threads, communicator);
@@ -65,6 +87,7 @@ std::string check(const RunOptions& options) {
     text += fmt::format("body \"{}\" of {}: {}, {:.6g} g in the domain; whole shape {:.6g} g\n",
                         setup.bodies[b].name, setup.materials[b]->name, parts, 1e3 * body.mass,
                         1e3 * body.shape_mass);
+    text += at_faces(setup, simulation, b);
     if (const auto* table = dynamic_cast<const eos::Table*>(setup.materials[b]->eos.get())) {
       text += fmt::format("  equation of state: table of {}, {} kB, error {:.2g}, {:.4g} to {:.6g} kg/m^3\n",
                           table->data().origin, table->data().size() / 1000, table->data().requested_error,

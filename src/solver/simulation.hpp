@@ -89,6 +89,8 @@ class Simulation {
   /// Sums over all ranks.
   [[nodiscard]] const Totals& totals() const { return totals_; }
   [[nodiscard]] const grid::BlockGrid& grid() const { return grid_; }
+  /// Is a body one with its image at a face, as the field that it moves in (docs/theory/mpm.md, 3)?
+  [[nodiscard]] bool is_one_with_image(std::size_t body, std::size_t face) const;
   /// The bodies as seeded; `first` and `count` are those of this rank now.
   [[nodiscard]] const std::vector<setup::BodySummary>& bodies() const { return bodies_; }
   [[nodiscard]] MPI_Comm communicator() const { return communicator_; }

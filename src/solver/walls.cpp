@@ -29,6 +29,10 @@ void Simulation::set_up_walls() {
   grid_.bond_at_planes(bonded);
 }
 
+bool Simulation::is_one_with_image(std::size_t body, std::size_t face) const {
+  return grid_.is_bonded_at(face, contact_field_of_body_.empty() ? 0U : contact_field_of_body_[body]);
+}
+
 /// Is there matter that may meet its image as another body?
 bool Simulation::may_meet_images() const {
   for (std::size_t face = 0; face < 6; ++face) {

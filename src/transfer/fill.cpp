@@ -26,7 +26,9 @@ std::vector<double> fill_of_cells(const Particles& particles, const TransitionNo
                      });
   }
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {  // images bring to it as much again
-    for (const std::uint32_t node : plane.on_plane) grid.all_nodes()[node].first *= 2.0;
+    for (const auto* nodes : {&plane.on_plane, &plane.on_plane_apart}) {
+      for (const std::uint32_t node : *nodes) grid.all_nodes()[node].first *= 2.0;
+    }
   }
   scalars::fold_and_sum(grid);
   for (const std::uint32_t slot : grid.contact_slots().first(grid.owned_contact_slots())) {

@@ -27,14 +27,14 @@ Lanes reversed(const BlockGrid::MirrorPlane& plane) {
   return lanes;
 }
 
-/// Share of the step in which two surfaces touch that close with a speed (m/s) at its end (3.8).
+/// Share of the step in which two surfaces touch that close with a speed (m/s) at its end (3.9).
 double share_in_touch(double gap, double closing_speed, double dt) {
   if (gap <= 0.0) return 1.0;
   if (!(closing_speed > 0.0)) return 0.0;
   return std::clamp(1.0 - gap / (dt * closing_speed), 0.0, 1.0);
 }
 
-/// beta of the common field of two nodes (3.7); none where nodes of elements hold the relaxation.
+/// beta of the common field of two nodes (3.8); none where nodes of elements hold the relaxation.
 double common_relaxation(double mass, double beta, double other_mass, double other_beta) {
   if (beta == other_beta) return beta;
   if (beta == 0.0 || other_beta == 0.0) return 0.0;
@@ -42,7 +42,7 @@ double common_relaxation(double mass, double beta, double other_mass, double oth
 }
 
 /// Kinetic energy and work that the points of a node lose because they take the step `taken` instead of the
-/// one that the node makes by itself (3.11), J.
+/// one that the node makes by itself (3.12), J.
 double loss(Lanes own_velocity, Lanes own_increment, const Node& taken) {
   const double mass = own_velocity[3], beta = taken.first[3];
   const Lanes v = taken.first, d = taken.second;
@@ -202,7 +202,7 @@ void MirrorContact::join_relaxation_at_corners(std::span<Node> nodes, const Amon
   }
 }
 
-/// Matter at a node meets its image there, and the matter at the mirror node its own (3.7) to (3.11).
+/// Matter at a node meets its image there, and the matter at the mirror node its own (3.8) to (3.12).
 /// @returns the share of the step in which they touch
 double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<Node> nodes, double dt) {
   Lanes* const own = &own_.values[place(couple.node)];
@@ -218,24 +218,31 @@ double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<N
   const double n = plane.of.outward();
   const double w = n * (v_image - v)[plane.of.axis], e = n * (d_image - d)[plane.of.axis];
   const double beta = common_relaxation(mass, v[3], other_mass, v_image[3]);
-  double share = 1.0;
-  if (!sticks(plane, open)) {
-    share = share_in_touch(open, -(w + e), dt);
-    if (!(share > 0.0) || !(e + beta * w < 0.0)) return 0.0;  // apart, or in tension
-  }
+  const bool held = sticks(plane, open);
+  const double share = held ? 1.0 : share_in_touch(open, -(w + e), dt);
+  if (!(share > 0.0)) return 0.0;
   const double before = loss(own[0], own[1], node) + loss(own_of_mirror[0], own_of_mirror[1], mirror);
-  const double total = mass + other_mass;
-  const Lanes v_common = (mass * v + other_mass * v_image) / total;
-  const Lanes d_common = (mass * d + other_mass * d_image) / total;
-  const Lanes to_common = share * mixed;
   const bool on_plane = couple.node == couple.mirror;
-  node.first = v + to_common * (v_common - v);
-  node.second = d + to_common * (d_common - d);
-  node.first[3] = beta;
-  if (!on_plane) {
-    mirror.first = sign * (v_image + to_common * (v_common - v_image));
-    mirror.second = sign * (d_image + to_common * (d_common - d_image));
-    mirror.first[3] = beta;
+  const double total = mass + other_mass;
+  if (beta > 0.0 || held) {
+    if (!held && !(e + beta * w < 0.0)) return 0.0;  // in tension
+    const Lanes to_common = share * mixed;
+    const Lanes v_common = (mass * v + other_mass * v_image) / total;
+    const Lanes d_common = (mass * d + other_mass * d_image) / total;
+    node.first = v + to_common * (v_common - v);
+    node.second = d + to_common * (d_common - d);
+    node.first[3] = beta;
+    if (!on_plane) {
+      mirror.first = sign * (v_image + to_common * (v_common - v_image));
+      mirror.second = sign * (d_image + to_common * (d_common - d_image));
+      mirror.first[3] = beta;
+    }
+  } else {  // (3.11): a common velocity of the nodes would not slow what is not relaxed towards it
+    const double stopped = -(w + e) - std::max(std::max(open, 0.0) / dt, w);
+    if (!(stopped > 0.0)) return 0.0;
+    const double change = n * stopped / total;  // for a reduced mass: times the other mass
+    node.second[plane.of.axis] -= other_mass * change;
+    if (!on_plane) mirror.second[plane.of.axis] -= mass * change;
   }
   const double after = loss(own[0], own[1], node) + loss(own_of_mirror[0], own_of_mirror[1], mirror);
   const double half = 0.5 * (after - before);

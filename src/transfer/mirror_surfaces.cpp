@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far matter reaches at the nodes near mirror planes (docs/theory/mpm.md, equation 3.6).
+// How far matter reaches at the nodes near mirror planes (docs/theory/mpm.md, equation 3.7).
 #include <algorithm>
 #include <array>
 #include <cmath>
