@@ -201,6 +201,7 @@ class Simulation {
   std::optional<contact::Contact> contact_;  // if bodies have velocity fields of their own
   std::vector<std::uint8_t> contact_field_of_body_;
   bool surfaces_found_ = false;  // in the step under way
+  int looks_at_voids_ = 0;       // one after the other that found much matter squeezed beside voids
   bool warned_of_voids_ = false;
   std::vector<std::uint8_t> contact_field_;              // of each particle
   std::vector<std::vector<fem::Facet>> surface_facets_;  // of each mesh

@@ -25,10 +25,11 @@ std::vector<double> fill_of_cells(const Particles& particles, const TransitionNo
                        node.first += Lanes{0.0, n, 0.0, 0.0};
                      });
   }
+  scalars::fold(grid);
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {  // images bring to it as much again
     for (const std::uint32_t node : plane.on_plane) grid.all_nodes()[node].first *= 2.0;
   }
-  scalars::fold_and_sum(grid);
+  grid.sum_to_owners(BlockGrid::Part::first);
   for (const std::uint32_t slot : grid.contact_slots().first(grid.owned_contact_slots())) {
     for (int i = 0; i < grid::nodes_per_block; ++i) {
       Lanes sum{};

@@ -64,15 +64,19 @@ void gather(const Particles& particles, BlockGrid& grid, Function&& f) {
   });
 }
 
-/// Adds what particles brought beyond the mirror planes to the images, and the parts of all ranks. Scalars of
-/// the nodes beyond the planes are those of their images.
-inline void fold_and_sum(BlockGrid& grid) {
+/// Adds what particles brought beyond the mirror planes to the images. Scalars of the nodes beyond the planes
+/// are those of their images.
+inline void fold(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
     parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
       nodes[plane.pairs[i].image].first += nodes[plane.pairs[i].outside].first;
     });
   }
+}
+/// The same, and the parts of all ranks.
+inline void fold_and_sum(BlockGrid& grid) {
+  fold(grid);
   grid.sum_to_owners(BlockGrid::Part::first);
 }
 
