@@ -316,7 +316,7 @@ void Simulation::particles_reallocated() {
 
 void Simulation::conduct_heat() {
   if (!setup_.heat.conduction) return;
-  find_surfaces();
+  find_surfaces(false);
   profile_.time("conduction", [&] {
     std::vector<transfer::ThermalConstants> constants;
     for (const auto& material : setup_.materials) {
@@ -338,7 +338,7 @@ void Simulation::map_particles_to_grid() {
       send();
     }
   });
-  find_surfaces();
+  find_surfaces(true);
 }
 
 void Simulation::advance_grid() {

@@ -131,7 +131,7 @@ class Simulation {
   void set_up_contact();
   void separate_fields();
   void look_at_fill();
-  void find_surfaces();
+  void find_surfaces(bool after_transfer);
   [[nodiscard]] transfer::TouchAtNode touch_at_node() const;
   void apply_contact();
   void finish_exchange();
