@@ -13,6 +13,8 @@ whipple_test(test_solver STARTS_MPI
   DEPENDS whipple_solver GTest::gmock LABELS fast)
 whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp
              DEPENDS whipple_solver LABELS fast)
+whipple_test(test_contact_sweep STARTS_MPI SOURCES verification/solver_gap_sweep_test.cpp
+             DEPENDS whipple_solver LABELS long)
 # Files alone, for many trials with sanitizers (docs/testing.md); the tests above hold the same.
 add_executable(fuzz EXCLUDE_FROM_ALL fuzz/case_fuzz.cpp fuzz/io_checkpoint_damage.cpp)
 target_link_libraries(fuzz PRIVATE whipple_flags whipple_solver GTest::gmock GTest::gtest_main)

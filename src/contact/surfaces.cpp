@@ -17,6 +17,8 @@ using grid::nodes_per_block;
 /// Change of a body's volume per node from one node to the next, relative, below which the node lies inside
 /// and the direction of the gradient is that of the pattern of the particles.
 constexpr double least_slope = 0.02;
+/// Cosine of the angle between two normals above which they are one.
+constexpr double one_direction = 0.99;
 
 /// Lays out values of contact slots: `per_node(fields)` lanes for each node of a slot with that many fields.
 template <class PerNode>
@@ -90,70 +92,90 @@ FoldedAxis<count> fold(const BlockGrid& grid, int axis, int block, int first, un
   return folded;
 }
 
-/// Calls f(place) for the nodes of contact slots that a point of the field reaches.
+/// Nodes of each contact slot that matter: a bit each.
+using NodesThatMatter = std::vector<std::uint64_t>;
+static_assert(nodes_per_block == 64);
+
+/// Calls f(place) for the nodes of contact slots that matter and that a point of the field reaches.
 /// @param block       where the point is
 /// @param neighbours  slots of the 27 blocks around it, as far as they count
-template <class Shape, class Points, class Function>
+/// @param at_point    makes f, if there are any
+template <class Shape, class Points, class AtPoint>
 void for_each_place_of(const Points& points, std::uint32_t p, unsigned field,
                        const grid::BlockCoordinate& block, const std::array<std::int32_t, 27>& neighbours,
-                       const BlockGrid& grid, Function&& f) {
+                       const BlockGrid& grid, const NodesThatMatter& matter, AtPoint&& at_point) {
   static constexpr grid::ReachMap map = grid::reach_map();
   constexpr int count = Shape::count;
   const grid::Geometry& geometry = grid.geometry();
   const grid::PlaceInStencil in_stencil = grid::StencilPlaces(Shape::stencil)(
       grid::position_in_block(geometry.in_cells(points.position[p]), grid::corner_of(block)));
-  const transfer::Weights<count> w = transfer::weights_at<Shape>(points, p, in_stencil, geometry.cell_size);
   const std::array<int, 3> first_node = in_stencil.first_node(Shape::stencil);
   const std::array<FoldedAxis<count>, 3> axes = {fold<count>(grid, 0, block[0], first_node[0], field),
                                                  fold<count>(grid, 1, block[1], first_node[1], field),
                                                  fold<count>(grid, 2, block[2], first_node[2], field)};
+  struct Target {
+    std::uint32_t contact_slot;
+    std::uint8_t node, i, j, k;
+  };
+  std::array<Target, count * count * count> targets;
+  std::size_t found = 0;
   for (std::size_t i = 0; i < count; ++i) {
+    const auto x = static_cast<std::size_t>(axes[0].node[i] + 1);
     for (std::size_t j = 0; j < count; ++j) {
+      const auto y = static_cast<std::size_t>(axes[1].node[j] + 1);
       for (std::size_t k = 0; k < count; ++k) {
-        const std::array<std::size_t, 3> at = {i, j, k};
-        std::array<int, 3> owner{}, inside{};
-        for (std::size_t a = 0; a < 3; ++a) {
-          const auto place = static_cast<std::size_t>(axes[a].node[at[a]] + 1);
-          owner[a] = map.block[place];
-          inside[a] = map.node[place];
-        }
-        const std::int32_t of =
-            neighbours[static_cast<std::size_t>(grid::neighbour_index(owner[0], owner[1], owner[2]))];
+        const auto z = static_cast<std::size_t>(axes[2].node[k] + 1);
+        const std::int32_t of = neighbours[static_cast<std::size_t>(
+            grid::neighbour_index(map.block[x], map.block[y], map.block[z]))];
         if (of == BlockGrid::no_slot) continue;
         const std::int32_t number = grid.contact_number(static_cast<std::size_t>(of));
-        const double weight = w.weight[i][0] * w.weight[j][1] * w.weight[k][2];
-        if (number == BlockGrid::no_slot || !(weight > 0.0)) continue;
-        const std::uint64_t fields = grid.fields(static_cast<std::size_t>(of));
-        if ((fields >> field & 1U) == 0) continue;
-        const Vector3 sign(axes[0].sign[i], axes[1].sign[j], axes[2].sign[k]);
-        const Vector3 gradient(w.derivative[i][0] * w.weight[j][1] * w.weight[k][2],
-                               w.weight[i][0] * w.derivative[j][1] * w.weight[k][2],
-                               w.weight[i][0] * w.weight[j][1] * w.derivative[k][2]);
-        const Vector3 distance(w.distance[i][0], w.distance[j][1], w.distance[k][2]);
-        f(Place{.contact_slot = static_cast<std::size_t>(number),
-                .fields = static_cast<std::size_t>(std::popcount(fields)),
-                .field = static_cast<std::size_t>(std::popcount(fields & ((std::uint64_t{1} << field) - 1))),
-                .node = static_cast<std::size_t>(grid::node_index(inside[0], inside[1], inside[2])),
-                .weight = weight,
-                .gradient = sign.cwiseProduct(gradient),
-                .distance = -sign.cwiseProduct(distance),
-                .off_plane = Vector3(axes[0].off_plane[i], axes[1].off_plane[j], axes[2].off_plane[k]),
-                .sign = sign});
+        if (number == BlockGrid::no_slot) continue;
+        const int node = grid::node_index(map.node[x], map.node[y], map.node[z]);
+        if ((matter[static_cast<std::size_t>(number)] >> node & 1U) == 0) continue;
+        if ((grid.fields(static_cast<std::size_t>(of)) >> field & 1U) == 0) continue;
+        targets[found++] = {static_cast<std::uint32_t>(number), static_cast<std::uint8_t>(node),
+                            static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j),
+                            static_cast<std::uint8_t>(k)};
       }
     }
+  }
+  if (found == 0) return;
+  const transfer::Weights<count> w = transfer::weights_at<Shape>(points, p, in_stencil, geometry.cell_size);
+  const auto f = at_point(p);
+  for (std::size_t t = 0; t < found; ++t) {
+    const std::size_t i = targets[t].i, j = targets[t].j, k = targets[t].k;
+    const double weight = w.weight[i][0] * w.weight[j][1] * w.weight[k][2];
+    if (!(weight > 0.0)) continue;
+    const std::size_t number = targets[t].contact_slot;
+    const std::uint64_t fields = grid.fields(grid.contact_slots()[number]);
+    const Vector3 sign(axes[0].sign[i], axes[1].sign[j], axes[2].sign[k]);
+    const Vector3 gradient(w.derivative[i][0] * w.weight[j][1] * w.weight[k][2],
+                           w.weight[i][0] * w.derivative[j][1] * w.weight[k][2],
+                           w.weight[i][0] * w.weight[j][1] * w.derivative[k][2]);
+    const Vector3 distance(w.distance[i][0], w.distance[j][1], w.distance[k][2]);
+    f(Place{.contact_slot = number,
+            .fields = static_cast<std::size_t>(std::popcount(fields)),
+            .field = static_cast<std::size_t>(std::popcount(fields & ((std::uint64_t{1} << field) - 1))),
+            .node = targets[t].node,
+            .weight = weight,
+            .gradient = sign.cwiseProduct(gradient),
+            .distance = -sign.cwiseProduct(distance),
+            .off_plane = Vector3(axes[0].off_plane[i], axes[1].off_plane[j], axes[2].off_plane[k]),
+            .sign = sign});
   }
 }
 
 /// The same with at_point(p) for all particles p; no two calls at a time for one node.
 template <class Shape, class AtPoint>
-void for_each_place(const Particles& particles, const BlockGrid& grid, AtPoint&& at_point) {
+void for_each_place(const Particles& particles, const BlockGrid& grid, const NodesThatMatter& matter,
+                    AtPoint&& at_point) {
   grid.for_each_apart([&](std::size_t slot) {
     if (!grid.meets_contact(slot)) return;
     grid.for_each_field(BlockGrid::Points::particles, slot,
                         [&](std::span<const std::uint32_t> members, unsigned field) {
                           for (const std::uint32_t p : members) {
                             for_each_place_of<Shape>(particles, p, field, grid.coordinate(slot),
-                                                     grid.neighbours(slot), grid, at_point(p));
+                                                     grid.neighbours(slot), grid, matter, at_point);
                           }
                         });
   });
@@ -161,14 +183,15 @@ void for_each_place(const Particles& particles, const BlockGrid& grid, AtPoint&&
 
 /// The same for points on surfaces of elements, which work with B-splines only.
 template <class Shape, class AtPoint>
-void for_each_place(const PlacedPoints& placed, const BlockGrid& grid, AtPoint&& at_point) {
+void for_each_place(const PlacedPoints& placed, const BlockGrid& grid, const NodesThatMatter& matter,
+                    AtPoint&& at_point) {
   if constexpr (transfer::CarriesAffineField<Shape>) {
     for (const std::vector<std::uint32_t>& colour : placed.colours) {
       parallel::for_each_uneven(colour.size(), [&](std::size_t c) {
         const PlacedPoints::Block& block = placed.blocks[colour[c]];
         for (const std::uint32_t p : block.points) {
           for_each_place_of<Shape>(*placed.points, p, placed.points->field[p], block.coordinate, block.slots,
-                                   grid, at_point(p));
+                                   grid, matter, at_point);
         }
       });
     }
@@ -209,14 +232,17 @@ class HalfThickness {
     const double volume = particles.volume[p] + particles.void_volume[p];
     scale_ = std::cbrt(box > 0.0 ? volume / box : volume);
     if (!(box > 0.0)) extent_ = 0.25 * Matrix3::Identity();
+    largest_ = scale_ * std::sqrt(std::max(extent_.trace(), 0.0));
   }
+  /// Not less than along any direction.
+  [[nodiscard]] double largest() const { return largest_; }
   [[nodiscard]] double along(const Vector3& n) const {
     return scale_ * std::sqrt(std::max(n.dot(extent_ * n), 0.0));
   }
 
  private:
   Matrix3 extent_;
-  double scale_;
+  double scale_, largest_;
 };
 
 /// Logistic regression of two sets of particles, class -1 and +1, on their positions about a node in cells
@@ -256,6 +282,42 @@ Vector4 step(const Lanes* e, const Vector4& plane) {
 
 }  // namespace regression
 
+/// Nodes that two fields or more reach, if the grid holds what all ranks bring to them; else all.
+NodesThatMatter nodes_of_several(const BlockGrid& grid, bool after_transfer) {
+  const auto slots = grid.contact_slots();
+  NodesThatMatter nodes(slots.size(), ~std::uint64_t{0});
+  if (!after_transfer || grid.is_shared()) return nodes;
+  parallel::for_each(slots.size(), [&](std::size_t c) {
+    std::uint64_t one = 0, several = 0;
+    grid::for_each_bit(grid.fields(slots[c]), [&](unsigned field) {
+      const grid::Node* of_field = grid.nodes(slots[c], field);
+      std::uint64_t reached = 0;
+      for (std::size_t i = 0; i < nodes_per_block; ++i) {
+        reached |= std::uint64_t{of_field[i].first[0] > 0.0} << i;
+      }
+      several |= one & reached;
+      one |= reached;
+    });
+    nodes[c] = several;
+  });
+  return nodes;
+}
+
+/// Nodes with a normal between two fields.
+NodesThatMatter nodes_with_normals(const BlockGrid& grid, const grid::ContactValues& normals,
+                                   std::size_t candidates) {
+  const auto slots = grid.contact_slots();
+  NodesThatMatter nodes(slots.size(), 0);
+  parallel::for_each(slots.size(), [&](std::size_t c) {
+    const std::size_t per_pair = candidates * nodes_per_block;
+    for (std::size_t i = normals.begin[c]; i < normals.begin[c + 1]; ++i) {
+      if (vector(normals.values[i]).isZero(0.0)) continue;
+      nodes[c] |= std::uint64_t{1} << ((i - normals.begin[c]) % per_pair / candidates);
+    }
+  });
+  return nodes;
+}
+
 }  // namespace
 
 Surfaces::Gap Surfaces::at(std::size_t contact_slot, std::size_t pair, std::size_t node) const {
@@ -270,8 +332,9 @@ Surfaces::Gap Surfaces::at(std::size_t contact_slot, std::size_t pair, std::size
 }
 
 void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles& particles,
-                    const SurfacePoints& elements, grid::BlockGrid& grid) {
+                    const SurfacePoints& elements, grid::BlockGrid& grid, bool after_transfer) {
   const PlacedPoints placed(elements, grid);
+  const NodesThatMatter several = nodes_of_several(grid, after_transfer);
   lay_out(gradient_, grid, broadcast(0.0), one_per_field);
   candidates_ = kind == Normal::separating ? 3 : 1;
   const auto per_pair = [&](std::size_t fields) { return candidates_ * one_per_pair(fields); };
@@ -295,8 +358,8 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
           });
         };
         const auto at_point = [&](std::size_t) { return add; };
-        for_each_place<Shape>(particles, grid, at_point);
-        for_each_place<Shape>(placed, grid, at_point);
+        for_each_place<Shape>(particles, grid, several, at_point);
+        for_each_place<Shape>(placed, grid, several, at_point);
         grid.sum_to_owners(equations_);
         for_each_owned_node(grid, [&](std::size_t c, std::size_t fields, std::size_t node) {
           for_each_pair(fields, [&](std::size_t, std::size_t, std::size_t pair) {
@@ -314,14 +377,14 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
         normal_.values[i] = lanes(unit_or_zero(vector(plane_.values[i])));
       }
     } else {
-      for_each_place<Shape>(particles, grid, [&](std::size_t p) {
+      for_each_place<Shape>(particles, grid, several, [&](std::size_t p) {
         return [&, volume = particles.volume[p] + particles.void_volume[p]](const Place& place) {
           gradient_.values[place.in(gradient_, place.field)] +=
               lanes(volume * place.gradient.cwiseProduct(place.off_plane), volume * place.weight);
         };
       });
       const double cell_size = grid.geometry().cell_size;
-      for_each_place<Shape>(placed, grid, [&](std::size_t p) {
+      for_each_place<Shape>(placed, grid, several, [&](std::size_t p) {
         return [&, p](const Place& place) {  // (3.6)
           const Vector3 area = place.sign.cwiseProduct(elements.area[p]).cwiseProduct(place.off_plane);
           gradient_.values[place.in(gradient_, place.field)] +=
@@ -345,33 +408,37 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
           Lanes* normal = &normal_.values[normal_.begin[c] + candidates_ * (pair * nodes_per_block + node)];
           const Vector3 of_a = outward(a), of_b = -outward(b);
           normal[0] = lanes(unit_or_zero(of_a + of_b));
-          if (kind == Normal::collinear) return;
+          // On smooth faces all three are one.
+          if (kind == Normal::collinear || of_a.dot(of_b) > one_direction) return;
           normal[1] = lanes(of_a);
           normal[2] = lanes(of_b);
         });
       });
       grid.borrow_from_owners(normal_);
     }
-    const auto extend = [&](const Place& place, auto&& half_thickness_along) {
+    const NodesThatMatter normals = nodes_with_normals(grid, normal_, candidates_);
+    // Most points lie behind the outermost one by more than they are thick.
+    const auto extend = [&](const Place& place, double thickest, auto&& half_thickness_along) {
       place.for_each_pair([&](std::size_t pair, bool first) {
         const std::size_t i = place.in(normal_, pair, candidates_);
         for (std::size_t candidate = i; candidate < i + candidates_; ++candidate) {
-          const Vector3 n = (first ? 1.0 : -1.0) * vector(normal_.values[candidate]);
-          if (n.isZero(0.0)) continue;
-          const double extent = n.dot(place.distance) + half_thickness_along(place.sign.cwiseProduct(n));
+          const Vector3 normal = vector(normal_.values[candidate]);
+          const double along = (first ? 1.0 : -1.0) * normal.dot(place.distance);
           Lanes& largest = extent_.values[candidate];
           const int lane = first ? 0 : 1;
+          if (!(along + thickest > largest[lane]) || normal.isZero(0.0)) continue;
+          const double extent = along + half_thickness_along(place.sign.cwiseProduct(normal));
           if (extent > largest[lane]) largest[lane] = extent;
         }
       });
     };
-    for_each_place<Shape>(particles, grid, [&](std::size_t p) {
+    for_each_place<Shape>(particles, grid, normals, [&](std::size_t p) {
       return [&, half = HalfThickness(particles, p)](const Place& place) {
-        extend(place, [&](const Vector3& n) { return half.along(n); });
+        extend(place, half.largest(), [&](const Vector3& n) { return half.along(n); });
       };
     });
-    for_each_place<Shape>(placed, grid, [&](std::size_t) {
-      return [&](const Place& place) { extend(place, [](const Vector3&) { return 0.0; }); };
+    for_each_place<Shape>(placed, grid, normals, [&](std::size_t) {
+      return [&](const Place& place) { extend(place, 0.0, [](const Vector3&) { return 0.0; }); };
     });
   });
   grid.maximum_to_owners(extent_);

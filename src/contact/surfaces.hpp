@@ -31,8 +31,9 @@ class Surfaces {
 
   /// From the particles and the surfaces of elements that reach the nodes, with their images at mirror
   /// planes. Collective.
+  /// @param after_transfer  the nodes hold what particles and elements brought to them
   void find(Normal normal, transfer::ShapeFunction shape, const Particles& particles,
-            const SurfacePoints& elements, grid::BlockGrid& grid);
+            const SurfacePoints& elements, grid::BlockGrid& grid, bool after_transfer);
 
   /// @param contact_slot  number of the slot among the contact slots
   /// @param pair          of its fields: see `pair_index`

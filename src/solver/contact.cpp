@@ -51,7 +51,7 @@ void Simulation::separate_fields() {
 }
 
 /// Conduction of heat, which comes before the transfer to the grid, asks for them too.
-void Simulation::find_surfaces() {
+void Simulation::find_surfaces(bool after_transfer) {
   if (!contact_ || std::exchange(surfaces_found_, true)) return;
   profile_.time("contact", [&] {
     surface_points_.clear();
@@ -71,7 +71,7 @@ void Simulation::find_surfaces() {
                           setup_.domain.cell_size, near ? &*near : nullptr);
     }
     surface_points_.send_to_owners(grid_, transfer::stencil(shape_), communicator_);
-    contact_->find_surfaces(shape_, particles_, surface_points_, grid_);
+    contact_->find_surfaces(shape_, particles_, surface_points_, grid_, after_transfer);
   });
 }
 

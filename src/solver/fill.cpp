@@ -15,6 +15,7 @@ namespace whipple::solver {
 namespace {
 
 constexpr std::int64_t look_every = 20;    // steps
+constexpr int looks_to_warn = 3;           // one after the other
 constexpr double strong = 0.1;             // pressure over rho c^2
 constexpr double filled = 0.85;            // of cells that matter under pressure should fill
 constexpr double share_to_warn_of = 1e-2;  // of the mass
@@ -42,7 +43,9 @@ void Simulation::look_at_fill() {
     })};
     parallel::sum(communicator_, mass);
     state_.squeezed_beside_voids = mass[0];
-    if (mass[0] < share_to_warn_of * totals_.mass || warned_of_voids_) return;
+    // A shock that breaks out of a surface squeezes a layer beside the void outside for a few steps.
+    looks_at_voids_ = mass[0] < share_to_warn_of * totals_.mass ? 0 : looks_at_voids_ + 1;
+    if (looks_at_voids_ < looks_to_warn || warned_of_voids_) return;
     warned_of_voids_ = true;
     if (parallel::rank(communicator_) != 0) return;
     log::warning(

@@ -327,7 +327,7 @@ void Simulation::particles_reallocated() {
 void Simulation::conduct_heat() {
   conduct_in_shocks();
   if (!setup_.heat.conduction) return;
-  find_surfaces();
+  find_surfaces(false);
   profile_.time("conduction", [&] {
     std::vector<transfer::ThermalConstants> constants;
     for (const auto& material : setup_.materials) {
@@ -349,7 +349,7 @@ void Simulation::map_particles_to_grid() {
       send();
     }
   });
-  find_surfaces();
+  find_surfaces(true);
   find_surfaces_at_walls();
 }
 

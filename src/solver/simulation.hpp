@@ -137,7 +137,7 @@ class Simulation {
   void set_up_dissipation();
   void separate_fields();
   void look_at_fill();
-  void find_surfaces();
+  void find_surfaces(bool after_transfer);
   [[nodiscard]] transfer::TouchAtNode touch_at_node() const;
   void set_up_walls();
   [[nodiscard]] bool may_meet_images() const;
@@ -210,6 +210,7 @@ class Simulation {
   std::optional<contact::Contact> contact_;  // if bodies have velocity fields of their own
   std::vector<std::uint8_t> contact_field_of_body_;
   bool surfaces_found_ = false;  // in the step under way
+  int looks_at_voids_ = 0;       // one after the other that found much matter squeezed beside voids
   bool warned_of_voids_ = false;
   std::vector<std::uint8_t> contact_field_;              // of each particle
   std::vector<std::vector<fem::Facet>> surface_facets_;  // of each mesh

@@ -25,12 +25,13 @@ std::vector<double> fill_of_cells(const Particles& particles, const TransitionNo
                        node.first += Lanes{0.0, n, 0.0, 0.0};
                      });
   }
+  scalars::fold(grid);
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {  // images bring to it as much again
     for (const auto* nodes : {&plane.on_plane, &plane.on_plane_apart}) {
       for (const std::uint32_t node : *nodes) grid.all_nodes()[node].first *= 2.0;
     }
   }
-  scalars::fold_and_sum(grid);
+  grid.sum_to_owners(BlockGrid::Part::first);
   for (const std::uint32_t slot : grid.contact_slots().first(grid.owned_contact_slots())) {
     for (int i = 0; i < grid::nodes_per_block; ++i) {
       Lanes sum{};

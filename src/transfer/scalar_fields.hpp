@@ -64,9 +64,9 @@ void gather(const Particles& particles, BlockGrid& grid, Function&& f) {
   });
 }
 
-/// Adds what particles brought beyond the mirror planes to the images, and the parts of all ranks. Scalars of
-/// the nodes beyond the planes are those of their images.
-inline void fold_and_sum(BlockGrid& grid) {
+/// Adds what particles brought beyond the mirror planes to the images. Scalars of the nodes beyond the planes
+/// are those of their images.
+inline void fold(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
     for (const auto* pairs : {&plane.pairs, &plane.pairs_apart}) {
@@ -75,6 +75,10 @@ inline void fold_and_sum(BlockGrid& grid) {
       });
     }
   }
+}
+/// The same, and the parts of all ranks.
+inline void fold_and_sum(BlockGrid& grid) {
+  fold(grid);
   grid.sum_to_owners(BlockGrid::Part::first);
 }
 
