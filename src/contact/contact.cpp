@@ -15,7 +15,7 @@ using grid::Node;
 
 constexpr int sweeps = 20;  // over the pairs, where more than two bodies meet
 
-/// Impulses between two fields that meet at a node, which stop them (docs/theory/contact.md, 6); velocities
+/// Impulses between two fields that meet at a node, which stop them (docs/theory/contact.md, 5); velocities
 /// are those of b relative to a.
 struct Stop {
   Side* a;

@@ -88,7 +88,7 @@ void Pressing::find_common_relaxation() {
   }
 }
 
-/// (4.4): impulses of the pairs that leave (1 - theta) of what moves the fields of each apart or together. In
+/// (4.9): impulses of the pairs that leave (1 - theta) of what moves the fields of each apart or together. In
 /// units of sqrt(mu), where the matrix has ones plus (1 - theta)/theta on its diagonal.
 void Pressing::solve() {
   const std::size_t count = pairs_.size();
@@ -137,7 +137,7 @@ bool Pressing::drop_tension() {
   return !pairs_.empty();
 }
 
-/// J: what the pairs lose by all changes so far, (4.6) from the fields themselves. Where the normals of
+/// J: what the pairs lose by all changes so far, (4.7) from the fields themselves. Where the normals of
 /// several pairs are nearly parallel, the round-off of their impulses would be missed from the sum of the
 /// pairs.
 double Pressing::lost() const {
@@ -183,14 +183,14 @@ void Pressing::mix(Balance& balance) {
   }
 }
 
-/// Friction of a pair (4.8)-(4.10). @returns its heat, J
+/// Friction of a pair (4.10), (4.11). @returns its heat, J
 double Pressing::drag(Pair& pair) {
   Side &a = sides_[pair.a], &b = sides_[pair.b];
   const auto tangential = [&](const Vector3& v) { return Vector3(v - pair.normal.dot(v) * pair.normal); };
   const Vector3 slip = tangential(b.after() - a.after());
   const double speed2 = slip.squaredNorm();
   if (!(speed2 > 0.0)) return 0.0;
-  const auto power = [&](std::size_t s) {  // velocity by which an impulse on the field is multiplied: (4.9)
+  const auto power = [&](std::size_t s) {  // velocity by which an impulse on the field is multiplied: (4.10)
     const double beta = relaxation_[s];
     return Vector3(beta * sides_[s].before() + (1.0 - beta) * former_[s].velocity + sides_[s].increment() -
                    0.5 * former_[s].increment);

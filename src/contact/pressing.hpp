@@ -10,7 +10,7 @@
 namespace whipple::contact {
 
 /// Bodies that press on one another at a node move as one along the normal between them, for the share of the
-/// step in which they touch; else each is free (docs/theory/contact.md, equations 4.1 to 4.12). It works on
+/// step in which they touch; else each is free (docs/theory/contact.md, equations 4.1 to 4.11). It works on
 /// one node at a time and keeps its memory from one to the next. Fields without relaxation (beta = 0) would
 /// keep what they were apart by; they need other impulses.
 class Pressing {

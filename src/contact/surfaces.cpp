@@ -18,7 +18,7 @@ using grid::nodes_per_block;
 /// and the direction of the gradient is that of the pattern of the particles.
 constexpr double least_slope = 0.02;
 /// Cosine of the angle between two normals above which they are one.
-constexpr double one_direction = 0.99;
+constexpr double one_direction = 1.0 - 1e-6;
 
 /// Lays out values of contact slots: `per_node(fields)` lanes for each node of a slot with that many fields.
 template <class PerNode>

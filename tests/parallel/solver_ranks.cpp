@@ -200,9 +200,11 @@ TEST_F(SolverRanks, AgreeWithOneRankInEveryOption) {
 // Fields that only other ranks see at a shared block, nodes that several ranks have in contact, mirror planes
 // through the contact, three bodies.
 TEST_F(SolverRanks, AgreeWithOneRankInContact) {
-  for (const char* normal : {"\"separating\"", "\"logistic_regression\""}) {
+  for (const auto& [method, normal] :
+       {std::pair("\"auto\"", "\"separating\""), std::pair("\"auto\"", "\"collinear\""),
+        std::pair("\"multi_field\"", "\"logistic_regression\"")}) {
     const Overrides contact = {
-        {"contact.method", "\"multi_field\""}, {"contact.friction", "0.3"}, {"contact.normal", normal}};
+        {"contact.method", method}, {"contact.friction", "0.3"}, {"contact.normal", normal}};
     Simulation together(read(contact), MPI_COMM_WORLD);
     advance_to(together, 1.2e-6);
     Simulation alone(read(contact), MPI_COMM_SELF);
@@ -218,7 +220,7 @@ TEST_F(SolverRanks, AgreeWithOneRankInContact) {
 
 // The velocity fields are found anew in every step: a checkpoint needs nothing of them.
 TEST_F(SolverRanks, GoOnFromACheckpointInContact) {
-  const Overrides contact = {{"contact.method", "\"multi_field\""}, {"contact.friction", "0.3"}};
+  const Overrides contact = {{"contact.method", "\"auto\""}, {"contact.friction", "0.3"}};
   Simulation together(read(contact), MPI_COMM_WORLD);
   advance_to(together, 0.5e-6);
   const fs::path file = io::write_checkpoint(folder_ / "contact", together.state().step, together.particles(),

@@ -145,6 +145,56 @@ TEST(Heat, ConductionNeedsSmoothFunctionsAndAMaterialThatConducts) {
   expect_error(domain + "[heat]\nconduction = 3\n" + ofhc, {"'conduction'"});
 }
 
+TEST(Contact, AutoBondsWhatTouchesAndMovesAlike) {
+  const auto body = [](const char* name, const char* shape, const char* velocity, const char* more = "") {
+    return std::string("[[body]]\nname = \"") + name +
+           "\"\nmaterial = \"copper.toml\"\nvelocity = " + velocity + "\nshape = { " + shape + " }\n" + more;
+  };
+  const char* front = "box = { lower = [0, 0, 0], upper = [0.004, 0.004, 0.001] }";
+  const char* rear = "box = { lower = [0, 0, 0.001], upper = [0.004, 0.004, 0.002] }";
+  const char* far = "box = { lower = [0, 0, 0.006], upper = [0.004, 0.004, 0.008] }";
+  const char* ball = "sphere = { center = [0.002, 0.002, 0.0035], radius = 0.0015 }";
+  const char *rest = "[0, 0, 0]", *fast = "[0, 0, -2000]";
+  const auto fields = [&](const std::string& bodies, const std::string& contact = "") {
+    return read_case_text(domain + contact + bodies, "case.toml").contact_fields;
+  };
+  using Numbers = std::vector<std::uint8_t>;
+  // Layers of a plate are bonded, and said to be; what touches them but moves, or is apart, is not.
+  const ContactFields all = fields(body("front", front, rest) + body("ball", ball, fast) +
+                                   body("rear", rear, rest) + body("far", far, rest));
+  EXPECT_EQ(all.of_body, (Numbers{0, 1, 0, 2}));
+  ASSERT_EQ(all.remarks.size(), 1U);
+  EXPECT_NE(all.remarks[0].find("\"front\" and \"rear\" touch"), std::string::npos);
+  EXPECT_TRUE(all.warnings.empty());
+  EXPECT_EQ(fields(body("rear", rear, rest) + body("ball", ball, rest)).of_body, (Numbers{0, 0}));
+  EXPECT_EQ(fields(body("front", front, rest)).of_body, (Numbers{0}));
+  // Groups of their own keep layers apart, one group joins what is apart.
+  EXPECT_EQ(fields(body("front", front, rest, "contact_group = \"a\"\n") +
+                   body("rear", rear, rest, "contact_group = \"b\"\n"))
+                .of_body,
+            (Numbers{0, 1}));
+  EXPECT_EQ(fields(body("front", front, rest, "contact_group = \"a\"\n") +
+                   body("far", far, fast, "contact_group = \"a\"\n"))
+                .of_body,
+            (Numbers{0, 0}));
+  // One field for bodies that meet across a gap is warned of.
+  const ContactFields none =
+      fields(body("rear", rear, rest) + body("far", far, fast), "[contact]\nmethod = \"none\"\n");
+  EXPECT_EQ(none.of_body, (Numbers{0, 0}));
+  ASSERT_EQ(none.warnings.size(), 1U);
+  EXPECT_NE(none.warnings[0].find("across a gap of 4 mm"), std::string::npos);
+  // Curved bodies with fields of their own have partial volumes, unless the case says otherwise.
+  const auto partial = [&](const std::string& bodies, std::size_t b) {
+    return read_case_text(domain + bodies, "case.toml").bodies[b].discretization.partial_volumes;
+  };
+  EXPECT_TRUE(partial(body("rear", rear, rest) + body("ball", ball, fast), 1));
+  EXPECT_FALSE(partial(body("rear", rear, rest) + body("ball", ball, fast), 0));
+  EXPECT_FALSE(partial(body("ball", ball, fast), 0));
+  EXPECT_FALSE(partial(
+      body("rear", rear, rest) + body("ball", ball, fast, "discretization = { partial_volumes = false }\n"),
+      1));
+}
+
 TEST(Contact, OptionsAndWhatTheyExclude) {
   const std::string on = "[contact]\nmethod = \"multi_field\"\nfriction = 0.2\n";
   const std::string second =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact of bodies of elements with one another and with particles (docs/theory/contact.md, 3 and 5).
+// Contact of bodies of elements with one another and with particles (docs/theory/contact.md, 3 and 6).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -222,7 +222,7 @@ struct Hertz {
 
 /// Two equal spheres of elastic elements meet at 45 degrees to the line between their centres. Force and
 /// duration are near those of Hertz; the restitution is not: the contact area is two elements wide, and what
-/// it loses shrinks with the elements (docs/theory/contact.md, 5). The bound on it only keeps it from getting
+/// it loses shrinks with the elements (docs/theory/contact.md, 6). The bound on it only keeps it from getting
 /// worse.
 TEST(ElementContact, ObliqueImpactOfElasticSpheresBesideHertz) {
   constexpr double radius = 5e-3, speed = 200.0, dx = 2 * radius / 16;
