@@ -20,7 +20,8 @@ setup::Case blocks_into_corner(const std::string& contact) {
   const std::string material = aluminium("aluminium_of_ranks", "0.3 GPa");
   const auto block = [&](const char* name, const Vector3& lower, double size, const Vector3& velocity) {
     const Vector3 upper = lower + Vector3::Constant(size);
-    return BodyOptions{name, material, box(cell * lower, cell * upper), velocity}.toml();
+    return std::string("[[body]]\nname = \"") + name + "\"\nmaterial = \"" + material +
+           "\"\nvelocity = " + vector3(velocity) + "\nshape = { " + box(cell * lower, cell * upper) + " }\n";
   };
   return setup::read_case_text(
       Method{}.time_toml(2e-6) + Method{}.toml() + contact +
