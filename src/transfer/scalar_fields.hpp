@@ -70,6 +70,7 @@ inline void fold(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
     for (const auto* pairs : {&plane.pairs, &plane.pairs_apart}) {
+      if (pairs == &plane.pairs_apart && !apart_too) continue;
       parallel::for_each(pairs->size(), [&](std::size_t i) {
         nodes[(*pairs)[i].image].first += nodes[(*pairs)[i].outside].first;
       });
@@ -83,12 +84,13 @@ inline void fold_and_sum(BlockGrid& grid) {
 }
 
 /// Lets other ranks and the nodes beyond the planes have what was found.
-inline void share(BlockGrid& grid) {
+inline void share(BlockGrid& grid, bool apart_too = true) {
   grid.borrow_from_owners(BlockGrid::Part::first);
   const std::span<Node> nodes = grid.all_nodes();
   const auto planes = grid.mirror_planes();
   for (std::size_t n = planes.size(); n-- > 0;) {
     for (const auto* pairs : {&planes[n].pairs, &planes[n].pairs_apart}) {
+      if (pairs == &planes[n].pairs_apart && !apart_too) continue;
       parallel::for_each(pairs->size(), [&](std::size_t i) {
         nodes[(*pairs)[i].outside].first = nodes[(*pairs)[i].image].first;
       });

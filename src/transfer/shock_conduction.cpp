@@ -104,9 +104,7 @@ void for_each_node(BlockGrid& grid, const std::vector<std::uint64_t>& marked, st
 void clear_beyond_planes(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
-    for (const auto* pairs : {&plane.pairs, &plane.pairs_apart}) {
-      parallel::for_each(pairs->size(), [&](std::size_t i) { nodes[(*pairs)[i].outside].first = broadcast(0.0); });
-    }
+    parallel::for_each(plane.pairs.size(), [&](std::size_t i) { nodes[plane.pairs[i].outside].first = broadcast(0.0); });
   }
 }
 
@@ -150,7 +148,7 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
         Kernels::template scatter<Shape>(Capacity{particles, exchange}, grid, slot);
       });
     });
-    scalars::fold_and_sum(grid);
+    scalars::fold_and_sum(grid, false);
     for_each_node(grid, reached, grid.owned_slots(), [](Node& node) {  // chi T, chi
       const double capacity = node.first[0];
       if (capacity < no_capacity) {
@@ -160,7 +158,7 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
         node.first = Lanes{share * node.first[1] / capacity, share, 0.0, 0.0};
       }
     });
-    scalars::share(grid);
+    scalars::share(grid, false);
 
     std::vector<double> taken_up(grid.slots(), 0.0);
     parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {  // (eq. 9)

@@ -25,8 +25,7 @@ Outcome outcome(const std::string& evaluation) {
                        {{"domain.cell_size", "1.2 mm"},
                         {"time.end", "5 us"},
                         {"body.0.equation_of_state", evaluation},
-                        {"body.1.equation_of_state", evaluation},
-                        {"body.2.equation_of_state", evaluation}});
+                        {"body.1.equation_of_state", evaluation}});
   setup::tabulate_materials(setup, io::Ranks(parallel::world()));
   EXPECT_EQ(setup.materials[0]->eos->model(), evaluation == "table" ? "table" : "gray");
   solver::Simulation simulation(setup, parallel::world());

@@ -63,6 +63,7 @@ inline double element_motion_error(const ExactMotion& motion, const ElementMetho
   advance(first, 0, half);
   std::vector<fem::Mesh> meshes_then = first.meshes();
   Particles particles = first.particles();
+  use_stores(particles);
   if (method.converted) {
     fem::Mesh& then = meshes_then.front();
     std::vector<std::uint8_t> chosen(then.elements.size());
