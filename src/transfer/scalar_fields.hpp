@@ -66,7 +66,8 @@ void gather(const Particles& particles, BlockGrid& grid, Function&& f) {
 
 /// Adds what particles brought beyond the mirror planes to the images. Scalars of the nodes beyond the planes
 /// are those of their images.
-inline void fold(BlockGrid& grid) {
+/// @param apart_too  also of matter that meets its image as another body; else its nodes beyond are its own
+inline void fold(BlockGrid& grid, bool apart_too = true) {
   const std::span<Node> nodes = grid.all_nodes();
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
     for (const auto* pairs : {&plane.pairs, &plane.pairs_apart}) {
@@ -78,8 +79,8 @@ inline void fold(BlockGrid& grid) {
   }
 }
 /// The same, and the parts of all ranks.
-inline void fold_and_sum(BlockGrid& grid) {
-  fold(grid);
+inline void fold_and_sum(BlockGrid& grid, bool apart_too = true) {
+  fold(grid, apart_too);
   grid.sum_to_owners(BlockGrid::Part::first);
 }
 
