@@ -13,6 +13,8 @@ namespace {
 
 using grid::Node;
 
+/// Cells between surfaces that rest on one another, to round-off and what vibrations open.
+constexpr double resting_distance = 0.01;
 constexpr int sweeps = 20;  // over the pairs, where more than two bodies meet
 
 /// Impulses between two fields that meet at a node, which stop them (docs/theory/contact.md, 5); velocities
@@ -102,7 +104,7 @@ bool Contact::touch(const grid::BlockGrid& grid, std::size_t contact_slot, std::
   const auto fields =
       static_cast<std::size_t>(std::popcount(grid.fields(grid.contact_slots()[contact_slot])));
   const Surfaces::Gap gap = surfaces_.at(contact_slot, Surfaces::pair_index(first, second, fields), node);
-  return !gap.normal.isZero(0.0) && distance(grid, gap) == 0.0;
+  return !gap.normal.isZero(0.0) && distance(grid, gap) <= resting_distance * grid.geometry().cell_size;
 }
 
 Balance Contact::apply(grid::BlockGrid& grid, double dt) const {

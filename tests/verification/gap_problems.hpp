@@ -143,8 +143,8 @@ inline Impact impact(const PlanarGap& set) {
 struct Touching {
   double least = never, largest = 0.0;
   Impact impact;
-  explicit Touching(PlanarGap set) {
-    for (const double offset : {0.5, 0.0}) {
+  explicit Touching(PlanarGap set, const std::vector<double>& offsets = {0.5, 0.0}) {
+    for (const double offset : offsets) {
       set.gap = 0.0;
       set.offset = offset;
       impact = verification::impact(set);
@@ -156,12 +156,12 @@ struct Touching {
 
 inline void expect_like_touching(const PlanarGap& set, const Touching& touching) {
   const Impact result = impact(set);
-  const double tolerance = set.speed > 3000.0 ? 0.1 : 0.06;  // of the largest pressure: an overshoot
+  constexpr double tolerance = 0.1;  // of the largest pressure: an overshoot of the first layer
   EXPECT_LT(result.largest, (1.0 + tolerance) * touching.largest);
   EXPECT_GT(result.largest, (1.0 - tolerance) * touching.least);
   EXPECT_NEAR(result.plateau, 1.0, 0.035);  // mean of some 40 particles: 0.966 to 1.000 when they touch
-  EXPECT_NEAR(result.late, touching.impact.late, 0.04);
-  EXPECT_NEAR(result.momentum, touching.impact.momentum, 0.005 * touching.impact.momentum);
+  EXPECT_NEAR(result.late, touching.impact.late, 0.045);
+  EXPECT_NEAR(result.momentum, touching.impact.momentum, 0.006 * touching.impact.momentum);
   EXPECT_LT(result.early, 0.1);
 }
 

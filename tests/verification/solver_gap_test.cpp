@@ -188,5 +188,44 @@ TEST(Gap, BodiesPartWithoutTension) {
   }
 }
 
+// Two blocks at rest, one warm, with fields of their own: what the cold one gains by conduction (J).
+double heat_across(double gap, const char* contact) {
+  constexpr double dx = 1e-3;
+  Problem problem;
+  problem.end = 4e-6;
+  problem.domain = "[domain]\nlower = [-0.006, 0, 0]\nupper = " + vector3({8e-3, dx, dx}) +
+                   "\ncell_size = 0.001\n" + column_sides;
+  problem.contact = contact;
+  problem.more = "[heat]\nconduction = true\n";
+  const std::string material =
+      aluminium("gap_conductor", "1e6 GPa", "[thermal]\nsource = \"test\"\nconductivity = \"240 W/(m K)\"\n");
+  problem.bodies = {{"cold", material, box({-4e-3, 0, 0}, {0, dx, dx})},
+                    {"warm", material, box({gap, 0, 0}, {gap + 4e-3, dx, dx}), Vector3::Zero(),
+                     "[body.initial]\ntemperature = \"400 K\"\npressure = \"0 Pa\"\n"}};
+  solver::Simulation simulation(problem.read(), parallel::world());
+  const auto energy = [&] {
+    double sum = 0.0;
+    const Particles& q = simulation.particles();
+    for (std::size_t p = 0; p < q.size(); ++p) {
+      if (q.body[p] == 0) sum += q.mass[p] * q.specific_internal_energy[p];
+    }
+    return sum;
+  };
+  const double before = energy();
+  for (int step = 0; step < 5; ++step) simulation.advance(problem.end);
+  const solver::Totals &now = simulation.totals(), &initial = simulation.state().ledger.initial;
+  EXPECT_NEAR(now.energy(), initial.energy(), 1e-14 * initial.energy());
+  return energy() - before;
+}
+
+TEST(Gap, HeatFlowsWhereBodiesTouch) {
+  const char *own = "[contact]\nmethod = \"auto\"\n", *one = "[contact]\nmethod = \"none\"\n";
+  const double touching = heat_across(0.0, own);
+  EXPECT_GT(touching, 0.0);
+  EXPECT_NEAR(touching, heat_across(0.0, one), 0.01 * touching);
+  EXPECT_LT(std::abs(heat_across(0.7e-3, own)), 1e-9 * touching);
+  EXPECT_GT(heat_across(0.7e-3, one), 0.1 * touching);
+}
+
 }  // namespace
 }  // namespace whipple::verification
