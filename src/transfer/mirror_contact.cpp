@@ -82,6 +82,7 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
   }
   if (planes_.empty()) return;
   first_of_block_.assign(grid.all_nodes().size() / nodes_per_block, nowhere);
+  coupled_.assign(first_of_block_.size(), 0);
   near_.assign(grid.slots(), 0);
   std::uint32_t next = 0;
   for (std::size_t s = 0; s < grid.slots(); ++s) {
@@ -89,9 +90,6 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
       for (std::size_t i = 0; i < grid.node_blocks(s); ++i) {
         first_of_block_[grid.node_block(s, i)] = next;
         next += static_cast<std::uint32_t>(lanes_per_node * nodes_per_block);
-      }
-      for (const std::int32_t neighbour : grid.neighbours(s)) {
-        if (neighbour != BlockGrid::no_slot) near_[static_cast<std::size_t>(neighbour)] = 1;
       }
     }
     extent_.begin.push_back(next);
@@ -112,7 +110,18 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
     }
     for (const std::uint32_t node : mirror.on_plane_apart) plane->couples.push_back({node, node});
     plane->share.assign(plane->couples.size(), 0.0);
+    for (const Couple& couple : plane->couples) {
+      coupled_[couple.node / nodes_per_block] = coupled_[couple.mirror / nodes_per_block] = 1;
+    }
     ++plane;
+  }
+  for (std::size_t s = 0; s < grid.slots(); ++s) {
+    if (concerned[s] == 0) continue;
+    bool any = false;
+    for (std::size_t i = 0; i < grid.node_blocks(s); ++i) any = any || coupled_[grid.node_block(s, i)] != 0;
+    for (const std::int32_t neighbour : grid.neighbours(s)) {
+      if (any && neighbour != BlockGrid::no_slot) near_[static_cast<std::size_t>(neighbour)] = 1;
+    }
   }
   // By where the nodes are, not by which blocks happen to be active around them.
   std::vector<std::uint8_t> planes_of(heat_.size(), 0);

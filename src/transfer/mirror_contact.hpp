@@ -82,7 +82,8 @@ class MirrorContact {
   double cell_size_ = 0.0;                             // m
   std::vector<Plane> planes_;
   std::vector<std::uint32_t> first_of_block_;  // of each block of nodes: place of its first node's values
-  std::vector<std::uint8_t> near_;             // of each slot: do its points reach nodes near a plane?
+  std::vector<std::uint8_t> coupled_;          // of each block of nodes: are there couples in it?
+  std::vector<std::uint8_t> near_;             // of each slot: may its points reach such blocks?
   std::vector<Couple> folded_;                 // nodes that other planes fold, and their images: in the order
                                                // in which they are copied back
   /// Of each node: m, how far matter that reaches it goes beyond the planes along x, y, z (negative: stays

@@ -60,9 +60,11 @@ void MirrorContact::extend(const Particles& particles, std::span<const Vector3> 
         continue;
       }
       const auto block = static_cast<std::size_t>(grid.nodes(static_cast<std::size_t>(neighbour), field) -
-                                                  grid.all_nodes().data());
-      first[n] = first_of_block_[block / grid::nodes_per_block];
+                                                  grid.all_nodes().data()) /
+                         grid::nodes_per_block;
+      first[n] = coupled_[block] != 0 ? first_of_block_[block] : nowhere;
     }
+    if (std::ranges::all_of(first, [](std::uint32_t place) { return place == nowhere; })) return;
     for (const std::uint32_t p : members) {
       const Lanes x = load_vector(points.position[p].data());
       Lanes beyond_lower = lower_corner - x, beyond_upper = x - upper_corner;

@@ -36,6 +36,35 @@ TEST(Bodies, RefusesMoreParticlesThanAMachineHolds) {
   expect_error(small, {"body \"sphere\" takes a lattice of", "'cell_size'", "'per_cell'"});
 }
 
+// A body touches a plane where its shape comes within 0.05 cells of it, wherever the lattice of its particles
+// stands and whatever box is around it.
+TEST(Bodies, TouchPlanesWhereTheirShapesDo) {
+  const auto faces = [](const std::string& shape) {
+    const std::string text =
+        "\n[[body]]\nname = \"one\"\nmaterial = \"copper.toml\"\nshape = " + shape + "\n";
+    return static_cast<int>(faces_touched(read_case_text(domain + text, "case.toml")).at(0));
+  };
+  const auto ball = [&](const std::string& x) {
+    return faces("{ sphere = { center = [\"" + x + " mm\", \"5 mm\", \"0 mm\"], radius = \"3 mm\" } }");
+  };
+  constexpr int x_lower = 1, y_lower = 4;
+  EXPECT_EQ(ball("0"), x_lower);     // cut in its middle
+  EXPECT_EQ(ball("1.37"), x_lower);  // and where the lattice leaves out what the plane cuts
+  EXPECT_EQ(ball("3.04"), x_lower);
+  EXPECT_EQ(ball("3.06"), 0);
+  EXPECT_EQ(ball("3.3"), 0);
+  EXPECT_EQ(ball("9"), 0);  // touches a face through which matter leaves
+  EXPECT_EQ(
+      faces(
+          "{ box = { lower = [\"0 mm\", \"0.04 mm\", \"0 mm\"], upper = [\"2 mm\", \"3 mm\", \"1 mm\"] } }"),
+      x_lower | y_lower);
+  // The box around a turned shape is larger than the shape.
+  EXPECT_EQ(faces("{ moved = { shape = { sphere = { center = [\"2.7 mm\", \"5 mm\", \"0 mm\"], radius = \"2 "
+                  "mm\" } }, angle "
+                  "= \"45 degree\", center = [\"2.7 mm\", \"5 mm\", \"0 mm\"] } }"),
+            0);
+}
+
 // A plate that is thinner than a cell runs, with a warning; one of a cell, the column of a planar problem,
 // without.
 TEST(Bodies, WarnsOfBodiesThinnerThanACell) {
