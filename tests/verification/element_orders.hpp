@@ -63,7 +63,6 @@ inline double element_motion_error(const ExactMotion& motion, const ElementMetho
   advance(first, 0, half);
   std::vector<fem::Mesh> meshes_then = first.meshes();
   Particles particles = first.particles();
-  use_stores(particles);
   if (method.converted) {
     fem::Mesh& then = meshes_then.front();
     std::vector<std::uint8_t> chosen(then.elements.size());
@@ -71,6 +70,7 @@ inline double element_motion_error(const ExactMotion& motion, const ElementMetho
     const double inertia =
         transfer::affine_inertia(transfer::ShapeFunction::quadratic_bspline, setup.domain.cell_size);
     afemp::convert_elements(then, chosen, inertia, particles);
+    use_stores(particles);
   }
   solver::Simulation second(setup, std::move(particles), first.state(), parallel::world(),
                             std::move(meshes_then));

@@ -118,6 +118,7 @@ struct SphereOnPlate {
     constexpr double speed = 3000.0;
     Problem problem;
     problem.end = gap / speed + 2e-6;
+    problem.method.courant = 0.1;  // after flight bodies touch with a full step, not the small first one
     problem.domain =
         "[domain]\nlower = [0, 0, -0.012]\nupper = [0.012, 0.012, 0.012]\ncell_size = 0.0005\n"
         "boundary = { x_lower = \"symmetry\", y_lower = \"symmetry\" }\n";

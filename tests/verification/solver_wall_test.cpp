@@ -158,14 +158,15 @@ TEST(WallContact, ActsWhenMatterTouchesAndAsIfItHadTouchedFromTheStart) {
   }
 }
 
-// PIC and APIC damp by the step, so the twenty times shorter steps at the start matter; a fold across
-// the gap gives 3.6 times the pressure.
+// PIC and APIC damp by the step, so all runs begin with a full one; a fold across the gap gives 3.6 times the
+// pressure.
 TEST(WallContact, DoesSoWithEveryShapeFunctionUpdateAndScheme) {
   for (const char* shape : {"gimp", "convected_gimp", "quadratic_bspline", "cubic_bspline"}) {
     for (const char* update : {"flip", "pic", "relaxed_affine", "apic"}) {
       const bool affine = std::string(update) == "relaxed_affine" || std::string(update) == "apic";
       if (affine && std::string(shape).find("gimp") != std::string::npos) continue;
-      const Method method{.shape_function = shape, .particle_update = update};
+      Method method{.shape_function = shape, .particle_update = update};
+      method.first_step = 1.0;
       const Hit touching = hit({.method = method});
       expect_as_touching({.gap = 2.3, .method = method}, touching, 0.15, 0.1);
     }
@@ -318,7 +319,7 @@ TEST(WallContact, OfASphereIsThatOfTwo) {
       "largest pressure %.2f, %.2f GPa\n",
       impulse, of_two, heat, heat_of_two, 1e-9 * pressure(*half), 1e-9 * pressure(*full));
   EXPECT_NEAR(impulse, of_two, 0.02 * of_two);
-  EXPECT_NEAR(heat, heat_of_two, 0.12 * heat_of_two);
+  EXPECT_NEAR(heat, heat_of_two, 0.015 * half->state().ledger.initial.kinetic_energy);
 }
 
 // A slab on a mirror plane is one with its image, in pressure and in tension: half of a slab that two others
