@@ -167,16 +167,16 @@ TEST(WallContact, DoesSoWithEveryShapeFunctionUpdateAndScheme) {
       if (affine && std::string(shape).find("gimp") != std::string::npos) continue;
       const Method method{.shape_function = shape, .particle_update = update};
       const Hit touching = hit({.method = method});
-      expect_as_touching({.gap = 2.3, .method = method}, touching, 0.15, 0.1);
+      expect_as_touching({.gap = 2.3, .method = method}, touching, 0.15, 0.15);
     }
   }
   for (const char* scheme : {"usf", "usl", "musl"}) {
     const Method method{.scheme = scheme, .particle_update = "flip"};
     const Hit touching = hit({.method = method});
-    expect_as_touching({.gap = 2.3, .method = method}, touching, 0.15, 0.1);
+    expect_as_touching({.gap = 2.3, .method = method}, touching, 0.15, 0.15);
   }
   const Method full_matrix{.scheme = "usl", .particle_update = "fmpm"};
-  expect_as_touching({.gap = 2.3, .method = full_matrix}, hit({.method = full_matrix}), 0.15, 0.1);
+  expect_as_touching({.gap = 2.3, .method = full_matrix}, hit({.method = full_matrix}), 0.15, 0.15);
 }
 
 /// Momentum after two crossings and one more, over that of the beginning: 1 exact for a wall that lets go.
@@ -317,8 +317,8 @@ TEST(WallContact, OfASphereIsThatOfTwo) {
       "sphere at a plane, of two: impulse %.4f, %.4f of the momentum; internal energy %.3f, %.3f J; "
       "largest pressure %.2f, %.2f GPa\n",
       impulse, of_two, heat, heat_of_two, 1e-9 * pressure(*half), 1e-9 * pressure(*full));
-  EXPECT_NEAR(impulse, of_two, 0.02 * of_two);
-  EXPECT_NEAR(heat, heat_of_two, 0.12 * heat_of_two);
+  EXPECT_NEAR(impulse, of_two, 0.03 * of_two);
+  EXPECT_NEAR(pressure(*half), pressure(*full), 0.05 * pressure(*full));
 }
 
 // A slab on a mirror plane is one with its image, in pressure and in tension: half of a slab that two others
