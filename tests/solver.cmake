@@ -19,7 +19,7 @@ whipple_test(test_contact_sweep STARTS_MPI SOURCES verification/solver_gap_sweep
 add_executable(fuzz EXCLUDE_FROM_ALL fuzz/case_fuzz.cpp fuzz/io_checkpoint_damage.cpp)
 target_link_libraries(fuzz PRIVATE whipple_flags whipple_solver GTest::gmock GTest::gtest_main)
 target_compile_definitions(fuzz PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.cpp DEPENDS whipple_solver LABELS long)
+whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.cpp verification/solver_finest_orders_test.cpp DEPENDS whipple_solver LABELS long)
 # Writes docs/orders_of_convergence.md; a program of its own, as it takes minutes.
 add_executable(orders_of_convergence EXCLUDE_FROM_ALL verification/solver_orders.cpp)
 target_link_libraries(orders_of_convergence PRIVATE whipple_flags whipple_solver)

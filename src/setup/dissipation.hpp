@@ -14,7 +14,7 @@ struct Dissipation {
   double affine_gain = 1.5;         ///< a of eq. 6
   double affine_compression = 0.25; ///< g of eq. 6
   double shock_conduction = 1.0;    ///< 1/Pr of eq. 8
-  double conduction_onset = 0.01;   ///< a0 of eq. 8
+  double conduction_onset = 0.03;   ///< a0 of eq. 8
   double conduction_rise = 0.05;    ///< a1 of eq. 8
   [[nodiscard]] bool keeps_losses() const { return losses == "unresolved"; }
   static ParameterTable<Dissipation> parameters();
