@@ -32,10 +32,10 @@ class Contact {
   explicit Contact(const Settings& settings) : settings_(settings) {}
 
   /// Finds the surfaces of the bodies around the contact slots. Collective.
-  /// @param after_transfer  the nodes hold what particles and elements brought to them
+  /// @param dt  s, if the nodes hold what particles and elements brought to them; 0: not yet
   void find_surfaces(transfer::ShapeFunction shape, const Particles& particles, const SurfacePoints& elements,
-                     grid::BlockGrid& grid, bool after_transfer) {
-    surfaces_.find(settings_.normal, shape, particles, elements, grid, after_transfer);
+                     grid::BlockGrid& grid, double dt) {
+    surfaces_.find(settings_.normal, shape, particles, elements, grid, dt);
   }
 
   /// Do the surfaces of two fields, by their numbers in a contact slot, touch at a node?

@@ -171,6 +171,12 @@ void for_each_place(const Particles& particles, const BlockGrid& grid, const Nod
                     AtPoint&& at_point) {
   grid.for_each_apart([&](std::size_t slot) {
     if (!grid.meets_contact(slot)) return;
+    const bool reaches_some = std::ranges::any_of(grid.neighbours(slot), [&](std::int32_t near) {
+      if (near == BlockGrid::no_slot) return false;
+      const std::int32_t number = grid.contact_number(static_cast<std::size_t>(near));
+      return number != BlockGrid::no_slot && matter[static_cast<std::size_t>(number)] != 0;
+    });
+    if (!reaches_some) return;
     grid.for_each_field(BlockGrid::Points::particles, slot,
                         [&](std::span<const std::uint32_t> members, unsigned field) {
                           for (const std::uint32_t p : members) {
@@ -303,6 +309,47 @@ NodesThatMatter nodes_of_several(const BlockGrid& grid, bool after_transfer) {
   return nodes;
 }
 
+/// Do particles reach nodes of a slot from both sides of a mirror plane? Their sums are folded later.
+bool near_planes(const BlockGrid& grid, std::uint32_t slot) {
+  const grid::Geometry& geometry = grid.geometry();
+  constexpr int reach = 2;  // cells
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int first = grid.coordinate(slot)[a] * grid::block_edge, last = first + grid::block_edge - 1;
+    const auto reflects = [&](std::size_t face) { return geometry.boundary[face] != grid::Boundary::outflow; };
+    if (reflects(2 * a) && first <= reach) return true;
+    if (reflects(2 * a + 1) && last >= geometry.cells[a] - reach) return true;
+  }
+  return false;
+}
+
+/// Do two fields, the only ones at a node, part along all normals that are tried, and do the forces not press them?
+/// Then there is no impulse, whatever the gap (docs/theory/contact.md, 4).
+/// @param a, b  numbers of the fields among those of the slot
+bool parts(const BlockGrid& grid, std::uint32_t slot, std::size_t node, std::size_t a, std::size_t b,
+           std::span<const Lanes> normals, double dt) {
+  const grid::Node *first = nullptr, *second = nullptr;
+  std::size_t number = 0, reached = 0;
+  grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
+    const grid::Node* of_field = grid.nodes(slot, field) + node;
+    reached += of_field->first[0] > 0.0 ? 1 : 0;
+    if (number == a) first = of_field;
+    if (number == b) second = of_field;
+    ++number;
+  });
+  if (reached != 2) return false;
+  const auto velocity = [](const grid::Node& n) -> Vector3 {
+    return Vector3(n.first[1], n.first[2], n.first[3]) / n.first[0];
+  };
+  const auto increment = [&](const grid::Node& n) -> Vector3 {
+    return dt / n.first[0] * Vector3(n.second[1], n.second[2], n.second[3]);
+  };
+  const Vector3 apart = velocity(*second) - velocity(*first), pulled = increment(*second) - increment(*first);
+  return std::ranges::all_of(normals, [&](const Lanes& n) {
+    const Vector3 normal(n[0], n[1], n[2]);
+    return normal.dot(pulled) >= 0.0 && normal.dot(apart + pulled) >= 0.0;
+  });
+}
+
 /// Nodes with a normal between two fields.
 NodesThatMatter nodes_with_normals(const BlockGrid& grid, const grid::ContactValues& normals,
                                    std::size_t candidates) {
@@ -332,8 +379,9 @@ Surfaces::Gap Surfaces::at(std::size_t contact_slot, std::size_t pair, std::size
 }
 
 void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles& particles,
-                    const SurfacePoints& elements, grid::BlockGrid& grid, bool after_transfer) {
+                    const SurfacePoints& elements, grid::BlockGrid& grid, double dt) {
   const PlacedPoints placed(elements, grid);
+  const bool after_transfer = dt > 0.0;
   const NodesThatMatter several = nodes_of_several(grid, after_transfer);
   lay_out(gradient_, grid, broadcast(0.0), one_per_field);
   candidates_ = kind == Normal::separating ? 3 : 1;
@@ -392,7 +440,9 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
         };
       });
       grid.sum_to_owners(gradient_);
+      const bool knows_motion = after_transfer && !grid.is_shared();
       for_each_owned_node(grid, [&](std::size_t c, std::size_t fields, std::size_t node) {
+        const bool may_part = knows_motion && !near_planes(grid, grid.contact_slots()[c]);
         const auto at_node = [&](std::size_t field) {
           return gradient_.values[gradient_.begin[c] + field * nodes_per_block + node];
         };
@@ -409,9 +459,13 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
           const Vector3 of_a = outward(a), of_b = -outward(b);
           normal[0] = lanes(unit_or_zero(of_a + of_b));
           // On smooth faces all three are one.
-          if (kind == Normal::collinear || of_a.dot(of_b) > one_direction) return;
-          normal[1] = lanes(of_a);
-          normal[2] = lanes(of_b);
+          if (kind != Normal::collinear && of_a.dot(of_b) <= one_direction) {
+            normal[1] = lanes(of_a);
+            normal[2] = lanes(of_b);
+          }
+          if (!may_part) return;
+          const std::span tried(normal, candidates_);
+          if (parts(grid, grid.contact_slots()[c], node, a, b, tried, dt)) std::ranges::fill(tried, Lanes{});
         });
       });
       grid.borrow_from_owners(normal_);

@@ -71,7 +71,8 @@ void Simulation::find_surfaces(bool after_transfer) {
                           setup_.domain.cell_size, near ? &*near : nullptr);
     }
     surface_points_.send_to_owners(grid_, transfer::stencil(shape_), communicator_);
-    contact_->find_surfaces(shape_, particles_, surface_points_, grid_, after_transfer);
+    contact_->find_surfaces(shape_, particles_, surface_points_, grid_,
+                            after_transfer ? state_.time_step : 0.0);
   });
 }
 
