@@ -73,14 +73,15 @@ struct Meeting {
   double share;  // of the step in which they touch
 };
 
-/// Which fields are stopped by impulses: those without relaxation, such as of elements, and what touches
-/// them.
-void choose(Response response, const std::vector<Side>& sides, const std::vector<Meeting>& meetings,
-            std::vector<std::uint8_t>& by_impulses) {
+/// Which fields are stopped by impulses: those without relaxation, such as of elements, those whose matter is loose,
+/// and what touches them. Mixed, they would keep what they are apart by (docs/theory/contact.md, 5).
+/// @param least  relaxation of each side below which it is loose
+void choose(Response response, const std::vector<Side>& sides, const std::vector<double>& least,
+            const std::vector<Meeting>& meetings, std::vector<std::uint8_t>& by_impulses) {
   by_impulses.assign(sides.size(), response == Response::impulses ? 1 : 0);
   if (response == Response::impulses) return;
   for (std::size_t s = 0; s < sides.size(); ++s) {
-    by_impulses[s] = sides[s].mass >= no_mass && sides[s].relaxation() == 0.0 ? 1 : 0;
+    by_impulses[s] = sides[s].mass >= no_mass && sides[s].relaxation() <= least[s] ? 1 : 0;
   }
   for (bool grown = true; grown;) {
     grown = false;
@@ -113,6 +114,11 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt) const {
     const std::uint32_t slot = grid.contact_slots()[c];
     const auto fields = static_cast<std::size_t>(std::popcount(grid.fields(slot)));
     std::vector<Side> sides(fields);
+    std::vector<double> least;  // relaxation of each side
+    grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
+      const bool known = field < settings_.least_relaxation_rate.size();
+      least.push_back(known ? -std::expm1(-settings_.least_relaxation_rate[field] * dt) : 0.0);
+    });
     std::vector<Meeting> meetings;
     std::vector<std::uint8_t> by_impulses;  // of each side
     std::vector<Stop> stops;
@@ -137,7 +143,7 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt) const {
         }
       }
       if (meetings.empty()) continue;
-      choose(settings_.response, sides, meetings, by_impulses);
+      choose(settings_.response, sides, least, meetings, by_impulses);
       stops.clear();
       pressing.begin(sides);
       for (const Meeting& m : meetings) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "src/contact/node_fields.hpp"
 #include "src/contact/surfaces.hpp"
@@ -24,12 +26,15 @@ struct Settings {
   double friction = 0.3;  ///< Coulomb's coefficient
   bool gap_test = true;   ///< only surfaces that touch, or would within the step
   double gap = 0.0;       ///< in cells: surfaces nearer than that touch
+  /// 1/s, of each velocity field: where it relaxes more slowly, its matter is too loose to move as one with what it
+  /// meets, and impulses stop it; empty: never
+  std::vector<double> least_relaxation_rate;
 };
 
 /// The impulses between velocity fields at the nodes that they share.
 class Contact {
  public:
-  explicit Contact(const Settings& settings) : settings_(settings) {}
+  explicit Contact(Settings settings) : settings_(std::move(settings)) {}
 
   /// Finds the surfaces of the bodies around the contact slots. Collective.
   /// @param dt  s, if the nodes hold what particles and elements brought to them; 0: not yet

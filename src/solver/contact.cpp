@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact of bodies in the step (docs/theory/contact.md).
 #include <algorithm>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "src/afemp/transition.hpp"
 #include "src/solver/simulation.hpp"
@@ -26,8 +28,24 @@ void Simulation::set_up_contact() {
                         .normal = normal(control.normal),
                         .friction = control.friction,
                         .gap_test = control.gap_test,
-                        .gap = control.gap});
+                        .gap = control.gap,
+                        .least_relaxation_rate = least_relaxation_rates()});
   contact_field_of_body_ = setup_.contact_fields.of_body;
+}
+
+/// kappa c/dx with a quarter of the sound speed at rest: matter that has failed and opened, or boiled, is softer.
+std::vector<double> Simulation::least_relaxation_rates() const {
+  constexpr double share_of_tight_matter = 0.25;
+  if (setup_.transfer.particle_update != "relaxed_affine") return {};  // others relax by no speed of sound
+  const std::vector<std::uint8_t>& field_of_body = setup_.contact_fields.of_body;
+  std::vector<double> rates(*std::ranges::max_element(field_of_body) + std::size_t{1},
+                            std::numeric_limits<double>::infinity());
+  for (std::size_t b = 0; b < field_of_body.size(); ++b) {
+    double& rate = rates[field_of_body[b]];
+    rate = std::min(rate, share_of_tight_matter * setup_.transfer.kappa *
+                              setup_.materials[b]->reference.sound_speed / setup_.domain.cell_size);
+  }
+  return rates;
 }
 
 void Simulation::separate_fields() {

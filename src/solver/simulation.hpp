@@ -134,6 +134,7 @@ class Simulation {
   void prepare();
   void require_fields() const;
   void set_up_contact();
+  [[nodiscard]] std::vector<double> least_relaxation_rates() const;
   void set_up_dissipation();
   void separate_fields();
   void look_at_fill();

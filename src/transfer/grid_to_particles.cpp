@@ -86,15 +86,15 @@ template <AffineField field>
   const double viscous_work =
       -particles.artificial_viscosity[p] * (mean[0][0] + mean[1][1] + mean[2][2]) * volume_and_time;
   const double heat_of_contact = advance.increment.value[3];  // docs/theory/contact.md, 4.6
-  Booking booking{.heat = loss};
+  Booking booking{.heat = loss, .of_contact = heat_of_contact};
   if (losses.kept) {
     const auto& l = advance.grid_velocity.gradient;
     const double divergence = l[0][0] + l[1][1] + l[2][2];
-    booking = book_losses(losses, particles, p, loss, viscous_work / mass, divergence, dt);
+    booking = book_losses(losses, particles, p, loss, heat_of_contact, viscous_work / mass, divergence, dt);
     particles.unresolved_energy[p] += booking.kept - booking.returned;
     particles.closing_rate[p] = std::fmax(-divergence, 0.0);
   }
-  particles.specific_internal_energy[p] += work / mass + booking.heat - booking.cooling + booking.returned + heat_of_contact;
+  particles.specific_internal_energy[p] += work / mass + booking.heat - booking.cooling + booking.returned + booking.of_contact;
   TransferBalance balance{.work = work,
                           .viscous_work = viscous_work - mass * booking.cooling,
                           .heat = mass * booking.heat,

@@ -143,14 +143,15 @@ constexpr Losses losses{.kept = true, .heat_share = 0.1, .collision_rate = 1.0, 
 
 TEST(Losses, InTightMatterHeatAsFarAsTheViscosityThatHeatsDoesWork) {
   const Particles q = one_particle(1100.0, 1e9);
-  const Booking b = book_losses(losses, q, 0, 30.0, 80.0, -5.0, 0.01);
+  const Booking b = book_losses(losses, q, 0, 30.0, 7.0, 80.0, -5.0, 0.01);
   EXPECT_DOUBLE_EQ(b.cooling, 60.0);  // three quarters of the work of the viscosity
   EXPECT_DOUBLE_EQ(b.heat, 2.0);      // a tenth of the quarter that heats
   EXPECT_DOUBLE_EQ(b.kept, 28.0 + 60.0);
   EXPECT_EQ(b.returned, 0.0);
-  const Booking small = book_losses(losses, q, 0, 1.5, 80.0, -5.0, 0.01);
+  EXPECT_EQ(b.of_contact, 7.0);
+  const Booking small = book_losses(losses, q, 0, 1.5, 0.0, 80.0, -5.0, 0.01);
   EXPECT_DOUBLE_EQ(small.heat, 1.5);
-  const Booking opening = book_losses(losses, q, 0, 30.0, -3.0, 5.0, 0.01);
+  const Booking opening = book_losses(losses, q, 0, 30.0, 7.0, -3.0, 5.0, 0.01);
   EXPECT_EQ(opening.heat, 0.0);
   EXPECT_EQ(opening.cooling, 0.0);
   EXPECT_EQ(opening.kept, 30.0);
@@ -159,14 +160,16 @@ TEST(Losses, InTightMatterHeatAsFarAsTheViscosityThatHeatsDoesWork) {
 TEST(Losses, WhereGapsCloseAllHeatsAndTheStoreReturnsWithTheVolume) {
   for (const bool thin : {true, false}) {
     Particles q = one_particle(thin ? 900.0 : 1100.0, thin ? 1e9 : -1e6);
-    const Booking b = book_losses(losses, q, 0, 30.0, 80.0, -5.0, 0.01);
+    const Booking b = book_losses(losses, q, 0, 30.0, 7.0, 80.0, -5.0, 0.01);
     EXPECT_EQ(b.heat, 30.0);
     EXPECT_EQ(b.kept, 0.0);
     EXPECT_EQ(b.cooling, 0.0);
     EXPECT_DOUBLE_EQ(b.returned, 50.0 * -std::expm1(-0.05));
-    const Booking opens = book_losses(losses, q, 0, 30.0, 0.0, 5.0, 0.01);
+    const Booking opens = book_losses(losses, q, 0, 30.0, 7.0, 0.0, 5.0, 0.01);
     EXPECT_EQ(opens.returned, 0.0);
-    EXPECT_EQ(opens.kept, 30.0);
+    EXPECT_EQ(opens.kept, 37.0);
+    EXPECT_EQ(opens.of_contact, 0.0);
+    EXPECT_EQ(b.of_contact, 7.0);
   }
 }
 
