@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/contact/parting.hpp"
 #include "src/parallel/threads.hpp"
 
 namespace whipple::contact {
@@ -307,47 +308,6 @@ NodesThatMatter nodes_of_several(const BlockGrid& grid, bool after_transfer) {
     nodes[c] = several;
   });
   return nodes;
-}
-
-/// Do particles reach nodes of a slot from both sides of a mirror plane? Their sums are folded later.
-bool near_planes(const BlockGrid& grid, std::uint32_t slot) {
-  const grid::Geometry& geometry = grid.geometry();
-  constexpr int reach = 2;  // cells
-  for (std::size_t a = 0; a < 3; ++a) {
-    const int first = grid.coordinate(slot)[a] * grid::block_edge, last = first + grid::block_edge - 1;
-    const auto reflects = [&](std::size_t face) { return geometry.boundary[face] != grid::Boundary::outflow; };
-    if (reflects(2 * a) && first <= reach) return true;
-    if (reflects(2 * a + 1) && last >= geometry.cells[a] - reach) return true;
-  }
-  return false;
-}
-
-/// Do two fields, the only ones at a node, part along all normals that are tried, and do the forces not press them?
-/// Then there is no impulse, whatever the gap (docs/theory/contact.md, 4).
-/// @param a, b  numbers of the fields among those of the slot
-bool parts(const BlockGrid& grid, std::uint32_t slot, std::size_t node, std::size_t a, std::size_t b,
-           std::span<const Lanes> normals, double dt) {
-  const grid::Node *first = nullptr, *second = nullptr;
-  std::size_t number = 0, reached = 0;
-  grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
-    const grid::Node* of_field = grid.nodes(slot, field) + node;
-    reached += of_field->first[0] > 0.0 ? 1 : 0;
-    if (number == a) first = of_field;
-    if (number == b) second = of_field;
-    ++number;
-  });
-  if (reached != 2) return false;
-  const auto velocity = [](const grid::Node& n) -> Vector3 {
-    return Vector3(n.first[1], n.first[2], n.first[3]) / n.first[0];
-  };
-  const auto increment = [&](const grid::Node& n) -> Vector3 {
-    return dt / n.first[0] * Vector3(n.second[1], n.second[2], n.second[3]);
-  };
-  const Vector3 apart = velocity(*second) - velocity(*first), pulled = increment(*second) - increment(*first);
-  return std::ranges::all_of(normals, [&](const Lanes& n) {
-    const Vector3 normal(n[0], n[1], n[2]);
-    return normal.dot(pulled) >= 0.0 && normal.dot(apart + pulled) >= 0.0;
-  });
 }
 
 /// Nodes with a normal between two fields.

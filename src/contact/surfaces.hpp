@@ -31,7 +31,8 @@ class Surfaces {
 
   /// From the particles and the surfaces of elements that reach the nodes, with their images at mirror
   /// planes. Collective.
-  /// @param dt  s, of the step, if the nodes hold what particles and elements brought to them; 0: not yet. Then nodes
+  /// @param dt  s, of the step, if the nodes hold what particles and elements brought to them; 0: not yet.
+  /// Then nodes
   ///            count where two fields cannot press either.
   void find(Normal normal, transfer::ShapeFunction shape, const Particles& particles,
             const SurfacePoints& elements, grid::BlockGrid& grid, double dt);

@@ -303,9 +303,9 @@ void advance_strain(Step& step, Chunk& chunk) {
   }
 }
 
-/// The part of the artificial viscosity whose work is heat (docs/theory/dissipation.md, eq. 6): all of it in a
-/// shock, whose rate the affine field of the particle follows; where matter meets at first, what the affine field
-/// has of the jump. Loose matter collides: all of it heats.
+/// The part of the artificial viscosity whose work is heat (docs/theory/dissipation.md, eq. 6): all of it in
+/// a shock, whose rate the affine field of the particle follows; where matter meets at first, what the affine
+/// field has of the jump. Loose matter collides: all of it heats.
 WHIPPLE_KERNEL void find_heating_viscosity(const Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
   const double per_initial = 1.0 / settings.initial_density;
@@ -377,8 +377,7 @@ WHIPPLE_KERNEL void prepare_energy(const Step& step, Chunk& chunk) {
     const SymmetricTensor s = material::tensor(lanes, k);
     const double deviatoric = s.xx * l[0][k] + s.yy * l[4][k] + s.zz * l[8][k] + s.xy * (l[1][k] + l[3][k]) +
                               s.yz * (l[5][k] + l[7][k]) + s.zx * (l[2][k] + l[6][k]);
-    const double power =
-        deviatoric - (chunk.pressure[k] + viscosity[k]) * chunk.motion.divergence[k];
+    const double power = deviatoric - (chunk.pressure[k] + viscosity[k]) * chunk.motion.divergence[k];
     const double modulus = chunk.motion.modulus[k];
     const double elastic = s.squared_norm() / (4.0 * (modulus > 0.0 ? modulus : 1.0));
     const double specific_volume = chunk.volume[k] / chunk.mass[k];

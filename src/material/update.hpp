@@ -24,8 +24,8 @@ struct UpdateSettings {
   double linear_viscosity = 0.25;        ///< c1 of q = rho l |D| (c2 l |D| + c1 c)
   double quadratic_viscosity = 1.0;      ///< c2
   double expansion_viscosity = 0.0;      ///< c1 of q = -rho l |D| c1 c in expansion
-  /// 1/s, tr C of the affine field of each point of the list, which says how much of the artificial viscosity heats
-  /// (docs/theory/dissipation.md, eq. 6); empty: all of it does
+  /// 1/s, tr C of the affine field of each point of the list, which says how much of the artificial viscosity
+  /// heats (docs/theory/dissipation.md, eq. 6); empty: all of it does
   std::span<const double> affine_divergence = {};
   double affine_gain = 1.0;         ///< a of eq. 6
   double affine_compression = 0.0;  ///< g of eq. 6; 0: all of it heats

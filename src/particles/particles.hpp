@@ -38,7 +38,8 @@ struct Particles : MaterialPoints {
                         Field{"affine_velocity", "1/s", &P::affine_velocity, true},
                         Field{"extent", "m^2", &P::extent, true},
                         Field{"unresolved_energy", "J/kg", &P::unresolved_energy, true},
-                        Field{"closing_rate", "1/s", &P::closing_rate, true}, Field{"generation", "1", &P::generation}));
+                        Field{"closing_rate", "1/s", &P::closing_rate, true},
+                        Field{"generation", "1", &P::generation}));
   }
 };
 
@@ -49,7 +50,8 @@ inline void use_stores(Particles& particles) {
   particles.closing_rate.resize(size, 0.0);
   const std::vector<double>& viscosity = particles.artificial_viscosity;
   std::vector<double>& heating = particles.heating_viscosity;
-  heating.insert(heating.end(), viscosity.begin() + static_cast<std::ptrdiff_t>(heating.size()), viscosity.end());
+  heating.insert(heating.end(), viscosity.begin() + static_cast<std::ptrdiff_t>(heating.size()),
+                 viscosity.end());
 }
 
 /// Memory that is kept from one sort to the next: new pages cost more than the copy.

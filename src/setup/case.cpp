@@ -257,10 +257,12 @@ void check_conduction(const Case& setup, input::Table& heat) {
 /// Only the work identity of the symplectic scheme says what the transfers lose.
 void check_dissipation(Case& setup, input::Table& root) {
   if (setup.time.scheme == "symplectic") return;
-  if (auto table = root.optional_table("dissipation"); table && table->has("losses") && setup.dissipation.keeps_losses()) {
-    table->error_at("losses", fmt::format("losses = \"unresolved\" needs scheme = \"symplectic\": \"{}\" does not know "
-                                          "what its transfers lose",
-                                          setup.time.scheme));
+  if (auto table = root.optional_table("dissipation");
+      table && table->has("losses") && setup.dissipation.keeps_losses()) {
+    table->error_at("losses",
+                    fmt::format("losses = \"unresolved\" needs scheme = \"symplectic\": \"{}\" does not know "
+                                "what its transfers lose",
+                                setup.time.scheme));
   }
   setup.dissipation.losses = "heat";
 }
@@ -309,7 +311,8 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   if (auto table = root.optional_table("artificial_viscosity")) {
     table->read(ArtificialViscosity::parameters(), setup.viscosity);
   }
-  if (auto table = root.optional_table("dissipation")) table->read(Dissipation::parameters(), setup.dissipation);
+  if (auto table = root.optional_table("dissipation"))
+    table->read(Dissipation::parameters(), setup.dissipation);
   if (auto table = root.optional_table("output")) table->read(OutputControl::parameters(), setup.output);
   auto heat = root.optional_table("heat");
   if (heat) heat->read(HeatControl::parameters(), setup.heat);

@@ -47,9 +47,9 @@ struct Seeding {
   Vector3 wall_impulse = Vector3::Zero();  ///< N s, see `make_meshes`
 };
 
-/// Which faces of the domain that mirror or stop matter a body touches or crosses at the start: of each body, a
-/// bit per face in the order of Geometry::boundary. It follows from the case alone, so a run that goes on from
-/// a checkpoint finds the same.
+/// Which faces of the domain that mirror or stop matter a body touches or crosses at the start: of each body,
+/// a bit per face in the order of Geometry::boundary. It follows from the case alone, so a run that goes on
+/// from a checkpoint finds the same.
 std::vector<std::uint8_t> faces_touched(const Case& setup);
 
 /// Fills the bodies of elements with their meshes (`make_meshes`), the others with particles on lattices that

@@ -15,15 +15,16 @@
 namespace whipple::solver {
 namespace {
 
-/// Share of the mass that may be compressed faster than the time step follows: a few particles that are squeezed
-/// between debris and a wall must not hold up all others.
+/// Share of the mass that may be compressed faster than the time step follows: a few particles that are
+/// squeezed between debris and a wall must not hold up all others.
 constexpr double free_share = 1e-3;
 
 /// Bins of positive numbers by exponent and first four bits of the mantissa: 3 to 6 % wide, from 1 to 2^40.
 struct Bins {
   static constexpr std::size_t count = 40 * 16;
   static std::size_t of(double x) {
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) >> 48U, one = std::bit_cast<std::uint64_t>(1.0) >> 48U;
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) >> 48U,
+                        one = std::bit_cast<std::uint64_t>(1.0) >> 48U;
     return bits <= one ? 0 : std::min<std::size_t>(bits - one, count - 1);
   }
   static double end(std::size_t bin) {
@@ -32,11 +33,13 @@ struct Bins {
   }
 };
 
-constexpr double parts_of_mass = 0x1p40;  // masses are counted in these, so that their sums do not depend on the order
+constexpr double parts_of_mass =
+    0x1p40;  // masses are counted in these, so that their sums do not depend on the order
 
 }  // namespace
 
-/// Rate that all but `free_share` of the particles' mass keep below, or one that does not bound the next step.
+/// Rate that all but `free_share` of the particles' mass keep below, or one that does not bound the next
+/// step.
 /// @param largest  1/s, of all particles of all ranks
 double Simulation::compression_rate_of_most(double largest) const {
   if (!losses_.kept) return largest;
@@ -49,7 +52,7 @@ double Simulation::compression_rate_of_most(double largest) const {
     for (std::size_t p = begin; p < end; ++p) {
       if (particles_.closing_rate[p] <= harmless || particles_.pressure[p] <= 0.0) continue;
       (*mass)[Bins::of(particles_.closing_rate[p])].fetch_add(std::llround(per_mass * particles_.mass[p]),
-                                                             std::memory_order_relaxed);
+                                                              std::memory_order_relaxed);
     }
   });
   std::array<double, Bins::count> of_all_ranks;

@@ -33,7 +33,8 @@ void Simulation::set_up_contact() {
   contact_field_of_body_ = setup_.contact_fields.of_body;
 }
 
-/// kappa c/dx with a quarter of the sound speed at rest: matter that has failed and opened, or boiled, is softer.
+/// kappa c/dx with a quarter of the sound speed at rest: matter that has failed and opened, or boiled, is
+/// softer.
 std::vector<double> Simulation::least_relaxation_rates() const {
   constexpr double share_of_tight_matter = 0.25;
   if (setup_.transfer.particle_update != "relaxed_affine") return {};  // others relax by no speed of sound

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of the kinetic energy that the transfers lose, and heat inside shocks (docs/theory/dissipation.md).
+// What becomes of the kinetic energy that the transfers lose, and heat inside shocks
+// (docs/theory/dissipation.md).
 #include <algorithm>
 
 #include "src/solver/simulation.hpp"

@@ -68,8 +68,8 @@ double divide(Particles& particles, std::size_t p, std::size_t other, const Vect
     const double before = 0.5 * inertia * c.squaredNorm();
     c -= difference * offset.transpose() / inertia;
     heat = before - 0.5 * inertia * c.squaredNorm() - 0.5 * difference.squaredNorm();
-    (particles.unresolved_energy.empty() ? particles.specific_internal_energy : particles.unresolved_energy)[p] +=
-        heat;
+    (particles.unresolved_energy.empty() ? particles.specific_internal_energy
+                                         : particles.unresolved_energy)[p] += heat;
   }
   for_each_field<Particles>([&](const auto& field) {
     auto& values = particles.*(field.values);

@@ -28,13 +28,14 @@ Totals totals_of(const Particles& particles, std::size_t p, double affine_inerti
   const Vector3& v = particles.velocity[p];
   const double speed2 = v.squaredNorm();
   const double affine = affine_inertia > 0.0 ? particles.affine_velocity[p].squaredNorm() : 0.0;
-  return {.mass = m,
-          .momentum = m * v,
-          .momentum_scale = m * std::sqrt(speed2),
-          .kinetic_energy = 0.5 * m * speed2,
-          .affine_kinetic_energy = 0.5 * m * affine_inertia * affine,
-          .internal_energy = m * particles.specific_internal_energy[p],
-          .unresolved_energy = particles.unresolved_energy.empty() ? 0.0 : m * particles.unresolved_energy[p]};
+  return {
+      .mass = m,
+      .momentum = m * v,
+      .momentum_scale = m * std::sqrt(speed2),
+      .kinetic_energy = 0.5 * m * speed2,
+      .affine_kinetic_energy = 0.5 * m * affine_inertia * affine,
+      .internal_energy = m * particles.specific_internal_energy[p],
+      .unresolved_energy = particles.unresolved_energy.empty() ? 0.0 : m * particles.unresolved_energy[p]};
 }
 
 namespace {

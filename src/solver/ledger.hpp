@@ -81,10 +81,10 @@ struct Ledger {
   double work = 0.0;                           ///< J, stress on strain, into internal energy
   double viscous_work = 0.0;                   ///< J, part of it: of the artificial viscosity
   double plastic_work = 0.0;                   ///< J, part of it: of the strength on plastic strain
-  double transfer_heat = 0.0;         ///< J, kinetic energy lost in transfers that became internal at once
-  double unresolved_kept = 0.0;       ///< J, the rest of it, into unresolved energy
-  double unresolved_returned = 0.0;   ///< J, unresolved energy that became internal
-  double conducted_heat = 0.0;        ///< J, internal energy that shocks moved between particles
+  double transfer_heat = 0.0;        ///< J, kinetic energy lost in transfers that became internal at once
+  double unresolved_kept = 0.0;      ///< J, the rest of it, into unresolved energy
+  double unresolved_returned = 0.0;  ///< J, unresolved energy that became internal
+  double conducted_heat = 0.0;       ///< J, internal energy that shocks moved between particles
   double contact_heat = 0.0;      ///< J, lost by the normal impulses of contact, into internal energy
   double friction_heat = 0.0;     ///< J, lost by its tangential impulses, into internal energy
   double contact_impulse = 0.0;   ///< N s, sum of the normal impulses (equal and opposite on two bodies)

@@ -72,7 +72,8 @@ void Simulation::update_material_with(std::string_view stage, EnergyUpdate energ
   Clock::duration in_material{};  // of all threads
   std::mutex mutex;
   const bool has_affine_field = losses_.kept && particle_affine_inertia() > 0.0;
-  const auto take = [&](std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients) -> double {
+  const auto take = [&](std::span<const std::uint32_t> particles,
+                        std::span<const Matrix3> gradients) -> double {
     const Clock::time_point begin = Clock::now();
     const std::size_t limited = follows_domains() ? deform_domains(particles, gradients) : 0;
     double plastic_work = 0.0;  // apart from the report, which other threads add to in any order

@@ -406,7 +406,8 @@ class Runner {
     }
     if (totals.unresolved_share() > 0.05) {
       log::info(
-          "{:.2g} % of the kinetic energy is motion that the cells do not resolve: finer cells would change the "
+          "{:.2g} % of the kinetic energy is motion that the cells do not resolve: finer cells would change "
+          "the "
           "result",
           100.0 * totals.unresolved_share());
     }

@@ -428,8 +428,8 @@ void Simulation::map_momentum_to_grid() {
 void Simulation::update_material() {
   update_material_with(
       "velocity gradient", EnergyUpdate::by_constitutive_model, [&](const transfer::TakeGradients& take) {
-        step_.plastic_work += transfer::gather_velocity_gradient(shape_, particles_, grid_, take,
-                                                                 [&] { finish_exchange(); });
+        step_.plastic_work +=
+            transfer::gather_velocity_gradient(shape_, particles_, grid_, take, [&] { finish_exchange(); });
       });
 }
 

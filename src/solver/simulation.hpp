@@ -217,8 +217,8 @@ class Simulation {
   std::vector<std::vector<fem::Facet>> surface_facets_;  // of each mesh
   bool surfaces_changed_ = true;                         // since they were found
   contact::SurfacePoints surface_points_;
-  std::vector<double> initial_density_;                         // kg/m^3, of each body
-  std::vector<transfer::ShockConductivity> shock_conductivity_;     // of each body
+  std::vector<double> initial_density_;                          // kg/m^3, of each body
+  std::vector<transfer::ShockConductivity> shock_conductivity_;  // of each body
   transfer::Losses losses_;
   RunState state_;
   Ledger step_;  // what happened on this rank in the step under way

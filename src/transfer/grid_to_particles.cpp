@@ -94,7 +94,8 @@ template <AffineField field>
     particles.unresolved_energy[p] += booking.kept - booking.returned;
     particles.closing_rate[p] = std::fmax(-divergence, 0.0);
   }
-  particles.specific_internal_energy[p] += work / mass + booking.heat - booking.cooling + booking.returned + booking.of_contact;
+  particles.specific_internal_energy[p] +=
+      work / mass + booking.heat - booking.cooling + booking.returned + booking.of_contact;
   TransferBalance balance{.work = work,
                           .viscous_work = viscous_work - mass * booking.cooling,
                           .heat = mass * booking.heat,
@@ -194,7 +195,8 @@ TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt, con
               prefetch(p + prefetch_distance, particles.affine_velocity);
             }
           }
-          balance += update_particle<field>(particles, p, dt, advance, gradients[place], losses, acceleration);
+          balance +=
+              update_particle<field>(particles, p, dt, advance, gradients[place], losses, acceleration);
         };
         Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
                                         typename Kernels::template Transfer<field>{dt}, take);
@@ -312,16 +314,17 @@ namespace {
 /// Sums of the nodes' velocities, for every particle: take_sums(p, sums, its gradient to be handed on).
 /// @returns J, plastic work, as `take` reports it
 template <class TakeSums>
-double gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& grid, const TakeGradients& take,
-                  const BeforeBorder& before_border, TakeSums&& take_sums) {
+double gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
+                    const TakeGradients& take, const BeforeBorder& before_border, TakeSums&& take_sums) {
   return with_shape(shape, [&]<class Shape>(Shape) {
-    return gather_particles(grid, take, before_border,
-                     [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, Matrix3* gradients) {
-                       const auto each = [&](std::size_t place, std::size_t p, const ValueAndGradient<>& sums)
-                                             WHIPPLE_INLINE { take_sums(p, sums, gradients[place]); };
-                       Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
-                                                       typename Kernels::First{}, each);
-                     })
+    return gather_particles(
+               grid, take, before_border,
+               [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, Matrix3* gradients) {
+                 const auto each = [&](std::size_t place, std::size_t p, const ValueAndGradient<>& sums)
+                                       WHIPPLE_INLINE { take_sums(p, sums, gradients[place]); };
+                 Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
+                                                 typename Kernels::First{}, each);
+               })
         .plastic_work;
   });
 }
@@ -331,10 +334,10 @@ double gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& 
 double gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                                 const TakeGradients& take, const BeforeBorder& before_border) {
   return gather_first(shape, particles, grid, take, before_border,
-               [&](std::size_t p, const ValueAndGradient<>& sums, Matrix3& gradient) WHIPPLE_INLINE {
-                 if (prefetches(p)) prefetch_state(particles, p);  // for who takes the gradients
-                 gradient = matrix(sums.gradient);
-               });
+                      [&](std::size_t p, const ValueAndGradient<>& sums, Matrix3& gradient) WHIPPLE_INLINE {
+                        if (prefetches(p)) prefetch_state(particles, p);  // for who takes the gradients
+                        gradient = matrix(sums.gradient);
+                      });
 }
 
 void gather_velocity(ShapeFunction shape, const Particles& particles, BlockGrid& grid,

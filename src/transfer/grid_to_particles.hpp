@@ -45,7 +45,8 @@ enum class AffineField : std::uint8_t {
 
 /// Takes the velocity gradients L(i, j) = dv_i/dx_j (1/s) of some particles while these are still in the
 /// cache: gradient k belongs to particle particles[k]. Every particle of the lists of the grid comes once, in
-/// any order, on any thread; particles of one block in the order of their index. Returns their plastic work (J).
+/// any order, on any thread; particles of one block in the order of their index. Returns their plastic work
+/// (J).
 using TakeGradients =
     std::function<double(std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients)>;
 
@@ -55,8 +56,8 @@ using BeforeBorder = std::function<void()>;
 
 /// The gather of the symplectic scheme (docs/theory/mpm.md, section 4): velocity and affine field by the
 /// relaxed affine transfer, internal and unresolved energy by the exact work identity and what the transfer
-/// loses, position with the grid's velocity, and the velocity gradient of the advanced grid for the constitutive
-/// update.
+/// loses, position with the grid's velocity, and the velocity gradient of the advanced grid for the
+/// constitutive update.
 /// @param affine        B-splines only, unless `none`
 /// @param losses        what becomes of them; if kept, the particles carry unresolved energy and closing rate
 /// @param take          the gradients of the advanced grid velocity; may change its particles
@@ -77,7 +78,7 @@ TransferBalance update_velocity(ShapeFunction shape, Particles& particles, grid:
 
 /// Velocity gradient of the nodes' velocities (Node::first). @returns J, plastic work, as `take` reports it
 double gather_velocity_gradient(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
-                              const TakeGradients& take, const BeforeBorder& before_border = {});
+                                const TakeGradients& take, const BeforeBorder& before_border = {});
 
 /// The nodes' velocities (Node::first) at the particles.
 void gather_velocity(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,

@@ -20,14 +20,15 @@ struct Losses {
 
 /// Where the losses of a step went, J/kg.
 struct Booking {
-  double heat = 0.0;      ///< of the transfers: internal energy
-  double kept = 0.0;      ///< of the transfers and the viscosity: unresolved energy
-  double cooling = 0.0;   ///< of the viscosity: what of its work is not internal but unresolved energy
-  double returned = 0.0;  ///< unresolved energy that became internal
+  double heat = 0.0;        ///< of the transfers: internal energy
+  double kept = 0.0;        ///< of the transfers and the viscosity: unresolved energy
+  double cooling = 0.0;     ///< of the viscosity: what of its work is not internal but unresolved energy
+  double returned = 0.0;    ///< unresolved energy that became internal
   double of_contact = 0.0;  ///< of contact: internal energy
 };
 
-/// Matter with gaps, as far as a particle knows: failed, beside a void, in tension, or thinner than at the start.
+/// Matter with gaps, as far as a particle knows: failed, beside a void, in tension, or thinner than at the
+/// start.
 inline bool is_loose(const Particles& particles, std::size_t p, double initial_density) {
   return particles.failed[p] != 0 || particles.void_volume[p] > 0.0 || particles.pressure[p] <= 0.0 ||
          particles.mass[p] < initial_density * particles.volume[p];
@@ -35,9 +36,10 @@ inline bool is_loose(const Particles& particles, std::size_t p, double initial_d
 
 /// Divides the loss of the transfers (J/kg, >= 0 but for round-off) and the work of the artificial viscosity
 /// between internal and unresolved energy (eq. 3 to 5). In matter without gaps the loss is heat as far as the
-/// viscosity that heats does work, which measures what of the motion is a shock. Where gaps close, matter collides:
-/// all of the loss is heat, and so is the share of what had been kept before that the volume loses.
-/// Contact heats, but for loose matter that expands, whose fragments hit those of another body as they hit one another.
+/// viscosity that heats does work, which measures what of the motion is a shock. Where gaps close, matter
+/// collides: all of the loss is heat, and so is the share of what had been kept before that the volume loses.
+/// Contact heats, but for loose matter that expands, whose fragments hit those of another body as they hit
+/// one another.
 /// @param contact       J/kg, what contact of bodies and walls took
 /// @param viscous_work  J/kg, of the artificial viscosity in the step
 /// @param divergence    1/s, tr L of the step
@@ -50,7 +52,8 @@ inline Booking book_losses(const Losses& losses, const Particles& particles, std
   }
   const double viscosity = particles.artificial_viscosity[p];
   const double heating = viscosity > 0.0 ? particles.heating_viscosity[p] / viscosity : 1.0;
-  const double work = std::fmax(viscous_work, 0.0), heating_work = heating * work, cooling = work - heating_work;
+  const double work = std::fmax(viscous_work, 0.0), heating_work = heating * work,
+               cooling = work - heating_work;
   const double heat = std::fmin(loss, losses.heat_share * heating_work);
   const double of_contact = loose ? 0.0 : contact;
   return {.heat = heat,

@@ -18,7 +18,8 @@ using grid::BlockGrid;
 using grid::Node;
 
 constexpr double no_capacity = 1e-300;  // J/K; below it the temperature of a node has no meaning
-/// Of the difference to the nodes around that a particle may lose in a step: temperatures stay in their range.
+/// Of the difference to the nodes around that a particle may lose in a step: temperatures stay in their
+/// range.
 constexpr double largest_share = 0.9;
 
 /// Exchange of a particle with its nodes.
@@ -104,11 +105,13 @@ void for_each_node(BlockGrid& grid, const std::vector<std::uint64_t>& marked, st
 void clear_beyond_planes(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
-    parallel::for_each(plane.pairs.size(), [&](std::size_t i) { nodes[plane.pairs[i].outside].first = broadcast(0.0); });
+    parallel::for_each(plane.pairs.size(),
+                       [&](std::size_t i) { nodes[plane.pairs[i].outside].first = broadcast(0.0); });
   }
 }
 
-/// The slots whose particles reach nodes that a conducting particle reaches; nothing if none does on any rank.
+/// The slots whose particles reach nodes that a conducting particle reaches; nothing if none does on any
+/// rank.
 std::optional<std::vector<std::uint64_t>> slots_at_shocks(BlockGrid& grid, const Exchange& exchange) {
   std::vector<std::uint64_t> marked(grid.slots(), 0);
   parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
@@ -171,7 +174,8 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
           particles.specific_internal_energy[p] += gain;
           sum += particles.mass[p] * std::max(gain, 0.0);
         };
-        Kernels::template gather<Shape>(particles, grid, Capacity::kind, slot, typename Kernels::First{}, take);
+        Kernels::template gather<Shape>(particles, grid, Capacity::kind, slot, typename Kernels::First{},
+                                        take);
       });
       taken_up[slot] = sum;
     });

@@ -25,10 +25,10 @@ struct ShockConduction {
 };
 
 /// Moves internal energy from hot to cold particles inside shocks, as the artificial viscosity moves momentum
-/// (eq. 8, 9): without it the layers where a shock was born stay too hot, since viscosity alone leaves the energy
-/// that the width of the shock lacks where it began. The sum over the particles of a velocity field is exact, no
-/// temperature leaves the range of those around, and the entropy grows. Only blocks around shocks take part.
-/// Needs the closing rates of the particles; changes the nodes. Collective.
+/// (eq. 8, 9): without it the layers where a shock was born stay too hot, since viscosity alone leaves the
+/// energy that the width of the shock lacks where it began. The sum over the particles of a velocity field is
+/// exact, no temperature leaves the range of those around, and the entropy grows. Only blocks around shocks
+/// take part. Needs the closing rates of the particles; changes the nodes. Collective.
 /// @returns J, energy that this rank's particles took up
 double conduct_in_shocks(ShapeFunction shape, Particles& particles, grid::BlockGrid& grid, double dt,
                          const ShockConduction& conduction);

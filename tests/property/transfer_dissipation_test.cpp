@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conduction inside shocks and the booking of losses (docs/theory/dissipation.md): energy to round-off, bounds of the
-// temperature, growth of the entropy, rest, mirror planes; who gets which loss.
+// Conduction inside shocks and the booking of losses (docs/theory/dissipation.md): energy to round-off,
+// bounds of the temperature, growth of the entropy, rest, mirror planes; who gets which loss.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,9 @@ Particles conducting_particles(unsigned seed) {
 
 constexpr std::array<ShockConductivity, 2> bodies = {ShockConductivity{400.0, 0.25, 1.0},
                                                      ShockConductivity{900.0, 0.5, 2.0}};
-constexpr ShockConduction conduction() { return {.scale = 1.0, .onset = 0.01, .rise = 0.05, .of_body = bodies}; }
+constexpr ShockConduction conduction() {
+  return {.scale = 1.0, .onset = 0.01, .rise = 0.05, .of_body = bodies};
+}
 
 double energy(const Particles& q) {
   double sum = 0.0;
@@ -88,7 +90,8 @@ TEST_P(ShockConductionOf, IsQuietWithoutAShockOrADifference) {
       EXPECT_NEAR(q.specific_internal_energy[p], before[p], 1e-9 * 900.0 * 500.0);
     }
     q = conducting_particles(8);
-    for (double& rate : q.closing_rate) rate = 0.5 * 0.01 / dx;  // below the onset: the speed of sound is 1 to 2
+    for (double& rate : q.closing_rate)
+      rate = 0.5 * 0.01 / dx;  // below the onset: the speed of sound is 1 to 2
     EXPECT_EQ(conduct_in_shocks(Shape::kind, q, grid, dt, conduction()), 0.0);
     EXPECT_EQ(q.specific_internal_energy, before);
   });
@@ -102,7 +105,8 @@ TEST(ShockConduction, DoesNotDependOnWhatElseTheGridHolds) {
   resize(all, near.size() + far.size());
   for_each_field<Particles>([&](const auto& field) {
     const auto& from = far.*(field.values);
-    if (!from.empty()) std::ranges::copy(from, (all.*(field.values)).begin() + static_cast<std::ptrdiff_t>(near.size()));
+    if (!from.empty())
+      std::ranges::copy(from, (all.*(field.values)).begin() + static_cast<std::ptrdiff_t>(near.size()));
   });
   const auto run = [](Particles& q, std::size_t hot) {
     use_stores(q);
@@ -122,8 +126,8 @@ TEST(ShockConduction, DoesNotDependOnWhatElseTheGridHolds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, ShockConductionOf,
-                         testing::Values(ShapeFunction::linear, ShapeFunction::gimp, ShapeFunction::quadratic_bspline,
-                                         ShapeFunction::cubic_bspline));
+                         testing::Values(ShapeFunction::linear, ShapeFunction::gimp,
+                                         ShapeFunction::quadratic_bspline, ShapeFunction::cubic_bspline));
 
 /// One particle of a body that starts with 1000 kg/m^3.
 Particles one_particle(double density, double pressure) {
@@ -139,7 +143,8 @@ Particles one_particle(double density, double pressure) {
   return q;
 }
 constexpr std::array initial_density = {1000.0};
-constexpr Losses losses{.kept = true, .heat_share = 0.1, .collision_rate = 1.0, .initial_density = initial_density};
+constexpr Losses losses{
+    .kept = true, .heat_share = 0.1, .collision_rate = 1.0, .initial_density = initial_density};
 
 TEST(Losses, InTightMatterHeatAsFarAsTheViscosityThatHeatsDoesWork) {
   const Particles q = one_particle(1100.0, 1e9);

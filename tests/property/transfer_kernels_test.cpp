@@ -115,8 +115,8 @@ std::vector<double> numbers_after_all_transfers(bool wide) {
   take(at_particles);
   advance();
   const TransferBalance balance = grid_to_particles(
-      Shape::kind, q, grid, dt, CarriesAffineField<Shape> ? AffineField::deformed : AffineField::none,
-      {}, into(gradient));
+      Shape::kind, q, grid, dt, CarriesAffineField<Shape> ? AffineField::deformed : AffineField::none, {},
+      into(gradient));
   take(std::array{balance.work, balance.heat});
   take(gradient);
   take(q.position);

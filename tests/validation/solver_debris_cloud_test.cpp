@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The main case, coarser (0.8 mm cells): copper disk through an aluminium plate at 5.55 km/s.
 // Proves: conservation to round-off through shocks, spall, melting and outflow; no particle faster than
-// a shock that leaves allows; the phase test of the case: the shock (about 106 GPa) melts the aluminium on release and
-// leaves the copper (threshold about 140 GPa) solid.
+// a shock that leaves allows; the phase test of the case: the shock (about 106 GPa) melts the aluminium on
+// release and leaves the copper (threshold about 140 GPa) solid.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -81,8 +81,8 @@ TEST(DebrisCloud, ConservesMeltsTheAluminiumAndLeavesTheCopperSolid) {
       static_cast<long long>(simulation.state().step));
   EXPECT_LT(watch.worst, 1e-10);
   EXPECT_LT(momentum_error, 1e-11);
-  // On the way as well as at the end. The matter within a cell of the rear surface leaves at the overshoot of the
-  // shock (docs/theory/mpm.md, 7.4).
+  // On the way as well as at the end. The matter within a cell of the rear surface leaves at the overshoot of
+  // the shock (docs/theory/mpm.md, 7.4).
   EXPECT_LT(fastest, 1.10 * surface);
   EXPECT_GT(fastest, 0.95 * surface);
   EXPECT_GT(axis_melted / axis, 0.9);
@@ -139,8 +139,9 @@ TEST(DebrisCloud, IsTheSameForEveryTimeStep) {
   }
 }
 
-// Seven cells across the sphere, a quarter of it, to 10 us. The heat of first contact is decided where the bodies touch at
-// the start, whatever the step. Limit of fine cells of the old way to book it: 6.07 kJ (docs/theory/dissipation.md).
+// Seven cells across the sphere, a quarter of it, to 10 us. The heat of first contact is decided where the
+// bodies touch at the start, whatever the step. Limit of fine cells of the old way to book it: 6.07 kJ
+// (docs/theory/dissipation.md).
 TEST(LeadCloud, HeatsTheSameForEveryTimeStep) {
   struct Cloud {
     double heat = 0, melted = 0, vapour = 0;  // J, kg, kg
@@ -158,8 +159,9 @@ TEST(LeadCloud, HeatsTheSameForEveryTimeStep) {
       result.melted += q.melted_fraction[p] * q.mass[p];
       result.vapour += q.vaporised_fraction[p] * q.mass[p];
     }
-    std::printf("courant %s: heat %.1f J, %.4f g melted, %.4f g of vapour, %lld steps\n", courant, result.heat,
-                1e3 * result.melted, 1e3 * result.vapour, static_cast<long long>(simulation.state().step));
+    std::printf("courant %s: heat %.1f J, %.4f g melted, %.4f g of vapour, %lld steps\n", courant,
+                result.heat, 1e3 * result.melted, 1e3 * result.vapour,
+                static_cast<long long>(simulation.state().step));
     return result;
   };
   const Cloud usual = cloud("0.5");

@@ -65,7 +65,8 @@ shape = { box = { lower = [0, 0, 0], upper = [%.9g, 0.00015, 0.00015] } }
   const auto swept = [&] {
     const Particles& q = simulation.particles();
     double mass = 0;
-    // By the pressure, over that of the plateau: whole layers of particles would make steps of 1.5 % of the way.
+    // By the pressure, over that of the plateau: whole layers of particles would make steps of 1.5 % of the
+    // way.
     for (std::size_t i = 0; i < q.size(); ++i) mass += q.pressure[i] / pressure * q.mass[i];
     return mass / (2 * rho0 * area);
   };
@@ -88,8 +89,7 @@ shape = { box = { lower = [0, 0, 0], upper = [%.9g, 0.00015, 0.00015] } }
     result.pressure = p1 / n / pressure - 1;
     result.pressure_noise = std::sqrt(std::max(0.0, p2 / n - p1 / n * (p1 / n))) / pressure;
     result.density = r1 / n / density - 1;
-    result.shock_speed =
-        (swept() - swept_early) / (1 + result.pressure) / (0.6 * plateau_time) / us - 1;
+    result.shock_speed = (swept() - swept_early) / (1 + result.pressure) / (0.6 * plateau_time) / us - 1;
   }
   run_to(simulation, end, std::ref(watch));
   const Particles& q = simulation.particles();

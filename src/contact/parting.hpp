@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "src/grid/block_grid.hpp"
+
+namespace whipple::contact {
+
+/// Do particles reach nodes of a slot from both sides of a mirror plane? Their sums are folded later.
+bool near_planes(const grid::BlockGrid& grid, std::uint32_t slot);
+
+/// Do two fields, the only ones at a node, part along all normals that are tried, and do the forces not press
+/// them? Then there is no impulse, whatever the gap (docs/theory/contact.md, 4).
+/// @param a, b  numbers of the fields among those of the slot
+bool parts(const grid::BlockGrid& grid, std::uint32_t slot, std::size_t node, std::size_t a, std::size_t b,
+           std::span<const Lanes> normals, double dt);
+
+}  // namespace whipple::contact
