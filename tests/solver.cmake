@@ -1,6 +1,6 @@
 # Tests of grid, transfer, setup and solver.
 whipple_test(test_transfer STARTS_MPI
-  SOURCES unit/solver_grid_test.cpp property/transfer_shape_function_test.cpp property/solver_transfer_test.cpp property/transfer_kernels_test.cpp property/transfer_dissipation_test.cpp
+  SOURCES unit/solver_grid_test.cpp unit/transfer_first_touches_test.cpp property/transfer_shape_function_test.cpp property/solver_transfer_test.cpp property/transfer_kernels_test.cpp property/transfer_dissipation_test.cpp
           verification/transfer_conduction_test.cpp
   DEPENDS whipple_transfer LABELS fast)
 whipple_test(test_solver STARTS_MPI
@@ -11,7 +11,7 @@ whipple_test(test_solver STARTS_MPI
           verification/solver_viscous_test.cpp verification/solver_wall_test.cpp validation/solver_debris_cloud_test.cpp
           validation/solver_table_test.cpp regression/solver_regression_test.cpp fuzz/case_fuzz.cpp
   DEPENDS whipple_solver GTest::gmock LABELS fast)
-whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp
+whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp
              DEPENDS whipple_solver LABELS fast)
 whipple_test(test_contact_sweep STARTS_MPI SOURCES verification/solver_gap_sweep_test.cpp
              DEPENDS whipple_solver LABELS long)

@@ -104,18 +104,20 @@ bool Contact::touch(const grid::BlockGrid& grid, std::size_t contact_slot, std::
                     std::size_t first, std::size_t second) const {
   const auto fields =
       static_cast<std::size_t>(std::popcount(grid.fields(grid.contact_slots()[contact_slot])));
-  const Surfaces::Gap gap = surfaces_.at(contact_slot, Surfaces::pair_index(first, second, fields), node);
+  const Surfaces::Gap gap = surfaces_.at(contact_slot, pair_index(first, second, fields), node);
   return !gap.normal.isZero(0.0) && distance(grid, gap) <= resting_distance * grid.geometry().cell_size;
 }
 
-Balance Contact::apply(grid::BlockGrid& grid, double dt) const {
+Balance Contact::apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches& touches) const {
   std::vector<Balance> of_slot(grid.owned_contact_slots());
   parallel::for_each(grid.owned_contact_slots(), [&](std::size_t c) {
     const std::uint32_t slot = grid.contact_slots()[c];
     const auto fields = static_cast<std::size_t>(std::popcount(grid.fields(slot)));
     std::vector<Side> sides(fields);
-    std::vector<double> least;  // relaxation of each side
+    std::vector<double> least;     // relaxation of each side
+    std::vector<unsigned> number;  // of its field
     grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
+      number.push_back(field);
       const bool known = field < settings_.least_relaxation_rate.size();
       least.push_back(known ? -std::expm1(-settings_.least_relaxation_rate[field] * dt) : 0.0);
     });
@@ -134,10 +136,10 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt) const {
       for (std::size_t a = 0; a < fields; ++a) {
         for (std::size_t b = a + 1; b < fields; ++b) {
           if (sides[a].mass < no_mass || sides[b].mass < no_mass) continue;
-          const Surfaces::Gap gap =
-              surfaces_.at(c, Surfaces::pair_index(a, b, fields), static_cast<std::size_t>(i));
+          const Surfaces::Gap gap = surfaces_.at(c, pair_index(a, b, fields), static_cast<std::size_t>(i));
           if (gap.normal.isZero(0.0)) continue;
           const double open = distance(grid, gap);
+          touches.see(number[a], number[b], open, gap.normal.dot(sides[a].after() - sides[b].after()));
           meetings.push_back(
               {a, b, gap.normal, open, Pressing::share(sides[a], sides[b], gap.normal, open, dt)});
         }

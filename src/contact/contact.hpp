@@ -9,6 +9,7 @@
 #include "src/contact/surfaces.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
+#include "src/transfer/first_touches.hpp"
 #include "src/transfer/shape_function.hpp"
 
 /// Contact of bodies with velocity fields of their own (docs/theory/contact.md).
@@ -49,7 +50,8 @@ class Contact {
 
   /// Lets the bodies act on one another at the nodes of the contact slots of this rank, by their velocities,
   /// increments and relaxations, and leaves the heat that it makes there: what `GridUpdate::advance` calls.
-  Balance apply(grid::BlockGrid& grid, double dt) const;
+  /// @param touches  takes note of the fields that touch
+  Balance apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches& touches) const;
 
  private:
   [[nodiscard]] double distance(const grid::BlockGrid& grid, const Surfaces::Gap& gap) const;

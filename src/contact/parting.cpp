@@ -20,7 +20,7 @@ bool near_planes(const grid::BlockGrid& grid, std::uint32_t slot) {
 }
 
 bool parts(const grid::BlockGrid& grid, std::uint32_t slot, std::size_t node, std::size_t a, std::size_t b,
-           std::span<const Lanes> normals, double dt) {
+           std::span<const Vector3> normals, double dt) {
   const grid::Node *first = nullptr, *second = nullptr;
   std::size_t number = 0, reached = 0;
   grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
@@ -38,8 +38,7 @@ bool parts(const grid::BlockGrid& grid, std::uint32_t slot, std::size_t node, st
     return dt / n.first[0] * Vector3(n.second[1], n.second[2], n.second[3]);
   };
   const Vector3 apart = velocity(*second) - velocity(*first), pulled = increment(*second) - increment(*first);
-  return std::ranges::all_of(normals, [&](const Lanes& n) {
-    const Vector3 normal(n[0], n[1], n[2]);
+  return std::ranges::all_of(normals, [&](const Vector3& normal) {
     return normal.dot(pulled) >= 0.0 && normal.dot(apart + pulled) >= 0.0;
   });
 }

@@ -16,6 +16,6 @@ bool near_planes(const grid::BlockGrid& grid, std::uint32_t slot);
 /// them? Then there is no impulse, whatever the gap (docs/theory/contact.md, 4).
 /// @param a, b  numbers of the fields among those of the slot
 bool parts(const grid::BlockGrid& grid, std::uint32_t slot, std::size_t node, std::size_t a, std::size_t b,
-           std::span<const Lanes> normals, double dt);
+           std::span<const Vector3> normals, double dt);
 
 }  // namespace whipple::contact

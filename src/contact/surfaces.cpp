@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "src/contact/parting.hpp"
+#include "src/contact/places.hpp"
 #include "src/parallel/threads.hpp"
 
 namespace whipple::contact {
@@ -36,175 +37,6 @@ void lay_out(grid::ContactValues& values, const BlockGrid& grid, Lanes initial, 
 std::size_t one_per_field(std::size_t fields) { return fields; }
 std::size_t one_per_pair(std::size_t fields) { return fields * (fields - 1) / 2; }
 
-/// A node of a contact slot as a particle, or its image beyond a mirror plane, sees it.
-struct Place {
-  std::size_t contact_slot;
-  std::size_t fields;  ///< of the slot
-  std::size_t field;   ///< of the particle, counted among those of the slot
-  std::size_t node;    ///< in its block
-  double weight;       ///< N
-  Vector3 gradient;    ///< of N
-  Vector3 distance;    ///< position of the particle, or its image, minus that of the node
-  Vector3 off_plane;   ///< 0 along the normals of the mirror planes that the node is on
-  Vector3 sign;        ///< of the components under the reflections that lead to the image
-
-  /// Calls f(pair, is the particle of its first field?) for the pairs that the particle's field is part of.
-  template <class Function>
-  void for_each_pair(Function&& f) const {
-    for (std::size_t other = 0; other < fields; ++other) {
-      if (other < field) f(Surfaces::pair_index(other, field, fields), false);
-      if (other > field) f(Surfaces::pair_index(field, other, fields), true);
-    }
-  }
-  [[nodiscard]] std::size_t in(const grid::ContactValues& values, std::size_t array,
-                               std::size_t lanes = 1) const {
-    return values.begin[contact_slot] + lanes * (array * nodes_per_block + node);
-  }
-};
-
-/// One direction of a stencil, folded at mirror planes: what lies beyond a plane is seen from the image of
-/// the particle at the image of the node.
-template <int count>
-struct FoldedAxis {
-  std::array<int, count> node;          ///< from the block's lower corner
-  std::array<double, count> sign;       ///< -1 beyond a plane
-  std::array<double, count> off_plane;  ///< 0 on a plane, where particle and image make up for one another
-};
-
-template <int count>
-FoldedAxis<count> fold(const BlockGrid& grid, int axis, int block, int first, unsigned field) {
-  FoldedAxis<count> folded;
-  const grid::Geometry& g = grid.geometry();
-  const auto a = static_cast<std::size_t>(axis);
-  const bool lower = grid.is_bonded_at(2 * a, field), upper = grid.is_bonded_at(2 * a + 1, field);
-  for (int i = 0; i < count; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    int place = block * grid::block_edge + first + i;
-    folded.sign[n] = 1.0;
-    const auto reflect = [&](int at) {
-      place = 2 * at - place;
-      folded.sign[n] = -folded.sign[n];
-    };
-    if (lower && place < 0) reflect(0);
-    if (upper && place > g.cells[a]) reflect(g.cells[a]);
-    folded.off_plane[n] = (lower && place == 0) || (upper && place == g.cells[a]) ? 0.0 : 1.0;
-    folded.node[n] = place - block * grid::block_edge;
-  }
-  return folded;
-}
-
-/// Nodes of each contact slot that matter: a bit each.
-using NodesThatMatter = std::vector<std::uint64_t>;
-static_assert(nodes_per_block == 64);
-
-/// Calls f(place) for the nodes of contact slots that matter and that a point of the field reaches.
-/// @param block       where the point is
-/// @param neighbours  slots of the 27 blocks around it, as far as they count
-/// @param at_point    makes f, if there are any
-template <class Shape, class Points, class AtPoint>
-void for_each_place_of(const Points& points, std::uint32_t p, unsigned field,
-                       const grid::BlockCoordinate& block, const std::array<std::int32_t, 27>& neighbours,
-                       const BlockGrid& grid, const NodesThatMatter& matter, AtPoint&& at_point) {
-  static constexpr grid::ReachMap map = grid::reach_map();
-  constexpr int count = Shape::count;
-  const grid::Geometry& geometry = grid.geometry();
-  const grid::PlaceInStencil in_stencil = grid::StencilPlaces(Shape::stencil)(
-      grid::position_in_block(geometry.in_cells(points.position[p]), grid::corner_of(block)));
-  const std::array<int, 3> first_node = in_stencil.first_node(Shape::stencil);
-  const std::array<FoldedAxis<count>, 3> axes = {fold<count>(grid, 0, block[0], first_node[0], field),
-                                                 fold<count>(grid, 1, block[1], first_node[1], field),
-                                                 fold<count>(grid, 2, block[2], first_node[2], field)};
-  struct Target {
-    std::uint32_t contact_slot;
-    std::uint8_t node, i, j, k;
-  };
-  std::array<Target, count * count * count> targets;
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto x = static_cast<std::size_t>(axes[0].node[i] + 1);
-    for (std::size_t j = 0; j < count; ++j) {
-      const auto y = static_cast<std::size_t>(axes[1].node[j] + 1);
-      for (std::size_t k = 0; k < count; ++k) {
-        const auto z = static_cast<std::size_t>(axes[2].node[k] + 1);
-        const std::int32_t of = neighbours[static_cast<std::size_t>(
-            grid::neighbour_index(map.block[x], map.block[y], map.block[z]))];
-        if (of == BlockGrid::no_slot) continue;
-        const std::int32_t number = grid.contact_number(static_cast<std::size_t>(of));
-        if (number == BlockGrid::no_slot) continue;
-        const int node = grid::node_index(map.node[x], map.node[y], map.node[z]);
-        if ((matter[static_cast<std::size_t>(number)] >> node & 1U) == 0) continue;
-        if ((grid.fields(static_cast<std::size_t>(of)) >> field & 1U) == 0) continue;
-        targets[found++] = {static_cast<std::uint32_t>(number), static_cast<std::uint8_t>(node),
-                            static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j),
-                            static_cast<std::uint8_t>(k)};
-      }
-    }
-  }
-  if (found == 0) return;
-  const transfer::Weights<count> w = transfer::weights_at<Shape>(points, p, in_stencil, geometry.cell_size);
-  const auto f = at_point(p);
-  for (std::size_t t = 0; t < found; ++t) {
-    const std::size_t i = targets[t].i, j = targets[t].j, k = targets[t].k;
-    const double weight = w.weight[i][0] * w.weight[j][1] * w.weight[k][2];
-    if (!(weight > 0.0)) continue;
-    const std::size_t number = targets[t].contact_slot;
-    const std::uint64_t fields = grid.fields(grid.contact_slots()[number]);
-    const Vector3 sign(axes[0].sign[i], axes[1].sign[j], axes[2].sign[k]);
-    const Vector3 gradient(w.derivative[i][0] * w.weight[j][1] * w.weight[k][2],
-                           w.weight[i][0] * w.derivative[j][1] * w.weight[k][2],
-                           w.weight[i][0] * w.weight[j][1] * w.derivative[k][2]);
-    const Vector3 distance(w.distance[i][0], w.distance[j][1], w.distance[k][2]);
-    f(Place{.contact_slot = number,
-            .fields = static_cast<std::size_t>(std::popcount(fields)),
-            .field = static_cast<std::size_t>(std::popcount(fields & ((std::uint64_t{1} << field) - 1))),
-            .node = targets[t].node,
-            .weight = weight,
-            .gradient = sign.cwiseProduct(gradient),
-            .distance = -sign.cwiseProduct(distance),
-            .off_plane = Vector3(axes[0].off_plane[i], axes[1].off_plane[j], axes[2].off_plane[k]),
-            .sign = sign});
-  }
-}
-
-/// The same with at_point(p) for all particles p; no two calls at a time for one node.
-template <class Shape, class AtPoint>
-void for_each_place(const Particles& particles, const BlockGrid& grid, const NodesThatMatter& matter,
-                    AtPoint&& at_point) {
-  grid.for_each_apart([&](std::size_t slot) {
-    if (!grid.meets_contact(slot)) return;
-    const bool reaches_some = std::ranges::any_of(grid.neighbours(slot), [&](std::int32_t near) {
-      if (near == BlockGrid::no_slot) return false;
-      const std::int32_t number = grid.contact_number(static_cast<std::size_t>(near));
-      return number != BlockGrid::no_slot && matter[static_cast<std::size_t>(number)] != 0;
-    });
-    if (!reaches_some) return;
-    grid.for_each_field(BlockGrid::Points::particles, slot,
-                        [&](std::span<const std::uint32_t> members, unsigned field) {
-                          for (const std::uint32_t p : members) {
-                            for_each_place_of<Shape>(particles, p, field, grid.coordinate(slot),
-                                                     grid.neighbours(slot), grid, matter, at_point);
-                          }
-                        });
-  });
-}
-
-/// The same for points on surfaces of elements, which work with B-splines only.
-template <class Shape, class AtPoint>
-void for_each_place(const PlacedPoints& placed, const BlockGrid& grid, const NodesThatMatter& matter,
-                    AtPoint&& at_point) {
-  if constexpr (transfer::CarriesAffineField<Shape>) {
-    for (const std::vector<std::uint32_t>& colour : placed.colours) {
-      parallel::for_each_uneven(colour.size(), [&](std::size_t c) {
-        const PlacedPoints::Block& block = placed.blocks[colour[c]];
-        for (const std::uint32_t p : block.points) {
-          for_each_place_of<Shape>(*placed.points, p, placed.points->field[p], block.coordinate, block.slots,
-                                   grid, matter, at_point);
-        }
-      });
-    }
-  }
-}
-
 Lanes lanes(const Vector3& v, double last = 0.0) { return Lanes{v[0], v[1], v[2], last}; }
 Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
 
@@ -226,9 +58,15 @@ void for_each_owned_node(const BlockGrid& grid, Function&& f) {
 template <class Function>
 void for_each_pair(std::size_t fields, Function&& f) {
   for (std::size_t a = 0; a < fields; ++a) {
-    for (std::size_t b = a + 1; b < fields; ++b) f(a, b, Surfaces::pair_index(a, b, fields));
+    for (std::size_t b = a + 1; b < fields; ++b) f(a, b, pair_index(a, b, fields));
   }
 }
+
+/// Components of up to four normals, one in each lane; those that a pair does not need repeat its first.
+struct Normals {
+  Lanes x, y, z;
+};
+constexpr std::size_t lanes_of_normals = 3, lanes_of_extents = 2;
 
 /// Distance from the centre of a particle to its surface along unit vectors: of its box of the beginning (or
 /// of its followed domain), scaled to its present volume.
@@ -243,8 +81,11 @@ class HalfThickness {
   }
   /// Not less than along any direction.
   [[nodiscard]] double largest() const { return largest_; }
-  [[nodiscard]] double along(const Vector3& n) const {
-    return scale_ * std::sqrt(std::max(n.dot(extent_ * n), 0.0));
+  [[nodiscard]] Lanes along(const Normals& n) const {
+    const Matrix3& e = extent_;
+    const Lanes square = n.x * (e(0, 0) * n.x + 2.0 * (e(0, 1) * n.y + e(0, 2) * n.z)) +
+                         n.y * (e(1, 1) * n.y + 2.0 * e(1, 2) * n.z) + e(2, 2) * n.z * n.z;
+    return scale_ * sqrt(maximum(square, Lanes{}));
   }
 
  private:
@@ -311,31 +152,43 @@ NodesThatMatter nodes_of_several(const BlockGrid& grid, bool after_transfer) {
 }
 
 /// Nodes with a normal between two fields.
-NodesThatMatter nodes_with_normals(const BlockGrid& grid, const grid::ContactValues& normals,
-                                   std::size_t candidates) {
+NodesThatMatter nodes_with_normals(const BlockGrid& grid, const grid::ContactValues& normals) {
   const auto slots = grid.contact_slots();
   NodesThatMatter nodes(slots.size(), 0);
   parallel::for_each(slots.size(), [&](std::size_t c) {
-    const std::size_t per_pair = candidates * nodes_per_block;
     for (std::size_t i = normals.begin[c]; i < normals.begin[c + 1]; ++i) {
-      if (vector(normals.values[i]).isZero(0.0)) continue;
-      nodes[c] |= std::uint64_t{1} << ((i - normals.begin[c]) % per_pair / candidates);
+      if (!any(normals.values[i] != Lanes{})) continue;
+      nodes[c] |= std::uint64_t{1} << ((i - normals.begin[c]) / lanes_of_normals % nodes_per_block);
     }
   });
   return nodes;
 }
 
+/// Puts unit vectors or zeros into lanes; those of zeros repeat the first that is none.
+void set_normals(Lanes* to, std::span<const Vector3> normals) {
+  const auto first = std::ranges::find_if(normals, [](const Vector3& n) { return !n.isZero(0.0); });
+  for (int component = 0; component < 3; ++component) {
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      const bool given = lane < normals.size() && !normals[lane].isZero(0.0);
+      const Vector3& normal = given || first == normals.end() ? normals[lane % normals.size()] : *first;
+      to[component][static_cast<int>(lane)] = normal[component];
+    }
+  }
+}
+
 }  // namespace
 
 Surfaces::Gap Surfaces::at(std::size_t contact_slot, std::size_t pair, std::size_t node) const {
-  const std::size_t first = normal_.begin[contact_slot] + candidates_ * (pair * nodes_per_block + node);
-  Gap best{.width = -std::numeric_limits<double>::infinity()};
-  for (std::size_t i = first; i < first + candidates_; ++i) {
-    const Vector3 normal = vector(normal_.values[i]);
-    const double width = -extent_.values[i][0] - extent_.values[i][1];
-    if (width > best.width && !normal.isZero(0.0)) best = {normal, width};
+  const std::size_t place = pair * nodes_per_block + node;
+  const Lanes* n = &normal_.values[normal_.begin[contact_slot] + lanes_of_normals * place];
+  const Lanes* extents = &extent_.values[extent_.begin[contact_slot] + lanes_of_extents * place];
+  const Lanes width = -extents[0] - extents[1];
+  Gap widest{.width = -std::numeric_limits<double>::infinity()};
+  for (int i = 0; i < 4; ++i) {
+    const Vector3 normal(n[0][i], n[1][i], n[2][i]);
+    if (width[i] > widest.width && !normal.isZero(0.0)) widest = {normal, width[i]};
   }
-  return best;
+  return widest;
 }
 
 void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles& particles,
@@ -344,10 +197,10 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
   const bool after_transfer = dt > 0.0;
   const NodesThatMatter several = nodes_of_several(grid, after_transfer);
   lay_out(gradient_, grid, broadcast(0.0), one_per_field);
-  candidates_ = kind == Normal::separating ? 3 : 1;
-  const auto per_pair = [&](std::size_t fields) { return candidates_ * one_per_pair(fields); };
-  lay_out(normal_, grid, broadcast(0.0), per_pair);
-  lay_out(extent_, grid, broadcast(-std::numeric_limits<double>::infinity()), per_pair);
+  lay_out(normal_, grid, broadcast(0.0),
+          [](std::size_t fields) { return lanes_of_normals * one_per_pair(fields); });
+  lay_out(extent_, grid, broadcast(-std::numeric_limits<double>::infinity()),
+          [](std::size_t fields) { return lanes_of_extents * one_per_pair(fields); });
   transfer::with_shape(shape, [&]<class Shape>(Shape) {
     if (kind == Normal::logistic_regression) {
       lay_out(plane_, grid, broadcast(0.0), one_per_pair);
@@ -381,8 +234,9 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
         });
         grid.borrow_from_owners(plane_);
       }
-      for (std::size_t i = 0; i < normal_.values.size(); ++i) {
-        normal_.values[i] = lanes(unit_or_zero(vector(plane_.values[i])));
+      for (std::size_t i = 0; i < plane_.values.size(); ++i) {
+        const Vector3 normal = unit_or_zero(vector(plane_.values[i]));
+        set_normals(&normal_.values[lanes_of_normals * i], {&normal, 1});
       }
     } else {
       for_each_place<Shape>(particles, grid, several, [&](std::size_t p) {
@@ -415,44 +269,39 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
         };
         for_each_pair(fields, [&](std::size_t a, std::size_t b, std::size_t pair) {
           if (!reached(a) || !reached(b)) return;
-          Lanes* normal = &normal_.values[normal_.begin[c] + candidates_ * (pair * nodes_per_block + node)];
           const Vector3 of_a = outward(a), of_b = -outward(b);
-          normal[0] = lanes(unit_or_zero(of_a + of_b));
           // On smooth faces all three are one.
-          if (kind != Normal::collinear && of_a.dot(of_b) <= one_direction) {
-            normal[1] = lanes(of_a);
-            normal[2] = lanes(of_b);
-          }
-          if (!may_part) return;
-          const std::span tried(normal, candidates_);
-          if (parts(grid, grid.contact_slots()[c], node, a, b, tried, dt)) std::ranges::fill(tried, Lanes{});
+          const bool one = kind == Normal::collinear || of_a.dot(of_b) > one_direction;
+          const std::array<Vector3, 3> normals = {unit_or_zero(of_a + of_b), of_a, of_b};
+          const std::span tried(normals.data(), one ? 1 : normals.size());
+          if (may_part && parts(grid, grid.contact_slots()[c], node, a, b, tried, dt)) return;
+          set_normals(&normal_.values[normal_.begin[c] + lanes_of_normals * (pair * nodes_per_block + node)],
+                      tried);
         });
       });
       grid.borrow_from_owners(normal_);
     }
-    const NodesThatMatter normals = nodes_with_normals(grid, normal_, candidates_);
+    const NodesThatMatter normals = nodes_with_normals(grid, normal_);
     // Most points lie behind the outermost one by more than they are thick.
     const auto extend = [&](const Place& place, double thickest, auto&& half_thickness_along) {
       place.for_each_pair([&](std::size_t pair, bool first) {
-        const std::size_t i = place.in(normal_, pair, candidates_);
-        for (std::size_t candidate = i; candidate < i + candidates_; ++candidate) {
-          const Vector3 normal = vector(normal_.values[candidate]);
-          const double along = (first ? 1.0 : -1.0) * normal.dot(place.distance);
-          Lanes& largest = extent_.values[candidate];
-          const int lane = first ? 0 : 1;
-          if (!(along + thickest > largest[lane]) || normal.isZero(0.0)) continue;
-          const double extent = along + half_thickness_along(place.sign.cwiseProduct(normal));
-          if (extent > largest[lane]) largest[lane] = extent;
-        }
+        const Lanes* normal = &normal_.values[place.in(normal_, pair, lanes_of_normals)];
+        const Normals n{normal[0], normal[1], normal[2]};
+        const Vector3 outward = first ? place.distance : Vector3(-place.distance);
+        const Lanes along = outward[0] * n.x + outward[1] * n.y + outward[2] * n.z;
+        Lanes& largest = extent_.values[place.in(extent_, pair, lanes_of_extents) + (first ? 0 : 1)];
+        if (!any(along + thickest > largest)) return;
+        const Vector3& s = place.sign;
+        largest = maximum(largest, along + half_thickness_along({s[0] * n.x, s[1] * n.y, s[2] * n.z}));
       });
     };
     for_each_place<Shape>(particles, grid, normals, [&](std::size_t p) {
       return [&, half = HalfThickness(particles, p)](const Place& place) {
-        extend(place, half.largest(), [&](const Vector3& n) { return half.along(n); });
+        extend(place, half.largest(), [&](const Normals& n) { return half.along(n); });
       };
     });
     for_each_place<Shape>(placed, grid, normals, [&](std::size_t) {
-      return [&](const Place& place) { extend(place, 0.0, [](const Vector3&) { return 0.0; }); };
+      return [&](const Place& place) { extend(place, 0.0, [](const Normals&) { return Lanes{}; }); };
     });
   });
   grid.maximum_to_owners(extent_);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "src/contact/places.hpp"
 #include "src/contact/surface_points.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
@@ -42,16 +43,10 @@ class Surfaces {
   /// @param node          in its block
   [[nodiscard]] Gap at(std::size_t contact_slot, std::size_t pair, std::size_t node) const;
 
-  /// Number of the pair (a, b), a < b, of `fields` fields.
-  static constexpr std::size_t pair_index(std::size_t a, std::size_t b, std::size_t fields) {
-    return a * (2 * fields - a - 1) / 2 + (b - a - 1);
-  }
-
  private:
-  std::size_t candidates_ = 1;     // normals that are tried, for each pair
   grid::ContactValues gradient_;   // of each field: of its volume (x y z), m^2
-  grid::ContactValues normal_;     // candidates of each pair
-  grid::ContactValues extent_;     // of each candidate: of a along it, of b against it, from the node (m)
+  grid::ContactValues normal_;     // of each pair: x, y, z of the normals that are tried, one in each lane
+  grid::ContactValues extent_;     // of each pair: of a along them, of b against them, from the node (m)
   grid::ContactValues equations_;  // of each pair: of the logistic regression
   grid::ContactValues plane_;      // of each pair: its present solution
 };

@@ -22,10 +22,26 @@ void BlockGrid::separate_fields(Stencil stencil, const FieldPoints& particles, c
   const std::uint64_t all = fields >= maximum_fields ? ~std::uint64_t{0} : (std::uint64_t{1} << fields) - 1;
   std::vector<std::uint64_t> present(slots(), everywhere ? all : 0);
   if (!everywhere) {
+    // Most blocks have points of one field in and around them.
+    std::vector<std::uint64_t> inside(slots(), 0), around(slots(), 0);
+    parallel::for_each(slots(), [&](std::size_t s) {
+      for (const std::uint32_t p : particles_in(s)) inside[s] |= std::uint64_t{1} << particles.field[p];
+      for (const std::uint32_t p : guests_in(s)) inside[s] |= std::uint64_t{1} << guests.field[p];
+    });
+    parallel::for_each(slots(), [&](std::size_t s) {
+      for (const std::int32_t n : neighbours_[s]) {
+        if (n != no_slot) around[s] |= inside[static_cast<std::size_t>(n)];
+      }
+    });
+    const auto may_meet = [&](std::size_t s) { return is_shared() || std::popcount(around[s]) > 1; };
     // Of each slot: the fields of its points that reach each of the blocks around.
     std::vector<std::array<std::uint64_t, 27>> reached(slots());
     parallel::for_each_uneven(slots(), [&](std::size_t s) {
       reached[s].fill(0);
+      const auto counts = [&](std::int32_t n) {
+        return n != no_slot && may_meet(static_cast<std::size_t>(n));
+      };
+      if (!std::ranges::any_of(neighbours_[s], counts)) return;
       const auto reach = [&](std::span<const std::uint32_t> members, const FieldPoints& points) {
         for (const std::uint32_t p : members) {
           const std::uint32_t touched =
@@ -37,6 +53,10 @@ void BlockGrid::separate_fields(Stencil stencil, const FieldPoints& particles, c
       reach(guests_in(s), guests);
     });
     parallel::for_each(slots(), [&](std::size_t s) {
+      if (!may_meet(s)) {
+        present[s] = around[s];
+        return;
+      }
       for (std::size_t n = 0; n < 27; ++n) {
         const std::int32_t neighbour = neighbours_[s][n];
         if (neighbour != no_slot) present[s] |= reached[static_cast<std::size_t>(neighbour)][26 - n];

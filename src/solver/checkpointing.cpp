@@ -15,8 +15,27 @@ void for_each_real(State& state, Function&& f) {
   f("time_step", state.time_step);
   f("maximum_acceleration", state.maximum_acceleration);
   f("compression_rate", state.compression_rate);
+  f("first_touch", state.first_touch);
   f("squeezed_beside_voids", state.squeezed_beside_voids);
   for_each_number(state.ledger, f);
+}
+
+/// Words of bits as halves, which double precision holds exactly.
+std::vector<double> halves(const std::vector<std::uint64_t>& words) {
+  std::vector<double> halves;
+  for (const std::uint64_t word : words) {
+    halves.push_back(static_cast<double>(word >> 32U));
+    halves.push_back(static_cast<double>(word & 0xffffffffU));
+  }
+  return halves;
+}
+
+std::vector<std::uint64_t> words(const std::vector<double>& halves) {
+  std::vector<std::uint64_t> words;
+  for (std::size_t i = 0; i + 1 < halves.size(); i += 2) {
+    words.push_back(static_cast<std::uint64_t>(halves[i]) << 32U | static_cast<std::uint64_t>(halves[i + 1]));
+  }
+  return words;
 }
 
 }  // namespace
@@ -25,6 +44,7 @@ io::CheckpointValues to_checkpoint(const RunState& state) {
   io::CheckpointValues values;
   values.integers["step"] = state.step;
   values.integers["particles_at_rest"] = state.particles_at_rest;
+  values.arrays["touched"] = halves(state.touched);
   for_each_real(state, [&](const std::string& name, double value) { values.reals[name] = value; });
   return values;
 }
@@ -33,6 +53,7 @@ RunState from_checkpoint(const io::CheckpointValues& values) {
   RunState state;
   state.step = values.integer("step");
   state.particles_at_rest = values.integer("particles_at_rest");
+  state.touched = words(values.array("touched"));
   for_each_real(state, [&](const std::string& name, double& value) { value = values.real(name); });
   return state;
 }

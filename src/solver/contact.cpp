@@ -105,7 +105,7 @@ transfer::TouchAtNode Simulation::touch_at_node() const {
 
 void Simulation::apply_contact() {
   if (!contact_) return;
-  const contact::Balance balance = contact_->apply(grid_, state_.time_step);
+  const contact::Balance balance = contact_->apply(grid_, state_.time_step, *first_touches_);
   step_.contact_heat += balance.contact_heat;
   step_.friction_heat += balance.friction_heat;
   step_.contact_impulse += balance.impulse;

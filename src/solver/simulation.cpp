@@ -110,6 +110,7 @@ void Simulation::find_bodies() {
 
 /// What both constructors end with.
 void Simulation::prepare() {
+  first_touches_->set(state_.touched);
   set_up_bars();
   set_up_dissipation();
   if (const setup::Gravity g = setup_.gravity; !g.acceleration.isZero(0.0)) {
@@ -212,7 +213,8 @@ std::function<bool(std::size_t)> Simulation::stays_since(std::size_t& arrangemen
   return [this, same](std::size_t chunk) { return same && grid_.chunk_rests(chunk); };
 }
 
-double Simulation::stable_time_step() {
+/// That the state allows, whatever the step before it was.
+double Simulation::accurate_time_step() {
   const double dx = setup_.domain.cell_size;
   double dt = std::min({grid_time_step(), diffusive_time_step(), element_time_step()});
   if (state_.maximum_acceleration > 0.0) {
@@ -222,9 +224,7 @@ double Simulation::stable_time_step() {
     const double accurate = setup_.time.compression_limit / state_.compression_rate;
     dt = std::min(dt, std::max(accurate, least_share_for_accuracy * dt));
   }
-  // The first step does not know yet how hard bodies that touch will meet.
-  if (state_.time_step == 0.0) return setup_.time.first_step * dt;
-  return std::min(dt, setup_.time.maximum_growth * state_.time_step);
+  return dt;
 }
 
 /// Explicit diffusion of momentum and of heat is stable below dx^2 / (9 a), a the diffusivity, whatever the
@@ -271,6 +271,7 @@ void Simulation::begin_step(double until) {
       dt = 0.5 * left;
     }
     state_.time_step = dt;
+    watch_touches();
   });
 }
 
@@ -445,6 +446,7 @@ void Simulation::end_step() {
     state_.ledger.observe(totals_);
     ++state_.step;
     state_.time += state_.time_step;
+    foresee_touches();
     const double error = state_.ledger.energy_error(totals_);
     // The negation also catches NaN.
     if (!(std::abs(error) <= setup_.output.maximum_energy_error)) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,7 @@
 #include "src/solver/ledger.hpp"
 #include "src/solver/profile.hpp"
 #include "src/transfer/conduction.hpp"
+#include "src/transfer/first_touches.hpp"
 #include "src/transfer/full_mass_matrix.hpp"
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/grid_update.hpp"
@@ -38,6 +40,8 @@ struct RunState {
   double maximum_acceleration = 0.0;  ///< m/s^2, in the last step
   double compression_rate = 0.0;  ///< 1/s, that all but a thousandth of the matter under pressure kept below
   double squeezed_beside_voids = 0.0;  ///< kg, intact, under pressure in cells that it does not fill
+  double first_touch = 1e300;  ///< s, at which bodies that have not touched yet next do; 1e300: not in sight
+  transfer::FirstTouches::Words touched;  ///< what has
   std::int64_t step = 0;
   std::int64_t particles_at_rest = 0;  ///< of all ranks, left as they were by the last step
   Ledger ledger;
@@ -110,6 +114,10 @@ class Simulation {
   // The calls of the schemes, in the order of the step.
   void adapt_elements();
   [[nodiscard]] double stable_time_step();
+  [[nodiscard]] double accurate_time_step();
+  [[nodiscard]] double landing_on_touch(double dt) const;
+  void watch_touches();
+  void foresee_touches();
   [[nodiscard]] double grid_time_step();
   [[nodiscard]] double element_time_step() const;
   [[nodiscard]] double diffusive_time_step() const;
@@ -210,6 +218,8 @@ class Simulation {
   transfer::FullMassMatrix full_mass_matrix_;
   std::optional<contact::Contact> contact_;  // if bodies have velocity fields of their own
   std::vector<std::uint8_t> contact_field_of_body_;
+  std::unique_ptr<transfer::FirstTouches> first_touches_;
+  double accurate_step_ = 0.0;   // s, that the state allows, in the step under way
   bool surfaces_found_ = false;  // in the step under way
   int looks_at_voids_ = 0;       // one after the other that found much matter squeezed beside voids
   bool warned_of_voids_ = false;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "src/setup/seeding.hpp"
@@ -27,6 +28,8 @@ void Simulation::set_up_walls() {
     }
   }
   grid_.bond_at_planes(bonded);
+  first_touches_ = std::make_unique<transfer::FirstTouches>(fields);
+  grid_update_.mirror_contact().watch(*first_touches_);
 }
 
 bool Simulation::is_one_with_image(std::size_t body, std::size_t face) const {

@@ -227,6 +227,7 @@ double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<N
   const double n = plane.of.outward();
   const double w = n * (v_image - v)[plane.of.axis], e = n * (d_image - d)[plane.of.axis];
   const double beta = common_relaxation(mass, v[3], other_mass, v_image[3]);
+  if (touches_ != nullptr) touches_->see_face(static_cast<std::size_t>(plane.of.face), open, -(w + e));
   const bool held = sticks(plane, open);
   const double share = held ? 1.0 : share_in_touch(open, -(w + e), dt);
   if (!(share > 0.0)) return 0.0;

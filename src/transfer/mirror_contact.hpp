@@ -9,6 +9,7 @@
 
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
+#include "src/transfer/first_touches.hpp"
 #include "src/transfer/shape_function.hpp"
 
 namespace whipple::transfer {
@@ -29,6 +30,9 @@ class MirrorContact {
   /// Collective.
   void find_surfaces(ShapeFunction shape, const Particles& particles, std::span<const Vector3> guests,
                      grid::BlockGrid& grid, double dt);
+
+  /// Tells what touches its image from now on; must outlive the calls.
+  void watch(FirstTouches& touches) { touches_ = &touches; }
 
   /// Numbers the nodes near the planes; only what changed since the last call is done.
   void lay_out(const grid::BlockGrid& grid);
@@ -94,6 +98,7 @@ class MirrorContact {
   std::vector<double> heat_;        // J/kg, of each node
   std::vector<double> joint_mass_;  // kg, scratch
   bool made_heat_ = false;
+  FirstTouches* touches_ = nullptr;
   bool shares_known_ = false;  // in this step
   double dt_ = 0.0;            // s, of this step
 };

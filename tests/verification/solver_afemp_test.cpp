@@ -119,7 +119,7 @@ TEST(Adaptive, RestartIsBitwiseTheRunThatGoesOn) {
     const setup::Case setup = read(impact("adaptive", element));
     Simulation whole(setup, parallel::world());
     // In the middle of contact and conversion; steps, as times would shorten them.
-    for (int step = 0; step < 60; ++step) whole.advance(4e-6);
+    for (int step = 0; step < 100; ++step) whole.advance(4e-6);
     Simulation restarted = restored(setup, save(whole, folder.path()), parallel::world());
     for (int step = 0; step < 30; ++step) {
       whole.advance(4e-6);

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "src/contact/surface_points.hpp"
+#include "src/grid/block_grid.hpp"
+#include "src/parallel/threads.hpp"
+#include "src/particles/particles.hpp"
+#include "src/transfer/shape_function.hpp"
+
+/// The nodes of contact slots that points reach, mirror planes included.
+namespace whipple::contact {
+
+/// Number of the pair (a, b), a < b, of `fields` fields.
+constexpr std::size_t pair_index(std::size_t a, std::size_t b, std::size_t fields) {
+  return a * (2 * fields - a - 1) / 2 + (b - a - 1);
+}
+
+/// A node of a contact slot as a particle, or its image beyond a mirror plane, sees it.
+struct Place {
+  std::size_t contact_slot;
+  std::size_t fields;  ///< of the slot
+  std::size_t field;   ///< of the particle, counted among those of the slot
+  std::size_t node;    ///< in its block
+  double weight;       ///< N
+  Vector3 gradient;    ///< of N
+  Vector3 distance;    ///< position of the particle, or its image, minus that of the node
+  Vector3 off_plane;   ///< 0 along the normals of the mirror planes that the node is on
+  Vector3 sign;        ///< of the components under the reflections that lead to the image
+
+  /// Calls f(pair, is the particle of its first field?) for the pairs that the particle's field is part of.
+  template <class Function>
+  void for_each_pair(Function&& f) const {
+    for (std::size_t other = 0; other < fields; ++other) {
+      if (other < field) f(pair_index(other, field, fields), false);
+      if (other > field) f(pair_index(field, other, fields), true);
+    }
+  }
+  [[nodiscard]] std::size_t in(const grid::ContactValues& values, std::size_t array,
+                               std::size_t lanes = 1) const {
+    return values.begin[contact_slot] + lanes * (array * grid::nodes_per_block + node);
+  }
+};
+
+/// Nodes of each contact slot that matter: a bit each.
+using NodesThatMatter = std::vector<std::uint64_t>;
+static_assert(grid::nodes_per_block == 64);
+
+/// The nodes that matter to the points of one field in a block. What lies beyond a mirror plane is seen from
+/// the image of the point at the image of the node.
+class Reach {
+ public:
+  /// @param block       where the points are
+  /// @param neighbours  slots of the 27 blocks around it, as far as they count
+  Reach(const grid::BlockGrid& grid, const grid::BlockCoordinate& block,
+        const std::array<std::int32_t, 27>& neighbours, unsigned field, const NodesThatMatter& matter)
+      : axes_{folded(grid, 0, block[0], field), folded(grid, 1, block[1], field),
+              folded(grid, 2, block[2], field)} {
+    for (std::size_t n = 0; n < neighbours.size(); ++n) {
+      if (neighbours[n] == grid::BlockGrid::no_slot) continue;
+      const auto slot = static_cast<std::size_t>(neighbours[n]);
+      const std::int32_t number = grid.contact_number(slot);
+      if (number == grid::BlockGrid::no_slot) continue;
+      const std::uint64_t fields = grid.fields(slot);
+      if ((fields >> field & 1U) == 0) continue;
+      nodes_[n] = matter[static_cast<std::size_t>(number)];
+      any_ = any_ || nodes_[n] != 0;
+      slots_[n] = {
+          .contact_slot = static_cast<std::uint32_t>(number),
+          .fields = static_cast<std::uint8_t>(std::popcount(fields)),
+          .field = static_cast<std::uint8_t>(std::popcount(fields & ((std::uint64_t{1} << field) - 1)))};
+    }
+  }
+
+  [[nodiscard]] bool any() const { return any_; }
+
+  /// Calls f(place) for the nodes that matter and that point `p` reaches.
+  /// @param at_point  makes f, if there are any
+  template <class Shape, class Points, class AtPoint>
+  void for_each_place(const Points& points, std::uint32_t p, const grid::BlockCoordinate& block,
+                      const grid::Geometry& geometry, AtPoint&& at_point) const {
+    constexpr int count = Shape::count;
+    const grid::PlaceInStencil in_stencil = grid::StencilPlaces(Shape::stencil)(
+        grid::position_in_block(geometry.in_cells(points.position[p]), grid::corner_of(block)));
+    const std::array<int, 3> node = in_stencil.first_node(Shape::stencil);
+    const std::array<std::size_t, 3> first = {static_cast<std::size_t>(node[0] + 1),
+                                              static_cast<std::size_t>(node[1] + 1),
+                                              static_cast<std::size_t>(node[2] + 1)};
+    std::array<std::uint64_t, 27> reached{};
+    if (!reaches(first, count, reached)) return;
+    const transfer::Weights<count> w = transfer::weights_at<Shape>(points, p, in_stencil, geometry.cell_size);
+    const auto f = at_point(p);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Folded& x = axes_[0][first[0] + i];
+      for (std::size_t j = 0; j < count; ++j) {
+        const Folded& y = axes_[1][first[1] + j];
+        for (std::size_t k = 0; k < count; ++k) {
+          const Folded& z = axes_[2][first[2] + k];
+          const auto n = static_cast<std::size_t>(grid::neighbour_index(x.block, y.block, z.block));
+          const std::uint64_t bit = x.nodes & y.nodes & z.nodes;
+          if ((reached[n] & bit) == 0) continue;
+          const double weight = w.weight[i][0] * w.weight[j][1] * w.weight[k][2];
+          if (!(weight > 0.0)) continue;
+          const Vector3 sign(x.sign, y.sign, z.sign);
+          const Vector3 gradient(w.derivative[i][0] * w.weight[j][1] * w.weight[k][2],
+                                 w.weight[i][0] * w.derivative[j][1] * w.weight[k][2],
+                                 w.weight[i][0] * w.weight[j][1] * w.derivative[k][2]);
+          const Vector3 distance(w.distance[i][0], w.distance[j][1], w.distance[k][2]);
+          f(Place{.contact_slot = slots_[n].contact_slot,
+                  .fields = slots_[n].fields,
+                  .field = slots_[n].field,
+                  .node = static_cast<std::size_t>(std::countr_zero(bit)),
+                  .weight = weight,
+                  .gradient = sign.cwiseProduct(gradient),
+                  .distance = -sign.cwiseProduct(distance),
+                  .off_plane = Vector3(x.off_plane, y.off_plane, z.off_plane),
+                  .sign = sign});
+        }
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t places = grid::reach_edge;  // along a direction, from -1 on
+
+  /// One place along a direction, folded at the mirror planes.
+  struct Folded {
+    std::uint64_t nodes = 0;  // of a block with that number along the direction
+    double sign = 1.0;        // -1 beyond a plane
+    double off_plane = 1.0;   // 0 on a plane, where point and image make up for one another
+    int block = 0;            // 0 to 2
+  };
+  using FoldedAxis = std::array<Folded, places>;
+  struct Slot {
+    std::uint32_t contact_slot = 0;
+    std::uint8_t fields = 0, field = 0;  // as in Place
+  };
+
+  static constexpr std::array<std::array<std::uint64_t, grid::block_edge>, 3> layers_of_nodes() {
+    std::array<std::array<std::uint64_t, grid::block_edge>, 3> layers{};
+    for (int x = 0; x < grid::block_edge; ++x) {
+      for (int y = 0; y < grid::block_edge; ++y) {
+        for (int z = 0; z < grid::block_edge; ++z) {
+          const std::uint64_t bit = std::uint64_t{1} << grid::node_index(x, y, z);
+          layers[0][static_cast<std::size_t>(x)] |= bit;
+          layers[1][static_cast<std::size_t>(y)] |= bit;
+          layers[2][static_cast<std::size_t>(z)] |= bit;
+        }
+      }
+    }
+    return layers;
+  }
+
+  static FoldedAxis folded(const grid::BlockGrid& grid, int axis, int block, unsigned field) {
+    static constexpr std::array<std::array<std::uint64_t, grid::block_edge>, 3> layers = layers_of_nodes();
+    static constexpr grid::ReachMap map = grid::reach_map();
+    FoldedAxis all;
+    const auto a = static_cast<std::size_t>(axis);
+    const int cells = grid.geometry().cells[a];
+    const bool lower = grid.is_bonded_at(2 * a, field), upper = grid.is_bonded_at(2 * a + 1, field);
+    for (std::size_t n = 0; n < places; ++n) {
+      int place = block * grid::block_edge + static_cast<int>(n) - 1;
+      const auto reflect = [&](int at) {
+        place = 2 * at - place;
+        all[n].sign = -all[n].sign;
+      };
+      if (lower && place < 0) reflect(0);
+      if (upper && place > cells) reflect(cells);
+      if ((lower && place == 0) || (upper && place == cells)) all[n].off_plane = 0.0;
+      const int from_corner = place - block * grid::block_edge + 1;
+      if (from_corner < 0 || from_corner >= static_cast<int>(places)) continue;  // no stencil comes there
+      const auto m = static_cast<std::size_t>(from_corner);
+      all[n].block = map.block[m];
+      all[n].nodes = layers[a][static_cast<std::size_t>(map.node[m])];
+    }
+    return all;
+  }
+
+  /// Finds which of the nodes that matter the stencil reaches, by block around; returns whether any.
+  [[nodiscard]] bool reaches(const std::array<std::size_t, 3>& first, int count,
+                             std::array<std::uint64_t, 27>& reached) const {
+    std::array<std::array<std::uint64_t, 3>, 3> layers{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t n = first[a]; n < first[a] + static_cast<std::size_t>(count); ++n) {
+        layers[a][static_cast<std::size_t>(axes_[a][n].block)] |= axes_[a][n].nodes;
+      }
+    }
+    std::uint64_t some = 0;
+    for (int x = 0; x < 3; ++x) {
+      const std::uint64_t in_x = layers[0][static_cast<std::size_t>(x)];
+      if (in_x == 0) continue;
+      for (int y = 0; y < 3; ++y) {
+        const std::uint64_t in_xy = in_x & layers[1][static_cast<std::size_t>(y)];
+        if (in_xy == 0) continue;
+        for (int z = 0; z < 3; ++z) {
+          const auto n = static_cast<std::size_t>(grid::neighbour_index(x, y, z));
+          reached[n] = in_xy & layers[2][static_cast<std::size_t>(z)] & nodes_[n];
+          some |= reached[n];
+        }
+      }
+    }
+    return some != 0;
+  }
+
+  std::array<FoldedAxis, 3> axes_;
+  std::array<std::uint64_t, 27> nodes_{};  // that matter, of the blocks around
+  std::array<Slot, 27> slots_{};
+  bool any_ = false;
+};
+
+/// Calls at_point(p) for all particles p that reach nodes that matter, and what it returns for each of those
+/// nodes' places; no two calls at a time for one node.
+template <class Shape, class AtPoint>
+void for_each_place(const Particles& particles, const grid::BlockGrid& grid, const NodesThatMatter& matter,
+                    AtPoint&& at_point) {
+  grid.for_each_apart([&](std::size_t slot) {
+    if (!grid.meets_contact(slot)) return;
+    const bool reaches_some = std::ranges::any_of(grid.neighbours(slot), [&](std::int32_t near) {
+      if (near == grid::BlockGrid::no_slot) return false;
+      const std::int32_t number = grid.contact_number(static_cast<std::size_t>(near));
+      return number != grid::BlockGrid::no_slot && matter[static_cast<std::size_t>(number)] != 0;
+    });
+    if (!reaches_some) return;
+    grid.for_each_field(
+        grid::BlockGrid::Points::particles, slot,
+        [&](std::span<const std::uint32_t> members, unsigned field) {
+          const Reach reach(grid, grid.coordinate(slot), grid.neighbours(slot), field, matter);
+          if (!reach.any()) return;
+          for (const std::uint32_t p : members) {
+            reach.for_each_place<Shape>(particles, p, grid.coordinate(slot), grid.geometry(), at_point);
+          }
+        });
+  });
+}
+
+/// The same for points on surfaces of elements, which work with B-splines only.
+template <class Shape, class AtPoint>
+void for_each_place(const PlacedPoints& placed, const grid::BlockGrid& grid, const NodesThatMatter& matter,
+                    AtPoint&& at_point) {
+  if constexpr (transfer::CarriesAffineField<Shape>) {
+    for (const std::vector<std::uint32_t>& colour : placed.colours) {
+      parallel::for_each_uneven(colour.size(), [&](std::size_t c) {
+        const PlacedPoints::Block& block = placed.blocks[colour[c]];
+        for (const std::uint32_t p : block.points) {
+          const Reach reach(grid, block.coordinate, block.slots, placed.points->field[p], matter);
+          if (!reach.any()) continue;
+          reach.for_each_place<Shape>(*placed.points, p, block.coordinate, grid.geometry(), at_point);
+        }
+      });
+    }
+  }
+}
+
+}  // namespace whipple::contact
