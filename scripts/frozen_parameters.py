@@ -12,14 +12,12 @@ no reason, or a reason has no departure.
 import argparse
 import hashlib
 import json
-import pathlib
 import re
 import sys
 import tomllib
 
-from results_data import BadExpectation, Case, apply
+from results_data import ROOT, BadExpectation, all_cases, apply
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Sections of a case whose keys are numerical, less those that say what happens rather than how it is computed.
 SECTIONS = ("time", "transfer", "splitting", "artificial_viscosity", "dissipation", "contact",
             "body.artificial_viscosity", "body.discretization", "body.conversion")
@@ -131,7 +129,7 @@ def main():
                 print(f"{key} = {value}")
             print(f"digest {digest(parameters)}")
             return 0
-        cases = [Case(path) for path in sorted((ROOT / "cases").glob("*/expected.toml"))]
+        cases = all_cases()
         for case in cases:
             for where, key, value, reason in departures(case, parameters):
                 print(f"{case.name}, {where}: {key} = {value}\n    {reason or 'NO REASON'}")

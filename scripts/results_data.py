@@ -2,8 +2,11 @@
 """expected.toml of a case: its runs and what they must show (docs/how_to/expected_results.md)."""
 import csv
 import math
+import pathlib
 import re
 import tomllib
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # Factors to SI of the units that expectations are written in.
 UNITS = {"": 1.0, "%": 0.01, "1": 1.0,
@@ -192,12 +195,18 @@ class Case:
         return next(run for run in self.runs if run.name == name)
 
 
+def all_cases():
+    return [Case(path) for path in sorted((ROOT / "cases").glob("*/expected.toml"))]
+
+
 class Measures:
-    """What `whipple analyse` wrote of a run: quantities.csv, and series.csv for values at a time."""
+    """What `whipple analyse` wrote of a run: quantities.csv, and series.csv for values at a time. Also history.csv:
+    the largest errors of the balances and the greatest speed."""
 
     def __init__(self, folder):
         self.folder = folder
         self.single = {row["quantity"]: float(row["value"]) for row in self._rows("quantities.csv")}
+        self._history(folder / "history.csv")
         for row in self._rows("bodies.csv"):
             body, part = row["body part"].rsplit(" ", 1)
             self.single[f"mass.{body}.{part}"] = float(row["mass [kg]"])
@@ -205,6 +214,16 @@ class Measures:
         rows = self._rows("series.csv")
         for head in rows[0] if rows else []:
             self.series[head.split(" [")[0]] = [float(row[head]) for row in rows]
+
+    def _history(self, path):
+        if not path.is_file():
+            return
+        with path.open(newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        for head in rows[0] if rows else []:
+            name = head.split(" [")[0]
+            if name in ("energy_error", "momentum_error", "maximum_speed"):
+                self.single[name] = max(abs(float(row[head])) for row in rows if row[head])
 
     def _rows(self, name):
         path = self.folder / "report" / name

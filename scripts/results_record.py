@@ -11,11 +11,10 @@ import platform
 import re
 import subprocess
 import tomllib
-from dataclasses import dataclass
 
 import frozen_parameters
+from results_data import ROOT
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
 CODE = (".cpp", ".hpp", ".inl", ".h")
 SOURCES = ("src", "eos")  # what a run of a case is computed by
 LIBRARY = ROOT / "eos" / "materials"
@@ -83,7 +82,8 @@ def program(whipple):
     done = subprocess.run([whipple, "version"], capture_output=True, text=True)
     lines = [re.sub(r"\s+", " ", line) for line in done.stdout.splitlines()]
     match = re.search(r"revision ([0-9a-f]+)", lines[0] if lines else "")
-    same = bool(match) and subprocess.run(["git", "diff", "--quiet", match[1], "--", *SOURCES], cwd=ROOT,
+    code = [f":(glob){folder}/**/*{suffix}" for folder in SOURCES for suffix in CODE]
+    same = bool(match) and subprocess.run(["git", "diff", "--quiet", match[1], "--", *code], cwd=ROOT,
                                           stderr=subprocess.DEVNULL).returncode == 0
     dirty = bool(match) and "+" in lines[0]
     return {"program": lines[0] if lines else "", "build": [line for line in lines[1:3]],
@@ -126,10 +126,3 @@ def state(record, command, inputs, source):
         return STALE
     return CURRENT if record["source"] == source else OLDER_SOURCE
 
-
-@dataclass
-class Finished:
-    """A run that is there: its folder, record and state."""
-    folder: pathlib.Path
-    record: dict
-    state: str
