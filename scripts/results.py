@@ -85,7 +85,7 @@ def listed(chosen, arguments):
                     line += f"\n              {found['error']}"
                 else:
                     work += found["points"] * found["steps"]
-                    line += f"\n              {found['points']} points, {found['steps']} steps, {found['state']}"
+                    line += f"\n              {found['points']} points, {found['steps']} steps, by whipple check {found['estimate']}, {found['state']}"
                     line += f", {found['wall_time']} s" if found["wall_time"] is not None else ""
             print(line, flush=True)
     if arguments.cost:

@@ -101,7 +101,7 @@ def numerical_parameters(folder):
 def write(folder, run, variant, command, whipple, threads, wall_time):
     record = {"command": command, "variant": variant.name, "resolution": variant.resolution,
               "cell_size": run.cell_size[variant.resolution],
-              "revision": git("rev-parse", "--short=12", "HEAD"), "dirty": bool(git("status", "--porcelain")),
+              "revision": git("rev-parse", "--short=12", "HEAD"), "dirty": bool(git("status", "--porcelain", "--", *SOURCES, "cases")),
               **program(whipple), **inputs_of(run),
               "parameters": frozen_parameters.digest(numerical_parameters(folder)),
               "frozen_set": frozen_parameters.digest(frozen_parameters.defaults()),

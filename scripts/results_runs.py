@@ -7,7 +7,7 @@ import subprocess
 import time
 
 import results_record
-from results_data import ROOT, BadExpectation, Measures, all_cases, quantity
+from results_data import ROOT, BadExpectation, Measures, all_cases
 from results_variants import FRAME_DEPENDENT, Variant, back_to_rest, vector
 
 RESULTS = ROOT / "run" / "results"
@@ -109,31 +109,14 @@ def cost(whipple, case, run, variant):
     command = command_of(case, run, variant.resolution, folder_of(case, run, variant), variant.assignments)
     words = [word for word in command[3:] if word != "--force"]
     done = subprocess.run([whipple, "check", command[2], *words[2:]], cwd=ROOT, capture_output=True, text=True,
-                          env=environment(1))
+                          env=environment(2))
     if done.returncode != 0:
         return {"error": (done.stderr or done.stdout).strip().split("\n")[-1]}
     text = done.stdout + done.stderr
     points = sum(int(n) for n in re.findall(r": (\d+) (?:particles|elements)", text))
     steps = re.search(r"about (\d+) steps", text)
+    estimate = re.search(r"estimated time: (.*?) on", text)
     record, state = state_of(case, run, variant, folder_of(case, run, variant))
     return {"points": points, "steps": int(steps[1]) if steps else 0,
+            "estimate": estimate[1] if estimate else "",
             "wall_time": record["wall_time"] if record else None, "state": state}
-
-
-def projectile_size(table):
-    """Smallest extent of the first moving body that its cells resolve, in metres; None if its shape is another."""
-    for body in table["body"]:
-        velocity = vector(body.get("velocity", [0, 0, 0]), "velocity")
-        if not any(velocity):
-            continue
-        shape = body.get("shape", {})
-        shape = shape.get("moved", shape).get("shape", shape)
-        for kind, keys in shape.items():
-            if kind in ("sphere", "ogive"):
-                return 2 * quantity(keys["radius"], kind)[0]
-            if kind == "cylinder":
-                return min(2 * quantity(keys["radius"], kind)[0], quantity(keys["height"], kind)[0])
-            if kind == "box":  # of a column between mirror planes the thickness counts
-                axis = max(range(3), key=lambda i: abs(velocity[i]))
-                return quantity(keys["upper"][axis], kind)[0] - quantity(keys["lower"][axis], kind)[0]
-    return None

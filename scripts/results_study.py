@@ -6,6 +6,7 @@ import re
 import results_bands as bands
 import results_record
 import results_runs
+from report_sensitivity import projectile_size
 from results_variants import variants_of
 
 # Kinds of quantities whose dependence on the grid reports of single runs quote.
@@ -115,7 +116,7 @@ def run_study(case, run, collected):
                      "kind": expectation.kind, "unit": expectation.unit, "expected": clean(expectation.value),
                      "tolerance": clean(expectation.tolerance), "source": expectation.source, "known": expectation.known,
                      "values": {name: clean(value) for name, value in values.items()}, **study})
-    size = results_runs.projectile_size(run.resolved(grids[-1] if grids else "normal"))
+    size = projectile_size(run.resolved(grids[-1] if grids else "normal")["body"])
     return {"name": run.name, "title": run.title, "sensitivity": run.sensitivity, "headline": run.headline,
             "cells": {name: run.cell_size[name] for name in grids},
             "across": {name: round(size / run.cells(name), 1) for name in grids} if size else {},

@@ -13,6 +13,7 @@ import tempfile
 ROOT = pathlib.Path(sys.argv[1]).resolve()
 sys.path.insert(0, str(ROOT / "scripts"))
 
+import report_sensitivity  # noqa: E402
 import results_page  # noqa: E402
 import results_record  # noqa: E402
 import results_runs  # noqa: E402
@@ -140,7 +141,7 @@ def variants(case):
         "body.0.velocity=[0, 0, 500]", "body.1.velocity=[0, 0, -500]", "domain.lower=[0, 0, -0.018]",
         "domain.upper=[0.004, 0.004, 0.008]"], str(found["frame"].assignments))
     require(run.assignments("fine") == ["domain.cell_size=0.5 mm", "time.courant=0.4"], "refined with the cells")
-    require(results_runs.projectile_size(run.resolved()) == 4e-3, "size of the projectile")
+    require(report_sensitivity.projectile_size(run.resolved()["body"]) == 4e-3, "size of the projectile")
     try:
         results_variants.frame_assignments(run.resolved(), (1.0, 0.0, 0.0), "test")
     except BadExpectation as error:
@@ -203,6 +204,7 @@ def a_run_is_compared(case, work):
     require(text.count("a reason") == 2, "the cause is given where there is no agreement")
     found = results_study.sensitivities(results)
     require(found["fastest particle"][0]["cells"] == [4.0, 8.0], str(found))
+    require(report_sensitivity.rows(found)[0][4:] == ["8", "1 of 1"], str(report_sensitivity.rows(found)))
 
 
 with contextlib.ExitStack() as stack:
