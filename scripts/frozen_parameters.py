@@ -118,7 +118,7 @@ def check(cases, parameters):
 
 def main():
     parser = argparse.ArgumentParser(prog="frozen_parameters.py",
-                                     description="Lists the departures of the cases from the one set of numerical parameters.")
+                                     description="Lists the departures of the cases from the numerical parameters.")
     parser.add_argument("--defaults", action="store_true", help="print the set")
     parser.add_argument("--digest", action="store_true", help="print its digest")
     arguments = parser.parse_args()

@@ -9,9 +9,9 @@ import statistics
 
 TABLE = pathlib.Path(__file__).resolve().parent / "grid_sensitivity.json"
 FACTORS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "m/s": 1.0, "km/s": 1e3, "cm/s": 1e-2}
-ONE_RUN = ("One run on one grid does not show its own error. Speeds, lengths and craters change little with the cells; masses "
-           "that melt or vaporise, extreme values and fragments change most, and round-off decides where matter breaks. "
-           "Repeat the run with two other cell sizes before a number is relied on (docs/theory/uncertainty.md).")
+ONE_RUN = ("One run on one grid does not show its own error. Speeds, lengths and craters change little with the cells; "
+           "masses that melt or vaporise, extreme values and fragments change most, and round-off decides where material "
+           "breaks. Repeat the run with two other cell sizes before relying on a number (docs/theory/uncertainty.md).")
 
 
 def number(value):
@@ -65,7 +65,7 @@ def add_to(page, run_input, table=TABLE):
         page.paragraph(f"This run: {size / number(cell):.3g} cells across the projectile.")
     studies = json.loads(table.read_text()) if table.is_file() else {}
     if studies:
-        page.paragraph("What the grid studies of the cases found (docs/results.md): half-width of the band of 95 % over the "
-                       "value on the finest grid, and the change by the last refinement.")
+        page.paragraph("What the grid studies of the cases found (docs/results.md): half-width of the band of 95 % over "
+                       "the value on the finest grid, and the change by the last refinement.")
         page.table(["quantity", "band, typical", "band, largest", "change, typical", "cells across the projectile",
                     "converged studies"], rows(studies), text_columns=(0,))

@@ -5,12 +5,13 @@
 usage: results.py [CASE[:RUN]]... [--resolution coarse|normal|fine | --band] [--run] [--any-source] [--threads N]
                   [--write] [--list] [--cost] [--check-fresh]
 
-Without --run, runs that are there are compared. A run lies in run/results/CASE/RUN.VARIANT; a variant is a resolution, a
-position of the lattice or a moving frame. --band takes all variants of a run: three grids of a headline, two of others,
-and what [band] of expected.toml declares. A run is repeated if the command, the case, a material or the C++ under src/ or
-eos/ has changed since; --any-source lets the last pass. --write renews docs/results.json with the runs that are there, and from
-it the page and scripts/grid_sensitivity.json; runs that are not here keep their tables, marked where they are out of date.
---check-fresh runs nothing: exit code 1 if a table belongs to another case or material, or the page to other data.
+Without --run, runs that are there are compared. A run lies in run/results/CASE/RUN.VARIANT; a variant is a resolution,
+a position of the lattice or a moving frame. --band takes all variants of a run: three grids and what [band] of
+expected.toml declares of a headline, two grids of others. A run is repeated if its command, case, a material or the C++
+under src/ or eos/ has changed since; --any-source lets the last pass. --write renews docs/results.json with the runs that
+are there, and from it the page and scripts/grid_sensitivity.json; runs that are not here keep their tables, marked where
+they are out of date. --check-fresh runs nothing: exit code 1 if a table belongs to another case or material, or the page
+to other data.
 Format of expected.toml: docs/how_to/expected_results.md; bands and marks: docs/theory/uncertainty.md.
 Exit code 1 if a run failed, 2 for bad input; a difference from an experiment is a result, not an error.
 """
@@ -66,8 +67,8 @@ def check_fresh():
     unlike = [line for line in results_page.body(results, "", set()).split("\n")
               if line.startswith("|") and line not in results_page.written()]
     if unlike:
-        print(f"{results_page.PAGE.name} does not say what {results_page.STORE.name} holds: {len(unlike)} rows, the first:\n"
-              f"  {unlike[0]}")
+        print(f"{results_page.PAGE.name} does not say what {results_page.STORE.name} holds: {len(unlike)} rows, "
+              f"the first:\n  {unlike[0]}")
     return 1 if stale or unlike else 0
 
 
@@ -85,7 +86,8 @@ def listed(chosen, arguments):
                     line += f"\n              {found['error']}"
                 else:
                     work += found["points"] * found["steps"]
-                    line += f"\n              {found['points']} points, {found['steps']} steps, by whipple check {found['estimate']}, {found['state']}"
+                    line += (f"\n              {found['points']} points, {found['steps']} steps, "
+                             f"by whipple check {found['estimate']}, {found['state']}")
                     line += f", {found['wall_time']} s" if found["wall_time"] is not None else ""
             print(line, flush=True)
     if arguments.cost:

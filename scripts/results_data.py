@@ -151,7 +151,7 @@ class RunOfCase:
 
 
 class Band:
-    """[band] of a case: assignments of three positions of the lattice, velocity of a moving frame, or why there are none."""
+    """[band] of a case: three positions of the lattice, the velocity of a moving frame, or why there are none."""
 
     def __init__(self, table, where):
         unknown = set(table) - {"offsets", "frame", "no_offsets", "no_frame"}

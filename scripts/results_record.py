@@ -42,7 +42,7 @@ def digest_of_file(path):
 
 
 def material_files(run):
-    """Material files that a run reads: beside the case or from the library; both, since they may differ by run."""
+    """Material files that a run reads, by the names in the case: beside it or from the library."""
     found = {}
     for body in run.resolved(next(iter(run.cell_size)))["body"]:
         name = body["material"]
@@ -55,7 +55,8 @@ def material_files(run):
 def inputs_of(run):
     """Digests of the case and its materials."""
     return {"case": digest_of_file(run.case.file),
-            "materials": {name: digest_of_file(path) if path.is_file() else "" for name, path in material_files(run).items()}}
+            "materials": {name: digest_of_file(path) if path.is_file() else ""
+                          for name, path in material_files(run).items()}}
 
 
 def git(*words):
@@ -101,11 +102,13 @@ def numerical_parameters(folder):
 def write(folder, run, variant, command, whipple, threads, wall_time):
     record = {"command": command, "variant": variant.name, "resolution": variant.resolution,
               "cell_size": run.cell_size[variant.resolution],
-              "revision": git("rev-parse", "--short=12", "HEAD"), "dirty": bool(git("status", "--porcelain", "--", *SOURCES, "cases")),
+              "revision": git("rev-parse", "--short=12", "HEAD"),
+              "dirty": bool(git("status", "--porcelain", "--", *SOURCES, "cases")),
               **program(whipple), **inputs_of(run),
               "parameters": frozen_parameters.digest(numerical_parameters(folder)),
               "frozen_set": frozen_parameters.digest(frozen_parameters.defaults()),
-              "processor": processor(), "machine": platform.node(), "threads": threads, "wall_time": round(wall_time, 1)}
+              "processor": processor(), "machine": platform.node(), "threads": threads,
+              "wall_time": round(wall_time, 1)}
     partial = folder / "finished.json.partial"
     partial.write_text(json.dumps(record, indent=1) + "\n")
     partial.rename(folder / "finished.json")

@@ -152,7 +152,7 @@ def sensitivities(results):
                 if kind is None or not fine or before is None or band is None:
                     continue
                 rows.setdefault(kind, []).append(
-                    {"case": f"{name}:{run['name']}", "quantity": q["name"], "cells": [run["across"][g] for g in grids[-2:]],
-                     "change": abs(fine - before) / abs(fine), "band": band / abs(fine),
+                    {"case": f"{name}:{run['name']}", "quantity": q["name"],
+                     "cells": [run["across"][g] for g in grids[-2:]], "change": abs(fine - before) / abs(fine), "band": band / abs(fine),
                      "converged": q["grid"] in ("converged", "same")})
     return rows
