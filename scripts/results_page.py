@@ -115,7 +115,8 @@ def provenance(run, source):
         older = "" if of == source else " **Older source.**"
         times = ", ".join(f"{name} {record['wall_time']:.0f} s on {record['threads']}" for name, record in entries)
         lines.append(f"Computed with {program}{' and changes' if entries[0][1]['dirty'] else ''}, source {of}, "
-                     f"case {run['inputs']['case']}, {processor}; {times}.{older}")
+                     f"numerical parameters {entries[0][1]['frozen_set']}, case {run['inputs']['case']}, {processor}; "
+                     f"{times}.{older}")
     return lines
 
 
@@ -127,6 +128,8 @@ def notes(run):
     for source, names in sources.items():
         lines.append(f"- Source of {'; '.join(names) if len(sources) > 1 else 'all'}: {source}")
     for q in physics(run):
+        if q["u_input"] is not None:
+            lines.append(f"- U_input of {q['name']}: {shown(q['u_input'], q['unit'], 2)}, by {', '.join(run['input'])}")
         if q["known"] and q["mark"] in (bands.DIFFERS, bands.NOT_CONVERGED, bands.NOT_FOUND):
             lines.append(f"- {q['name']}: {q['known']}")
     for q in run["quantities"]:

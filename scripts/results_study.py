@@ -91,7 +91,7 @@ def extra_grids(run):
             run.cells(r) not in {run.cells(a) for a in asked}]
 
 
-RECORDED_KEYS = ("revision", "dirty", "program", "build", "executable", "source", "parameters", "frozen_set", "processor",
+RECORDED_KEYS = ("revision", "dirty", "program", "executable", "source", "parameters", "frozen_set", "processor",
                  "machine", "threads", "wall_time", "cell_size", "variant")
 
 
@@ -117,7 +117,7 @@ def run_study(case, run, collected):
                      "tolerance": clean(expectation.tolerance), "source": expectation.source, "known": expectation.known,
                      "values": {name: clean(value) for name, value in values.items()}, **study})
     size = projectile_size(run.resolved(grids[-1] if grids else "normal")["body"])
-    return {"name": run.name, "title": run.title, "sensitivity": run.sensitivity, "headline": run.headline,
+    return {"name": run.name, "title": run.title, "sensitivity": run.sensitivity, "headline": run.headline, "input": run.input,
             "cells": {name: run.cell_size[name] for name in grids},
             "across": {name: round(size / run.cells(name), 1) for name in grids} if size else {},
             "inputs": results_record.inputs_of(run), "quantities": rows,
