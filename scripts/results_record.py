@@ -41,6 +41,13 @@ def digest_of_file(path):
     return digest_of(pathlib.Path(path).read_bytes())
 
 
+@functools.cache
+def digest_of_toml(path):
+    """Of what the file says: comments and layout do not count."""
+    table = tomllib.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+    return digest_of(json.dumps(table, sort_keys=True, default=str))
+
+
 def material_files(run):
     """Material files that a run reads, by the names in the case: beside it or from the library."""
     found = {}
@@ -54,8 +61,8 @@ def material_files(run):
 
 def inputs_of(run):
     """Digests of the case and its materials."""
-    return {"case": digest_of_file(run.case.file),
-            "materials": {name: digest_of_file(path) if path.is_file() else ""
+    return {"case": digest_of_toml(run.case.file),
+            "materials": {name: digest_of_toml(path) if path.is_file() else ""
                           for name, path in material_files(run).items()}}
 
 

@@ -52,8 +52,11 @@ def digests_follow_the_files(work):
     run = Case(folder / "expected.toml").runs[0]
     before = results_record.inputs_of(run)
     require(set(before["materials"]) == {"own.toml", "copper.toml"} and all(before["materials"].values()), str(before))
+    (folder / "own.toml").write_text("density = 1  # said again")
+    results_record.digest_of_toml.cache_clear()
+    require(results_record.inputs_of(run) == before, "comments do not count")
     (folder / "own.toml").write_text("density = 2")
-    results_record.digest_of_file.cache_clear()
+    results_record.digest_of_toml.cache_clear()
     after = results_record.inputs_of(run)
     require(after["case"] == before["case"] and after["materials"]["own.toml"] != before["materials"]["own.toml"]
             and after["materials"]["copper.toml"] == before["materials"]["copper.toml"], f"{before}, {after}")
