@@ -85,13 +85,13 @@ def listed(chosen, arguments):
                 if "error" in found:
                     line += f"\n              {found['error']}"
                 else:
-                    work += found["points"] * found["steps"]
+                    work += found["seconds"]
                     line += (f"\n              {found['points']} points, {found['steps']} steps, "
-                             f"by whipple check {found['estimate']}, {found['state']}")
-                    line += f", {found['wall_time']} s" if found["wall_time"] is not None else ""
+                             f"about {found['seconds']:.0f} s, {found['state']}")
+                    line += f", took {found['wall_time']} s" if found["wall_time"] is not None else ""
             print(line, flush=True)
     if arguments.cost:
-        print(f"points times steps, all at work from the start: {work:.3g}")
+        print(f"all together about {work / 3600:.1f} h on {os.cpu_count()} threads")
 
 
 def variants(run, arguments):
