@@ -36,6 +36,9 @@ def every_case_is_understood():
         require(len({run.name for run in case.runs}) == len(case.runs), f"{case.name}: two runs of one name")
         for run in case.runs:
             require(run.expectations, f"{case.name}:{run.name} expects nothing")
+            sizes = [run.cells(resolution) for resolution in run.grids()]
+            require(not run.headline or all(a / b > 1.3 for a, b in zip(sizes, sizes[1:])),
+                    f"{case.name}:{run.name}: cell sizes {sizes} too near to one another for an order")
             require(not run.headline or len(run.grids()) == 3, f"{case.name}:{run.name}: a headline has three grids")
             for resolution in run.cell_size:
                 require(run.resolved(resolution)["domain"]["cell_size"] == run.cell_size[resolution], resolution)
