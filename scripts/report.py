@@ -24,6 +24,7 @@ try:
     import report_gauges
     import report_metrics
     import report_pictures
+    import report_sensitivity
     from report_data import AXES, PHASES, NotARun, Run, Snapshot
     from report_html import Page
 except ImportError as missing:
@@ -307,6 +308,7 @@ def main(words=None):
         report.curves()
         report.dissipation()
         report.gauges()
+        report_sensitivity.add_to(report.page, run.input)
         print(report.write())
     except (NotARun, OSError) as error:
         print(f"report: error: {error}", file=sys.stderr)

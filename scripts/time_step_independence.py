@@ -7,19 +7,18 @@ usage: time_step_independence.py [CASE[:RUN]]... [--courant 0.2 0.5 0.8]
                                  [--resolution coarse|normal|fine] [--threads N] [--output FILE.md]
                                  [--whipple EXE]
 
-A run lies in run/time_step/CASE/RUN.COURANT and is repeated only if its command line changed. Exit code 1 if a run failed,
+A run lies in run/time_step/CASE/RUN.COURANT and is repeated if its command, case, materials or the source changed. Exit code 1 if a run failed,
 2 for bad input; a dependence is a result, not an error.
 """
 import argparse
 import math
 import os
 import pathlib
-import subprocess
 import sys
-import time
 
-from results import ROOT, command_of, environment, select, up_to_date
-from results_data import UNITS, BadExpectation, Measures
+from results_data import ROOT, UNITS, BadExpectation, Measures
+from results_runs import analyse, execute, select
+from results_variants import Variant
 
 DEFAULT_CASES = ["lead_sphere_on_plate:symplectic", "lead_sphere_on_plate_gray:symplectic", "aluminium_crater:6061_t6",
                  "prater_6061:von_mises", "aluminium_sphere_on_plate:6061_t6", "piekutowski_clouds:t_D_0_084",
@@ -29,17 +28,10 @@ DEFAULT_CASES = ["lead_sphere_on_plate:symplectic", "lead_sphere_on_plate_gray:s
 def run(whipple, case, run_of_case, resolution, courant, threads):
     """Runs and analyses unless it is there; returns the folder, None if it failed."""
     folder = ROOT / "run" / "time_step" / case.name / f"{run_of_case.name}.{courant:g}"
-    command = command_of(case, run_of_case, resolution, folder, [f"time.courant={courant:g}"])
-    if up_to_date(folder, command):
+    variant = Variant(resolution, resolution, [f"time.courant={courant:g}"])
+    if execute(whipple, case, run_of_case, variant, threads, folder) and analyse(whipple, folder, run_of_case, threads):
         return folder
-    print(f"{time.strftime('%H:%M:%S')} {' '.join(command)}", flush=True)
-    options = ["--quiet", "--threads", str(threads)]
-    for arguments in ([*command[1:], *options], ["analyse", str(folder), "--quiet", *run_of_case.analyse]):
-        if subprocess.run([whipple, *arguments], cwd=ROOT, env=environment(threads)).returncode != 0:
-            print(f"  failed: {' '.join(arguments)}", flush=True)
-            return None
-    (folder / "finished.txt").write_text(" ".join(command))
-    return folder
+    return None
 
 
 def is_error_of_balance(expectation):

@@ -8,3 +8,10 @@ add_dependencies(app_command_line_test whipple whipple-md whipple-fit)
 add_test(NAME layers COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_layers.py)
 add_test(NAME layers_self_test COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_layers.py --self-test)
 set_tests_properties(layers layers_self_test PROPERTIES LABELS fast)
+
+# Coarse runs against stored numbers, half a minute of one core. Sanitizers would make it minutes.
+if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
+  add_test(NAME drift COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/drift.py --threads 2
+           --whipple $<TARGET_FILE:whipple> --work ${CMAKE_CURRENT_BINARY_DIR}/drift)
+  set_tests_properties(drift PROPERTIES LABELS drift PROCESSORS 2 TIMEOUT 300)
+endif()

@@ -87,7 +87,7 @@ def report_of_the_cloud(work):
     pictures = list((work / "report").glob("*.png"))
     require(checker.images == len(pictures) == 14, f"{checker.images} images, {len(pictures)} files")
     for word in ("Synthetic cloud", "Hugoniot of &lt;copper&gt;", "copper_gray_md.toml", "full problem",
-                 "residual velocity of disk"):
+                 "residual velocity of disk", "cells across the projectile"):
         require(word in text, f"{word!r} is not in the page")
 
     with (CLOUD / "history.csv").open(newline="") as stream:

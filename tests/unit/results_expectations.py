@@ -13,8 +13,13 @@ import tempfile
 ROOT = pathlib.Path(sys.argv[1]).resolve()
 sys.path.insert(0, str(ROOT / "scripts"))
 
-import results_table  # noqa: E402
-from results_data import BadExpectation, Case, Expectation  # noqa: E402
+import report_sensitivity  # noqa: E402
+import results_page  # noqa: E402
+import results_record  # noqa: E402
+import results_runs  # noqa: E402
+import results_study  # noqa: E402
+import results_variants  # noqa: E402
+from results_data import BadExpectation, Case, Expectation, apply  # noqa: E402
 
 
 def require(condition, message):
@@ -31,12 +36,23 @@ def every_case_is_understood():
         require(len({run.name for run in case.runs}) == len(case.runs), f"{case.name}: two runs of one name")
         for run in case.runs:
             require(run.expectations, f"{case.name}:{run.name} expects nothing")
-            for resolution in case.resolutions:
-                require(run.assignments(resolution), resolution)
+            sizes = [run.cells(resolution) for resolution in run.grids()]
+            require(not run.headline or all(a / b > 1.3 for a, b in zip(sizes, sizes[1:])),
+                    f"{case.name}:{run.name}: cell sizes {sizes} too near to one another for an order")
+            require(not run.headline or len(run.grids()) == 3, f"{case.name}:{run.name}: a headline has three grids")
+            for resolution in run.cell_size:
+                require(run.resolved(resolution)["domain"]["cell_size"] == run.cell_size[resolution], resolution)
+            for name, path in results_record.material_files(run).items():
+                require(path.is_file(), f"{case.name}:{run.name}: {name} is not found")
+            variants = results_variants.variants_of(run, band=True)
+            require(len({v.name for v in variants}) == len(variants), "two variants of one name")
+            for variant in variants:
+                require("{" not in "".join(variant.assignments), f"{case.name}: {variant.assignments}")
 
 
 def expectation(**keys):
-    return Expectation({"name": "n", "measure": "m", "source": "s", **keys}, "test")
+    origin = {} if keys.get("kind") == "record" else {"class": "exact"}
+    return Expectation({"name": "n", "measure": "m", "source": "s", **origin, **keys}, "test")
 
 
 def comparisons():
@@ -47,13 +63,15 @@ def comparisons():
     require(expectation(value=0.95, kind="at_least").holds(0.95), "at least")
     require(not expectation(value=1e-10, kind="at_most").holds(2e-10), "at most")
     require(expectation(kind="record", unit="g").holds(1.0) is None, "recorded values are not compared")
-    require(results_table.expected(within) == "14 mm ± 1 mm", results_table.expected(within))
+    require(within.origin == "exact" and expectation(kind="record").origin == "record", "classes")
 
 
 def mistakes_are_named():
     for keys, reason in (({"value": "14 furlong", "tolerance": "1 mm"}, "14 furlong"), ({"value": "14 mm"}, "tolerance"),
                          ({"value": 1, "tolerance": 1, "kind": "near"}, "near"), ({"valeu": 1}, "valeu"),
-                         ({"kind": "record", "unit": "stone"}, "stone")):
+                         ({"kind": "record", "unit": "stone"}, "stone"),
+                         ({"value": 1, "tolerance": 1, "class": "rumour"}, "rumour"),
+                         ({"value": 1, "tolerance": 1, "class": "record"}, "record")):
         try:
             expectation(**keys)
         except BadExpectation as error:
@@ -62,46 +80,154 @@ def mistakes_are_named():
             require(False, f"{keys} passed")
 
 
-def a_run_is_compared(work):
-    """Written measures: a final value, one between two snapshots, one of the history, one of a body."""
-    (work / "case").mkdir()
-    (work / "case" / "expected.toml").write_text("""
+EXPECTED = """
 title = "Made up"
-cell_size = { coarse = "1 mm" }
+cell_size = { coarse = "2 mm", normal = "1 mm", fine = "0.5 mm" }
+set_at.fine = ["time.courant=0.4"]
+[band]
+offsets = [
+  ['domain.lower=[0, 0, "{-8 - 0.25 cell} mm"]'],
+  ['domain.lower=[0, 0, "{-8 - 0.5 cell} mm"]'],
+  ['domain.lower=[0, 0, "{-8 - 0.75 cell} mm"]'],
+]
+frame = [0, 0, "-0.5 km/s"]
 [[run]]
 name = "only"
+headline = true
 """ + "".join(f"""
 [[run.quantity]]
 name = "{measure} {time}"
 measure = "{measure}"
 {f'time = "{time}"' if time else ''}
 value = {value}
-tolerance = "1 %"
+tolerance = "5 %"
+class = "{origin}"
+{'kind = "at_most"' if origin == 'identity' else ''}
 source = "made up"
 known = "a reason"
-""" for measure, time, value in (("depth", "", 3.0), ("depth", "15 us", 2.5), ("energy_error", "", 4e-3),
-                                 ("mass.wall.debris", "", 7.0), ("nothing", "", 1.0))))
-    folder = work / "run"
+""" for measure, time, value, origin in (
+    ("depth", "", 3.0, "experiment"), ("depth", "15 us", 2.5, "exact"), ("mass.wall.debris", "", 9.0, "experiment"),
+    ("nothing", "", 1.0, "experiment"), ("energy_error", "", 4e-3, "identity"), ("maximum_speed", "", 700.0, "exact")))
+CASE = """
+title = "Made up"
+time = { end = "20 us" }
+[domain]
+lower = [0, 0, "-8 mm"]
+upper = ["4 mm", "4 mm", "8 mm"]
+cell_size = "1 mm"
+boundary = { x_lower = "symmetry" }
+[[body]]
+name = "bullet"
+material = "copper.toml"
+velocity = [0, 0, "1 km/s"]
+shape = { sphere = { center = [0, 0, "-2 mm"], radius = "2 mm" } }
+[[body]]
+name = "wall"
+material = "own.toml"
+shape = { box = { lower = [0, 0, 0], upper = ["4 mm", "4 mm", "1 mm"] } }
+"""
+
+
+def made_up_case(work):
+    (work / "case").mkdir()
+    (work / "case" / "expected.toml").write_text(EXPECTED)
+    (work / "case" / "case.toml").write_text(CASE)
+    (work / "case" / "own.toml").write_text("name = 'own'")
+    return Case(work / "case" / "expected.toml")
+
+
+def assignments_are_those_of_the_program():
+    table = {"body": [{}, {}]}
+    for text in ("body.1.shape.box.upper=[1, 2]", "time.end=10 us", "contact.gap_test=false", "body.0.material=a.toml"):
+        apply(table, text)
+    require(table == {"body": [{"material": "a.toml"}, {"shape": {"box": {"upper": [1, 2]}}}], "time": {"end": "10 us"},
+                      "contact": {"gap_test": False}}, str(table))
+
+
+def variants(case):
+    run = case.runs[0]
+    found = {v.name: v for v in results_variants.variants_of(run, band=True)}
+    require(list(found) == ["coarse", "normal", "fine", "offset_1", "offset_2", "offset_3", "frame"], str(list(found)))
+    require(found["offset_3"].assignments == ['domain.lower=[0, 0, "-8.75 mm"]'], str(found["offset_3"]))
+    require(found["frame"].assignments == [
+        "body.0.velocity=[0, 0, 500]", "body.1.velocity=[0, 0, -500]", "domain.lower=[0, 0, -0.018]",
+        "domain.upper=[0.004, 0.004, 0.008]"], str(found["frame"].assignments))
+    require(run.assignments("fine") == ["domain.cell_size=0.5 mm", "time.courant=0.4"], "refined with the cells")
+    require(report_sensitivity.projectile_size(run.resolved()["body"]) == 4e-3, "size of the projectile")
+    try:
+        results_variants.frame_assignments(run.resolved(), (1.0, 0.0, 0.0), "test")
+    except BadExpectation as error:
+        require("x_lower" in str(error), str(error))
+    else:
+        require(False, "a frame moves through a mirror plane")
+
+
+def snapshots_go_back_to_rest(work):
+    import h5py
+    import numpy as np
+    folder = work / "moving"
+    folder.mkdir()
+    (folder / "run.toml").write_text('[[body]]\nvelocity = ["0 m/s", "0 m/s", "500 m/s"]  # initial\n'
+                                     "angular_velocity = [0, 0, 0]\n[[body]]\nvelocity = [0, 0, -500]\n")
+    (folder / "a.particles.hdf.series").write_text('{"files": [{"name": "a.hdf", "time": 1e-5}]}')
+    with h5py.File(folder / "a.hdf", "w") as file:
+        file["VTKHDF/Points"] = np.array([[1.0, 2.0, 3.0]], dtype="f4")
+        file["VTKHDF/PointData/velocity"] = np.array([[0.0, 0.0, 400.0]], dtype="f4")
+    results_variants.back_to_rest(folder, (0.0, 0.0, -500.0), [[0, 0, 1000.0], [0, 0, 0]])
+    with h5py.File(folder / "a.hdf") as file:
+        require(np.allclose(file["VTKHDF/Points"][:], [[1.0, 2.0, 3.005]]), "positions")
+        require(np.allclose(file["VTKHDF/PointData/velocity"][:], [[0.0, 0.0, 900.0]]), "velocities")
+    text = (folder / "run.toml").read_text()
+    require("velocity = [0, 0, 1000]\nangular_velocity = [0, 0, 0]\n[[body]]\nvelocity = [0, 0, 0]" in text, text)
+
+
+def write_run(folder, depth, mass, error):
     (folder / "report").mkdir(parents=True)
-    (folder / "report" / "quantities.csv").write_text("quantity,value\ndepth,3\n")
+    (folder / "report" / "quantities.csv").write_text(f"quantity,value\ndepth,{depth}\n")
     (folder / "report" / "series.csv").write_text("time [s],depth [m]\n0,1\n1e-05,2\n2e-05,3\n")
-    (folder / "report" / "bodies.csv").write_text("body part,mass [kg]\nwall debris,7\n")
-    (folder / "history.csv").write_text("step,energy_error\n0,1e-3\n1,-4e-3\n")
-    (folder / "finished.txt").write_text("whipple run")
-    case = Case(work / "case" / "expected.toml")
-    compared = results_table.compare(case, case.runs[0], "coarse", folder)
-    verdicts = [holds for _, _, holds in compared.rows]
-    require(verdicts == [True, True, True, True, False], str(compared.rows))
-    text = results_table.as_markdown([compared])
-    require(text.count(" pass |") == 4, f"4 of 5 pass, but not in the table:\n{text}")
-    for words in ("not found **FAIL**", "a reason", "cells of 1 mm"):
-        require(words in text, f"{words!r} is not in the table:\n{text}")
-    require(text.count("a reason") == 1, "the cause is given for failures only")
+    (folder / "report" / "bodies.csv").write_text(f"body part,mass [kg]\nwall debris,{mass}\n")
+    (folder / "history.csv").write_text(f"step,energy_error [1],maximum_speed [m/s]\n0,1e-3,500\n1,-{error},700\n")
+
+
+def a_run_is_compared(case, work):
+    """Three grids of first order, three positions and a frame; a mass that differs; an identity that breaks in one run."""
+    run, measures, records = case.runs[0], {}, {}
+    record = dict.fromkeys(results_study.RECORDED_KEYS, "-") | {"wall_time": 1.0, "dirty": False, "threads": 2}
+    for i, variant in enumerate(results_variants.variants_of(run, band=True)):
+        folder = work / variant.name
+        depth = {"coarse": 3.08, "normal": 3.04, "fine": 3.02}.get(variant.name, 3.04 + 0.001 * i)
+        write_run(folder, depth, 7.0, 5e-3 if variant.name == "offset_2" else 4e-3)
+        measures[variant.name], records[variant.name] = results_runs.measures_of(folder, variant), record
+    study = results_study.run_study(case, run, {"only": (measures, records)})
+    marks = [q["mark"] for q in study["quantities"]]
+    require(marks == ["agrees", "agrees", "differs", "not found", "broken", "agrees"], str(marks))
+    depth, _, _, _, _, speed = study["quantities"]
+    for key, value in (("order", 1.0), ("limit", 3.0), ("u_grid", 0.025)):
+        require(abs(depth[key] - value) < 1e-6, f"{key}: {depth}")
+    require(0.0 < depth["u_lattice"] < 0.02 and depth["u_num"] > depth["u_grid"], str(depth))
+    require(speed["values"]["frame"] is None, "the greatest speed depends on the frame")
+    require(study["across"] == {"coarse": 2.0, "normal": 4.0, "fine": 8.0}, str(study["across"]))
+    results = {"cases": {"made_up": {"title": case.title, "expected": "", "overrides": {}, "no_offsets": "", "no_frame": "",
+                                     "runs": [study]}}}
+    text = results_page.body(results, "-", {("made_up", "only")})
+    for words in ("| quantity | 2 mm | 1 mm | 0.5 mm | order | limit |", "**differs**", "Not current",
+                  "scripts/results.py made_up:only --band --run", "**Experiments**, one line each: 1, of which 1 differs", "0 of 1 hold",
+                  "of 5 quantities 4 have three grids; 4 are converged"):
+        require(words in text, f"{words!r} is not in the page:\n{text}")
+    require(text.count("a reason") == 2, "the cause is given where there is no agreement")
+    found = results_study.sensitivities(results)
+    require(found["fastest particle"][0]["cells"] == [4.0, 8.0], str(found))
+    require(report_sensitivity.rows(found)[0][4:] == ["8", "1 of 1"], str(report_sensitivity.rows(found)))
 
 
 with contextlib.ExitStack() as stack:
     every_case_is_understood()
     comparisons()
     mistakes_are_named()
-    a_run_is_compared(pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory())))
+    assignments_are_those_of_the_program()
+    work = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory()))
+    made_up = made_up_case(work)
+    variants(made_up)
+    snapshots_go_back_to_rest(work)
+    a_run_is_compared(made_up, work)
 print("expectations: all checks passed")

@@ -1,0 +1,150 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Stale runs are found, departures from the numerical parameters need a reason, and drift is seen.
+
+usage: results_provenance.py REPOSITORY
+"""
+import copy
+import pathlib
+import subprocess
+import sys
+import tempfile
+import tomllib
+
+ROOT = pathlib.Path(sys.argv[1]).resolve()
+sys.path.insert(0, str(ROOT / "scripts"))
+
+import drift  # noqa: E402
+import frozen_parameters  # noqa: E402
+import results_page  # noqa: E402
+import results_record  # noqa: E402
+from results_data import Case, all_cases  # noqa: E402
+
+
+def require(condition, message):
+    if not condition:
+        raise SystemExit(f"FAILED: {message}")
+
+
+def changed(record, key, value):
+    return {**copy.deepcopy(record), key: value}
+
+
+def stale_runs_are_found():
+    record = {"command": ["whipple", "run"], "case": "a", "materials": {"copper.toml": "b"}, "source": "c"}
+    inputs = {"case": "a", "materials": {"copper.toml": "b"}}
+    state = lambda r, command=("whipple", "run"): results_record.state(r, list(command), inputs, "c")  # noqa: E731
+    require(state(record) == results_record.CURRENT, "the same")
+    require(state(None) == results_record.MISSING, "no record")
+    require(state(record, ("whipple", "run", "--set")) == results_record.STALE, "another command")
+    require(state(changed(record, "case", "x")) == results_record.STALE, "another case")
+    require(state(changed(record, "materials", {"copper.toml": "x"})) == results_record.STALE, "another material")
+    require(state(changed(record, "source", "x")) == results_record.OLDER_SOURCE, "another source")
+
+
+def digests_follow_the_files(work):
+    folder = work / "case"
+    folder.mkdir()
+    (folder / "expected.toml").write_text('cell_size = { normal = "1 mm" }\n[[run]]\nname = "only"\n')
+    (folder / "case.toml").write_text('[domain]\ncell_size = "1 mm"\n[[body]]\nmaterial = "own.toml"\n'
+                                      '[[body]]\nmaterial = "copper.toml"\n')
+    (folder / "own.toml").write_text("density = 1")
+    run = Case(folder / "expected.toml").runs[0]
+    before = results_record.inputs_of(run)
+    require(set(before["materials"]) == {"own.toml", "copper.toml"} and all(before["materials"].values()), str(before))
+    (folder / "own.toml").write_text("density = 1  # said again")
+    results_record.digest_of_toml.cache_clear()
+    require(results_record.inputs_of(run) == before, "comments do not count")
+    (folder / "own.toml").write_text("density = 2")
+    results_record.digest_of_toml.cache_clear()
+    after = results_record.inputs_of(run)
+    require(after["case"] == before["case"] and after["materials"]["own.toml"] != before["materials"]["own.toml"]
+            and after["materials"]["copper.toml"] == before["materials"]["copper.toml"], f"{before}, {after}")
+    stored = {"cases": {"case": {"expected": "x", "runs": [
+        {"name": "only", "inputs": before, "records": {}}, {"name": "gone", "inputs": before, "records": {}}]}}}
+    stale, older, expectations = results_page.outdated(stored, [run.case])
+    require(stale == [("case", "only"), ("case", "gone")] and not older and expectations == ["case"], str(stale))
+    stored["cases"]["case"]["runs"] = [{"name": "only", "inputs": after, "records": {"normal": {"source": "another"}}}]
+    stale, older, _ = results_page.outdated(stored, [run.case])
+    require(not stale and older == [("case", "only")], f"{stale}, {older}")
+
+    source = work / "src"
+    source.mkdir()
+    (source / "a.cpp").write_text("int a;")
+    first = results_record.digest_of_sources(work)
+    results_record.digest_of_sources.cache_clear()
+    (source / "note.md").write_text("no code")
+    require(results_record.digest_of_sources(work) == first, "what is no code does not count")
+    results_record.digest_of_sources.cache_clear()
+    (source / "a.cpp").write_text("int b;")
+    require(results_record.digest_of_sources(work) != first, "code counts")
+
+
+def departures_need_a_reason(work):
+    parameters = frozen_parameters.defaults()
+    for key, value in (("time.courant", "0.5"), ("contact.method", '"auto"'), ("body.discretization.per_cell", "8"),
+                       ("artificial_viscosity.quadratic", "1.0"), ("transfer.kappa", "0.2")):
+        require(parameters.get(key) == value, f"{key} = {parameters.get(key)}")
+    for key in ("time.end", "domain.cell_size", "gravity.acceleration", "body.velocity", "output.fields"):
+        require(key not in parameters, f"{key} is not numerical")
+    other = parameters | {"time.courant": "0.4"}
+    require(frozen_parameters.digest(parameters) != frozen_parameters.digest(other), "digest")
+
+    folder = work / "tuned"
+    folder.mkdir()
+    domain, body = '[domain]\ncell_size = "1 mm"\n', '[[body]]\nname = "a"\n'
+    (folder / "case.toml").write_text(f"{domain}[artificial_viscosity]\nquadratic = 3\n{body}")
+
+    def wrong(head="", run=""):
+        (folder / "expected.toml").write_text(f'cell_size = {{ normal = "1 mm" }}\n{head}\n[[run]]\nname = "only"\n{run}\n')
+        return frozen_parameters.check([Case(folder / "expected.toml")], parameters)
+
+    reason = '[overrides]\n"artificial_viscosity.quadratic" = "because"\n'
+    require(len(wrong()) == 1 and "quadratic = 3" in wrong()[0], str(wrong()))
+    require(not wrong(reason), "a reason allows it")
+    per_cell = 'set = ["body.0.discretization.per_cell=27"]'
+    require(len(wrong(reason, per_cell)) == 1, "assignments of a run count")
+    require(not wrong(reason, f"{per_cell}\nsensitivity = true"), "but not of a run for sensitivity")
+    require(not wrong(reason + '"body.discretization.per_cell" = "because"', per_cell), "a reason for all bodies")
+    require(len(wrong(reason + '"time.courant" = "because"')) == 1, "a reason without a departure")
+    (folder / "case.toml").write_text(f"{domain}[time]\ncourant = 0.5\n{body}")
+    repeated = wrong('[overrides]\n"time.courant" = "because"')
+    require(any("repeats the default" in text for text in repeated), "a default repeated")
+
+
+def drift_is_seen():
+    new = {"mass": 2.0, "internal_energy": 10.0, "total_energy": 100.0, "mass_vapour": 0.0, "steps": 100.0}
+    perturbed = new | {"internal_energy": 10.01, "mass_vapour": 1e-9}
+    old = drift.tolerances(new, perturbed)
+    require(abs(old["internal_energy"]["tolerance"] - 1e-2) < 1e-12, str(old))
+    require(old["steps"]["tolerance"] == drift.LEAST and old["mass_vapour"]["tolerance"] == drift.LEAST, str(old))
+    require(not drift.drifted(old, new) and not drift.drifted(old, perturbed), "the same, and the perturbed one")
+    for name, value in (("internal_energy", 10.2), ("mass_vapour", 1e-5), ("steps", 101.0), ("mass", float("nan"))):
+        rows = drift.drifted(old, new | {name: value})
+        require([row[0] for row in rows] == [name], f"{name} = {value}: {rows}")
+    altered = copy.deepcopy(old)
+    altered["internal_energy"]["value"] *= 1.02
+    rows = drift.drifted(altered, new)
+    require([row[0] for row in rows] == ["internal_energy"] and "10.2" in drift.table("case", rows), "an altered baseline")
+    less = {name: value for name, value in new.items() if name != "mass"}
+    require([row[0] for row in drift.drifted(old, less)] == ["mass"], "a lost number")
+    require([row[0] for row in drift.drifted(old, new | {"more": 1.0})] == ["more"], "a new number")
+    require(tomllib.loads(drift.as_toml({"case": old}))["case"]["mass"] == old["mass"], "written and read")
+    require(set(drift.baseline()) == {case["name"] for case in drift.cases()}, "every case of the gate has its numbers")
+
+
+def the_repository_is_in_order():
+    wrong = frozen_parameters.check(all_cases(), frozen_parameters.defaults())
+    require(not wrong, "\n".join(wrong))
+    done = subprocess.run([sys.executable, str(ROOT / "scripts" / "results.py"), "--check-fresh"], capture_output=True,
+                          text=True)
+    require(done.returncode == 0, f"docs/results.md:\n{done.stdout}{done.stderr}")
+
+
+with tempfile.TemporaryDirectory() as name:
+    stale_runs_are_found()
+    digests_follow_the_files(pathlib.Path(name))
+    departures_need_a_reason(pathlib.Path(name))
+    drift_is_seen()
+    the_repository_is_in_order()
+print("records, parameters and drift: all checks passed")
