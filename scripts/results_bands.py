@@ -11,6 +11,8 @@ SAME = 1e-9              # relative difference below which two results are the s
 # Student's t for a two-sided level of 95 %, by the number of samples.
 STUDENT = {2: 12.706, 3: 4.303, 4: 3.182, 5: 2.776, 6: 2.571}
 
+WITHIN_SCATTER = "within the scatter"
+CONVERGED = ("converged", "same", WITHIN_SCATTER)
 AGREES, DIFFERS, NOT_CONVERGED, NOT_FOUND, RECORDED = "agrees", "differs", "not converged", "not found", "recorded"
 HOLDS, BROKEN = "holds", "broken"
 
@@ -26,7 +28,7 @@ class GridStudy:
 
     @property
     def converged(self):
-        return self.state in ("converged", "same")
+        return self.state in CONVERGED
 
 
 def observed_order(fine, medium, coarse, r21, r32):
@@ -53,8 +55,11 @@ def observed_order(fine, medium, coarse, r21, r32):
     return 0.5 * (lower + upper)
 
 
-def grid_study(points):
-    """Band of the result on the finest of the grids; `points` are pairs (cell size, value) in any order."""
+def grid_study(points, scatter=math.nan):
+    """Band of the result on the finest of the grids; `points` are pairs (cell size, value) in any order.
+
+    Grids that differ by less than the scatter over positions of the lattice tell nothing else than that scatter.
+    """
     by_size = dict(sorted((h, v) for h, v in points if math.isfinite(v)))
     sizes, values = list(by_size), list(by_size.values())
     if not values:
@@ -67,6 +72,8 @@ def grid_study(points):
     spread = max(values) - min(values)
     if spread <= SAME * scale:
         return GridStudy(fine, spread, math.nan, fine, "same")
+    if len(values) == 3 and spread <= scatter:
+        return GridStudy(fine, spread, math.nan, math.nan, WITHIN_SCATTER)
     if len(values) == 2:  # first order assumed, with the larger factor
         ratio = sizes[1] / sizes[0]
         return GridStudy(fine, SAFETY_SPREAD * spread / min(ratio - 1.0, 1.0), math.nan, math.nan, "two grids")

@@ -74,7 +74,7 @@ def summary(results):
                       "| --- | --- | --- | --- | --- | --- |", *rows, ""]
     runs = [run for case in results["cases"].values() for run in case["runs"]]
     studies = [q for run in runs if not run["sensitivity"] for q in physics(run)]
-    converged = sum(q["grid"] in ("converged", "same") for q in studies)
+    converged = sum(q["grid"] in bands.CONVERGED for q in studies)
     three = sum(all(q["values"].get(name) is not None for name in ("coarse", "normal", "fine")) for q in studies)
     identities = [q["mark"] for run in runs for q in run["quantities"] if q["class"] == "identity"]
     lines += [f"**Convergence**: of {len(studies)} quantities {three} have three grids; {converged} are converged.", "",

@@ -34,8 +34,8 @@ def quantity_study(expectation, grids, samples, of_input):
     grids: (cell size, value), samples: values at the normal grid over lattice positions and frames,
     of_input: largest change by the runs that bracket the input.
     """
-    study = bands.grid_study(grids)
     scatter = bands.scatter_band(samples) if len(samples) > 1 else math.nan
+    study = bands.grid_study(grids, scatter)
     numerical = bands.together(study.band, scatter) if math.isfinite(study.band) else math.nan
     if expectation.kind == "record":
         mark, error, combined = bands.RECORDED, math.nan, math.nan
@@ -154,5 +154,5 @@ def sensitivities(results):
                 rows.setdefault(kind, []).append(
                     {"case": f"{name}:{run['name']}", "quantity": q["name"],
                      "cells": [run["across"][g] for g in grids[-2:]], "change": abs(fine - before) / abs(fine), "band": band / abs(fine),
-                     "converged": q["grid"] in ("converged", "same")})
+                     "converged": q["grid"] in bands.CONVERGED})
     return rows

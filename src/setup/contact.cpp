@@ -194,7 +194,6 @@ ContactFields find_contact_fields(const Case& setup) {
 }
 
 void choose_volumes(Case& setup) {
-  if (!setup.contact_fields.several()) return;
   for (Body& body : setup.bodies) {
     Discretization& made = body.discretization;
     if (made.partial_volumes_given || made.method != "particles") continue;

@@ -35,8 +35,8 @@ struct ContactFields {
 /// Velocity fields of the bodies of a case by its method of contact.
 ContactFields find_contact_fields(const Case& setup);
 
-/// Lets the particles of curved bodies that can meet others take the part of their volume that lies in the
-/// body, unless the case file says otherwise: contact finds surfaces from them.
+/// Lets the particles of curved bodies take the part of their volume that lies in the body, unless the case
+/// file says otherwise: mass and surfaces follow from them.
 void choose_volumes(Case& setup);
 
 /// What contact needs of scheme and bodies, reported at its table.

@@ -22,9 +22,8 @@ ParameterTable<Discretization> Discretization::parameters() {
       integer("per_cell", &D::per_cell, range::between(1, 1000), "particles per full cell: 1, 8, 27 or 64")
           .optional(),
       boolean("partial_volumes", &D::partial_volumes,
-              "particles at curved or oblique surfaces take the part of their volume that lies in the body; "
-              "by default where bodies have velocity fields of their own")
-          .optional("in contact"),
+              "particles at curved or oblique surfaces take the part of their volume that lies in the body")
+          .optional("true"),
       real("element_size", &D::element_size, "m", range::positive(), "edge of the elements, at most 2 cells")
           .optional("cell_size"),
       choice("element", &D::element, {"one_point", "b_bar"},
