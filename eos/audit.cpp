@@ -17,6 +17,7 @@ namespace {
 
 // Bounds, each named in the message of its finding.
 constexpr double condensed_pressure = 0.1;         ///< of rho c^2: more at rest is a gas or a product
+constexpr double greatest_defect = 1e-4;           ///< of the identities in a phase
 constexpr double resting_pressure = 1e-3;          ///< of rho c^2
 constexpr double greatest_thermal_excess = 9;      ///< of rho c^2: how far below zero K_T may be at rest
 constexpr double least_compression = 1.02;         ///< compression limit that is of any use
@@ -381,17 +382,11 @@ class Auditor {
         if (!std::isnan(defect)) entry->largest.*member = std::fmax(entry->largest.*member, defect);
       }
     });
-    for (const PhaseIdentities& phase : result_.identities) {
-      // The closed form of a melting band is consistent to the second order of its width, and its bulk
-      // modulus is nearly that of coexistence, zero: K_T is not held against it.
-      const bool band = phase.phase == "melting";
-      IdentityDefects held = phase.largest;
-      if (band) held.bulk_modulus = State::unknown;
-      const double bound = band ? 0.05 : 1e-4;
-      if (held.largest() > bound) {
-        object(Verdict::reservations, "identities of the {} hold to {:.2g} only, not to {:g}",
-               phase.phase.empty() ? "model" : phase.phase, held.largest(), bound);
-      }
+    for (PhaseIdentities& phase : result_.identities) {
+      if (!(phase.largest.largest() > greatest_defect)) continue;
+      phase.verdict = Verdict::reservations;
+      object(Verdict::reservations, "identities of the phase {} hold to {:.2g} only, not to {:g}",
+             phase.phase.empty() ? "of the model" : phase.phase, phase.largest.largest(), greatest_defect);
     }
   }
 

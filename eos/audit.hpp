@@ -36,6 +36,7 @@ struct PhaseIdentities {
   std::string phase;
   int states = 0;
   IdentityDefects largest;
+  Verdict verdict = Verdict::sound;
 };
 
 struct Audit {

@@ -37,7 +37,7 @@ struct GrayConstants {
   double melting_entropy = 9.637;                  ///< Delta S, J/(mol K)
   double liquid_heat_coefficient = 1.3;            ///< alpha, J/(mol K)
   double hot_liquid_ratio = 9.38;                  ///< tau_G = T_G/T_m
-  std::string melting = "band";                    ///< "band" (G31), "isochoric" (G26), "equilibrium" (G27)
+  std::string melting = "equilibrium";             ///< "band" (G31), "isochoric" (G26), "equilibrium" (G27)
   // Vapour
   double join_volume_ratio = 1.3;  ///< V_J/V0
   double covolume_ratio = 0.5;     ///< V_b/V0

@@ -16,6 +16,8 @@ namespace whipple::eos {
 namespace {
 
 constexpr int intervals = 512;
+/// Of the melting temperature: a curve must reach further.
+constexpr double least_reach = 1.05;
 
 /// Common tangent at one temperature, with its derivatives along the curve.
 struct Node {
@@ -131,22 +133,30 @@ GrayMeltingCurve::GrayMeltingCurve(const GrayFreeEnergy& f) {
         T0));
   }
   const Node first = march(f, *start, 0.98, [&](const Node& n) { return n.Vl > f.join_volume(); });
-  const Node last = march(f, *start, 1.02, [&](const Node& n) { return n.Vs < f.least_volume(); });
+  Node last = march(f, *start, 1.02, [&](const Node& n) { return n.Vs < f.least_volume(); });
+  // Where the common tangent is lost before the solid's compression limit, the curve ends.
+  std::vector<Node> curve;
+  for (;;) {
+    curve.assign(1, first);
+    const double step = (last.T - first.T) / intervals;
+    for (int i = 1; i <= intervals; ++i) {
+      const std::optional<Node> next = follow(f, curve.back(), i == intervals ? last.T : first.T + i * step);
+      if (!next) break;
+      curve.push_back(*next);
+    }
+    if (curve.size() > intervals) break;
+    last = curve.back();
+    if (last.T < least_reach * start->T) {
+      throw InputError(
+          fmt::format("gray: melting = \"equilibrium\" loses the common tangent of solid and liquid above "
+                      "{:.6g} K, {:.6g} Pa; melting = \"band\" needs none",
+                      last.T, last.P));
+    }
+  }
 
   const double step = (last.T - first.T) / intervals;
   std::vector<HermiteTable::Node> pressure, gibbs, solid, liquid;
-  Node n = first;
-  for (int i = 0; i <= intervals; ++i) {
-    if (i > 0) {
-      const std::optional<Node> next = follow(f, n, i == intervals ? last.T : first.T + i * step);
-      if (!next) {
-        throw InputError(
-            fmt::format("gray: melting = \"equilibrium\" loses the common tangent of solid and liquid above "
-                        "{:.6g} K, {:.6g} Pa",
-                        n.T, n.P));
-      }
-      n = *next;
-    }
+  for (const Node& n : curve) {
     pressure.push_back({n.P, n.P1, n.P2});
     gibbs.push_back({n.g, n.g1, n.g2});
     solid.push_back({n.Vs, n.Vs1, 0});

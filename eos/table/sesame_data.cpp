@@ -15,6 +15,7 @@ constexpr double thin_ratio = 1.25, middle_ratio = 1.01, dense_ratio = 1.05, tem
 constexpr double default_thinness = 1e-4;     ///< least density over the reference density
 constexpr double default_compression = 10;    ///< greatest over the reference density
 constexpr double coldest_saturation = 100.0;  ///< Pa: colder rows of the dome are left out
+constexpr double least_rise = 1e-6;           ///< of the energy from one temperature to the next
 
 /// Adds the points of a geometric sequence after the last one up to `end`, which is the last.
 void extend(std::vector<double>& points, double end, double greatest_ratio) {
@@ -85,7 +86,13 @@ SesameMaterial sesame_of(const EquationOfState& eos, const SesameRequest& reques
     for (const double rho : grid.density) {
       const State s = eos.state_at_temperature(rho, T);
       grid.pressure.push_back(s.pressure);
-      grid.energy.push_back(s.specific_internal_energy);
+      // A temperature may have two energies where stretched metal melts; readers want one that rises.
+      double energy = s.specific_internal_energy;
+      if (grid.energy.size() >= grid.density.size()) {
+        const double colder = grid.energy[grid.energy.size() - grid.density.size()];
+        energy = std::max(energy, colder + least_rise * std::abs(colder));
+      }
+      grid.energy.push_back(energy);
       if (complete) grid.helmholtz.push_back(s.helmholtz_energy);
     }
   }

@@ -32,7 +32,7 @@ struct Options {
   int bootstrap = 0;
   int samples = 0;
   std::uint64_t seed = 1;
-  std::string melting = "band";
+  std::string melting = "equilibrium";
   std::string reference_temperature = "293 K";
   std::vector<std::string> up_range = {"0.3 km/s", "2.5 km/s"};
   std::string template_file;

@@ -33,7 +33,7 @@ struct FitSettings {
   /// "band": the lower edge of the model's melting band runs through the coexistence points; "isochoric":
   /// T_m(V) itself does; "equilibrium": the common tangent of solid and liquid. It is also the melting
   /// transition of the material.
-  std::string melting = "band";
+  std::string melting = "equilibrium";
   ModelErrors model_errors;
   std::string electrons;  ///< name of a choice of the element's table, or a quantity; empty: the first choice
   int bootstrap = 0;      ///< replicates; 0: none

@@ -56,7 +56,8 @@ std::string cold_text(const eos::ColdCurve& cold) {
 }
 
 void add_identities(Lines& lines, const Audit& audit) {
-  lines.push_back({"phase", "states", "P", "c^2", "C_v", "Gamma", "K_T", "S(E)", "S(V)", "E(T(E))"});
+  lines.push_back(
+      {"phase", "states", "P", "c^2", "C_v", "Gamma", "K_T", "S(E)", "S(V)", "E(T(E))", "verdict"});
   for (const eos::PhaseIdentities& phase : audit.identities) {
     const eos::IdentityDefects& d = phase.largest;
     std::vector<std::string> line = {phase.phase, fmt::format("{}", phase.states)};
@@ -64,6 +65,7 @@ void add_identities(Lines& lines, const Audit& audit) {
                                 d.entropy_energy, d.entropy_volume, d.round_trip}) {
       line.push_back(std::isnan(defect) ? "-" : fmt::format("{:.1e}", defect));
     }
+    line.push_back(phase.verdict == eos::Verdict::sound ? "sound" : "reservations");
     lines.push_back(line);
   }
 }

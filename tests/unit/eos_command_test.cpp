@@ -86,16 +86,16 @@ TEST_F(EosCommand, PorousAndReflectedHugoniots) {
 }
 
 TEST_F(EosCommand, ACurveEndsWhereItsModelEnds) {
-  ASSERT_EQ(run("hugoniot aluminium --to '5000 GPa' --points 6"), 0) << output();
+  ASSERT_EQ(run("hugoniot aluminium --to '4000 GPa' --points 6"), 0) << output();
   EXPECT_THAT(output(),
               HasSubstr("the curve ends after 2 points: Hugoniot at the pressure: beyond the greatest "
                         "density of model gray"));
-  EXPECT_EQ(run("hugoniot aluminium --pressure '5000 GPa'"), 3);
+  EXPECT_EQ(run("hugoniot aluminium --pressure '4000 GPa'"), 3);
 }
 
 TEST_F(EosCommand, MeltColdDomeAndMatchPrintTheirFigures) {
   ASSERT_EQ(run("melt copper --points 2"), 0) << output();
-  EXPECT_THAT(output(), ContainsRegex("0 +1318\\.7[0-9]* +1342\\.6"));
+  EXPECT_THAT(output(), ContainsRegex("0 +1326\\.79 +1326\\.79"));
   EXPECT_THAT(output(),
               ContainsRegex("after release to 1 bar: melting begins 13[567]\\..*, is complete 1[89].*, "
                             "vaporisation begins 30[123]\\."));

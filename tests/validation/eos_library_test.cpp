@@ -212,7 +212,7 @@ TEST(LibraryMetals, ConstantsAreThoseOfSteinbergsTable) {
     std::istringstream lines(read_material(entry.file).eos->constants());
     for (std::string line; std::getline(lines, line);) {
       std::smatch pair;
-      if (std::regex_search(line, pair, std::regex(R"(^(\w+) = "?([-+.\deE]+))"))) {
+      if (std::regex_search(line, pair, std::regex(R"(^(\w+) = "?([-+]?[.\d][-+.\deE]*))"))) {
         constants[pair[1]] = std::stod(pair[2]);
       }
     }

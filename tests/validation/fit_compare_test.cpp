@@ -48,8 +48,8 @@ TEST(Compare, CopperMeltingLine) {
   EXPECT_NEAR(melting.ordinate.front(), 1355.0, 1e-9);
   const Comparison measured = compare(copper(true), melting);
   EXPECT_EQ(measured.points, 12);
-  EXPECT_NEAR(measured.rms, 3.39, 0.05);             // % of T
-  EXPECT_NEAR(measured.model.front(), 1331.0, 1.0);  // between solidus and liquidus
+  EXPECT_NEAR(measured.rms, 3.52, 0.05);  // % of T
+  EXPECT_NEAR(measured.model.front(), 1326.8, 0.1);
 }
 
 TEST(Compare, DataNameTheirMaterial) {
