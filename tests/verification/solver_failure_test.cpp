@@ -14,6 +14,7 @@ struct Model {
   std::string name;
   std::string constants;
   double scatter;  ///< Weibull modulus; 0: none
+  std::string label = {};
 };
 
 class SpallByModel : public testing::TestWithParam<Model> {};
@@ -73,6 +74,10 @@ INSTANTIATE_TEST_SUITE_P(
     Models, SpallByModel,
     testing::Values(Model{"tensile_pressure", "spall_strength = \"1.2 GPa\"\n", 0.0},
                     Model{"tensile_pressure", "spall_strength = \"1.2 GPa\"\n", 10.0},
+                    Model{"tensile_pressure", "spall_strength = \"1.2 GPa\"\nresponse = \"opening\"\n", 0.0,
+                          "_opening"},
+                    Model{"tuler_butcher", "threshold = \"0.8 GPa\"\ntime = \"0.05 us\"\n", 0.0},
+                    Model{"viscous_void_growth", "resistance = \"0.14 GPa\"\nviscosity = \"1 Pa s\"\n", 0.0},
                     Model{"plastic_strain", "failure_strain = 0.1\n", 0.0},
                     Model{"principal_stress", "tensile_strength = \"1.4 GPa\"\n", 0.0},
                     Model{"principal_strain", "failure_strain = 0.01\n", 0.0},
@@ -86,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "0.04\nnucleation_strain = 0.07\nnucleation_scatter = 0.03\n",
                           0.0}),
     [](const testing::TestParamInfo<Model>& instance) {
-      return instance.param.name + (instance.param.scatter > 0.0 ? "_with_scatter" : "");
+      return instance.param.name + instance.param.label + (instance.param.scatter > 0.0 ? "_with_scatter" : "");
     });
 
 }  // namespace
