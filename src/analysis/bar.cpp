@@ -122,8 +122,8 @@ Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Fra
   return {{fmt::format("spall_thickness.{}", input.name), "m",
            "initial thickness of the matter ahead of the foremost gap at least half as wide as the largest",
            length * ahead / total},
-          {fmt::format("largest_gap.{}", input.name), "m",
-           "largest gap between particles along the axis", largest > 0.0 ? largest + input.spacing : 0.0}};
+          {fmt::format("largest_gap.{}", input.name), "m", "largest gap between particles along the axis",
+           largest > 0.0 ? largest + input.spacing : 0.0}};
 }
 
 Quantities rod_measures(const Snapshot& first, const Snapshot& last, std::size_t body, const BodyInput& input,
@@ -188,7 +188,7 @@ double pullback(const std::vector<double>& velocity) {
   double least = *highest;
   for (auto v = highest; v != velocity.end(); ++v) {
     least = std::min(least, *v);
-    if (least < 0.9 * *highest && *v > least + 0.01 * *highest) return *highest - least;
+    if (least<0.9 * *highest&& * v> least + 0.01 * *highest) return *highest - least;
   }
   return nan;
 }

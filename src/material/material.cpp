@@ -133,8 +133,7 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
 
 void set_taylor_quinney(Material& material, double share) {
   const bool returns_deviator = material.void_growth != nullptr && material.void_growth->returns_deviator();
-  if (share < 1.0 &&
-      (material.brittle || returns_deviator || !material.strength->carries_deviator())) {
+  if (share < 1.0 && (material.brittle || returns_deviator || !material.strength->carries_deviator())) {
     const std::string_view model =
         returns_deviator ? material.void_growth->model() : material.strength->model();
     throw InputError(fmt::format(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Spall of a point: what a cut-off leaves of the deviator, the time that accumulated tension takes, voids that
-// grow at a rate, and what is whole again after compression.
+// Spall of a point: what a cut-off leaves of the deviator, the time that accumulated tension takes, voids
+// that grow at a rate, and what is whole again after compression.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -95,13 +95,13 @@ INSTANTIATE_TEST_SUITE_P(
                           "0.04\nnucleation_strain = 0.07\nnucleation_scatter = 0.03\n",
                           0.0}),
     [](const testing::TestParamInfo<Model>& instance) {
-      return instance.param.name + instance.param.label + (instance.param.scatter > 0.0 ? "_with_scatter" : "");
+      return instance.param.name + instance.param.label +
+             (instance.param.scatter > 0.0 ? "_with_scatter" : "");
     });
 
 /// Fall (m/s) of the free surface of a plate of a library metal before its spall signal; cells of 0.1 mm.
 double pullback(const std::string& material, double flyer, double speed, double end) {
-  const setup::Case setup = setup::read_case_text(
-      fmt::format(R"(
+  const setup::Case setup = setup::read_case_text(fmt::format(R"(
 [domain]
 lower = ["0 mm", "0 mm", "-4 mm"]
 upper = ["0.1 mm", "0.1 mm", "6 mm"]
@@ -119,15 +119,15 @@ name = "plate"
 material = "{0}.toml"
 shape = {{ box = {{ lower = ["0 mm", "0 mm", "0 mm"], upper = ["0.1 mm", "0.1 mm", "4 mm"] }} }}
 )",
-                  material, flyer, speed, end),
-      "pullback.toml");
+                                                              material, flyer, speed, end),
+                                                  "pullback.toml");
   solver::Simulation simulation(setup, parallel::world());
   double highest = 0.0, least = 0.0;
   bool signal = false;
   verification::run_to(simulation, setup.time.end, [&](const solver::Simulation& now) {
     const Particles& particles = now.particles();
-    const auto foremost = std::ranges::max_element(
-        particles.position, {}, [](const Vector3& x) { return x[2]; });
+    const auto foremost =
+        std::ranges::max_element(particles.position, {}, [](const Vector3& x) { return x[2]; });
     const double v = particles.velocity[static_cast<std::size_t>(foremost - particles.position.begin())][2];
     if (signal) return;
     if (v > highest) highest = least = v;

@@ -59,12 +59,12 @@ struct State {
 /// A chunk of points between the equation of state and the criteria, for models in which voids grow while the
 /// matter still bears stress (SI). Volume and stress are those of the matter between the voids.
 struct PorousState {
-  double time_step;                          ///< s
-  std::span<const double> bulk_modulus;      ///< Pa, rho c^2
-  std::span<const double> shear_modulus;     ///< Pa, with melting
-  std::span<const double> melted_fraction;   ///< mass fraction of liquid and vapour
-  std::span<const double> flow_stress;       ///< Pa, of the matter between the voids, with melting, if asked for
-  std::span<const double> trial;             ///< Pa, equivalent trial stress of the deviator
+  double time_step;                         ///< s
+  std::span<const double> bulk_modulus;     ///< Pa, rho c^2
+  std::span<const double> shear_modulus;    ///< Pa, with melting
+  std::span<const double> melted_fraction;  ///< mass fraction of liquid and vapour
+  std::span<const double> flow_stress;  ///< Pa, of the matter between the voids, with melting, if asked for
+  std::span<const double> trial;        ///< Pa, equivalent trial stress of the deviator
   std::span<const double> threshold_factor;  ///< scatter of the failure threshold (1: none)
   std::span<double> equivalent;              ///< Pa, equivalent stress: out
   std::span<double> pressure;                ///< Pa, in and out

@@ -33,25 +33,29 @@ struct ViscousVoidGrowth : Threshold {
 
   static ParameterTable<ViscousVoidGrowth> parameters() {
     using P = ViscousVoidGrowth;
-    return {real("resistance", &P::resistance, "Pa", range::positive(),
-                 "a_s: static spall strength over ln(1 + 1/nuclei)"),
-            real("viscosity", &P::viscosity, "Pa s", range::positive(), "eta, which slows the growth"),
-            real("nuclei", &P::nuclei, "", range::open_between(0.0, 0.1),
-                 "alpha_0 - 1: volume of the nuclei over that of the solid")
-                .optional(),
-            real("failure_porosity", &P::failure_porosity, "", range::open_between(0.0, 1.0),
-                 "volume fraction of the voids at which the matter parts")
-                .optional(),
-            boolean("healing", &P::healing, "points whose void pressure has closed are whole again").optional()};
+    return {
+        real("resistance", &P::resistance, "Pa", range::positive(),
+             "a_s: static spall strength over ln(1 + 1/nuclei)"),
+        real("viscosity", &P::viscosity, "Pa s", range::positive(), "eta, which slows the growth"),
+        real("nuclei", &P::nuclei, "", range::open_between(0.0, 0.1),
+             "alpha_0 - 1: volume of the nuclei over that of the solid")
+            .optional(),
+        real("failure_porosity", &P::failure_porosity, "", range::open_between(0.0, 1.0),
+             "volume fraction of the voids at which the matter parts")
+            .optional(),
+        boolean("healing", &P::healing, "points whose void pressure has closed are whole again").optional()};
   }
   static constexpr const char* name = "viscous_void_growth";
   static constexpr const char* summary = "spall: growth of voids at a rate (Johnson 1981)";
   static constexpr const char* theory =
-      "d(alpha)/dt = -nuclei^(2/3)/viscosity alpha (alpha - 1)^(1/3) (P +- P_s) beyond P_s = resistance/alpha "
+      "d(alpha)/dt = -nuclei^(2/3)/viscosity alpha (alpha - 1)^(1/3) (P +- P_s) beyond P_s = "
+      "resistance/alpha "
       "ln(alpha/(alpha - 1)),\n"
-      "P = p/alpha, alpha = 1 + nuclei + void/matter; resistance times (1 - melted fraction) * scatter factor. "
+      "P = p/alpha, alpha = 1 + nuclei + void/matter; resistance times (1 - melted fraction) * scatter "
+      "factor. "
       "The deviator of the\n"
-      "matter stays, compression closes the voids; fails (code 7) at failure_porosity, melted matter (code 1) "
+      "matter stays, compression closes the voids; fails (code 7) at failure_porosity, melted matter (code "
+      "1) "
       "where p < 0.\n"
       "Source: Johnson, J. Appl. Phys. 52 (1981) 2812; Carroll and Holt, J. Appl. Phys. 43 (1972) 1626.";
 
