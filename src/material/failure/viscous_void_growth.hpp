@@ -14,21 +14,21 @@ namespace whipple::failure {
 ///   the same with P - P_s                                                      where P > +P_s,
 ///   P_s = a_s k (1 - f)/alpha ln(alpha/(alpha - 1)),
 /// and nothing between. a_s is the resistance of the solid (2/3 of its yield stress in the static hollow
-/// sphere of Carroll and Holt), eta a viscosity (Pa s), alpha_0 - 1 the volume of the nuclei from which the
-/// voids grow and to which they close (no void is stored for them, they have no weight), f the melted
-/// fraction, k the scatter of the threshold. The static spall strength is a_s ln(alpha_0/(alpha_0 - 1)), to a
-/// few parts in 1e4; above it the tension that the growth cannot relax rises with the rate. Growth takes
-/// tension off, not the deviator of the matter, which acts on the share V of the volume; compression closes
-/// the voids. Where the porosity V_v/(V + V_v) reaches `failure_porosity` the voids have met: the point fails
-/// (code 7); melted matter where p < 0 or with voids (code 1). With `healing` a failed point is whole again
-/// once pressure has closed its void. The step is implicit in alpha and p at a fixed V + V_v. Source: J. N.
-/// Johnson, J. Appl. Phys. 52 (1981) 2812-2825; M. M. Carroll, A. C. Holt, J. Appl. Phys. 43 (1972) 1626.
-/// Nuclei apart from V_v and the factors k and 1 - f are this project's choice.
+/// sphere of Carroll and Holt), eta a viscosity (Pa s), times 1 - f, alpha_0 - 1 the volume of the nuclei
+/// from which the voids grow and to which they close (no void is stored for them, they have no weight), f the
+/// melted fraction, k the scatter of the threshold. The static spall strength is a_s ln(alpha_0/(alpha_0 -
+/// 1)), to a few parts in 1e4; above it the tension that the growth cannot relax rises with the rate. Growth
+/// takes tension off, not the deviator of the matter, which acts on the share V of the volume; compression
+/// closes the voids. Where the porosity V_v/(V + V_v) reaches `failure_porosity` the voids have met: the
+/// point fails (code 7); melted matter where p < 0 or with voids (code 1). With `healing` a failed point is
+/// whole again once pressure has closed its void. The step is implicit in alpha and p at a fixed V + V_v.
+/// Source: J. N. Johnson, J. Appl. Phys. 52 (1981) 2812-2825; M. M. Carroll, A. C. Holt, J. Appl. Phys. 43
+/// (1972) 1626. Nuclei apart from V_v and the factors k and 1 - f are this project's choice.
 struct ViscousVoidGrowth : Threshold {
   double resistance = 0.0;         ///< a_s, Pa
   double viscosity = 0.0;          ///< eta, Pa s
   double nuclei = 3e-4;            ///< alpha_0 - 1
-  double failure_porosity = 0.29;  ///< where spheres that overlap at random form a cluster without end
+  double failure_porosity = 0.15;  ///< Grady, J. Mech. Phys. Solids 36 (1988) 353: ductile spall
   bool healing = false;
 
   static ParameterTable<ViscousVoidGrowth> parameters() {
@@ -70,6 +70,7 @@ struct ViscousVoidGrowth : Threshold {
     double volume, void_volume;  ///< m^3
     double pressure, modulus;    ///< Pa
     double resistance;           ///< Pa, with melting and scatter
+    double viscosity;            ///< Pa s, with melting
   };
   [[nodiscard]] double distension(const Point& point, double moved) const {
     return 1.0 + nuclei + (point.void_volume + moved) / (point.volume - moved);
@@ -81,7 +82,7 @@ struct ViscousVoidGrowth : Threshold {
     const double alpha = distension(point, moved);
     const double mean = (point.pressure + point.modulus * moved / point.volume) / alpha;
     const double drive = -mean - sign * static_pressure(point.resistance, alpha);
-    const double rate = std::cbrt(nuclei * nuclei * (alpha - 1.0)) * alpha / viscosity * drive;
+    const double rate = std::cbrt(nuclei * nuclei * (alpha - 1.0)) * alpha / point.viscosity * drive;
     return alpha - distension(point, 0.0) - time_step * rate;
   }
   /// Volume (m^3) that moves from matter to void in the step; negative: the void closes.
@@ -117,7 +118,8 @@ struct ViscousVoidGrowth : Threshold {
                   std::span<std::uint8_t> failed) const {
     const double at_nuclei = static_pressure(1.0, 1.0 + nuclei) * (1.0 + nuclei);
     for (std::size_t i = 0; i < failed.size(); ++i) {
-      const double strength = resistance * (1.0 - state.melted_fraction[i]) * state.threshold_factor[i];
+      const double solid = 1.0 - state.melted_fraction[i];
+      const double strength = resistance * solid * state.threshold_factor[i];
       const bool has_voids = state.void_volume[i] > 0.0;
       if (failed[i] != intact || (!has_voids && state.pressure[i] >= -strength * at_nuclei)) continue;
       if (!(strength > 0.0)) {
@@ -125,7 +127,7 @@ struct ViscousVoidGrowth : Threshold {
         continue;
       }
       const Point point = {state.volume[i], state.void_volume[i], state.pressure[i], state.bulk_modulus[i],
-                           strength};
+                           strength,        viscosity * solid};
       const double moved = moved_volume(point, state.time_step);
       const double total = point.volume + point.void_volume;
       state.pressure[i] += point.modulus * moved / point.volume;
