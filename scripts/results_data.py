@@ -210,6 +210,8 @@ class Measures:
         for row in self._rows("bodies.csv"):
             body, part = row["body part"].rsplit(" ", 1)
             self.single[f"mass.{body}.{part}"] = float(row["mass [kg]"])
+            if "failed_fraction [1]" in row:
+                self.single[f"failed_fraction.{body}.{part}"] = float(row["failed_fraction [1]"])
         self.series = {}
         rows = self._rows("series.csv")
         for head in rows[0] if rows else []:

@@ -2,7 +2,7 @@
 whipple_test(test_material
   SOURCES unit/material_strength_test.cpp unit/material_reference_step_test.cpp unit/material_modifiers_test.cpp
           unit/material_file_test.cpp property/material_update_test.cpp property/material_limits_test.cpp
-          property/material_failure_test.cpp
+          property/material_failure_test.cpp property/material_spall_test.cpp
           property/material_damage_test.cpp property/material_brittle_test.cpp property/material_concrete_test.cpp
           property/material_hardening_test.cpp
   DEPENDS whipple_material GTest::gmock LABELS fast)

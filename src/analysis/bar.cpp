@@ -105,7 +105,10 @@ Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Fra
   }
   if (matter.size() < 2) return {};
   std::sort(matter.begin(), matter.end());
-  const auto gap_behind = [&](std::size_t i) { return matter[i + 1].first - matter[i].first; };
+  // What is left of the distance of two layers beyond the spacing of the particles.
+  const auto gap_behind = [&](std::size_t i) {
+    return std::max(matter[i + 1].first - matter[i].first - input.spacing, 0.0);
+  };
   double largest = 0.0;
   for (std::size_t i = 0; i + 1 < matter.size(); ++i) largest = std::max(largest, gap_behind(i));
   // Metal often parts on several planes at once; the layer that flies off ends at the foremost.
@@ -120,7 +123,7 @@ Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Fra
            "initial thickness of the matter ahead of the foremost gap at least half as wide as the largest",
            length * ahead / total},
           {fmt::format("largest_gap.{}", input.name), "m", "largest gap between particles along the axis",
-           largest}};
+           largest > 0.0 ? largest + input.spacing : 0.0}};
 }
 
 Quantities rod_measures(const Snapshot& first, const Snapshot& last, std::size_t body, const BodyInput& input,
@@ -185,7 +188,7 @@ double pullback(const std::vector<double>& velocity) {
   double least = *highest;
   for (auto v = highest; v != velocity.end(); ++v) {
     least = std::min(least, *v);
-    if (least < 0.98 * *highest && *v > least + 0.01 * *highest) return *highest - least;
+    if (least<0.9 * *highest&& * v> least + 0.01 * *highest) return *highest - least;
   }
   return nan;
 }

@@ -17,28 +17,48 @@ failure::Components<const double> view(const Chunk& chunk, const SymmetricLanes&
   return components;
 }
 
-/// Porous matter (eq. 20 to 22): the flow stress is that of the end of the step without voids.
+/// Porous matter (eq. 20 to 22, 25, 26): the flow stress is that of the end of the step without voids.
 void grow_voids(Step& step, Chunk& chunk, std::span<const double> bulk_modulus,
                 std::span<const double> factor, std::span<double> damage, std::span<std::uint8_t> failed) {
+  const failure::Criterion& criterion = *step.material.void_growth;
   const double dt = step.settings.time_step;
   Lanes rate, flow, equivalent, before;
-  for (std::size_t k = 0; k < chunk.size; ++k) rate[k] = chunk.increment[k] / dt;
-  step.material.strength->flow_stress(chunk.strength_state(), chunk.view(rate), chunk.view(flow));
-  for (std::size_t k = 0; k < chunk.size; ++k) {
-    flow[k] *= 1.0 - chunk.melted[k];
-    before[k] = equivalent[k] = std::sqrt(1.5 * tensor(chunk.motion.deviator, k).squared_norm());
-  }
-  step.material.void_growth->grow_voids(
-      {dt, bulk_modulus, chunk.view(chunk.motion.modulus), chunk.view(flow), chunk.view(chunk.motion.trial),
-       factor, chunk.view(equivalent), chunk.view(chunk.acting_pressure), chunk.view(chunk.increment),
-       chunk.view(chunk.plastic_strain), chunk.view(chunk.volume), chunk.view(chunk.void_volume)},
-      damage, failed);
-  for (std::size_t k = 0; k < chunk.size; ++k) {
-    if (equivalent[k] != before[k] && before[k] > 0.0) {
-      scale(chunk.motion.deviator, k, equivalent[k] / before[k]);
+  if (criterion.returns_deviator()) {
+    for (std::size_t k = 0; k < chunk.size; ++k) rate[k] = chunk.increment[k] / dt;
+    step.material.strength->flow_stress(chunk.strength_state(), chunk.view(rate), chunk.view(flow));
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      flow[k] *= 1.0 - chunk.melted[k];
+      before[k] = equivalent[k] = std::sqrt(1.5 * tensor(chunk.motion.deviator, k).squared_norm());
     }
   }
-  chunk.any_void = true;
+  criterion.grow_voids(
+      {dt, bulk_modulus, chunk.view(chunk.motion.modulus), chunk.view(chunk.melted), chunk.view(flow),
+       chunk.view(chunk.motion.trial), factor, chunk.view(equivalent), chunk.view(chunk.acting_pressure),
+       chunk.view(chunk.increment), chunk.view(chunk.plastic_strain), chunk.view(chunk.volume),
+       chunk.view(chunk.void_volume)},
+      damage, failed);
+  if (criterion.returns_deviator()) {
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      if (equivalent[k] != before[k] && before[k] > 0.0) {
+        scale(chunk.motion.deviator, k, equivalent[k] / before[k]);
+      }
+    }
+  }
+  chunk.any_void |= any_positive(chunk.void_volume, chunk.size);
+}
+
+/// Makes points whole again whose void pressure has closed, if the criterion that they failed by heals. Their
+/// deviator starts from zero.
+void heal(const Step& step, Chunk& chunk) {
+  for (const auto& criterion : step.material.failure) {
+    const failure::Code code = criterion->healing_code();
+    if (code == failure::intact) continue;
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      if (chunk.failed[k] != code || chunk.void_volume[k] > 0.0 || !(chunk.pressure[k] > 0.0)) continue;
+      chunk.failed[k] = failure::intact;
+      if (criterion->accumulates()) chunk.damage[k] = 0.0;
+    }
+  }
 }
 
 using Four = whipple::Lanes;  // points at a time
@@ -80,6 +100,7 @@ void apply_failure(Step& step, Chunk& chunk) {
     bulk_modulus[k] = chunk.density[k] * chunk.bulk_sound_speed[k] * chunk.bulk_sound_speed[k];
   }
   const std::array<std::uint8_t, chunk_size> failed_before = chunk.failed;
+  if (chunk.any_failed && step.material.heals) heal(step, chunk);
   if (step.material.void_growth != nullptr) {
     grow_voids(step, chunk, chunk.view(bulk_modulus), chunk.view(factor), chunk.view(chunk.damage),
                chunk.view(chunk.failed));
@@ -104,7 +125,8 @@ void apply_failure(Step& step, Chunk& chunk) {
   if (std::equal(chunk.failed.begin(), chunk.failed.begin() + chunk.size, failed_before.begin())) return;
   chunk.find_failed();
   for (std::size_t k = 0; k < chunk.size; ++k) {
-    if (chunk.failed[k] != failed_before[k]) ++step.report.failed[chunk.failed[k]];
+    const bool fails = chunk.failed[k] != failed_before[k] && chunk.failed[k] != failure::intact;
+    step.report.failed[chunk.failed[k]] += fails ? 1 : 0;
   }
   chunk.deposit(chunk.failed, step.points.failed);
 }

@@ -53,7 +53,7 @@ eos::State state_at_pressure(const eos::EquationOfState& model, double pressure,
 
 /// @throws InputError if parts do not go together
 void require_parts_agree(const Material& material) {
-  std::string with_past;
+  std::string with_past, grows_voids;
   if (const strength::Brittle* brittle = material.strength->brittle()) {
     with_past = material.strength->model();
     if (brittle->bulks() && material.eos->initial_distension() > 1.0) {
@@ -70,6 +70,13 @@ void require_parts_agree(const Material& material) {
       with_past = criterion->model();
     }
     if (!criterion->grows_voids()) continue;
+    if (!grows_voids.empty() || material.strength->brittle() != nullptr) {
+      throw InputError(fmt::format("models \"{}\" and \"{}\" both open voids: one of them may",
+                                   grows_voids.empty() ? material.strength->model() : grows_voids,
+                                   criterion->model()));
+    }
+    grows_voids = criterion->model();
+    if (!criterion->returns_deviator()) continue;
     if (!material.strength->carries_deviator()) {
       throw InputError(
           fmt::format("failure model \"{}\" needs a strength model with a flow stress, not \"{}\"",
@@ -109,6 +116,7 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
     material.softens |= criterion->softens();
     material.needs_strain |= criterion->needs_strain();
     material.keeps_damage |= criterion->accumulates();
+    material.heals |= criterion->healing_code() != failure::intact;
     if (criterion->grows_voids()) material.void_growth = criterion.get();
   }
   if (const strength::Brittle* brittle = material.strength->brittle()) {
@@ -124,10 +132,10 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
 }
 
 void set_taylor_quinney(Material& material, double share) {
-  if (share < 1.0 &&
-      (material.brittle || material.void_growth != nullptr || !material.strength->carries_deviator())) {
+  const bool returns_deviator = material.void_growth != nullptr && material.void_growth->returns_deviator();
+  if (share < 1.0 && (material.brittle || returns_deviator || !material.strength->carries_deviator())) {
     const std::string_view model =
-        material.void_growth != nullptr ? material.void_growth->model() : material.strength->model();
+        returns_deviator ? material.void_growth->model() : material.strength->model();
     throw InputError(fmt::format(
         "'taylor_quinney' below 1 needs the plastic work of a metal, not that of model \"{}\"", model));
   }

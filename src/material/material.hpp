@@ -40,6 +40,7 @@ struct Material {
   std::vector<std::shared_ptr<const failure::Criterion>> failure;  ///< in the order of the file; may be empty
   bool softens = false;       ///< some criterion takes stress away before it fails (eq. 18, 19)
   bool needs_strain = false;  ///< some criterion asks for the strain
+  bool heals = false;         ///< some criterion makes failed points whole again under pressure
   bool keeps_damage = false;  ///< criterion or strength has a past: `MaterialPoints::damage` may grow
   bool brittle = false;       ///< the strength follows the pressure of the step (strength/brittle.hpp)
   bool porous = false;        ///< the equation of state takes the distension of the points

@@ -12,6 +12,8 @@
 #include "src/material/failure/principal_strain.hpp"
 #include "src/material/failure/principal_stress.hpp"
 #include "src/material/failure/tensile_pressure.hpp"
+#include "src/material/failure/tuler_butcher.hpp"
+#include "src/material/failure/viscous_void_growth.hpp"
 
 namespace whipple::failure {
 namespace {
@@ -37,8 +39,9 @@ ModelEntry entry() {
 
 std::span<const ModelEntry> catalogue() {
   static const std::array entries = {
-      entry<TensilePressure>(),   entry<PlasticStrain>(), entry<PrincipalStress>(), entry<PrincipalStrain>(),
-      entry<JohnsonCookDamage>(), entry<GradyKipp>(),     entry<Gurson>(),
+      entry<TensilePressure>(),   entry<TulerButcher>(),    entry<ViscousVoidGrowth>(),
+      entry<PlasticStrain>(),     entry<PrincipalStress>(), entry<PrincipalStrain>(),
+      entry<JohnsonCookDamage>(), entry<GradyKipp>(),       entry<Gurson>(),
   };
   return entries;
 }

@@ -25,8 +25,9 @@ enum Code : std::uint8_t {
   fractured = 5,         ///< ductile fracture by accumulated damage
   fragmented = 6,        ///< brittle fragmentation
   void_growth = 7,       ///< growth and coalescence of voids
+  spalled = 8,           ///< accumulated tension
 };
-constexpr std::size_t code_count = 8;
+constexpr std::size_t code_count = 9;
 
 /// Components xx, yy, zz, xy, yz, zx of a symmetric tensor, one entry per point.
 template <class Number>
@@ -58,11 +59,12 @@ struct State {
 /// A chunk of points between the equation of state and the criteria, for models in which voids grow while the
 /// matter still bears stress (SI). Volume and stress are those of the matter between the voids.
 struct PorousState {
-  double time_step;                          ///< s
-  std::span<const double> bulk_modulus;      ///< Pa, rho c^2
-  std::span<const double> shear_modulus;     ///< Pa, with melting
-  std::span<const double> flow_stress;       ///< Pa, of the matter between the voids, with melting
-  std::span<const double> trial;             ///< Pa, equivalent trial stress of the deviator
+  double time_step;                         ///< s
+  std::span<const double> bulk_modulus;     ///< Pa, rho c^2
+  std::span<const double> shear_modulus;    ///< Pa, with melting
+  std::span<const double> melted_fraction;  ///< mass fraction of liquid and vapour
+  std::span<const double> flow_stress;  ///< Pa, of the matter between the voids, with melting, if asked for
+  std::span<const double> trial;        ///< Pa, equivalent trial stress of the deviator
   std::span<const double> threshold_factor;  ///< scatter of the failure threshold (1: none)
   std::span<double> equivalent;              ///< Pa, equivalent stress: out
   std::span<double> pressure;                ///< Pa, in and out
@@ -72,7 +74,7 @@ struct PorousState {
   std::span<double> void_volume;             ///< m^3, in and out
 };
 
-/// A failure criterion; one virtual call per chunk. A failed point stays failed.
+/// A failure criterion; one virtual call per chunk. A failed point stays failed, unless the criterion heals.
 class Criterion {
  public:
   virtual ~Criterion() = default;
@@ -80,11 +82,15 @@ class Criterion {
   /// Advances the damage of the points and sets the code of those that are intact and break the criterion.
   /// @param damage  `MaterialPoints::damage`; only criteria that accumulate change it
   virtual void mark(const State& state, std::span<double> damage, std::span<std::uint8_t> failed) const = 0;
-  /// Lets voids grow and relaxes the stress to the yield surface of the porous matter; sets damage and code.
+  /// Lets voids grow and relaxes the stress of the matter between them; sets damage and code.
   virtual void grow_voids(const PorousState& /*state*/, std::span<double> /*damage*/,
                           std::span<std::uint8_t> /*failed*/) const {}
   /// Does `grow_voids` do anything?
   [[nodiscard]] virtual bool grows_voids() const { return false; }
+  /// Does `grow_voids` return the deviator to a yield surface of its own, from the flow stress of the matter?
+  [[nodiscard]] virtual bool returns_deviator() const { return false; }
+  /// The code that points lose again once pressure has closed their void; `intact`: they stay failed.
+  [[nodiscard]] virtual Code healing_code() const { return intact; }
   /// Volume fraction of the voids at the start.
   [[nodiscard]] virtual double initial_porosity() const { return 0.0; }
   /// Does it keep its past in `MaterialPoints::damage`? One criterion of a material may.
@@ -100,8 +106,10 @@ class Criterion {
 /// The run-time face of a criterion. A law is a plain struct of constants with
 ///   name, summary, theory, parameters()                        for the catalogue
 ///   accumulates, softens, needs_strain                         static constexpr bool, see Criterion
-///   mark(state, damage, failed), or grow_voids(state, damage, failed) with initial_porosity, see Criterion
+///   mark(state, damage, failed), grow_voids(state, damage, failed), or both: see Criterion
 ///   require_consistent()                                       throws InputError
+/// and, of laws with voids, if they differ from what is said in Criterion,
+///   grows_voids(), healing_code(), initial_porosity, returns_deviator
 template <class Law>
 class CriterionModel final : public Criterion {
  public:
@@ -109,15 +117,29 @@ class CriterionModel final : public Criterion {
   explicit CriterionModel(const Law& law) : law_(law) { law_.require_consistent(); }
   [[nodiscard]] std::string_view model() const override { return Law::name; }
   void mark(const State& state, std::span<double> damage, std::span<std::uint8_t> failed) const override {
-    if constexpr (!porous) law_.mark(state, damage, failed);
+    if constexpr (requires { law_.mark(state, damage, failed); }) law_.mark(state, damage, failed);
   }
   void grow_voids(const PorousState& state, std::span<double> damage,
                   std::span<std::uint8_t> failed) const override {
-    if constexpr (porous) law_.grow_voids(state, damage, failed);
+    if constexpr (requires { law_.grow_voids(state, damage, failed); }) {
+      law_.grow_voids(state, damage, failed);
+    }
   }
-  [[nodiscard]] bool grows_voids() const override { return porous; }
+  [[nodiscard]] bool grows_voids() const override {
+    if constexpr (requires { law_.grows_voids(); }) return law_.grows_voids();
+    return requires(const PorousState& state, std::span<double> damage, std::span<std::uint8_t> failed) {
+      law_.grow_voids(state, damage, failed);
+    };
+  }
+  [[nodiscard]] bool returns_deviator() const override {
+    return requires { Law::returns_deviator; };
+  }
+  [[nodiscard]] Code healing_code() const override {
+    if constexpr (requires { law_.healing_code(); }) return law_.healing_code();
+    return intact;
+  }
   [[nodiscard]] double initial_porosity() const override {
-    if constexpr (porous) return law_.initial_porosity;
+    if constexpr (requires { law_.initial_porosity; }) return law_.initial_porosity;
     return 0.0;
   }
   [[nodiscard]] bool accumulates() const override { return Law::accumulates; }
@@ -129,7 +151,6 @@ class CriterionModel final : public Criterion {
   }
 
  private:
-  static constexpr bool porous = requires(const Law& law) { law.initial_porosity; };
   Law law_;
 };
 

@@ -25,6 +25,7 @@ struct Gurson {
   static constexpr bool accumulates = true;
   static constexpr bool softens = false;
   static constexpr bool needs_strain = false;
+  static constexpr bool returns_deviator = true;
 
   double q1 = 1.5, q2 = 1.0;
   double initial_porosity = 0.0;    ///< f_0

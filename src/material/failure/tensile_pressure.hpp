@@ -1,34 +1,76 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <string>
+
 #include "src/material/failure/criterion.hpp"
 
 namespace whipple::failure {
 
-/// Spall by tensile pressure: a point fails where p < -p_cut (1 - f) k, with the melted fraction f and the
-/// scatter k of the threshold. The tensile strength vanishes with the solid, so fully melted matter fails as
-/// soon as its pressure is negative: it parts into drops and becomes free liquid. Source: D. R. Curran, L.
-/// Seaman, D. A. Shockey, Dynamic failure of solids, Phys. Rep. 147 (1987) 253-388, of which the constant
-/// spall strength is the simplest form; the linear loss with melting is this project's choice.
+/// Spall at a constant tensile pressure p_cut (1 - f) k (Pa), with the melted fraction f and the scatter k of
+/// the threshold; the tensile strength vanishes with the solid. What happens there is the `response`:
+///   failure  p < -p_cut: the point fails for good; it keeps its pressure, but neither tension nor deviator.
+///            Fully melted matter fails as soon as p < 0: it parts into drops.
+///   opening  the same, but once pressure has closed its void the point is whole again: pressure, tension
+///   and,
+///            from zero on, the deviator.
+///   cut_off  the pressure is held at -p_cut, the rest of the volume is void; the deviator stays and nothing
+///            fails. Compression closes the void first.
+/// Source: D. R. Curran, L. Seaman, D. A. Shockey, Dynamic failure of solids, Phys. Rep. 147 (1987) 253-388,
+/// of which the constant spall strength is the simplest form; the three responses are those of hydrocodes
+/// (J. O. Hallquist, LS-DYNA Theory Manual (2006), spall models of material 10: cut-off, and zero deviator
+/// with tension no longer allowed); the linear loss with melting is this project's choice.
 struct TensilePressure : Threshold {
-  double spall_strength = 0.0;  ///< p_cut, Pa
+  double spall_strength = 0.0;       ///< p_cut, Pa
+  std::string response = "failure";  ///< failure, opening, cut_off
 
   static ParameterTable<TensilePressure> parameters() {
-    return {real("spall_strength", &TensilePressure::spall_strength, "Pa", range::non_negative(),
-                 "tensile pressure p_cut at which the solid parts")};
+    using P = TensilePressure;
+    return {real("spall_strength", &P::spall_strength, "Pa", range::non_negative(),
+                 "tensile pressure p_cut at which the solid parts"),
+            choice("response", &P::response, {"failure", "opening", "cut_off"},
+                   "what the point loses: tension and deviator for good, both while it is open, or only the "
+                   "tension beyond p_cut")
+                .optional()};
   }
   static constexpr const char* name = "tensile_pressure";
   static constexpr const char* summary = "spall: tensile pressure beyond the spall strength";
   static constexpr const char* theory =
-      "Fails (code 1) where p < -spall_strength (1 - melted fraction) * scatter factor; melted matter where "
-      "p < 0.\n"
+      "At p < -p_cut, p_cut = spall_strength (1 - melted fraction) * scatter factor, the response is\n"
+      "failure: fails (code 1) for good, without tension and deviator;\n"
+      "opening: the same, but healed once pressure has closed the void;\n"
+      "cut_off: p = -p_cut, the deviator stays, nothing fails (a pressure cut-off that keeps the deviator).\n"
       "Source: Curran, Seaman and Shockey, Phys. Rep. 147 (1987) 253 (constant spall strength; linear loss "
       "with melting: own choice).";
 
+  [[nodiscard]] bool cuts_off() const { return response == "cut_off"; }
+  [[nodiscard]] bool grows_voids() const { return cuts_off(); }
+  [[nodiscard]] Code healing_code() const { return response == "opening" ? tensile : intact; }
+
   void mark(const State& state, std::span<double> /*damage*/, std::span<std::uint8_t> failed) const {
+    if (cuts_off()) return;
     for (std::size_t i = 0; i < failed.size(); ++i) {
       const double strength = spall_strength * (1.0 - state.melted_fraction[i]) * state.threshold_factor[i];
       if (failed[i] == intact && state.pressure[i] < -strength) failed[i] = tensile;
+    }
+  }
+  /// Holds the pressure at the cut-off: matter and void share the volume so that p = -p_cut beside a void.
+  void grow_voids(const PorousState& state, std::span<double> /*damage*/,
+                  std::span<std::uint8_t> failed) const {
+    constexpr double greatest_step = 0.1;  // of the matter's volume
+    for (std::size_t i = 0; i < failed.size(); ++i) {
+      const double least = -spall_strength * (1.0 - state.melted_fraction[i]) * state.threshold_factor[i];
+      const bool is_open = state.void_volume[i] > 0.0;
+      if (failed[i] != intact || (!is_open && state.pressure[i] >= least)) continue;
+      const double volume = state.volume[i], total = volume + state.void_volume[i];
+      const double strain =
+          std::clamp((state.pressure[i] - least) / state.bulk_modulus[i], -greatest_step, greatest_step);
+      const double matter = std::min(volume * (1.0 + strain), total);
+      const double relaxed = state.pressure[i] - state.bulk_modulus[i] * (matter - volume) / volume;
+      state.pressure[i] = matter < total ? least : std::max(relaxed, least);
+      state.volume[i] = matter;
+      state.void_volume[i] = total - matter;
     }
   }
 };

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/material/failure/criterion.hpp"
+
+namespace whipple::failure {
+
+/// Ductile spall by voids that grow at a rate: with the distension alpha = alpha_0 + V_v/V of the matter V
+/// beside its voids V_v (m^3) and the mean pressure P = p/alpha on both (Pa, positive in compression),
+///   d(alpha)/dt = -(alpha_0 - 1)^(2/3)/eta alpha (alpha - 1)^(1/3) (P + P_s)  where P < -P_s,
+///   the same with P - P_s                                                      where P > +P_s,
+///   P_s = a_s k (1 - f)/alpha ln(alpha/(alpha - 1)),
+/// and nothing between. a_s is the resistance of the solid (2/3 of its yield stress in the static hollow
+/// sphere of Carroll and Holt), eta a viscosity (Pa s), times 1 - f, alpha_0 - 1 the volume of the nuclei
+/// from which the voids grow and to which they close (no void is stored for them, they have no weight), f the
+/// melted fraction, k the scatter of the threshold. The static spall strength is a_s ln(alpha_0/(alpha_0 -
+/// 1)), to a few parts in 1e4; above it the tension that the growth cannot relax rises with the rate. Growth
+/// takes tension off, not the deviator of the matter, which acts on the share V of the volume; compression
+/// closes the voids. Where the porosity V_v/(V + V_v) reaches `failure_porosity` the voids have met: the
+/// point fails (code 7); melted matter where p < 0 or with voids (code 1). With `healing` a failed point is
+/// whole again once pressure has closed its void. The step is implicit in alpha and p at a fixed V + V_v.
+/// Source: J. N. Johnson, J. Appl. Phys. 52 (1981) 2812-2825; M. M. Carroll, A. C. Holt, J. Appl. Phys. 43
+/// (1972) 1626. Nuclei apart from V_v and the factors k and 1 - f are this project's choice.
+struct ViscousVoidGrowth : Threshold {
+  double resistance = 0.0;         ///< a_s, Pa
+  double viscosity = 0.0;          ///< eta, Pa s
+  double nuclei = 3e-4;            ///< alpha_0 - 1
+  double failure_porosity = 0.15;  ///< Grady, J. Mech. Phys. Solids 36 (1988) 353: ductile spall
+  bool healing = false;
+
+  static ParameterTable<ViscousVoidGrowth> parameters() {
+    using P = ViscousVoidGrowth;
+    return {
+        real("resistance", &P::resistance, "Pa", range::positive(),
+             "a_s: static spall strength over ln(1 + 1/nuclei)"),
+        real("viscosity", &P::viscosity, "Pa s", range::positive(), "eta, which slows the growth"),
+        real("nuclei", &P::nuclei, "", range::open_between(0.0, 0.1),
+             "alpha_0 - 1: volume of the nuclei over that of the solid")
+            .optional(),
+        real("failure_porosity", &P::failure_porosity, "", range::open_between(0.0, 1.0),
+             "volume fraction of the voids at which the matter parts")
+            .optional(),
+        boolean("healing", &P::healing, "points whose void pressure has closed are whole again").optional()};
+  }
+  static constexpr const char* name = "viscous_void_growth";
+  static constexpr const char* summary = "spall: growth of voids at a rate (Johnson 1981)";
+  static constexpr const char* theory =
+      "d(alpha)/dt = -nuclei^(2/3)/viscosity alpha (alpha - 1)^(1/3) (P +- P_s) beyond P_s = "
+      "resistance/alpha "
+      "ln(alpha/(alpha - 1)),\n"
+      "P = p/alpha, alpha = 1 + nuclei + void/matter; resistance times (1 - melted fraction) * scatter "
+      "factor. "
+      "The deviator of the\n"
+      "matter stays, compression closes the voids; fails (code 7) at failure_porosity, melted matter (code "
+      "1) "
+      "where p < 0.\n"
+      "Source: Johnson, J. Appl. Phys. 52 (1981) 2812; Carroll and Holt, J. Appl. Phys. 43 (1972) 1626.";
+
+  [[nodiscard]] Code healing_code() const { return healing ? void_growth : intact; }
+
+  /// P_s, Pa, of a resistance
+  [[nodiscard]] static double static_pressure(double resistance, double alpha) {
+    return resistance / alpha * std::log(alpha / (alpha - 1.0));
+  }
+  /// A point in the step: what moves from the matter to the void changes both alpha and the pressure.
+  struct Point {
+    double volume, void_volume;  ///< m^3
+    double pressure, modulus;    ///< Pa
+    double resistance;           ///< Pa, with melting and scatter
+    double viscosity;            ///< Pa s, with melting
+  };
+  [[nodiscard]] double distension(const Point& point, double moved) const {
+    return 1.0 + nuclei + (point.void_volume + moved) / (point.volume - moved);
+  }
+  /// Excess of the growth (of alpha) over what the rate allows; 0 at the end of the step.
+  /// @param moved  m^3, from matter to void
+  /// @param sign   1: in tension, -1: in compression
+  [[nodiscard]] double excess(const Point& point, double moved, double sign, double time_step) const {
+    const double alpha = distension(point, moved);
+    const double mean = (point.pressure + point.modulus * moved / point.volume) / alpha;
+    const double drive = -mean - sign * static_pressure(point.resistance, alpha);
+    const double rate = std::cbrt(nuclei * nuclei * (alpha - 1.0)) * alpha / point.viscosity * drive;
+    return alpha - distension(point, 0.0) - time_step * rate;
+  }
+  /// Volume (m^3) that moves from matter to void in the step; negative: the void closes.
+  [[nodiscard]] double moved_volume(const Point& point, double time_step) const {
+    constexpr double greatest_step = 0.1;  // of the matter's volume
+    const double sign = point.pressure < 0.0 ? 1.0 : -1.0;
+    const double at_rest = excess(point, 0.0, sign, time_step);
+    if (sign * at_rest >= 0.0) return 0.0;  // within the static pressures
+    double from = 0.0, at_from = at_rest;
+    double to = sign > 0.0 ? -point.pressure / point.modulus * point.volume : -point.void_volume;
+    to = std::clamp(to, -greatest_step * point.volume, greatest_step * point.volume);
+    double at_to = excess(point, to, sign, time_step);
+    if (sign * at_to <= 0.0) return to;
+    double moved = to;
+    for (int iteration = 0; iteration < 100; ++iteration) {  // regula falsi (Illinois)
+      moved = (from * at_to - to * at_from) / (at_to - at_from);
+      const double value = excess(point, moved, sign, time_step);
+      if (std::abs(value) <= 1e-12 || std::abs(to - from) <= 1e-14 * point.volume) break;
+      if (sign * value < 0.0) {
+        from = moved;
+        at_from = value;
+        at_to *= 0.5;
+      } else {
+        to = moved;
+        at_to = value;
+        at_from *= 0.5;
+      }
+    }
+    return moved;
+  }
+
+  void grow_voids(const PorousState& state, std::span<double> /*damage*/,
+                  std::span<std::uint8_t> failed) const {
+    const double at_nuclei = static_pressure(1.0, 1.0 + nuclei) * (1.0 + nuclei);
+    for (std::size_t i = 0; i < failed.size(); ++i) {
+      const double solid = 1.0 - state.melted_fraction[i];
+      const double strength = resistance * solid * state.threshold_factor[i];
+      const bool has_voids = state.void_volume[i] > 0.0;
+      if (failed[i] != intact || (!has_voids && state.pressure[i] >= -strength * at_nuclei)) continue;
+      if (!(strength > 0.0)) {
+        failed[i] = tensile;
+        continue;
+      }
+      const Point point = {state.volume[i], state.void_volume[i], state.pressure[i], state.bulk_modulus[i],
+                           strength,        viscosity * solid};
+      const double moved = moved_volume(point, state.time_step);
+      const double total = point.volume + point.void_volume;
+      state.pressure[i] += point.modulus * moved / point.volume;
+      state.volume[i] = std::min(point.volume - moved, total);
+      state.void_volume[i] = total - state.volume[i];
+      if (state.void_volume[i] >= failure_porosity * total) failed[i] = void_growth;
+    }
+  }
+};
+
+}  // namespace whipple::failure
