@@ -78,7 +78,9 @@ void write_table(const std::string& path, const std::string& only) {
       {[] { return noh_spherical(12); }, [] { return noh_spherical(16); }, [] { return noh_spherical(24); }});
   suite.add("Sedov", "Blast in gas, gamma 1.4, an octant between mirror planes.",
             {[] { return sedov(12); }, [] { return sedov(16); }, [] { return sedov(24); }});
-  for (const PlanarImpact& impact : planar_impacts()) {
+  std::vector<PlanarImpact> impacts = planar_impacts();
+  for (const PlanarImpact& impact : melting_impacts()) impacts.push_back(impact);
+  for (const PlanarImpact& impact : impacts) {
     suite.add(impact.name,
               fmt::format("{} ({:g} mm) on {} ({:g} mm), {:g} us; the target moves with {:g} m/s.",
                           impact.flyer, 1e3 * impact.flyer_length, impact.target, 1e3 * impact.target_length,

@@ -44,6 +44,7 @@ struct BodyFigures {
   Mean energy, exact_energy, half_cell, first_cell, plateau, entropy, shock_pressure, shock_density,
       shock_energy;
   Mean first_release, plateau_first_release;
+  Mean melted;
   double hottest = 0, not_solid = 0, mass = 0, largest_pressure = 0;
 };
 
@@ -62,6 +63,14 @@ std::vector<PlanarImpact> planar_impacts() {
           {"Cu-Al 5.55 km/s", "copper.toml", "aluminium.toml", 5550, 3.45e-3, 2.87e-3, 3e-6},
           {"Pb-Pb 6.58 km/s", lead, lead, 6580, 7e-3, 6.35e-3, 8e-6},
           {"Ta-Ta 4 km/s", "tantalum.toml", "tantalum.toml", 4000, 4e-3, 4e-3, 4e-6}};
+}
+
+std::vector<PlanarImpact> melting_impacts() {
+  const std::string cadmium = "cases/release_melting/cadmium_spall.toml";
+  return {{"Melting of aluminium, 76.5 GPa", "aluminium.toml", "aluminium.toml", 6015.3, 4e-3, 4e-3, 4e-6},
+          {"Melting of cadmium, 36.3 GPa", cadmium, cadmium, 2029.48, 4e-3, 4e-3, 6e-6},
+          {"Melting of copper, 165.6 GPa", "copper.toml", "copper.toml", 4889.78, 4e-3, 4e-3, 4e-6},
+          {"Melting of lead, 31.5 GPa", "lead.toml", "lead.toml", 1688.336, 4e-3, 4e-3, 8e-6}};
 }
 
 PlanarImpact planar_impact(const std::string& name) {
@@ -211,6 +220,7 @@ shape = {{ box = {{ lower = [0, 0, {:.9g}], upper = [{:.9g}, {:.9g}, {:.9g}] }} 
     f.hottest = std::max(f.hottest, q.temperature[p]);
     f.largest_pressure = std::max(f.largest_pressure, q.maximum_pressure[p]);
     f.mass += mass;
+    f.melted.add(q.melted_fraction[p], mass);
     f.not_solid += q.melted_fraction[p] > 0 ? mass : 0.0;
   }
   Result result{fmt::format("{:g} mm", 1e3 * cell), cell, {}, {}};
@@ -230,6 +240,7 @@ shape = {{ box = {{ lower = [0, 0, {:.9g}], upper = [{:.9g}, {:.9g}, {:.9g}] }} 
     result.add(of + "T max, K", released.temperature, f.hottest);
     if (!released.phase.empty()) {
       result.add(of + "share not solid", released.melted_fraction > 0 ? 1.0 : 0.0, f.not_solid / f.mass);
+      result.add(of + "melted share", released.melted_fraction, f.melted.value());
     }
     result.add(of + "p behind the shock", 1, f.shock_pressure.value());
     result.add(of + "rho behind the shock", 1, f.shock_density.value());

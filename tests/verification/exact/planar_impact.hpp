@@ -26,7 +26,9 @@ struct PlanarImpact {
 
 /// The problems of the suite.
 std::vector<PlanarImpact> planar_impacts();
-/// One of them by name.
+/// Impacts of two slabs of one metal whose release melts a part of it.
+std::vector<PlanarImpact> melting_impacts();
+/// One of the former by name.
 PlanarImpact planar_impact(const std::string& name);
 
 /// Exact history of one body of an impact: shock from the impedance match, release along the isentrope of
