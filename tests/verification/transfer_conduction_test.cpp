@@ -3,7 +3,9 @@
 // stability at the bound of the time step.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <random>
 
@@ -113,6 +115,35 @@ TEST(Conduction, RodDecaysAtTheExactRateWithSecondOrder) {
 
 TEST(Conduction, DisorderedParticlesConductAsWell) {
   EXPECT_LT(error_of_decay(32, 0.3), 0.05);  // quadrature: volumes stay those of the even lattice
+}
+
+// Two half-spaces: the interface has the mean of both temperatures by effusivity.
+TEST(Conduction, InterfaceOfTwoMaterialsTakesTheTemperatureOfTheirEffusivities) {
+  const std::array constants = {ThermalConstants{400.0, 400.0}, ThermalConstants{50.0, 900.0}};
+  constexpr int cells = 64;
+  Rod rod(cells, 2);
+  for (std::size_t p = 0; p < rod.particles.size(); ++p) {
+    rod.particles.body[p] = rod.particles.position[p][0] < 0.5 * length ? 0 : 1;
+  }
+  rod.set(constants, [](double x) { return x < 0.5 * length ? 500.0 : 300.0; });
+  const double a1 = diffusivity(constants[0]), a2 = diffusivity(constants[1]);
+  const double before = rod.energy(), dt = rod.dx * rod.dx / (18.0 * a1);
+  const double end = 0.012 * length * length / a1;  // the ends know nothing of it yet
+  const int steps = static_cast<int>(end / dt);
+  rod.advance(dt, steps, constants);
+  EXPECT_NEAR(rod.energy(), before, 1e-13 * before);
+  const double b1 = std::sqrt(400.0 * 400.0), b2 = std::sqrt(50.0 * 900.0);  // at one density
+  const double interface = (b1 * 500.0 + b2 * 300.0) / (b1 + b2), t = dt * steps;
+  double worst = 0.0;
+  for (std::size_t p = 0; p < rod.particles.size(); ++p) {
+    const double x = rod.particles.position[p][0] - 0.5 * length;
+    if (std::abs(x) < 4 * rod.dx) continue;  // kernels of both sides meet there
+    const double a = x < 0.0 ? a1 : a2, far = x < 0.0 ? 500.0 : 300.0;
+    const double exact = interface + (far - interface) * std::erf(std::abs(x) / std::sqrt(4.0 * a * t));
+    worst = std::max(worst, std::abs(rod.particles.temperature[p] - exact));
+  }
+  std::printf("interface of two materials: worst error %.3f of the jump\n", worst / 200.0);
+  EXPECT_LT(worst, 0.02 * 200.0);
 }
 
 TEST(Conduction, EveryMoveOfHeatIsBalancedAndUniformTemperatureStays) {
