@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "src/contact/pressing.hpp"
 #include "src/parallel/threads.hpp"
@@ -64,6 +65,19 @@ struct Stop {
     b->heat += 0.5 * (by_push + by_drag);
   }
 };
+
+/// Heat of impulses on fields that press on others besides: the velocity that these gave them counts too.
+void book_rest(const Pressing& pressing, std::span<Side> sides, std::span<const Stop> stops,
+               Balance& balance) {
+  double rest = pressing.lost();
+  for (const Side& side : sides) rest -= side.heat;
+  balance.contact_heat += rest;
+  const double share = 0.5 * rest / static_cast<double>(stops.size());
+  for (const Stop& stop : stops) {
+    stop.a->heat += share;
+    stop.b->heat += share;
+  }
+}
 
 /// Two fields, by their numbers, at a node where both have mass and a normal.
 struct Meeting {
@@ -161,6 +175,7 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches&
         for (Stop& stop : stops) stop.relax(settings_.friction);
       }
       for (const Stop& stop : stops) stop.heat(of_slot[c]);
+      if (pressing.presses() && !stops.empty()) book_rest(pressing, sides, stops, of_slot[c]);
       for (Side& side : sides) {
         if (side.heat != 0.0) side.node->second[3] = side.heat / side.mass;
       }

@@ -137,8 +137,7 @@ bool Pressing::drop_tension() {
   return !pairs_.empty();
 }
 
-/// J: what the pairs lose by all changes so far, (4.7) from the fields themselves. Where the normals of
-/// several pairs are nearly parallel, the round-off of their impulses would be missed from the sum of the
+/// From the fields themselves. Where the normals of several pairs are nearly parallel, the round-off of their impulses would be missed from the sum of the
 /// pairs.
 double Pressing::lost() const {
   const Vector3 frame = former_[pairs_.front().a].velocity;

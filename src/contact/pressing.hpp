@@ -30,6 +30,10 @@ class Pressing {
   void add(std::size_t a, std::size_t b, const Vector3& normal, double share);
   /// Changes velocities, increments and relaxations of the fields that press, and books what that takes.
   void apply(Balance& balance);
+  /// Do fields press, after `apply`?
+  [[nodiscard]] bool presses() const { return !pairs_.empty(); }
+  /// J: what all changes of the fields since `begin`, of `apply` and after it, lose (4.7). If fields press.
+  [[nodiscard]] double lost() const;
 
  private:
   /// Two fields that touch, or would in the step.
@@ -57,7 +61,6 @@ class Pressing {
   void solve();
   bool drop_tension();
   void mix(Balance& balance);
-  [[nodiscard]] double lost() const;
   double drag(Pair& pair);
   std::size_t leader(std::size_t side) const;
 

@@ -159,6 +159,27 @@ TEST(Gravity, GivesItsMomentumToEveryBody) {
   EXPECT_LT(std::abs(state.ledger.energy_error(now)), 1e-12);
 }
 
+// A thin plate is pressed, in one step, across the last of its gap to elements, which only impulses stop.
+TEST(Contact, IsExactWhereImpulsesMeetFieldsThatPress) {
+  Problem problem = impact({}, {.friction = 0.3, .method = "auto"});
+  const std::string material = aluminium("contact_aluminium", "0.3 GPa");
+  problem.bodies = {
+      {"striker", material, box({-3e-3, -3e-3, -3.05e-3}, {3e-3, 3e-3, -0.05e-3}), {300, 0, 4000}},
+      {"plate", material, box({-5e-3, -5e-3, 0}, {5e-3, 5e-3, 1e-3}), Vector3::Zero()},
+      {"elements", material, box({-5e-3, -5e-3, 1.1e-3}, {5e-3, 5e-3, 4.1e-3}), Vector3::Zero(),
+       "discretization = { method = \"finite_elements\" }\n"}};
+  solver::Simulation simulation(problem.read(), parallel::world());
+  EnergyWatch watch;
+  while (simulation.state().time < 0.6e-6) {
+    simulation.advance(0.6e-6);
+    watch(simulation);
+  }
+  EXPECT_LT(watch.worst, 1e-13);
+  EXPECT_LT(simulation.state().ledger.momentum_error(simulation.totals()), 1e-12);
+  EXPECT_GT(simulation.state().ledger.contact_impulse,
+            0.002 * simulation.state().ledger.initial.momentum_scale);
+}
+
 TEST(Contact, KeepsMomentumAndEnergyInEveryMethod) {
   const auto check = [](const Method& method, const ContactOptions& contact, bool exact_energy) {
     solver::Simulation simulation(impact(method, contact).read(), parallel::world());
