@@ -25,7 +25,8 @@ double Simulation::landing_on_touch(double dt) const {
   return left < dt ? std::min(dt, std::max(left, setup_.time.first_step * accurate_step_)) : dt;
 }
 
-/// Touches matter that could compress matter in one step by more than the step is to follow.
+/// Of interest are touches that could strain matter, in one whole step, by more than the time step is to
+/// follow.
 void Simulation::watch_touches() {
   const double strain = setup_.time.compression_limit;
   first_touches_->begin_step(state_.time_step, strain * setup_.domain.cell_size / accurate_step_);
