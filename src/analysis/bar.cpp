@@ -188,7 +188,8 @@ double pullback(const std::vector<double>& velocity) {
   double least = *highest;
   for (auto v = highest; v != velocity.end(); ++v) {
     least = std::min(least, *v);
-    if (least<0.9 * *highest&& * v> least + 0.01 * *highest) return *highest - least;
+    const double fell = 0.9 * *highest, rose = least + 0.01 * *highest;
+    if (least < fell && *v > rose) return *highest - least;
   }
   return nan;
 }

@@ -137,8 +137,8 @@ bool Pressing::drop_tension() {
   return !pairs_.empty();
 }
 
-/// From the fields themselves. Where the normals of several pairs are nearly parallel, the round-off of their impulses would be missed from the sum of the
-/// pairs.
+/// From the fields themselves. Where the normals of several pairs are nearly parallel, the round-off of their
+/// impulses would be missed from the sum of the pairs.
 double Pressing::lost() const {
   const Vector3 frame = former_[pairs_.front().a].velocity;
   double sum = 0.0;

@@ -12,8 +12,7 @@ namespace whipple::failure {
 /// the threshold; the tensile strength vanishes with the solid. What happens there is the `response`:
 ///   failure  p < -p_cut: the point fails for good; it keeps its pressure, but neither tension nor deviator.
 ///            Fully melted matter fails as soon as p < 0: it parts into drops.
-///   opening  the same, but once pressure has closed its void the point is whole again: pressure, tension
-///   and,
+///   opening  the same, but once pressure has closed its void the point is whole again: pressure, tension and,
 ///            from zero on, the deviator.
 ///   cut_off  the pressure is held at -p_cut, the rest of the volume is void; the deviator stays and nothing
 ///            fails. Compression closes the void first.
