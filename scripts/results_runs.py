@@ -108,11 +108,7 @@ DURATIONS = {"h": 3600.0, "min": 60.0, "s": 1.0, "ms": 1e-3}
 
 
 def cost(whipple, case, run, variant):
-    """Particles or elements, steps and seconds of a run by `whipple check`, and its wall time if it was run.
-
-    The check counts steps as long as the first one, which is `time.first_step` of what the run grows to; compression makes
-    the later ones shorter than that, by a factor 1.5 in the impacts.
-    """
+    """Particles or elements, most steps and seconds of a run by `whipple check`, and its wall time if it was run."""
     command = command_of(case, run, variant.resolution, folder_of(case, run, variant), variant.assignments)
     words = [word for word in command[3:] if word != "--force"]
     done = subprocess.run([whipple, "check", command[2], *words[2:]], cwd=ROOT, capture_output=True, text=True,
@@ -121,12 +117,10 @@ def cost(whipple, case, run, variant):
         return {"error": (done.stderr or done.stdout).strip().split("\n")[-1]}
     text = done.stdout + done.stderr
     points = sum(int(n) for n in re.findall(r": (\d+) (?:particles|elements)", text))
-    steps = re.search(r"about (\d+) steps", text)
-    estimate = re.search(r"estimated time: (.*?) on", text)
+    steps = re.search(r"steps: (\d+) to (\d+)", text)
+    estimate = re.search(r"estimated time: .* to (.*?) on", text)
     words = re.findall(r"([\d.]+) (\w+)", estimate[1] if estimate else "")
     seconds = sum(float(n) * DURATIONS.get(unit, 0.0) for n, unit in words)
-    grown = 1.5 * run.resolved(variant.resolution)["time"].get("first_step", 0.05)
     record, state = state_of(case, run, variant, folder_of(case, run, variant))
-    return {"points": points, "steps": round(grown * int(steps[1])) if steps else 0,
-            "seconds": grown * seconds,
+    return {"points": points, "steps": int(steps[2]) if steps else 0, "seconds": seconds,
             "wall_time": record["wall_time"] if record else None, "state": state}

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <cmath>
 #include <thread>
 
 #include "eos/table/table.hpp"
@@ -13,7 +11,9 @@
 #include "src/base/text.hpp"
 #include "src/io/ranks.hpp"
 #include "src/parallel/threads.hpp"
+#include "src/setup/remarks.hpp"
 #include "src/setup/tables.hpp"
+#include "src/solver/forecast.hpp"
 #include "src/solver/preparation.hpp"
 #include "src/solver/run.hpp"
 #include "src/solver/simulation.hpp"
@@ -64,6 +64,7 @@ std::string check(const RunOptions& options) {
   setup::Case setup = setup::read_case(options.case_file, options.overrides);
   require_memory(setup, communicator);
   setup::tabulate_materials(setup, io::Ranks(communicator));
+  setup.transfer.rest_tolerance = 0.0;  // the cost is measured with all matter taking part
   Simulation simulation(setup, communicator);
   std::string text = fmt::format("{}\n{}\n\n", setup.file.string(), setup.title);
   text += fmt::format("grid: {} x {} x {} cells of {:.6g} mm\n", setup.geometry.cells[0],
@@ -95,28 +96,17 @@ std::string check(const RunOptions& options) {
     }
   }
   for (const std::string& remark : setup.contact_fields.remarks) text += remark + "\n";
-  const std::size_t particles = simulation.particle_count();
-  simulation.advance(setup.time.end);  // activates the blocks
-  int measured_steps = 0;
-  const auto begin = std::chrono::steady_clock::now();
-  while (measured_steps < 2 && simulation.state().time < setup.time.end) {
-    simulation.advance(setup.time.end);
-    ++measured_steps;
-  }
-  const double per_step = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() /
-                          std::max(measured_steps, 1);
-  const double steps = std::ceil(setup.time.end / simulation.state().time_step);
-  text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", particles,
+  for (const std::string& remark : setup::remarks(setup)) text += "warning: " + remark + "\n";
+  const Forecast cost = forecast(simulation);
+  text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", simulation.particle_count(),
                       simulation.grid().slots(), format_bytes(static_cast<double>(simulation.bytes())));
+  text += fmt::format("steps: {:.0f} to {:.0f} to t = {:.6g} us\n", cost.least_steps, cost.most_steps,
+                      1e6 * setup.time.end);
   text += fmt::format(
-      "time step: {:.4g} ns at the start; about {:.0f} steps to t = {:.6g} us, more as shocks raise "
-      "the sound speed\n",
-      1e9 * simulation.state().time_step, steps, 1e6 * setup.time.end);
-  const std::size_t carriers = particles + simulation.element_count();
-  text +=
-      fmt::format("estimated time: {} on {} threads ({:.0f} ns per particle{} and step, measured)\n",
-                  format_duration(steps * per_step), parallel::threads(),
-                  1e9 * per_step / static_cast<double>(carriers), setup.has_elements() ? " or element" : "");
+      "estimated time: {} to {} on {} threads ({:.0f} ns per particle{} and step, measured; on average {:.0f} % of them "
+      "take part)\n",
+      format_duration(cost.least_time), format_duration(cost.most_time), parallel::threads(), cost.nanoseconds,
+      setup.has_elements() ? " or element" : "", 1e2 * cost.moving_share);
   return text;
 }
 

@@ -16,6 +16,7 @@
 #include "src/io/run_directory.hpp"
 #include "src/parallel/mpi.hpp"
 #include "src/parallel/threads.hpp"
+#include "src/setup/remarks.hpp"
 #include "src/setup/tables.hpp"
 #include "src/solver/preparation.hpp"
 #include "src/solver/runner.hpp"
@@ -117,6 +118,7 @@ int run(const RunOptions& options) {
       new_directory(setup, output_directory(options, options.case_file), options, ranks);
   if (ranks.is_root()) log::add_file(directory.log_file());
   log::info("{}: {}", setup.title.empty() ? directory.name() : setup.title, directory.path().string());
+  for (const std::string& remark : setup::remarks(setup)) log::warning("{}", remark);
   return run_steps(setup, directory, options, ranks);
 }
 

@@ -102,6 +102,8 @@ class Simulation {
   /// Least share of its cells that matter of more than a pressure (Pa) fills, 1e300 without any: a look at
   /// the run, for tests. Collective.
   [[nodiscard]] double least_fill(double pressure);
+  /// Time step (s) that the state allows, whatever the step before it was. Collective.
+  [[nodiscard]] double accurate_time_step();
   /// Memory of this rank.
   [[nodiscard]] std::size_t bytes() const;
 
@@ -114,7 +116,6 @@ class Simulation {
   // The calls of the schemes, in the order of the step.
   void adapt_elements();
   [[nodiscard]] double stable_time_step();
-  [[nodiscard]] double accurate_time_step();
   [[nodiscard]] double landing_on_touch(double dt) const;
   void watch_touches();
   void foresee_touches();

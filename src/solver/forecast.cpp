@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/forecast.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "src/parallel/mpi.hpp"
+
+namespace whipple::solver {
+namespace {
+
+/// Actual steps over the end divided by the step allowed at the start: 0.58 to 1.22 in the cases of the
+/// repository, more where elements are crushed.
+constexpr double fewest_steps = 0.55, most_steps = 1.3;
+/// Contact, melting and failure make a step dearer than at the start, free flight makes it cheaper.
+constexpr double cheapest = 0.5, dearest = 2.0;
+constexpr double usual_steps = 0.85;
+constexpr double beside_steps = 2.0;  // s, at most: reading, tables, writing in small runs
+
+/// Blocks wake as a whole, and one layer of them before motion arrives.
+constexpr int layers_of_blocks = 2;
+
+constexpr double calibration_time = 1.0;  // s
+constexpr int calibration_steps = 5;
+constexpr std::size_t samples = 20000;  // of this rank, for the share that moves
+
+struct Box {
+  Vector3 lower = Vector3::Constant(1e300), upper = Vector3::Constant(-1e300);
+
+  void include(const Vector3& x) {
+    lower = lower.cwiseMin(x);
+    upper = upper.cwiseMax(x);
+  }
+  [[nodiscard]] bool empty() const { return !(lower.x() <= upper.x()); }
+  /// Along each axis, 0 where they overlap; m.
+  [[nodiscard]] Vector3 gap_to(const Box& b) const {
+    return (b.lower - upper).cwiseMax(lower - b.upper).cwiseMax(Vector3::Zero());
+  }
+};
+
+/// Calls `visit(body, position, velocity, sound speed, is it under stress)` for every
+/// particle and every node of elements of this rank.
+template <class Visit>
+void for_each_point(const Simulation& s, const Visit& visit) {
+  const Particles& points = s.particles();
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const double c = points.sound_speed[p];
+    const bool stressed = std::abs(points.pressure[p]) * points.volume[p] > 1e-6 * points.mass[p] * c * c;
+    visit(points.body[p], points.position[p], points.velocity[p], c, stressed);
+  }
+  const auto of_nodes = [&](const auto& nodes, std::size_t body) {
+    const eos::State& reference = s.setup().materials[body]->reference;
+    for (std::size_t n = 0; n < nodes.mass.size(); ++n) {
+      visit(body, nodes.position[n], nodes.velocity[n], reference.sound_speed, false);
+    }
+  };
+  for (const fem::Mesh& mesh : s.meshes()) of_nodes(mesh.nodes, mesh.body);
+  for (const fem::Bars& bars : s.bars()) of_nodes(bars.nodes, bars.body);
+}
+
+/// Mean share, over the run, of the particles and nodes that take part.
+double moving_share(const Simulation& s) {
+  const setup::Case& setup = s.setup();
+  if (!setup.gravity.acceleration.isZero(0.0) || setup.heat.conduction) return 1.0;
+  const std::size_t count = s.bodies().size();
+  std::vector<Box> moving(count);
+  double fastest = 0.0, points = 0.0;
+  for_each_point(s, [&](std::size_t b, const Vector3& x, const Vector3& v, double, bool stressed) {
+    points += 1.0;
+    fastest = std::max(fastest, v.norm());
+    if (stressed || !v.isZero(0.0)) moving[b].include(x);
+  });
+  std::vector<double> extremes(6 * count + 1, fastest);
+  for (std::size_t b = 0; b < count; ++b) {
+    Vector3::Map(&extremes[6 * b]) = -moving[b].lower;
+    Vector3::Map(&extremes[6 * b + 3]) = moving[b].upper;
+  }
+  parallel::maximum(s.communicator(), extremes);
+  std::vector<Box> sources;
+  for (std::size_t b = 0; b < count; ++b) {
+    const Box box = {-Vector3::Map(&extremes[6 * b]), Vector3::Map(&extremes[6 * b + 3])};
+    if (!box.empty()) sources.push_back(box);
+  }
+  if (sources.empty()) return 1.0;
+  fastest = extremes.back();
+  const auto every = std::max<std::size_t>(1, static_cast<std::size_t>(points) / samples);
+  std::size_t seen = 0;
+  std::array<double, 2> sums = {0.0, 0.0};  // share, points
+  for_each_point(s, [&](std::size_t, const Vector3& x, const Vector3& v, double c, bool stressed) {
+    if (seen++ % every != 0) return;
+    double way = std::numeric_limits<double>::infinity();
+    Box here;
+    here.include(x);
+    for (const Box& source : sources) way = std::min(way, here.gap_to(source).norm());
+    if (stressed || !v.isZero(0.0)) way = 0.0;
+    way = std::max(0.0, way - layers_of_blocks * grid::block_edge * setup.domain.cell_size);
+    sums[0] += std::max(0.0, 1.0 - way / (std::max(c, fastest) * setup.time.end));
+    sums[1] += 1.0;
+  });
+  parallel::sum(s.communicator(), sums);
+  return sums[1] > 0.0 ? sums[0] / sums[1] : 1.0;
+}
+
+}  // namespace
+
+Forecast forecast(Simulation& s) {
+  const double end = s.setup().time.end;
+  Forecast result;
+  const double steps = end / s.accurate_time_step();
+  result.least_steps = std::ceil(fewest_steps * steps);
+  result.most_steps = std::ceil(most_steps * steps);
+  result.moving_share = moving_share(s);
+  s.advance(end);  // allocates the blocks
+  using Clock = std::chrono::steady_clock;
+  double quickest = std::numeric_limits<double>::infinity(), spent = 0.0;
+  for (int step = 0; step < calibration_steps && s.state().time < end && spent < calibration_time; ++step) {
+    const auto begin = Clock::now();
+    s.advance(end);
+    const double taken = std::chrono::duration<double>(Clock::now() - begin).count();
+    quickest = std::min(quickest, taken);  // what others do on the machine only adds
+    spent = parallel::maximum(s.communicator(), spent + taken);
+  }
+  if (!std::isfinite(quickest)) quickest = 0.0;
+  quickest = parallel::maximum(s.communicator(), quickest);
+  const auto carriers = static_cast<double>(s.particle_count() + s.element_count());
+  result.nanoseconds = 1e9 * quickest / std::max(carriers, 1.0);
+  const double usual = usual_steps * steps * quickest * result.moving_share;
+  result.least_time = cheapest * usual;
+  result.most_time = dearest * usual + beside_steps;
+  return result;
+}
+
+}  // namespace whipple::solver
