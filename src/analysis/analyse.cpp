@@ -5,35 +5,46 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "src/analysis/bar.hpp"
 #include "src/analysis/cloud.hpp"
+#include "src/analysis/columns.hpp"
 #include "src/analysis/fragments.hpp"
 #include "src/analysis/frame.hpp"
+#include "src/analysis/outflow.hpp"
 #include "src/analysis/peaks.hpp"
 #include "src/analysis/radiograph.hpp"
 #include "src/analysis/surfaces.hpp"
 #include "src/analysis/table.hpp"
 #include "src/analysis/witness.hpp"
 #include "src/base/error.hpp"
+#include "src/base/log.hpp"
 
 namespace whipple::analysis {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double open = 0.1;  ///< share of a plate's thickness: with less it is perforated
+
 /// What the first snapshot says of the bodies.
 struct Start {
   Frame frame;
   std::vector<Extent> extents;        ///< of each body along the axis
   std::optional<std::size_t> target;  ///< the first body that the projectile hits
   double projectile_mass = 0.0, projectile_radius = 0.0, particle_mass = 0.0;
+  std::vector<Columns> columns;          ///< of each body
   std::vector<std::uint64_t> near_axis;  ///< particles that begin within a quarter of the projectile's radius
 };
 
-Start start_of(const Run& run, const Snapshot& first) {
-  Start start{.frame = find_frame(run, first), .extents = {}, .target = {}, .near_axis = {}};
+Start start_of(const Run& run, const Snapshot& first, const Options& options) {
+  const Snapshot last = read_snapshot(run.snapshots.back());
+  Start start{.frame = find_frame(run, first, options.axis, &last), .extents = {}, .target = {}, .columns = {},
+              .near_axis = {}};
   const Frame& frame = start.frame;
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
     start.extents.push_back(axial_extent(first, frame, b, run.bodies[b].spacing));
@@ -53,6 +64,11 @@ Start start_of(const Run& run, const Snapshot& first) {
   for (std::size_t i = 0; i < first.size(); ++i) {
     if (frame.radius(first.position[i]) < 0.25 * start.projectile_radius)
       start.near_axis.push_back(first.id[i]);
+  }
+  // What follows is measured about the point that an oblique flight hits.
+  if (start.target) start.frame = start.frame.at_face(start.extents[*start.target].lower);
+  for (std::size_t b = 0; b < run.bodies.size(); ++b) {
+    start.columns.emplace_back(first, start.frame, b, 2.0 * run.cell_size);
   }
   return start;
 }
@@ -78,12 +94,13 @@ Quantities axis_measures(const Snapshot& snapshot, const Start& start, const std
 void append(Quantities& row, Quantities more) { row.insert(row.end(), more.begin(), more.end()); }
 
 /// All measures of one snapshot.
-Quantities measure(const Run& run, const Start& start, const Options& options, const Snapshot& snapshot) {
+Quantities measure(const Run& run, const Start& start, const Options& options, const OutflowHistory& outflow,
+                   const Snapshot& snapshot) {
   const Frame& frame = start.frame;
   Quantities row = {{"time", "s", "of the snapshot", snapshot.time}};
   append(row, cloud_measures(snapshot, frame, start.target ? start.extents[*start.target] : Extent{}));
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
-    append(row, body_measures(snapshot, frame, b, run.bodies[b]));
+    append(row, body_measures(snapshot, frame, b, run.bodies[b], outflow.at(b, snapshot.time)));
     append(row, bar_measures(snapshot, frame, b, run.bodies[b], run.cell_size, options.diameter_at));
   }
   const bool has_volumes = snapshot.scalar("density") != nullptr;
@@ -97,14 +114,19 @@ Quantities measure(const Run& run, const Start& start, const Options& options, c
             {"crater_depth_over_diameter", "1", "depth over diameter", 0.5 * crater.depth / crater.radius}});
     for (std::size_t b = 0; b < run.bodies.size(); ++b) {
       if (b == frame.projectile) continue;
-      const Hole hole = measure_hole(snapshot, frame, b, start.extents[b].length(), run.cell_size);
+      const Hole hole = measure_hole(snapshot, frame.at_face(start.extents[b].lower), b,
+                                     start.extents[b].length(), run.cell_size);
+      const double least_left = start.columns[b].least_left(snapshot);
       const std::string& name = run.bodies[b].name;
       append(row, {{fmt::format("hole_diameter.{}", name), "m",
                     "within which less than half of the plate is left", hole.diameter},
-                   {fmt::format("left_on_axis.{}", name), "1", "share of the thickness left on the axis",
-                    hole.left_on_axis},
-                   {fmt::format("perforated.{}", name), "1", "1: less than a tenth is left on the axis",
-                    hole.perforated() ? 1.0 : 0.0}});
+                   {fmt::format("left_on_axis.{}", name), "1",
+                    "share of the thickness left where the line of flight meets it", hole.left_on_axis},
+                   {fmt::format("least_left.{}", name), "1",
+                    "least share of the thickness left along any line through it", least_left},
+                   {fmt::format("perforated.{}", name), "1",
+                    "1: less than a tenth of the thickness is left along some line through it",
+                    least_left < open ? 1.0 : 0.0}});
     }
   }
   return row;
@@ -188,6 +210,7 @@ void write_frame(const Run& run, const Start& start, const hdf5::Group& root) {
   group.set_attribute("sight", static_cast<std::int64_t>(frame.transverse[1]));
   group.set_attribute("copies", frame.copies());
   group.set_attribute("impact_speed", frame.impact_speed);
+  group.set_attribute("impact_angle", frame.impact_angle);
   group.set_attribute("projectile", std::string_view(run.bodies[frame.projectile].name));
   for (int a = 0; a < 3; ++a) group.set_attribute(fmt::format("centre_{}", "xyz"[a]), frame.centre[a]);
 }
@@ -205,12 +228,15 @@ Quantities final_values(const Table& series, const Run& run, const Start& start)
   set("rear_speed", "rear");
   set("expansion_speed", "radius");
   const auto value = [&](const char* name) { return std::ranges::find(row, name, &Quantity::name)->value; };
+  const double speed = start.frame.impact_speed > 0.0 ? start.frame.impact_speed : nan;
   append(
       row,
-      {{"impact_speed", "m/s", "relative axial speed of the fastest and the slowest body",
+      {{"impact_speed", "m/s", "relative speed of the fastest and the slowest body at the start",
         start.frame.impact_speed},
-       {"front_speed_over_impact_speed", "1", "ratio", value("front_speed") / start.frame.impact_speed},
-       {"radial_speed_over_impact_speed", "1", "ratio", value("radial_speed") / start.frame.impact_speed}});
+       {"impact_angle", "rad", "of their relative velocity with the axis, 0 for a normal impact",
+        start.frame.impact_angle},
+       {"front_speed_over_impact_speed", "1", "ratio", value("front_speed") / speed},
+       {"radial_speed_over_impact_speed", "1", "ratio", value("radial_speed") / speed}});
   for (const BodyInput& body : run.bodies) {
     const std::string name = "front_velocity." + body.name;
     if (std::ranges::find(series.columns, name, &Column::name) == series.columns.end()) continue;
@@ -219,6 +245,30 @@ Quantities final_values(const Table& series, const Run& run, const Start& start)
                    pullback(series[name])});
   }
   return row;
+}
+
+/// Says why values are missing.
+void explain(const Quantities& values) {
+  struct Reason {
+    const char* begin;
+    const char* text;
+  };
+  constexpr std::array<Reason, 7> reasons = {
+      {{"crater_", "no floor of a crater in the first target: it is open on the axis, or nothing has hit it"},
+       {"hole_", "the plate has no matter left, or no edge of a hole that ends inside of it"},
+       {"front", "no debris flies forward, or it has come to the border of the domain"},
+       {"foremost", "no debris flies forward, or it has come to the border of the domain"},
+       {"radi", "no debris flies forward, or it has come to the border of the domain"},
+       {"outermost", "no debris flies forward, or it has come to the border of the domain"},
+       {"pullback", "the forward surface was not slowed by a tenth after its greatest velocity"}}};
+  std::map<std::string, std::vector<std::string>> missing;
+  for (const Quantity& value : values) {
+    if (std::isfinite(value.value)) continue;
+    const auto reason =
+        std::ranges::find_if(reasons, [&](const Reason& r) { return value.name.starts_with(r.begin); });
+    missing[reason == reasons.end() ? "nothing to measure it on" : reason->text].push_back(value.name);
+  }
+  for (const auto& [text, names] : missing) log::info("not measured: {} ({})", fmt::join(names, ", "), text);
 }
 
 void require_bodies(const Run& run, const Options& options) {
@@ -240,7 +290,7 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
     throw InputError(fmt::format("{}: error: has no snapshots", run.folder.string()));
   require_bodies(run, options);
   const Snapshot first = read_snapshot(run.snapshots.front());
-  const Start start = start_of(run, first);
+  const Start start = start_of(run, first, options);
   const Frame& frame = start.frame;
 
   std::optional<PeakDecay> peaks;
@@ -251,10 +301,14 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
   }
   Table series{
       .name = "series", .meaning = "measures of every snapshot", .label = {}, .labels = {}, .columns = {}};
+  if (first.scalar("density") == nullptr) {
+    log::warning("the snapshots have no density: no crater, holes, perforation or profile");
+  }
+  const OutflowHistory outflow(run);
   Snapshot last;
   for (const SnapshotEntry& entry : run.snapshots) {
     last = read_snapshot(entry);
-    series.append(measure(run, start, options, last));
+    series.append(measure(run, start, options, outflow, last));
     if (peaks) peaks->add(last);
   }
   end_at_the_border(run, frame, series);
@@ -283,6 +337,7 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
     tables.push_back(std::move(witness.rings));
     tables.push_back(std::move(witness.flux));
   }
+  explain(values);
   Table quantities{.name = "quantities",
                    .meaning = "final values",
                    .label = "quantity",

@@ -14,6 +14,7 @@ struct Options {
   double link = 0.0;              ///< linking length of fragments, m; 0: the cell size
   std::optional<double> witness;  ///< axial coordinate of a witness plate, m
   double diameter_at = 0.0;       ///< of bars: distance from the wall, m; 0: not asked for
+  std::optional<int> axis;        ///< of the flight: 0, 1, 2 instead of what is found
   std::string peak_decay;         ///< body whose peak pressure is followed; empty: none
   double pixel = 0.0;             ///< of radiographs, m; 0: half the cell size
   double spot = 1e-3;             ///< blur of radiographs, full width at half maximum, m

@@ -211,10 +211,16 @@ Table body_table(const Snapshot& snapshot, const Frame& frame, const std::vector
 }
 
 Quantities body_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,
-                         const BodyInput& input) {
+                         const BodyInput& input, const Outflow& outflow) {
   const Fields fields{snapshot};
   const Sums sums = sum(fields, frame, [&](std::size_t i) { return snapshot.body[i] == body; });
-  if (!(sums.mass > 0.0)) return {};
+  const Quantity left = {fmt::format("outflow_mass.{}", input.name), "kg",
+                         "has left the domain: counts in mean_velocity, in nothing else",
+                         frame.copies() * outflow.mass};
+  const Quantity mean = {fmt::format("mean_velocity.{}", input.name), "m/s",
+                         "momentum over mass, along the axis, with what has left the domain",
+                         (sums.momentum + frame.axial(outflow.momentum)) / (sums.mass + outflow.mass)};
+  if (!(sums.mass > 0.0)) return outflow.mass > 0.0 ? Quantities{mean, left} : Quantities{};
   const Extent extent = axial_extent(snapshot, frame, body, input.spacing);
   // Particles whose centre lies within one spacing of the foremost one: its outermost layer.
   const Sums surface = sum(fields, frame, [&](std::size_t i) {
@@ -222,7 +228,8 @@ Quantities body_measures(const Snapshot& snapshot, const Frame& frame, std::size
   });
   const auto name = [&](const char* measure) { return fmt::format("{}.{}", measure, input.name); };
   Quantities row = {
-      {name("mean_velocity"), "m/s", "momentum over mass, along the axis", sums.momentum / sums.mass},
+      mean,
+      left,
       {name("axial_length"), "m", "extent along the axis", extent.length()},
       {name("front_velocity"), "m/s", "mean axial velocity of the outermost layer of particles ahead",
        surface.momentum / surface.mass}};

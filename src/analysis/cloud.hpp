@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "src/analysis/frame.hpp"
+#include "src/analysis/outflow.hpp"
 #include "src/analysis/table.hpp"
 
 /// Where the debris cloud is, how fast it grows and what it carries. Definitions: docs/theory/analysis.md.
@@ -28,7 +29,7 @@ Table body_table(const Snapshot& snapshot, const Frame& frame, const std::vector
 
 /// Of one body: mean axial velocity, velocity of its forward surface, shares of the phases.
 Quantities body_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,
-                         const BodyInput& input);
+                         const BodyInput& input, const Outflow& outflow = {});
 
 /// Adds the speeds of front, rear and radius as slopes of the columns of `series` over time (central
 /// differences).

@@ -21,28 +21,67 @@ double Frame::radial_speed(const Vector3& position, const Vector3& velocity) con
   return distance > 0.0 ? across.dot(offset) / distance : across.norm();
 }
 
+Frame Frame::at_face(double coordinate) const {
+  Frame moved = *this;
+  if (impact_angle == 0.0 || !std::isfinite(coordinate)) return moved;
+  for (const int a : transverse) {
+    if (!mirrored(a)) moved.centre[a] += direction[a] * (coordinate - start);
+  }
+  moved.start = coordinate;
+  return moved;
+}
+
 bool Frame::mirrored(int direction) const {
   return std::ranges::any_of(planes, [&](const Plane& plane) { return plane.axis == direction; });
 }
 
-Frame find_frame(const Run& run, const Snapshot& first) {
+namespace {
+
+/// Momentum over mass of every body of a snapshot.
+std::vector<Vector3> mean_velocities(const Run& run, const Snapshot& snapshot) {
+  std::vector<Vector3> momentum(run.bodies.size(), Vector3::Zero());
+  std::vector<double> mass(run.bodies.size(), 0.0);
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    momentum[snapshot.body[i]] += snapshot.mass[i] * snapshot.velocity[i];
+    mass[snapshot.body[i]] += snapshot.mass[i];
+  }
+  for (std::size_t b = 0; b < mass.size(); ++b) {
+    if (mass[b] > 0.0) momentum[b] /= mass[b];
+  }
+  return momentum;
+}
+
+}  // namespace
+
+Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis, const Snapshot* last) {
+  std::vector<Vector3> velocity;
+  for (const BodyInput& body : run.bodies) velocity.push_back(body.velocity);
+  const bool at_rest = std::ranges::all_of(velocity, [](const Vector3& v) { return v.isZero(0.0); });
+  if (at_rest && last != nullptr) velocity = mean_velocities(run, *last);
   Frame frame;
   std::size_t slowest = 0;
-  Vector3 least = run.bodies[0].velocity, greatest = least;
-  for (std::size_t b = 0; b < run.bodies.size(); ++b) {
-    const Vector3& v = run.bodies[b].velocity;
-    if (v.norm() > run.bodies[frame.projectile].velocity.norm()) frame.projectile = b;
-    if (v.norm() < run.bodies[slowest].velocity.norm()) slowest = b;
+  Vector3 least = velocity[0], greatest = least;
+  for (std::size_t b = 0; b < velocity.size(); ++b) {
+    const Vector3& v = velocity[b];
+    if (v.norm() > velocity[frame.projectile].norm()) frame.projectile = b;
+    if (v.norm() < velocity[slowest].norm()) slowest = b;
     least = least.cwiseMin(v);
     greatest = greatest.cwiseMax(v);
   }
-  const Vector3& fastest = run.bodies[frame.projectile].velocity;
+  const Vector3& fastest = velocity[frame.projectile];
   const Vector3 spread = run.bodies.size() > 1 ? Vector3(greatest - least) : Vector3(fastest.cwiseAbs());
-  spread.maxCoeff(&frame.axis);
+  if (axis) {
+    frame.axis = *axis;
+  } else {
+    spread.maxCoeff(&frame.axis);
+  }
   frame.sign = fastest[frame.axis] >= 0.0 ? 1.0 : -1.0;
-  frame.impact_speed = run.bodies.size() > 1
-                           ? std::abs(fastest[frame.axis] - run.bodies[slowest].velocity[frame.axis])
-                           : std::abs(fastest[frame.axis]);
+  const Vector3 approach = run.bodies.size() > 1 ? Vector3(fastest - velocity[slowest]) : fastest;
+  if (!at_rest) frame.impact_speed = approach.norm();
+  if (approach[frame.axis] != 0.0) {
+    frame.direction = approach / std::abs(approach[frame.axis]);
+    frame.impact_angle = std::acos(std::min(1.0, 1.0 / frame.direction.norm()));
+  }
 
   double mass = 0.0;
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -51,6 +90,7 @@ Frame find_frame(const Run& run, const Snapshot& first) {
     mass += first.mass[i];
   }
   if (mass > 0.0) frame.centre /= mass;
+  frame.start = frame.axial(frame.centre);
   frame.centre[frame.axis] = 0.0;
   std::vector<int> mirrored, other;
   for (int a = 0; a < 3; ++a) {

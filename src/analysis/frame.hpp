@@ -16,14 +16,19 @@ struct Frame {
   int axis = 2;                      ///< of the flight: the direction in which the bodies approach each other
   double sign = 1.0;                 ///< +1: the projectile flies up along the axis
   Vector3 centre = Vector3::Zero();  ///< a point of the axis; its axial coordinate is 0
+  double start = 0.0;                ///< axial coordinate of the projectile when its centre is there
   std::vector<Plane> planes;         ///< mirror planes that cut the model out of the full problem
   std::optional<double> wall;        ///< axial coordinate of a mirror plane that a body flies against
   std::size_t projectile = 0;        ///< the fastest body
-  double impact_speed = 0.0;  ///< difference of the axial speeds of the fastest and the slowest body, m/s
+  double impact_speed = 0.0;  ///< relative speed of the fastest and the slowest body, m/s
+  double impact_angle = 0.0;  ///< of their relative velocity with the axis, rad; 0: a normal impact
+  Vector3 direction = Vector3::Zero();  ///< of the flight: relative velocity over its axial component
   std::array<int, 2> transverse = {0, 1};  ///< upward in pictures; sight, across the only mirror plane
 
   /// How many models make the full problem: 4 for a quarter model.
   [[nodiscard]] double copies() const { return static_cast<double>(1U << planes.size()); }
+  /// The same frame about the point at which the line of flight meets an axial coordinate.
+  [[nodiscard]] Frame at_face(double coordinate) const;
   /// Component or coordinate along the flight.
   [[nodiscard]] double axial(const Vector3& v) const { return sign * v[axis]; }
   /// Distance from the axis.
@@ -34,8 +39,11 @@ struct Frame {
   [[nodiscard]] bool mirrored(int direction) const;
 };
 
-/// From the velocities of the input, and the place of the projectile in the first snapshot.
-Frame find_frame(const Run& run, const Snapshot& first);
+/// From the velocities of the input, and the place of the projectile in the first snapshot. Where nothing moves
+/// at the start, the axis is that along which the bodies part until the last snapshot.
+/// @param axis  0, 1, 2 instead of what is found
+Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis = {},
+                 const Snapshot* last = nullptr);
 
 /// Extent of the particles of a body along the axis, half a particle beyond their centres.
 struct Extent {

@@ -57,8 +57,6 @@ Crater measure_crater(const Snapshot& snapshot, const Frame& frame, double face,
 struct Hole {
   double diameter = 0.0;      ///< within which less than half of the plate is left in the line of flight, m
   double left_on_axis = 1.0;  ///< share of the plate's thickness left on the axis
-  /// Nothing of the plate is left on the axis (less than a tenth of its thickness).
-  [[nodiscard]] bool perforated() const { return left_on_axis < 0.1; }
 };
 
 /// Hole in a plate: its matter slower than debris (see cloud.hpp), projected along the axis.

@@ -30,6 +30,8 @@ double length(const std::string& text, const char* option) {
 }  // namespace
 
 void add_analysis_options(CLI::App& command, AnalysisWords& words) {
+  command.add_option("--axis", words.axis, "Axis of the flight (default: along which the bodies approach)")
+      ->check(CLI::IsMember({"x", "y", "z"}));
   command.add_option("--link", words.link, "Linking length of fragments (default: the cell size)")
       ->type_name("LENGTH");
   command.add_option("--witness", words.witness, "Axial coordinate of a witness plate, e.g. '200 mm'")
@@ -60,6 +62,7 @@ void add_analysis_options(CLI::App& command, AnalysisWords& words) {
 void run_analysis(const std::filesystem::path& run, const AnalysisWords& words,
                   const std::filesystem::path& output) {
   analysis::Options options;
+  if (!words.axis.empty()) options.axis = words.axis[0] - 'x';
   options.link = length(words.link, "--link");
   options.pixel = length(words.pixel, "--pixel");
   options.spot = units::parse_quantity(words.spot, "m");

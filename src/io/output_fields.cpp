@@ -38,7 +38,7 @@ const auto table = std::to_array<OutputField>({
      [](const Source& s, std::size_t i) { return s.particles.pressure[i]; }},
     {"temperature", "K", "temperature", false,
      [](const Source& s, std::size_t i) { return s.particles.temperature[i]; }},
-    {"density", "kg/m^3", "density of the matter, voids left out", false,
+    {"density", "kg/m^3", "density of the matter, voids left out", true,
      [](const Source& s, std::size_t i) { return s.particles.mass[i] / s.particles.volume[i]; }},
     {"internal_energy", "J/kg", "specific internal energy", false,
      [](const Source& s, std::size_t i) { return s.particles.specific_internal_energy[i]; }},

@@ -89,7 +89,7 @@ void Simulation::remove_bars_outside() {
     if (std::ranges::count(removed, 1) == 0) continue;
     const Totals before = totals_of(bars, particle_affine_inertia());
     fem::remove_bars(bars, removed);
-    book_outflow(before, totals_of(bars, particle_affine_inertia()));
+    book_outflow(bars.body, before, totals_of(bars, particle_affine_inertia()));
   }
 }
 

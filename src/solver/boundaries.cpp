@@ -51,6 +51,13 @@ std::vector<std::uint32_t> outside_of(const grid::Geometry& g, std::span<const V
 
 }  // namespace
 
+void Simulation::book_outflow(std::size_t body, const Totals& outflow) {
+  step_.outflow += outflow;
+  step_outflow_[body].mass += outflow.mass;
+  step_outflow_[body].momentum += outflow.momentum;
+  step_outflow_[body].energy += outflow.energy();
+}
+
 void Simulation::reflect_and_remove() {
   profile_.time("boundaries", [&] {
     remove_elements_outside();
@@ -93,7 +100,7 @@ void Simulation::reflect_and_remove() {
     }
     if (leaving.empty()) return;
     for (const std::uint32_t p : leaving) {
-      step_.outflow += totals_of(particles_, p, particle_affine_inertia());
+      book_outflow(particles_.body[p], totals_of(particles_, p, particle_affine_inertia()));
     }
     const std::vector<Move> moves = moves_into_gaps(particles_.body, leaving);
     const std::size_t size = particles_.size() - leaving.size();

@@ -45,6 +45,10 @@ io::CheckpointValues to_checkpoint(const RunState& state) {
   values.integers["step"] = state.step;
   values.integers["particles_at_rest"] = state.particles_at_rest;
   values.arrays["touched"] = halves(state.touched);
+  std::vector<double>& outflow = values.arrays["outflow_of_body"];
+  for (const BodyOutflow& out : state.outflow_of_body) {
+    outflow.insert(outflow.end(), {out.mass, out.momentum[0], out.momentum[1], out.momentum[2], out.energy});
+  }
   for_each_real(state, [&](const std::string& name, double value) { values.reals[name] = value; });
   return values;
 }
@@ -54,6 +58,10 @@ RunState from_checkpoint(const io::CheckpointValues& values) {
   state.step = values.integer("step");
   state.particles_at_rest = values.integer("particles_at_rest");
   state.touched = words(values.array("touched"));
+  const std::vector<double>& outflow = values.array("outflow_of_body");
+  for (auto n = outflow.begin(); n + 5 <= outflow.end(); n += 5) {
+    state.outflow_of_body.push_back({n[0], {n[1], n[2], n[3]}, n[4]});
+  }
   for_each_real(state, [&](const std::string& name, double& value) { value = values.real(name); });
   return state;
 }

@@ -234,10 +234,10 @@ void Simulation::advance_elements() {
   });
 }
 
-void Simulation::book_outflow(const Totals& before, Totals after) {
+void Simulation::book_outflow(std::size_t body, const Totals& before, Totals after) {
   for_each_number(after, [](const std::string&, double& x) { x = -x; });
   after += before;
-  step_.outflow += after;
+  book_outflow(body, after);
 }
 
 /// Elements that lie outside of the domain as a whole are gone, and their shares of the nodes.
@@ -270,7 +270,7 @@ void Simulation::remove_elements_outside() {
     }
     fem::remove_elements(mesh, removed);
     gone_any = true;
-    book_outflow(before, totals_of(mesh, particle_affine_inertia()));
+    book_outflow(mesh.body, before, totals_of(mesh, particle_affine_inertia()));
   }
   if (!meshes_.empty() && parallel::any(communicator_, gone_any)) elements_removed();
 }

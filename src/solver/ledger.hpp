@@ -39,6 +39,13 @@ struct Totals {
   Totals& operator+=(const Totals& other);
 };
 
+/// What of one body has left the domain (SI).
+struct BodyOutflow {
+  double mass = 0.0;
+  Vector3 momentum = Vector3::Zero();
+  double energy = 0.0;
+};
+
 /// Calls f(name, number) for every number of the sums: one list for checkpoints and sums over ranks.
 template <class T, class Function>
   requires std::same_as<std::remove_const_t<T>, Totals>

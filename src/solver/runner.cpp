@@ -140,6 +140,15 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
       row.push_back({fmt::format("{}.{}", phases[i], bodies[b].name), "kg", by_body[b].mass[i]});
     }
   }
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const BodyOutflow& out = state.outflow_of_body[b];
+    const std::string& name = bodies[b].name;
+    row.push_back({"outflow_mass." + name, "kg", out.mass});
+    row.push_back({"outflow_momentum_x." + name, "kg m/s", out.momentum[0]});
+    row.push_back({"outflow_momentum_y." + name, "kg m/s", out.momentum[1]});
+    row.push_back({"outflow_momentum_z." + name, "kg m/s", out.momentum[2]});
+    row.push_back({"outflow_energy." + name, "J", out.energy});
+  }
   return row;
 }
 

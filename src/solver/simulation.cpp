@@ -110,6 +110,8 @@ void Simulation::find_bodies() {
 
 /// What both constructors end with.
 void Simulation::prepare() {
+  step_outflow_.resize(bodies_.size());
+  state_.outflow_of_body.resize(bodies_.size());
   first_touches_->set(state_.touched);
   set_up_bars();
   set_up_dissipation();
@@ -151,10 +153,21 @@ void Simulation::sum_over_ranks() {
                       stays_since(totals_of_chunk_.arrangement));
   for (const fem::Mesh& mesh : meshes_) totals_ += totals_of(mesh, affine_inertia());
   for (const fem::Bars& bars : bars_) totals_ += totals_of(bars, affine_inertia());
-  std::array<double, 2> counts = {static_cast<double>(particles_.size()), 0.0};
+  std::vector<double> counts = {static_cast<double>(particles_.size()), 0.0};
   for (const fem::Mesh& mesh : meshes_) counts[1] += static_cast<double>(mesh.elements.size());
+  for (const BodyOutflow& out : step_outflow_) {
+    counts.insert(counts.end(), {out.mass, out.momentum[0], out.momentum[1], out.momentum[2], out.energy});
+  }
   solver::sum_over_ranks(communicator_, totals_, step_);
   parallel::sum(communicator_, counts);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    BodyOutflow& out = state_.outflow_of_body[b];
+    const double* const number = &counts[2 + 5 * b];
+    out.mass += number[0];
+    out.momentum += Vector3(number[1], number[2], number[3]);
+    out.energy += number[4];
+  }
+  std::ranges::fill(step_outflow_, BodyOutflow{});
   particle_count_ = static_cast<std::size_t>(counts[0]);
   element_count_ = static_cast<std::size_t>(counts[1]);
   state_.ledger.add(step_);

@@ -45,6 +45,7 @@ struct RunState {
   std::int64_t step = 0;
   std::int64_t particles_at_rest = 0;  ///< of all ranks, left as they were by the last step
   Ledger ledger;
+  std::vector<BodyOutflow> outflow_of_body;  ///< of each body, of all ranks
 };
 
 /// One simulation in memory: particles, grid, materials, ledger. The schemes are functions of it. Every rank
@@ -164,8 +165,10 @@ class Simulation {
   void compute_bar_forces();
   void advance_bars();
   void remove_bars_outside();
-  /// What left the domain, by the totals of a body before and after.
-  void book_outflow(const Totals& before, Totals after);
+  /// What of a body left the domain.
+  void book_outflow(std::size_t body, const Totals& outflow);
+  /// The same, by the totals of the body before and after.
+  void book_outflow(std::size_t body, const Totals& before, Totals after);
   void remove_elements_outside();
   void warn_of_contact() const;
   bool bin(grid::Stencil stencil);
@@ -233,6 +236,7 @@ class Simulation {
   transfer::Losses losses_;
   RunState state_;
   Ledger step_;  // what happened on this rank in the step under way
+  std::vector<BodyOutflow> step_outflow_;  // the same
   Totals totals_;
   template <class Value>
   struct KeptByChunk {

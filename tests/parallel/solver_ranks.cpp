@@ -71,6 +71,9 @@ TEST_F(SolverRanks, AgreeWithOneRank) {
   Simulation alone(read(), MPI_COMM_SELF);
   advance_to(alone, 2.5e-6);
   EXPECT_GT(alone.state().ledger.outflow.mass, 0.0);  // the case is meant to test it
+  double of_bodies = 0.0;
+  for (const BodyOutflow& body : alone.state().outflow_of_body) of_bodies += body.mass;
+  EXPECT_NEAR(of_bodies, alone.state().ledger.outflow.mass, 1e-12 * of_bodies);
   expect_equal(together, alone, 1e-11);
   EXPECT_EQ(together.particles().size() < together.particle_count(), ranks_.is_parallel());
 }
