@@ -4,12 +4,12 @@ whipple_test(test_transfer STARTS_MPI
           verification/transfer_conduction_test.cpp
   DEPENDS whipple_transfer LABELS fast)
 whipple_test(test_solver STARTS_MPI
-  SOURCES parallel/solver_restart_test.cpp property/solver_forecast_test.cpp verification/solver_planar_impact_test.cpp
+  SOURCES parallel/solver_restart_test.cpp verification/solver_planar_impact_test.cpp
           verification/solver_taylor_bar_test.cpp verification/solver_elastic_test.cpp
           verification/solver_contact_test.cpp verification/solver_bars_test.cpp verification/solver_element_contact_test.cpp verification/solver_orders_test.cpp
           verification/solver_methods_test.cpp verification/solver_failure_test.cpp
           verification/solver_viscous_test.cpp verification/solver_wall_test.cpp validation/solver_debris_cloud_test.cpp
-          validation/solver_table_test.cpp regression/solver_regression_test.cpp fuzz/case_fuzz.cpp
+          validation/solver_table_test.cpp regression/solver_regression_test.cpp fuzz/case_fuzz.cpp property/solver_forecast_test.cpp property/solver_gauges_test.cpp
   DEPENDS whipple_solver GTest::gmock LABELS fast)
 whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp
              DEPENDS whipple_solver LABELS fast)

@@ -340,7 +340,7 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   if (complete) {
     for (const std::string& fault : gauge_faults(setup.gauges, setup.geometry, [&](const Vector3& point) {
            return std::ranges::any_of(setup.bodies, [&](const Body& b) {
-             return !b.discretization.has_elements() && b.shape->contains(point);
+             return !b.discretization.is_bars() && b.shape->contains(point);
            });
          })) {
       root.error(fault);

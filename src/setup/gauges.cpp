@@ -87,8 +87,8 @@ std::vector<std::string> gauge_faults(const Gauges& gauges, const grid::Geometry
                                    gauge.name, x[0], x[1], x[2]));
     } else if (gauge.moving() && !in_matter(x)) {
       faults.push_back(
-          fmt::format("gauge \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m moves with particles, but no body is "
-                      "there that has some (elements have none)",
+          fmt::format("gauge \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m moves with matter, but no body is "
+                      "there that has some (bars do not count)",
                       gauge.name, x[0], x[1], x[2]));
     }
   }

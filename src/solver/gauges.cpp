@@ -3,30 +3,77 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "src/base/error.hpp"
+#include "src/fem/hexahedron.hpp"
 #include "src/parallel/mpi.hpp"
 
 namespace whipple::solver {
 namespace {
 
-/// What a gauge tells, and what it is weighted with in a mean over particles.
+/// A particle, or one of the eight that an element may become.
+struct Part {
+  std::uint64_t id;
+  Vector3 position, velocity;
+  double mass, volume;
+  const MaterialPoints& points;  // its state, at `p`
+  std::size_t p;
+};
+
+/// Calls f(part) for all parts of this rank; of elements, those for which `seen(element, centre, half its
+/// diagonal)` is true.
+template <class Seen, class F>
+void for_each_part(const Simulation& simulation, const Seen& seen, const F& f) {
+  const Particles& particles = simulation.particles();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    f(Part{particles.id[p], particles.position[p], particles.velocity[p], particles.mass[p], particles.volume[p],
+           particles, p});
+  }
+  constexpr std::size_t corners = 8;
+  for (const fem::Mesh& mesh : simulation.meshes()) {
+    const std::size_t rows = fem::points_per_element(mesh.quadrature);
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+      const auto& nodes = mesh.elements.corners[e];
+      Vector3 centre = Vector3::Zero();
+      for (const std::uint32_t a : nodes) centre += mesh.nodes.position[a] / corners;
+      double reach = 0.0;
+      for (const std::uint32_t a : nodes) reach = std::max(reach, (mesh.nodes.position[a] - centre).norm());
+      if (!seen(mesh.elements.id[e], centre, reach)) continue;
+      for (std::size_t k = 0; k < corners; ++k) {
+        const std::size_t row = e * rows + (rows == corners ? k : 0);
+        const double share = rows == corners ? 1.0 : 1.0 / corners;
+        Part part{corners * mesh.elements.id[e] + k, Vector3::Zero(), Vector3::Zero(),
+                  share * mesh.points.mass[row], share * mesh.points.volume[row], mesh.points, row};
+        for (std::size_t a = 0; a < corners; ++a) {
+          double weight = 1.0 / corners;
+          for (std::size_t i = 0; i < 3; ++i) {
+            weight *= 1.0 + 0.5 * fem::corner_coordinates[a][i] * fem::corner_coordinates[k][i];
+          }
+          part.position += weight * mesh.nodes.position[nodes[a]];
+          part.velocity += weight * mesh.nodes.velocity[nodes[a]];
+        }
+        f(part);
+      }
+    }
+  }
+}
+
+/// What a gauge tells of the state, and what it is weighted with in a mean over particles.
 struct Quantity {
   const char* name;
   const char* unit;
   bool by_volume;
-  double (*value)(const Particles& particles, std::size_t p);
+  double (*value)(const MaterialPoints& points, std::size_t p);
 };
 
-using P = Particles;
+using P = MaterialPoints;
 constexpr auto quantities = std::to_array<Quantity>({
-    {"velocity_x", "m/s", false, [](const P& a, std::size_t p) { return a.velocity[p][0]; }},
-    {"velocity_y", "m/s", false, [](const P& a, std::size_t p) { return a.velocity[p][1]; }},
-    {"velocity_z", "m/s", false, [](const P& a, std::size_t p) { return a.velocity[p][2]; }},
     {"density", "kg/m^3", true, [](const P& a, std::size_t p) { return a.mass[p] / a.volume[p]; }},
     {"pressure", "Pa", true, [](const P& a, std::size_t p) { return a.pressure[p]; }},
     {"temperature", "K", false, [](const P& a, std::size_t p) { return a.temperature[p]; }},
@@ -46,21 +93,24 @@ constexpr auto quantities = std::to_array<Quantity>({
 /// Weighted sums of one gauge over the particles of a rank.
 struct Sums {
   double mass = 0.0, volume = 0.0;  // weights
-  std::array<double, 3> position{};
+  std::array<double, 3> position{}, velocity{};
   std::array<double, quantities.size()> value{};
 
-  void add(const Particles& particles, std::size_t p, double by_mass, double by_volume) {
+  void add(const Part& part, double by_mass, double by_volume) {
     mass += by_mass;
     volume += by_volume;
     for (std::size_t a = 0; a < 3; ++a) {
-      position[a] += by_mass * particles.position[p][static_cast<Eigen::Index>(a)];
+      position[a] += by_mass * part.position[static_cast<Eigen::Index>(a)];
+      velocity[a] += by_mass * part.velocity[static_cast<Eigen::Index>(a)];
     }
     for (std::size_t q = 0; q < quantities.size(); ++q) {
-      value[q] += (quantities[q].by_volume ? by_volume : by_mass) * quantities[q].value(particles, p);
+      value[q] += (quantities[q].by_volume ? by_volume : by_mass) * quantities[q].value(part.points, part.p);
     }
   }
 };
-static_assert(sizeof(Sums) == (5 + quantities.size()) * sizeof(double));
+static_assert(sizeof(Sums) == (8 + quantities.size()) * sizeof(double));
+
+constexpr double support = 1.5;  // of it, in cells
 
 /// Quadratic B-spline of a distance in cells.
 double spline(double x) {
@@ -72,26 +122,27 @@ double spline(double x) {
 std::string checkpoint_name(const setup::Gauge& gauge) { return "gauge_particle." + gauge.name; }
 
 /// Particle nearest to each position; of several, the one of the least number.
-std::vector<std::uint64_t> nearest(const std::vector<setup::Gauge>& gauges, const Particles& particles,
-                                   MPI_Comm communicator) {
+std::vector<std::uint64_t> nearest(const std::vector<setup::Gauge>& gauges, const Simulation& simulation) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> closest(gauges.size(), -infinity), number(gauges.size(), -infinity);
-  const auto distance = [&](std::size_t g, std::size_t p) {
-    return (particles.position[p] - gauges[g].position).squaredNorm();
+  const auto distance = [&](std::size_t g, const Part& part) {
+    return (part.position - gauges[g].position).squaredNorm();
   };
-  for (std::size_t g = 0; g < gauges.size(); ++g) {
-    for (std::size_t p = 0; gauges[g].moving() && p < particles.size(); ++p) {
-      closest[g] = std::max(closest[g], -distance(g, p));
+  const bool any = std::ranges::any_of(gauges, [](const setup::Gauge& g) { return g.moving(); });
+  const auto for_all = [&](const auto& f) {
+    const auto seen = [&](std::uint64_t, const Vector3&, double) { return true; };
+    if (any) for_each_part(simulation, seen, f);
+  };
+  for_all([&](const Part& part) {
+    for (std::size_t g = 0; g < gauges.size(); ++g) closest[g] = std::max(closest[g], -distance(g, part));
+  });
+  parallel::maximum(simulation.communicator(), closest);
+  for_all([&](const Part& part) {
+    for (std::size_t g = 0; g < gauges.size(); ++g) {
+      if (-distance(g, part) == closest[g]) number[g] = std::max(number[g], -static_cast<double>(part.id));
     }
-  }
-  parallel::maximum(communicator, closest);
-  for (std::size_t g = 0; g < gauges.size(); ++g) {
-    for (std::size_t p = 0; gauges[g].moving() && p < particles.size(); ++p) {
-      if (-distance(g, p) == closest[g])
-        number[g] = std::max(number[g], -static_cast<double>(particles.id[p]));
-    }
-  }
-  parallel::maximum(communicator, number);
+  });
+  parallel::maximum(simulation.communicator(), number);
   std::vector<std::uint64_t> ids(gauges.size(), 0);
   for (std::size_t g = 0; g < gauges.size(); ++g) {
     if (gauges[g].moving()) ids[g] = static_cast<std::uint64_t>(-number[g]);
@@ -101,9 +152,8 @@ std::vector<std::uint64_t> nearest(const std::vector<setup::Gauge>& gauges, cons
 
 }  // namespace
 
-GaugeRecorder::GaugeRecorder(const std::vector<setup::Gauge>& gauges, const Particles& particles,
-                             MPI_Comm communicator)
-    : gauges_(gauges), particle_(nearest(gauges, particles, communicator)) {}
+GaugeRecorder::GaugeRecorder(const std::vector<setup::Gauge>& gauges, const Simulation& simulation)
+    : gauges_(gauges), particle_(nearest(gauges, simulation)) {}
 
 GaugeRecorder::GaugeRecorder(const std::vector<setup::Gauge>& gauges, const io::CheckpointValues& values)
     : gauges_(gauges), particle_(gauges.size(), 0) {
@@ -123,7 +173,6 @@ void GaugeRecorder::to_checkpoint(io::CheckpointValues& values) const {
 }
 
 std::vector<io::HistoryValue> GaugeRecorder::row(const Simulation& simulation) const {
-  const Particles& particles = simulation.particles();
   const double per_cell = 1.0 / simulation.setup().domain.cell_size;
   std::vector<Sums> sums(gauges_.size());
   std::unordered_multimap<std::uint64_t, std::size_t> gauge_of;
@@ -135,17 +184,24 @@ std::vector<io::HistoryValue> GaugeRecorder::row(const Simulation& simulation) c
       fixed.push_back(g);
     }
   }
-  for (std::size_t p = 0; p < particles.size(); ++p) {
+  std::unordered_set<std::uint64_t> elements;  // that hold the parts of moving gauges
+  for (const auto& [part, g] : gauge_of) elements.insert(part / 8);
+  const auto seen = [&](std::uint64_t element, const Vector3& centre, double reach) {
+    return elements.contains(element) || std::ranges::any_of(fixed, [&](std::size_t g) {
+             return per_cell * ((centre - gauges_[g].position).cwiseAbs().maxCoeff() - reach) < support;
+           });
+  };
+  for_each_part(simulation, seen, [&](const Part& part) {
     for (const std::size_t g : fixed) {
-      const Vector3 r = per_cell * (particles.position[p] - gauges_[g].position);
-      if (r.cwiseAbs().maxCoeff() >= 1.5) continue;
+      const Vector3 r = per_cell * (part.position - gauges_[g].position);
+      if (r.cwiseAbs().maxCoeff() >= support) continue;
       const double weight = spline(r[0]) * spline(r[1]) * spline(r[2]);
-      sums[g].add(particles, p, weight * particles.mass[p], weight * particles.volume[p]);
+      sums[g].add(part, weight * part.mass, weight * part.volume);
     }
-    if (gauge_of.empty()) continue;
-    const auto [begin, end] = gauge_of.equal_range(particles.id[p]);
-    for (auto entry = begin; entry != end; ++entry) sums[entry->second].add(particles, p, 1.0, 1.0);
-  }
+    if (gauge_of.empty()) return;
+    const auto [begin, end] = gauge_of.equal_range(part.id);
+    for (auto entry = begin; entry != end; ++entry) sums[entry->second].add(part, 1.0, 1.0);
+  });
   parallel::sum(simulation.communicator(), std::span(reinterpret_cast<double*>(sums.data()),
                                                      sums.size() * sizeof(Sums) / sizeof(double)));
 
@@ -157,6 +213,9 @@ std::vector<io::HistoryValue> GaugeRecorder::row(const Simulation& simulation) c
       const double x =
           gauges_[g].moving() ? s.position[a] / s.mass : gauges_[g].position[static_cast<Eigen::Index>(a)];
       row.push_back({fmt::format("{}.{}", gauges_[g].name, "xyz"[a]), "m", x});
+    }
+    for (std::size_t a = 0; a < 3; ++a) {
+      row.push_back({fmt::format("{}.velocity_{}", gauges_[g].name, "xyz"[a]), "m/s", s.velocity[a] / s.mass});
     }
     for (std::size_t q = 0; q < quantities.size(); ++q) {
       const double weight = quantities[q].by_volume ? s.volume : s.mass;

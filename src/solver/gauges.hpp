@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <mpi.h>
-
 #include <cstdint>
 #include <vector>
 
 #include "src/io/checkpoint.hpp"
 #include "src/io/history.hpp"
-#include "src/particles/particles.hpp"
 #include "src/setup/gauges.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {
 
-/// The gauges of a run: rows of gauges.csv. A moving gauge is one particle, the nearest to its place at the
+/// The gauges of a run: rows of gauges.csv. An element counts as the eight particles that it may become
+/// (src/afemp/conversion.hpp), with their numbers. A moving gauge is one particle, the nearest to its place at the
 /// start, and its row holds the state of that particle; a fixed gauge holds the means over the particles
 /// around it, weighted with the quadratic B-spline of the grid's cell size and with their mass (velocity,
 /// energy, temperature, strain, fractions) or volume (density, pressure, stress). What there is no matter for
@@ -22,7 +20,7 @@ namespace whipple::solver {
 class GaugeRecorder {
  public:
   /// Finds the particles of the moving gauges. Collective.
-  GaugeRecorder(const std::vector<setup::Gauge>& gauges, const Particles& particles, MPI_Comm communicator);
+  GaugeRecorder(const std::vector<setup::Gauge>& gauges, const Simulation& simulation);
   /// Goes on with the particles of a checkpoint.
   /// @throws InputError if the checkpoint does not hold these gauges
   GaugeRecorder(const std::vector<setup::Gauge>& gauges, const io::CheckpointValues& values);

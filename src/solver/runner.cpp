@@ -234,7 +234,7 @@ class Runner {
         wall_time_(options.wall_time),
         simulation_(setup, parallel::world()),
         series_(setup, directory, directory.path()),
-        recorder_(setup.gauges.all(), simulation_.particles(), parallel::world()) {
+        recorder_(setup.gauges.all(), simulation_) {
     if (ranks_.is_root()) {
       history_.emplace(directory.history_file());
       gauges_.emplace(gauges_file());

@@ -244,8 +244,8 @@ TEST_F(SolverRanks, GaugesAgreeWithOneRankAndFollowTheSameParticles) {
                                             {"disk", "moving", {0.0, 0.0, -3e-3}},
                                             {"empty", "fixed", {11e-3, 11e-3, 7e-3}}};
   Simulation together(read(), MPI_COMM_WORLD), alone(read(), MPI_COMM_SELF);
-  const GaugeRecorder all(gauges, together.particles(), MPI_COMM_WORLD);
-  const GaugeRecorder one(gauges, alone.particles(), MPI_COMM_SELF);
+  const GaugeRecorder all(gauges, together);
+  const GaugeRecorder one(gauges, alone);
   io::CheckpointValues of_all, of_one;
   all.to_checkpoint(of_all);
   one.to_checkpoint(of_one);
