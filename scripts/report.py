@@ -24,6 +24,7 @@ try:
     import report_gauges
     import report_metrics
     import report_pictures
+    import report_planar
     import report_sensitivity
     from report_data import AXES, PHASES, NotARun, Run, Snapshot
     from report_html import Page
@@ -165,6 +166,7 @@ class Report:
         self.add_figure("witness.png", "Loads on the witness plate if the debris flies on freely.",
                         report_curves.witness_figure(analysis))
         self.final_table(shown[-1].time, analysis)
+        report_planar.add_to(self.page, self.output, analysis, run.history)
 
     def extent(self, analysis):
         columns = analysis.series

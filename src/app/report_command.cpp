@@ -5,12 +5,16 @@
 
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "src/analysis/frame.hpp"
 #include "src/analysis/run.hpp"
 #include "src/app/analyse_command.hpp"
+#include "src/app/planar_impact.hpp"
 #include "src/base/error.hpp"
+#include "src/io/run_directory.hpp"
 #include "src/process/scripts.hpp"
 
 namespace whipple::app {
@@ -25,6 +29,13 @@ struct ReportOptions {
   int dots_per_inch = 180;
 };
 
+/// planar_impact.json, for the page.
+void write_planar_impacts(const analysis::Run& run, const std::filesystem::path& output) {
+  const int axis = analysis::find_frame(run, analysis::read_snapshot(run.snapshots.front())).axis;
+  const setup::Case setup = setup::read_case(run.folder / "run.toml", {});
+  io::write_text_atomically(output / "planar_impact.json", planar_impacts(setup, axis).dump(1));
+}
+
 int run_report(const ReportOptions& options) {
   if (!std::filesystem::is_directory(options.run)) {
     throw InputError(
@@ -32,7 +43,10 @@ int run_report(const ReportOptions& options) {
   }
   const std::filesystem::path output = options.output.empty() ? options.run + "/report" : options.output;
   // A run that has not come to its first snapshot has its input and history to show.
-  if (!analysis::read_run(options.run).snapshots.empty()) run_analysis(options.run, options.analysis, output);
+  if (const analysis::Run run = analysis::read_run(options.run); !run.snapshots.empty()) {
+    run_analysis(options.run, options.analysis, output);
+    write_planar_impacts(run, output);
+  }
   std::vector<std::string> arguments = {options.run,
                                         "--times",
                                         std::to_string(options.times),

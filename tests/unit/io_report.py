@@ -77,6 +77,11 @@ def report_of_the_cloud(work):
     import matplotlib.pyplot as plt
     plt.figure().savefig(figure)
     analyse(CLOUD, work / "report")
+    state = {"density": 8600.0, "temperature": 1003.6, "melted_fraction": 0.0, "vaporised_fraction": 0.0}
+    (work / "report" / "planar_impact.json").write_text(json.dumps([{
+        "projectile": "disk", "target": "plate", "velocity": 5550.0, "pressure": 105.7e9, "interface_velocity": 3760.0,
+        "free_surface_velocity": 7820.0, "states": [{"body": "disk", "material": "copper", "shocked": state,
+                                                     "released": None}]}]))
     result = run(CLOUD, "--output", work / "report", "--figure", f"Hugoniot of <copper>={figure}", "--times", 3)
     require(result.returncode == 0, result.stderr)
     text = (work / "report" / "report.html").read_text()
@@ -87,7 +92,7 @@ def report_of_the_cloud(work):
     pictures = list((work / "report").glob("*.png"))
     require(checker.images == len(pictures) == 14, f"{checker.images} images, {len(pictures)} files")
     for word in ("Synthetic cloud", "Hugoniot of &lt;copper&gt;", "copper_gray_md.toml", "full problem",
-                 "residual velocity of disk", "cells across the projectile"):
+                 "residual velocity of disk", "cells across the projectile", "Expected of a planar impact", "105.7", "7.82 km/s"):
         require(word in text, f"{word!r} is not in the page")
 
     with (CLOUD / "history.csv").open(newline="") as stream:
