@@ -115,9 +115,7 @@ class Report:
             discretization = body.get("discretization", {})
             shape = body.get("shape", {})
             rows.append([body.get("name", ""), body.get("material", ""),
-                         ", ".join(map(str, velocity)) if isinstance(velocity, list) else velocity,
-                         ", ".join(f"{k} {v}" for k, v in discretization.items()) if isinstance(discretization, dict)
-                         else discretization, describe_shape(shape)])
+                         describe_value(velocity), describe_discretization(discretization), describe_shape(shape)])
         if rows:
             self.page.table(["body", "material", "velocity", "discretization", "shape"], rows, text_columns=range(5))
         facts = []
@@ -196,7 +194,7 @@ class Report:
             ("half angle", f"{number(math.degrees(final('half_angle')))}°"),
             ("length", f"{number(1e3 * (final('front') - final('rear')))} mm"),
             ("diameter", f"{number(2e3 * final('radius'))} mm"),
-            ("fragments of the debris", number(final("debris_fragments"), 6)),
+            ("fragments of at least 8 particles", number(final("debris_fragments_resolved"), 6)),
         ]
         tiles += [(f"hole of {name.split('.')[1]}", f"{number(1e3 * value)} mm")
                   for name, value in analysis.final.items() if name.startswith("hole_diameter.") and value > 0]
@@ -267,10 +265,43 @@ class Report:
         return path
 
 
+UNITS = {"m": (("mm", 1e-3), ("µm", 1e-6)), "s": (("µs", 1e-6), ("ns", 1e-9)), "m/s": (("km/s", 1e3),)}
+LEAST = 0.01  # of a unit, in which a value is given
+
+
 def describe_value(value):
+    """Text of a value of the input: words without program text, lengths, times and speeds in the units of the field."""
     if isinstance(value, dict):
-        return ", ".join(f"{k}: {v}" for k, v in value.items())
-    return ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+        return ", ".join(f"{k.replace('_', ' ')} {describe_value(v)}" for k, v in value.items())
+    if isinstance(value, list):
+        return "(" + ", ".join(map(describe_value, value)) + ")"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    figure, _, unit = str(value).partition(" ")
+    try:
+        amount = float(figure)
+    except ValueError:
+        return str(value)
+    for name, size in UNITS.get(unit, ()):
+        if amount == 0:
+            return "0"
+        if abs(amount) >= LEAST * size:
+            return f"{amount / size:.6g} {name}"
+    return f"{amount:.6g} {unit}".strip() if unit else str(value)
+
+
+def describe_discretization(keys):
+    """What differs from nothing: empty texts and keys of meshes that are not there are left out."""
+    if not isinstance(keys, dict):
+        return str(keys)
+    shown = {k: v for k, v in keys.items() if v not in ("", False) and k != "mesh_unit"}
+    of_elements = keys.get("method") in ("finite_elements", "adaptive")
+    for key in list(shown):
+        if (key.startswith(("element", "hourglass")) and not of_elements) or (key.startswith("bar_") and
+                                                                               keys.get("method") != "bars"):
+            del shown[key]
+    method = str(shown.pop("method", "")).replace("_", " ")
+    return "; ".join(filter(None, [method, describe_value(shown)]))
 
 
 def describe_shape(shape):

@@ -161,13 +161,14 @@ def witness_figure(analysis):
         return None
     rings, flux = analysis.tables["witness_rings"], analysis.tables["witness_flux"]
     figure, (left, right) = new_figure(2)
-    for ax, table, x, scale, suffix in ((left, rings, "radius", 1e3, "_per_area"), (right, flux, "time", MICRO, "_flux")):
-        for name in ("mass", "momentum", "energy"):
+    for ax, table, x, scale, suffix, per in ((left, rings, "radius", 1e3, "_per_area", "/m²"),
+                                             (right, flux, "time", MICRO, "_flux", "/s")):
+        for name, unit in (("mass", "kg"), ("momentum", "N s"), ("energy", "J")):
             values = table[name + suffix]
             ax.plot(scale * table[x], values / max(values.max(), 1e-300), linewidth=1.6,
-                    label=f"{name}, highest {values.max():.3g}")
-    left.set(xlabel="distance from the axis (mm)", ylabel="per area over the highest (SI)")
-    right.set_ylabel("per time over the highest (SI)")
+                    label=f"{name}, highest {values.max():.3g} {unit}{per}")
+    left.set(xlabel="distance from the axis (mm)", ylabel="per area, over the highest")
+    right.set_ylabel("per time, over the highest")
     for ax in (left, right):
         ax.legend(loc="upper right", frameon=False, fontsize=9)
     return figure

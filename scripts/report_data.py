@@ -150,9 +150,14 @@ class Run:
             raise NotARun(f"{indices[0]}: is not the index of a series: {error}") from None
 
     def spread(self, at_most):
-        """Indices of at most so many snapshots, evenly spread, the first and the last among them."""
+        """Indices of at most so many snapshots, the first and the last among them, closer together at the beginning: the
+        shock is over soon."""
         n = len(self.entries)
-        return sorted(set(np.linspace(0, n - 1, min(n, at_most)).round().astype(int))) if n else []
+        if n == 0:
+            return []
+        times = np.array([time for _, time in self.entries])
+        wanted = times[0] + (times[-1] - times[0]) * np.linspace(0, 1, min(n, at_most))**1.5
+        return sorted({int(np.abs(times - time).argmin()) for time in wanted})
 
     @property
     def title(self):

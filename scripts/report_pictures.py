@@ -16,6 +16,7 @@ BODY_COLOURS = ("#c8762f", "#8fa3b5", "#5aa469", "#b5547a", "#6d6fc4", "#c9b037"
 BACKGROUND = np.array([0.985, 0.985, 0.99])
 PANEL_WIDTH = 6.6        # inches of the rendered image: at least that of the widest of several panels
 SHOWN_MASS = 0.9995      # limits of the pictures hold this share of the mass
+MOVING = 0.05            # of the impact speed: what is faster sets the scales
 
 
 class View:
@@ -169,10 +170,42 @@ def legend_below(figure, handles, labels):
     figure.legend(handles, labels, loc="lower center", ncols=len(labels), frameon=False, fontsize=10)
 
 
-def _range(snapshots, field, low, high):
-    values = np.concatenate([getattr(s, field) for s in snapshots if len(s)] or [np.zeros(1)])
-    weights = np.concatenate([s.mass for s in snapshots if len(s)] or [np.ones(1)])
+def speed(snapshot):
+    """Magnitude of the velocity, km/s."""
+    return 1e-3 * np.linalg.norm(snapshot.velocity, axis=1)
+
+
+FAILURE_COLOURS = ("#8fa3b5", "#d7402b", "#c9b037", "#b5547a", "#6d6fc4", "#c8762f", "#8c6d5a", "#5aa469")
+FAILURE_NAMES = ("intact", "tension", "plastic strain", "principal stress", "principal strain", "ductile damage",
+                 "fragmentation", "growth of voids")
+
+
+def failure_colours(snapshot):
+    palette = np.array([matplotlib.colors.to_rgb(c) for c in FAILURE_COLOURS])
+    return palette[np.minimum(snapshot.failed.astype(int), len(palette) - 1)]
+
+
+def moving(snapshot, least):
+    """Particles faster than a speed (m/s), all where there is none: cold walls at rest do not set the scale."""
+    chosen = np.linalg.norm(snapshot.velocity, axis=1) > least
+    return chosen if chosen.any() else np.full(len(snapshot), True)
+
+
+def _range(snapshots, values_of, low, high, least_speed):
+    """Quantiles over the mass that moves, in all snapshots but the first, which is before the impact."""
+    chosen = [(values_of(s)[m], s.mass[m]) for s in snapshots[1:] or snapshots if len(s)
+              for m in [moving(s, least_speed)]]
+    values = np.concatenate([v for v, _ in chosen] or [np.zeros(1)])
+    weights = np.concatenate([w for _, w in chosen] or [np.ones(1)])
     return quantile(values, weights, low), quantile(values, weights, high)
+
+
+# Fields that are shown by a scale: name of the file, meaning, unit, colours, values of a snapshot.
+SCALED = (("temperature", "temperature", " (K)", "inferno", lambda s: s.temperature),
+          ("pressure", "pressure", " (GPa)", "magma", lambda s: None if s.pressure is None else 1e-9 * s.pressure),
+          ("speed", "speed", " (km/s)", "cividis", speed),
+          ("plastic_strain", "plastic strain", "", "viridis", lambda s: s.plastic_strain),
+          ("damage", "damage", "", "viridis", lambda s: s.damage))
 
 
 def cloud_figures(run, view, snapshots):
@@ -195,15 +228,21 @@ def cloud_figures(run, view, snapshots):
         yield ("cloud_phase.png", cut_text + " Coloured by phase.",
                panels(view, [paint(c, phase_colours(s)) for c, s in zip(cuts, snapshots)], times,
                       "Section, by phase", legend=legend))
-    for field, name, unit, palette in (("temperature", "temperature", " (K)", "inferno"),
-                                       ("plastic_strain", "plastic strain", "", "viridis")):
-        if any(getattr(s, field) is None for s in snapshots):
+    if all(s.failed is not None for s in snapshots) and any(s.failed.any() for s in snapshots):
+        seen = sorted({int(code) for s in snapshots for code in np.unique(s.failed)})
+        legend = [Patch(color=FAILURE_COLOURS[code], label=FAILURE_NAMES[code]) for code in seen
+                  if code < len(FAILURE_NAMES)]
+        yield ("cloud_failed.png", cut_text + " Coloured by what the matter failed by.",
+               panels(view, [paint(c, failure_colours(s)) for c, s in zip(cuts, snapshots)], times,
+                      "Section, by failure", legend=legend))
+    for field, name, unit, palette, values_of in SCALED:
+        if any(values_of(s) is None for s in snapshots) or not any(values_of(s).any() for s in snapshots):
             continue
-        low, high = _range(snapshots, field, 0.002, 0.998)
+        low, high = _range(snapshots, values_of, 0.002, 0.998, MOVING * view.geo.impact_speed)
         norm = Normalize(low, max(high, low + 1e-3 * max(abs(low), 1e-3)))
-        images = [paint(c, scale_colours(getattr(s, field), norm, palette)) for c, s in zip(cuts, snapshots)]
-        yield (f"cloud_{field}.png", f"{cut_text} Coloured by {name}; the ends of the scale hold the 0.2 % of the mass "
-               "beyond.",
+        images = [paint(c, scale_colours(values_of(s), norm, palette)) for c, s in zip(cuts, snapshots)]
+        yield (f"cloud_{field}.png", f"{cut_text} Coloured by {name}; the scale is that of the mass that moves, its ends "
+               "hold the 0.2 % beyond.",
                panels(view, images, times, f"Section, by {name}",
                       bar=(plt.cm.ScalarMappable(norm, palette), name + unit)))
 

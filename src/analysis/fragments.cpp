@@ -271,11 +271,12 @@ Exponent distribution_exponent(std::span<const std::pair<double, double>> mass_a
 Quantities fragment_measures(const std::vector<Fragment>& fragments, double projectile_mass,
                              double particle_mass) {
   std::vector<std::pair<double, double>> debris;
-  double number = 0.0, mass = 0.0;
+  double number = 0.0, mass = 0.0, resolved = 0.0;
   for (const Fragment& f : fragments) {
     if (!f.debris) continue;
     debris.emplace_back(f.mass, f.copies);
     number += f.copies;
+    if (f.particles >= 8) resolved += f.copies;
     mass += f.copies * f.mass;
   }
   const double largest = debris.empty() ? 0.0 : debris.front().first;
@@ -285,7 +286,8 @@ Quantities fragment_measures(const std::vector<Fragment>& fragments, double proj
       debris.empty() ? std::span<const std::pair<double, double>>{} : std::span(debris).subspan(1);
   const Exponent exponent = distribution_exponent(smaller, 7.5 * particle_mass);
   return {
-      {"debris_fragments", "1", "number of fragments of the debris", number},
+      {"debris_fragments", "1", "number of fragments of the debris, single particles among them", number},
+      {"debris_fragments_resolved", "1", "number of those of at least eight particles", resolved},
       {"largest_fragment", "kg", "mass of the largest fragment of the debris", largest},
       {"largest_fragment_over_projectile", "1", "over the mass of the projectile", largest / projectile_mass},
       {"mean_fragment", "kg", "mean mass of the fragments of the debris", number > 0.0 ? mass / number : nan},

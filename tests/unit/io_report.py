@@ -90,7 +90,7 @@ def report_of_the_cloud(work):
     require(not checker.open, f"elements left open: {checker.open}")
     require(not checker.foreign, f"not self-contained: {checker.foreign}")
     pictures = list((work / "report").glob("*.png"))
-    require(checker.images == len(pictures) == 14, f"{checker.images} images, {len(pictures)} files")
+    require(checker.images == len(pictures) == 17, f"{checker.images} images, {len(pictures)} files")
     for word in ("Synthetic cloud", "Hugoniot of &lt;copper&gt;", "copper_gray_md.toml", "full problem",
                  "residual velocity of disk", "cells across the projectile", "Expected of a planar impact", "105.7", "7.82 km/s"):
         require(word in text, f"{word!r} is not in the page")
