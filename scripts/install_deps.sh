@@ -70,6 +70,6 @@ if ((EUID != 0)); then
 fi
 
 echo "installing: ${missing[*]}"
-"${privileged[@]}" apt-get update -q
-"${privileged[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"
+"${privileged[@]}" apt-get update -qq
+"${privileged[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq -o Dpkg::Use-Pty=0 --no-install-recommends "${missing[@]}"
 echo "installed ${#missing[@]} packages"

@@ -68,7 +68,8 @@ finished() {
 stage "packages and build"
 scripts/install_deps.sh
 configured=$(cmake --preset release 2>&1) || { echo "$configured"; exit 1; }
-cmake --build --preset release --parallel "$(nproc)" --target whipple whipple-md whipple-fit
+echo "building: two to four minutes on two idle cores"
+cmake --build --preset release --parallel "$(nproc)" --target whipple whipple-md whipple-fit -- --quiet
 mkdir -p "$output" "$stamps"
 
 stage "1/5 molecular dynamics: copper, two potentials"
@@ -76,8 +77,10 @@ stage "1/5 molecular dynamics: copper, two potentials"
 for result in "$store" "$second"; do
   plan=cases/md/$(basename "$result" .md.h5).toml
   if $force; then rm -f "$result"; fi
-  "$whipple" md "$plan" -o "$result" "${ranks[@]}"
-  echo "written: $result"
+  # What was measured at each point goes into a file, its place and duration to the terminal.
+  "$whipple" md "$plan" -o "$result" "${ranks[@]}" 2>&1 | tee "${result%.md.h5}.log" |
+    sed -uE 's/^([a-z][^:=]*)( at [^:]*)?: .* (\[[0-9.]+ [a-z]+\])$/\1\2 \3/'
+  echo "written: $result (measured values: ${result%.md.h5}.log)"
 done
 
 stage "2/5 fit of the equation of state"
