@@ -34,7 +34,12 @@ except ImportError as missing:
 # Clamps are counted by the solver and shown if there were any.
 COUNTED = (("below_cold_curve", "points clamped to the cold curve"),
            ("at_pressure_floor", "points held at the floor of their pressure"),
-           ("limited_volume_changes", "limited changes of volume"))
+           ("limited_volume_changes", "limited changes of volume"),
+           ("limited_densities", "points held at the least density"),
+           ("limited_void_steps", "limited changes beside voids"),
+           ("limited_bulking", "limited bulking"),
+           ("limited_domains", "limited domains"),
+           ("held_time_steps", "steps longer than compression asks for"))
 # What took kinetic energy from the motion, and where it is (docs/theory/dissipation.md).
 DISSIPATION = (("viscous_work", "artificial viscosity", "internal energy"),
                ("plastic_work", "plastic work", "internal energy (and stored cold work)"),

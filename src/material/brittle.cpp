@@ -77,6 +77,7 @@ void relax_brittle(Step& step, Chunk& chunk) {
     }
     if (gained[k] > 0.0) {  // (12): 1/alpha falls by the gain over K1
       const double closeness = 1.0 / chunk.distension[k] - gained[k] / step.material.reference_bulk_modulus;
+      step.report.limited_bulking += closeness <= 1.0 / greatest_bulking ? 1 : 0;
       chunk.distension[k] = std::min(greatest_bulking, 1.0 / std::max(closeness, 1.0 / greatest_bulking));
       chunk.acting_pressure[k] += gained[k];
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "src/base/simd.hpp"
@@ -74,12 +75,18 @@ struct Porous {
 /// of zero pressure, or of the pressure `least` where it is all of it, is void (eq. 12, 13, 18). Tension
 /// opens the void, pressure lets the matter grow into it.
 /// @param modulus  rho c^2 (Pa), bounded from below
-Porous share_volume(const Porous& points, Four modulus, Four opening, Four least) {
+/// @param count    of points: fewer than four at the end of a chunk
+/// @param limited  grows by the number of points that are kept from changing more in one step
+Porous share_volume(const Porous& points, Four modulus, Four opening, Four least, std::size_t count,
+                    std::size_t& limited) {
   const Four pressure = points.pressure, volume = points.volume, total = volume + points.void_volume;
   const Four limit = broadcast(greatest_void_step);
-  const Four strain = minimum(maximum((pressure - least) / modulus, -limit), limit);
+  const Four wanted = (pressure - least) / modulus;
+  const Four strain = minimum(maximum(wanted, -limit), limit);
   const Four relaxed = volume + strain * volume, excess = total - relaxed;
   const LanesMask whole = opening == 1.0, open = excess > 0.0;
+  const LanesMask beyond = (opening > 0.0) & open & (strain != wanted);
+  limited += static_cast<std::size_t>(std::popcount(bits(beyond) & ((1U << std::min<std::size_t>(count, 4)) - 1U)));
   const Four matter = select(whole, relaxed, total - opening * excess);
   const Four cracked = minimum(pressure + modulus * (volume - matter) / volume, Four{});
   const Four closed = maximum(pressure - modulus * points.void_volume / volume, least);
@@ -153,7 +160,7 @@ void lose_strength(const Step& step, Chunk& chunk, const Lanes& bulk, double lea
     const Four opening = select(loose, broadcast(1.0), damage);
     const Four least = brittle ? select(failed, Four{}, of(chunk.least_pressure)) : Four{};
     const Porous before = {of(chunk.acting_pressure), of(chunk.volume), of(chunk.void_volume)};
-    const Porous shared = share_volume(before, density * of(bulk), opening, least);
+    const Porous shared = share_volume(before, density * of(bulk), opening, least, chunk.size - k, step.report.limited_void_steps);
     const LanesMask parts = opening > 0.0;
     const Four pressure = select(parts, shared.pressure, before.pressure);
     const Four void_volume = select(parts, shared.void_volume, before.void_volume);

@@ -106,16 +106,18 @@ WHIPPLE_KERNEL void advance_volume(Step& step, Chunk& chunk) {
   Lanes limited;
   material::volume_change(material::padded(chunk.size), step.settings.time_step, chunk.motion);
   const double per_least_density = 1.0 / (least_density_ratio * step.material.reference.density);
-  std::size_t beyond = 0, undefined = 0;
+  std::size_t beyond = 0, undefined = 0, thinnest = 0;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const double ratio = chunk.motion.ratio[k];
     const double room = std::max(chunk.density[k] * per_least_density, 1.0);
     limited[k] = std::min(std::clamp(ratio, least_volume_ratio, greatest_volume_ratio), room);
     beyond += ratio < least_volume_ratio || ratio > greatest_volume_ratio ? 1 : 0;
+    thinnest += std::min(ratio, greatest_volume_ratio) > room ? 1 : 0;
     chunk.volume_change[k] = chunk.old_volume[k] * (limited[k] - 1.0);
     chunk.volume[k] = chunk.old_volume[k] * limited[k];
   }
   step.report.limited_volume_changes += beyond;
+  step.report.limited_densities += thinnest;
   if (chunk.any_void) {
     for (std::size_t k = 0; k < chunk.size; ++k) {
       const bool open = chunk.void_volume[k] > 0.0;
@@ -521,6 +523,9 @@ void MaterialReport::merge(const MaterialReport& other) {
   undefined += other.undefined;
   first_undefined = std::min(first_undefined, other.first_undefined);
   limited_volume_changes += other.limited_volume_changes;
+  limited_densities += other.limited_densities;
+  limited_void_steps += other.limited_void_steps;
+  limited_bulking += other.limited_bulking;
   compression_rate = std::max(compression_rate, other.compression_rate);
   plastic_work += other.plastic_work;
   for (std::size_t code = 0; code < failed.size(); ++code) failed[code] += other.failed[code];

@@ -159,6 +159,10 @@ void Ledger::add(const Ledger& step) {
   held_at_pressure_floor += step.held_at_pressure_floor;
   limited_volume_changes += step.limited_volume_changes;
   limited_domains += step.limited_domains;
+  limited_densities += step.limited_densities;
+  limited_void_steps += step.limited_void_steps;
+  limited_bulking += step.limited_bulking;
+  held_time_steps += step.held_time_steps;
 }
 
 namespace {

@@ -103,6 +103,10 @@ struct Ledger {
   double held_at_pressure_floor = 0.0;  ///< evaluations at the least pressure of a modifier `floor`
   double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
   double limited_domains = 0.0;  ///< steps of particles whose domain was larger than its shape function takes
+  double limited_densities = 0.0;   ///< steps of particles at their least density
+  double limited_void_steps = 0.0;  ///< steps of particles that changed beside their void by the most allowed
+  double limited_bulking = 0.0;     ///< steps of particles of crushed brittle matter at its greatest bulking
+  double held_time_steps = 0.0;     ///< steps longer than `time.compression_limit` asked for
 
   double largest_kinetic_energy =
       0.0;                        ///< J, with affine and hourglass energies, at the ends of the steps so far
@@ -150,10 +154,32 @@ void for_each_number(L& ledger, Function&& f) {
   f("held_at_pressure_floor", ledger.held_at_pressure_floor);
   f("limited_volume_changes", ledger.limited_volume_changes);
   f("limited_domains", ledger.limited_domains);
+  f("limited_densities", ledger.limited_densities);
+  f("limited_void_steps", ledger.limited_void_steps);
+  f("limited_bulking", ledger.limited_bulking);
+  f("held_time_steps", ledger.held_time_steps);
   f("largest_kinetic_energy", ledger.largest_kinetic_energy);
   f("largest_heating", ledger.largest_heating);
   f("largest_momentum", ledger.largest_momentum);
 }
+
+/// A bound that matter or the time step may run into: its column in history.csv and how it is told.
+struct Limiter {
+  const char* name;
+  double Ledger::* count;
+  const char* meaning;
+};
+/// All of them (docs/output.md).
+inline constexpr auto limiters = std::to_array<Limiter>({
+    {"below_cold_curve", &Ledger::clamped_to_cold_curve, "temperature held at the cold curve, energy kept"},
+    {"at_pressure_floor", &Ledger::held_at_pressure_floor, "pressure held at its floor"},
+    {"limited_volume_changes", &Ledger::limited_volume_changes, "volume change of a step limited"},
+    {"limited_densities", &Ledger::limited_densities, "density held at the least one"},
+    {"limited_void_steps", &Ledger::limited_void_steps, "change of matter beside its void limited"},
+    {"limited_bulking", &Ledger::limited_bulking, "bulking of crushed brittle matter limited"},
+    {"limited_domains", &Ledger::limited_domains, "domain of a particle limited"},
+    {"held_time_steps", &Ledger::held_time_steps, "time step kept longer than compression asks for"},
+});
 
 /// Replaces every number by its sum over all ranks. Collective.
 template <class... Parts>

@@ -49,6 +49,9 @@ std::string Simulation::book(const MaterialReport& report, const Material& mater
   step_.held_at_pressure_floor += static_cast<double>(report.equation_of_state.at_pressure_floor);
   step_.plastic_work += report.plastic_work;
   step_.limited_volume_changes += static_cast<double>(report.limited_volume_changes);
+  step_.limited_densities += static_cast<double>(report.limited_densities);
+  step_.limited_void_steps += static_cast<double>(report.limited_void_steps);
+  step_.limited_bulking += static_cast<double>(report.limited_bulking);
   if (report.undefined != 0) {
     return describe(report.first_undefined,
                     "the state is not defined (NaN, or a volume that is not positive)");

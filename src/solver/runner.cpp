@@ -102,12 +102,10 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
       {"maximum_speed", "m/s", maxima[0]},
       {"maximum_pressure", "Pa", maxima[1]},
       {"maximum_temperature", "K", maxima[2]},
-      {"below_cold_curve", "1", state.ledger.clamped_to_cold_curve},
-      {"at_pressure_floor", "1", state.ledger.held_at_pressure_floor},
-      {"limited_volume_changes", "1", state.ledger.limited_volume_changes},
       {"squeezed_beside_voids", "kg", state.squeezed_beside_voids},
       {"particles", "1", static_cast<double>(simulation.particle_count())},
   };
+  for (const Limiter& limiter : limiters) row.push_back({limiter.name, "1", state.ledger.*(limiter.count)});
   if (simulation.setup().has_elements()) {
     row.push_back({"elements", "1", static_cast<double>(simulation.element_count())});
     row.push_back({"converted_mass", "kg", state.ledger.converted_mass});
@@ -404,14 +402,9 @@ class Runner {
     log::info("{} steps to t = {:.6g} s in {}; energy error {:.2e}, momentum error {:.2e}, outflow {:.3g} kg",
               state.step, state.time, format_duration(wall), state.ledger.energy_error(totals),
               state.ledger.momentum_error(totals), state.ledger.outflow.mass);
-    if (state.ledger.clamped_to_cold_curve > 0 || state.ledger.held_at_pressure_floor > 0 ||
-        state.ledger.limited_volume_changes > 0) {
-      log::info(
-          "clamped: temperature below the cold curve {} times, pressure at its floor {} times, volume change "
-          "of a "
-          "step {} times",
-          state.ledger.clamped_to_cold_curve, state.ledger.held_at_pressure_floor,
-          state.ledger.limited_volume_changes);
+    for (const Limiter& limiter : limiters) {
+      const double count = state.ledger.*(limiter.count);
+      if (count > 0.0) log::info("{}: {:.0f} times", limiter.meaning, count);
     }
     if (totals.unresolved_share() > 0.05) {
       log::info(

@@ -229,12 +229,14 @@ std::function<bool(std::size_t)> Simulation::stays_since(std::size_t& arrangemen
 /// That the state allows, whatever the step before it was.
 double Simulation::accurate_time_step() {
   const double dx = setup_.domain.cell_size;
+  compression_is_followed_ = true;
   double dt = std::min({grid_time_step(), diffusive_time_step(), element_time_step()});
   if (state_.maximum_acceleration > 0.0) {
     dt = std::min(dt, std::sqrt(setup_.time.acceleration_limit * dx / state_.maximum_acceleration));
   }
   if (state_.compression_rate > 0.0) {
     const double accurate = setup_.time.compression_limit / state_.compression_rate;
+    compression_is_followed_ = accurate >= least_share_for_accuracy * dt;
     dt = std::min(dt, std::max(accurate, least_share_for_accuracy * dt));
   }
   return dt;
@@ -275,6 +277,7 @@ void Simulation::begin_step(double until) {
       }
       throw StateError(fmt::format("step {}, t = {} s: {}", state_.step, state_.time, reason));
     }
+    if (!compression_is_followed_ && parallel::rank(communicator_) == 0) step_.held_time_steps += 1.0;
     const double left = until - state_.time;
     if (!(left > 0.0)) throw InternalError(fmt::format("t = {} s has been reached already", until));
     // The last step before `until` lands on it; the one before is halved rather than leaving a sliver.

@@ -224,6 +224,7 @@ class Simulation {
   std::vector<std::uint8_t> contact_field_of_body_;
   std::unique_ptr<transfer::FirstTouches> first_touches_;
   double accurate_step_ = 0.0;   // s, that the state allows, in the step under way
+  bool compression_is_followed_ = true;  // by that step, as `time.compression_limit` asks
   bool surfaces_found_ = false;  // in the step under way
   int looks_at_voids_ = 0;       // one after the other that found much matter squeezed beside voids
   bool warned_of_voids_ = false;

@@ -137,6 +137,24 @@ TEST(Void, HotMatterGrowsIntoItsVoidAndThenCarriesPressure) {
   EXPECT_EQ(points.specific_internal_energy[0], 500e3);
 }
 
+TEST(Void, MatterGrowsIntoItsVoidByATenthOfItsVolumeInAStepAtMostAndTheLimitIsCounted) {
+  const Material material = with(taylor_copper(), {spall(1e9)});
+  MaterialPoints points = points_of(material, 1);
+  points.failed[0] = failure::tensile;
+  points.void_volume[0] = 1e-9;
+  points.specific_internal_energy[0] = 2e6;  // 35 GPa: expansion at p = 0 is a quarter
+  const Matrix3 rest = Matrix3::Zero();
+  const MaterialReport first = update_material(material, points, 0, 1, std::span(&rest, 1), settings);
+  EXPECT_NEAR(points.volume[0], 1.1e-9, 1e-15);
+  EXPECT_EQ(first.limited_void_steps, 1U);
+  std::size_t later = 0;
+  for (int n = 0; n < 20; ++n) {
+    later = update_material(material, points, 0, 1, std::span(&rest, 1), settings).limited_void_steps;
+  }
+  EXPECT_EQ(later, 0U);
+  expect_void_rules(points, 2e-9);
+}
+
 TEST(Void, FailedMatterAtZeroPressureHasTheLeastSoundSpeed) {
   const Material material = with(taylor_copper(), {spall(1e9)});
   MaterialPoints points = points_of(material, 1);
