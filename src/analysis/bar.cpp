@@ -13,6 +13,19 @@
 namespace whipple::analysis {
 namespace {
 
+constexpr double least_filled = 0.99;  // of a layer at the wall that the bar touches
+
+/// Share of a layer that matter fills within a radius.
+double core_fraction(const RingField& field, std::size_t layer, double radius) {
+  double filled = 0.0, area = 0.0;
+  for (std::size_t ring = 0; ring < field.rings(); ++ring) {
+    if (ring > 0 && static_cast<double>(ring + 1) * field.size() > radius) break;
+    filled += field.fraction(ring, layer) * field.ring_area(ring);
+    area += field.ring_area(ring);
+  }
+  return filled / area;
+}
+
 /// Diameters of circles with the cross-sections of the layers of thickness `size` above `lower`.
 std::vector<double> diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body, double size,
                               double lower, double upper, bool wall_at_upper) {
@@ -25,6 +38,17 @@ std::vector<double> diameters(const Snapshot& snapshot, const Frame& frame, std:
   std::vector<double> result(field.layers());
   for (std::size_t k = 0; k < result.size(); ++k) {
     result[k] = 2.0 * std::sqrt(field.cross_section(k) / std::numbers::pi);
+  }
+  // A bar that meets its wall stands a part of a cell before it: the layer there is not full, at the axis either.
+  // The layers begin at the bar's face then.
+  if (wall_at_upper && result.size() > 2) {
+    const std::size_t k = result.size() - 1;
+    const double core = 0.25 * result[k - 1], full = core_fraction(field, k - 1, core);
+    const double filled = full > 0.0 ? core_fraction(field, k, core) / full : 1.0;
+    if (filled > 0.5 && filled < least_filled) {
+      const double gap = (1.0 - filled) * size;
+      return diameters(snapshot, frame, body, size, lower - gap, upper - gap, true);
+    }
   }
   return result;
 }
