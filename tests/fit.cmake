@@ -8,6 +8,7 @@ whipple_test(fit_material_test SOURCES unit/fit_material_test.cpp DEPENDS whippl
 add_dependencies(fit_material_test whipple-fit)
 target_compile_definitions(fit_material_test PRIVATE WHIPPLE_FIT_EXECUTABLE="$<TARGET_FILE:whipple-fit>")
 whipple_test(fit_compare_test SOURCES validation/fit_compare_test.cpp ${PROJECT_SOURCE_DIR}/src/app/compare_data.cpp
+                     ${PROJECT_SOURCE_DIR}/src/app/measured_table.cpp
              DEPENDS whipple_material whipple_eos whipple_process GTest::gmock LABELS fast)
 whipple_test(fit_compare_command_test SOURCES unit/fit_compare_command_test.cpp unit/eos_md_command_test.cpp DEPENDS GTest::gmock fmt::fmt LABELS fast)
 add_dependencies(fit_compare_command_test whipple whipple-md whipple-fit)

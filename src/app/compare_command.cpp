@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -65,6 +66,20 @@ struct Row {
   Comparison comparison;
 };
 
+/// "line 4", "lines 2, 5-9".
+std::string line_ranges(std::vector<int> lines) {
+  std::ranges::sort(lines);
+  const auto repeated = std::ranges::unique(lines);
+  lines.erase(repeated.begin(), repeated.end());
+  std::string text = lines.size() == 1 ? "line" : "lines";
+  for (std::size_t i = 0, end = 0; i < lines.size(); i = end) {
+    for (end = i + 1; end < lines.size() && lines[end] == lines[end - 1] + 1;) ++end;
+    text += fmt::format("{} {}", i == 0 ? "" : ",", lines[i]);
+    if (end > i + 1) text += fmt::format("-{}", lines[end - 1]);
+  }
+  return text;
+}
+
 void print_table(const std::vector<Row>& rows) {
   std::vector<std::vector<std::string>> cells = {
       {"experiment", "kind", "material", "points", "range", "rms", "mean", "largest", "unit"}};
@@ -87,11 +102,22 @@ void print_table(const std::vector<Row>& rows) {
   }
   fmt::print("{}", text_table(cells, "lllrlrrrl"));
   fmt::print("deviations: material less experiment\n");
+  const Experiment* last = nullptr;
   for (const Row& row : rows) {
-    if (row.comparison.out_of_range > 0) {
-      fmt::print("{}: {} points of {} are outside its range and not counted\n", row.label,
-                 row.comparison.out_of_range, row.experiment->name);
+    const Experiment& experiment = *row.experiment;
+    const auto note = [&](const std::vector<int>& lines, const std::string& what) {
+      if (!lines.empty()) fmt::print("{}: {} {}\n", experiment.name, line_ranges(lines), what);
+    };
+    if (&experiment != last) {
+      for (const auto& [reason, lines] : experiment.left_out) note(lines, "left out: " + reason);
     }
+    last = &experiment;
+    const Comparison& c = row.comparison;
+    note(c.porous,
+         fmt::format("compared with the porous Hugoniot of {} from the initial density given", row.label));
+    note(c.denser, fmt::format("initially denser than {} by more than {:g} %, compared as of its density",
+                               row.label, 100 * same_density));
+    note(c.out_of_range, fmt::format("not counted: outside of the range of {}", row.label));
   }
 }
 
@@ -104,12 +130,13 @@ void write_csv(const std::vector<Row>& rows, const std::string& path) {
   for (const Row& row : rows) {
     const Experiment& experiment = *row.experiment;
     const Style s = style(experiment.kind);
+    const bool comma = experiment.name.find(',') != std::string::npos;
+    const std::string name = comma ? '"' + experiment.name + '"' : experiment.name;
     for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
-      file << fmt::format("{},\"{}\",{},{:.8g},{},{},{:.8g},{:.8g},{},{:.6g},{}\n", experiment.name,
-                          row.label, s.abscissa, experiment.abscissa[i] / s.abscissa_size, s.abscissa_unit,
-                          s.ordinate, experiment.ordinate[i] / s.ordinate_size,
-                          row.comparison.model[i] / s.ordinate_size, s.ordinate_unit,
-                          row.comparison.deviation[i] / s.deviation_size, s.deviation);
+      file << fmt::format("{},\"{}\",{},{:.8g},{},{},{:.8g},{:.8g},{},{:.6g},{}\n", name, row.label,
+                          s.abscissa, experiment.abscissa[i] / s.abscissa_size, s.abscissa_unit, s.ordinate,
+                          experiment.ordinate[i] / s.ordinate_size, row.comparison.model[i] / s.ordinate_size,
+                          s.ordinate_unit, row.comparison.deviation[i] / s.deviation_size, s.deviation);
     }
   }
   if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", path));
@@ -122,6 +149,15 @@ nlohmann::json numbers(const std::vector<double>& values, double size) {
     list.push_back(std::isnan(value) ? nlohmann::json() : nlohmann::json(value / size));
   }
   return list;
+}
+
+/// The values, without those that lie within `same_density` above another.
+std::vector<double> apart(std::vector<double> values) {
+  std::ranges::sort(values);
+  const auto repeated =
+      std::ranges::unique(values, [](double a, double b) { return b / a - 1.0 < same_density; });
+  values.erase(repeated.begin(), repeated.end());
+  return values;
 }
 
 void draw(const std::vector<Row>& rows, const std::string& path) {
@@ -146,14 +182,24 @@ void draw(const std::vector<Row>& rows, const std::string& path) {
                         {"materials", nlohmann::json::array()}});
       last = &experiment;
     }
-    std::vector<double> x;
-    const double least = experiment.abscissa.front();
-    const double most = experiment.abscissa.back();
-    for (int i = 0; i < curve_points; ++i) x.push_back(least + (most - least) * i / (curve_points - 1));
+    // One curve for each initial density, with a gap between them.
+    std::vector<double> x, densities;
+    const std::vector<double> stated = initial_densities(*row.material, experiment);
+    for (const double density : apart(stated)) {
+      std::vector<double> own;
+      for (std::size_t i = 0; i < stated.size(); ++i) {
+        const double above = stated[i] / density - 1.0;
+        if (above >= 0.0 && above < same_density) own.push_back(experiment.abscissa[i]);
+      }
+      const auto [least, most] = std::ranges::minmax(own);
+      for (int i = 0; i < curve_points; ++i) x.push_back(least + (most - least) * i / (curve_points - 1));
+      x.push_back(std::numeric_limits<double>::quiet_NaN());
+      densities.resize(x.size(), density);
+    }
     panels.back()["materials"].push_back(
         {{"name", row.label},
          {"x", numbers(x, s.abscissa_size)},
-         {"curve", numbers(curve(*row.material, experiment, x), s.ordinate_size)},
+         {"curve", numbers(curve(*row.material, experiment, x, densities), s.ordinate_size)},
          {"deviation", numbers(row.comparison.deviation, s.deviation_size)},
          {"rms", row.comparison.rms / s.deviation_size}});
   }
@@ -169,7 +215,7 @@ void run(const CompareOptions& options) {
   for (const std::string& name : options.materials) materials.push_back(read_material(name));
   std::vector<Experiment> experiments;
   for (const std::string& name : options.experiments) {
-    experiments.push_back(read_experiment(find_experiment(name), temperature));
+    std::ranges::move(read_experiments(find_experiment(name), temperature), std::back_inserter(experiments));
   }
   std::vector<Row> rows;
   for (const Experiment& experiment : experiments) {
@@ -179,10 +225,11 @@ void run(const CompareOptions& options) {
       const bool of_others = std::ranges::any_of(experiments, [&](const Experiment& other) {
         return !other.material.empty() && belongs_to(other, material);
       });
-      if (of_others && !belongs_to(experiment, material)) continue;
+      if ((of_others || experiment.only_its_material) && !belongs_to(experiment, material)) continue;
       rows.push_back({&experiment, &material, material.file.stem().string(), compare(material, experiment)});
     }
   }
+  if (rows.empty()) throw InputError("none of the data is of one of the materials");
   print_table(rows);
   if (!options.csv.empty()) write_csv(rows, options.csv);
   if (!options.plot.empty()) draw(rows, options.plot);
@@ -200,7 +247,8 @@ void add_compare_command(CLI::App& app) {
   command->add_option("materials", options->materials, "Material files, or names of the library")->required();
   command
       ->add_option("--with", options->experiments,
-                   "CSV files of experiments, or names of those that come with the program (eos/data); a "
+                   "Tables of measurements (docs/how_to/equations_of_state.md), or names of those that come "
+                   "with the program (eos/data); a "
                    "material that some of them were measured on is compared with those only")
       ->required();
   command->add_option("--temperature", options->temperature,

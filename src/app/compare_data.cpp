@@ -17,8 +17,8 @@
 
 #include "eos/inversions.hpp"
 #include "eos/loci.hpp"
+#include "src/app/measured_table.hpp"
 #include "src/base/error.hpp"
-#include "src/base/units.hpp"
 #include "src/process/paths.hpp"
 
 namespace whipple::app {
@@ -27,209 +27,194 @@ namespace {
 constexpr double room_temperature = 298.0;  // K
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Endings of column names and their units.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 9> unit_endings = {{{"_km_s", "km/s"},
-                                                                                        {"_m_s", "m/s"},
-                                                                                        {"_GPa", "GPa"},
-                                                                                        {"_kbar", "kbar"},
-                                                                                        {"_A3", "angstrom^3"},
-                                                                                        {"_cm3_g", "cm^3/g"},
-                                                                                        {"_g_cm3", "g/cm^3"},
-                                                                                        {"_kg_m3", "kg/m^3"},
-                                                                                        {"_K", "K"}}};
-
-struct Csv {
-  std::vector<std::string> comments;
-  std::vector<std::string> names;
-  std::vector<std::vector<std::string>> rows;
-  std::vector<int> lines;  ///< line number of each row
-};
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool inside_quotes = false;
-  for (const char c : line) {
-    if (c == '"') {
-      inside_quotes = !inside_quotes;
-    } else if (c == ',' && !inside_quotes) {
-      cells.emplace_back();
-    } else if (c != '\r') {
-      cells.back() += c;
-    }
-  }
-  return cells;
-}
-
-Csv read_csv(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(fmt::format("cannot read '{}'", path.string()));
-  Csv csv;
-  int number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    if (line.empty() || line == "\r") continue;
-    if (line.front() == '#') {
-      csv.comments.push_back(line.substr(
-          line.find_first_not_of("# ") == std::string::npos ? line.size() : line.find_first_not_of("# ")));
-    } else if (csv.names.empty()) {
-      csv.names = split(line);
-    } else {
-      csv.rows.push_back(split(line));
-      csv.lines.push_back(number);
-      if (csv.rows.back().size() != csv.names.size()) {
-        throw InputError(fmt::format("{}:{}: {} cells, the header has {}", path.string(), number,
-                                     csv.rows.back().size(), csv.names.size()));
-      }
-    }
-  }
-  if (csv.rows.empty()) throw InputError(fmt::format("{}: no rows of data", path.string()));
-  return csv;
-}
-
-/// Index of the column called `quantity` + a unit ending; "P" also finds "P_revised_ruby_GPa".
-std::optional<std::size_t> find_column(const Csv& csv, std::string_view quantity, bool any_middle = false) {
-  for (std::size_t i = 0; i < csv.names.size(); ++i) {
-    const std::string& name = csv.names[i];
-    for (const auto& [ending, unit] : unit_endings) {
-      if (!name.ends_with(ending)) continue;
-      const std::string_view bare = std::string_view(name).substr(0, name.size() - ending.size());
-      if (bare == quantity || (any_middle && bare.starts_with(quantity) && bare.size() > quantity.size() &&
-                               bare[quantity.size()] == '_')) {
-        return i;
-      }
-    }
-  }
-  return std::nullopt;
-}
-
-std::optional<std::size_t> find_exact(const Csv& csv, std::string_view name) {
-  const auto found = std::find(csv.names.begin(), csv.names.end(), name);
-  if (found == csv.names.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - csv.names.begin());
-}
-
-/// The numbers of a column in SI; empty cells, where they may be, are NaN.
-std::vector<double> column(const Csv& csv, std::size_t index, std::string_view si_unit,
-                           const std::filesystem::path& path, bool may_be_empty = false) {
-  units::Conversion conversion;
-  for (const auto& [ending, unit] : unit_endings) {
-    if (csv.names[index].ends_with(ending)) conversion = units::conversion(unit, si_unit);
-  }
-  std::vector<double> values;
-  for (std::size_t row = 0; row < csv.rows.size(); ++row) {
-    const std::string& cell = csv.rows[row][index];
-    if (cell.empty() && may_be_empty) {
-      values.push_back(nan);
-      continue;
-    }
-    double value = 0.0;
-    const auto [rest, status] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (status != std::errc() || rest != cell.data() + cell.size()) {
-      throw InputError(fmt::format("{}:{}: '{}' in column {} is not a number", path.string(), csv.lines[row],
-                                   cell, csv.names[index]));
-    }
-    values.push_back(conversion.factor * value + conversion.offset);
-  }
-  return values;
-}
-
-std::optional<std::size_t> pressure_column(const Csv& csv) {
-  for (const char* name : {"P", "P_revised_ruby", "P_revised"}) {
-    if (const auto found = find_column(csv, name)) return found;
-  }
-  return find_column(csv, "P", true);
-}
-
-bool says_hugoniot(const Csv& csv, const std::filesystem::path& path) {
+bool says_hugoniot(const MeasuredTable& table) {
   static const std::regex word("hugoniot", std::regex::icase);
-  if (std::regex_search(path.stem().string(), word)) return true;
-  return std::any_of(csv.comments.begin(), csv.comments.end(),
-                     [](const std::string& comment) { return std::regex_search(comment, word); });
+  if (std::regex_search(table.file().stem().string(), word)) return true;
+  return std::ranges::any_of(table.comments(),
+                             [](const std::string& comment) { return std::regex_search(comment, word); });
 }
 
-/// The temperature of a file that has no volumes: a melting line.
-std::optional<std::size_t> melting_column(const Csv& csv) {
-  for (const char* volume : {"V", "atomic_volume", "rho"}) {
-    if (find_column(csv, volume)) return std::nullopt;
-  }
-  if (find_exact(csv, "V_over_V0")) return std::nullopt;
-  const auto temperature = find_column(csv, "Tm");
-  return temperature ? temperature : find_column(csv, "T");
+bool has_volumes(const MeasuredTable& table) {
+  constexpr std::array columns = {"V_over_V0", "atomic_volume", "V", "rho"};
+  return std::ranges::any_of(columns, [&](const char* name) { return table.find(name).has_value(); });
 }
 
-std::string measured_material(const Csv& csv) {
+std::string measured_material(const MeasuredTable& table) {
   constexpr std::string_view key = "material:";
-  for (const std::string& comment : csv.comments) {
+  for (const std::string& comment : table.comments()) {
     if (!comment.starts_with(key)) continue;
     const std::size_t first = comment.find_first_not_of(' ', key.size());
-    return first == std::string::npos ? ""
-                                      : comment.substr(first, comment.find_last_not_of(" \r") + 1 - first);
+    return first == std::string::npos ? "" : comment.substr(first);
   }
   return "";
 }
 
-double isotherm_temperature(const Csv& csv, const std::filesystem::path& path) {
+double isotherm_temperature(const MeasuredTable& table) {
   static const std::regex in_name("(^|_)([0-9]+)K(_|$)");
   static const std::regex in_comment("(^|[ (,])([0-9]+(\\.[0-9]+)?) K([ ,.;)]|$)");
   static const std::regex room("room[- ]temperature", std::regex::icase);
   std::smatch match;
-  const std::string stem = path.stem().string();
+  const std::string stem = table.file().stem().string();
   if (std::regex_search(stem, match, in_name)) return std::stod(match[2]);
-  for (const std::string& comment : csv.comments) {
+  for (const std::string& comment : table.comments()) {
     if (std::regex_search(comment, match, in_comment)) return std::stod(match[2]);
     if (std::regex_search(comment, room)) return room_temperature;
   }
   throw InputError(
       fmt::format("{}: the temperature of the isotherm is neither in the file name (\"_298K\") nor in a "
                   "comment (\"298 K\", \"room temperature\"): give --temperature",
-                  path.string()));
+                  table.file().string()));
 }
 
-/// V/V0 from whichever column of volume or density there is.
-std::vector<double> volume_ratios(const Csv& csv, const std::vector<double>& pressure,
-                                  Experiment& experiment) {
-  const std::filesystem::path& path = experiment.file;
-  if (const auto ratio = find_exact(csv, "V_over_V0")) return column(csv, *ratio, "", path);
+/// V/V0 from whichever column of volume or density there is. The volume of reference is that of the stated
+/// initial density, else that of the row at zero pressure.
+std::vector<double> volume_ratios(const MeasuredTable& table, const std::vector<double>& pressure,
+                                  double& ambient_volume) {
+  if (const auto ratio = table.find("V_over_V0")) return table.numbers(*ratio);
   std::vector<double> volume;
-  if (const auto atomic = find_column(csv, "atomic_volume")) {
-    volume = column(csv, *atomic, "m^3", path);
-  } else if (const auto specific = find_column(csv, "V")) {
-    volume = column(csv, *specific, "m^3/kg", path);
-  } else if (const auto density = find_column(csv, "rho")) {
-    volume = column(csv, *density, "kg/m^3", path);
+  bool of_atoms = false;
+  if (const auto atomic = table.find("atomic_volume")) {
+    volume = table.numbers(*atomic);
+    of_atoms = true;
+  } else if (const auto specific = table.find("V")) {
+    volume = table.numbers(*specific);
+  } else if (const auto density = table.find("rho")) {
+    volume = table.numbers(*density);
     for (double& value : volume) value = 1.0 / value;
   } else {
     throw InputError(
         fmt::format("{}: no column of volume (V_over_V0, atomic_volume_A3, V_cm3_g, rho_g_cm3); the "
                     "columns are {}",
-                    path.string(), fmt::join(csv.names, ", ")));
+                    table.file().string(), table.headings()));
   }
-  const auto ambient = std::find(pressure.begin(), pressure.end(), 0.0);
+  if (const std::vector<double> initial = table.numbers("rho0"); !initial.empty() && !of_atoms) {
+    for (std::size_t i = 0; i < volume.size(); ++i) volume[i] *= initial[i];
+    return volume;
+  }
+  const auto ambient = std::ranges::find(pressure, 0.0);
   if (ambient == pressure.end()) {
     throw InputError(
         fmt::format("{}: volumes without the one at zero pressure; add a row with P = 0, or a column "
                     "V_over_V0",
-                    path.string()));
+                    table.file().string()));
   }
-  experiment.ambient_volume = volume[static_cast<std::size_t>(ambient - pressure.begin())];
-  for (double& value : volume) value /= experiment.ambient_volume;
+  ambient_volume = volume[static_cast<std::size_t>(ambient - pressure.begin())];
+  for (double& value : volume) value /= ambient_volume;
   return volume;
 }
 
-/// Keeps the points that are measurements of a compressed state, by rising abscissa.
-void set_points(Experiment& experiment, const std::vector<double>& abscissa,
-                const std::vector<double>& ordinate, const std::vector<double>& zero_at_rest) {
+/// Why a row is no measurement of a compressed state; empty: it is one.
+std::string_view fault(ExperimentKind kind, double x, double y) {
+  if (!std::isfinite(x) || !std::isfinite(y)) return "a value is missing or no number";
+  switch (kind) {
+    case ExperimentKind::shock_velocity:
+      if (x == 0.0) return "at rest (up = 0: a speed of sound, no shock)";
+      if (x < 0.0) return "up is negative";
+      if (y <= x) return "Us is not above up";
+      break;
+    case ExperimentKind::shock_pressure:
+    case ExperimentKind::isotherm:
+      if (y == 0.0) return "at zero pressure, the reference itself";
+      if (y < 0.0) return "P is negative";
+      if (x <= 0.0) return "V/V0 is not positive";
+      break;
+    case ExperimentKind::melting:
+      if (y <= 0.0) return "T is not positive";
+      break;
+  }
+  return "";
+}
+
+/// Takes over the rows that are measurements of a compressed state, by rising abscissa.
+void set_points(Experiment& experiment, const MeasuredTable& table, const std::vector<double>& abscissa,
+                const std::vector<double>& ordinate) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < abscissa.size(); ++i) {
-    if (zero_at_rest[i] > 0.0) order.push_back(i);
+    const std::string_view reason = fault(experiment.kind, abscissa[i], ordinate[i]);
+    if (reason.empty()) {
+      order.push_back(i);
+    } else {
+      experiment.left_out[std::string(reason)].push_back(table.line(i));
+    }
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return abscissa[a] < abscissa[b]; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return abscissa[i]; });
+  const std::vector<double> density = table.numbers("rho0");
+  const std::vector<double> porosity = table.numbers("m");
   for (const std::size_t i : order) {
     experiment.abscissa.push_back(abscissa[i]);
     experiment.ordinate.push_back(ordinate[i]);
+    experiment.lines.push_back(table.line(i));
+    experiment.initial_density.push_back(density.empty() ? nan : density[i]);
+    experiment.porosity.push_back(porosity.empty() ? nan : porosity[i]);
   }
   if (order.empty()) throw InputError(fmt::format("{}: no compressed state in it", experiment.file.string()));
+}
+/// Us = C + S up + S2 up^2/Us + S3 up^3/Us^2 (Steinberg), up and Us in m/s.
+double fitted_shock_velocity(const std::array<double, 4>& c, double up) {
+  double us = c[0] + c[1] * up;
+  if (c[2] == 0.0 && c[3] == 0.0) return us;
+  for (int i = 0; i < 100; ++i) us = c[0] + up * (c[1] + up / us * (c[2] + up / us * c[3]));
+  return us;
+}
+
+/// The range of up that a fit states, "Up 0-4.16" in km/s or "7-108 GPa"; else up to half of C.
+struct StatedRange {
+  double from, to, unit;
+  bool of_pressure;
+};
+StatedRange stated_range(const std::string& text, double c) {
+  static const std::regex velocities("Up ([0-9.]+)-([0-9.]+)"), pressures("([0-9.]+)-([0-9.]+) GPa");
+  std::smatch match;
+  if (std::regex_search(text, match, velocities))
+    return {std::stod(match[1]), std::stod(match[2]), 1e3, false};
+  if (std::regex_search(text, match, pressures)) return {std::stod(match[1]), std::stod(match[2]), 1e9, true};
+  return {0.0, 0.5 * c, 1.0, false};
+}
+
+/// Every row of a table of fits as a Hugoniot of its own, of points within the range that it states.
+std::vector<Experiment> shock_fits(const MeasuredTable& table, const Experiment& common) {
+  constexpr int candidates = 60;  // up to up = 1.5 C
+  const auto texts = [&](const char* heading) {
+    const auto found = table.find_heading(heading);
+    return found ? table.texts(*found) : std::vector<std::string>(table.rows());
+  };
+  const auto constants = [&](const char* quantity) {
+    const std::vector<double> values = table.numbers(quantity);
+    return values.empty() ? std::vector<double>(table.rows(), 0.0) : values;
+  };
+  const auto names = texts("material"), words = texts("library"), ranges = texts("range");
+  const std::array columns = {constants("C"), constants("S"), constants("S2"), constants("S3")};
+  const std::vector<double> density = constants("rho0");
+  std::vector<Experiment> fits;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    Experiment fit = common;
+    fit.kind = ExperimentKind::shock_velocity;
+    fit.name += fmt::format(":{} {}", table.line(row), names[row]);
+    if (!names[row].empty()) fit.material = words[row].empty() ? names[row] : words[row];
+    fit.only_its_material = !fit.material.empty();
+    std::array<double, 4> c{};
+    for (std::size_t k = 0; k < c.size(); ++k) c[k] = std::isnan(columns[k][row]) ? 0.0 : columns[k][row];
+    const StatedRange range = stated_range(ranges[row], c[0]);
+    if (c[0] <= 0.0 || (range.of_pressure && !(density[row] > 0.0))) {
+      throw InputError(
+          fmt::format("{}:{}: a fit of shock velocities needs C > 0, and rho0 if its range is one of "
+                      "pressures",
+                      table.file().string(), table.line(row)));
+    }
+    for (int i = 1; i <= candidates; ++i) {
+      const double up = 1.5 * c[0] * i / candidates;
+      const double us = fitted_shock_velocity(c, up);
+      const double place = (range.of_pressure ? density[row] * us * up : up) / range.unit;
+      if (place < range.from || place > range.to) continue;
+      fit.abscissa.push_back(up);
+      fit.ordinate.push_back(us);
+      fit.lines.push_back(table.line(row));
+      fit.initial_density.push_back(density[row] > 0.0 ? density[row] : nan);
+      fit.porosity.push_back(nan);
+    }
+    if (!fit.abscissa.empty()) fits.push_back(std::move(fit));
+  }
+  return fits;
 }
 
 }  // namespace
@@ -253,88 +238,68 @@ std::filesystem::path find_experiment(const std::string& name) {
 }
 
 std::vector<double> measured_quantity(const std::filesystem::path& file, const std::string& wanted) {
-  const Csv csv = read_csv(file);
+  const MeasuredTable table = MeasuredTable::read(file);
   const auto by_row = [&](const auto& of_row) {
     std::vector<double> values;
-    for (std::size_t i = 0; i < csv.rows.size(); ++i) values.push_back(of_row(i));
+    for (std::size_t i = 0; i < table.rows(); ++i) values.push_back(of_row(i));
     return values;
   };
-  const auto shock_column = [&](const char* quantity, const char* unit) {
-    const auto found = find_column(csv, quantity);
-    return found ? column(csv, *found, unit, file, true) : std::vector<double>();
-  };
-  if (const auto exact = find_exact(csv, wanted); exact && wanted == "V_over_V0") {
-    return column(csv, *exact, "", file, true);
-  }
-  const std::vector<double> us = shock_column("us", "m/s"), up = shock_column("up", "m/s");
+  if (const auto found = table.find(MeasuredTable::quantity_of(wanted))) return table.numbers(*found);
+  const std::vector<double> us = table.numbers("us"), up = table.numbers("up");
   const bool shocks = !us.empty() && !up.empty();
   if (wanted == "V_over_V0") {
     if (shocks) return by_row([&](std::size_t i) { return 1 - up[i] / us[i]; });
-    if (const auto p = pressure_column(csv)) {
-      Experiment experiment;
-      experiment.file = file;
-      return volume_ratios(csv, column(csv, *p, "Pa", file, true), experiment);
+    if (const auto p = table.find("P")) {
+      double ambient_volume = 0.0;
+      return volume_ratios(table, table.numbers(*p), ambient_volume);
     }
   } else if (wanted == "P_GPa") {
-    if (const auto p = pressure_column(csv)) return column(csv, *p, "Pa", file, true);
-    const std::vector<double> rho0 = shock_column("rho0", "kg/m^3");
+    const std::vector<double> rho0 = table.numbers("rho0");
     if (shocks && !rho0.empty()) return by_row([&](std::size_t i) { return rho0[i] * us[i] * up[i]; });
-  } else if (wanted == "T_K") {
-    for (const char* name : {"T", "Tm"}) {
-      if (const auto found = find_column(csv, name)) return column(csv, *found, "K", file, true);
-    }
-  } else {
-    for (const auto& [ending, unit] : unit_endings) {
-      if (!wanted.ends_with(ending)) continue;
-      const std::string quantity = wanted.substr(0, wanted.size() - ending.size());
-      const char* si = unit == "km/s" ? "m/s" : unit == "kg/m^3" ? "kg/m^3" : nullptr;
-      const auto found = si == nullptr ? std::nullopt : find_column(csv, quantity);
-      if (found) return column(csv, *found, si, file, true);
-    }
   }
   throw InputError(fmt::format("{}: no column that gives {}; the columns are {}", file.string(), wanted,
-                               fmt::join(csv.names, ", ")));
+                               table.headings()));
 }
 
-Experiment read_experiment(const std::filesystem::path& file, std::optional<double> temperature) {
-  const Csv csv = read_csv(file);
+std::vector<Experiment> read_experiments(const std::filesystem::path& file,
+                                         std::optional<double> temperature) {
+  const MeasuredTable table = MeasuredTable::read(file);
   Experiment experiment;
   experiment.file = file;
   experiment.name = file.stem().string();
-  experiment.source = csv.comments.empty() ? "" : csv.comments.front();
-  experiment.material = measured_material(csv);
-  const auto us = find_column(csv, "us");
-  const auto up = find_column(csv, "up");
+  experiment.source = table.comments().empty() ? "" : table.comments().front();
+  experiment.material = measured_material(table);
+  if (table.find("C") && table.find("S")) return shock_fits(table, experiment);
+  const auto us = table.find("us");
+  const auto up = table.find("up");
   if (us && up) {
     experiment.kind = ExperimentKind::shock_velocity;
-    const std::vector<double> particle_velocity = column(csv, *up, "m/s", file);
-    set_points(experiment, particle_velocity, column(csv, *us, "m/s", file), particle_velocity);
-    return experiment;
+    set_points(experiment, table, table.numbers(*up), table.numbers(*us));
+    return {experiment};
   }
-  const auto p = pressure_column(csv);
+  const auto p = table.find("P");
   if (!p) {
     throw InputError(
         fmt::format("{}: neither a Hugoniot (columns us_km_s, up_km_s) nor pressures (P_GPa) with volumes or "
-                    "melting temperatures (T_K); "
+                    "melting temperatures (T_K), nor fits of shock velocities (C_km_s, S); "
                     "the columns are {}",
-                    file.string(), fmt::join(csv.names, ", ")));
+                    file.string(), table.headings()));
   }
-  const std::vector<double> pressure = column(csv, *p, "Pa", file);
-  if (const auto melting = melting_column(csv)) {
+  const std::vector<double> pressure = table.numbers(*p);
+  if (const auto melting = table.find("T"); melting && !has_volumes(table)) {
     experiment.kind = ExperimentKind::melting;
-    const std::vector<double> melting_temperature = column(csv, *melting, "K", file);
-    set_points(experiment, pressure, melting_temperature, melting_temperature);
-    return experiment;
+    set_points(experiment, table, pressure, table.numbers(*melting));
+    return {experiment};
   }
-  const std::vector<double> ratios = volume_ratios(csv, pressure, experiment);
-  if (says_hugoniot(csv, file)) {
+  const std::vector<double> ratios = volume_ratios(table, pressure, experiment.ambient_volume);
+  if (says_hugoniot(table)) {
     experiment.kind = ExperimentKind::shock_pressure;
   } else {
     experiment.kind = ExperimentKind::isotherm;
-    experiment.temperature = temperature ? *temperature : isotherm_temperature(csv, file);
+    experiment.temperature = temperature ? *temperature : isotherm_temperature(table);
   }
-  set_points(experiment, ratios, pressure, pressure);
-  return experiment;
+  set_points(experiment, table, ratios, pressure);
+  return {experiment};
 }
 
 bool belongs_to(const Experiment& experiment, const Material& material) {
@@ -347,22 +312,33 @@ bool belongs_to(const Experiment& experiment, const Material& material) {
          lower(material.file.stem().string()).find(word) != std::string::npos;
 }
 
+std::vector<double> initial_densities(const Material& material, const Experiment& experiment) {
+  const double solid = material.reference.density;
+  std::vector<double> densities;
+  for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
+    const double stated = std::isnan(experiment.initial_density[i]) ? solid / experiment.porosity[i]
+                                                                    : experiment.initial_density[i];
+    densities.push_back(stated > 0.0 && stated < (1.0 - same_density) * solid ? stated : solid);
+  }
+  return densities;
+}
+
 std::vector<double> curve(const Material& material, const Experiment& experiment,
-                          const std::vector<double>& abscissa) {
+                          const std::vector<double>& abscissa, const std::vector<double>& initial_density) {
   const eos::EquationOfState& eos = *material.eos;
   std::vector<double> values;
   values.reserve(abscissa.size());
   const auto guarded = [&](const auto& function) {
-    for (const double x : abscissa) {
+    for (std::size_t i = 0; i < abscissa.size(); ++i) {
       try {
-        values.push_back(function(x));
+        values.push_back(function(abscissa[i], initial_density[i]));
       } catch (const StateError&) {
         values.push_back(nan);  // outside the material's range: counted by the caller
       }
     }
   };
   if (experiment.kind == ExperimentKind::melting) {
-    guarded([&](double pressure) {
+    guarded([&](double pressure, double) {
       const auto melting = eos::melting_point(eos, pressure);
       return melting ? 0.5 * (melting->solidus.temperature + melting->liquidus.temperature) : nan;
     });
@@ -370,24 +346,26 @@ std::vector<double> curve(const Material& material, const Experiment& experiment
   }
   if (experiment.kind == ExperimentKind::isotherm) {
     const double density = eos::density_at_pressure(eos, 0.0, experiment.temperature);
-    guarded([&](double ratio) {
+    guarded([&](double ratio, double) {
       return eos.state_at_temperature(density / ratio, experiment.temperature).pressure;
     });
     return values;
   }
-  const eos::Hugoniot hugoniot(eos, material.reference.density, material.reference.specific_internal_energy);
-  if (experiment.kind == ExperimentKind::shock_velocity) {
-    guarded([&](double up) { return hugoniot.at_particle_velocity(up).shock_velocity; });
-  } else {
-    guarded(
-        [&](double ratio) { return hugoniot.at_density(material.reference.density / ratio).state.pressure; });
-  }
+  const eos::Hugoniot principal(eos, material.reference.density, material.reference.specific_internal_energy);
+  guarded([&](double x, double density) {
+    const eos::Hugoniot hugoniot =
+        density < material.reference.density ? eos::Hugoniot::porous(eos, density) : principal;
+    return experiment.kind == ExperimentKind::shock_velocity
+               ? hugoniot.at_particle_velocity(x).shock_velocity
+               : hugoniot.at_density(density / x).state.pressure;
+  });
   return values;
 }
 
 Comparison compare(const Material& material, const Experiment& experiment) {
   Comparison result;
-  result.model = curve(material, experiment, experiment.abscissa);
+  const std::vector<double> densities = initial_densities(material, experiment);
+  result.model = curve(material, experiment, experiment.abscissa, densities);
   for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
     const double measured = experiment.ordinate[i];
     const double difference = result.model[i] - measured;
@@ -395,8 +373,12 @@ Comparison compare(const Material& material, const Experiment& experiment) {
         experiment.kind == ExperimentKind::shock_velocity || experiment.kind == ExperimentKind::melting;
     const double deviation = relative ? 100.0 * difference / measured : difference;
     result.deviation.push_back(deviation);
+    if (densities[i] < material.reference.density) result.porous.push_back(experiment.lines[i]);
+    if (experiment.initial_density[i] > (1.0 + same_density) * material.reference.density) {
+      result.denser.push_back(experiment.lines[i]);
+    }
     if (std::isnan(deviation)) {
-      ++result.out_of_range;
+      result.out_of_range.push_back(experiment.lines[i]);
       continue;
     }
     ++result.points;

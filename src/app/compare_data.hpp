@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,8 @@ enum class ExperimentKind {
   melting,         ///< T over P along the melting line
 };
 
-/// One CSV file. SI; volumes as ratios to the experiment's own volume at zero pressure.
+/// One CSV file, or one row of a file of fits. SI; volumes as ratios to the experiment's own volume at zero
+/// pressure.
 struct Experiment {
   std::filesystem::path file;
   std::string name;      ///< of the file, without ending
@@ -29,19 +31,24 @@ struct Experiment {
   double ambient_volume = 0.0;   ///< m^3 per atom; 0 if the file gives ratios
   std::vector<double> abscissa;  ///< up (m/s), V/V0 or P (Pa), rising
   std::vector<double> ordinate;  ///< Us (m/s), P (Pa) or T (K)
+  // Of each point:
+  std::vector<int> lines;
+  std::vector<double> initial_density;  ///< kg/m^3, NaN: not stated
+  std::vector<double> porosity;         ///< density of the solid over the initial one, NaN: not stated
+  std::map<std::string, std::vector<int>> left_out;  ///< lines of rows that are no such points, by the reason
+  bool only_its_material = false;                    ///< nothing for other materials
 };
 
-/// Reads a CSV file: '#' comments name the source, the header names each column with its unit (us_km_s,
-/// up_km_s, P_GPa, P_revised_ruby_GPa, V_over_V0, atomic_volume_A3, V_cm3_g, rho_g_cm3; other columns are
-/// ignored). us and up make a Hugoniot; P and a volume a Hugoniot if name or comments say so, else an
-/// isotherm; P and a temperature (T_K, Tm_K) without a volume make a melting line. A comment "material:
-/// copper" names what it was measured on. Of several pressure scales the revised one counts. An atomic volume
-/// is divided by that of the row with P = 0. Points at rest (up = 0: sound speeds) are no shocks and are left
-/// out, and so is P = 0, which is the reference itself.
+/// Reads a table (`MeasuredTable`). us and up make a Hugoniot; P and a volume or density a Hugoniot if name
+/// or comments say so, else an isotherm; P and a temperature without a volume make a melting line; C and S
+/// (S2, S3) with a material in each row make a Hugoniot for each row. A comment "material: copper" names what
+/// it was measured on. Without V_over_V0 the reference volume is that of rho0, or that of the row with P = 0.
+/// Rows that are no compressed state, such as sound speeds (up = 0) and P = 0, are left out and named.
 /// @param temperature  of an isotherm; without it, "298K" in the file name or "298 K" in a comment, or "room
 /// temperature" (298 K)
 /// @throws InputError with file and line
-Experiment read_experiment(const std::filesystem::path& file, std::optional<double> temperature = {});
+std::vector<Experiment> read_experiments(const std::filesystem::path& file,
+                                         std::optional<double> temperature = {});
 
 /// A path, or a bare file name of the experiments that come with the program (eos/data).
 /// @throws InputError if there is no such file
@@ -59,21 +66,30 @@ struct Comparison {
   std::vector<double> model;  ///< ordinate of the material; NaN outside its range
   /// In percent of the measured Us or T, or in Pa; model less experiment.
   std::vector<double> deviation;
-  int points = 0;  ///< inside the range of the material
-  int out_of_range = 0;
+  int points = 0;                 ///< inside the range of the material
+  std::vector<int> out_of_range;  ///< lines of the points outside of it
+  std::vector<int> porous;        ///< lines of the points whose initial density was below the material's
+  std::vector<int> denser;        ///< and above it: they count as of the material's density
   double rms = 0.0, mean = 0.0, maximum = 0.0;  ///< `maximum`: the deviation of largest size, with its sign
 };
 
 /// Whether a material of this name is of the kind that was measured.
 bool belongs_to(const Experiment& experiment, const Material& material);
 
+/// Initial densities that differ by less belong to the same solid: impurities, and errors of the measurement.
+constexpr double same_density = 0.01;
+
+/// The density (kg/m^3) from which each point is shocked: that of the row, by `initial_density` or
+/// `porosity`, where it is below the material's by more than `same_density`, else the material's.
+std::vector<double> initial_densities(const Material& material, const Experiment& experiment);
+
 /// Of a melting line counts the middle of solidus and liquidus. The initial state of a Hugoniot, and the
 /// reference volume of an isotherm, are the material's own: zero pressure at its reference temperature, or at
-/// the temperature of the isotherm.
+/// the temperature of the isotherm; a Hugoniot from less than the reference density is the porous one.
 Comparison compare(const Material& material, const Experiment& experiment);
 
-/// The curve of the material over the range of the experiment, `count` points of equal distance.
+/// The curve of the material at the given points and their initial densities; NaN where it has none.
 std::vector<double> curve(const Material& material, const Experiment& experiment,
-                          const std::vector<double>& abscissa);
+                          const std::vector<double>& abscissa, const std::vector<double>& initial_density);
 
 }  // namespace whipple::app

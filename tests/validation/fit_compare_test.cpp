@@ -6,8 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 
 #include "eos/inversions.hpp"
 #include "eos/loci.hpp"
@@ -23,6 +25,10 @@ namespace {
 using ::testing::HasSubstr;
 
 const std::filesystem::path data = std::filesystem::path(WHIPPLE_SOURCE_DIR) / "eos/data";
+
+Experiment read_experiment(const std::filesystem::path& file, std::optional<double> temperature = {}) {
+  return read_experiments(file, temperature).front();
+}
 
 /// Rows of Liu, Wang & Zhang, Int. J. Mech. Mater. Des. 9 (2013) 127.
 Material copper(bool measured) {
@@ -159,6 +165,93 @@ TEST(Compare, OwnCurvesLeaveNoDeviation) {
             1e6);
 }
 
+Experiment experiment_of(const std::string& text, const std::string& name = "measurement.csv") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / name, std::ios::binary) << text;
+  return read_experiment(folder.path() / name);
+}
+
+// One shock, 500 m/s and 4700 m/s, in the dialects of spreadsheets, papers and programs.
+TEST(Compare, ReadsTablesAsPeopleWriteThem) {
+  for (const char* text :
+       {"us_km_s,up_km_s\n4.7,0.5\n",
+        "\xEF\xBB\xBFup [km/s];Us [km/s];note\r\n 0.5 ; +4.7 ;\"a; b\"\r\n;;\r\n",
+        "u_p (m/s)\tU_s (m/s)\n500\t4700\n", "% text\n\n  up [km/s]  us [km/s]\n  0.5   4.7\n",
+        "up,Us\nkm/s,m/s\n0.5,4700\n", "particle velocity (mm/us),shock velocity (mm/us)\n0.5,4.7\n",
+        "D [km/s],U [km/s],d [mm]\n4.7,0.5,3\n"}) {
+    const Experiment experiment = experiment_of(text);
+    EXPECT_EQ(experiment.kind, ExperimentKind::shock_velocity) << text;
+    ASSERT_EQ(experiment.abscissa.size(), 1U) << text;
+    EXPECT_NEAR(experiment.abscissa.front(), 500.0, 1e-9) << text;
+    EXPECT_NEAR(experiment.ordinate.front(), 4700.0, 1e-9) << text;
+  }
+  const Experiment isotherm = experiment_of("# 298 K\nP (kbar);V (\xC3\x85^3)\n0;12\n100;11\n");
+  EXPECT_NEAR(isotherm.ordinate.front(), 1e10, 1.0);
+  EXPECT_NEAR(isotherm.abscissa.front(), 11.0 / 12.0, 1e-12);
+  EXPECT_NEAR(isotherm.ambient_volume, 12e-30, 1e-40);
+}
+
+TEST(Compare, NamesTheRowsThatItLeavesOut) {
+  const Experiment experiment =
+      experiment_of("us_km_s,up_km_s\n4.7,0.5\n3.9,0\n4.5,-0.4\n5,nan\n,0.3\n4,5\n");
+  using Lines = std::vector<int>;
+  EXPECT_EQ(experiment.lines, Lines{2});
+  const std::map<std::string, Lines> expected = {{"at rest (up = 0: a speed of sound, no shock)", {3}},
+                                                 {"up is negative", {4}},
+                                                 {"a value is missing or no number", {5, 6}},
+                                                 {"Us is not above up", {7}}};
+  EXPECT_EQ(experiment.left_out, expected);
+}
+
+// The same shock from the initial density of a row, from its porosity, and of the model's porous Hugoniot.
+TEST(Compare, PorousRowsMeetThePorousHugoniot) {
+  const Material material = copper(true);
+  const double solid = material.reference.density;
+  const double us =
+      eos::Hugoniot::porous(*material.eos, solid / 1.6).at_particle_velocity(750).shock_velocity;
+  EXPECT_LT(us, 3000.0);  // 5070 m/s from the solid
+  const std::string row = fmt::format("0.75,{:.12g},", us * 1e-3);
+  const std::string density = fmt::format("up_km_s,us_km_s,rho0_g_cm3\n{}{:.12g}\n", row, solid / 1.6 * 1e-3);
+  for (const std::string& text : {density, "up_km_s,us_km_s,m\n" + row + "1.6\n"}) {
+    const Comparison comparison = compare(material, experiment_of(text));
+    EXPECT_NEAR(comparison.maximum, 0.0, 1e-7) << text;
+    EXPECT_EQ(comparison.porous, std::vector<int>{2}) << text;
+  }
+  // Within a hundredth it is the same solid; above it is said.
+  EXPECT_TRUE(compare(material, experiment_of("up_km_s,us_km_s,rho0_g_cm3\n0.75,5,8.92\n")).porous.empty());
+  const Comparison denser = compare(material, experiment_of("up_km_s,us_km_s,rho0_g_cm3\n0.75,5,9.2\n"));
+  EXPECT_EQ(denser.denser, std::vector<int>{2});
+  // A pressure and a density behind the shock: V/V0 by the initial density, no row at rest needed.
+  const auto state = eos::Hugoniot::porous(*material.eos, solid / 1.6).at_particle_velocity(750).state;
+  const Comparison pressures =
+      compare(material, experiment_of(fmt::format("P_GPa,rho_kg_m3,rho0_kg_m3\n{:.12g},{:.12g},{:.12g}\n",
+                                                  state.pressure * 1e-9, state.density, solid / 1.6),
+                                      "hugoniot.csv"));
+  EXPECT_NEAR(pressures.maximum / state.pressure, 0.0, 1e-6);
+}
+
+// The table of published fits gives each of its rows for the materials that the row names.
+TEST(Compare, PublishedFitsAreExperiments) {
+  const std::vector<Experiment> fits = read_experiments(data / "us_up_fits.csv");
+  EXPECT_EQ(fits.size(), 25U);
+  const auto silver =
+      std::ranges::find_if(fits, [](const Experiment& fit) { return fit.lines.front() == 23; });
+  ASSERT_NE(silver, fits.end());
+  EXPECT_EQ(silver->material, "silver");
+  EXPECT_TRUE(silver->only_its_material);
+  const auto pressure = [&](std::size_t i) { return 10500 * silver->abscissa[i] * silver->ordinate[i]; };
+  EXPECT_GE(pressure(0), 30e9);  // the range that the row states
+  EXPECT_LE(pressure(silver->abscissa.size() - 1), 300e9);
+  EXPECT_NEAR(silver->ordinate.front(), 3210 + 1.62 * silver->abscissa.front(), 1e-9);
+  // Steinberg's form with S2, S3: lead.
+  const Experiment lead =
+      experiment_of("C_km_s,S,S2,S3,range\n2.006,1.429,0.8506,-1.64,Up 0.4-2\n", "lead.csv");
+  for (std::size_t i = 0; i < lead.abscissa.size(); ++i) {
+    const double up = lead.abscissa[i], us = lead.ordinate[i];
+    EXPECT_NEAR(us, 2006 + 1.429 * up + 0.8506 * up * up / us - 1.64 * up * up * up / (us * us), 1e-6);
+  }
+}
+
 std::string refusal(const std::string& text, const std::string& name = "measurement.csv") {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / name) << text;
@@ -178,6 +271,14 @@ TEST(Compare, ReportsFilesThatItCannotUse) {
   EXPECT_THAT(refusal("us_km_s,up_km_s\n5,x\n"),
               HasSubstr("measurement.csv:2: 'x' in column up_km_s is not a number"));
   EXPECT_THAT(refusal("us_km_s,up_km_s\n5\n"), HasSubstr("measurement.csv:2: 1 cells, the header has 2"));
+  EXPECT_THAT(refusal("up;us\nkm/s;km/s\n0,5;4,7\n"),
+              HasSubstr("csv:3: '4,7' in column us is not a number: a decimal comma"));
+  EXPECT_THAT(refusal("us_km_s,up_km_s\n4,7,0,5\n"),
+              HasSubstr("csv:2: 4 cells, the header has 2 (a decimal comma?"));
+  EXPECT_THAT(refusal("up,us_km_s\n0.5,4.7\n"), HasSubstr("column 'up' gives no unit"));
+  EXPECT_THAT(refusal("up [GPa],us_km_s\n0.5,4.7\n"),
+              HasSubstr("csv:1: column 'up [GPa]': 'GPa' is no unit"));
+  EXPECT_THAT(refusal(std::string("u\0p\0", 4)), HasSubstr("UTF-16"));
   EXPECT_THAT(refusal("us_km_s,up_km_s\n"), HasSubstr("no rows of data"));
   EXPECT_THAT(refusal("us_km_s,up_km_s\n4,0\n"), HasSubstr("no compressed state"));
 }

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/app/measured_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <fstream>
+#include <limits>
+#include <span>
+
+#include "src/base/error.hpp"
+#include "src/base/units.hpp"
+
+namespace whipple::app {
+namespace {
+
+/// A quantity with its spellings, the best first, without the signs that `plain` takes off. Spellings of one
+/// letter count only with a unit that fits: D is a shock velocity in km/s and a diameter in mm.
+struct Quantity {
+  std::string_view name;
+  std::string_view si_unit;
+  std::array<std::string_view, 6> spellings;
+};
+constexpr std::array quantities = {
+    Quantity{"us", "m/s", {"us", "shockvelocity", "shockspeed", "d"}},
+    Quantity{"up", "m/s", {"up", "particlevelocity", "particlespeed", "u"}},
+    Quantity{"P", "Pa", {"p", "pressure", "previsedruby", "previsedscale", "prevised"}},
+    Quantity{"V", "m^3/kg", {"v", "specificvolume"}},
+    Quantity{"atomic_volume", "m^3", {"atomicvolume", "v"}},
+    Quantity{"rho", "kg/m^3", {"rho", "density", "r"}},
+    Quantity{"V_over_V0", "", {"voverv0", "v/v0"}},
+    Quantity{"T", "K", {"tm", "t", "temperature", "meltingtemperature"}},
+    Quantity{"rho0", "kg/m^3", {"rho00", "r00", "rho0", "initialdensity", "density0"}},
+    Quantity{"m", "", {"m", "porosity", "distension"}},
+    Quantity{"C", "m/s", {"c", "c0"}},
+    Quantity{"S", "", {"s", "s1"}},
+    Quantity{"S2", "", {"s2"}},
+    Quantity{"S3", "", {"s3"}},
+};
+constexpr std::size_t other_scale = 100;  // rank of a pressure scale that is not the revised one
+
+/// "U_p", "u p" and "$u_{p}$" are "up".
+std::string plain(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (std::string_view("_ -{}$\\").find(c) == std::string_view::npos) {
+      result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+  }
+  return result;
+}
+
+std::string trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(" \t\r") + 1 - first));
+}
+
+/// "A3" and "A^3" are cubes of the angstrom, in volumes of atoms, and not of the ampere.
+std::string unit_text(std::string_view text) {
+  std::string unit = trimmed(text);
+  if (unit == "-") return "";
+  for (const char* cube : {"A3", "A^3", "\u00c53", "\u00c5^3"}) {
+    if (unit == cube) return "angstrom^3";
+  }
+  return unit;
+}
+
+bool fits(std::string_view unit, std::string_view si_unit) {
+  try {
+    units::conversion(unit, si_unit);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Whether a cell is a number, and which; empty cells and "nan" are NaN.
+bool read_number(std::string_view cell, double& value) {
+  value = std::numeric_limits<double>::quiet_NaN();
+  if (cell.empty() || cell == "-") return true;
+  if (cell.front() == '+') cell.remove_prefix(1);
+  const auto [rest, status] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return status == std::errc() && rest == cell.data() + cell.size();
+}
+
+char separator_of(const std::string& headings) {
+  for (const char separator : {';', '\t', ','}) {
+    if (headings.find(separator) != std::string::npos) return separator;
+  }
+  return ' ';
+}
+
+std::vector<std::string> split(const std::string& line, char separator) {
+  std::vector<std::string> cells(1);
+  bool inside_quotes = false;
+  int brackets = 0;  // "up (km/s)" is one heading among blanks
+  for (const char c : line) {
+    if (c == '"') {
+      inside_quotes = !inside_quotes;
+      continue;
+    }
+    brackets += c == '[' || c == '(' ? 1 : c == ']' || c == ')' ? -1 : 0;
+    const bool ends = separator == ' ' ? c == ' ' && brackets == 0 : c == separator;
+    if (!ends || inside_quotes) {
+      cells.back() += c;
+    } else if (separator != ' ' || !cells.back().empty()) {
+      cells.emplace_back();
+    }
+  }
+  for (std::string& cell : cells) cell = trimmed(cell);
+  if (separator == ' ' && cells.back().empty()) cells.pop_back();
+  return cells;
+}
+
+/// A unit in brackets that stands alone belongs to the heading before it: "up [km/s]" among blanks.
+void join_units(std::vector<std::string>& headings) {
+  for (std::size_t i = headings.size(); i-- > 1;) {
+    if (!headings[i].starts_with('[') && !headings[i].starts_with('(')) continue;
+    headings[i - 1] += " " + headings[i];
+    headings.erase(headings.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+}  // namespace
+
+MeasuredTable MeasuredTable::read(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw InputError(fmt::format("cannot read '{}'", file.string()));
+  MeasuredTable table;
+  table.file_ = file;
+  char separator = ' ';
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+    const auto fail = [&](const std::string& what) {
+      throw InputError(fmt::format("{}:{}: {}", file.string(), number, what));
+    };
+    if (line.find('\0') != std::string::npos) fail("not a text in UTF-8: it holds a zero byte (UTF-16?)");
+    line = trimmed(line);
+    if (line.find_first_not_of(";,") == std::string::npos) continue;  // empty, also as spreadsheets write it
+    if (line.front() == '#' || line.front() == '%') {
+      table.comments_.push_back(trimmed(line.substr(line.find_first_of("#%") + 1)));
+      continue;
+    }
+    if (table.columns_.empty()) {
+      separator = separator_of(line);
+      std::vector<std::string> headings = split(line, separator);
+      if (separator == ' ') join_units(headings);
+      for (const std::string& heading : headings) {
+        table.columns_.push_back(table.understand(heading, number));
+      }
+      continue;
+    }
+    std::vector<std::string> cells = split(line, separator);
+    if (cells.size() != table.columns_.size()) {
+      fail(fmt::format("{} cells, the header has {}{}", cells.size(), table.columns_.size(),
+                       separator == ',' && cells.size() > table.columns_.size()
+                           ? " (a decimal comma? Numbers are written with a point)"
+                           : ""));
+    }
+    if (table.cells_.empty() && table.take_units(cells)) continue;
+    table.cells_.push_back(std::move(cells));
+    table.lines_.push_back(number);
+  }
+  if (table.cells_.empty()) throw InputError(fmt::format("{}: no rows of data", file.string()));
+  return table;
+}
+
+MeasuredTable::Column MeasuredTable::understand(const std::string& heading, int line) const {
+  Column column{heading, "", 0, std::nullopt};
+  const auto spelt = [](std::string_view text, const Quantity& quantity) -> std::optional<std::size_t> {
+    const std::string bare = plain(text);
+    const auto found = std::ranges::find(quantity.spellings, bare);
+    if (!bare.empty() && found != quantity.spellings.end()) {
+      return static_cast<std::size_t>(found - quantity.spellings.begin());
+    }
+    const bool scale = quantity.name == "P" && (text.starts_with("P_") || text.starts_with("p_"));
+    if (scale && plain(text).find("err") == std::string::npos) return other_scale;
+    return std::nullopt;
+  };
+  const auto take = [&](const Quantity& quantity, std::size_t spelling, std::optional<std::string> unit) {
+    column.quantity = quantity.name;
+    column.spelling = spelling;
+    column.unit = std::move(unit);
+    return column;
+  };
+  const std::size_t bracket = heading.find_first_of("[(");
+  if (bracket != std::string::npos && (heading.back() == ']' || heading.back() == ')')) {
+    const std::string name = trimmed(heading.substr(0, bracket));
+    const std::string unit = unit_text(heading.substr(bracket + 1, heading.size() - bracket - 2));
+    for (const Quantity& quantity : quantities) {
+      const auto spelling = spelt(name, quantity);
+      if (!spelling) continue;
+      if (fits(unit, quantity.si_unit)) return take(quantity, *spelling, unit);
+      if (plain(name).size() > 1) {
+        throw InputError(fmt::format("{}:{}: column '{}': '{}' is no unit of the kind '{}'", file_.string(),
+                                     line, heading, unit, quantity.si_unit));
+      }
+    }
+    return column;
+  }
+  for (const Quantity& quantity : quantities) {
+    if (const auto spelling = spelt(heading, quantity); spelling && *spelling != other_scale) {
+      return take(quantity, *spelling,
+                  quantity.si_unit.empty() ? std::optional<std::string>("") : std::nullopt);
+    }
+  }
+  // "up_km_s": the shortest ending that is a unit, so that P_revised_ruby_GPa is a P_revised_ruby.
+  for (const Quantity& quantity : quantities) {
+    for (std::size_t at = heading.rfind('_'); at != std::string::npos && at > 0;
+         at = heading.rfind('_', at - 1)) {
+      std::string unit = heading.substr(at + 1);
+      std::ranges::replace(unit, '_', '/');
+      unit = unit_text(unit);
+      const auto spelling = spelt(heading.substr(0, at), quantity);
+      if (spelling && !unit.empty() && !quantity.si_unit.empty() && fits(unit, quantity.si_unit)) {
+        return take(quantity, *spelling, unit);
+      }
+    }
+  }
+  return column;
+}
+
+bool MeasuredTable::take_units(const std::vector<std::string>& cells) {
+  double number = 0.0;
+  std::vector<Column> with_units = columns_;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    std::string unit = cells[i];
+    std::erase_if(unit, [](char c) { return std::string_view("[]()").find(c) != std::string_view::npos; });
+    if (unit.empty()) continue;
+    if (read_number(unit, number) && unit != "-") return false;
+    Column& column = with_units[i];
+    if (column.quantity.empty()) continue;
+    const auto quantity = std::ranges::find(quantities, column.quantity, &Quantity::name);
+    if (!fits(unit_text(unit), quantity->si_unit)) return false;
+    column.unit = unit_text(unit);
+  }
+  columns_ = std::move(with_units);
+  return true;
+}
+
+std::string MeasuredTable::quantity_of(const std::string& heading) {
+  return MeasuredTable().understand(heading, 0).quantity;
+}
+
+std::string MeasuredTable::headings() const {
+  std::string text;
+  for (const Column& column : columns_) text += (text.empty() ? "" : ", ") + column.heading;
+  return text;
+}
+
+std::optional<std::size_t> MeasuredTable::find(std::string_view quantity) const {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (columns_[i].quantity != quantity) continue;
+    if (!best || columns_[i].spelling < columns_[*best].spelling) best = i;
+  }
+  return best;
+}
+
+std::optional<std::size_t> MeasuredTable::find_heading(std::string_view heading) const {
+  const auto found = std::ranges::find(columns_, heading, &Column::heading);
+  if (found == columns_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - columns_.begin());
+}
+
+std::vector<double> MeasuredTable::numbers(std::size_t index) const {
+  const Column& column = columns_[index];
+  units::Conversion conversion;
+  if (!column.quantity.empty()) {
+    const auto quantity = std::ranges::find(quantities, column.quantity, &Quantity::name);
+    if (!column.unit) {
+      throw InputError(
+          fmt::format("{}: column '{}' gives no unit: write \"{} [{}]\", with the unit of the file",
+                      file_.string(), column.heading, column.heading, quantity->si_unit));
+    }
+    conversion = units::conversion(*column.unit, quantity->si_unit);
+  }
+  std::vector<double> values(rows());
+  for (std::size_t row = 0; row < rows(); ++row) {
+    const std::string& cell = cells_[row][index];
+    if (!read_number(cell, values[row])) {
+      throw InputError(fmt::format(
+          "{}:{}: '{}' in column {} is not a number{}", file_.string(), lines_[row], cell, column.heading,
+          cell.find(',') == std::string::npos ? "" : ": a decimal comma? Numbers are written with a point"));
+    }
+    values[row] = conversion.factor * values[row] + conversion.offset;
+  }
+  return values;
+}
+
+std::vector<double> MeasuredTable::numbers(std::string_view quantity) const {
+  const auto column = find(quantity);
+  return column ? numbers(*column) : std::vector<double>();
+}
+
+std::vector<std::string> MeasuredTable::texts(std::size_t column) const {
+  std::vector<std::string> values;
+  for (const auto& row : cells_) values.push_back(row[column]);
+  return values;
+}
+
+}  // namespace whipple::app
