@@ -98,7 +98,7 @@ int run_plan(const Options& options) {
     }
   };
   const Potential potential =
-      of_plan([&] { return Potential::load(plan.potential, plan.element, plan.folder); });
+      of_plan([&] { return Potential::load(plan.potential, plan.element, plan.folder, plan.structure); });
   const std::vector<Task> tasks = of_plan([&] { return make_tasks(plan, potential); });
   require_writable_on_all(options.store, rank);
   if (rank == 0) {
@@ -111,6 +111,7 @@ int run_plan(const Options& options) {
         potential.has_tables() ? "density table" : "range", potential.name(), potential.table_end(),
         potential.least_volume_ratio(), potential.structure(), potential.lattice_constant(),
         potential.cutoff());
+    if (!potential.remark().empty()) log::warning("{}", potential.remark());
     if (!potential.has_tables() && potential.table_end() == 0.0) {
       log::warning(
           "{}: the functions of a KIM model are not open, so that nothing is known of where their fit ends; "

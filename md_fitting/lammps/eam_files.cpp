@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <fstream>
-#include <sstream>
+#include <string_view>
+#include <utility>
 
 #include "md_fitting/lammps/elements.hpp"
 #include "src/base/error.hpp"
@@ -27,39 +29,74 @@ constexpr double longest_cutoff = 25.0;            // A
 constexpr double longest_lattice_constant = 15.0;  // A
 constexpr double shortest_lattice_constant = 1.5;  // A; a file may give 0 for unknown
 
-/// Words of a potential file with an error that names the file and what was expected.
+/// Lines and words of a potential file, with errors that name file and line.
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& path) : path_(path), stream_(path) {
     if (!stream_) throw InputError(fmt::format("cannot read the potential file {}", path.string()));
   }
   std::string line() {
-    std::string text;
-    if (!std::getline(stream_, text)) fail("ends too early");
-    return text;
+    next_line();
+    return std::string(std::exchange(rest_, {}));
   }
-  /// The next line as a stream of words.
-  std::istringstream words() { return std::istringstream(line()); }
+  /// The next word of the present line; empty at its end.
+  std::string_view word() {
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(blanks), rest_.size()));
+    const std::string_view result = rest_.substr(0, rest_.find_first_of(blanks));
+    rest_.remove_prefix(result.size());
+    return result;
+  }
+  /// The words of the next line.
+  std::vector<std::string> words() {
+    next_line();
+    std::vector<std::string> all;
+    for (std::string_view one = word(); !one.empty(); one = word()) all.emplace_back(one);
+    return all;
+  }
+  /// Numbers over as many lines as they take; those behind them on the last line stay for the next call.
   std::vector<double> numbers(std::size_t count, const char* what) {
     std::vector<double> values(count);
     for (double& value : values) {
-      if (!(stream_ >> value) || !std::isfinite(value))
-        fail(fmt::format("holds too few numbers for {}", what));
+      std::string_view text = word();
+      while (text.empty()) {
+        if (!std::getline(stream_, buffer_)) fail(fmt::format("holds too few numbers for {}", what));
+        begin_line();
+        text = word();
+      }
+      if (!read(text, value)) fail(fmt::format("has '{}' for a number of {}", text, what));
     }
     return values;
   }
-  /// Goes to the beginning of the next line.
-  void end_line() {
-    std::string rest;
-    std::getline(stream_, rest);
+  /// A finite number or a whole one, without anything behind it.
+  template <class Number>
+  static bool read(std::string_view text, Number& value) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return code == std::errc() && end == text.data() + text.size() &&
+           std::isfinite(static_cast<double>(value));
   }
+  /// Skips the rest of the line.
+  void end_line() { rest_ = {}; }
   [[noreturn]] void fail(const std::string& why) const {
-    throw InputError(fmt::format("the potential file {} {}", path_.string(), why));
+    throw InputError(fmt::format("{}:{}: error: the potential file {}", path_.string(), line_, why));
   }
 
  private:
+  static constexpr std::string_view blanks = " \t\r";
+  void next_line() {
+    if (!std::getline(stream_, buffer_)) fail("ends too early");
+    begin_line();
+  }
+  void begin_line() {
+    ++line_;
+    rest_ = buffer_;
+  }
+
   std::filesystem::path path_;
   std::ifstream stream_;
+  std::string buffer_;
+  std::string_view rest_;
+  int line_ = 0;
 };
 
 /// Sizes of the tables: "nrho drho nr dr cutoff", the same line in all four formats.
@@ -73,12 +110,13 @@ struct Grid {
 
 Grid read_grid(Reader& reader) {
   Grid grid;
-  auto words = reader.words();
+  const std::vector<std::string> words = reader.words();
   long densities = 0;
   long radii = 0;
-  if (!(words >> densities >> grid.density_step >> radii >> grid.radius_step >> grid.cutoff) ||
-      densities < 4 || radii < 4 || densities > 10'000'000 || radii > 10'000'000 ||
-      !(grid.density_step > 0.0) || !(grid.radius_step > 0.0) || !(grid.cutoff > 0.0) ||
+  if (words.size() < 5 || !Reader::read(words[0], densities) || !Reader::read(words[1], grid.density_step) ||
+      !Reader::read(words[2], radii) || !Reader::read(words[3], grid.radius_step) ||
+      !Reader::read(words[4], grid.cutoff) || densities < 4 || radii < 4 || densities > 10'000'000 ||
+      radii > 10'000'000 || !(grid.density_step > 0.0) || !(grid.radius_step > 0.0) || !(grid.cutoff > 0.0) ||
       !(grid.cutoff <= longest_cutoff)) {
     reader.fail("has no valid line of table sizes 'nrho drho nr dr cutoff'");
   }
@@ -94,29 +132,45 @@ std::string lower_case(std::string text) {
 
 /// "Z mass lattice_constant structure"
 int read_element_line(Reader& reader, EamTables& tables) {
-  auto words = reader.words();
+  const std::vector<std::string> words = reader.words();
   int atomic_number = 0;
-  std::string structure;
-  if (!(words >> atomic_number >> tables.mass >> tables.header_lattice_constant >> structure) ||
+  if (words.size() < 4 || !Reader::read(words[0], atomic_number) || !Reader::read(words[1], tables.mass) ||
+      !Reader::read(words[2], tables.header_lattice_constant) ||
       !(tables.mass > 0.0 && tables.mass < 1000.0) ||
       (tables.header_lattice_constant != 0.0 &&
        !(tables.header_lattice_constant > shortest_lattice_constant &&
          tables.header_lattice_constant < longest_lattice_constant))) {
     reader.fail("has no valid line 'atomic number, mass, lattice constant, structure'");
   }
-  tables.structure = lower_case(structure);
+  tables.structure = lower_case(words[3]);
   return atomic_number;
 }
 
 std::vector<std::string> read_element_names(Reader& reader) {
   for (int comment = 0; comment < 3; ++comment) reader.line();
-  auto words = reader.words();
+  std::vector<std::string> names = reader.words();
   std::size_t count = 0;
-  words >> count;
-  std::vector<std::string> names;
-  for (std::string name; words >> name;) names.push_back(name);
-  if (names.empty() || names.size() != count) reader.fail("has no valid line of elements");
+  if (names.size() < 2 || !Reader::read(names.front(), count) || names.size() != count + 1) {
+    reader.fail("has no valid line of elements 'number, symbols'");
+  }
+  names.erase(names.begin());
   return names;
+}
+
+/// Headers are written by hand, many with 0 or 1 for the atomic number of all elements. The mass scales every
+/// density and energy of the simulation.
+void check_header(const Reader& reader, const EamTables& tables, int number, const std::string& element) {
+  constexpr double tolerance = 0.02;
+  const auto expected = atomic_number(element);
+  if (expected && number > 1 && number != *expected) {
+    reader.fail(fmt::format("gives {} the atomic number {}, which is that of {}; expected {}", element,
+                            number, element_symbol(number), *expected));
+  }
+  const auto weight = standard_atomic_weight(element);
+  if (weight && std::abs(tables.mass / *weight - 1.0) > tolerance) {
+    reader.fail(fmt::format("gives {} the mass {} g/mol; the standard atomic weight is {}", element,
+                            tables.mass, *weight));
+  }
 }
 
 void take_grid(EamTables& tables, const Grid& grid) {
@@ -129,11 +183,13 @@ EamTables read_funcfl(const std::filesystem::path& path, const std::string& elem
   Reader reader(path);
   reader.line();
   EamTables tables;
-  tables.element = element_symbol(read_element_line(reader, tables));
+  const int number = read_element_line(reader, tables);
+  tables.element = element_symbol(number);
   if (tables.element != element) {
     throw InputError(
         fmt::format("the potential file {} is for {}, not for {}", path.string(), tables.element, element));
   }
+  check_header(reader, tables, number, element);
   const Grid grid = read_grid(reader);
   take_grid(tables, grid);
   tables.embedding = reader.numbers(grid.densities, "the embedding function");
@@ -158,7 +214,8 @@ EamTables read_setfl(const std::filesystem::path& path, const std::string& eleme
   EamTables tables;
   for (std::size_t i = 0; i < names.size(); ++i) {
     EamTables other;
-    read_element_line(reader, other);
+    const int number = read_element_line(reader, other);
+    if (i == wanted) check_header(reader, other, number, element);
     other.embedding = reader.numbers(grid.densities, "an embedding function");
     const std::size_t functions = format == EamFormat::finnis_sinclair ? names.size() : 1;
     for (std::size_t j = 0; j < functions; ++j) {
@@ -218,14 +275,7 @@ std::vector<std::string> elements_in(const std::filesystem::path& path) {
 
 EamTables read_eam(const std::filesystem::path& path, const std::string& element) {
   const EamFormat format = eam_format(path);
-  EamTables tables =
-      format == EamFormat::funcfl ? read_funcfl(path, element) : read_setfl(path, element, format);
-  if (tables.structure != "fcc" && tables.structure != "bcc") {
-    throw InputError(
-        fmt::format("the potential file {} gives {} the structure '{}'; fcc and bcc are supported",
-                    path.string(), element, tables.structure));
-  }
-  return tables;
+  return format == EamFormat::funcfl ? read_funcfl(path, element) : read_setfl(path, element, format);
 }
 
 std::string to_setfl(const EamTables& tables, const std::string& comment) {

@@ -45,9 +45,36 @@ void for_each_neighbour(const EamTables& tables, double a, const Visit& visit) {
   }
 }
 
+/// The same of hcp with the ideal axial ratio: layers ABAB, a triangular lattice of distance d in each.
+template <class Visit>
+void for_each_hexagonal_neighbour(double cutoff, double d, const Visit& visit) {
+  const int reach = static_cast<int>(std::ceil(1.3 * cutoff / d)) + 1;
+  for (int layer = -reach; layer <= reach; ++layer) {
+    const double shift = layer % 2 == 0 ? 0.0 : 1.0 / 3.0;  // of both lattice vectors
+    for (int i = -reach; i <= reach; ++i) {
+      for (int j = -reach; j <= reach; ++j) {
+        const double u = i + shift, v = j + shift, w = layer * std::sqrt(2.0 / 3.0);
+        const double r = d * std::sqrt(u * u + u * v + v * v + w * w);
+        if (r > 1e-6 * d && r < cutoff) visit(r);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 double EamTables::density_end() const { return density_step * static_cast<double>(embedding.size() - 1); }
+
+double EamTables::hexagonal_energy(double volume) const {
+  const double d = std::cbrt(std::sqrt(2.0) * volume);
+  double sum = 0.0;
+  double pair = 0.0;
+  for_each_hexagonal_neighbour(cutoff, d, [&](double r) {
+    sum += interpolate(density, radius_step, r);
+    pair += interpolate(radius_times_pair, radius_step, r) / r;
+  });
+  return interpolate(embedding, density_step, sum) + 0.5 * pair;
+}
 
 double EamTables::crystal_density(double a) const {
   double sum = 0.0;

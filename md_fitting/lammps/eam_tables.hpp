@@ -28,6 +28,8 @@ struct EamTables {
   [[nodiscard]] double crystal_density(double a) const;
   /// Energy per atom (eV) of the static crystal with lattice constant a (A).
   [[nodiscard]] double crystal_energy(double a) const;
+  /// Energy per atom (eV) of static hcp with the ideal axial ratio at a volume per atom (A^3).
+  [[nodiscard]] double hexagonal_energy(double volume) const;
   /// Lattice constant (A) of least energy, near that of the header (between 2 and 8 A if it gives none).
   /// @throws InputError if there is no minimum inside.
   [[nodiscard]] double static_lattice_constant() const;

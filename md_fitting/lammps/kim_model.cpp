@@ -144,7 +144,7 @@ bool KimModel::is_identifier(const std::string& name) {
   return std::regex_match(name, pattern);
 }
 
-KimModel::KimModel(const std::string& identifier, const std::string& element)
+KimModel::KimModel(const std::string& identifier, const std::string& element, const std::string& structure)
     : identifier_(identifier), element_(element) {
   silence_kim();
   const std::optional<double> weight = standard_atomic_weight(element);
@@ -161,7 +161,7 @@ KimModel::KimModel(const std::string& identifier, const std::string& element)
                                  advice(identifier, element)));
   }
   try {
-    find_crystal();
+    find_crystal(structure);
     find_cutoff();
     scan();
   } catch (const LammpsError& error) {
@@ -180,12 +180,13 @@ void KimModel::apply(Lammps& lammps) const {
   lammps.command("mass * {:.17g}", mass_);
 }
 
-/// The structure of least energy at rest among fcc and bcc. Distances of neighbours from 5.5 A, longer than
-/// those of any metal, inwards to 1.9 A, or to where the model refuses.
-void KimModel::find_crystal() {
+/// The structure stated, or that of least energy at rest among fcc and bcc. Distances of neighbours from 5.5
+/// A, longer than those of any metal, inwards to 1.9 A, or to where the model refuses.
+void KimModel::find_crystal(const std::string& stated) {
   double least = 0.0;
   double volume_at_rest = 0.0;
   for (const std::string structure : {"fcc", "bcc"}) {
+    if (!stated.empty() && structure != stated) continue;
     const double per_distance = structure == "fcc" ? std::sqrt(2.0) : std::sqrt(4.0 / 3.0);
     constexpr double longest = 5.5;
     constexpr double shortest = 1.9;
@@ -222,6 +223,7 @@ void KimModel::find_crystal() {
   if (structure_.empty()) {
     throw InputError(fmt::format("the KIM model {} binds no crystal of {}", identifier_, element_));
   }
+  if (!stated.empty()) return;
   // Lattice constant of hcp with the ideal axial ratio and the same volume per atom.
   StaticCrystal hexagonal(*this, "hcp", std::cbrt(volume_at_rest * std::sqrt(2.0)));
   constexpr double clearly = 1e-3;  // eV per atom: a relaxed axial ratio and stacking faults stay below it

@@ -18,10 +18,11 @@ class KimModel {
   /// last number is the version; the identifier stands for one content for ever.
   static bool is_identifier(const std::string& name);
 
-  /// Finds the structure of least energy, its lattice constant and cutoff, and how far it can be compressed.
+  /// Finds the structure of least energy (unless one is stated), its lattice constant and cutoff, and how far
+  /// it can be compressed.
   /// @throws InputError if LAMMPS has no KIM package, if the model is not installed (naming those for the
   /// element), if the element is not in it, or if the static crystal is neither fcc nor bcc.
-  KimModel(const std::string& identifier, const std::string& element);
+  KimModel(const std::string& identifier, const std::string& element, const std::string& structure = {});
 
   /// Units and atom style of an instance that has no box yet.
   void begin(Lammps& lammps) const;
@@ -46,7 +47,7 @@ class KimModel {
   static constexpr double largest_scanned_ratio = 1.60;
 
  private:
-  void find_crystal();
+  void find_crystal(const std::string& stated);
   void find_cutoff();
   void scan();
 

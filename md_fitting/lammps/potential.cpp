@@ -118,17 +118,82 @@ void shorten(EamTables& tables, double cutoff, const std::string& name) {
   tables.cutoff = cutoff;
 }
 
+/// LAMMPS replaces characters beyond ASCII in its commands.
+bool is_ascii(const std::string& text) {
+  return std::ranges::all_of(text, [](unsigned char c) { return c < 0x80; });
+}
+
+/// Takes the cubic structure of least energy, unless the plan states one: headers of potential files are
+/// written by hand, and some programs that fit alloys know fcc only.
+/// @return what differs from the header; empty: nothing
+std::string choose_structure(EamTables& tables, const std::string& stated, const std::string& name) {
+  constexpr double clearly = 5e-3;  // eV per atom: what fcc and hcp differ by in potentials of fcc metals
+  const std::string header = tables.structure;
+  const bool cubic = header == "fcc" || header == "bcc";
+  const double header_volume = std::pow(tables.header_lattice_constant, 3) / tables.atoms_per_cell();
+  struct Candidate {
+    EamTables tables;
+    double volume, energy;
+  };
+  std::vector<Candidate> candidates;
+  for (const std::string structure : {"fcc", "bcc"}) {
+    if (!stated.empty() && structure != stated) continue;
+    EamTables own = tables;
+    own.structure = structure;
+    // The bracket of the search is the header's, at its volume per atom.
+    if (structure != header) {
+      own.header_lattice_constant = cubic ? std::cbrt(header_volume * own.atoms_per_cell()) : 0.0;
+    }
+    try {
+      const double a = own.static_lattice_constant();
+      candidates.push_back({own, a * a * a / own.atoms_per_cell(), own.crystal_energy(a)});
+    } catch (const InputError&) {
+      // A structure for comparison need not exist.
+      if (structure == (stated.empty() ? header : stated)) throw;
+    }
+  }
+  if (candidates.empty()) {
+    throw InputError(
+        fmt::format("potential {}: neither fcc nor bcc {} has a least energy", name, tables.element));
+  }
+  const auto rank = [&](const Candidate& c) {
+    return c.energy - (c.tables.structure == header ? clearly : 0.0);
+  };
+  const Candidate& best = *std::ranges::min_element(candidates, {}, rank);
+  tables.structure = best.tables.structure;
+  tables.header_lattice_constant = best.tables.header_lattice_constant;
+  if (!stated.empty()) return "";
+  const double hexagonal = tables.hexagonal_energy(best.volume);
+  if (hexagonal < best.energy - clearly) {
+    throw InputError(fmt::format(
+        "with the potential {} hcp {} has {:.4f} eV per atom, {} {:.4f}: the crystal is hcp; fcc and bcc are "
+        "supported (structure = \"{}\" in the plan takes that one all the same)",
+        name, tables.element, hexagonal, tables.structure, best.energy, tables.structure));
+  }
+  if (tables.structure == header) return "";
+  std::string energies;
+  for (const Candidate& c : candidates) {
+    energies += fmt::format("{}{} {:.4f}", energies.empty() ? "" : ", ", c.tables.structure, c.energy);
+  }
+  return fmt::format(
+      "potential {}: the header gives {} the structure '{}', but {} has the least energy ({} eV "
+      "per atom) and is taken; `structure` in the plan states another",
+      name, tables.element, header, tables.structure, energies);
+}
+
 }  // namespace
 
 /// A file in a folder of its own below the system's temporary folder, removed with the last user.
 class Potential::TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& content) {
-    std::string folder = (std::filesystem::temp_directory_path() / "whipple-md-XXXXXX").string();
+    std::filesystem::path place = std::filesystem::temp_directory_path();
+    if (!is_ascii(place.string())) place = "/tmp";
+    std::string folder = (place / "whipple-md-XXXXXX").string();
     if (mkdtemp(folder.data()) == nullptr) throw InputError("cannot make a temporary folder " + folder);
     folder_ = folder;
     path_ = folder_ / name;
-    std::ofstream file(path_);
+    std::ofstream file(path_, std::ios::binary);
     file << content;
     if (!file.flush()) throw InputError("cannot write " + path_.string());
   }
@@ -151,16 +216,18 @@ std::filesystem::path potential_folder() {
 }
 
 Potential Potential::load(const std::string& name, const std::string& element,
-                          const std::filesystem::path& folder) {
+                          const std::filesystem::path& folder, const std::string& structure) {
   Potential potential;
   potential.name_ = name;
   potential.element_ = element;
+  potential.structure_ = structure;
   if (KimModel::is_identifier(name)) {
     potential.read_kim();
     return potential;
   }
   if (name == zhou_2004_name) {
     potential.tables_ = zhou_2004(element);
+    potential.remark_ = choose_structure(potential.tables_, structure, name);
     potential.file_ = name;
     potential.source_ = "Zhou, Johnson, Wadley, Phys. Rev. B 69 (2004) 144113";
     potential.write_tables(fmt::format("{} by the formulas of {}", element, potential.source_));
@@ -178,7 +245,7 @@ Potential Potential::load(const std::string& name, const std::string& element,
 }
 
 void Potential::read_kim() {
-  kim_ = std::make_shared<const KimModel>(name_, element_);
+  kim_ = std::make_shared<const KimModel>(name_, element_, structure_);
   style_ = "kim";
   file_ = name_;
   source_ = "OpenKIM, https://openkim.org/id/" + name_;
@@ -202,6 +269,7 @@ void Potential::read_file(const std::string& element, const std::filesystem::pat
   }
   file_ = find_file(by_name ? entry->file : name_, element, folder);
   tables_ = read_eam(file_, element);
+  remark_ = choose_structure(tables_, structure_, name_);
   source_ = by_name ? entry->source : "the file " + file_.filename().string();
   const EamFormat format = eam_format(file_);
   if (format == EamFormat::angular_dependent) {
@@ -209,7 +277,12 @@ void Potential::read_file(const std::string& element, const std::filesystem::pat
     write_tables(fmt::format("{} out of {}", element, file_.string()));
   } else {
     style_ = format == EamFormat::funcfl ? "eam" : format == EamFormat::setfl ? "eam/alloy" : "eam/fs";
-    hash_ = sha256(content_of(file_));
+    const std::string content = content_of(file_);
+    hash_ = sha256(content);
+    if (!is_ascii(file_.string())) {
+      written_ = std::make_shared<TemporaryFile>(
+          "potential" + file_.filename().string().substr(file_.filename().string().find(".eam")), content);
+    }
   }
 }
 

@@ -22,10 +22,11 @@ class Potential {
   /// Loads a potential by the name of a known one ("zhou_2004" for each of its elements), by the extended
   /// identifier of a KIM model, or by a file name: a path, a file beside the plan (`folder`), or a file in
   /// LAMMPS' folder.
+  /// @param structure "fcc" or "bcc"; empty: that of least energy
   /// @throws InputError if there is no such file or model (listing the ones for the element), if the element
-  /// is not in it, or if the file is damaged.
+  /// is not in it, if the file is damaged, or if hcp has the least energy.
   static Potential load(const std::string& name, const std::string& element,
-                        const std::filesystem::path& folder = {});
+                        const std::filesystem::path& folder = {}, const std::string& structure = {});
 
   /// Units and atom style of an instance that has no box yet.
   void begin(Lammps& lammps) const;
@@ -51,6 +52,8 @@ class Potential {
   [[nodiscard]] const std::string& element() const { return element_; }
   [[nodiscard]] double mass() const { return mass_; }                        ///< g/mol
   [[nodiscard]] const std::string& structure() const { return structure_; }  ///< "fcc" or "bcc"
+  /// How the structure differs from what the file says; empty: it does not.
+  [[nodiscard]] const std::string& remark() const { return remark_; }
   [[nodiscard]] int atoms_per_cell() const { return structure_ == "fcc" ? 4 : 2; }
   [[nodiscard]] double cutoff() const { return cutoff_; }  ///< A
   /// Energy per atom (eV) of the static crystal with lattice constant a (A).
@@ -88,6 +91,7 @@ class Potential {
   std::string style_;
   std::string element_;
   std::string structure_;
+  std::string remark_;
   double mass_ = 0.0;
   double cutoff_ = 0.0;
   EamTables tables_;

@@ -76,6 +76,7 @@ State NvtStateSource::state(double specific_volume, double temperature, Effort e
   for (double& energy : series[0]) energy = cold_energy + modes * (energy - cold_energy) + kinetic_energy;
   for (double& virial : series[1]) virial = cold_virial + modes * (virial - cold_virial) + kinetic_pressure;
   const Estimate energy = series_mean(series[0]);
+  require_stable(state.solid, energy, cold_energy, temperature, potential_);
   const Estimate pressure = series_mean(series[1]);
   state.specific_internal_energy = {metal::specific_energy(energy.value, mass),
                                     metal::specific_energy(energy.error, mass)};

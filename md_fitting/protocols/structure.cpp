@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "md_fitting/protocols/structure.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+
+#include "md_fitting/lammps/units.hpp"
+#include "src/base/error.hpp"
 
 namespace whipple::md {
 
@@ -31,6 +36,18 @@ double inherent_crystal_share(Crystal& crystal, const Potential& potential) {
   crystal.lammps().command("min_style cg");
   crystal.lammps().command("minimize 1e-7 0.0 200 1000");
   return crystal_share(crystal, potential);
+}
+
+void require_stable(bool solid, const Estimate& energy, double cold_energy, double temperature,
+                    const Potential& potential) {
+  const double potential_energy = energy.value - 1.5 * metal::boltzmann * temperature;
+  if (!solid || potential_energy > cold_energy - 3.0 * energy.error) return;
+  throw StateError(
+      fmt::format("the {} crystal of {} ({}) is unstable: its potential energy of {:.4f} eV per atom at {} K "
+                  "lies below that of the "
+                  "static crystal, {:.4f} eV",
+                  potential.structure(), potential.element(), potential.name(), potential_energy, temperature,
+                  cold_energy));
 }
 
 }  // namespace whipple::md

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "md_fitting/protocols/crystal.hpp"
+#include "md_fitting/protocols/statistics.hpp"
 
 namespace whipple::md {
 
@@ -18,6 +19,14 @@ double crystal_share(Crystal& crystal, const Potential& potential);
 /// The same after the atoms have moved to the nearest minimum of the energy at constant volume: what thermal
 /// motion hides. About 1 in a crystal of any temperature, 0.1 to 0.2 in a melt.
 double inherent_crystal_share(Crystal& crystal, const Potential& potential);
+
+/// A crystal that vibrates about its sites has more potential energy than the static one at the same volume,
+/// or at zero pressure. One that has less was no minimum: it left its sites for others.
+/// @param energy       eV per atom, with the kinetic energy
+/// @param cold_energy  of the static crystal
+/// @throws StateError naming potential, structure, temperature and both energies
+void require_stable(bool solid, const Estimate& energy, double cold_energy, double temperature,
+                    const Potential& potential);
 
 /// Between the shares of melts and crystals after their way to the minimum.
 inline constexpr double solid_share_limit = 0.5;

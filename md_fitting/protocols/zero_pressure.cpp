@@ -56,6 +56,7 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
   for (double& energy : series[0]) energy = cold_energy + modes * (energy - cold_energy) + kinetic_energy;
   for (double& volume : series[1]) volume = cold_volume + modes * (volume - cold_volume);
   const Estimate energy = series_mean(series[0]);
+  require_stable(true, energy, cold_energy, temperature, potential);
   const Estimate volume = series_mean(series[1]);
   std::vector<double> blocks;
   for (const double mean : block_means(series[1])) blocks.push_back(metal::specific_volume(mean, mass));

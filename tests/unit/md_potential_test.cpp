@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 #include "md_fitting/lammps/eam_files.hpp"
+#include "md_fitting/lammps/lammps.hpp"
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/lammps/zhou_2004.hpp"
 #include "src/base/error.hpp"
@@ -148,8 +150,72 @@ TEST(Potential, ReportsDamagedFiles) {
             std::string::npos);
   EXPECT_NE(write("sizes.eam.alloy", "a\nb\nc\n1 Cu\n-5 0.1 10 0.1 1.0\n").find("table sizes"),
             std::string::npos);
+  EXPECT_NE(write("word.eam.alloy", "a\nb\nc\n1 Cu\n4 0.1 4 0.1 1.0\n29 63.55 3.615 fcc\n1 2 3\n1.0D-3\n")
+                .find("word.eam.alloy:8: error: the potential file has '1.0D-3' for a number of an embedding "
+                      "function"),
+            std::string::npos);
+  EXPECT_NE(write("brace.eam.alloy", "a\nb\nc\n1 Cu\n10 0.1 10 0.1 5.5}2967\n").find(":5: error"),
+            std::string::npos);
   EXPECT_NE(write("empty.eam", "").find("ends too early"), std::string::npos);
   EXPECT_NE(write("potential.meam", "x").find("unknown ending"), std::string::npos);
+}
+
+// The file gives tantalum the structure fcc, because its author's program knows no other.
+TEST(Potential, TakesTheStructureOfLeastEnergy) {
+  const Potential tantalum = Potential::load("CuTa.eam.alloy", "Ta");
+  EXPECT_EQ(tantalum.structure(), "bcc");
+  EXPECT_NEAR(tantalum.lattice_constant(), 3.303, 0.002);
+  EXPECT_NEAR(tantalum.crystal_energy(tantalum.lattice_constant()), -8.09, 0.001);
+  EXPECT_NE(tantalum.remark().find("the header gives Ta the structure 'fcc', but bcc has the least energy"),
+            std::string::npos)
+      << tantalum.remark();
+  const Potential stated = Potential::load("CuTa.eam.alloy", "Ta", {}, "fcc");
+  EXPECT_EQ(stated.structure(), "fcc");
+  EXPECT_NEAR(stated.lattice_constant(), 4.140, 0.001);
+  const Potential copper = Potential::load("CuTa.eam.alloy", "Cu");
+  EXPECT_EQ(copper.structure(), "fcc");
+  EXPECT_EQ(copper.remark(), "");
+  const std::string hexagonal = input_error([] { Potential::load("Mg_mm.eam.fs", "Mg"); });
+  EXPECT_NE(hexagonal.find("the crystal is hcp; fcc and bcc are supported"), std::string::npos) << hexagonal;
+}
+
+// Headers of potential files, changed by hand as people do.
+TEST(Potential, HeadersMustAgreeWithThePeriodicTable) {
+  const TemporaryFolder folder;
+  EamTables tables = zhou_2004("Cu");
+  const std::string whole = to_setfl(tables, "copper");
+  const auto with_header = [&](const std::string& header) {
+    std::string text = whole;
+    const std::size_t begin = text.find("\n29 ") + 1;
+    text.replace(begin, text.find('\n', begin) - begin, header);
+    std::ofstream(folder.path() / "c.eam.alloy") << text;
+    return input_error([&] { Potential::load("c.eam.alloy", "Cu", folder.path()); });
+  };
+  EXPECT_EQ(with_header("29 63.546 3.615 fcc"), "no InputError");
+  EXPECT_EQ(with_header("1 63.55 3.615 FCC"), "no InputError");  // as many files have it
+  EXPECT_NE(with_header("29 0.06355 3.615 fcc")
+                .find("c.eam.alloy:6: error: the potential file gives Cu the mass "
+                      "0.06355 g/mol; the standard atomic weight is 63.546"),
+            std::string::npos);
+  EXPECT_NE(with_header("13 63.55 3.615 fcc").find("atomic number 13, which is that of Al; expected 29"),
+            std::string::npos);
+  EXPECT_NE(with_header("29 63.55 3,615 fcc").find(":6: error"), std::string::npos);
+}
+
+// LAMMPS replaces characters beyond ASCII in its commands.
+TEST(Potential, LiesInAFolderOfAnyName) {
+  const TemporaryFolder folder;
+  const auto place = folder.path() /
+                     "gr\xC3\xB6\xC3\x9F"
+                     "e";
+  std::filesystem::create_directory(place);
+  std::filesystem::copy_file(potential_folder() / "Cu_u3.eam", place / "Cu_u3.eam");
+  const Potential potential = Potential::load("Cu_u3.eam", "Cu", place);
+  Lammps lammps;
+  potential.begin(lammps);
+  lammps.command("region box block 0 9 0 9 0 9");
+  lammps.command("create_box 1 box");
+  EXPECT_NO_THROW(potential.apply(lammps));
 }
 
 // What is written reads back to the same numbers: the one-element file for LAMMPS loses no digit.

@@ -70,6 +70,21 @@ TEST(Copper, EquipartitionAtLowTemperatureForAnySize) {
   }
 }
 
+// The header of CuTa.eam.alloy gives tantalum the structure fcc, in which its crystal is no minimum of the
+// energy: it leaves its sites, and still passes for a crystal by its order and its displacements.
+TEST(Crystal, ThatIsNoMinimumIsRefused) {
+  const Potential potential = Potential::load("CuTa.eam.alloy", "Ta", {}, "fcc");
+  NvtStateSource source(potential, {.cells = 4, .equilibration_steps = 300, .steps = 600}, 1);
+  try {
+    source.state(potential.static_volume(), 300.0, StateSource::Effort::final);
+    FAIL() << "accepted";
+  } catch (const StateError& error) {
+    EXPECT_NE(std::string(error.what()).find("the fcc crystal of Ta (CuTa.eam.alloy) is unstable"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // The Grueneisen coefficient from a finite difference must agree for 32 and 256 atoms: thermal energy and
 // thermal pressure are scaled alike. Published range for this potential at V0: 1.8 +- 0.05.
 TEST(Copper, ThermalPressureAndEnergyGiveTheGruneisenCoefficient) {
