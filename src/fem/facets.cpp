@@ -2,6 +2,9 @@
 #include "src/fem/facets.hpp"
 
 #include <algorithm>
+#include <compare>
+#include <cstdint>
+#include <iterator>
 
 #include "src/parallel/threads.hpp"
 
@@ -29,7 +32,43 @@ bool is_shared(const Mesh& mesh, std::size_t element, const Facet& facet) {
   });
 }
 
+/// A face of an element by its sorted nodes, and from which side the element sees it.
+struct Side {
+  Facet nodes;
+  bool turned;
+  std::uint32_t element;
+  auto operator<=>(const Side&) const = default;
+};
+
+Side side_of(const Corners& corners, std::size_t number, std::uint32_t element) {
+  Facet round = face(corners, number);
+  std::ranges::rotate(round, std::ranges::min_element(round));
+  const bool turned = round[1] > round[3];
+  std::ranges::sort(round);
+  return {round, turned, element};
+}
+
 }  // namespace
+
+std::optional<Overlap> first_overlap(const Hexahedra& hexahedra) {
+  std::vector<Side> sides;
+  sides.reserve(6 * hexahedra.elements.size());
+  for (std::uint32_t e = 0; e < hexahedra.elements.size(); ++e) {
+    for (std::size_t f = 0; f < 6; ++f) sides.push_back(side_of(hexahedra.elements[e], f, e));
+  }
+  std::ranges::sort(sides);
+  const auto twins = std::ranges::adjacent_find(
+      sides, [](const Side& a, const Side& b) { return a.nodes == b.nodes && a.turned == b.turned; });
+  if (twins == sides.end()) return std::nullopt;
+  const Side& first = *twins;
+  const Side& second = *std::next(twins);
+  const auto sorted = [&](const Side& side) {
+    Corners corners = hexahedra.elements[side.element];
+    std::ranges::sort(corners);
+    return corners;
+  };
+  return Overlap{second.element, first.element, sorted(first) == sorted(second)};
+}
 
 std::vector<Facet> surface_facets(const Mesh& mesh, std::span<const std::uint8_t> marked) {
   const auto all_marked = [&](const auto& nodes) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,5 +20,14 @@ using Facet = std::array<std::uint32_t, 4>;
 /// not
 ///                looked at
 std::vector<Facet> surface_facets(const Mesh& mesh, std::span<const std::uint8_t> marked = {});
+
+/// Two elements on the same side of a common face: they lie in one another.
+struct Overlap {
+  std::size_t element, other;
+  bool same;  ///< all eight nodes are the same
+};
+/// The first pair of elements that overlap, by common nodes. Where there is none, the elements fill the
+/// volume that the surface of the mesh bounds.
+std::optional<Overlap> first_overlap(const Hexahedra& hexahedra);
 
 }  // namespace whipple::fem

@@ -15,6 +15,8 @@
 
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
+#include "src/fem/facets.hpp"
+#include "src/fem/structured.hpp"
 
 namespace whipple::fem {
 namespace {
@@ -131,7 +133,9 @@ class GmshReader {
   }
 
   void format() {
-    if (!next_or_end() || text_ != "$MeshFormat") {
+    const bool any = next_or_end();
+    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // byte order mark
+    if (!any || text_ != "$MeshFormat") {
       throw InputError(
           fmt::format("{}: not a mesh of Gmsh: the first line is not $MeshFormat", path_.string()));
     }
@@ -289,9 +293,11 @@ GmshFile GmshFile::read(const std::filesystem::path& path, double length_unit) {
   return file;
 }
 
-std::vector<std::string> GmshFile::group_names() const {
+std::vector<std::string> GmshFile::group_names(std::optional<int> dimension) const {
   std::vector<std::string> names;
-  for (const Group& group : groups_) names.push_back(group.name);
+  for (const Group& group : groups_) {
+    if (!dimension || group.dimension == *dimension) names.push_back(group.name);
+  }
   return names;
 }
 
@@ -301,9 +307,15 @@ const GmshFile::Group& GmshFile::find(const std::string& name, int dimension, in
     throw InputError(fmt::format("{}: the mesh has no physical groups; a body needs one (Physical Volume)",
                                  path_.string()));
   }
-  const auto same = [&](const Group& g) { return g.name == name && g.dimension == dimension; };
+  // A group is one of its dimension: tags of surfaces and volumes count apart, and may be equal.
+  const auto is_called = [&](const Group& g) {
+    return g.name == name || name == fmt::format("physical {}", g.tag) || name == std::to_string(g.tag);
+  };
+  const auto same = [&](const Group& g) { return g.dimension == dimension && g.name == name; };
+  const auto tagged = [&](const Group& g) { return g.dimension == dimension && is_called(g); };
   auto found = std::ranges::find_if(groups_, same);
-  if (found == groups_.end()) found = std::ranges::find(groups_, name, &Group::name);
+  if (found == groups_.end()) found = std::ranges::find_if(groups_, tagged);
+  if (found == groups_.end()) found = std::ranges::find_if(groups_, is_called);
   if (found == groups_.end()) {
     throw InputError(fmt::format("{}: no physical group \"{}\"{} The mesh has: {}", path_.string(), name,
                                  did_you_mean(name, names), fmt::join(names, ", ")));
@@ -355,6 +367,22 @@ Hexahedra GmshFile::hexahedra(const std::string& name) const {
     const Element& element = elements_[group.elements[fault->element]];
     throw InputError(fmt::format("{}:{}: error: element {} of group \"{}\" is {}", path_.string(),
                                  element.line, element.tag, name, fault->reason));
+  }
+  const auto require_apart = [&](const Hexahedra& mesh) {
+    const auto found = first_overlap(mesh);
+    if (!found) return;
+    const Element& element = elements_[group.elements[found->element]];
+    const Element& other = elements_[group.elements[found->other]];
+    throw InputError(fmt::format("{}:{}: error: element {} of group \"{}\" {} element {} (line {})",
+                                 path_.string(), element.line, element.tag, name,
+                                 found->same ? "is the same as" : "lies on the same side of a face as",
+                                 other.tag, other.line));
+  };
+  require_apart(result);
+  if (unmerged_nodes(result) > 0) {
+    Hexahedra merged = result;
+    merge_nodes(merged, coincidence(merged));
+    require_apart(merged);  // parts that lie in one another, each with nodes of its own
   }
   return result;
 }

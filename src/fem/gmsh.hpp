@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,11 @@ class GmshFile {
   static GmshFile read(const std::filesystem::path& path, double length_unit = 1.0);
 
   /// Names of the groups, "physical 3" for one without a name, in the order of the file.
-  [[nodiscard]] std::vector<std::string> group_names() const;
+  /// @param dimension  of the groups; none: all
+  [[nodiscard]] std::vector<std::string> group_names(std::optional<int> dimension = {}) const;
 
   /// The hexahedra of a group of volumes, checked.
+  /// @param group  its name, or its tag: "physical 3" or "3"
   /// @throws InputError if there is no such group (the message lists those that there are), if it is no group
   /// of volumes, holds other elements than eight-node hexahedra, or an element that is degenerate or inverted
   /// (file, line and number of the element)

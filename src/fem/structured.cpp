@@ -195,6 +195,16 @@ void merge_nodes(Hexahedra& hexahedra, double tolerance) {
   }
 }
 
+double coincidence(const Hexahedra& hexahedra) {
+  return 1e-5 * std::cbrt(volume(hexahedra) / static_cast<double>(hexahedra.elements.size()));
+}
+
+std::size_t unmerged_nodes(const Hexahedra& hexahedra) {
+  Hexahedra merged = hexahedra;
+  merge_nodes(merged, coincidence(hexahedra));
+  return hexahedra.nodes.size() - merged.nodes.size();
+}
+
 Hexahedra make_box(const Vector3& lower, const Vector3& upper, const Counts& counts) {
   for (int i = 0; i < 3; ++i) require_positive("box", "each edge", upper[i] - lower[i]);
   if (std::ranges::count(counts, 0U) > 0)

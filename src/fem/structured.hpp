@@ -46,4 +46,10 @@ void transform(Hexahedra& hexahedra, const Matrix3& rotation, const Vector3& tra
 /// Makes one node of nodes that are nearer than `tolerance` (m) to each other.
 void merge_nodes(Hexahedra& hexahedra, double tolerance);
 
+/// Nodes nearer than this (m), a hundred-thousandth of a mean element's edge, are in the same place.
+double coincidence(const Hexahedra& hexahedra);
+
+/// Number of nodes in the place of another one: parts of a mesh that meet there are not joined.
+std::size_t unmerged_nodes(const Hexahedra& hexahedra);
+
 }  // namespace whipple::fem

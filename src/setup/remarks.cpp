@@ -4,9 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 
 #include "eos/audit.hpp"
+#include "src/fem/structured.hpp"
+#include "src/setup/seeding.hpp"
 
 namespace whipple::setup {
 namespace {
@@ -96,6 +100,62 @@ void remark_on_explosives(const Case& setup, std::vector<std::string>& remarks) 
   }
 }
 
+constexpr std::array<const char*, 6> face_names = {"x_lower", "x_upper", "y_lower",
+                                                   "y_upper", "z_lower", "z_upper"};
+
+/// A body that a symmetry plane cuts is one with its mirror image: it cannot move along the normal, nor turn
+/// about an axis in the plane. One that only touches may move into the plane: it meets its image there.
+void remark_on_plane(const Case& setup, const Body& body, std::size_t face,
+                     std::vector<std::string>& remarks) {
+  const grid::Geometry& g = setup.geometry;
+  const auto a = static_cast<int>(face / 2);
+  const bool lower = face % 2 == 0;
+  const Shape::Bounds bounds = body.shape->bounds();
+  const bool cut = lower ? bounds.lower[a] < g.lower[a] - 0.05 * g.cell_size
+                         : bounds.upper[a] > g.upper(a) + 0.05 * g.cell_size;
+  const double normal = body.velocity[a];
+  const bool away = lower ? normal > 0.0 : normal < 0.0;
+  constexpr double none = 1e-9;
+  if (std::abs(normal) > none * body.velocity.norm() && (cut || away)) {
+    remarks.push_back(fmt::format(
+        "'{}' {} the symmetry plane {} and moves along its normal, at {:.6g} m/s {}: its mirror image "
+        "moves the other way; set {} of its velocity to 0, or take the whole body",
+        body.name, cut ? "is cut by" : "touches", face_names[face], std::abs(normal),
+        away ? "off the plane" : "through it", "xyz"[a]));
+  }
+  Vector3 across = body.angular_velocity;
+  across[a] = 0.0;
+  if (across.norm() > none * body.angular_velocity.norm()) {
+    remarks.push_back(fmt::format(
+        "'{}' {} the symmetry plane {} and turns about an axis that is not the plane's normal {}: its "
+        "mirror image turns the other way; take the whole body",
+        body.name, cut ? "is cut by" : "touches", face_names[face], "xyz"[a]));
+  }
+}
+
+void remark_on_symmetry(const Case& setup, std::vector<std::string>& remarks) {
+  const std::vector<std::uint8_t> touched = faces_touched(setup);
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    for (std::size_t face = 0; face < face_names.size(); ++face) {
+      const bool mirror = setup.geometry.boundary[face] == grid::Boundary::symmetry;
+      if (mirror && (touched[b] >> face & 1U) != 0) remark_on_plane(setup, setup.bodies[b], face, remarks);
+    }
+  }
+}
+
+void remark_on_meshes(const Case& setup, std::vector<std::string>& remarks) {
+  for (const Body& body : setup.bodies) {
+    if (body.discretization.mesh.empty()) continue;
+    const auto mesh = body.shape->hexahedra(setup.geometry.cell_size, body.shape->bounds());
+    const std::size_t nodes = mesh ? fem::unmerged_nodes(*mesh) : 0;
+    if (nodes == 0) continue;
+    remarks.push_back(
+        fmt::format("'{}': {} nodes of its mesh {} lie in the place of another node: parts that meet "
+                    "there are not joined; Gmsh joins them with 'Coherence Mesh;'",
+                    body.name, nodes, body.discretization.mesh));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> remarks(const Case& setup) {
@@ -104,6 +164,8 @@ std::vector<std::string> remarks(const Case& setup) {
   remark_on_directions(setup, found);
   remark_on_speeds(setup, found);
   remark_on_explosives(setup, found);
+  remark_on_symmetry(setup, found);
+  remark_on_meshes(setup, found);
   return found;
 }
 

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes: generators against exact volumes, checks and their messages, files of Gmsh, removal of elements.
+// Meshes: generators against exact volumes, checks and their messages, removal of elements.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <sstream>
 
 #include "src/base/error.hpp"
 #include "src/fem/facets.hpp"
-#include "src/fem/gmsh.hpp"
 #include "src/fem/order.hpp"
 #include "tests/unit/fem_support.hpp"
 #include "tests/unit/folder_test.hpp"
@@ -344,135 +341,6 @@ TEST(Removal, KeepsMassMomentumAndStateOfTheRest) {
     EXPECT_EQ(body.mesh.nodes.size(), 0U);
     EXPECT_EQ(fem::critical_time_step(body.mesh, {}), std::numeric_limits<double>::infinity());
   }
-}
-
-class Gmsh : public FolderTest {
- protected:
-  static std::string text_of(const std::string& name) {
-    std::ifstream file(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/" + name);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
-  /// The file with the first `from` replaced.
-  std::filesystem::path changed(const std::string& name, const std::string& from,
-                                const std::string& to) const {
-    std::string text = text_of(name);
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    if (at != std::string::npos) text.replace(at, from.size(), to);
-    std::ofstream(folder_ / "changed.msh") << text;
-    return folder_ / "changed.msh";
-  }
-};
-
-/// Files that Gmsh 4.8.4 wrote from two_boxes.geo: two boxes, 12 and 18 elements, sheared; both formats
-/// alike.
-TEST_F(Gmsh, ReadsBothFormats) {
-  std::vector<Hexahedra> plates;
-  for (const char* name : {"two_boxes_22.msh", "two_boxes_41.msh"}) {
-    const auto file = fem::GmshFile::read(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/" + name, 1e-3);
-    EXPECT_THAT(file.group_names(),
-                ::testing::UnorderedElementsAre("plate", "projectile", "rebar", "bottom"));
-    const Hexahedra plate = file.hexahedra("plate"), projectile = file.hexahedra("projectile");
-    EXPECT_EQ(plate.elements.size(), 12U) << name;
-    EXPECT_EQ(plate.nodes.size(), 36U) << name;
-    EXPECT_NEAR(volume_of(plate), 2e-9, 1e-22) << name;
-    EXPECT_EQ(projectile.elements.size(), 18U) << name;
-    EXPECT_NEAR(volume_of(projectile), 3e-9, 1e-20) << name;  // sheared by 0.5 over a height of 1.5
-    fem::check(plate, "plate");
-    fem::check(projectile, "projectile");
-    const fem::Lines rebar = file.lines("rebar");
-    EXPECT_EQ(rebar.elements.size(), 3U);
-    EXPECT_EQ(rebar.nodes.size(), 4U);
-    double length = 0.0;
-    for (const auto& [a, b] : rebar.elements) length += (rebar.nodes[a] - rebar.nodes[b]).norm();
-    EXPECT_NEAR(length, 2e-3, 1e-15);
-    plates.push_back(plate);
-  }
-  EXPECT_EQ(plates[0].nodes.size(), plates[1].nodes.size());
-}
-
-TEST_F(Gmsh, NamesFileLineAndElement) {
-  const auto read = [](const std::filesystem::path& path) {
-    return message_of<InputError>([&] { fem::GmshFile::read(path); });
-  };
-  const auto of_group = [](const std::filesystem::path& path, const std::string& group) {
-    return message_of<InputError>([&] { std::ignore = fem::GmshFile::read(path).hexahedra(group); });
-  };
-  const std::filesystem::path good = std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/two_boxes_22.msh";
-  EXPECT_THAT(of_group(good, "projektile"),
-              AllOf(HasSubstr("no physical group \"projektile\""), HasSubstr("did you mean \"projectile\""),
-                    HasSubstr("The mesh has: rebar, bottom, plate, projectile")));
-  EXPECT_THAT(of_group(good, "bottom"), HasSubstr("\"bottom\" is one of surfaces, not of volumes"));
-  EXPECT_THAT(message_of<InputError>([&] { std::ignore = fem::GmshFile::read(good).lines("plate"); }),
-              HasSubstr("is one of volumes, not of curves"));
-  EXPECT_THAT(read(folder_ / "none.msh"), HasSubstr("cannot be read"));
-  EXPECT_THAT(read(changed("two_boxes_22.msh", "$MeshFormat\n", "solid\n")), HasSubstr("not a mesh of Gmsh"));
-  EXPECT_THAT(read(changed("two_boxes_22.msh", "2.2 0 8", "2.2 1 8")),
-              HasSubstr("changed.msh:2: error: binary file"));
-  EXPECT_THAT(read(changed("two_boxes_22.msh", "2.2 0 8", "4 0 8")),
-              HasSubstr(":2: error: format 4; supported are 2.2 and 4.1"));
-  EXPECT_THAT(read(changed("two_boxes_41.msh", "$EndElements", "")), HasSubstr("expected $EndElements"));
-  EXPECT_THAT(read(changed("two_boxes_22.msh", "$Elements\n", "$Comments\n")),
-              HasSubstr("ends inside $Comments"));
-  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n1 0 x 0\n")),
-              HasSubstr("error: \"x\" is not a coordinate"));
-  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n1 0 0\n")),
-              HasSubstr("the line ends where a coordinate is expected"));
-  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n2 0 0 0\n")),
-              HasSubstr("node 2 is defined twice"));
-}
-
-TEST_F(Gmsh, RefusesElementsThatItCannotComputeWith) {
-  // The first hexahedron of the plate, by its line in the file.
-  const std::string text = text_of("two_boxes_22.msh");
-  std::istringstream lines(text);
-  std::string line, first;
-  std::size_t number = 0, at = 0;
-  while (std::getline(lines, line)) {
-    ++number;
-    std::istringstream words(line);
-    int tag = 0, kind = 0, tags = 0, physical = 0;
-    if (words >> tag >> kind >> tags >> physical && kind == 5 && tags == 2 && physical == 1) {
-      first = line;
-      at = number;
-      break;
-    }
-  }
-  ASSERT_FALSE(first.empty());
-  std::istringstream words(first);
-  std::array<int, 13> n{};
-  for (int& value : n) words >> value;
-  const auto message = [&](const std::string& replacement) {
-    const auto path = changed("two_boxes_22.msh", first, replacement);
-    return message_of<InputError>([&] { std::ignore = fem::GmshFile::read(path).hexahedra("plate"); });
-  };
-  const std::string where = "changed.msh:" + std::to_string(at) + ": error: element " + std::to_string(n[0]);
-  const auto join = [&](std::span<const int> nodes, int kind) {
-    std::ostringstream out;
-    out << n[0] << ' ' << kind << " 2 1 " << n[4];
-    for (const int node : nodes) out << ' ' << node;
-    return out.str();
-  };
-  const std::span<const int> corners = std::span(n).subspan(5);
-  EXPECT_THAT(
-      message(join(corners.first(4), 4)),
-      HasSubstr(where +
-                " of group \"plate\" is one of the 4-node tetrahedra; supported are 8-node hexahedra"));
-  const std::array<int, 8> inverted = {n[9], n[10], n[11], n[12], n[5], n[6], n[7], n[8]};
-  EXPECT_THAT(message(join(inverted, 5)),
-              HasSubstr(where + " of group \"plate\" is inverted or flat at corner 0"));
-  std::array<int, 8> degenerate;
-  std::ranges::copy(corners, degenerate.begin());
-  degenerate[7] = degenerate[6];
-  EXPECT_THAT(message(join(degenerate, 5)),
-              HasSubstr(where + " of group \"plate\" is degenerate: corners 6 and 7 are one node"));
-  EXPECT_THAT(message(join(corners.first(7), 5)),
-              HasSubstr("the line ends where the number of a node is expected"));
-  degenerate[7] = 999;
-  EXPECT_THAT(message(join(degenerate, 5)),
-              HasSubstr("element " + std::to_string(n[0]) + ": node 999 is not defined"));
 }
 
 }  // namespace

@@ -53,5 +53,35 @@ TEST(Remarks, NameExplosivesThatStartBurnt) {
   EXPECT_NE(said.find("no projectile is like that"), std::string::npos) << said;
 }
 
+// The quarter of a sphere about the z axis.
+TEST(Remarks, NameMotionAgainstASymmetryPlane) {
+  const auto moving = [&](const std::string& velocity, const std::string& more = "") {
+    return remarks_of(domain + replaced(sphere, "[\"0 m/s\", \"0 m/s\", \"5.55 km/s\"]", velocity) + more +
+                      plate("-1 mm"));
+  };
+  const std::string off = moving("[\"1 km/s\", \"0 m/s\", \"3 km/s\"]");
+  EXPECT_NE(off.find("'sphere' is cut by the symmetry plane x_lower and moves along its normal, at 1000 m/s "
+                     "off the plane"),
+            std::string::npos)
+      << off;
+  EXPECT_EQ(off.find("y_lower"), std::string::npos) << off;
+  EXPECT_NE(moving("[\"0 m/s\", \"-1 km/s\", \"3 km/s\"]")
+                .find("y_lower and moves along its normal, at 1000 m/s through it"),
+            std::string::npos);
+  const std::string turning = "angular_velocity = [\"0 rad/s\", \"0 rad/s\", \"1e3 rad/s\"]\n";
+  EXPECT_NE(moving("[\"0 m/s\", \"0 m/s\", \"5.55 km/s\"]", turning)
+                .find("turns about an axis that is not the plane's normal x"),
+            std::string::npos);
+  // A body that only touches may move into the plane: it meets its image. Off it, it may not.
+  const auto bar = [&](const char* velocity) {
+    return remarks_of(
+        domain + "[[body]]\nname = \"bar\"\nmaterial = \"copper.toml\"\nvelocity = [\"" + velocity +
+        "\", \"0 m/s\", \"0 m/s\"]\nshape = { box = { lower = [\"0 mm\", \"0 mm\", \"-5 mm\"], upper = "
+        "[\"5 mm\", \"5 mm\", \"5 mm\"] } }\n");
+  };
+  EXPECT_EQ(bar("-200 m/s"), "");
+  EXPECT_NE(bar("200 m/s").find("'bar' touches the symmetry plane x_lower"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace whipple::setup

@@ -129,10 +129,12 @@ std::unique_ptr<Shape> read_mesh_shape(const Discretization& control, input::Tab
     const fem::GmshFile file = fem::GmshFile::read(control.mesh, control.mesh_unit);
     std::string group = control.group;
     if (group.empty()) {
-      const std::vector<std::string> names = file.group_names();
+      const std::vector<std::string> names = file.group_names(3);
       if (names.size() != 1) {
-        throw InputError(fmt::format("{}: has {} physical groups, name one by discretization.group: {}",
-                                     control.mesh, names.size(), fmt::join(names, ", ")));
+        throw InputError(
+            fmt::format("{}: has {} physical groups of volumes, name one by "
+                        "discretization.group: {}",
+                        control.mesh, names.size(), fmt::join(names, ", ")));
       }
       group = names.front();
     }

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files of Gmsh: both formats, groups by dimension, elements that cannot be computed with, errors with their
+// line.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <tuple>
+
+#include "src/base/error.hpp"
+#include "src/fem/gmsh.hpp"
+#include "src/fem/structured.hpp"
+#include "tests/unit/fem_support.hpp"
+#include "tests/unit/folder_test.hpp"
+
+namespace whipple::fem_test {
+namespace {
+
+using fem::Hexahedra;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class Gmsh : public FolderTest {
+ protected:
+  static std::string text_of(const std::string& name) {
+    std::ifstream file(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/" + name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  /// The file with the first `from` replaced.
+  std::filesystem::path changed(const std::string& name, const std::string& from,
+                                const std::string& to) const {
+    std::string text = text_of(name);
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    if (at != std::string::npos) text.replace(at, from.size(), to);
+    std::ofstream(folder_ / "changed.msh") << text;
+    return folder_ / "changed.msh";
+  }
+};
+
+/// Files that Gmsh 4.8.4 wrote from two_boxes.geo: two boxes, 12 and 18 elements, sheared; both formats
+/// alike.
+TEST_F(Gmsh, ReadsBothFormats) {
+  std::vector<Hexahedra> plates;
+  for (const char* name : {"two_boxes_22.msh", "two_boxes_41.msh"}) {
+    const auto file = fem::GmshFile::read(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/" + name, 1e-3);
+    EXPECT_THAT(file.group_names(),
+                ::testing::UnorderedElementsAre("plate", "projectile", "rebar", "bottom"));
+    const Hexahedra plate = file.hexahedra("plate"), projectile = file.hexahedra("projectile");
+    EXPECT_EQ(plate.elements.size(), 12U) << name;
+    EXPECT_EQ(plate.nodes.size(), 36U) << name;
+    EXPECT_NEAR(fem::volume(plate), 2e-9, 1e-22) << name;
+    EXPECT_EQ(projectile.elements.size(), 18U) << name;
+    EXPECT_NEAR(fem::volume(projectile), 3e-9, 1e-20) << name;  // sheared by 0.5 over a height of 1.5
+    fem::check(plate, "plate");
+    fem::check(projectile, "projectile");
+    const fem::Lines rebar = file.lines("rebar");
+    EXPECT_EQ(rebar.elements.size(), 3U);
+    EXPECT_EQ(rebar.nodes.size(), 4U);
+    double length = 0.0;
+    for (const auto& [a, b] : rebar.elements) length += (rebar.nodes[a] - rebar.nodes[b]).norm();
+    EXPECT_NEAR(length, 2e-3, 1e-15);
+    plates.push_back(plate);
+  }
+  EXPECT_EQ(plates[0].nodes.size(), plates[1].nodes.size());
+}
+
+/// Two boxes of one element each, side by side along x; the faces at x = 1 have nodes of their own.
+std::string two_parts(const std::string& elements, const std::string& gap = "1") {
+  std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n16\n";
+  int node = 0;
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"0", "1"}, {gap, "2"}}) {
+    for (const char* z : {"0", "1"}) {
+      for (const auto& [x, y] :
+           {std::pair{from, "0"}, std::pair{to, "0"}, std::pair{to, "1"}, std::pair{from, "1"}}) {
+        text += std::to_string(++node) + ' ' + x + ' ' + y + ' ' + z + '\n';
+      }
+    }
+  }
+  const auto count = std::ranges::count(elements, '\n');
+  return text + "$EndNodes\n$Elements\n" + std::to_string(count) + '\n' + elements + "$EndElements\n";
+}
+constexpr const char* first_part = "1 5 2 1 1 1 2 3 4 5 6 7 8\n";
+
+TEST_F(Gmsh, GroupsAreThoseOfADimension) {
+  // A surface and a volume with one tag.
+  std::ofstream(folder_ / "tags.msh")
+      << "\xEF\xBB\xBF" + two_parts(std::string("1 3 2 1 1 1 2 3 4\n") + first_part);
+  const fem::GmshFile file = fem::GmshFile::read(folder_ / "tags.msh");
+  EXPECT_THAT(file.group_names(3), ::testing::ElementsAre("physical 1"));
+  EXPECT_EQ(file.group_names().size(), 2U);
+  for (const char* name : {"physical 1", "1"}) EXPECT_EQ(file.hexahedra(name).elements.size(), 1U) << name;
+  EXPECT_THAT(message_of<InputError>([&] { std::ignore = file.hexahedra("2"); }),
+              HasSubstr("no physical group"));
+  const auto boxes =
+      fem::GmshFile::read(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/two_boxes_41.msh");
+  EXPECT_THAT(boxes.group_names(3), ::testing::UnorderedElementsAre("plate", "projectile"));
+}
+
+TEST_F(Gmsh, ElementsMustNotLieInOneAnother) {
+  const auto read = [&](const std::string& text) {
+    std::ofstream(folder_ / "overlap.msh") << text;
+    return fem::GmshFile::read(folder_ / "overlap.msh").hexahedra("1");
+  };
+  const auto message = [&](const std::string& text) {
+    return message_of<InputError>([&] { std::ignore = read(text); });
+  };
+  const std::string first = first_part, second = "2 5 2 1 1 9 10 11 12 13 14 15 16\n";
+  EXPECT_EQ(fem::unmerged_nodes(read(two_parts(first + second))), 4U);
+  EXPECT_EQ(fem::unmerged_nodes(read(two_parts(first + second, "1.1"))), 0U);
+  EXPECT_THAT(
+      message(two_parts(first + "2 5 2 1 1 1 2 3 4 5 6 7 8\n")),
+      HasSubstr("overlap.msh:25: error: element 2 of group \"1\" is the same as element 1 (line 24)"));
+  // The same nodes from another corner on, and nodes of its own in the same places.
+  EXPECT_THAT(message(two_parts(first + "2 5 2 1 1 2 3 4 1 6 7 8 5\n")), HasSubstr("is the same as"));
+  EXPECT_THAT(message(two_parts(first + second, "0")), HasSubstr("lies on the same side of a face as"));
+}
+
+TEST_F(Gmsh, NamesFileLineAndElement) {
+  const auto read = [](const std::filesystem::path& path) {
+    return message_of<InputError>([&] { fem::GmshFile::read(path); });
+  };
+  const auto of_group = [](const std::filesystem::path& path, const std::string& group) {
+    return message_of<InputError>([&] { std::ignore = fem::GmshFile::read(path).hexahedra(group); });
+  };
+  const std::filesystem::path good = std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/two_boxes_22.msh";
+  EXPECT_THAT(of_group(good, "projektile"),
+              AllOf(HasSubstr("no physical group \"projektile\""), HasSubstr("did you mean \"projectile\""),
+                    HasSubstr("The mesh has: rebar, bottom, plate, projectile")));
+  EXPECT_THAT(of_group(good, "bottom"), HasSubstr("\"bottom\" is one of surfaces, not of volumes"));
+  EXPECT_THAT(message_of<InputError>([&] { std::ignore = fem::GmshFile::read(good).lines("plate"); }),
+              HasSubstr("is one of volumes, not of curves"));
+  EXPECT_THAT(read(folder_ / "none.msh"), HasSubstr("cannot be read"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "$MeshFormat\n", "solid\n")), HasSubstr("not a mesh of Gmsh"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "2.2 0 8", "2.2 1 8")),
+              HasSubstr("changed.msh:2: error: binary file"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "2.2 0 8", "4 0 8")),
+              HasSubstr(":2: error: format 4; supported are 2.2 and 4.1"));
+  EXPECT_THAT(read(changed("two_boxes_41.msh", "$EndElements", "")), HasSubstr("expected $EndElements"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "$Elements\n", "$Comments\n")),
+              HasSubstr("ends inside $Comments"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n1 0 x 0\n")),
+              HasSubstr("error: \"x\" is not a coordinate"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n1 0 0\n")),
+              HasSubstr("the line ends where a coordinate is expected"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n2 0 0 0\n")),
+              HasSubstr("node 2 is defined twice"));
+}
+
+TEST_F(Gmsh, RefusesElementsThatItCannotComputeWith) {
+  // The first hexahedron of the plate, by its line in the file.
+  const std::string text = text_of("two_boxes_22.msh");
+  std::istringstream lines(text);
+  std::string line, first;
+  std::size_t number = 0, at = 0;
+  while (std::getline(lines, line)) {
+    ++number;
+    std::istringstream words(line);
+    int tag = 0, kind = 0, tags = 0, physical = 0;
+    if (words >> tag >> kind >> tags >> physical && kind == 5 && tags == 2 && physical == 1) {
+      first = line;
+      at = number;
+      break;
+    }
+  }
+  ASSERT_FALSE(first.empty());
+  std::istringstream words(first);
+  std::array<int, 13> n{};
+  for (int& value : n) words >> value;
+  const auto message = [&](const std::string& replacement) {
+    const auto path = changed("two_boxes_22.msh", first, replacement);
+    return message_of<InputError>([&] { std::ignore = fem::GmshFile::read(path).hexahedra("plate"); });
+  };
+  const std::string where = "changed.msh:" + std::to_string(at) + ": error: element " + std::to_string(n[0]);
+  const auto join = [&](std::span<const int> nodes, int kind) {
+    std::ostringstream out;
+    out << n[0] << ' ' << kind << " 2 1 " << n[4];
+    for (const int node : nodes) out << ' ' << node;
+    return out.str();
+  };
+  const std::span<const int> corners = std::span(n).subspan(5);
+  EXPECT_THAT(
+      message(join(corners.first(4), 4)),
+      HasSubstr(where +
+                " of group \"plate\" is one of the 4-node tetrahedra; supported are 8-node hexahedra"));
+  const std::array<int, 8> inverted = {n[9], n[10], n[11], n[12], n[5], n[6], n[7], n[8]};
+  EXPECT_THAT(message(join(inverted, 5)),
+              HasSubstr(where + " of group \"plate\" is inverted or flat at corner 0"));
+  std::array<int, 8> degenerate;
+  std::ranges::copy(corners, degenerate.begin());
+  degenerate[7] = degenerate[6];
+  EXPECT_THAT(message(join(degenerate, 5)),
+              HasSubstr(where + " of group \"plate\" is degenerate: corners 6 and 7 are one node"));
+  EXPECT_THAT(message(join(corners.first(7), 5)),
+              HasSubstr("the line ends where the number of a node is expected"));
+  degenerate[7] = 999;
+  EXPECT_THAT(message(join(degenerate, 5)),
+              HasSubstr("element " + std::to_string(n[0]) + ": node 999 is not defined"));
+}
+
+}  // namespace
+}  // namespace whipple::fem_test
