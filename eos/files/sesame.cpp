@@ -3,15 +3,15 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <system_error>
+#include <regex>
 #include <vector>
 
+#include "eos/files/sesame_layout.hpp"
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
 
@@ -20,15 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Units of the files (Lyon and Johnson, LA-UR-92-3407).
-constexpr double Mg_m3 = 1e3, GPa = 1e9, MJ_kg = 1e6, g_mol = 1e-3, K = 1;
-
-constexpr std::size_t words_per_line = 5, comment_width = 80;
-/// Columns of a word that this program writes: E15.8. Read: those of the first word of a table (E16.8,
-/// E22.15).
-constexpr std::size_t word_width = 15;
-constexpr std::size_t least_word_width = 8;  ///< less is no column of numbers
-constexpr std::size_t most_words = 999999;   ///< six columns of the header
+using namespace sesame_layout;
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(' ');
@@ -81,6 +73,8 @@ std::optional<double> real_of(std::string_view word) {
   return real.value;
 }
 
+constexpr int index_table = 0;  // no table of a material
+
 struct Header {
   int material = 0, table = 0;
   std::size_t words = 0;
@@ -103,20 +97,22 @@ class Reader {
 
   /// The header of the next table; none at the record that ends the file.
   std::optional<Header> header() {
-    if (!next()) {
-      if (line_ == 0) refuse(1, "the file is empty: expected the header of a table");
-      log::warning("{}: ends without its last record ' 2': tables may be missing", path_.string());
-      return std::nullopt;
-    }
+    do {
+      if (!next()) return end_of_file();
+    } while (trimmed(text_).empty() && index_);
+    if (const auto labelled = labelled_header()) return *labelled;
     const std::optional<int> flag = integer_in(text_, 0, 2);
     if (flag == 2) return std::nullopt;
     const auto material = integer_in(text_, 2, 6), table = integer_in(text_, 8, 6),
                words = integer_in(text_, 14, 6);
     if ((flag != 0 && flag != 1) || !material || !table || !words || *words < 1) {
       refuse(line_,
-             fmt::format("expected the header of a table: 0 or 1, material, table and number of words in "
-                         "columns 1-2, 3-8, 9-14 and 15-20; found '{}'",
-                         text_.substr(0, 40)));
+             fmt::format(
+                 "expected the header of a table: 0 or 1, material, table and number of words in "
+                 "columns 1-2, 3-8, 9-14 and 15-20, or ' INDEX MATID = ... NWDS = ...' and ' RECORD TYPE "
+                 "= ... NWDS = ...'; found '{}'. Binary files and the inverted tables of FLASH (.301) are "
+                 "other layouts, which are not read",
+                 text_.substr(0, 40)));
     }
     return Header{*material, *table, static_cast<std::size_t>(*words), integer_in(text_, 24, 9).value_or(0),
                   integer_in(text_, 33, 9).value_or(0)};
@@ -167,9 +163,31 @@ class Reader {
   }
 
  private:
+  std::optional<Header> end_of_file() const {
+    if (line_ == 0) refuse(1, "the file is empty: expected the header of a table");
+    // Files with labelled headers have no last record.
+    if (!index_) log::warning("{}: ends without its last record ' 2': tables may be missing", path_.string());
+    return std::nullopt;
+  }
+
+  /// A header in the layout of the tables of ANEOS: " INDEX MATID = 7 NWDS = 9", then the words of an index
+  /// of the material, then " RECORD TYPE = 201 NWDS = 5" before each table.
+  std::optional<Header> labelled_header() {
+    static const std::regex index_line(R"(\s*INDEX\s+MATID\s*=\s*(\d{1,6})\s+NWDS\s*=\s*(\d{1,8})\s*)"),
+        record_line(R"(\s*RECORD\s+TYPE\s*=\s*(\d{1,6})\s+NWDS\s*=\s*(\d{1,8})\s*)");
+    std::smatch match;
+    if (std::regex_match(text_, match, index_line)) {
+      index_ = std::stoi(match[1]);
+      for_each_line_of_numbers({*index_, index_table, std::stoul(match[2])}, [](std::size_t) {});
+      if (!next()) refuse(line_, fmt::format("the file ends behind the index of material {}", *index_));
+    }
+    if (!index_ || !std::regex_match(text_, match, record_line)) return std::nullopt;
+    return Header{*index_, std::stoi(match[1]), std::stoul(match[2])};
+  }
+
   bool next() {
     if (!std::getline(file_, text_)) return false;
-    ++line_;
+    if (++line_ == 1 && text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);  // byte order mark
     if (!text_.empty() && text_.back() == '\r') text_.pop_back();
     return true;
   }
@@ -207,6 +225,7 @@ class Reader {
   std::ifstream file_;
   std::string text_;
   std::size_t line_ = 0, width_ = 0, per_line_ = words_per_line;
+  std::optional<int> index_;  ///< material of the last index line, of files with labelled headers
 };
 
 /// Takes a table apart: a count, then columns.
@@ -302,78 +321,6 @@ SesameVaporisation vaporisation_of(const Reader& reader, const Header& header, c
   return v;
 }
 
-class Writer {
- public:
-  explicit Writer(const fs::path& path) : path_(path) {}
-
-  void header(const SesameMaterial& material, int table, std::size_t words) {
-    if (words > most_words) {
-      throw InputError(
-          fmt::format("{}: table {} has {} words, a SESAME file holds {} at most: take fewer grid points",
-                      path_.string(), table, words, most_words));
-    }
-    fmt::format_to(std::back_inserter(text_), "{:2d}{:6d}{:6d}{:6d}   r{:9d}{:9d}{:4d}{:34d}\n",
-                   text_.empty() ? 0 : 1, material.number, table, words, material.created, material.changed,
-                   1, 1);
-  }
-
-  void comment(const SesameMaterial& material) {
-    std::string text = material.comment;
-    std::ranges::replace(text, '\n', ' ');
-    text.resize(std::max<std::size_t>(1, (text.size() + comment_width - 1) / comment_width) * comment_width,
-                ' ');
-    header(material, 101, text.size());
-    for (std::size_t at = 0; at < text.size(); at += comment_width)
-      text_ += text.substr(at, comment_width) + '\n';
-  }
-
-  void add(double value, double unit) { words_.push_back(value / unit); }
-  void add(const std::vector<double>& values, double unit) {
-    for (const double value : values) add(value, unit);
-  }
-
-  void table(const SesameMaterial& material, int number) {
-    header(material, number, words_.size());
-    for (std::size_t at = 0; at < words_.size(); at += words_per_line) {
-      const std::size_t count = std::min(words_per_line, words_.size() - at);
-      std::string line;
-      for (std::size_t i = 0; i < count; ++i) line += word(material, number, words_[at + i]);
-      // One flag per word of the line: 1 where there is one.
-      line.resize(words_per_line * word_width, ' ');
-      text_ += line + std::string(count, '1') + std::string(words_per_line - count, '0') + '\n';
-    }
-    words_.clear();
-  }
-
-  void finish() {
-    text_ += fmt::format(" 2{:>78}\n", 2);
-    const fs::path partial = fmt::format("{}.{}.partial", path_.string(), ::getpid());
-    std::ofstream file(partial);
-    file << text_;
-    file.close();
-    std::error_code fault;
-    if (file) fs::rename(partial, path_, fault);
-    if (!file || fault) throw InputError(fmt::format("{}: cannot write the file", path_.string()));
-  }
-
- private:
-  [[nodiscard]] std::string word(const SesameMaterial& material, int table, double value) const {
-    if (!std::isfinite(value)) {
-      throw InputError(fmt::format("{}: table {} of material {} would hold a number that is not finite",
-                                   path_.string(), table, material.number));
-    }
-    std::string text = fmt::format("{:15.8E}", value);
-    // Fortran drops the E before three digits of exponent.
-    constexpr std::size_t usual_exponent = 4;
-    if (const std::size_t e = text.find('E'); text.size() - e > usual_exponent) text.erase(e, 1);
-    return fmt::format("{:>{}}", text, word_width);
-  }
-
-  fs::path path_;
-  std::string text_;
-  std::vector<double> words_;
-};
-
 }  // namespace
 
 SesameMaterial read_sesame(const fs::path& path, std::optional<int> number) {
@@ -439,45 +386,6 @@ SesameMaterial read_sesame(const fs::path& path, std::optional<int> number) {
         fmt::format("{}: material {} has no table {}", name, result.number, with_constants ? 301 : 201));
   }
   return result;
-}
-
-void write_sesame(const fs::path& path, std::span<const SesameMaterial> materials) {
-  Writer writer(path);
-  for (const SesameMaterial& m : materials) {
-    if (m.number < 1 || m.number > 999999) {
-      throw InputError(fmt::format("{}: material number {}: expected 1 to 999999", path.string(), m.number));
-    }
-    writer.comment(m);
-    writer.add(m.atomic_number, 1);
-    writer.add(m.atomic_mass, g_mol);
-    writer.add(m.reference_density, Mg_m3);
-    writer.add(m.bulk_modulus, GPa);
-    writer.add(m.exchange_coefficient, 1);
-    writer.table(m, 201);
-
-    writer.add(static_cast<double>(m.total.density.size()), 1);
-    writer.add(static_cast<double>(m.total.temperature.size()), 1);
-    writer.add(m.total.density, Mg_m3);
-    writer.add(m.total.temperature, K);
-    writer.add(m.total.pressure, GPa);
-    writer.add(m.total.energy, MJ_kg);
-    writer.add(m.total.helmholtz, MJ_kg);
-    writer.table(m, 301);
-
-    const SesameVaporisation& v = m.vaporisation;
-    if (v.temperature.empty()) continue;
-    writer.add(static_cast<double>(v.temperature.size()), 1);
-    writer.add(v.pressure, GPa);
-    writer.add(v.temperature, K);
-    writer.add(v.vapour_density, Mg_m3);
-    writer.add(v.liquid_density, Mg_m3);
-    writer.add(v.vapour_energy, MJ_kg);
-    writer.add(v.liquid_energy, MJ_kg);
-    writer.add(v.vapour_helmholtz, MJ_kg);
-    writer.add(v.liquid_helmholtz, MJ_kg);
-    writer.table(m, 401);
-  }
-  writer.finish();
 }
 
 }  // namespace whipple::eos

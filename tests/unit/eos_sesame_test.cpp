@@ -190,6 +190,39 @@ TEST_F(SesameFiles, with_other_columns_and_without_a_last_record_are_read) {
   }
 }
 
+// The layout of the tables that come with ANEOS: an index of the material, a label before each table, words
+// of 16 columns, no comment and no last record.
+TEST_F(SesameFiles, with_labelled_headers_are_read) {
+  write(small());
+  const SesameMaterial expected = read_sesame(path_);
+  std::vector<std::string> text = {
+      " INDEX      MATID =     77    NWDS =        9",
+      "  7.70000000e+01  2.30216000e+05  2.30216000e+05  1.00000000e+00  3.00000000e+00",
+      "  2.01000000e+02  3.01000000e+02  4.01000000e+02  5.00000000e+00"};
+  const std::vector<std::string> wide = in_columns(lines(), 16, 5);
+  for (std::size_t i = 3; i + 1 < wide.size(); ++i) {
+    const bool header = wide[i].substr(20, 4) == "   r";
+    text.push_back(header ? " RECORD     TYPE =  " + wide[i].substr(11, 3) +
+                                "     NWDS =   " + wide[i].substr(14, 6)
+                          : wide[i]);
+  }
+  put(text);
+  const SesameMaterial read = read_sesame(path_);
+  EXPECT_EQ(read.number, 77);
+  EXPECT_EQ(read.reference_density, expected.reference_density);
+  EXPECT_EQ(read.total.density, expected.total.density);
+  EXPECT_EQ(read.total.temperature, expected.total.temperature);
+  EXPECT_EQ(read.total.energy, expected.total.energy);
+  EXPECT_EQ(read.vaporisation.liquid_energy, expected.vaporisation.liquid_energy);
+  // Cut behind the constants, and with an unknown label.
+  put({text.begin(), text.begin() + 6});
+  EXPECT_THAT(refusal(), HasSubstr("material 77 has no table 301"));
+  text[5] = " RECORD     KIND =  301";
+  put(text);
+  EXPECT_THAT(refusal(), AllOf(HasSubstr(path_.string() + ":6: expected the header"),
+                               HasSubstr("RECORD TYPE ="), HasSubstr("FLASH (.301)")));
+}
+
 TEST_F(SesameFiles, that_are_bad_are_refused_with_file_and_line) {
   write(small());
   const std::vector<std::string> good = lines();
