@@ -30,10 +30,10 @@ constexpr std::array quantities = {
     Quantity{"P", "Pa", {"p", "pressure", "previsedruby", "previsedscale", "prevised"}},
     Quantity{"V", "m^3/kg", {"v", "specificvolume"}},
     Quantity{"atomic_volume", "m^3", {"atomicvolume", "v"}},
-    Quantity{"rho", "kg/m^3", {"rho", "density", "r"}},
+    Quantity{"rho", "kg/m^3", {"rho", "density", "r", "\u03c1"}},
     Quantity{"V_over_V0", "", {"voverv0", "v/v0"}},
     Quantity{"T", "K", {"tm", "t", "temperature", "meltingtemperature"}},
-    Quantity{"rho0", "kg/m^3", {"rho00", "r00", "rho0", "initialdensity", "density0"}},
+    Quantity{"rho0", "kg/m^3", {"rho00", "r00", "rho0", "initialdensity", "density0", "\u03c10"}},
     Quantity{"m", "", {"m", "porosity", "distension"}},
     Quantity{"C", "m/s", {"c", "c0"}},
     Quantity{"S", "", {"s", "s1"}},
@@ -228,6 +228,7 @@ MeasuredTable::Column MeasuredTable::understand(const std::string& heading, int 
 bool MeasuredTable::take_units(const std::vector<std::string>& cells) {
   double number = 0.0;
   std::vector<Column> with_units = columns_;
+  bool any = false;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     std::string unit = cells[i];
     std::erase_if(unit, [](char c) { return std::string_view("[]()").find(c) != std::string_view::npos; });
@@ -238,9 +239,10 @@ bool MeasuredTable::take_units(const std::vector<std::string>& cells) {
     const auto quantity = std::ranges::find(quantities, column.quantity, &Quantity::name);
     if (!fits(unit_text(unit), quantity->si_unit)) return false;
     column.unit = unit_text(unit);
+    any = true;
   }
   columns_ = std::move(with_units);
-  return true;
+  return any;
 }
 
 std::string MeasuredTable::quantity_of(const std::string& heading) {

@@ -158,6 +158,11 @@ void report_unknown(Document::State& state, const toml::table& table, const std:
 std::unique_ptr<Document::State> parse(const std::string& text, const std::filesystem::path& path) {
   auto state = std::make_unique<Document::State>();
   state->path = path;
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
+      text.substr(0, 4).find('\0') != std::string::npos) {
+    throw InputError(fmt::format(
+        "{}:1:1: error: not a text in UTF-8 but, as it seems, in UTF-16; save it as UTF-8", path.string()));
+  }
   if (const auto stray = find_stray_character(text)) {
     throw InputError(fmt::format("{}:{}:{}: error: a character beyond ASCII outside of quotes", path.string(),
                                  stray->line, stray->column));
@@ -165,8 +170,10 @@ std::unique_ptr<Document::State> parse(const std::string& text, const std::files
   try {
     state->root = toml::parse(std::string_view(text), path.string());
   } catch (const toml::parse_error& error) {
+    const bool encoding = error.description().find("invalid utf-8") != std::string_view::npos;
     throw InputError(
-        fmt::format("{}: error: {}", state->position(error.source().begin), error.description()));
+        fmt::format("{}: error: {}{}", state->position(error.source().begin), error.description(),
+                    encoding ? ": letters beyond ASCII in another encoding; save the file as UTF-8" : ""));
   }
   return state;
 }

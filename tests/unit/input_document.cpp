@@ -107,6 +107,31 @@ TEST(Document, CharactersBeyondAsciiBelongInQuotesOrComments) {
   EXPECT_DOUBLE_EQ(domain.lower[2], 2e-6);
 }
 
+// Files as editors of other systems leave them.
+TEST(Document, ReadsByteOrderMarksAndOtherLineEndsAndNamesOtherEncodings) {
+  const auto refusal = [](const std::string& text) {
+    try {
+      Document::from_text(text, "case.toml");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(refusal("\xEF\xBB\xBF# gr\xC3\xB6\xC3\x9F"
+                    "er\r\ntitle = \"a\"\r\n"),
+            "no error");
+  EXPECT_EQ(refusal("title = \"a\"\n# gr\xF6\xDF"
+                    "er\n"),
+            "case.toml:2:5: error: Encountered invalid utf-8 sequence: letters beyond ASCII in another "
+            "encoding; save "
+            "the file as UTF-8");
+  const std::string utf_16("\xFF\xFEt\0i\0", 6);
+  for (const std::string& text : {utf_16, utf_16.substr(2)}) {
+    EXPECT_EQ(refusal(text),
+              "case.toml:1:1: error: not a text in UTF-8 but, as it seems, in UTF-16; save it as UTF-8");
+  }
+}
+
 TEST(Document, UnknownKeyIsAnErrorWithTheNearestName) {
   EXPECT_EQ(read_text("[domain]\ncell_sze = 1\ncell_size = 1\nlower = [0, 0, 0]\n"),
             "case.toml:2:1: error: unknown key 'domain.cell_sze', did you mean \"cell_size\"? "
