@@ -220,14 +220,14 @@ Potential Potential::load(const std::string& name, const std::string& element,
   Potential potential;
   potential.name_ = name;
   potential.element_ = element;
-  potential.structure_ = structure;
+  if (structure != "least_energy") potential.structure_ = structure;
   if (KimModel::is_identifier(name)) {
     potential.read_kim();
     return potential;
   }
   if (name == zhou_2004_name) {
     potential.tables_ = zhou_2004(element);
-    potential.remark_ = choose_structure(potential.tables_, structure, name);
+    potential.remark_ = choose_structure(potential.tables_, potential.structure_, name);
     potential.file_ = name;
     potential.source_ = "Zhou, Johnson, Wadley, Phys. Rev. B 69 (2004) 144113";
     potential.write_tables(fmt::format("{} by the formulas of {}", element, potential.source_));

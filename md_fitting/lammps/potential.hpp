@@ -22,11 +22,11 @@ class Potential {
   /// Loads a potential by the name of a known one ("zhou_2004" for each of its elements), by the extended
   /// identifier of a KIM model, or by a file name: a path, a file beside the plan (`folder`), or a file in
   /// LAMMPS' folder.
-  /// @param structure "fcc" or "bcc"; empty: that of least energy
+  /// @param structure "fcc", "bcc" or "least_energy"
   /// @throws InputError if there is no such file or model (listing the ones for the element), if the element
   /// is not in it, if the file is damaged, or if hcp has the least energy.
   static Potential load(const std::string& name, const std::string& element,
-                        const std::filesystem::path& folder = {}, const std::string& structure = {});
+                        const std::filesystem::path& folder = {}, const std::string& structure = "least_energy");
 
   /// Units and atom style of an instance that has no box yet.
   void begin(Lammps& lammps) const;

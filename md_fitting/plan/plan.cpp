@@ -12,8 +12,8 @@ std::vector<BoundParameter> keys(Plan& plan) {
       text("element", &Plan::element, "chemical symbol, e.g. \"Cu\""),
       text("potential", &Plan::potential,
            "name of a known potential, or a potential file beside the plan or in the folder of LAMMPS"),
-      choice("structure", &Plan::structure, {"", "fcc", "bcc"},
-             "crystal that is simulated; without it that of least energy, whatever the file says")
+      choice("structure", &Plan::structure, {"least_energy", "fcc", "bcc"},
+             "crystal that is simulated; what the file of the potential says does not count")
           .optional(),
       integer("seed", &Plan::seed, {.lower = 0}, "changes all initial velocities").optional(),
       integer("ranks_per_point", &Plan::ranks_per_point, {.lower = 1, .upper = 4096},

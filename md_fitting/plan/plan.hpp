@@ -31,7 +31,7 @@ struct Plan {
   std::string title;
   std::string element;
   std::string potential;
-  std::string structure;  ///< "fcc", "bcc"; empty: that of least energy
+  std::string structure = "least_energy";  ///< or "fcc", "bcc"
   std::int64_t seed = 1;
   std::int64_t ranks_per_point = 1;
   std::filesystem::path folder;  ///< of the plan file: a potential file may lie there

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Isotherms and isochores: points at constant volume and temperature.
+#include <cmath>
+
 #include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/nvt_state.hpp"
+#include "md_fitting/protocols/structure.hpp"
 
 namespace whipple::md {
 namespace {
@@ -16,6 +19,8 @@ void add_state(TaskList& list, double ratio, double temperature, const RunSize& 
            [&potential = list.potential(), size, volume, temperature](std::int64_t seed, const PointRecord*) {
              NvtStateSource source(potential, size, seed);
              const State state = source.state(volume, temperature, StateSource::Effort::final);
+             const double displacement =
+                 std::sqrt(state.mean_square_displacement.value) / neighbour_distance(potential, volume);
              return TaskResult{
                  {{"pressure", state.pressure},
                   {"specific_internal_energy", state.specific_internal_energy},
@@ -23,7 +28,7 @@ void add_state(TaskList& list, double ratio, double temperature, const RunSize& 
                   {"mean_square_displacement", state.mean_square_displacement},
                   {"crystal_share", {state.crystal_share, 0.0}},
                   {"solid", {state.solid ? 1.0 : 0.0, 0.0}}},
-                 structure_remark(state.crystal_share, state.solid),
+                 structure_remark(state.crystal_share, state.solid, displacement),
                  source.transcript(),
                  {{"pressure", state.pressure_blocks}, {"specific_internal_energy", state.energy_blocks}}};
            });

@@ -38,6 +38,12 @@ double inherent_crystal_share(Crystal& crystal, const Potential& potential) {
   return crystal_share(crystal, potential);
 }
 
+double neighbour_distance(const Potential& potential, double specific_volume) {
+  const double a =
+      std::cbrt(metal::volume_per_atom(specific_volume, potential.mass()) * potential.atoms_per_cell());
+  return metal::angstrom * a * (potential.structure() == "fcc" ? std::sqrt(0.5) : std::sqrt(0.75));
+}
+
 void require_stable(bool solid, const Estimate& energy, double cold_energy, double temperature,
                     const Potential& potential) {
   const double potential_energy = energy.value - 1.5 * metal::boltzmann * temperature;

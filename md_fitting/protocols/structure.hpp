@@ -20,6 +20,9 @@ double crystal_share(Crystal& crystal, const Potential& potential);
 /// motion hides. About 1 in a crystal of any temperature, 0.1 to 0.2 in a melt.
 double inherent_crystal_share(Crystal& crystal, const Potential& potential);
 
+/// Distance of nearest neighbours in the crystal, m.
+double neighbour_distance(const Potential& potential, double specific_volume);
+
 /// A crystal that vibrates about its sites has more potential energy than the static one at the same volume,
 /// or at zero pressure. One that has less was no minimum: it left its sites for others.
 /// @param energy       eV per atom, with the kinetic energy

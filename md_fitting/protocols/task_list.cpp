@@ -127,12 +127,19 @@ Precision precision_of(const std::string& quantity, bool relative, const Target&
                                 : usual_segments};
 }
 
-std::string structure_remark(double crystal_share, bool solid) {
+std::string structure_remark(double crystal_share, bool solid, double displacement) {
+  constexpr double lindemann = 0.2;  // crystals melt at 0.15, overheated ones without surfaces a little above
   constexpr double whole =
       0.9;  // a cavity or a stacking fault takes more than a tenth of a few hundred atoms
   if (!solid) return fmt::format("the crystal melted (share of crystal {:.2f})", crystal_share);
   if (crystal_share < whole) {
     return fmt::format("the crystal has defects or a cavity (share of crystal {:.2f})", crystal_share);
+  }
+  if (displacement > lindemann) {
+    return fmt::format(
+        "atoms move {:.2f} of the distance of their neighbours, and crystals melt at 0.15: an overheated "
+        "or unstable crystal",
+        displacement);
   }
   return {};
 }

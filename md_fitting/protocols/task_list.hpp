@@ -68,6 +68,7 @@ Precision precision_of(const std::string& quantity, bool relative, const Target&
 
 /// The remark of a point whose crystal did not survive, or holds defects or a cavity; empty for a crystal.
 /// @param crystal_share of the atoms, in the nearest minimum of the energy
-std::string structure_remark(double crystal_share, bool solid);
+/// @param displacement  root mean square, over the distance of nearest neighbours
+std::string structure_remark(double crystal_share, bool solid, double displacement = 0.0);
 
 }  // namespace whipple::md

@@ -142,5 +142,12 @@ TEST_F(Keys, DependenciesComeFirst) {
   EXPECT_EQ(dependent, 11);
 }
 
+TEST(StructureRemark, NamesCrystalsBeyondLindemannsLimit) {
+  EXPECT_EQ(structure_remark(1.0, true, 0.14), "");
+  EXPECT_NE(structure_remark(1.0, true, 0.25).find("atoms move 0.25 of the distance of their neighbours"),
+            std::string::npos);
+  EXPECT_NE(structure_remark(0.1, false, 0.7).find("melted"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace whipple::md
