@@ -212,8 +212,10 @@ class BlockGrid {
   [[nodiscard]] std::span<const std::uint32_t> members(Points points, std::size_t slot) const {
     return points == Points::particles ? particles_in(slot) : guests_in(slot);
   }
-  /// Where each of them stood in its stencil at the last `bin`: the transfers of a step see them there,
-  /// wherever their positions have gone since.
+  /// The stencil of the last `bin`.
+  [[nodiscard]] Stencil stencil() const { return stencil_; }
+  /// Where each of them stood in that stencil: the transfers of a step see them there, wherever their
+  /// positions have gone since.
   [[nodiscard]] std::span<const PlaceInStencil> places(Points points) const {
     return points == Points::particles ? place_of_particle_ : place_of_guest_;
   }
@@ -433,6 +435,7 @@ class BlockGrid {
   Geometry geometry_;       // with the shift
   Vector3 origin_;          // its lower corner without
   double foresight_ = 0.0;  // cells that shifts may move a stencil by
+  Stencil stencil_;
   Forest forest_;
   BlockTable table_;
   std::vector<WantedBlock> wanted_;  // by the last adaptation

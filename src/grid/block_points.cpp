@@ -14,6 +14,7 @@
 namespace whipple::grid {
 
 bool BlockGrid::bin(std::span<const Vector3> position, Stencil stencil, std::span<const Vector3> guests) {
+  stencil_ = stencil;
   const bool known = slot_of_particle_.size() == position.size() || (!is_shared() && look_up(position));
   const bool complete = known && locate(position, stencil) && locate_guests(guests, stencil);
   if (parallel::any(communicator_, !complete)) {

@@ -62,7 +62,7 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt, std::span<co
   };
 
   grid.clear();  // (eq. 1) heat capacity and temperature of the nodes
-  scalars::scatter(particle_kind, particles, grid, [&](Node& node, std::size_t p, double n, const Vector3&) {
+  scalars::scatter(particle_kind, grid, [&](Node& node, std::size_t p, double n, const Vector3&) {
     const double capacity = n * particles.mass[p] * constants(p).heat_capacity;
     node.first += Lanes{capacity, capacity * particles.temperature[p], 0.0, 0.0};
   });
@@ -75,7 +75,7 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt, std::span<co
   share(grid);
 
   std::vector<Vector3> flux(particles.size());  // (eq. 2) -V k grad T of the particles
-  gather(particles, grid, [&](std::size_t p, auto&& for_nodes) {
+  gather(grid, [&](std::size_t p, auto&& for_nodes) {
     Vector3 gradient = Vector3::Zero();
     for_nodes([&](const Node& node, double, const Vector3& g) { gradient += node.first[1] * g; });
     flux[p] = -(particles.volume[p] + particles.void_volume[p]) * constants(p).conductivity * gradient;
@@ -85,10 +85,9 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt, std::span<co
     nodes[i].second = nodes[i].first;
     nodes[i].first = broadcast(0.0);
   });
-  scalars::scatter(particle_kind, particles, grid,
-                   [&](Node& node, std::size_t p, double, const Vector3& gradient) {
-                     node.first += Lanes{gradient.dot(flux[p]), 0.0, 0.0, 0.0};
-                   });
+  scalars::scatter(particle_kind, grid, [&](Node& node, std::size_t p, double, const Vector3& gradient) {
+    node.first += Lanes{gradient.dot(flux[p]), 0.0, 0.0, 0.0};
+  });
   fold_and_sum(grid);
   join_fields(grid, touch);
   for_each_owned_node([&](std::size_t i) {
@@ -98,7 +97,7 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt, std::span<co
   });
   share(grid);
 
-  gather(particles, grid, [&](std::size_t p, auto&& for_nodes) {  // (eq. 4)
+  gather(grid, [&](std::size_t p, auto&& for_nodes) {  // (eq. 4)
     double rise = 0.0;
     for_nodes([&](const Node& node, double n, const Vector3&) { rise += n * node.first[0]; });
     particles.specific_internal_energy[p] += constants(p).heat_capacity * rise;

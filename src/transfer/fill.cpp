@@ -14,16 +14,15 @@ std::vector<double> fill_of_cells(const Particles& particles, const TransitionNo
   using grid::Node;
   grid.clear();
   const double dx = grid.geometry().cell_size, per_cell = 1.0 / (dx * dx * dx);
-  scalars::scatter(BlockGrid::Points::particles, particles, grid,
+  scalars::scatter(BlockGrid::Points::particles, grid,
                    [&](Node& node, std::size_t p, double n, const Vector3&) {
                      const double volume = particles.volume[p] + particles.void_volume[p];
                      node.first += Lanes{n * volume * per_cell, 0.0, 0.0, 0.0};
                    });
   if (elements.size() > 0) {
-    scalars::scatter(BlockGrid::Points::guests, elements, grid,
-                     [&](Node& node, std::size_t, double n, const Vector3&) {
-                       node.first += Lanes{0.0, n, 0.0, 0.0};
-                     });
+    scalars::scatter(BlockGrid::Points::guests, grid, [&](Node& node, std::size_t, double n, const Vector3&) {
+      node.first += Lanes{0.0, n, 0.0, 0.0};
+    });
   }
   scalars::fold(grid);
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {  // images bring to it as much again
@@ -41,7 +40,7 @@ std::vector<double> fill_of_cells(const Particles& particles, const TransitionNo
   }
   scalars::share(grid);
   std::vector<double> fill(particles.size(), std::numeric_limits<double>::infinity());
-  scalars::gather(particles, grid, [&](std::size_t p, auto&& for_nodes) {
+  scalars::gather(grid, [&](std::size_t p, auto&& for_nodes) {
     double filled = 0.0, of_elements = 0.0;
     for_nodes([&](const Node& node, double n, const Vector3&) {
       filled += n * node.first[0];

@@ -7,20 +7,40 @@
 #include "src/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
 
-/// Scalar fields on the grid by quadratic B-splines, whatever the transfer takes: conduction, fill of the
-/// cells.
+/// Scalar fields on the grid by quadratic B-splines, also where the transfer takes wider functions, or by
+/// linear functions where the transfer takes those, which reach no further: conduction, fill of the cells.
 namespace whipple::transfer::scalars {
 
 using grid::BlockGrid;
 using grid::Node;
-using Shape = QuadraticBSpline;
+/// Calls work(Shape{}) with the functions of the scalars.
+template <class Work>
+void with_scalar_shape(const BlockGrid& grid, Work&& work) {
+  grid.stencil().before() == 0 ? work(Linear{}) : work(QuadraticBSpline{});
+}
+
+/// Weights of a point whose place is that of the run's stencil, which may begin a node before that of
+/// `Shape`.
+template <class Shape>
+Weights<Shape::count> weights_in(const grid::Stencil& of_run, const grid::PlaceInStencil& place,
+                                 double cell_size) {
+  Lanes from_first = place.from_first();
+  std::int32_t first_node = place.first_node();
+  if (of_run.shift != Shape::stencil.shift) {
+    constexpr int edge = Shape::stencil.edge();
+    const Lanes skipped = floor(from_first - broadcast(Shape::stencil.shift));
+    from_first -= skipped;
+    first_node += static_cast<std::int32_t>((skipped[0] * edge + skipped[1]) * edge + skipped[2]);
+  }
+  return {Shape::weights(from_first, cell_size), first_node};
+}
 
 /// Calls f(node, N, grad N) for the nodes of a point.
-template <class Points, class Access, class Function>
-void for_each_node(BlockGrid::Points kind, const Points& points, std::size_t p, const BlockGrid& grid,
-                   Access& access, Function&& f) {
-  const grid::PlaceInStencil& place = grid.places(kind)[p];
-  const Weights<Shape::count> w = weights_at<Shape>(points, p, place, grid.geometry().cell_size);
+template <class Shape, class Access, class Function>
+void for_each_node(BlockGrid::Points kind, std::size_t p, const BlockGrid& grid, Access& access,
+                   Function&& f) {
+  const Weights<Shape::count> w =
+      weights_in<Shape>(grid.stencil(), grid.places(kind)[p], grid.geometry().cell_size);
   const auto nodes = access.stencil(w.first_node);
   for (std::size_t i = 0; i < Shape::count; ++i) {
     for (std::size_t j = 0; j < Shape::count; ++j) {
@@ -35,32 +55,36 @@ void for_each_node(BlockGrid::Points kind, const Points& points, std::size_t p, 
 }
 
 /// Adds what every point brings to its nodes: bring(node, p, N, grad N). Node::second stays as it is.
-template <class Points, class Bring>
-void scatter(BlockGrid::Points kind, const Points& points, BlockGrid& grid, Bring&& bring) {
-  grid.for_each_apart([&](std::size_t slot) {
-    narrow::add_to_nodes<Shape, Node>(
-        grid, kind, slot, [&](std::span<const std::uint32_t> members, auto& access) {
-          for (const std::uint32_t p : members) {
-            for_each_node(kind, points, p, grid, access, [&](Node& node, double n, const Vector3& gradient) {
-              bring(node, p, n, gradient);
-            });
-          }
-        });
+template <class Bring>
+void scatter(BlockGrid::Points kind, BlockGrid& grid, Bring&& bring) {
+  with_scalar_shape(grid, [&]<class Shape>(Shape) {
+    grid.for_each_apart([&](std::size_t slot) {
+      narrow::add_to_nodes<Shape, Node>(
+          grid, kind, slot, [&](std::span<const std::uint32_t> members, auto& access) {
+            for (const std::uint32_t p : members) {
+              for_each_node<Shape>(kind, p, grid, access, [&](Node& node, double n, const Vector3& gradient) {
+                bring(node, p, n, gradient);
+              });
+            }
+          });
+    });
   });
 }
 
 /// Calls f(p, access to its nodes) for every particle, block by block.
 template <class Function>
-void gather(const Particles& particles, BlockGrid& grid, Function&& f) {
+void gather(BlockGrid& grid, Function&& f) {
   constexpr auto kind = BlockGrid::Points::particles;
-  parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
-    if (grid.particles_in(slot).empty()) return;
-    narrow::read_nodes<Shape, Node>(
-        grid, kind, slot, [&](std::span<const std::uint32_t> members, auto& access) {
-          for (const std::uint32_t p : members) {
-            f(p, [&](auto&& of_node) { for_each_node(kind, particles, p, grid, access, of_node); });
-          }
-        });
+  with_scalar_shape(grid, [&]<class Shape>(Shape) {
+    parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
+      if (grid.particles_in(slot).empty()) return;
+      narrow::read_nodes<Shape, Node>(
+          grid, kind, slot, [&](std::span<const std::uint32_t> members, auto& access) {
+            for (const std::uint32_t p : members) {
+              f(p, [&](auto&& of_node) { for_each_node<Shape>(kind, p, grid, access, of_node); });
+            }
+          });
+    });
   });
 }
 

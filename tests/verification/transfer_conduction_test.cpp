@@ -11,10 +11,13 @@
 
 #include "src/parallel/mpi.hpp"
 #include "src/transfer/conduction.hpp"
+#include "src/transfer/fill.hpp"
+#include "src/transfer/shape_function.hpp"
 
 namespace whipple {
 namespace {
 
+using transfer::ShapeFunction;
 using transfer::ThermalConstants;
 
 constexpr double density = 1000.0, length = 0.01;
@@ -33,8 +36,9 @@ struct Rod {
     g.boundary.fill(grid::Boundary::symmetry);
     return g;
   }
-  Rod(int cells, int per_cell, double shift = 0.0)
+  Rod(int cells, int per_cell, double shift = 0.0, ShapeFunction of_run = ShapeFunction::quadratic_bspline)
       : dx(length / cells), grid(geometry(cells), parallel::world()) {
+    const grid::Stencil stencil = transfer::stencil(of_run);
     const int n = cells * per_cell;
     resize(particles, static_cast<std::size_t>(n) * 4);
     std::mt19937_64 generator(1);
@@ -50,10 +54,10 @@ struct Rod {
       particles.mass[p] = density * particles.volume[p];
       particles.void_volume[p] = 0.0;
     }
-    if (!grid.bin(particles.position, {})) {
-      grid.adapt(particles.position, particles.velocity, 0.0, {});
-      grid.activate(particles.position, particles.velocity, 0.0, {});
-      EXPECT_TRUE(grid.bin(particles.position, {}));
+    if (!grid.bin(particles.position, stencil)) {
+      grid.adapt(particles.position, particles.velocity, 0.0, stencil);
+      grid.activate(particles.position, particles.velocity, 0.0, stencil);
+      EXPECT_TRUE(grid.bin(particles.position, stencil));
     }
   }
   void advance(double dt, int steps, std::span<const ThermalConstants> constants) {
@@ -86,8 +90,8 @@ constexpr ThermalConstants copper_like{.conductivity = 400.0, .heat_capacity = 4
 double diffusivity(const ThermalConstants& c) { return c.conductivity / (density * c.heat_capacity); }
 
 /// Root mean square error of the rod at the time where the amplitude is 1/e, over that amplitude.
-double error_of_decay(int cells, double shift) {
-  Rod rod(cells, 2, shift);
+double error_of_decay(int cells, double shift, ShapeFunction of_run = ShapeFunction::quadratic_bspline) {
+  Rod rod(cells, 2, shift, of_run);
   const std::array constants = {copper_like};
   const double k = std::numbers::pi / length, a = diffusivity(copper_like);
   rod.set(constants, [&](double x) { return 300.0 + 100.0 * std::cos(k * x); });
@@ -111,6 +115,31 @@ TEST(Conduction, RodDecaysAtTheExactRateWithSecondOrder) {
   EXPECT_LT(fine, 4e-3);
   EXPECT_GT(std::log2(coarse / middle), 1.8);
   EXPECT_GT(std::log2(middle / fine), 1.8);
+}
+
+// Heat goes by quadratic functions, whatever carries the momentum: places of wider stencils are not theirs.
+TEST(Conduction, IsTheSameWithEveryShapeFunctionOfTheRun) {
+  for (const double shift : {0.0, 0.3}) {
+    const double expected = error_of_decay(16, shift);
+    for (const ShapeFunction of_run :
+         {ShapeFunction::gimp, ShapeFunction::convected_gimp, ShapeFunction::cubic_bspline}) {
+      EXPECT_NEAR(error_of_decay(16, shift, of_run), expected, 1e-9)
+          << static_cast<int>(of_run) << ' ' << shift;
+    }
+  }
+}
+
+// Full cells are full for every shape function, also at the planes where a run of linear functions has no
+// node beyond.
+TEST(Fill, IsThatOfTheCellsWithEveryShapeFunctionOfTheRun) {
+  for (const ShapeFunction of_run :
+       {ShapeFunction::linear, ShapeFunction::gimp, ShapeFunction::convected_gimp,
+        ShapeFunction::quadratic_bspline, ShapeFunction::cubic_bspline}) {
+    Rod rod(8, 2, 0.0, of_run);
+    for (const double filled : transfer::fill_of_cells(rod.particles, {}, rod.grid)) {
+      ASSERT_NEAR(filled, 1.0, 1e-12) << static_cast<int>(of_run);
+    }
+  }
 }
 
 TEST(Conduction, DisorderedParticlesConductAsWell) {
