@@ -338,6 +338,7 @@ def main(words=None):
     try:
         run = Run(arguments.run)
         output = pathlib.Path(arguments.output) if arguments.output else run.folder / "report"
+        run.symmetry_planes = report_metrics.symmetry_planes(output / "analysis.h5")
         report = Report(run, output, max(arguments.times, 1), max(arguments.dpi, 20))
         report.summary()
         report.input()

@@ -133,6 +133,8 @@ class Run:
         except tomllib.TOMLDecodeError as error:
             raise NotARun(f"{path}: {error}") from None
         self.history = History(self.folder / "history.csv")
+        # Position (m) of the symmetry plane normal to an axis, {0: 0.0, 1: 0.0} for a quarter model; of the analysis.
+        self.symmetry_planes = {}
         self.entries = self._read_index()
         if not self.entries and not self.history.columns:
             raise NotARun(f"{folder}: the run has neither snapshots nor a history.csv yet")
@@ -181,23 +183,6 @@ class Run:
         names = self.bodies
         count = int(snapshot.body.max()) + 1 if snapshot.body is not None and len(snapshot) else 0
         return names + [f"body {i}" for i in range(len(names), max(count, len(names), 1))]
-
-    @property
-    def symmetry_planes(self):
-        """Position (m) of the symmetry plane normal to an axis, {0: 0.0, 1: 0.0} for a quarter model.
-
-        A mirror plane that a body flies towards or away from is the face of a wall, not of a model cut in halves.
-        """
-        domain = self.input.get("domain", {})
-        flight = [any(float(str(body.get("velocity", [0, 0, 0])[i]).split()[0]) != 0
-                      for body in self.input.get("body", [])) for i in range(3)]
-        planes = {}
-        for face, kind in domain.get("boundary", {}).items():
-            axis, _, side = face.partition("_")
-            if kind == "symmetry" and axis in AXES and side in ("lower", "upper") and side in domain \
-                    and not flight[AXES.index(axis)]:
-                planes[AXES.index(axis)] = quantity(domain[side][AXES.index(axis)], LENGTHS)
-        return planes
 
     @property
     def domain(self):

@@ -49,6 +49,18 @@ class Picture:
     transmission: np.ndarray
 
 
+def symmetry_planes(path):
+    """Position (m) of the planes that cut the model out of the full problem, by the number of their axis."""
+    if not path.is_file():
+        return {}
+    try:
+        with h5py.File(path, "r") as file:
+            frame = file["frame"].attrs
+            return {i: float(frame[f"plane_{a}"]) for i, a in enumerate(AXES) if f"plane_{a}" in frame}
+    except (OSError, KeyError) as error:
+        raise NotARun(f"{path}: {error}; made by `whipple analyse`") from None
+
+
 class Analysis:
     """analysis.h5: final values, a row per snapshot, tables, radiographs."""
 

@@ -213,6 +213,9 @@ void write_frame(const Run& run, const Start& start, const hdf5::Group& root) {
   group.set_attribute("impact_angle", frame.impact_angle);
   group.set_attribute("projectile", std::string_view(run.bodies[frame.projectile].name));
   for (int a = 0; a < 3; ++a) group.set_attribute(fmt::format("centre_{}", "xyz"[a]), frame.centre[a]);
+  for (const Plane& plane : frame.planes) {
+    group.set_attribute(fmt::format("plane_{}", "xyz"[plane.axis]), plane.position);
+  }
 }
 
 /// The last row of the series and what is known only when all snapshots were seen.

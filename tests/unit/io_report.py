@@ -10,6 +10,7 @@ import html.parser
 import io
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -203,6 +204,18 @@ def incomplete_runs_give_reports(work):
     metrics = json.loads((folder / "report/metrics.json").read_text())
     require(metrics["multiplicity"] == 1, "no symmetry, one copy")
     require("solid_fraction" not in metrics["bodies"][0], "a phase that was not written")
+
+    # A symmetric pair that flies apart: the planes are those of the analysis, on the page as in the tables.
+    folder = copy("oblique")
+    toml = (folder / "run.toml").read_text()
+    (folder / "run.toml").write_text(re.sub(r'velocity = \["0 m/s", "0 m/s"', 'velocity = ["-1 km/s", "0 m/s"', toml, count=1))
+    require((folder / "run.toml").read_text() != toml, "the oblique run")
+    analyse(folder, folder / "report")
+    require(run(folder, "--times", 1).returncode == 0, "an oblique run")
+    with h5py.File(folder / "report/analysis.h5") as file:
+        copies = file["frame"].attrs["copies"]
+    metrics = json.loads((folder / "report/metrics.json").read_text())
+    require(metrics["multiplicity"] == copies == 4, f"{metrics['multiplicity']} copies on the page, {copies} in the tables")
 
     folder = copy("snapshots_only_of_nothing")
     for path in folder.glob("*.particles.*.hdf"):
