@@ -60,6 +60,13 @@ class ModelEquationOfState final : public EquationOfState {
       return true;
     }
   }
+  [[nodiscard]] double relative_cost() const override {
+    if constexpr (requires { M::relative_cost; }) {
+      return M::relative_cost;
+    } else {
+      return 1.0;
+    }
+  }
   [[nodiscard]] double maximum_density() const override { return model_.maximum_density(); }
   [[nodiscard]] double minimum_energy(double density) const override {
     return model_.minimum_energy(density);

@@ -30,6 +30,7 @@ class Gray {
   static constexpr std::string_view name = "gray";
   static constexpr std::string_view summary =
       "GRAY three-phase equation of state: solid, melting band, liquid, hot liquid, vapour";
+  static constexpr double relative_cost = 2.0;
   static constexpr double least_temperature = 1.0;         ///< K
   static constexpr double least_sound_speed_ratio = 0.01;  ///< of the Hugoniot intercept
   static ParameterTable<Constants> parameters() { return gray_parameters(); }

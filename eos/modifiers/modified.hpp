@@ -27,6 +27,7 @@ class Modified : public EquationOfState {
   [[nodiscard]] double reference_temperature() const override { return base_->reference_temperature(); }
   [[nodiscard]] double reference_energy() const override { return base_->reference_energy(); }
   [[nodiscard]] bool has_phases() const override { return base_->has_phases(); }
+  [[nodiscard]] double relative_cost() const override { return base_->relative_cost(); }
   [[nodiscard]] double maximum_density() const override { return base_->maximum_density(); }
   [[nodiscard]] double minimum_energy(double density) const override {
     return base_->minimum_energy(density);

@@ -142,8 +142,12 @@ std::string describe(std::span<const BoundParameter> parameters) {
     const bool wide = range.size() > widest_range;
     below.push_back(wide ? wrapped(info.choices) : "");
     if (wide) range = "words below";
-    rows.push_back(
-        {info.name, info.unit.empty() ? "-" : info.unit, range, default_of(parameter), info.meaning});
+    std::string value = default_of(parameter);
+    if (value.size() > widest_range) {
+      below.back() += "      default: " + value + "\n";
+      value = "below";
+    }
+    rows.push_back({info.name, info.unit.empty() ? "-" : info.unit, range, value, info.meaning});
   }
   std::array<std::size_t, 5> width{};
   for (const auto& row : rows) {

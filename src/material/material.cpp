@@ -103,14 +103,10 @@ double initial_porosity(const Material& material) {
 
 }  // namespace
 
-Material make_material(std::string name, std::shared_ptr<const eos::EquationOfState> eos,
-                       std::shared_ptr<const strength::Strength> strength,
-                       std::vector<std::shared_ptr<const failure::Criterion>> failure) {
-  Material material;
-  material.name = std::move(name);
-  material.eos = std::move(eos);
-  material.strength = strength ? std::move(strength) : std::make_shared<const strength::NoneModel>();
-  material.failure = std::move(failure);
+namespace {
+
+/// Computes what follows from the parts.
+Material completed(Material material) {
   require_parts_agree(material);
   for (const auto& criterion : material.failure) {
     material.softens |= criterion->softens();
@@ -129,6 +125,26 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
   const double sound_speed = material.reference.sound_speed;
   material.reference_bulk_modulus = material.reference.density * sound_speed * sound_speed;
   return material;
+}
+
+}  // namespace
+
+Material make_material(std::string name, std::shared_ptr<const eos::EquationOfState> eos,
+                       std::shared_ptr<const strength::Strength> strength,
+                       std::vector<std::shared_ptr<const failure::Criterion>> failure) {
+  Material material;
+  material.name = std::move(name);
+  material.eos = std::move(eos);
+  material.strength = strength ? std::move(strength) : std::make_shared<const strength::NoneModel>();
+  material.failure = std::move(failure);
+  return completed(std::move(material));
+}
+
+Material with_eos(const Material& material, std::shared_ptr<const eos::EquationOfState> eos) {
+  Material result = material;
+  result.eos = std::move(eos);
+  result.porous = false;
+  return completed(std::move(result));
 }
 
 void set_taylor_quinney(Material& material, double share) {

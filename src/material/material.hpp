@@ -65,6 +65,9 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
                        std::shared_ptr<const strength::Strength> strength = nullptr,
                        std::vector<std::shared_ptr<const failure::Criterion>> failure = {});
 
+/// The material with another equation of state of the same matter; all else stays.
+Material with_eos(const Material& material, std::shared_ptr<const eos::EquationOfState> eos);
+
 /// State of matter at the start of a run, from at most two of density (kg/m^3), temperature (K) and pressure
 /// (Pa). Without a temperature: the reference temperature, unless density and pressure fix it; without
 /// density and pressure: the density of zero pressure at the temperature. At a pressure and a temperature it

@@ -12,7 +12,7 @@
 #include "src/material/material.hpp"
 
 /// The constitutive half of a time step, from the velocity gradient to the new stress
-/// (docs/theory/material.md). Both functions work on chunks of a few hundred points: kinematics and strength,
+/// (docs/theory/material.md). Both functions work on chunks of 64 points: kinematics and strength,
 /// then one call of the equation of state, then failure. They do not allocate and do not throw, and may run
 /// in several threads on disjoint points.
 namespace whipple {

@@ -137,6 +137,8 @@ ParameterTable<OutputControl> OutputControl::parameters() {
               .optional()};
 }
 
+std::vector<std::string> OutputControl::default_fields() { return io::default_output_fields(); }
+
 ParameterTable<HeatControl> HeatControl::parameters() {
   return {boolean("conduction", &HeatControl::conduction,
                   "heat flows between particles by the conductivities of their materials ([thermal])")
@@ -292,7 +294,6 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   for (const auto& [key, value] : overrides) document.set(key, value);
   Case setup;
   setup.file = document.path();
-  setup.output.fields = io::default_output_fields();
   input::Table root = document.root();
   root.read(Case::parameters(), setup);
   root.accept("provenance");

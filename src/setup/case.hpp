@@ -78,7 +78,8 @@ struct OutputControl {
   std::int64_t history_every = 1;
   std::int64_t gauges_every = 1;
   double maximum_energy_error = 0.01;
-  std::vector<std::string> fields;
+  std::vector<std::string> fields = default_fields();
+  static std::vector<std::string> default_fields();
   static ParameterTable<OutputControl> parameters();
 };
 

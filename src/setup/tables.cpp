@@ -28,18 +28,8 @@ std::shared_ptr<const Material> tabulated(const Material& material, double error
                                             progress->update(share, material.name);
                                           });
   log::detail("{}: table of {} kB, error {:.2g}", material.name, data.size() / 1000, error);
-  Material result = make_material(
-      material.name, std::make_shared<const eos::TableOfModel>(eos::Table(std::move(data)), material.eos),
-      material.strength, material.failure);
-  result.file = material.file;
-  result.companions = material.companions;
-  result.source = material.source;
-  result.note = material.note;
-  result.group = material.group;
-  result.measured = material.measured;
-  result.conductivity = material.conductivity;
-  result.taylor_quinney = material.taylor_quinney;
-  return std::make_shared<const Material>(std::move(result));
+  auto table = std::make_shared<const eos::TableOfModel>(eos::Table(std::move(data)), material.eos);
+  return std::make_shared<const Material>(with_eos(material, std::move(table)));
 }
 
 void replace_models(Case& setup) {

@@ -80,7 +80,7 @@ bool Simulation::is_restless(std::size_t p) const {
 }
 
 bool Simulation::matter_may_rest() const {
-  return setup_.transfer.rest_tolerance > 0.0 && !acceleration_ && !setup_.heat.conduction;
+  return setup_.transfer.rest_tolerance > 0.0 && accelerations_.empty() && !setup_.heat.conduction;
 }
 
 /// How often particles bring something to the nodes in a step: each time, motion gets to blocks that share

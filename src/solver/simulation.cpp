@@ -116,7 +116,7 @@ void Simulation::prepare() {
   set_up_bars();
   set_up_dissipation();
   if (const setup::Gravity g = setup_.gravity; !g.acceleration.isZero(0.0)) {
-    acceleration_ = [g](const Particles&, std::size_t, double time) { return g.at(time); };
+    add_acceleration([g](const Particles&, std::size_t, double time) { return g.at(time); });
   }
   sum_over_ranks();
 }
@@ -308,10 +308,10 @@ void Simulation::bin_particles() {
     let_matter_rest();
     separate_fields();
     external_acceleration_.clear();
-    if (!acceleration_) return;
-    external_acceleration_.resize(particles_.size());
+    if (accelerations_.empty()) return;
+    external_acceleration_.assign(particles_.size(), Vector3::Zero());
     for (std::size_t p = 0; p < particles_.size(); ++p) {
-      external_acceleration_[p] = acceleration_(particles_, p, state_.time);
+      for (const auto& load : accelerations_) external_acceleration_[p] += load(particles_, p, state_.time);
       step_.external_impulse += particles_.mass[p] * state_.time_step * external_acceleration_[p];
     }
   });

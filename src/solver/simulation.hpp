@@ -72,7 +72,8 @@ class Simulation {
   /// An acceleration by external forces (m/s^2), asked for every particle at the beginning of each step: its
   /// index in `particles()`, and the time. For manufactured solutions.
   using Acceleration = std::function<Vector3(const Particles& particles, std::size_t p, double time)>;
-  void set_external_acceleration(Acceleration acceleration) { acceleration_ = std::move(acceleration); }
+  /// Adds one to those that act already, gravity among them. On particles only.
+  void add_acceleration(Acceleration acceleration) { accelerations_.push_back(std::move(acceleration)); }
 
   [[nodiscard]] const setup::Case& setup() const { return setup_; }
   /// The particles of this rank.
@@ -251,7 +252,7 @@ class Simulation {
   double squared_change_ = 0.0;    // m^2/s^2, the largest of a particle's velocity in the step under way
   double compression_rate_ = 0.0;  // 1/s, the largest of particles under pressure in the step under way
   double element_compression_rate_ = 0.0;  // 1/s, the same of elements
-  Acceleration acceleration_;
+  std::vector<Acceleration> accelerations_;
   std::vector<Vector3> external_acceleration_;      // of this step; empty without external forces
   std::vector<std::uint32_t> flying_;               // particles that fly without the grid in this step
   std::vector<std::uint32_t> by_stencil_, sorted_;  // of the last sort; their memory is kept for the next

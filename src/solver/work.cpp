@@ -6,9 +6,9 @@
 namespace whipple::solver {
 namespace {
 
-/// Of the constitutive update: measured by `whipple bench` (docs/performance.md), 233 ns for the transfers,
-/// 115 to 125 ns with GRAY, 41 to 65 ns with models whose state is explicit or tabulated.
-double work_of_material(const Material& material) { return material.eos->model() == "gray" ? 0.5 : 0.25; }
+/// Of the constitutive update, measured by `whipple bench` (docs/performance.md): 233 ns for the transfers,
+/// 41 to 65 ns for the update with a model whose state is explicit or tabulated.
+double work_of_material(const Material& material) { return 0.25 * material.eos->relative_cost(); }
 
 }  // namespace
 

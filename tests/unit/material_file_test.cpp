@@ -299,6 +299,28 @@ TEST(PlasticWork, ShareThatIsHeatStandsInTheMaterialFile) {
   EXPECT_THROW(set_taylor_quinney(concrete, 0.9), InputError);
 }
 
+// Nothing of a material is lost when a table takes the place of its equation of state.
+TEST(Material, WithAnotherEquationOfStateIsTheSameInAllElse) {
+  for (const char* name : {"copper", "concrete_35mpa_rht", "tungsten_nickel_iron", "lead_mie_gruneisen"}) {
+    Material material = read_material(std::string(name));
+    material.conductivity = 123.0;
+    if (!material.brittle && material.void_growth == nullptr) set_taylor_quinney(material, 0.9);
+    const Material other = with_eos(material, read_material("aluminium_mie_gruneisen").eos);
+    EXPECT_EQ(other.eos->model(), "mie_gruneisen") << name;
+    EXPECT_NE(other.reference.density, material.reference.density) << name;
+    const Material back = with_eos(other, material.eos);
+    EXPECT_EQ(back.constants(), material.constants()) << name;
+    EXPECT_EQ(back.reference.density, material.reference.density) << name;
+    EXPECT_EQ(back.reference_bulk_modulus, material.reference_bulk_modulus) << name;
+    const auto rest = [](const Material& m) {
+      return std::tuple(m.name, m.file, m.companions, m.source, m.note, m.group, m.conductivity,
+                        m.taylor_quinney, m.strength, m.failure, m.softens, m.needs_strain, m.heals,
+                        m.keeps_damage, m.brittle, m.void_growth);
+    };
+    EXPECT_TRUE(rest(other) == rest(material)) << name;
+  }
+}
+
 TEST(InitialState, GivenTemperatureOrDensityGivesTheirState) {
   const Material copper = read_material("copper");
   const eos::State hot = initial_state(copper, {}, 800.0);

@@ -81,7 +81,7 @@ Slide slide(double friction, double duration, const std::string& method) {
   problem.bodies = {{"slab", elastic_aluminium(), box({0, 0, 0}, {28 * dx, 4 * dx, dx})},
                     {"block", elastic_aluminium(), box({5.3 * dx, 4 * dx, 0}, {15.3 * dx, 10 * dx, dx})}};
   solver::Simulation simulation(problem.read(), parallel::world());
-  simulation.set_external_acceleration([=](const Particles&, std::size_t, double time) {
+  simulation.add_acceleration([=](const Particles&, std::size_t, double time) {
     return Vector3(Vector3(g * std::sin(angle), -g * std::cos(angle), 0) *
                    std::min(time / (0.3 * duration), 1.0));
   });
@@ -157,6 +157,18 @@ TEST(Gravity, GivesItsMomentumToEveryBody) {
   EXPECT_LT((now.momentum - start.momentum - given).norm(), 1e-12 * start.momentum_scale);
   EXPECT_LT(state.ledger.momentum_error(now), 1e-12);
   EXPECT_LT(std::abs(state.ledger.energy_error(now)), 1e-12);
+}
+
+TEST(Gravity, AddsToAnExternalAcceleration) {
+  Problem problem = impact({}, {});
+  problem.more = "[gravity]\nacceleration = [0, 3e8, -1e8]\n";
+  solver::Simulation simulation(problem.read(), parallel::world());
+  simulation.add_acceleration([](const Particles&, std::size_t, double) { return Vector3(0, -3e8, 0); });
+  const solver::Totals start = simulation.totals();
+  for (int step = 0; step < 5; ++step) simulation.advance(2e-6);
+  const solver::Totals& now = simulation.totals();
+  const Vector3 given = now.mass * simulation.state().time * Vector3(0, 0, -1e8);
+  EXPECT_LT((now.momentum - start.momentum - given).norm(), 1e-12 * start.momentum_scale);
 }
 
 // A thin plate is pressed, in one step, across the last of its gap to elements, which only impulses stop.

@@ -260,7 +260,7 @@ inline double motion_error(const ExactMotion& motion, const Method& method, int 
       particles, transfer::affine_inertia(transfer::shape_function(method.shape_function), dx));
   solver::Simulation simulation(setup, std::move(particles), state, parallel::world());
   if (const auto acceleration = motion.acceleration()) {
-    simulation.set_external_acceleration([&start, acceleration](const Particles& q, std::size_t p, double t) {
+    simulation.add_acceleration([&start, acceleration](const Particles& q, std::size_t p, double t) {
       return acceleration(start[q.id[p]], t);
     });
   }
