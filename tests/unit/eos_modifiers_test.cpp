@@ -45,6 +45,13 @@ void expect_batch_agrees(const EquationOfState& eos, double density, double e) {
   }
 }
 
+// Ranks share particles out by it.
+TEST(EosModifiers, PassTheCostOn) {
+  EXPECT_GT(gray_copper()->relative_cost(), 1.0);
+  EXPECT_EQ(Shift(gray_copper(), {.energy = 3e6}).relative_cost(), gray_copper()->relative_cost());
+  EXPECT_EQ(solid_copper()->relative_cost(), 1.0);
+}
+
 TEST(EosModifiers, ShiftAndScaleKeepTheIdentities) {
   const Shift shift(gray_copper(), {.energy = 3e6});
   const Scale scale(gray_copper(), {.density = 65.0 / 63.546});

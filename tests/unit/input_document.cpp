@@ -122,7 +122,7 @@ TEST(Document, ReadsByteOrderMarksAndOtherLineEndsAndNamesOtherEncodings) {
             "no error");
   EXPECT_EQ(refusal("title = \"a\"\n# gr\xF6\xDF"
                     "er\n"),
-            "case.toml:2:5: error: Encountered invalid utf-8 sequence: letters beyond ASCII in another "
+            "case.toml:2:4: error: Encountered invalid utf-8 sequence: letters beyond ASCII in another "
             "encoding; save "
             "the file as UTF-8");
   const std::string utf_16("\xFF\xFEt\0i\0", 6);
