@@ -45,6 +45,7 @@ class DebyeGruneisen {
   static constexpr std::string_view name = "debye_gruneisen";
   static constexpr std::string_view summary =
       "solid: Vinet or Birch-Murnaghan isotherm, Debye lattice, electrons; Lindemann melting";
+  static constexpr double relative_cost = 7.0;
   static constexpr double least_temperature = 1.0;         ///< K
   static constexpr double least_sound_speed_ratio = 0.01;  ///< of sqrt(K0 V0)
   static ParameterTable<Constants> parameters();

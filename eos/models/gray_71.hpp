@@ -18,6 +18,7 @@ class Gray71 {
   static constexpr std::string_view name = "gray_71";
   static constexpr std::string_view summary =
       "GRAY in its older closed forms, not consistent thermodynamically: for comparison only";
+  static constexpr double relative_cost = 3.5;
   static constexpr double least_temperature = 1.0;         ///< K
   static constexpr double least_sound_speed_ratio = 0.01;  ///< of the Hugoniot intercept
   /// Those of gray, less the choices that these forms do not have.

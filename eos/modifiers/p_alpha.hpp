@@ -45,6 +45,8 @@ class PAlpha final : public Modified {
   [[nodiscard]] double minimum_energy(double density) const override {
     return state_at_temperature(density, least_temperature()).specific_internal_energy;
   }
+  /// The root on the crush curve.
+  [[nodiscard]] double relative_cost() const override { return base().relative_cost() + 11.0; }
   [[nodiscard]] double initial_distension() const override { return constants_.distension; }
   [[nodiscard]] const VapourDome* vapour_dome() const override { return nullptr; }
   RangeReport evaluate(const Batch& batch) const override;

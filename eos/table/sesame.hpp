@@ -34,6 +34,7 @@ class Sesame final : public EquationOfState {
   [[nodiscard]] double maximum_energy(double density) const;
 
   [[nodiscard]] std::string_view model() const override { return name; }
+  [[nodiscard]] double relative_cost() const override { return 2.5; }
   [[nodiscard]] double reference_density() const override { return reference_density_; }
   [[nodiscard]] double reference_temperature() const override { return reference_temperature_; }
   [[nodiscard]] double reference_energy() const override { return reference_energy_; }
