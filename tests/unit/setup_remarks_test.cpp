@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a case allows but hardly means is remarked on; what it means is not.
-#include "src/setup/remarks.hpp"
+#include <fstream>
+#include <utility>
 
+#include "src/setup/remarks.hpp"
 #include "tests/unit/setup_support.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::setup {
 namespace {
@@ -81,6 +84,33 @@ TEST(Remarks, NameMotionAgainstASymmetryPlane) {
   };
   EXPECT_EQ(bar("-200 m/s"), "");
   EXPECT_NE(bar("200 m/s").find("'bar' touches the symmetry plane x_lower"), std::string::npos);
+}
+
+// Two cubes side by side whose common face has nodes twice.
+TEST(Remarks, NamePartsOfAMeshThatAreNotJoined) {
+  const TemporaryFolder folder;
+  const auto remarks_of_gap = [&](const std::string& gap) {
+    std::ofstream mesh(folder.path() / "parts.msh");
+    mesh << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n16\n";
+    int node = 0;
+    for (const auto& [from, to] : {std::pair<std::string, std::string>{"0", "1"}, {gap, "2"}}) {
+      for (const char* z : {"0", "1"}) {
+        for (const std::string& corner : {from + " 0 ", to + " 0 ", to + " 1 ", from + " 1 "}) {
+          mesh << ++node << ' ' << corner << z << '\n';
+        }
+      }
+    }
+    mesh << "$EndNodes\n$Elements\n2\n1 5 2 1 1 1 2 3 4 5 6 7 8\n2 5 2 1 1 9 10 11 12 13 14 15 "
+            "16\n$EndElements\n";
+    mesh.close();
+    return remarks_of(free_domain +
+                      "[[body]]\nname = \"cubes\"\nmaterial = \"copper.toml\"\ndiscretization = { method = "
+                      "\"finite_elements\", mesh = \"" +
+                      (folder.path() / "parts.msh").string() + "\", mesh_unit = \"1 mm\" }\n");
+  };
+  EXPECT_NE(remarks_of_gap("1").find("'cubes': 4 nodes of its mesh"), std::string::npos)
+      << remarks_of_gap("1");
+  EXPECT_EQ(remarks_of_gap("1.1"), "");
 }
 
 }  // namespace
