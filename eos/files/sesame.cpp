@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 #include "src/base/log.hpp"
 
 namespace whipple::eos {
@@ -347,13 +347,7 @@ class Writer {
 
   void finish() {
     text_ += fmt::format(" 2{:>78}\n", 2);
-    const fs::path partial = fmt::format("{}.{}.partial", path_.string(), ::getpid());
-    std::ofstream file(partial);
-    file << text_;
-    file.close();
-    std::error_code fault;
-    if (file) fs::rename(partial, path_, fault);
-    if (!file || fault) throw InputError(fmt::format("{}: cannot write the file", path_.string()));
+    write_text_atomically(path_, text_);
   }
 
  private:

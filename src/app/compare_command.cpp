@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -96,7 +96,7 @@ void print_table(const std::vector<Row>& rows) {
 }
 
 void write_csv(const std::vector<Row>& rows, const std::string& path) {
-  std::ofstream file(path);
+  std::ostringstream file;
   file << "# whipple compare: measured points beside the equations of state\n"
           "experiment,material,abscissa,abscissa_value,abscissa_unit,ordinate,measured,model,ordinate_unit,"
           "deviation,"
@@ -112,7 +112,7 @@ void write_csv(const std::vector<Row>& rows, const std::string& path) {
                           row.comparison.deviation[i] / s.deviation_size, s.deviation);
     }
   }
-  if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", path));
+  write_text_atomically(path, file.str());
 }
 
 /// JSON has no NaN: a point out of range becomes null.

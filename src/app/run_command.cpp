@@ -108,7 +108,10 @@ void add_common(CLI::App& command, Arguments& arguments) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command
-      .add_option("--threads", arguments.threads, "Threads of each rank (default: its share of the cores)")
+      .add_option("--threads", arguments.threads,
+                  "Threads of each rank (default: OMP_NUM_THREADS, SLURM_CPUS_PER_TASK, or its share of the "
+                  "processors that "
+                  "this process may use)")
       ->check(CLI::Range(1, 4096));
 }
 
