@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
@@ -79,6 +80,8 @@ int whipple_main(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (argc > 1 && has_threads(argv[1])) wait_passively(argv);
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // the greatest size of a file is met as an error of writing, as a full disk is
   // Large arrays go back to the system when they are freed. Left to itself, glibc raises this limit up to 32
   // MB and keeps their holes: a tenth more memory in a cloud of 140,000 particles.
   mallopt(M_MMAP_THRESHOLD, 4 << 20);

@@ -49,7 +49,8 @@ int report(const char* program, const std::exception& error) {
 }
 
 InputError unwritten_output(int error) {
-  return InputError(fmt::format("cannot write to the standard output: {}", std::strerror(error)));
+  return InputError(fmt::format("cannot write to the standard output{}{}", error != 0 ? ": " : "",
+                                error != 0 ? std::strerror(error) : ""));
 }
 
 }  // namespace
@@ -60,7 +61,7 @@ int run_guarded(const char* program, int (*body)(int, char**), int argc, char** 
     // What was printed waits in a buffer: only now it shows whether somebody takes it.
     errno = 0;
     const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-    return written || code != 0 ? code : report(program, unwritten_output(errno != 0 ? errno : EIO));
+    return written || code != 0 ? code : report(program, unwritten_output(errno));
   } catch (const std::system_error& error) {  // {fmt} throws one when the standard output takes no more
     if (std::ferror(stdout) != 0) return report(program, unwritten_output(error.code().value()));
     return report(program, error);
