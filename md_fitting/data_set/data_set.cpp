@@ -266,7 +266,8 @@ namespace {
 
 /// What keeps a file of a size from being written into a folder, in the words of the system; empty: nothing.
 std::string obstacle(const std::filesystem::path& probe, std::uintmax_t size) {
-  const int descriptor = ::open(probe.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0644);
+  ::unlink(probe.c_str());  // what a killed writer left, or a link that somebody planted
+  const int descriptor = ::open(probe.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0644);
   if (descriptor < 0) return std::strerror(errno);
   const std::vector<char> zeros(1 << 16);
   std::string reason;
