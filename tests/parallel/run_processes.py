@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Processes of a run and what befalls them: a second writer, signals, a killed launcher, a full disk, on one rank and two.
 
-Usage: run_processes.py WHIPPLE CASE.toml FOLDER
+Usage: run_processes.py WHIPPLE CASE.toml PLAN.toml FOLDER
 """
 import csv
 import os
@@ -15,7 +15,7 @@ import subprocess
 import sys
 import time
 
-WHIPPLE, CASE, FOLDER = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+WHIPPLE, CASE, PLAN, FOLDER = *sys.argv[1:4], pathlib.Path(sys.argv[4])
 
 
 def require(condition, message):
@@ -45,13 +45,24 @@ def finish(process):
 def processes_below(process):
     found = []
     for task in pathlib.Path(f"/proc/{process}/task").glob("*/children"):
-        for child in task.read_text().split():
+        try:
+            children = task.read_text().split()
+        except (FileNotFoundError, ProcessLookupError):  # it has just ended
+            continue
+        for child in children:
             found += [int(child), *processes_below(int(child))]
     return found
 
 
-def ranks_of(launcher):
-    return [p for p in processes_below(launcher) if pathlib.Path(f"/proc/{p}/comm").read_text().strip() == "whipple"]
+def name_of(process):
+    try:
+        return pathlib.Path(f"/proc/{process}/comm").read_text().strip()
+    except (FileNotFoundError, ProcessLookupError):
+        return ""
+
+
+def ranks_of(launcher, program="whipple"):
+    return [process for process in processes_below(launcher) if name_of(process) == program]
 
 
 def is_alive(process):
@@ -110,12 +121,11 @@ def two_ranks():
     launcher.communicate()
     wait_for(lambda: not any(map(is_alive, ranks)), "ranks to end with their launcher", 20)
 
-    for number in (signal.SIGTERM, signal.SIGINT):
-        launcher = start("--restart", run, "--ranks", "2")
-        goes_on(run, launcher)
-        launcher.send_signal(number)
-        code, message = finish(launcher)
-        require(code == 128 + number, f"signal {number}: exit code {code}, {message}")
+    launcher = start("--restart", run, "--ranks", "2")
+    goes_on(run, launcher)
+    launcher.send_signal(signal.SIGINT)
+    code, message = finish(launcher)
+    require(code == 130, f"after SIGINT: {code}, {message}")
 
     launcher = start("--restart", run, "--ranks", "2")
     goes_on(run, launcher)
@@ -125,11 +135,28 @@ def two_ranks():
     require(code == 3 and "--restart" in message, f"full disk: {code}, {message}")
 
 
+def molecular_dynamics():
+    launcher = subprocess.Popen([WHIPPLE, "md", PLAN, "-o", FOLDER / "store.md.h5", "--ranks", "2", "--quiet"],
+                                stderr=subprocess.PIPE, text=True)
+    ranks = []
+
+    def started():
+        ranks[:] = ranks_of(launcher.pid, "whipple-md")
+        return len(ranks) == 2
+
+    wait_for(started, "two ranks")
+    launcher.send_signal(signal.SIGTERM)
+    code, message = finish(launcher)
+    require(code == 143, f"whipple md after SIGTERM: {code}, {message}")
+    wait_for(lambda: not any(map(is_alive, ranks)), "ranks to end", 20)
+
+
 def main():
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir(parents=True)
     one_rank()
     two_ranks()
+    molecular_dynamics()
     shutil.rmtree(FOLDER)
 
 
