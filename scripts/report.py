@@ -27,6 +27,7 @@ try:
     import report_planar
     import report_sensitivity
     from report_data import AXES, PHASES, NotARun, Run, Snapshot
+    from report_files import write_whole
     from report_html import Page
 except ImportError as missing:
     sys.exit(f"report: error: {missing}; install python3-numpy python3-h5py python3-matplotlib")
@@ -264,9 +265,10 @@ class Report:
 
     def write(self):
         path = self.output / "report.html"
-        path.write_text(self.page.text(), encoding="utf-8")
+        write_whole(path, lambda stream: stream.write(self.page.text().encode()))
         clean = json.loads(json.dumps(self.metrics), parse_constant=lambda _: None)  # JSON knows no NaN
-        (self.output / "metrics.json").write_text(json.dumps(clean, indent=1) + "\n", encoding="utf-8")
+        text = json.dumps(clean, indent=1) + "\n"
+        write_whole(self.output / "metrics.json", lambda stream: stream.write(text.encode()))
         return path
 
 

@@ -9,6 +9,7 @@ from matplotlib.patches import Patch
 
 import report_render
 from report_data import AXES, PHASES
+from report_files import write_whole
 from report_metrics import quantile
 
 PHASE_COLOURS = ("#5f7f9f", "#f4b942", "#d7402b", "#8e5bc9")
@@ -159,7 +160,8 @@ def save(figure, path, dots_per_inch):
     """Draws once and writes the PNG (`savefig` draws a constrained layout twice)."""
     figure.set_dpi(dots_per_inch)
     figure.canvas.draw()
-    PIL.Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB").save(path)
+    image = PIL.Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
+    write_whole(path, lambda stream: image.save(stream, format="PNG"))
     plt.close(figure)
 
 

@@ -10,6 +10,12 @@ add_test(NAME layers COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/chec
 add_test(NAME layers_self_test COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_layers.py --self-test)
 set_tests_properties(layers layers_self_test PROPERTIES LABELS fast)
 
+if(WHIPPLE_PYTHON)
+  add_test(NAME app_surroundings COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_surroundings.py
+           ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml)
+  set_tests_properties(app_surroundings PROPERTIES LABELS fast TIMEOUT 300)
+endif()
+
 # Coarse runs against stored numbers, half a minute of one core. Sanitizers would make it minutes.
 if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
   add_test(NAME drift COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/drift.py --threads 2

@@ -45,6 +45,15 @@ if(WHIPPLE_PYTHON)
            COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/parallel/solver_rank_killed.py $<TARGET_FILE:whipple>
                    ${PROJECT_SOURCE_DIR}/cases/copper_disk_on_aluminium/case.toml ${CMAKE_CURRENT_BINARY_DIR}/rank_killed)
   set_tests_properties(solver_rank_killed PROPERTIES LABELS fast TIMEOUT 300 PROCESSORS 2)
+  add_test(NAME run_processes COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/parallel/run_processes.py
+           $<TARGET_FILE:whipple> ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml
+           ${PROJECT_SOURCE_DIR}/cases/md/copper_mishin_short.toml ${CMAKE_CURRENT_BINARY_DIR}/run_processes)
+  set_tests_properties(run_processes PROPERTIES LABELS fast TIMEOUT 300 PROCESSORS 2)
+  foreach(ranks 1 2)
+    add_test(NAME torture.${ranks} COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/torture.py $<TARGET_FILE:whipple>
+             ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/torture_${ranks} --runs 10 --ranks ${ranks})
+    set_tests_properties(torture.${ranks} PROPERTIES LABELS long TIMEOUT 900 PROCESSORS 2)
+  endforeach()
 endif()
 
 # Problems with exact solutions: sources shared by the tests and by the program that writes docs/exact_suite.md.

@@ -13,6 +13,7 @@
 
 #include "eos/files/sesame_layout.hpp"
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 #include "src/base/log.hpp"
 
 namespace whipple::eos {

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
-#include <system_error>
 #include <vector>
 
 #include "eos/files/sesame.hpp"
 #include "eos/files/sesame_layout.hpp"
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 
 namespace whipple::eos {
 namespace {
@@ -64,13 +62,7 @@ class Writer {
 
   void finish() {
     text_ += fmt::format(" 2{:>78}\n", 2);
-    const fs::path partial = fmt::format("{}.{}.partial", path_.string(), ::getpid());
-    std::ofstream file(partial);
-    file << text_;
-    file.close();
-    std::error_code fault;
-    if (file) fs::rename(partial, path_, fault);
-    if (!file || fault) throw InputError(fmt::format("{}: cannot write the file", path_.string()));
+    write_text_atomically(path_, text_);
   }
 
  private:

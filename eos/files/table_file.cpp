@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 #include "src/base/hash.hpp"
 #include "src/base/log.hpp"
 #include "src/hdf5/hdf5.hpp"
@@ -26,7 +27,7 @@ constexpr std::int64_t format_version = 3;
 /// The numbers of a table, one attribute each.
 struct Number {
   const char* name;
-  double TableData::* member;
+  double TableData::*member;
 };
 constexpr Number numbers[] = {
     {"requested_error", &TableData::requested_error},
@@ -42,7 +43,7 @@ constexpr Number numbers[] = {
 
 struct ErrorNumber {
   const char* name;
-  double TableError::* member;
+  double TableError::*member;
 };
 constexpr ErrorNumber error_numbers[] = {
     {"temperature", &TableError::temperature}, {"pressure", &TableError::pressure},
@@ -137,8 +138,8 @@ std::vector<std::string> lines_of(const std::string& text) {
 void write_table(const fs::path& path, const TableFile& table) {
   const TableData& data = table.data;
   const Arrays arrays = arrays_of(data);
-  const fs::path partial = fmt::format("{}.{}.partial", path.string(), ::getpid());
-  hdf5::File file = hdf5::File::create(partial, hdf5::File::Compatibility::compact);
+  PartialFile partial(path);
+  hdf5::File file = hdf5::File::create(partial.path(), hdf5::File::Compatibility::compact);
   const hdf5::Group& root = file.root;
   root.set_attribute("format", std::string_view(format_name));
   root.set_attribute("version", format_version);
@@ -161,9 +162,7 @@ void write_table(const fs::path& path, const TableFile& table) {
     for (const ErrorNumber& number : error_numbers) group.set_attribute(number.name, error.*number.member);
   }
   file.close();
-  std::error_code fault;
-  fs::rename(partial, path, fault);
-  if (fault) throw InputError(fmt::format("{}: cannot name the file: {}", path.string(), fault.message()));
+  partial.publish();
 }
 
 TableFile read_table(const fs::path& path) {

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,6 +18,7 @@
 
 #include "md_fitting/data_set/store_order.hpp"
 #include "src/base/error.hpp"
+#include "src/base/file_lock.hpp"
 #include "src/base/units.hpp"
 #include "src/hdf5/hdf5.hpp"
 
@@ -125,26 +125,10 @@ std::filesystem::path beside(const std::filesystem::path& path, const char* endi
   return path.parent_path() / fmt::format(".{}{}", path.filename().string(), ending);
 }
 
-/// Exclusive lock for the writers of one store, held while the object lives.
-class WriterLock {
- public:
-  explicit WriterLock(const std::filesystem::path& store) {
-    const std::filesystem::path path = beside(store, ".lock");
-    descriptor_ = ::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
-    if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX) != 0) {
-      const std::string reason = std::strerror(errno);
-      if (descriptor_ >= 0) ::close(descriptor_);
-      throw InputError(
-          fmt::format("cannot write {}: lock file {}: {}", store.string(), path.string(), reason));
-    }
-  }
-  WriterLock(const WriterLock&) = delete;
-  WriterLock& operator=(const WriterLock&) = delete;
-  ~WriterLock() { ::close(descriptor_); }
-
- private:
-  int descriptor_ = -1;
-};
+/// One writer at a time.
+FileLock lock_store(const std::filesystem::path& path) {
+  return {beside(path, ".lock"), fmt::format("the store {}", path.string()), FileLock::IfHeld::wait};
+}
 
 void sync_to_disk(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -282,7 +266,8 @@ namespace {
 
 /// What keeps a file of a size from being written into a folder, in the words of the system; empty: nothing.
 std::string obstacle(const std::filesystem::path& probe, std::uintmax_t size) {
-  const int descriptor = ::open(probe.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0644);
+  ::unlink(probe.c_str());  // what a killed writer left, or a link that somebody planted
+  const int descriptor = ::open(probe.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0644);
   if (descriptor < 0) return std::strerror(errno);
   const std::vector<char> zeros(1 << 16);
   std::string reason;
@@ -350,7 +335,7 @@ bool in_order(const PointRecord& a, const PointRecord& b) {
 }  // namespace
 
 void normalise_store(const std::filesystem::path& path) {
-  const WriterLock lock(path);
+  const FileLock lock = lock_store(path);
   std::vector<PointRecord> records = read_store(path);
   std::sort(records.begin(), records.end(), in_order);
   const std::filesystem::path copy = beside(path, ".part");
@@ -374,7 +359,7 @@ bool append_point(const std::filesystem::path& path, const PointRecord& point) {
     throw InternalError("a point needs a key, a protocol and a status 'done' or 'failed' to be stored");
   }
   std::filesystem::create_directories(std::filesystem::absolute(path).parent_path());
-  const WriterLock lock(path);
+  const FileLock lock = lock_store(path);
   const std::filesystem::path copy = beside(path, ".part");
   require_room(path, copy);
   return append_to(path, copy, point);
@@ -391,7 +376,7 @@ void require_writable(const std::filesystem::path& path) {
     if (::access(path.c_str(), W_OK) != 0)
       throw InputError(fmt::format("{} is write-protected", path.string()));
   }
-  const WriterLock lock(path);
+  const FileLock lock = lock_store(path);
 }
 
 }  // namespace whipple::md

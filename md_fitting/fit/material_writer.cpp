@@ -16,6 +16,7 @@
 #include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/element_defaults.hpp"
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 #include "src/base/hash.hpp"
 #include "src/base/text.hpp"
 #include "src/base/units.hpp"
@@ -263,18 +264,9 @@ std::string material_text(const Fit& fit, const StoreOrigin& origin,
 }
 
 void write_file(const std::filesystem::path& path, const std::string& text, bool force) {
-  if (std::filesystem::exists(path) && !force) {
-    throw InputError(fmt::format("'{}' exists; --force overwrites it", path.string()));
-  }
+  require_new_file(path, force);
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
-  std::filesystem::path temporary = path;
-  temporary += ".part";
-  {
-    std::ofstream file(temporary, std::ios::binary);
-    file << text;
-    if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", path.string()));
-  }
-  std::filesystem::rename(temporary, path);
+  write_text_atomically(path, text);
 }
 
 }  // namespace whipple::fit

@@ -22,6 +22,7 @@
 #include "src/analysis/table.hpp"
 #include "src/analysis/witness.hpp"
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 #include "src/base/log.hpp"
 
 namespace whipple::analysis {
@@ -353,8 +354,8 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
   tables.push_back(std::move(quantities));
 
   fs::create_directories(folder);
-  const fs::path path = folder / "analysis.h5";
-  hdf5::File file = hdf5::File::create(path, hdf5::File::Compatibility::compact);
+  PartialFile partial(folder / "analysis.h5");
+  hdf5::File file = hdf5::File::create(partial.path(), hdf5::File::Compatibility::compact);
   file.root.set_attribute("format", std::string_view("whipple-analysis"));
   file.root.set_attribute("version", std::int64_t{1});
   file.root.set_attribute("unit_system", std::string_view("SI"));
@@ -367,6 +368,7 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
   for (const Quantity& value : values) group.set_attribute(value.name, value.value);
   write_radiographs(run, frame, options, file.root);
   file.close();
+  partial.publish();
 }
 
 }  // namespace whipple::analysis

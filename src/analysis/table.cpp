@@ -5,10 +5,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 
 namespace whipple::analysis {
 
@@ -35,20 +35,20 @@ const std::vector<double>& Table::operator[](const std::string& column) const {
 
 void write_csv(const Table& table, const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / (table.name + ".csv");
-  std::ofstream file(path);
+  std::string text;
   std::vector<std::string> cells;
   if (!table.label.empty()) cells.push_back(table.label);
   for (const Column& column : table.columns) {
     cells.push_back(column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit));
   }
-  file << fmt::format("{}\n", fmt::join(cells, ","));
+  text += fmt::format("{}\n", fmt::join(cells, ","));
   for (std::size_t row = 0; row < table.rows(); ++row) {
     cells.clear();
     if (!table.label.empty()) cells.push_back(table.labels[row]);
     for (const Column& column : table.columns) cells.push_back(fmt::format("{}", column.values[row]));
-    file << fmt::format("{}\n", fmt::join(cells, ","));
+    text += fmt::format("{}\n", fmt::join(cells, ","));
   }
-  if (!file.flush()) throw InputError(fmt::format("{}: error: cannot be written", path.string()));
+  write_text_atomically(path, text);
 }
 
 void write_hdf5(const Table& table, const hdf5::Group& parent) {

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -122,7 +122,7 @@ void print_table(const std::vector<Row>& rows) {
 }
 
 void write_csv(const std::vector<Row>& rows, const std::string& path) {
-  std::ofstream file(path);
+  std::ostringstream file;
   file << "# whipple compare: measured points beside the equations of state\n"
           "experiment,material,abscissa,abscissa_value,abscissa_unit,ordinate,measured,model,ordinate_unit,"
           "deviation,"
@@ -139,7 +139,7 @@ void write_csv(const std::vector<Row>& rows, const std::string& path) {
                           s.ordinate_unit, row.comparison.deviation[i] / s.deviation_size, s.deviation);
     }
   }
-  if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", path));
+  write_text_atomically(path, file.str());
 }
 
 /// JSON has no NaN: a point out of range becomes null.

@@ -6,9 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 #include "src/base/text_table.hpp"
 
 namespace whipple::app {
@@ -153,7 +154,7 @@ void print_list(const CurveTable& table) {
 }
 
 void write_csv(const CurveTable& table, const std::filesystem::path& path) {
-  std::ofstream file(path);
+  std::ostringstream file;
   const bool several = table.series.size() > 1;
   file << "# " << table.title << '\n' << (several ? "material," : "");
   for (std::size_t i = 0; i < table.columns.size(); ++i) file << (i > 0 ? "," : "") << table.columns[i].name;
@@ -168,7 +169,7 @@ void write_csv(const CurveTable& table, const std::filesystem::path& path) {
       file << '\n';
     }
   }
-  if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", path.string()));
+  write_text_atomically(path, file.str());
 }
 
 }  // namespace whipple::app

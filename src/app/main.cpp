@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 #include <malloc.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
 
 #include "src/app/analyse_command.hpp"
 #include "src/app/bench_command.hpp"
@@ -19,6 +28,23 @@
 #include "src/base/error.hpp"
 
 namespace {
+
+/// How threads wait for one another is read by libgomp when it is loaded, before `main`: the program starts
+/// itself anew. Threads that wait in a loop keep those they wait for from the cores of a shared machine, and
+/// a run takes several times as long.
+void wait_passively(char** arguments) {
+  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
+  setenv("OMP_WAIT_POLICY", "passive", 1);
+  std::error_code fault;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", fault);
+  execv(program.c_str(), arguments);  // if that fails, the program goes on as it is
+}
+
+/// Subcommands with threads.
+bool has_threads(std::string_view command) {
+  constexpr std::array<std::string_view, 5> commands = {"run", "check", "analyse", "report", "bench"};
+  return std::ranges::find(commands, command) != commands.end();
+}
 
 int whipple_main(int argc, char** argv) {
   using namespace whipple::app;
@@ -53,6 +79,9 @@ int whipple_main(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && has_threads(argv[1])) wait_passively(argv);
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // the greatest size of a file is met as an error of writing, as a full disk is
   // Large arrays go back to the system when they are freed. Left to itself, glibc raises this limit up to 32
   // MB and keeps their holes: a tenth more memory in a cloud of 140,000 particles.
   mallopt(M_MMAP_THRESHOLD, 4 << 20);

@@ -108,7 +108,10 @@ void add_common(CLI::App& command, Arguments& arguments) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command
-      .add_option("--threads", arguments.threads, "Threads of each rank (default: its share of the cores)")
+      .add_option("--threads", arguments.threads,
+                  "Threads of each rank (default: OMP_NUM_THREADS, SLURM_CPUS_PER_TASK, or its share of the "
+                  "processors that "
+                  "this process may use)")
       ->check(CLI::Range(1, 4096));
 }
 
@@ -136,8 +139,8 @@ void add_run_command(CLI::App& app) {
       "Example:\n  whipple run cases/copper_disk_on_aluminium/case.toml -o run/disk --set time.end='5 us'\n"
       "  whipple run --restart run/disk\n"
       "Signals: INT and TERM write a checkpoint and end the run, USR1 writes one and goes on.\n"
-      "Exit codes: 0 done, 2 wrong input, 3 the physics left its range (state saved), 128 + signal when "
-      "stopped,\n  124 at the limit of wall time");
+      "Exit codes: 0 done, 2 wrong input, 3 the physics left its range, or disk or memory did not suffice\n"
+      "  (state saved), 128 + signal when stopped, 124 at the limit of wall time");
   command->callback([arguments] {
     const int code = arguments->ranks > 0 ? run_on_ranks(*arguments) : run_here(*arguments);
     if (code != 0) throw CLI::RuntimeError(code);

@@ -1,17 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/base/error.hpp"
 
+#include <fmt/format.h>
+
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <new>
+#include <system_error>
+
+#include "src/base/resource_error.hpp"
 
 namespace whipple {
 
 ExitCode exit_code(const std::exception& error) {
   if (dynamic_cast<const InputError*>(&error) != nullptr) return ExitCode::input;
   if (dynamic_cast<const StateError*>(&error) != nullptr) return ExitCode::state;
+  if (dynamic_cast<const ResourceError*>(&error) != nullptr) return ExitCode::state;
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return ExitCode::state;
   return ExitCode::internal;
 }
 
 std::string message_for_user(const std::string& program, const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
+    return program + ": error: the memory that this process may use is exhausted";
+  }
   const std::string message = error.what();
   switch (exit_code(error)) {
     case ExitCode::input:
@@ -19,19 +32,41 @@ std::string message_for_user(const std::string& program, const std::exception& e
       if (message.substr(0, message.find('\n')).find(": error: ") != std::string::npos) return message;
       return program + ": error: " + message;
     case ExitCode::state:
-      return program + ": physics error: " + message;
+      return program +
+             (dynamic_cast<const StateError*>(&error) != nullptr ? ": physics error: " : ": error: ") +
+             message;
     default:
       return program + ": internal error (please report it): " + message;
   }
 }
 
+namespace {
+
+int report(const char* program, const std::exception& error) {
+  std::fflush(stdout);
+  std::fprintf(stderr, "%s\n", message_for_user(program, error).c_str());
+  return static_cast<int>(exit_code(error));
+}
+
+InputError unwritten_output(int error) {
+  return InputError(fmt::format("cannot write to the standard output{}{}", error != 0 ? ": " : "",
+                                error != 0 ? std::strerror(error) : ""));
+}
+
+}  // namespace
+
 int run_guarded(const char* program, int (*body)(int, char**), int argc, char** argv) {
   try {
-    return body(argc, argv);
+    const int code = body(argc, argv);
+    // What was printed waits in a buffer: only now it shows whether somebody takes it.
+    errno = 0;
+    const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    return written || code != 0 ? code : report(program, unwritten_output(errno));
+  } catch (const std::system_error& error) {  // {fmt} throws one when the standard output takes no more
+    if (std::ferror(stdout) != 0) return report(program, unwritten_output(error.code().value()));
+    return report(program, error);
   } catch (const std::exception& error) {
-    std::fflush(stdout);
-    std::fprintf(stderr, "%s\n", message_for_user(program, error).c_str());
-    return static_cast<int>(exit_code(error));
+    return report(program, error);
   }
 }
 

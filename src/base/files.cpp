@@ -1,24 +1,100 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/base/files.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <random>
+#include <system_error>
 
 #include "src/base/error.hpp"
 
 namespace whipple {
+namespace {
 
-void require_new_file(const std::filesystem::path& path, bool force) {
-  if (!path.empty() && std::filesystem::exists(path) && !force) {
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, const char* action, int error) {
+  throw InputError(fmt::format("{}: cannot {}: {}", path.string(), action, std::strerror(error)));
+}
+
+/// @returns the error number of the system, 0 if all is written
+int write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(file, text.data(), text.size());
+    if (written < 0 && errno != EINTR) return errno;
+    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+void write_text(const fs::path& opened, int flags, std::string_view text, const fs::path& named) {
+  const int file = ::open(opened.c_str(), O_WRONLY | O_CLOEXEC | flags);
+  if (file < 0) fail(named, "write the file", errno);
+  int error = write_all(file, text);
+  if (::close(file) != 0 && error == 0) error = errno;
+  if (error != 0) fail(named, "write the file", error);
+}
+
+}  // namespace
+
+void require_new_file(const fs::path& path, bool force) {
+  if (!path.empty() && fs::exists(path) && !force) {
     throw InputError(fmt::format("'{}' exists; --force overwrites it", path.string()));
   }
 }
 
-void require_new_figure(const std::filesystem::path& path, bool force) {
+void require_new_figure(const fs::path& path, bool force) {
   const std::string ending = path.extension().string();
   if (!path.empty() && ending != ".png" && ending != ".pdf" && ending != ".svg") {
     throw InputError(fmt::format("'{}': a figure ends in .png, .pdf or .svg", path.string()));
   }
   require_new_file(path, force);
+}
+
+PartialFile::PartialFile(fs::path target) : target_(std::move(target)) {
+  std::random_device random;
+  int file = -1;
+  do {
+    path_ = fmt::format("{}.{:08x}.partial", target_.string(), random());
+    file = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  } while (file < 0 && errno == EEXIST);
+  if (file < 0) fail(target_, "write the file", errno);
+  ::close(file);
+}
+
+PartialFile::~PartialFile() {
+  if (!published_) ::unlink(path_.c_str());
+}
+
+void PartialFile::publish(bool durable) {
+  if (durable) {
+    const int file = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) fail(target_, "open the file", errno);
+    const int synced = ::fsync(file);
+    const int error = errno;
+    ::close(file);
+    if (synced != 0) fail(target_, "force the file to disk", error);
+  }
+  if (::rename(path_.c_str(), target_.c_str()) != 0) fail(target_, "name the file", errno);
+  published_ = true;
+  if (!durable) return;
+  const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
+  const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (opened < 0) return;  // file systems without folder handles still renamed the file
+  ::fsync(opened);
+  ::close(opened);
+}
+
+void write_text_atomically(const fs::path& path, std::string_view text) {
+  std::error_code ignored;
+  if (fs::is_other(fs::status(path, ignored))) return write_text(path, 0, text, path);
+  PartialFile partial(path);
+  write_text(partial.path(), O_NOFOLLOW, text, path);
+  partial.publish();
 }
 
 }  // namespace whipple

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 namespace whipple {
 
@@ -11,5 +12,32 @@ void require_new_file(const std::filesystem::path& path, bool force);
 
 /// The same for a figure, whose ending must be one that it can be drawn as: png, pdf, svg.
 void require_new_figure(const std::filesystem::path& path, bool force);
+
+/// A file in the making. It lies beside its target under a name of its own, NAME.XXXXXXXX.partial, and takes
+/// the target's name when it is complete: readers see the old file or the new one. Neither links nor files
+/// of others are followed or overwritten, and what is given up is removed.
+class PartialFile {
+ public:
+  /// @throws InputError naming the target and the reason of the system
+  explicit PartialFile(std::filesystem::path target);
+  PartialFile(const PartialFile&) = delete;
+  PartialFile& operator=(const PartialFile&) = delete;
+  ~PartialFile();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  /// Gives the file its name. `durable`: content and name are forced to disk, so that a power failure leaves
+  /// the old or the new file.
+  /// @throws InputError naming the target
+  void publish(bool durable = false);
+
+ private:
+  std::filesystem::path target_, path_;
+  bool published_ = false;
+};
+
+/// Replaces a text file as a whole. Into what is no file (/dev/stdout, a pipe) the text is written as it is.
+/// @throws InputError naming the file and the reason of the system
+void write_text_atomically(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace whipple

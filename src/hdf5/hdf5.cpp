@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <utility>
 #include <vector>
 
@@ -28,6 +31,13 @@ herr_t keep_innermost(unsigned, const H5E_error2_t* error, void* text) {
   // Walking downward begins with the function that was called and ends with the one that failed.
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_innermost, &innermost);
   H5Eclear2(H5E_DEFAULT);
+  // "file write failed: time = ..., errno = 28, error message = 'No space left on device', buf = ...": the
+  // reason that the system gave is what can be used.
+  constexpr std::string_view key = "error message = '";
+  if (const std::size_t at = innermost.find(key); at != std::string::npos) {
+    const std::size_t begin = at + key.size();
+    innermost = innermost.substr(begin, innermost.find('\'', begin) - begin);
+  }
   throw InputError(fmt::format("{}: cannot {}{}", where, action, innermost.empty() ? "" : ": " + innermost));
 }
 
@@ -424,7 +434,7 @@ File File::create(const std::filesystem::path& path, Compatibility compatibility
   Handle file = checked(H5Fcreate(text.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose, text,
                         "create the file");
   Group root(root_group(file, text), text + ":/", communicator.has_value());
-  return {std::move(file), std::move(root), text};
+  return {std::move(file), std::move(root), text, communicator.has_value()};
 }
 
 File File::open(const std::filesystem::path& path, Access access, std::optional<MPI_Comm> communicator) {
@@ -435,11 +445,39 @@ File File::open(const std::filesystem::path& path, Access access, std::optional<
       H5Fopen(text.c_str(), access == Access::modify ? H5F_ACC_RDWR : H5F_ACC_RDONLY, properties.get()),
       H5Fclose, text, "open the file");
   Group root(root_group(file, text), text + ":/", communicator.has_value());
-  return {std::move(file), std::move(root), text};
+  return {std::move(file), std::move(root), text, false};
+}
+
+namespace {
+
+/// HDF5 closes at exit what is still open. Of a file that it could not complete it makes a segmentation
+/// fault, and ranks would wait for one another: after the first such file the process ends without that.
+void end_without_closing() {
+  static const int registered = on_exit(
+      [](int status, void*) {
+        std::fflush(nullptr);
+        std::_Exit(status);
+      },
+      nullptr);
+  (void)registered;
+}
+
+}  // namespace
+
+File::~File() {
+  if (together && std::uncaught_exceptions() > 0) {
+    root.handle_.abandon();
+    handle.abandon();
+    end_without_closing();
+  } else if (!root.handle_.reset() || !handle.reset()) {
+    end_without_closing();
+  }
 }
 
 void File::close() {
-  if (!root.handle_.reset() || !handle.reset()) fail(path, "close the file");
+  if (root.handle_.reset() && handle.reset()) return;
+  end_without_closing();
+  fail(path, "close the file");
 }
 
 }  // namespace whipple::hdf5

@@ -29,6 +29,8 @@ class Handle {
   [[nodiscard]] hid_t get() const { return id_; }
   /// Closes now; returns false if HDF5 reports a failure (a full disk shows here).
   bool reset() noexcept;
+  /// Leaves it open.
+  void abandon() noexcept { id_ = -1; }
 
  private:
   hid_t id_ = -1;
@@ -169,12 +171,21 @@ struct File {
   static File open(const std::filesystem::path& path, Access access = Access::read,
                    std::optional<MPI_Comm> communicator = {});
 
+  File(Handle of_file, Group of_root, std::string at, bool made_together)
+      : handle(std::move(of_file)), root(std::move(of_root)), path(std::move(at)), together(made_together) {}
+  File(File&&) = default;
+  File& operator=(File&&) = default;
+  /// Closes, except when an exception leaves a file that ranks write together: the others are in another
+  /// collective call, and each would wait for each. Whoever handles the exception must end all ranks.
+  ~File();
+
   /// Closes; reports what could not be written.
   void close();
 
   Handle handle;
   Group root;
   std::string path;
+  bool together;  ///< written by several ranks
 };
 
 template <>

@@ -3,6 +3,8 @@
 
 #include <functional>
 #include <future>
+#include <memory>
+#include <system_error>
 #include <utility>
 
 #include "src/parallel/threads.hpp"
@@ -17,10 +19,15 @@ class BackgroundWriter {
   /// @throws what that one threw
   void start(std::function<void()> write) {
     wait();
-    under_way_ = std::async(std::launch::async, [write = std::move(write)] {
-      parallel::set_threads(1);  // of this thread
-      write();
-    });
+    const auto work = std::make_shared<std::function<void()>>(std::move(write));
+    try {
+      under_way_ = std::async(std::launch::async, [work] {
+        parallel::set_threads(1);  // of this thread
+        (*work)();
+      });
+    } catch (const std::system_error&) {  // no further thread to be had (ulimit)
+      (*work)();
+    }
   }
   /// @throws what the writing threw
   void wait() {

@@ -291,10 +291,10 @@ fs::path write_checkpoint(const fs::path& folder, std::int64_t step, const Parti
       throw InputError(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
   });
   const fs::path path = folder / fmt::format("checkpoint.{:08}.h5", step);
-  const fs::path partial = path.string() + ".partial";
+  SharedPartialFile partial(path, ranks);
 
-  hdf5::File file =
-      hdf5::File::create(partial, hdf5::File::Compatibility::checksummed, seal_size, ranks.communicator());
+  hdf5::File file = hdf5::File::create(partial.path(), hdf5::File::Compatibility::checksummed, seal_size,
+                                       ranks.communicator());
   write_points(file.root.create_group("particles"), particles, ranks);
   if (!meshes.empty()) write_meshes(file.root.create_group("meshes"), meshes, ranks);
   if (!bars.empty()) write_bars(file.root.create_group("bars"), bars, ranks);
@@ -302,8 +302,8 @@ fs::path write_checkpoint(const fs::path& folder, std::int64_t step, const Parti
   file.close();
 
   ranks.on_root([&] {
-    seal(partial);
-    publish(partial, path);
+    seal(partial.path());
+    partial.publish(true);
     remove_old_generations(folder, step);
   });
   return path;

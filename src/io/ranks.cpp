@@ -60,4 +60,9 @@ void Ranks::on_root(const std::function<void()>& work) const {
   throw InternalError(outcome.substr(1));
 }
 
+SharedPartialFile::SharedPartialFile(const std::filesystem::path& target, const Ranks& ranks) {
+  ranks.on_root([&] { of_root_.emplace(target); });
+  path_ = ranks.broadcast(ranks.is_root() ? of_root_->path().string() : std::string());
+}
+
 }  // namespace whipple::io

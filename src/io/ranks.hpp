@@ -4,11 +4,13 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "src/base/files.hpp"
 #include "src/hdf5/hdf5.hpp"
 
 namespace whipple::io {
@@ -41,6 +43,21 @@ class Ranks {
   MPI_Comm communicator_;
   int rank_ = 0;
   int count_ = 1;
+};
+
+/// A file that the ranks write together: made, named at the end or given up by the root. Collective.
+class SharedPartialFile {
+ public:
+  SharedPartialFile(const std::filesystem::path& target, const Ranks& ranks);
+
+  /// Where all ranks write.
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Gives the file its name; of the root (`PartialFile::publish`).
+  void publish(bool durable = false) { of_root_->publish(durable); }
+
+ private:
+  std::optional<PartialFile> of_root_;
+  std::filesystem::path path_;
 };
 
 }  // namespace whipple::io

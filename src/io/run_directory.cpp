@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -25,22 +26,35 @@ namespace fs = std::filesystem;
   throw InputError(fmt::format("{}: cannot {}: {}", path.string(), action, std::strerror(error)));
 }
 
-/// What a run writes into its folder; everything else there belongs to the user.
+/// What a run writes into its folder; everything else there belongs to the user. Named by `PartialFile` while
+/// it is written.
+std::regex own(const std::string& names) {
+  return std::regex("(" + names + R"()((\.[0-9a-f]{8})?\.partial)?)");
+}
 const std::regex& own_outputs() {
-  static const std::regex names(R"((run\.toml|history\.csv|gauges\.csv|log\.txt|profile\.json)(\.partial)?)"
-                                R"(|.+\.(particles|elements)\.hdf\.series(\.partial)?)"
-                                R"(|.+\.(particles|elements)\.[0-9]{6,}\.hdf(\.partial)?)");
+  static const std::regex names = own(R"((run\.toml|history\.csv|gauges\.csv|log\.txt|profile\.json))"
+                                      R"(|.+\.(particles|elements)\.(hdf\.series|[0-9]{6,}\.hdf))");
   return names;
 }
 const std::regex& own_checkpoints() {
-  static const std::regex names(R"(checkpoint\.[0-9]{8,}\.h5(\.partial)?)");
+  static const std::regex names = own(R"(checkpoint\.[0-9]{8,}\.h5)");
+  return names;
+}
+/// Copies of the materials; only what a killed run left of them is removed.
+const std::regex& own_materials() {
+  static const std::regex names = own(R"(.+\.toml)");
   return names;
 }
 
-void remove_matching(const fs::path& folder, const std::regex& names) {
+enum class Which { all, partial };
+
+/// A link is removed, not what it points to.
+void remove_matching(const fs::path& folder, const std::regex& names, Which which = Which::all) {
   std::vector<fs::path> outputs;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file() && std::regex_match(entry.path().filename().string(), names)) {
+    const std::string name = entry.path().filename().string();
+    if ((entry.is_regular_file() || entry.is_symlink()) && std::regex_match(name, names) &&
+        (which == Which::all || name.ends_with(".partial"))) {
       outputs.push_back(entry.path());
     }
   }
@@ -49,6 +63,21 @@ void remove_matching(const fs::path& folder, const std::regex& names) {
     fs::remove(output, error);
     if (error) fail(output, "remove the output of an earlier run", error.value());
   }
+}
+
+/// Nothing is removed from elsewhere.
+void require_own_folder(const fs::path& folder) {
+  if (!fs::is_symlink(folder)) return;
+  throw InputError(fmt::format("{}: is a symbolic link; --force removes nothing behind one: remove the link",
+                               folder.string()));
+}
+
+constexpr const char* lock_name = ".lock";
+
+bool holds_anything(const fs::path& folder) {
+  return std::ranges::any_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
+    return entry.path().filename() != lock_name;
+  });
 }
 
 /// Permission bits do not tell the whole story (read-only file systems, quotas): write something.
@@ -62,29 +91,6 @@ void require_writable(const fs::path& folder) {
 
 }  // namespace
 
-void write_text_atomically(const fs::path& path, std::string_view text) {
-  const fs::path partial = path.string() + ".partial";
-  const int file = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (file < 0) fail(partial, "write the file", errno);
-  while (!text.empty()) {
-    const ssize_t written = ::write(file, text.data(), text.size());
-    if (written < 0) {
-      if (errno == EINTR) continue;
-      const int error = errno;
-      ::close(file);
-      ::unlink(partial.c_str());
-      fail(path, "write the file", error);
-    }
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  if (::close(file) != 0) fail(path, "write the file", errno);
-  if (::rename(partial.c_str(), path.c_str()) != 0) {
-    const int error = errno;
-    ::unlink(partial.c_str());
-    fail(path, "replace the file", error);
-  }
-}
-
 std::string read_text(const fs::path& path) {
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
@@ -95,27 +101,34 @@ std::string read_text(const fs::path& path) {
   return std::move(text).str();
 }
 
+std::shared_ptr<const FileLock> lock_run(const fs::path& path) {
+  if (!fs::is_directory(path)) throw InputError(fmt::format("{}: there is no such folder", path.string()));
+  return std::make_shared<const FileLock>(
+      path / lock_name, fmt::format("the run directory {}", path.string()), FileLock::IfHeld::refuse);
+}
+
 RunDirectory RunDirectory::create(const fs::path& path, const std::string& name, bool force) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::exists(status) && !fs::is_directory(status)) {
     throw InputError(fmt::format("{}: is not a folder; the results of a run need one", path.string()));
   }
-  if (fs::exists(status)) {
-    const bool empty = fs::is_empty(path, error);
-    if (error) fail(path, "read the folder", error.value());
-    if (!empty && !force) {
-      throw InputError(fmt::format(
-          "{}: the folder is not empty; choose another with -o, replace the results in it with --force, or "
-          "go on with the run in it with --restart",
-          path.string()));
-    }
-  } else {
-    fs::create_directories(path, error);
-    if (error) fail(path, "make the folder", error.value());
-  }
-  require_writable(path);
+  fs::create_directories(path, error);
+  if (error) fail(path, "make the folder", error.value());
   RunDirectory directory(path, name);
+  const auto require_empty = [&] {
+    if (force || !holds_anything(path)) return;
+    throw InputError(fmt::format(
+        "{}: the folder is not empty; choose another with -o, replace the results in it with --force, or "
+        "go on with the run in it with --restart",
+        path.string()));
+  };
+  require_empty();
+  require_own_folder(directory.checkpoint_folder());
+  require_own_folder(directory.failed_folder());
+  require_writable(path);
+  directory.lock_ = lock_run(path);
+  require_empty();  // unless another run was faster
   remove_matching(path, own_outputs());
   if (fs::is_directory(directory.checkpoint_folder())) {
     remove_matching(directory.checkpoint_folder(), own_checkpoints());
@@ -137,6 +150,15 @@ RunDirectory RunDirectory::open(const fs::path& path, const std::string& name) {
   }
   require_writable(path);
   return {path, name};
+}
+
+void RunDirectory::remove_partial_files() const {
+  remove_matching(path_, own_outputs(), Which::partial);
+  for (const auto& [folder, names] :
+       {std::pair(checkpoint_folder(), own_checkpoints()), std::pair(failed_folder(), own_checkpoints()),
+        std::pair(path_ / "materials", own_materials())}) {
+    if (fs::is_directory(fs::symlink_status(folder))) remove_matching(folder, names, Which::partial);
+  }
 }
 
 void RunDirectory::require_free_space(std::uint64_t bytes) const {

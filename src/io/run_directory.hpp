@@ -3,25 +3,32 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
+#include "src/base/file_lock.hpp"
+#include "src/base/files.hpp"
+
 namespace whipple::io {
 
-/// Replaces a text file as a whole: readers see the old or the new text, never a part.
-/// @throws InputError naming the file and the reason of the system
-void write_text_atomically(const std::filesystem::path& path, std::string_view text);
+using whipple::write_text_atomically;
 
 /// @throws InputError naming the file
 std::string read_text(const std::filesystem::path& path);
 
+/// Keeps every other run out of a run directory while it lives.
+/// @throws InputError if there is no such folder, or another run holds it
+std::shared_ptr<const FileLock> lock_run(const std::filesystem::path& path);
+
 /// The folder that holds all output of one run (docs/output.md). One process makes it.
 class RunDirectory {
  public:
-  /// Makes the folder. One that exists must be empty, unless `force`: then the outputs of an earlier run in
-  /// it (and nothing else) are removed.
+  /// Makes the folder and locks it while this object or a copy of it lives. One that exists must be empty,
+  /// unless `force`: then the outputs of an earlier run in it (and nothing else) are removed.
   /// @param name the run's name RUN in RUN.particles.hdf.series
-  /// @throws InputError if it holds something and `force` is not set, is not a folder, or is not writable
+  /// @throws InputError if it holds something and `force` is not set, is not a folder, is not writable, or
+  /// another run holds it
   static RunDirectory create(const std::filesystem::path& path, const std::string& name, bool force);
 
   /// A folder of an earlier run, to go on with.
@@ -41,6 +48,9 @@ class RunDirectory {
   /// Writes run.toml: the complete input with all defaults.
   void write_input(std::string_view text) const { write_text_atomically(input_file(), text); }
 
+  /// Removes what a killed run left half written; under the lock.
+  void remove_partial_files() const;
+
   /// @throws InputError if the file system has less than `bytes` free
   void require_free_space(std::uint64_t bytes) const;
 
@@ -49,6 +59,7 @@ class RunDirectory {
       : path_(std::move(path)), name_(std::move(name)) {}
   std::filesystem::path path_;
   std::string name_;
+  std::shared_ptr<const FileLock> lock_;
 };
 
 }  // namespace whipple::io

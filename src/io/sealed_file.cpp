@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/io/sealed_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -107,19 +105,6 @@ void require_seal(const fs::path& path) {
   if (found != seal_text(format, size, digest) || digest_of(path) != digest) {
     throw InputError(fmt::format("{}: damaged: the content does not match its digest", path.string()));
   }
-}
-
-void publish(const fs::path& partial, const fs::path& path) {
-  const int file = ::open(partial.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) fail(partial, "open the file");
-  const int synced = ::fsync(file);
-  ::close(file);
-  if (synced != 0) fail(partial, "force the file to disk");
-  if (::rename(partial.c_str(), path.c_str()) != 0) fail(path, "name the file");
-  const int folder = ::open(path.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0) return;  // file systems without folder handles still renamed the file
-  ::fsync(folder);
-  ::close(folder);
 }
 
 }  // namespace whipple::io

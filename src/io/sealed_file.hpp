@@ -20,8 +20,4 @@ void seal(const std::filesystem::path& path);
 /// @throws InputError naming the file and what is wrong: not sealed, of a newer format, truncated, damaged
 void require_seal(const std::filesystem::path& path);
 
-/// Forces a complete file to disk and gives it its final name; then forces the name to disk too, so that a
-/// power failure leaves the old or the new file. @throws InputError naming the file
-void publish(const std::filesystem::path& partial, const std::filesystem::path& path);
-
 }  // namespace whipple::io

@@ -91,14 +91,12 @@ fs::path Series::write(double time, const std::function<void(const fs::path&)>& 
   const std::size_t number = replaces ? entries_.size() - 1 : entries_.size();
   const std::string file = fmt::format("{}.{}.{:06}.hdf", run_, kind_, number);
   const fs::path path = folder_ / file;
-  const fs::path partial = path.string() + ".partial";
+  SharedPartialFile partial(path, ranks_);
 
-  write_file(partial);
+  write_file(partial.path());
   if (!replaces) entries_.push_back({file, time});
   ranks_.on_root([&] {
-    std::error_code error;
-    fs::rename(partial, path, error);
-    if (error) throw InputError(fmt::format("{}: cannot name the file: {}", path.string(), error.message()));
+    partial.publish();
     write_text_atomically(index_path(), index_text());
   });
   return path;

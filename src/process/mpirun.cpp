@@ -15,10 +15,27 @@
 
 namespace whipple::process {
 
+namespace {
+
+/// Whoever starts a program by this ends it too, however he ends himself: the kernel sends the signal.
+std::vector<std::string> ends_with_its_parent(const char* signal) {
+  return {"setpriv", "--pdeathsig", signal};
+}
+
+void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
 int mpirun(int ranks, const std::vector<std::string>& program, const Environment& environment) {
-  std::vector<std::string> arguments = {"mpirun", "-np", std::to_string(ranks)};
+  // mpirun passes SIGUSR2 on and waits, upon which a run saves its state; after SIGTERM and SIGINT it kills
+  // its ranks within a second. Ranks without mpirun are lost.
+  std::vector<std::string> arguments = ends_with_its_parent("USR2");
+  append(arguments, {"mpirun", "-np", std::to_string(ranks)});
   // The program says itself what went wrong; mpirun would add a page on the exit code.
   if (log::level() != log::Level::verbose) arguments.emplace_back("--quiet");
+  append(arguments, ends_with_its_parent("KILL"));
   arguments.push_back(find_executable(program.front()).string());
   arguments.insert(arguments.end(), program.begin() + 1, program.end());
   Environment all = environment;
@@ -31,15 +48,17 @@ int mpirun(int ranks, const std::vector<std::string>& program, const Environment
     all.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   }
   log::detail("{}", fmt::join(arguments, " "));
-  const int code = run_process(arguments, all);
+  const int code = run_process(arguments, all, {.end_signal = SIGUSR2, .may_be_killed = true});
+  if (const int signal = last_signal(); code > 128 && (signal == SIGINT || signal == SIGTERM))
+    return 128 + signal;
   // A rank that was killed cannot say so, and mpirun --quiet does not.
   if (const int signal = code - 128;
       std::ranges::count(std::array{SIGKILL, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}, signal) > 0) {
-    fmt::print(
-        stderr,
-        "{}: error: a rank was ended by signal {} ({}), and the others with it; a run goes on from its last "
-        "checkpoint with --restart\n",
-        program.front(), signal, strsignal(signal));
+    fmt::print(stderr,
+               "{}: error: a rank or mpirun was ended by signal {} ({}), and the others with it; a run goes "
+               "on from its last "
+               "checkpoint with --restart\n",
+               program.front(), signal, strsignal(signal));
   }
   return code;
 }

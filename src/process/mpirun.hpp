@@ -12,7 +12,8 @@ namespace whipple::process {
 /// @param program      name of the executable ("whipple-md") and its arguments
 /// @param environment  variables for the ranks, besides those that let Open MPI run with more ranks than
 /// cores and as root
-/// @returns the exit code of mpirun
+/// The ranks end with this process, however it ends.
+/// @returns the exit code of mpirun, or 128 + the signal that was passed on to end it
 int mpirun(int ranks, const std::vector<std::string>& program, const Environment& environment = {});
 
 /// Runs a program of the project that uses MPI as a single process of its own, also from a rank of another

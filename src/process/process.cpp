@@ -29,6 +29,7 @@ constexpr std::array forwarded_signals = {SIGINT, SIGTERM, SIGUSR1};
 std::atomic<pid_t> child = 0;
 std::atomic<unsigned> pending = 0;  ///< signals that the child has still to get, a bit each
 std::atomic<int> last_forwarded = 0;
+std::atomic<int> end_signal = 0;  ///< what the child gets for SIGINT and SIGTERM; 0: the same
 static_assert(std::atomic<pid_t>::is_always_lock_free && std::atomic<unsigned>::is_always_lock_free);
 
 /// Sends the child what is pending, once it is known. Whichever thread comes last, nothing is lost.
@@ -37,7 +38,8 @@ void send_pending() {
   if (pid <= 0) return;
   const unsigned signals = pending.exchange(0U);
   for (const int signal : forwarded_signals) {
-    if ((signals >> static_cast<unsigned>(signal) & 1U) != 0) kill(pid, signal);
+    if ((signals >> static_cast<unsigned>(signal) & 1U) == 0) continue;
+    kill(pid, end_signal != 0 && signal != SIGUSR1 ? end_signal.load() : signal);
   }
 }
 
@@ -45,7 +47,7 @@ extern "C" void pass_on(int signal, siginfo_t* info, void* /*context*/) {
   last_forwarded = signal;
   // The terminal sends its signals to the whole foreground group: the child has this one already, and mpirun
   // takes a second SIGINT as the order to kill its ranks.
-  const bool from_terminal = info->si_code == SI_KERNEL;
+  const bool from_terminal = info->si_code == SI_KERNEL && end_signal == 0;
   if (from_terminal) return;
   pending |= 1U << static_cast<unsigned>(signal);
   send_pending();
@@ -55,7 +57,8 @@ extern "C" void pass_on(int signal, siginfo_t* info, void* /*context*/) {
 /// one before the process id of the child is known: it stays pending.
 class SignalForwarding {
  public:
-  SignalForwarding() {
+  explicit SignalForwarding(const Supervision& supervision) {
+    end_signal = supervision.end_signal;
     sigset_t blocked;
     sigemptyset(&blocked);
     struct sigaction action = {};
@@ -108,14 +111,17 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return result;
 }
 
-pid_t start(std::vector<std::string> arguments, const Environment& environment, const sigset_t& mask) {
+pid_t start(std::vector<std::string> arguments, const Environment& environment, const sigset_t& mask,
+            bool own_group) {
   std::vector<std::string> variables = merged_environment(environment);
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+  short flags = POSIX_SPAWN_SETSIGMASK;
+  if (own_group) flags |= POSIX_SPAWN_SETPGROUP;  // its number is that of the program
+  posix_spawnattr_setflags(&attributes, flags);
   posix_spawnattr_setsigmask(&attributes, &mask);
   pid_t pid = 0;
   const int fault = posix_spawnp(&pid, arguments.front().c_str(), &files, &attributes,
@@ -131,10 +137,11 @@ pid_t start(std::vector<std::string> arguments, const Environment& environment, 
 
 }  // namespace
 
-int run_process(const std::vector<std::string>& arguments, const Environment& environment) {
+int run_process(const std::vector<std::string>& arguments, const Environment& environment,
+                const Supervision& supervision) {
   if (arguments.empty()) throw InternalError("run_process: no program");
-  const SignalForwarding forwarding;
-  const pid_t pid = start(arguments, environment, forwarding.former_mask());
+  const SignalForwarding forwarding(supervision);
+  const pid_t pid = start(arguments, environment, forwarding.former_mask(), supervision.end_signal != 0);
   child = pid;
   send_pending();
   forwarding.release();
@@ -147,10 +154,12 @@ int run_process(const std::vector<std::string>& arguments, const Environment& en
   }
   if (WIFEXITED(status)) return WEXITSTATUS(status);
   const int signal = WTERMSIG(status);
-  if (signal == last_forwarded) return 128 + signal;
+  if (signal == last_forwarded || supervision.may_be_killed) return 128 + signal;
   throw InternalError(
       fmt::format("'{}' was ended by signal {} ({})", arguments.front(), signal, strsignal(signal)));
 }
+
+int last_signal() { return last_forwarded; }
 
 int physical_cores() {
   cpu_set_t allowed;

@@ -9,6 +9,15 @@ namespace whipple::process {
 
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
+/// How a program differs that starts others itself, as mpirun does.
+struct Supervision {
+  /// Sent to the program in place of SIGINT and SIGTERM; the keys of the terminal do not reach it. 0: they
+  /// are passed on as they are.
+  int end_signal = 0;
+  /// A signal that ends the program is its exit code, 128 + n, and not a defect.
+  bool may_be_killed = false;
+};
+
 /// Starts a program (looked up in PATH unless its name holds a slash), waits for its end and returns its exit
 /// code. SIGINT, SIGTERM and SIGUSR1 that reach this process meanwhile are passed on, so that the program can
 /// write a checkpoint; the keys of the terminal reach it by themselves. Standard input of the program is
@@ -17,7 +26,11 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 /// @param environment  variables added to those of this process, or replacing them
 /// @returns the exit code, or 128 + the signal if a signal passed on ended the program
 /// @throws InputError if the program cannot be started, InternalError if another signal ended it
-int run_process(const std::vector<std::string>& arguments, const Environment& environment = {});
+int run_process(const std::vector<std::string>& arguments, const Environment& environment = {},
+                const Supervision& supervision = {});
+
+/// The signal that was passed on last to the program that `run_process` started last; 0: none.
+int last_signal();
 
 /// Number of physical cores that this process may use (two hardware threads of a core count once); at
 /// least 1.

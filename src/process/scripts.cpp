@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 #include "src/process/paths.hpp"
 #include "src/process/process.hpp"
 
@@ -19,7 +20,8 @@ int run_script(const std::string& script, const std::vector<std::string>& argume
   const std::string python = variable != nullptr               ? variable
                              : std::filesystem::exists(debian) ? debian
                                                                : "python3";
-  std::vector<std::string> command = {python, find_data(script).string()};
+  // -E: a PYTHONPATH of the user, or of a folder that he visits, does not take the place of numpy.
+  std::vector<std::string> command = {python, "-E", find_data(script).string()};
   command.insert(command.end(), arguments.begin(), arguments.end());
   return run_process(command);
 }
@@ -33,15 +35,12 @@ void draw_with(const std::string& script, const std::vector<std::string>& argume
 }
 
 void draw_json(const std::string& script, const std::string& json, const std::filesystem::path& figure) {
-  std::filesystem::path data = figure;
-  data += ".json.part";
-  {
-    std::ofstream file(data);
-    file << json;
-    if (!file.flush()) throw InputError(fmt::format("cannot write '{}'", data.string()));
-  }
-  draw_with(script, {data.string(), figure.string()});
-  std::filesystem::remove(data);
+  const PartialFile data(figure);  // never published
+  std::ofstream file(data.path());
+  file << json;
+  file.close();
+  if (!file) throw InputError(fmt::format("cannot write '{}'", data.path().string()));
+  draw_with(script, {data.path().string(), figure.string()});
 }
 
 }  // namespace whipple::process

@@ -284,6 +284,22 @@ void check_combinations(Case& setup, input::Table& root) {
   }
 }
 
+/// A length below that of the particles would divide all of them, as often as generations allow.
+void check_splitting(const Case& setup, input::Table& splitting) {
+  for (const Body& body : setup.bodies) {
+    const double own = std::cbrt(1.0 / static_cast<double>(body.discretization.per_cell));
+    if (setup.splitting.length == 0.0 || setup.splitting.length >= own ||
+        body.discretization.method != "particles") {
+      continue;
+    }
+    splitting.error_at("length",
+                       fmt::format("'length' is {}, and the particles of body \"{}\" are {:.3g} cells long "
+                                   "from the start: expected at least that, or 0 (never)",
+                                   setup.splitting.length, body.name, own));
+    return;
+  }
+}
+
 void check_gravity(const Case& setup, input::Table& gravity) {
   if (!setup.gravity.acceleration.isZero(0.0) && setup.transfer.free_flight) {
     gravity.error_at("acceleration", "'acceleration': particles of transfer.free_flight would not fall");
@@ -308,7 +324,8 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   if (auto table = root.required_table("time")) table->read(TimeControl::parameters(), setup.time);
   if (auto table = root.optional_table("transfer"))
     table->read(TransferControl::parameters(), setup.transfer);
-  if (auto table = root.optional_table("splitting")) table->read(Splitting::parameters(), setup.splitting);
+  auto splitting = root.optional_table("splitting");
+  if (splitting) splitting->read(Splitting::parameters(), setup.splitting);
   if (auto table = root.optional_table("artificial_viscosity")) {
     table->read(ArtificialViscosity::parameters(), setup.viscosity);
   }
@@ -335,6 +352,7 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
     for (const PlacementFault& fault : placement_faults(setup))
       bodies[fault.body].error_at("shape", fault.message);
   }
+  if (splitting) check_splitting(setup, *splitting);
   if (heat) check_conduction(setup, *heat);
   if (contact && !setup.bodies.empty()) check_contact(setup, *contact);
   setup.gauges = read_gauges(root);

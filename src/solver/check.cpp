@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <thread>
+#include <functional>
 
 #include "eos/table/table.hpp"
 #include "src/base/error.hpp"
@@ -20,9 +20,25 @@
 
 namespace whipple::solver {
 
+namespace {
+
+/// Ranks that share the processors of this one. Collective.
+int ranks_beside(MPI_Comm communicator) {
+  const std::size_t own = std::hash<std::string>{}(processor_set());
+  const std::vector<std::vector<std::size_t>> mine(static_cast<std::size_t>(parallel::size(communicator)),
+                                                   {own});
+  const std::vector<std::vector<std::size_t>> all = parallel::exchange(communicator, mine);
+  return static_cast<int>(std::ranges::count(all, std::vector{own}));
+}
+
+}  // namespace
+
 void set_threads(int threads, MPI_Comm communicator) {
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const int share = std::max(1, cores / parallel::ranks_on_machine(communicator));
+  const int share = std::max(1, usable_processors() / ranks_beside(communicator));
+  if (threads <= 0) {  // the first rank asks, and warns, for all
+    threads = static_cast<int>(
+        parallel::maximum(communicator, parallel::rank(communicator) == 0 ? threads_of_environment() : 0));
+  }
   parallel::set_threads(threads > 0 ? threads : share);
 }
 

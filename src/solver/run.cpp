@@ -9,6 +9,8 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <optional>
 
 #include "src/base/log.hpp"
 #include "src/base/text.hpp"
@@ -64,8 +66,10 @@ std::string provenance(const setup::Case& setup, const std::string& program, int
 io::RunDirectory new_directory(const setup::Case& setup, const fs::path& path, const RunOptions& options,
                                const io::Ranks& ranks) {
   const std::string name = run_name(setup.file);
+  std::optional<io::RunDirectory> created;
   ranks.on_root([&] {
-    const io::RunDirectory directory = io::RunDirectory::create(path, name, options.force);
+    created = io::RunDirectory::create(path, name, options.force);
+    const io::RunDirectory& directory = *created;
     const std::vector<std::string> copies = material_copies(setup);
     fs::create_directories(directory.path() / "materials");
     for (std::size_t b = 0; b < copies.size(); ++b) {
@@ -79,7 +83,7 @@ io::RunDirectory new_directory(const setup::Case& setup, const fs::path& path, c
     }
     directory.write_input(setup::to_toml(setup, copies) + provenance(setup, options.program, ranks.count()));
   });
-  return io::RunDirectory::open(path, name);
+  return created ? *created : io::RunDirectory::open(path, name);
 }
 
 fs::path output_directory(const RunOptions& options, const fs::path& case_file) {
@@ -90,9 +94,11 @@ fs::path output_directory(const RunOptions& options, const fs::path& case_file) 
 
 int run(const RunOptions& options) {
   const io::Ranks ranks(parallel::world());
-  set_threads(options.threads, parallel::world());
   if (!ranks.is_root()) log::set_level(log::Level::quiet);
+  set_threads(options.threads, parallel::world());
   if (options.restart) {
+    std::shared_ptr<const FileLock> lock;  // before anything is read that another run may write
+    ranks.on_root([&] { lock = io::lock_run(options.output_directory); });
     const fs::path input = options.output_directory / "run.toml";
     setup::Case setup = setup::read_case(input, options.overrides);
     setup::tabulate_materials(setup, ranks);
@@ -102,6 +108,7 @@ int run(const RunOptions& options) {
         io::RunDirectory::open(options.output_directory, checkpoint.values.text("run_name"));
     if (ranks.is_root()) log::add_file(directory.log_file());
     ranks.on_root([&] {
+      directory.remove_partial_files();
       if (options.overrides.empty()) return;
       // The next restart goes on with the changed input; its materials are the copies in the run directory.
       std::vector<std::string> materials;

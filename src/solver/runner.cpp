@@ -6,12 +6,14 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "src/base/error.hpp"
 #include "src/base/log.hpp"
 #include "src/base/progress.hpp"
+#include "src/base/resource_error.hpp"
 #include "src/base/text.hpp"
 #include "src/io/background_writer.hpp"
 #include "src/io/element_series.hpp"
@@ -261,7 +263,19 @@ class Runner {
               simulation_.state().step, simulation_.state().time);
   }
 
+  /// @throws ResourceError where disk or memory do not suffice
   int run() {
+    try {
+      return steps();
+    } catch (const InputError& error) {  // the input was read: a file that cannot be written
+      throw ResourceError(go_on_later(error.what()));
+    } catch (const std::bad_alloc&) {
+      throw ResourceError(go_on_later("the memory that this process may use is exhausted"));
+    }
+  }
+
+ private:
+  int steps() {
     const setup::Case& setup = simulation_.setup();
     const double end = setup.time.end;
     const Signals signals;
@@ -308,7 +322,6 @@ class Runner {
     return requests.signal != 0 ? 128 + requests.signal : out_of_time_code;
   }
 
- private:
   /// What asks the loop for something, on any rank.
   struct Requests {
     int signal = 0;
@@ -350,6 +363,18 @@ class Runner {
     }
   }
 
+  /// What is said of a run that stopped for want of something: its checkpoints are good.
+  [[nodiscard]] std::string go_on_later(const std::string& reason) const {
+    const bool any = !io::list_checkpoints(directory_.checkpoint_folder()).empty();
+    return fmt::format(
+        "{}\n  stopped at step {}, t = {:.6g} s; {}", reason, simulation_.state().step,
+        simulation_.state().time,
+        any ? fmt::format("once there is room go on from the last checkpoint with: whipple run "
+                          "--restart {}",
+                          directory_.path().string())
+            : "no checkpoint had been written");
+  }
+
   /// The state as the failing step left it, in a folder of its own: checkpoints and snapshots of the run stay
   /// good.
   std::string save_failed_state() {
@@ -358,7 +383,7 @@ class Runner {
       write_checkpoint(folder);
       Snapshots(simulation_.setup(), directory_, folder).write(simulation_);
       return fmt::format("the state is saved in {}", folder.string());
-    } catch (const InputError& error) {
+    } catch (const std::exception& error) {
       return fmt::format("the state could not be saved: {}", error.what());
     }
   }

@@ -12,14 +12,14 @@ volatile std::sig_atomic_t end_signal = 0;
 volatile std::sig_atomic_t checkpoint_signal = 0;
 
 using Handler = void (*)(int);
-constexpr std::array<int, 3> caught = {SIGINT, SIGTERM, SIGUSR1};
-std::array<Handler, 3> former{};
+constexpr std::array caught = {SIGINT, SIGTERM, SIGUSR1, SIGUSR2};
+std::array<Handler, caught.size()> former{};
 
 extern "C" void on_signal(int number) {
   if (number == SIGUSR1) {
     checkpoint_signal = 1;
   } else {
-    end_signal = number;
+    end_signal = number == SIGUSR2 ? SIGTERM : number;
   }
 }
 

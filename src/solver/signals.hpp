@@ -3,7 +3,8 @@
 
 namespace whipple::solver {
 
-/// Catches SIGINT, SIGTERM (end the run) and SIGUSR1 (write a checkpoint) while it lives.
+/// Catches SIGINT, SIGTERM (end the run) and SIGUSR1 (write a checkpoint) while it lives. SIGUSR2 counts as
+/// SIGTERM: it is the one that mpirun passes on to its ranks without killing them a second later.
 class Signals {
  public:
   Signals();

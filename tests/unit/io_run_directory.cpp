@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The run directory: nothing of the user's is overwritten or removed, and refusals say what to do.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <limits>
@@ -50,6 +51,7 @@ TEST_F(RunDirectoryTest, force_removes_its_own_outputs_and_nothing_else) {
                        "other.particles.000000.hdf.partial",
                        "checkpoint/checkpoint.00000012.h5",
                        "checkpoint/checkpoint.00000012.h5.partial",
+                       "checkpoint/checkpoint.00000013.h5.0123abcd.partial",
                        "failed/checkpoint.00000012.h5"};
   const char* others[] = {
       "notes.md",         "case.toml",       "particles.hdf",          "disk.particles.7.hdf",
@@ -66,6 +68,50 @@ TEST_F(RunDirectoryTest, force_removes_its_own_outputs_and_nothing_else) {
   for (const char* file : others) EXPECT_TRUE(fs::exists(folder_ / file)) << file;
   EXPECT_TRUE(fs::exists(folder_ / "subfolder" / "run.toml"));
   EXPECT_FALSE(fs::exists(folder_ / "failed")) << "a run that did not fail must not seem to have";
+}
+
+TEST_F(RunDirectoryTest, what_a_killed_run_left_half_written_is_removed) {
+  const RunDirectory run = RunDirectory::create(folder_, "disk", false);
+  fs::create_directories(folder_ / "materials");
+  const char* left[] = {"run.toml.0123abcd.partial", "disk.particles.000003.hdf.0123abcd.partial",
+                        "checkpoint/checkpoint.00000012.h5.0123abcd.partial",
+                        "materials/copper.toml.0123abcd.partial"};
+  const char* others[] = {"history.csv", "disk.particles.000002.hdf", "checkpoint/checkpoint.00000011.h5",
+                          "notes.md.0123abcd.partial", "materials/copper.toml"};
+  for (const char* file : left) touch(folder_ / file);
+  for (const char* file : others) touch(folder_ / file);
+  run.remove_partial_files();
+  for (const char* file : left) EXPECT_FALSE(fs::exists(folder_ / file)) << file;
+  for (const char* file : others) EXPECT_TRUE(fs::exists(folder_ / file)) << file;
+}
+
+TEST_F(RunDirectoryTest, has_one_run_at_a_time) {
+  const fs::path path = folder_ / "run";
+  {
+    const RunDirectory run = RunDirectory::create(path, "disk", false);
+    const std::string holder = "process " + std::to_string(getpid()) + " on ";
+    EXPECT_THAT(message_of<InputError>([&] { (void)RunDirectory::create(path, "disk", true); }),
+                AllOf(HasSubstr(path.string()), HasSubstr(holder)));
+    EXPECT_THAT(message_of<InputError>([&] { (void)lock_run(path); }), HasSubstr(holder));
+  }
+  EXPECT_NO_THROW((void)lock_run(path));
+  EXPECT_THAT(message_of<InputError>([&] { (void)lock_run(folder_ / "none"); }), HasSubstr("no such folder"));
+}
+
+TEST_F(RunDirectoryTest, force_removes_nothing_behind_a_link) {
+  fs::create_directories(folder_ / "elsewhere");
+  touch(folder_ / "elsewhere" / "checkpoint.00000012.h5");
+  touch(folder_ / "victim");
+  fs::create_directories(folder_ / "run");
+  fs::create_symlink(folder_ / "victim", folder_ / "run" / "history.csv");
+  fs::create_directory_symlink(folder_ / "elsewhere", folder_ / "run" / "checkpoint");
+  EXPECT_THAT(message_of<InputError>([&] { (void)RunDirectory::create(folder_ / "run", "disk", true); }),
+              AllOf(HasSubstr("checkpoint"), HasSubstr("symbolic link")));
+  EXPECT_TRUE(fs::exists(folder_ / "elsewhere" / "checkpoint.00000012.h5"));
+  fs::remove(folder_ / "run" / "checkpoint");
+  (void)RunDirectory::create(folder_ / "run", "disk", true);
+  EXPECT_FALSE(fs::is_symlink(folder_ / "run" / "history.csv")) << "a run would write its history through it";
+  EXPECT_TRUE(fs::exists(folder_ / "victim"));
 }
 
 TEST_F(RunDirectoryTest, refuses_a_file_an_unwritable_place_and_a_folder_without_a_run) {
@@ -97,7 +143,6 @@ TEST_F(RunDirectoryTest, a_text_is_replaced_as_a_whole) {
   write_text_atomically(path, "first");
   write_text_atomically(path, "second, longer than the first");
   EXPECT_EQ(read_text(path), "second, longer than the first");
-  EXPECT_FALSE(fs::exists(folder_ / "text.partial"));
   EXPECT_THAT(message_of<InputError>([&] { write_text_atomically(folder_ / "none" / "text", "x"); }),
               HasSubstr((folder_ / "none" / "text").string()));
   EXPECT_THAT(message_of<InputError>([&] { (void)read_text(folder_ / "none"); }),

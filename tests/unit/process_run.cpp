@@ -77,6 +77,23 @@ TEST(RunProcess, AProgramEndedByASignalPassedOnGivesTheCodeOfShells) {
   std::filesystem::remove(ready);
 }
 
+// mpirun would kill its ranks after SIGTERM: it is told to end by another signal.
+TEST(RunProcess, ASupervisorEndsByASignalOfItsOwnInAProcessGroupOfItsOwn) {
+  const std::filesystem::path ready =
+      std::filesystem::temp_directory_path() / ("whipple_signal_" + std::to_string(getpid()) + "end");
+  std::filesystem::remove(ready);
+  const std::string script = "trap 'exit 8' USR2; test $(cut -d' ' -f5 /proc/$$/stat) = $$ || exit 9; : > '" +
+                             ready.string() +
+                             "'; i=0; while [ $i -lt 400 ]; do sleep 0.05; i=$((i+1)); done; exit 1";
+  {
+    const std::jthread sender = signal_when_ready(ready, SIGTERM);
+    EXPECT_EQ(run_process({"sh", "-c", script}, {}, {.end_signal = SIGUSR2}), 8);
+  }
+  EXPECT_EQ(last_signal(), SIGTERM);
+  std::filesystem::remove(ready);
+  EXPECT_EQ(run_process({"sh", "-c", "kill -KILL $$"}, {}, {.may_be_killed = true}), 128 + SIGKILL);
+}
+
 TEST(RunProcess, HandlersAreRestored) {
   struct sigaction before = {}, after = {};
   sigaction(SIGTERM, nullptr, &before);

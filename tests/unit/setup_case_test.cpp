@@ -62,6 +62,13 @@ TEST(Case, RefusesCombinationsThatHaveNoMeaning) {
                {"'name' is \"../sphere\"", "letters, digits"});
 }
 
+// All particles would be divided in every step, a million times with 20 generations.
+TEST(Case, SplittingShorterThanTheParticlesIsRefused) {
+  expect_error(domain + sphere + "[splitting]\nlength = 1e-300\nmaximum_generations = 20\n",
+               {"'length' is 1e-300, and the particles of body \"sphere\" are 0.5 cells long"});
+  EXPECT_EQ(error_of(domain + sphere + "[splitting]\nlength = 0.5\n"), "");
+}
+
 TEST(Case, WrittenWithAllDefaultsReadsBackTheSame) {
   const Case setup = read_case_text(domain + sphere, "case.toml");
   const std::string written = to_toml(setup, {"copper.toml"});

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files that are written as a whole or not at all."""
+import os
+import tempfile
+
+
+def write_whole(path, write):
+    """Lets `write(stream)` fill a file beside `path`, which then takes its place: readers see the old or the new one."""
+    mask = os.umask(0)
+    os.umask(mask)
+    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.name + ".", suffix=".partial", delete=False) as stream:
+        try:
+            write(stream)
+            stream.flush()
+            os.chmod(stream.name, 0o666 & ~mask)
+            os.replace(stream.name, path)
+        except BaseException:
+            os.unlink(stream.name)
+            raise

@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Processes of a run and what befalls them: a second writer, signals, a killed launcher, a full disk, on one rank and two.
+
+Usage: run_processes.py WHIPPLE CASE.toml PLAN.toml FOLDER
+"""
+import csv
+import os
+import pathlib
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+WHIPPLE, CASE, PLAN, FOLDER = *sys.argv[1:4], pathlib.Path(sys.argv[4])
+
+
+def require(condition, message):
+    if not condition:
+        raise SystemExit(f"FAILED: {message}")
+
+
+def wait_for(condition, what, seconds=60):
+    deadline = time.monotonic() + seconds
+    while not condition():
+        require(time.monotonic() < deadline, f"waited in vain for {what}")
+        time.sleep(0.02)
+
+
+def start(*arguments):
+    # OMP_WAIT_POLICY is whipple's to set.
+    environment = {name: value for name, value in os.environ.items() if name != "OMP_WAIT_POLICY"}
+    return subprocess.Popen([WHIPPLE, "run", *map(str, arguments), "--threads", "1", "--quiet"], stderr=subprocess.PIPE,
+                            text=True, env=environment)
+
+
+def finish(process):
+    _, message = process.communicate(timeout=120)
+    return process.returncode, message
+
+
+def processes_below(process):
+    found = []
+    for task in pathlib.Path(f"/proc/{process}/task").glob("*/children"):
+        try:
+            children = task.read_text().split()
+        except (FileNotFoundError, ProcessLookupError):  # it has just ended
+            continue
+        for child in children:
+            found += [int(child), *processes_below(int(child))]
+    return found
+
+
+def name_of(process):
+    try:
+        return pathlib.Path(f"/proc/{process}/comm").read_text().strip()
+    except (FileNotFoundError, ProcessLookupError):
+        return ""
+
+
+def ranks_of(launcher, program="whipple"):
+    return [process for process in processes_below(launcher) if name_of(process) == program]
+
+
+def is_alive(process):
+    try:
+        return pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+def last_step(run):
+    """Rows of a history that is being written may be cut."""
+    with open(run / "history.csv", newline="") as file:
+        rows = [row for row in csv.reader(file)]
+    return int(rows[-1][0]) if len(rows) > 2 else 0
+
+
+def goes_on(run, launcher):
+    """Waits until a run makes steps again."""
+    wait_for(lambda: (run / ".lock").exists(), "the lock")
+    before = last_step(run)
+    wait_for(lambda: launcher.poll() is not None or last_step(run) > before + 2, "steps")
+    require(launcher.poll() is None, "the run has ended")
+
+
+def one_rank():
+    """A limit on the size of files stands for a full disk; the process meets it in the middle of the run."""
+    whole, run = FOLDER / "whole", FOLDER / "full"
+    require(finish(start(CASE, "-o", whole))[0] == 0, "the undisturbed run fails")
+    process = start(CASE, "-o", run)
+    wait_for(lambda: list(run.glob("checkpoint/*.h5")), "a checkpoint")
+    require(b"OMP_WAIT_POLICY=passive" in pathlib.Path(f"/proc/{process.pid}/environ").read_bytes(),
+            "threads would wait in a loop")
+    resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (20000, resource.RLIM_INFINITY))
+    code, message = finish(process)
+    require(code == 3 and "--restart" in message and "internal" not in message, f"full disk: {code}, {message}")
+    require(not list(run.rglob("*.partial")), "a file that could not be written takes room")
+    (run / "checkpoint" / "checkpoint.00000001.h5.0123abcd.partial").write_text("half")
+    require(finish(start("--restart", run))[0] == 0, "the restart fails")
+    require(not list(run.rglob("*.partial")), "what a killed run leaves is not removed")
+    require((run / "history.csv").read_bytes() == (whole / "history.csv").read_bytes(), "the restart is not bitwise")
+
+
+def two_ranks():
+    run = FOLDER / "ranks"
+    launcher = start(CASE, "-o", run, "--ranks", "2", "--set", "time.end='1 s'")
+    wait_for(lambda: list(run.glob("checkpoint/*.h5")), "a checkpoint")
+    ranks = ranks_of(launcher.pid)
+    require(len(ranks) == 2, f"expected two ranks, found {ranks}")
+
+    for arguments in (["--restart", run], [CASE, "-o", run, "--force"]):
+        code, message = finish(start(*arguments))
+        named = re.search(r"process (\d+) on ", message)
+        require(code == 2 and named and int(named[1]) in ranks, f"second writer: {code}, {message}")
+
+    os.kill(launcher.pid, signal.SIGKILL)
+    launcher.communicate()
+    wait_for(lambda: not any(map(is_alive, ranks)), "ranks to end with their launcher", 20)
+
+    launcher = start("--restart", run, "--ranks", "2")
+    goes_on(run, launcher)
+    launcher.send_signal(signal.SIGINT)
+    code, message = finish(launcher)
+    require(code == 130, f"after SIGINT: {code}, {message}")
+
+    launcher = start("--restart", run, "--ranks", "2")
+    goes_on(run, launcher)
+    for rank in ranks_of(launcher.pid):
+        resource.prlimit(rank, resource.RLIMIT_FSIZE, (20000, resource.RLIM_INFINITY))
+    code, message = finish(launcher)
+    require(code == 3 and "--restart" in message, f"full disk: {code}, {message}")
+
+
+def molecular_dynamics():
+    launcher = subprocess.Popen([WHIPPLE, "md", PLAN, "-o", FOLDER / "store.md.h5", "--ranks", "2", "--quiet"],
+                                stderr=subprocess.PIPE, text=True)
+    ranks = []
+
+    def started():
+        ranks[:] = ranks_of(launcher.pid, "whipple-md")
+        return len(ranks) == 2
+
+    wait_for(started, "two ranks")
+    launcher.send_signal(signal.SIGTERM)
+    code, message = finish(launcher)
+    require(code == 143, f"whipple md after SIGTERM: {code}, {message}")
+    wait_for(lambda: not any(map(is_alive, ranks)), "ranks to end", 20)
+
+
+def main():
+    shutil.rmtree(FOLDER, ignore_errors=True)
+    FOLDER.mkdir(parents=True)
+    one_rank()
+    two_ranks()
+    molecular_dynamics()
+    shutil.rmtree(FOLDER)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The programs in surroundings that are not as they should be: a full device for the output, libraries and modules of
+others in the present folder, limits on processors.
+
+Usage: app_surroundings.py BUILD_FOLDER CASE.toml
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+BUILD, CASE = pathlib.Path(sys.argv[1]), sys.argv[2]
+WHIPPLE = BUILD / "bin" / "whipple"
+FULL = [["--help"], ["--version"], ["version"], ["units"], ["materials"], ["describe", "eos", "gray"], ["check", CASE],
+        ["compare", "copper", "--with", "cu_hugoniot_marsh1980"], ["eos", "audit", "copper"], ["eos", "hugoniot", "copper", "--to", "10 GPa"],
+        ["eos", "state", "copper", "--density", "9 g/cm^3", "--temperature", "300 K"],
+        ["eos", "match", "copper", "aluminium", "--velocity", "1 km/s"], ["fit", "--help"]]
+
+
+def require(condition, message):
+    if not condition:
+        raise SystemExit(f"FAILED: {message}")
+
+
+def output_into_a_full_device():
+    with open("/dev/full", "w") as full:
+        calls = [(arguments, subprocess.Popen([WHIPPLE, *arguments], stdout=full, stderr=subprocess.PIPE, text=True))
+                 for arguments in FULL]
+        for arguments, call in calls:
+            message = call.communicate(timeout=120)[1]
+            require(call.returncode == 2 and "cannot write to the standard output" in message,
+                    f"{arguments} > /dev/full: {call.returncode}, {message}")
+
+
+def search_paths(folder):
+    """An empty element is the present folder, from which foreign code would run."""
+    subprocess.run(["cmake", "--install", BUILD, "--prefix", folder], check=True, stdout=subprocess.DEVNULL)
+    programs = [*BUILD.glob("bin/whipple*"), *folder.glob("bin/whipple*")]
+    require(len(programs) == 6, f"expected three programs, built and installed: {programs}")
+    for program in programs:
+        dynamic = subprocess.run(["readelf", "-d", program], check=True, capture_output=True, text=True).stdout
+        for path in re.findall(r"R(?:UN)?PATH.*\[(.*)\]", dynamic):
+            require(all(element.startswith(("/", "$ORIGIN")) for element in path.split(":")), f"{program}: {path}")
+
+
+def modules_of_others(folder):
+    """The interpreter of the report, asked where it finds a module that the present folder and PYTHONPATH offer too."""
+    (folder / "json.py").write_text("raise SystemExit('the json.py of the folder ran')\n")
+    (folder / "run.toml").write_text(pathlib.Path(CASE).read_text())
+    python = folder / "python"
+    python.write_text('#!/bin/sh\nexec /usr/bin/python3 "$1" -c "import json; print(json.__file__)"\n')
+    python.chmod(0o755)
+    # The shell of `-c` looks into its folder, as no script of the project does: it is another one.
+    found = subprocess.run([WHIPPLE, "report", folder], capture_output=True, text=True, cwd="/",
+                           env={**os.environ, "WHIPPLE_PYTHON": str(python), "PYTHONPATH": f"{folder}:"})
+    require(found.returncode == 0 and "/usr/lib/python3" in found.stdout, f"{found.stdout} {found.stderr}")
+
+
+def threads():
+    clean = {name: value for name, value in os.environ.items() if name not in ("OMP_NUM_THREADS", "SLURM_CPUS_PER_TASK")}
+    some = str(min(os.sched_getaffinity(0)))
+    expected = [({}, [], len(os.sched_getaffinity(0))), ({}, ["taskset", "-c", some], 1), ({"OMP_NUM_THREADS": "3"}, [], 3),
+                ({"OMP_NUM_THREADS": "5,2"}, [], 5), ({"SLURM_CPUS_PER_TASK": "3"}, [], 3),
+                ({"OMP_NUM_THREADS": "abc"}, ["taskset", "-c", some], 1), ({"OMP_NUM_THREADS": "0"}, ["taskset", "-c", some], 1)]
+    for variables, prefix, number in expected:
+        done = subprocess.run([*prefix, WHIPPLE, "check", CASE], capture_output=True, text=True, env={**clean, **variables})
+        require(done.returncode == 0 and f"on {number} threads" in done.stdout, f"{variables} {prefix}: {done.stdout}")
+        ignored = variables.get("OMP_NUM_THREADS") in ("abc", "0")
+        require(("expected a number from 1 to 4096: ignored" in done.stderr) == ignored, f"{variables}: {done.stderr}")
+
+
+def main():
+    output_into_a_full_device()
+    threads()
+    for look in (search_paths, modules_of_others):
+        with tempfile.TemporaryDirectory() as folder:
+            look(pathlib.Path(folder))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files that are written as a whole or not at all, and locks on them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "src/base/error.hpp"
+#include "src/base/file_lock.hpp"
+#include "src/base/files.hpp"
+#include "tests/unit/temporary_folder.hpp"
+
+namespace whipple {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::ptrdiff_t files_in(const fs::path& folder) { return std::distance(fs::directory_iterator(folder), {}); }
+
+TEST(PartialFile, TakesTheNameOfItsTargetWhenItIsPublished) {
+  const TemporaryFolder folder;
+  const fs::path target = folder.path() / "table.csv";
+  std::ofstream(target) << "old";
+  {
+    PartialFile partial(target);
+    std::ofstream(partial.path()) << "new";
+    EXPECT_EQ(content(target), "old");
+    partial.publish(true);
+  }
+  EXPECT_EQ(content(target), "new");
+  EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+TEST(PartialFile, IsRemovedWhenItIsGivenUp) {
+  const TemporaryFolder folder;
+  { const PartialFile partial(folder.path() / "table.csv"); }
+  EXPECT_EQ(files_in(folder.path()), 0);
+}
+
+TEST(PartialFile, TwoOfOneTargetDoNotMeet) {
+  const TemporaryFolder folder;
+  const PartialFile first(folder.path() / "table.csv"), second(folder.path() / "table.csv");
+  EXPECT_NE(first.path(), second.path());
+}
+
+// Whoever may write into the folder could have planted them.
+TEST(WriteTextAtomically, LeavesFilesAndLinksOfOthersAlone) {
+  const TemporaryFolder folder;
+  const fs::path victim = folder.path() / "victim", target = folder.path() / "run.toml";
+  std::ofstream(victim) << "mine";
+  fs::create_symlink(victim, target);
+  fs::create_symlink(victim, folder.path() / "run.toml.partial");
+  write_text_atomically(target, "text");
+  EXPECT_EQ(content(victim), "mine");
+  EXPECT_EQ(content(target), "text");
+}
+
+TEST(WriteTextAtomically, WritesIntoWhatIsNoFileAsItIs) {
+  EXPECT_NO_THROW(write_text_atomically("/dev/null", "text"));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  try {
+    write_text_atomically("/dev/full", "text");
+    FAIL() << "a full device took a text";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/dev/full: cannot write the file: No space left"));
+  }
+}
+
+TEST(FileLock, IsRefusedWhileItIsHeldAndLeavesNothing) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / ".lock";
+  {
+    const FileLock lock(path, "the folder", FileLock::IfHeld::refuse);
+    try {
+      const FileLock second(path, "the folder", FileLock::IfHeld::refuse);
+      FAIL() << "two locks at once";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(),
+                  HasSubstr("the folder is being written by process " + std::to_string(getpid())));
+    }
+  }
+  EXPECT_EQ(files_in(folder.path()), 0);
+}
+
+// The file of a killed holder stays, and locks nobody out; and one that waits gets the lock in the end.
+TEST(FileLock, EndsWithItsProcess) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / ".lock";
+  int ready[2] = {};
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t holder = fork();
+  if (holder == 0) {
+    const FileLock lock(path, "the folder", FileLock::IfHeld::refuse);
+    (void)!write(ready[1], "x", 1);
+    usleep(100'000);
+    _exit(0);  // without destructors, as if killed
+  }
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  EXPECT_THROW(FileLock(path, "the folder", FileLock::IfHeld::refuse), InputError);
+  EXPECT_NO_THROW(FileLock(path, "the folder", FileLock::IfHeld::wait));
+  EXPECT_NO_THROW(FileLock(path, "the folder", FileLock::IfHeld::refuse));
+  waitpid(holder, nullptr, 0);
+}
+
+}  // namespace
+}  // namespace whipple
