@@ -9,6 +9,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from report_files import save_figure
 
 
 def numbers(values):
@@ -54,7 +55,7 @@ def main():
         bottom.set_ylabel(f"material less\nexperiment ({panel['deviation_unit']})")
         bottom.set_xlabel(label(panel["abscissa"], panel["abscissa_unit"]))
         top.legend(frameon=False, fontsize=8)
-    figure.savefig(sys.argv[2], dpi=200)
+    save_figure(figure, sys.argv[2], dpi=200)
 
 
 if __name__ == "__main__":

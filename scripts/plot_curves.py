@@ -15,6 +15,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.lines import Line2D
+from report_files import save_figure
 
 # Colours that stay apart in print and for colour-blind readers (after Okabe and Ito).
 PALETTE = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#7a5195", "#e69f00", "#56b4e9", "#444444"]
@@ -83,7 +84,7 @@ def main():
     entries = legend_entries(description["curves"]) + axes.get_legend_handles_labels()[0]
     if len(entries) > 1:
         axes.legend(handles=entries, fontsize=8, handlelength=2.6)
-    figure.savefig(sys.argv[2])
+    save_figure(figure, sys.argv[2])
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from report_files import save_figure
 
 
 def rows(data, quantity):
@@ -138,7 +139,7 @@ def main():
     for column, draw in enumerate(panels):
         draw(data, axes[0, column], axes[1, column])
     figure.suptitle(f"{data['model']} fitted to {data['title']}")
-    figure.savefig(sys.argv[2], dpi=200)
+    save_figure(figure, sys.argv[2], dpi=200)
 
 
 if __name__ == "__main__":

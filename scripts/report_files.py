@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files that are written as a whole or not at all."""
 import os
+import pathlib
 import tempfile
 
 
@@ -17,3 +18,9 @@ def write_whole(path, write):
         except BaseException:
             os.unlink(stream.name)
             raise
+
+
+def save_figure(figure, path, **options):
+    """Writes a figure in the format of its ending."""
+    path = pathlib.Path(path)
+    write_whole(path, lambda stream: figure.savefig(stream, format=path.suffix[1:], **options))
