@@ -143,10 +143,6 @@ TEST(Bodies, RefusesElementsThatCannotBe) {
                {"none.msh"});
   expect_error(domain + replaced(elements, "\"finite_elements\"", "\"adaptive\", mesh = \"none.msh\""),
                {"'shape' or a 'discretization.mesh', not both"});
-  expect_error(domain + elements +
-                   "[[gauge]]\nname = \"inside\"\nkind = \"moving\"\nposition = [0, 0, "
-                   "\"-4 mm\"]\n",
-               {"moves with particles", "elements"});
 }
 
 // Halves and quarters of round bodies at mirror planes have their share of the whole mesh, nodes exactly on
