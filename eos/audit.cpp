@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "eos/detonation.hpp"
 #include "src/base/error.hpp"
 
 namespace whipple::eos {
@@ -29,6 +30,9 @@ constexpr double hottest = 1e5;                    ///< K: temperature where the
 constexpr double modest_temperature = 3000;        ///< K
 constexpr double greatest_melting_point = 5000;    ///< K at zero pressure: no known matter
 constexpr double greatest_critical_point = 25000;  ///< K: no known matter
+constexpr double densest_matter = 25e3;            ///< kg/m^3 at rest: osmium has 22.6e3
+constexpr double slowest_detonation = 1e3;         ///< m/s: no known explosive
+constexpr double fastest_detonation = 12e3;        ///< m/s: no known explosive
 constexpr double atmosphere = 101325;              ///< Pa
 constexpr double thinnest = 1e-6;                  ///< of the reference density
 
@@ -71,6 +75,7 @@ class Auditor {
 
   Audit run() {
     if (!check_reference()) return std::move(result_);
+    if (eos_.model() == "jwl") guarded("detonation", [&] { check_detonation(); });
     guarded("cold curve", [&] { check_cold_curve(); });
     guarded("Hugoniot", [&] { check_hugoniot(); });
     if (thermal_) guarded("heat capacity", [&] { check_temperatures(); });
@@ -122,6 +127,10 @@ class Auditor {
       if (!flows) return false;
       thermal_ = false;
     }
+    if (density > densest_matter) {
+      object(Verdict::not_usable, "reference density {:.4g} kg/m^3: no matter at rest has more than {:g}", density,
+             densest_matter);
+    }
     result_.condensed = std::abs(s.pressure) < condensed_pressure * stiffness();
     if (result_.condensed && std::abs(s.pressure) > resting_pressure * stiffness()) {
       object(Verdict::reservations,
@@ -138,6 +147,14 @@ class Auditor {
     result_.range.least_density = thinnest * density;
     result_.range.greatest_density = eos_.maximum_density();
     return true;
+  }
+
+  /// Constants in another unit are constants of an explosive that does not exist.
+  void check_detonation() {
+    const double velocity = chapman_jouguet(eos_).detonation_velocity;
+    if (velocity >= slowest_detonation && velocity <= fastest_detonation) return;
+    object(Verdict::not_usable, "the explosive detonates with {:.4g} km/s; known ones with {:g} to {:g} km/s",
+           1e-3 * velocity, 1e-3 * slowest_detonation, 1e-3 * fastest_detonation);
   }
 
   void check_cold_curve() {
@@ -232,7 +249,7 @@ class Auditor {
   void check_temperatures() {
     double& last = result_.range.greatest_temperature;
     while (last < hottest) {
-      const double T = std::min(1.1 * last, hottest);
+      const double T = std::clamp(1.1 * last, 1.0, hottest);
       std::string fault;
       try {
         fault = instability(eos_.state_at_temperature(eos_.reference_density(), T));

@@ -10,6 +10,14 @@
 #include "src/base/error.hpp"
 
 namespace whipple::eos {
+namespace {
+
+/// Products with a constant adiabatic exponent g touch at (g + 1)/g: known ones stay below 1.5.
+constexpr double greatest_compression = 10;
+constexpr double greatest_energy = 1e12;  // J/kg
+constexpr int most_doublings = 200;
+
+}  // namespace
 
 ChapmanJouguet chapman_jouguet(const Products& products, const Explosive& explosive, double maximum_density) {
   const double rho0 = explosive.density, e0 = explosive.specific_internal_energy, p0 = explosive.pressure;
@@ -25,9 +33,11 @@ ChapmanJouguet chapman_jouguet(const Products& products, const Explosive& explos
     const double half = 0.5 * (1 / rho0 - 1 / density);
     const auto residual = [&](double e) { return e - e0 - (products(density, e).pressure + p0) * half; };
     double upper = e0 + half * released;
-    while (residual(upper) < 0) {
+    for (int i = 0; residual(upper) < 0; ++i) {
       upper = e0 + 2 * (upper - e0);
-      if (upper - e0 > 1e12) throw StateError("no Hugoniot of the products at this compression");
+      // Not reached where the step is lost in the round-off of e0, however often it doubles.
+      if (i == most_doublings || upper - e0 > greatest_energy)
+        throw StateError("no Hugoniot of the products at this compression");
     }
     return products(density, find_root(residual, e0, upper, "energy on the products' Hugoniot"));
   };
@@ -36,9 +46,9 @@ ChapmanJouguet chapman_jouguet(const Products& products, const Explosive& explos
     const State s = hugoniot(density);
     return (s.pressure - p0) - (1 / rho0 - 1 / density) * std::pow(density * s.sound_speed, 2);
   };
-  double below = rho0;
-  for (;;) {
-    const double density = std::min(1.01 * below, maximum_density);
+  const double densest = std::min(maximum_density, greatest_compression * rho0);
+  for (double below = rho0; below < densest;) {
+    const double density = std::min(1.01 * below, densest);
     if (contact(density) <= 0) {
       const State s = hugoniot(
           find_root(contact, std::max(below, 1.0001 * rho0), density, "contact of the Rayleigh line"));
@@ -46,13 +56,11 @@ ChapmanJouguet chapman_jouguet(const Products& products, const Explosive& explos
       const double D = std::sqrt(slope) / rho0;
       return {D, (s.pressure - p0) / (rho0 * D), s};
     }
-    if (density >= maximum_density) {
-      throw StateError(fmt::format(
-          "no detonation: the Rayleigh line touches the products' Hugoniot nowhere up to {:.6g} kg/m^3",
-          maximum_density));
-    }
     below = density;
   }
+  throw StateError(
+      fmt::format("no detonation: the Rayleigh line touches the products' Hugoniot nowhere up to {:.6g} kg/m^3",
+                  densest));
 }
 
 ChapmanJouguet chapman_jouguet(const EquationOfState& products) {

@@ -69,6 +69,7 @@ CriticalPoint critical_point(const VapourDome::Search& search) {
   const auto steepness = [&](double T) { return steepest_point(search, T).steepness; };
   const double lowest = search.temperature_guess / 6, highest = 6 * search.temperature_guess;
   double low = lowest, high = 0;
+  if (!(lowest > 1e-6)) throw InputError("no critical point: the vapour constants put it at no temperature");
   for (double T = lowest; T <= highest; T *= 1.1) {
     if (steepness(T) > 0) {
       low = T;

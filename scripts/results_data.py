@@ -35,22 +35,26 @@ def quantity(text, where):
     return float(match[1]) * UNITS[match[2]], match[2]
 
 
+def value_of(text):
+    """What VALUE of KEY=VALUE stands for: TOML, else a text."""
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        return text
+
+
 def apply(table, assignment):
     """Sets KEY=VALUE in the table of a case, as `whipple run --set` does; numbers in the key count bodies."""
     key, separator, text = assignment.partition("=")
     if not separator:
         raise BadExpectation(f"{assignment!r} is no KEY=VALUE")
-    try:
-        value = tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
-        value = text
     *way, last = key.split(".")
     for part in way:
         try:
             table = table[int(part)] if isinstance(table, list) else table.setdefault(part, {})
         except (IndexError, ValueError):
             raise BadExpectation(f"{assignment!r}: there is no {part!r}") from None
-    table[last] = value
+    table[last] = value_of(text)
 
 
 class Expectation:

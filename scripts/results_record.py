@@ -13,7 +13,7 @@ import subprocess
 import tomllib
 
 import frozen_parameters
-from results_data import ROOT
+from results_data import ROOT, BadExpectation, quantity, value_of
 
 CODE = (".cpp", ".hpp", ".inl", ".h")
 SOURCES = ("src", "eos")  # what a run of a case is computed by
@@ -128,11 +128,25 @@ def read(folder):
     return json.loads(path.read_text()) if path.is_file() else None
 
 
+def meaning(command):
+    """A command with the quantities of its assignments in SI: written in another way it is no other run."""
+    def in_si(value):
+        if isinstance(value, list):
+            return [in_si(entry) for entry in value]
+        try:
+            return quantity(value, "")[0]
+        except BadExpectation:
+            return value
+
+    words = (word.partition("=") for word in command)
+    return [(key, in_si(value_of(text))) if separator else key for key, separator, text in words]
+
+
 def state(record, command, inputs, source):
     """Whether a record is that of this command, case, materials and source."""
     if record is None:
         return MISSING
-    if record["command"] != command or any(record[key] != inputs[key] for key in ("case", "materials")):
+    if meaning(record["command"]) != meaning(command) or any(record[key] != inputs[key] for key in ("case", "materials")):
         return STALE
     return CURRENT if record["source"] == source else OLDER_SOURCE
 

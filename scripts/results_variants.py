@@ -41,8 +41,8 @@ def vector(values, where):
     return [quantity(v, where)[0] for v in values]
 
 
-def text_of(values):
-    return "[" + ", ".join(f"{v:.12g}" for v in values) + "]"
+def text_of(values, unit):
+    return "[" + ", ".join(f'"{v:.12g} {unit}"' if v else "0" for v in values) + "]"
 
 
 def frame_assignments(table, velocity, where):
@@ -58,14 +58,14 @@ def frame_assignments(table, velocity, where):
     found = []
     for i, body in enumerate(table["body"]):
         own = vector(body.get("velocity", [0, 0, 0]), where)
-        found.append(f"body.{i}.velocity={text_of(a + b for a, b in zip(own, velocity))}")
+        found.append(f"body.{i}.velocity={text_of((a + b for a, b in zip(own, velocity)), 'm/s')}")
     way = [v * quantity(table["time"]["end"], where)[0] for v in velocity]
     lower, upper = vector(domain["lower"], where), vector(domain["upper"], where)
     cell = quantity(domain["cell_size"], where)[0]
     # By whole cells, so that the lattice stands to the bodies as it does at rest.
     room = [cell * -(-abs(w) // cell) for w in way]
-    found.append(f"domain.lower={text_of(a - r if w < 0 else a for a, w, r in zip(lower, way, room))}")
-    found.append(f"domain.upper={text_of(a + r if w > 0 else a for a, w, r in zip(upper, way, room))}")
+    found.append(f"domain.lower={text_of((a - r if w < 0 else a for a, w, r in zip(lower, way, room)), 'm')}")
+    found.append(f"domain.upper={text_of((a + r if w > 0 else a for a, w, r in zip(upper, way, room)), 'm')}")
     return found
 
 
@@ -102,7 +102,7 @@ def back_to_rest(folder, velocity, rest):
                     if group in data and "velocity" in data[group]:
                         shift(data[group]["velocity"], velocity)
     path, values = folder / "run.toml", iter(rest)
-    lines = [f"velocity = {text_of(next(values))}" if re.match(r"velocity = \[", line) else line
+    lines = [f"velocity = {text_of(next(values), 'm/s')}" if re.match(r"velocity = \[", line) else line
              for line in path.read_text().split("\n")]
     path.write_text("\n".join(lines))
 

@@ -92,7 +92,7 @@ struct Words {
 
 class Reader {
  public:
-  explicit Reader(const fs::path& path) : path_(path), file_(path) {
+  explicit Reader(const fs::path& path) : path_(path), file_(regular_file(path)) {
     if (!file_) throw InputError(fmt::format("{}: does not exist or cannot be read", path.string()));
   }
 

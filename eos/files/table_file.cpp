@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
@@ -22,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* format_name = "whipple-eos-table";
-constexpr std::int64_t format_version = 3;
+constexpr std::int64_t format_version = 4;
 
 /// The numbers of a table, one attribute each.
 struct Number {
@@ -110,7 +112,7 @@ void write_array(const hdf5::Group& group, const char* name, const std::vector<T
                  std::uint64_t columns, const char* unit) {
   const hdf5::Dataset array = group.write<T>(name, values, hdf5::Slab::whole(values.size() / columns),
                                              {.columns = columns, .deflate = 4});
-  array.set_attribute("unit", std::string_view(unit));
+  array.set_fixed_attribute("unit", unit);
 }
 
 template <class T>
@@ -120,7 +122,10 @@ std::vector<T> read_array(const hdf5::Group& group, const char* name, std::uint6
   if (shape.size() != 2 || shape[1] != columns) {
     throw InputError(fmt::format("{}: is no array of {} columns", array.name(), columns));
   }
-  return array.read_all<T>();
+  std::vector<T> values = array.read_all<T>();
+  if (!std::ranges::all_of(values, [](T x) { return std::isfinite(static_cast<double>(x)); }))
+    throw InputError(fmt::format("{}: holds numbers that are not finite", array.name()));
+  return values;
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -141,14 +146,14 @@ void write_table(const fs::path& path, const TableFile& table) {
   PartialFile partial(path);
   hdf5::File file = hdf5::File::create(partial.path(), hdf5::File::Compatibility::compact);
   const hdf5::Group& root = file.root;
-  root.set_attribute("format", std::string_view(format_name));
+  root.set_fixed_attribute("format", format_name);
   root.set_attribute("version", format_version);
-  root.set_attribute("unit_system", std::string_view("SI"));
-  root.set_attribute("model", std::string_view(data.origin));
-  root.set_attribute("constants", std::string_view(data.constants));
-  root.set_attribute("phases", std::string_view(fmt::format("{}", fmt::join(data.phases, "\n"))));
+  root.set_fixed_attribute("unit_system", "SI");
+  root.set_fixed_attribute("model", data.origin);
+  root.set_fixed_attribute("constants", data.constants);
+  root.set_fixed_attribute("phases", fmt::format("{}", fmt::join(data.phases, "\n")));
   for (const Number& number : numbers) root.set_attribute(number.name, data.*number.member);
-  root.set_attribute("digest", std::string_view(digest_of(data, arrays)));
+  root.set_fixed_attribute("digest", digest_of(data, arrays));
   write_array(root, "strip_bounds", arrays.bounds, bounds_width, "ln(kg/m^3), ln(kg/m^3), ln(J/kg), 1");
   write_array(root, "strip_layout", arrays.layout, layout_width, "");
   write_array(root, "curves", arrays.curves, curves_width, "J/kg, ln(J/kg)");
@@ -245,7 +250,12 @@ TableData cached_table(const EquationOfState& eos, const TableRequest& request, 
   const fs::path path = folder / fmt::format("{}-{}.eos.h5", name, key.substr(0, 16));
   if (!folder.empty() && fs::exists(path)) {
     try {
-      return read_table(path).data;
+      TableData data = read_table(path).data;
+      if (data.origin == eos.model() && data.constants == eos.constants() &&
+          data.requested_error == request.error) {
+        return data;
+      }
+      log::warning("{}: is the table of another model, constants or error; it is built again", path.string());
     } catch (const InputError& error) {
       log::warning("{}; it is built again", error.what());
     }

@@ -118,6 +118,10 @@ IsentropeState isentrope_at_pressure(const EquationOfState& eos, const State& st
           fmt::format("the isentrope does not reach {:.6g} Pa: it turns at {:.6g} Pa, {:.6g} kg/m^3",
                       pressure, state.pressure, state.density));
     }
+    if (!std::isfinite(state.pressure) || state.density > 1e9 * eos.reference_density()) {
+      throw StateError(fmt::format("the isentrope does not reach {:.6g} Pa: it ends at {:.6g} kg/m^3", pressure,
+                                   state.density));
+    }
     if (state.density < 1e-9 * eos.reference_density()) {
       throw StateError(fmt::format(
           "the isentrope does not reach {:.6g} Pa above 1e-9 of the reference density", pressure));

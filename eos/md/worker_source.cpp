@@ -57,9 +57,9 @@ std::string WorkerSource::plan_of(std::span<const double> volume_ratios) const {
   text += fmt::format("[cold_curve]\nvolume_ratio = [{}]\n", fmt::join(volume_ratios, ", "));
   for (const double ratio : volume_ratios) {
     text += fmt::format(
-        "[[isochore]]\nvolume_ratio = {}\ntemperature = [{}]\ncells = {}\nequilibration_steps = {}\nsteps = "
+        "[[isochore]]\nvolume_ratio = {}\ntemperature = [\"{} K\"]\ncells = {}\nequilibration_steps = {}\nsteps = "
         "{}\n",
-        ratio, fmt::join(constants_.temperature, ", "), constants_.cells, constants_.equilibration_steps,
+        ratio, fmt::join(constants_.temperature, " K\", \""), constants_.cells, constants_.equilibration_steps,
         constants_.steps);
   }
   return text;

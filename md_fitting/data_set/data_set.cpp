@@ -31,7 +31,7 @@ constexpr std::int64_t format_version = 1;
 // ---- quantities: a data set {value, error} or {value} with its unit
 
 void write_text(const hdf5::Object& object, const std::string& name, const std::string& text) {
-  object.set_fixed_attribute(name, text, hdf5::Characters::utf8);
+  object.set_fixed_attribute(name, text);
 }
 
 void write_quantity(const hdf5::Group& group, const std::string& name, std::span<const double> numbers) {

@@ -25,7 +25,7 @@ namespace whipple::fit {
 namespace {
 
 std::string read_text(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file(regular_file(path), std::ios::binary);
   if (!file) throw InputError(fmt::format("cannot read '{}'", path.string()));
   std::ostringstream text;
   text << file.rdbuf();

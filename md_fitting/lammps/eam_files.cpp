@@ -15,6 +15,7 @@
 
 #include "md_fitting/lammps/elements.hpp"
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 
 namespace whipple::md {
 namespace {
@@ -29,12 +30,21 @@ constexpr double longest_cutoff = 25.0;            // A
 constexpr double longest_lattice_constant = 15.0;  // A
 constexpr double shortest_lattice_constant = 1.5;  // A; a file may give 0 for unknown
 
+/// LAMMPS takes words of headers for formats of messages, in which braces have a meaning; and what is not
+/// printable is no number and no name.
+bool is_plain(std::string_view line) {
+  return std::ranges::all_of(line, [](unsigned char c) {
+    return c == '\t' || c == '\r' || (c >= 0x20 && c < 0x7f && c != '{' && c != '}');
+  });
+}
+
 /// Lines and words of a potential file, with errors that name file and line.
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& path) : path_(path), stream_(path) {
+  explicit Reader(const std::filesystem::path& path) : path_(path), stream_(regular_file(path)) {
     if (!stream_) throw InputError(fmt::format("cannot read the potential file {}", path.string()));
   }
+  /// The next line, a comment: it may hold anything.
   std::string line() {
     next_line();
     return std::string(std::exchange(rest_, {}));
@@ -49,6 +59,7 @@ class Reader {
   /// The words of the next line.
   std::vector<std::string> words() {
     next_line();
+    require_plain();
     std::vector<std::string> all;
     for (std::string_view one = word(); !one.empty(); one = word()) all.emplace_back(one);
     return all;
@@ -61,6 +72,7 @@ class Reader {
       while (text.empty()) {
         if (!std::getline(stream_, buffer_)) fail(fmt::format("holds too few numbers for {}", what));
         begin_line();
+        require_plain();
         text = word();
       }
       if (!read(text, value)) fail(fmt::format("has '{}' for a number of {}", text, what));
@@ -86,6 +98,9 @@ class Reader {
   void next_line() {
     if (!std::getline(stream_, buffer_)) fail("ends too early");
     begin_line();
+  }
+  void require_plain() const {
+    if (!is_plain(buffer_)) fail("holds braces or characters that are not printable");
   }
   void begin_line() {
     ++line_;

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 #include "src/base/parameter_table.hpp"
 #include "src/hdf5/hdf5.hpp"
 #include "src/input/document.hpp"
@@ -105,7 +106,7 @@ std::vector<SnapshotEntry> read_index(const fs::path& folder) {
   }
   std::vector<SnapshotEntry> entries;
   try {
-    std::ifstream stream(found.front());
+    std::ifstream stream(regular_file(found.front()));
     const nlohmann::json index = nlohmann::json::parse(stream);
     for (const nlohmann::json& file : index.at("files")) {
       entries.push_back({folder / file.at("name").get<std::string>(), file.at("time").get<double>()});
@@ -139,9 +140,24 @@ std::vector<double> as_reals(const hdf5::Group& data, const std::string& name,
     return sorted(std::vector<double>(values.begin(), values.end()), order);
   };
   const hdf5::Dataset set = data.open_dataset(name);
-  if (name == "phase" || name == "failed") return widen(set.read_all<std::uint8_t>());
-  if (name == "material") return widen(set.read_all<std::uint16_t>());
-  return widen(set.read_all<float>());
+  const hdf5::Dataset::Shape list{order.size(), 1};
+  if (name == "phase" || name == "failed") return widen(set.read_all<std::uint8_t>(list));
+  if (name == "material") return widen(set.read_all<std::uint16_t>(list));
+  return widen(set.read_all<float>(list));
+}
+
+/// What every measurement relies on.
+void require_sound(const Snapshot& snapshot, const SnapshotEntry& entry) {
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    if (snapshot.body[i] >= entry.bodies) {
+      throw InputError(fmt::format("{}: error: particle {} is of body {}, but the run has {}",
+                                   entry.file.string(), snapshot.id[i], snapshot.body[i], entry.bodies));
+    }
+    if (!(snapshot.mass[i] > 0.0) || !snapshot.position[i].allFinite() || !snapshot.velocity[i].allFinite()) {
+      throw InputError(fmt::format("{}: error: particle {} has no finite position and velocity, or no mass",
+                                   entry.file.string(), snapshot.id[i]));
+    }
+  }
 }
 
 }  // namespace
@@ -163,6 +179,7 @@ Run read_run(const fs::path& folder) {
   document.finish_partly_read();
   if (run.bodies.empty()) throw InputError(fmt::format("{}: error: run.toml has no bodies", folder.string()));
   run.snapshots = read_index(folder);
+  for (SnapshotEntry& entry : run.snapshots) entry.bodies = run.bodies.size();
   return run;
 }
 
@@ -193,8 +210,11 @@ void append_elements(const fs::path& path, Snapshot& snapshot) {
   const hdf5::File file = hdf5::File::open(path);
   const hdf5::Group vtk = file.root.open_group("VTKHDF");
   const hdf5::Group data = vtk.open_group("CellData");
-  const std::vector<std::uint64_t> id = data.open_dataset("id").read_all<std::uint64_t>();
+  const auto id = data.open_dataset("id").read_all<std::uint64_t>();
   if (id.empty()) return;
+  const auto fail = [&](const std::string& why) {
+    throw InputError(fmt::format("{}: error: is no snapshot of elements: {}", path.string(), why));
+  };
   std::vector<std::uint32_t> order(id.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
@@ -202,21 +222,29 @@ void append_elements(const fs::path& path, Snapshot& snapshot) {
   // Those of each rank count from its first point.
   const auto points_of = vtk.open_dataset("NumberOfPoints").read_all<std::int64_t>();
   const auto cells_of = vtk.open_dataset("NumberOfCells").read_all<std::int64_t>();
-  const auto types = vtk.open_dataset("Types").read_all<std::uint8_t>();
+  const auto types = vtk.open_dataset("Types").read_all<std::uint8_t>({id.size(), 1});
+  if (cells_of.size() != points_of.size()) fail("NumberOfCells and NumberOfPoints differ in length");
   std::vector<std::size_t> corners_from(id.size() + 1, 0);
   std::size_t cell = 0;
   for (std::int64_t rank = 0, first = 0; rank < std::ssize(points_of); ++rank) {
     const auto r = static_cast<std::size_t>(rank);
+    if (cells_of[r] < 0 || static_cast<std::size_t>(cells_of[r]) > id.size() - cell || points_of[r] < 0)
+      fail("NumberOfCells does not add up to the elements");
     for (const std::size_t end = cell + static_cast<std::size_t>(cells_of[r]); cell < end; ++cell) {
       corners_from[cell + 1] = corners_from[cell] + (types[cell] == vtk_line ? 2U : 8U);
+      if (corners_from[cell + 1] > corners.size()) fail("Connectivity is too short");
       for (std::size_t i = corners_from[cell]; i < corners_from[cell + 1]; ++i) corners[i] += first;
     }
     first += points_of[r];
   }
-  const std::vector<float> points = vtk.open_dataset("Points").read_all<float>();
-  const std::vector<float> velocities =
-      vtk.open_group("PointData").open_dataset("velocity").read_all<float>();
-  const std::vector<std::uint16_t> body = data.open_dataset("body").read_all<std::uint16_t>();
+  if (cell != id.size()) fail("NumberOfCells does not add up to the elements");
+  const hdf5::Dataset positions = vtk.open_dataset("Points");
+  const std::uint64_t nodes = positions.stored_shape().rows;
+  const auto points = positions.read_all<float>({nodes, 3});
+  const auto velocities = vtk.open_group("PointData").open_dataset("velocity").read_all<float>({nodes, 3});
+  const auto body = data.open_dataset("body").read_all<std::uint16_t>({id.size(), 1});
+  if (!std::ranges::all_of(corners, [&](std::int64_t node) { return node >= 0 && node < std::int64_t(nodes); }))
+    fail("Connectivity names points that are not there");
   const std::vector<double> mass = as_reals(data, "mass", order);
   const auto corner = [&](std::size_t k, std::size_t axis) {
     constexpr std::array<std::array<int, 3>, 8> signs = {
@@ -267,25 +295,27 @@ Snapshot read_snapshot(const SnapshotEntry& entry) {
   const hdf5::Group data = vtk.open_group("PointData");
   Snapshot snapshot;
   snapshot.time = entry.time;
-  const std::vector<std::uint64_t> id = data.open_dataset("id").read_all<std::uint64_t>();
+  const auto id = data.open_dataset("id").read_all<std::uint64_t>();
+  const hdf5::Dataset::Shape list{id.size(), 1}, vectors{id.size(), 3};
   std::vector<std::uint32_t> order(id.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; });
   snapshot.id = sorted(id, order);
-  snapshot.position = as_vectors(vtk.open_dataset("Points").read_all<float>(), order);
-  snapshot.velocity = as_vectors(data.open_dataset("velocity").read_all<float>(), order);
+  snapshot.position = as_vectors(vtk.open_dataset("Points").read_all<float>(vectors), order);
+  snapshot.velocity = as_vectors(data.open_dataset("velocity").read_all<float>(vectors), order);
   snapshot.mass = as_reals(data, "mass", order);
-  snapshot.body = sorted(data.open_dataset("body").read_all<std::uint16_t>(), order);
+  snapshot.body = sorted(data.open_dataset("body").read_all<std::uint16_t>(list), order);
   for (const std::string& name : data.names()) {
     if (name == "id" || name == "mass" || name == "body") continue;
     if (data.open_dataset(name).shape().size() == 1) snapshot.scalars[name] = as_reals(data, name, order);
   }
   std::string elements = entry.file.filename().string();
-  const std::size_t kind = elements.rfind(".particles.");
-  if (kind == std::string::npos) return snapshot;
-  elements.replace(kind, 11, ".elements.");
-  const fs::path with_elements = entry.file.parent_path() / elements;
-  if (fs::exists(with_elements)) append_elements(with_elements, snapshot);
+  if (const std::size_t kind = elements.rfind(".particles."); kind != std::string::npos) {
+    elements.replace(kind, 11, ".elements.");
+    const fs::path with_elements = entry.file.parent_path() / elements;
+    if (fs::exists(with_elements)) append_elements(with_elements, snapshot);
+  }
+  require_sound(snapshot, entry);
   return snapshot;
 }
 

@@ -24,7 +24,8 @@ struct BodyInput {
 
 struct SnapshotEntry {
   std::filesystem::path file;
-  double time = 0.0;  ///< s
+  double time = 0.0;           ///< s
+  std::size_t bodies = 65536;  ///< of the run: particles of others are refused
 };
 
 /// The folder of a run.
@@ -60,7 +61,8 @@ struct Snapshot {
   [[nodiscard]] std::vector<double> volumes() const;
 };
 
-/// @throws InputError if the file is not that of a snapshot
+/// @throws InputError if the file is not that of a snapshot of this run: arrays of other lengths, bodies that
+/// the case does not have, numbers that are not finite, masses that are not positive
 Snapshot read_snapshot(const SnapshotEntry& entry);
 
 }  // namespace whipple::analysis

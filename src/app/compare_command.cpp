@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "src/app/compare_data.hpp"
+#include "src/app/eos_queries.hpp"
 #include "src/base/error.hpp"
 #include "src/base/files.hpp"
 #include "src/base/text_table.hpp"
-#include "src/base/units.hpp"
 #include "src/material/material_file.hpp"
 #include "src/process/scripts.hpp"
 
@@ -209,8 +209,7 @@ void draw(const std::vector<Row>& rows, const std::string& path) {
 void run(const CompareOptions& options) {
   require_new_file(options.csv, options.force);
   require_new_figure(options.plot, options.force);
-  std::optional<double> temperature;
-  if (!options.temperature.empty()) temperature = units::parse_quantity(options.temperature, "K");
+  const std::optional<double> temperature = quantity("--temperature", options.temperature, "K");
   std::vector<Material> materials;
   for (const std::string& name : options.materials) materials.push_back(read_material(name));
   std::vector<Experiment> experiments;

@@ -119,8 +119,8 @@ std::string manual() {
       "# Input reference\n\n"
       "Written by `whipple describe --markdown` from the parameter tables that the program reads its inputs "
       "with.\n"
-      "Quantities are texts with a unit (`\"6.58 km/s\"`); a bare number is in the unit of the column "
-      "`unit`.\n"
+      "Quantities are texts with a unit (`\"6.58 km/s\"`); a number without one is an error, but for "
+      "0. The column `unit` is the unit in SI.\n"
       "Unknown keys are errors.\n\n";
   for (const Topic& topic : topics()) {
     page += fmt::format("## {}\n\n{}", topic.title, block(topic.text("")));

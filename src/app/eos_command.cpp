@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "eos/audit.hpp"
 #include "src/app/eos_audit.hpp"
 #include "src/app/eos_diagrams.hpp"
 #include "src/app/eos_figure.hpp"
@@ -15,6 +18,7 @@
 #include "src/app/eos_tabulate.hpp"
 #include "src/base/error.hpp"
 #include "src/base/files.hpp"
+#include "src/base/log.hpp"
 #include "src/material/material_file.hpp"
 
 namespace whipple::app {
@@ -78,6 +82,22 @@ void write(const CurveTable& table, const Output& output) {
   if (!output.plot.empty()) draw(figure_of(table, output), output.plot);
 }
 
+/// A model answers wherever its formulas hold; what it says of hotter matter than it describes is no answer.
+void warn_beyond_audit(const CurveTable& table, const Materials& materials) {
+  const auto column = std::ranges::find(table.columns, "T_K", &Column::name);
+  if (column == table.columns.end() || table.series.size() != materials.size()) return;
+  const auto place = static_cast<std::size_t>(column - table.columns.begin());
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    double hottest = 0;
+    for (const CurveRow& row : table.series[i].rows) hottest = std::fmax(hottest, std::get<double>(row[place]));
+    const double limit = eos::audit(*materials[i].eos, eos::AuditDepth::brief).range.greatest_temperature;
+    if (limit > 0 && hottest > limit) {
+      log::warning("{}: {:.6g} K is beyond {:.4g} K, to which the audit finds the model valid (whipple eos audit)",
+                   materials[i].name, hottest, limit);
+    }
+  }
+}
+
 /// One subcommand: which quantities it takes and what it computes.
 struct Query {
   const char* name;
@@ -93,7 +113,7 @@ struct Query {
 };
 
 const Query queries[] = {
-    {"state", "One state, from two quantities", "dteps", nullptr, nullptr, state_table, nullptr,
+    {"state", "One state, from two quantities", "dteps", nullptr, nullptr, state_table, state_remarks,
      "whipple eos state copper --density '10 g/cm^3' --temperature '3000 K'"},
     {"hugoniot", "Hugoniot: principal, porous or through a shocked state; a curve, or one shocked state",
      "dpufoir", "up_km_s", "us_km_s", hugoniot_table, hugoniot_remarks,
@@ -206,6 +226,7 @@ void add_query(CLI::App& command, const Query& query) {
     const CurveTable table = query.table(request->options, materials);
     (query.table == state_table ? print_list : print)(table);
     write(table, output);
+    warn_beyond_audit(table, materials);
     if (query.remarks == nullptr) return;
     for (const std::string& remark : query.remarks(request->options, materials)) fmt::print("{}\n", remark);
   });

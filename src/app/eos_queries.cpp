@@ -40,8 +40,8 @@ struct End {
 
 End end_of(const EosOptions& o, double standard_pressure, const char* other_unit) {
   if (o.to.empty()) return {standard_pressure, true};
-  if (is_in(o.to, "Pa")) return {units::parse_quantity(o.to, "Pa"), true};
-  if (is_in(o.to, other_unit)) return {units::parse_quantity(o.to, other_unit), false};
+  if (is_in(o.to, "Pa")) return {*quantity("--to", o.to, "Pa"), true};
+  if (is_in(o.to, other_unit)) return {*quantity("--to", o.to, other_unit), false};
   throw InputError(fmt::format("--to: '{}': expected a quantity in Pa or in {}", o.to, other_unit));
 }
 
@@ -163,11 +163,19 @@ void add_isentrope(Series& series, const EquationOfState& eos, const State& star
 
 std::optional<double> quantity(const char* option, const std::string& text, const char* unit) {
   if (text.empty()) return std::nullopt;
+  double value = 0;
   try {
-    return units::parse_quantity(text, unit);
+    value = units::parse_quantity(text, unit);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", option, error.what()));
   }
+  const std::string_view kind = unit;
+  const Range range = kind == "kg/m^3" || kind == "K" ? range::positive()
+                      : kind == "m/s"                 ? range::non_negative()
+                                                      : range::any();
+  if (!range.contains(value))
+    throw InputError(fmt::format("{}: is {}, but must be {} {}", option, text, range.text(), unit));
+  return value;
 }
 
 std::vector<double> spaced(double from, double to, int points) {
@@ -183,6 +191,19 @@ CurveTable state_table(const EosOptions& o, const Materials& materials) {
     table.series[i].rows.push_back(row_of(eos, state_from(o, eos)));
   }
   return table;
+}
+
+std::vector<std::string> state_remarks(const EosOptions& o, const Materials& materials) {
+  std::vector<std::string> remarks;
+  for (const Material& material : materials) {
+    const State s = state_from(o, *material.eos);
+    if (s.phase.find("vapour") == std::string_view::npos || !(s.vaporised_fraction < 0.5)) continue;
+    remarks.push_back(fmt::format(
+        "{}: \"{}\" names the surface of the model, which goes on beyond the limit of stretched matter. Matter "
+        "of this density and energy in equilibrium is condensed, with voids: {:.2g} % of its mass is vapour",
+        material.name, s.phase, 100 * s.vaporised_fraction));
+  }
+  return remarks;
 }
 
 CurveTable hugoniot_table(const EosOptions& o, const Materials& materials) {
@@ -427,7 +448,8 @@ std::vector<eos::ImpedanceMatch> interfaces(const EosOptions& o, const Materials
   if (materials.size() < 2)
     throw InputError("an impact has two materials at least: IMPACTOR TARGET [BEHIND ...]");
   const auto velocity = quantity("--velocity", o.velocity, "m/s");
-  if (!velocity) throw InputError("an impact needs --velocity, e.g. --velocity '5 km/s'");
+  if (!velocity || *velocity == 0)
+    throw InputError("an impact needs a --velocity above zero, e.g. --velocity '5 km/s'");
   std::vector<eos::ImpedanceMatch> matches = {
       eos::match_impact(Hugoniot(*materials[0].eos), Hugoniot(*materials[1].eos), *velocity)};
   for (std::size_t i = 2; i < materials.size(); ++i) {

@@ -23,7 +23,8 @@ struct EosOptions {
   int points = 21;
 };
 
-/// The quantity of an option, if it is given; errors name the option.
+/// The quantity of an option, if it is given; errors name the option. Densities and temperatures must be
+/// positive, velocities not negative.
 /// @throws InputError
 std::optional<double> quantity(const char* option, const std::string& text, const char* unit);
 
@@ -44,6 +45,7 @@ CurveTable dome_table(const EosOptions& options, const Materials& materials);
 CurveTable match_table(const EosOptions& options, const Materials& materials);
 
 // What a curve is remarkable for, printed below its table; nothing where a model does not know it.
+std::vector<std::string> state_remarks(const EosOptions& options, const Materials& materials);
 std::vector<std::string> hugoniot_remarks(const EosOptions& options, const Materials& materials);
 std::vector<std::string> release_remarks(const EosOptions& options, const Materials& materials);
 std::vector<std::string> cold_remarks(const EosOptions& options, const Materials& materials);

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "src/base/error.hpp"
-#include "src/base/units.hpp"
 #include "src/material/material_samples.hpp"
 
 namespace whipple::app {
@@ -95,10 +94,10 @@ void add_thresholds(const EquationOfState& eos, double pressure, std::vector<Thr
 SampledHugoniot sampled_hugoniot(const EosOptions& options, const SampleOptions& samples,
                                  const std::filesystem::path& material) {
   if (samples.count < 2) throw InputError("--samples: a scatter needs two samples or more");
-  const double last = options.to.empty() ? 4000.0 : units::parse_quantity(options.to, "m/s");
-  const double first =
-      options.from.empty() ? last / options.points : units::parse_quantity(options.from, "m/s");
-  const double release_pressure = units::parse_quantity(samples.release_pressure, "Pa");
+  const double last = quantity("--to", options.to, "m/s").value_or(4000.0);
+  const double first = quantity("--from", options.from, "m/s").value_or(last / options.points);
+  const double release_pressure =
+      quantity("--release-pressure", samples.release_pressure, "Pa").value_or(0.0);
   const MaterialSamples drawn = sample_material(material, samples.count, samples.seed);
   const std::vector<double> velocities = spaced(first, last, options.points);
 

@@ -10,11 +10,11 @@
 
 #include "eos/files/sesame.hpp"
 #include "eos/files/table_file.hpp"
+#include "src/app/eos_queries.hpp"
 #include "src/base/error.hpp"
 #include "src/base/files.hpp"
 #include "src/base/progress.hpp"
 #include "src/base/text_table.hpp"
-#include "src/base/units.hpp"
 #include "src/material/material_file.hpp"
 #include "src/parallel/threads.hpp"
 
@@ -38,12 +38,12 @@ template <class Request>
 Request ranged(const TabulateOptions& o) {
   Request request;
   if (!o.densities.empty()) {
-    request.minimum_density = units::parse_quantity(o.densities[0], "kg/m^3");
-    request.maximum_density = units::parse_quantity(o.densities[1], "kg/m^3");
+    request.minimum_density = quantity("--density", o.densities[0], "kg/m^3").value_or(0.0);
+    request.maximum_density = quantity("--density", o.densities[1], "kg/m^3").value_or(0.0);
   }
   if (!o.temperatures.empty()) {
-    request.least_temperature = units::parse_quantity(o.temperatures[0], "K");
-    request.greatest_temperature = units::parse_quantity(o.temperatures[1], "K");
+    request.least_temperature = quantity("--temperature", o.temperatures[0], "K").value_or(0.0);
+    request.greatest_temperature = quantity("--temperature", o.temperatures[1], "K").value_or(0.0);
   }
   return request;
 }
@@ -54,7 +54,7 @@ void write_sesame(const TabulateOptions& o) {
   eos::SesameMaterial table = eos::sesame_of(*material.eos, ranged<eos::SesameRequest>(o));
   table.number = o.number;
   table.atomic_number = o.atomic_number;
-  if (!o.atomic_mass.empty()) table.atomic_mass = units::parse_quantity(o.atomic_mass, "kg/mol");
+  if (const auto mass = quantity("--atomic-mass", o.atomic_mass, "kg/mol")) table.atomic_mass = *mass;
   table.comment = fmt::format("material. {} /source. whipple, model {} /refs. {} /", material.name,
                               material.eos->model(), material.source);
   eos::write_sesame(o.sesame_file, {&table, 1});

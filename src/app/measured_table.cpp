@@ -12,6 +12,7 @@
 #include <span>
 
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 #include "src/base/units.hpp"
 
 namespace whipple::app {
@@ -128,7 +129,7 @@ void join_units(std::vector<std::string>& headings) {
 }  // namespace
 
 MeasuredTable MeasuredTable::read(const std::filesystem::path& file) {
-  std::ifstream stream(file);
+  std::ifstream stream(regular_file(file));
   if (!stream) throw InputError(fmt::format("cannot read '{}'", file.string()));
   MeasuredTable table;
   table.file_ = file;

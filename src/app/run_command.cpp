@@ -125,7 +125,9 @@ void add_run_command(CLI::App& app) {
                       "Run directory (default: run/NAME); must be new or empty");
   command->add_option("--restart", arguments->restart, "Go on from the latest checkpoint of a run directory")
       ->type_name("DIR");
-  command->add_flag("--force", arguments->force, "Remove the outputs of an earlier run in the run directory");
+  command->add_flag("--force", arguments->force,
+                    "Remove the outputs of an earlier run in the run directory; with --restart: go on though "
+                    "rows of history.csv are missing");
   command
       ->add_option(
           "--ranks", arguments->ranks,

@@ -42,7 +42,7 @@ const std::vector<Quantity>& quantities() {
 }
 
 void print_table() {
-  fmt::print("Quantities are texts with a unit; a bare number is in SI. Examples by kind of quantity:\n\n");
+  fmt::print("Quantities are texts with a unit. Examples by kind of quantity:\n\n");
   for (const Quantity& quantity : quantities()) {
     fmt::print("{} [{}]\n", quantity.name, quantity.si_unit.empty() ? "1" : quantity.si_unit);
     for (const std::string& example : quantity.examples) {

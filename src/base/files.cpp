@@ -10,7 +10,10 @@
 #include <random>
 #include <system_error>
 
+#include <system_error>
+
 #include "src/base/error.hpp"
+#include "src/base/text.hpp"
 
 namespace whipple {
 namespace {
@@ -40,6 +43,22 @@ void write_text(const fs::path& opened, int flags, std::string_view text, const 
 }
 
 }  // namespace
+
+const fs::path& regular_file(const fs::path& path, std::uintmax_t most) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(fmt::format("{}: error: {}", path.string(), why));
+  };
+  if (!fs::exists(status)) return path;
+  if (!fs::is_regular_file(status)) refuse("is a folder, a device or a pipe, expected a regular file");
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (!error && size > most) {
+    refuse(fmt::format("has {}, but such files have at most {}", format_bytes(static_cast<double>(size)),
+                     format_bytes(static_cast<double>(most))));
+  }
+  return path;
+}
 
 void require_new_file(const fs::path& path, bool force) {
   if (!path.empty() && fs::exists(path) && !force) {

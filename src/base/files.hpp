@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
+#include <limits>
 
 namespace whipple {
+
+/// The path again, to be opened: devices need not have an end, and pipes not even a beginning. Of a file that is
+/// missing, opening it says so.
+/// @param most bytes
+/// @throws InputError if it is a folder, a device, a pipe, or larger
+const std::filesystem::path& regular_file(const std::filesystem::path& path,
+                                          std::uintmax_t most = std::numeric_limits<std::uintmax_t>::max());
 
 /// Nothing is overwritten unless asked for. An empty path (no file wanted) passes.
 /// @throws InputError if the file exists and `force` is not set

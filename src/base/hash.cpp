@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 
 namespace whipple {
 namespace {
@@ -71,7 +72,7 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string sha256_of_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file(regular_file(path), std::ios::binary);
   if (!file) throw InputError(fmt::format("cannot read {}", path.string()));
   return sha256(std::string(std::istreambuf_iterator<char>(file), {}));
 }

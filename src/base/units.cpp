@@ -133,6 +133,12 @@ double convert(double value, std::string_view from, std::string_view to) {
   return c.factor * value + c.offset;
 }
 
+double require_no_unit(double value, std::string_view si_unit) {
+  if (si_unit.empty() || value == 0.0 || !std::isfinite(value)) return value;
+  throw InputError(fmt::format("is {} without a unit; in SI units that would be \"{}\"", value,
+                               format_quantity(value, si_unit)));
+}
+
 double parse_quantity(std::string_view text, std::string_view si_unit) {
   const char* begin = text.data();
   const char* end = begin + text.size();
@@ -149,7 +155,7 @@ double parse_quantity(std::string_view text, std::string_view si_unit) {
   std::string_view unit(rest, static_cast<std::size_t>(end - rest));
   while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
   while (!unit.empty() && unit.back() == ' ') unit.remove_suffix(1);
-  if (unit.empty()) return value;
+  if (unit.empty()) return require_no_unit(value, si_unit);
   if (has_factor(unit)) throw InputError(fmt::format("'{}' is not a unit: it holds a second number", unit));
   const Conversion c = conversion(unit, si_unit);
   if (const auto power = power_of_ten(c)) return scaled_decimal(std::string_view(begin, rest), *power);

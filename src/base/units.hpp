@@ -20,7 +20,12 @@ Conversion conversion(std::string_view unit, std::string_view si_unit);
 /// Converts one value.
 double convert(double value, std::string_view from, std::string_view to);
 
-/// Reads "6.58 km/s" and returns the value in `si_unit`; a bare number is taken as `si_unit`.
+/// A number that was given without a unit: what has a dimension needs one, but for 0, which is the same in all,
+/// and for what is not finite, of which ranges speak.
+/// @throws InputError with the reading in SI as the remedy
+double require_no_unit(double value, std::string_view si_unit);
+
+/// Reads "6.58 km/s" and returns the value in `si_unit`; a bare number must pass `require_no_unit`.
 /// @throws InputError with the reason and an example of what is accepted.
 double parse_quantity(std::string_view text, std::string_view si_unit);
 

@@ -14,6 +14,7 @@
 #include <unordered_map>
 
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 #include "src/base/text.hpp"
 #include "src/fem/facets.hpp"
 #include "src/fem/structured.hpp"
@@ -60,7 +61,7 @@ const Kind* kind_of(int number) {
 class GmshReader {
  public:
   GmshReader(GmshFile& file, const std::filesystem::path& path, double length_unit)
-      : file_(file), path_(path), unit_(length_unit), stream_(path) {
+      : file_(file), path_(path), unit_(length_unit), stream_(regular_file(path)) {
     if (!stream_) throw InputError(fmt::format("{}: cannot be read", path.string()));
   }
 

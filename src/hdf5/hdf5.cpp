@@ -96,6 +96,14 @@ Handle open_attribute(const Object& object, const std::string& name) {
                  "read attribute " + name);
 }
 
+/// Bytes of the file that an object lies in.
+std::uint64_t file_size(const Object& object) {
+  const Handle file = checked(H5Iget_file_id(object.id()), H5Fclose, object.name(), "find the file");
+  hsize_t size = 0;
+  check(H5Fget_filesize(file.get(), &size), object.name(), "ask for the size of the file");
+  return size;
+}
+
 void read_number(const Object& object, const std::string& name, H5T_class_t expected, hid_t memory_type,
                  void* value) {
   const Handle attribute = open_attribute(object, name);
@@ -181,7 +189,8 @@ std::vector<std::string> Object::attribute_names() const {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
-  check(H5Aiterate2(id(), H5_INDEX_NAME, H5_ITER_INC, &index, add, &names), name_, "list the attributes");
+  check(H5Aiterate2(id(), H5_INDEX_NAME, H5_ITER_NATIVE, &index, add, &names), name_, "list the attributes");
+  std::ranges::sort(names);
   return names;
 }
 
@@ -204,14 +213,17 @@ std::string Object::text_attribute(const std::string& name) const {
   if (H5Tget_class(type.get()) != H5T_STRING) {
     throw InputError(fmt::format("{}: attribute {} is not a text", name_, name));
   }
-  if (H5Tis_variable_str(type.get()) > 0) {
-    char* pointer = nullptr;
-    check(H5Aread(attribute.get(), type.get(), static_cast<void*>(&pointer)), name_, action);
-    std::string text = pointer == nullptr ? "" : pointer;
-    H5free_memory(pointer);
-    return text;
+  if (H5Tis_variable_str(type.get()) != 0) {
+    throw InputError(fmt::format(
+        "{}: attribute {} is a text of variable length, as earlier versions wrote it; expected one of fixed length",
+        name_, name));
   }
-  std::string text(H5Tget_size(type.get()), '\0');
+  const std::size_t size = H5Tget_size(type.get());
+  const Handle space = checked(H5Aget_space(attribute.get()), H5Sclose, name_, action);
+  if (size > file_size(*this) || H5Sget_simple_extent_npoints(space.get()) != 1) {
+    throw InputError(fmt::format("{}: attribute {} is not a single text that the file could hold", name_, name));
+  }
+  std::string text(size, '\0');
   check(H5Aread(attribute.get(), type.get(), text.data()), name_, action);
   return text.substr(0, text.find('\0'));
 }
@@ -226,29 +238,47 @@ std::vector<std::uint64_t> Dataset::shape() const {
   return {lengths.begin(), lengths.end()};
 }
 
+Dataset::Shape Dataset::stored_shape() const {
+  // No filter of this program shrinks more than deflate can (1032 : 1).
+  constexpr std::uint64_t greatest_compression = 1100;
+  const std::vector<std::uint64_t> lengths = shape();
+  if (lengths.size() > 2) throw InputError(fmt::format("{}: has {} dimensions", name_, lengths.size()));
+  const Shape shape{lengths.empty() ? 1 : lengths[0], lengths.size() < 2 ? 1 : lengths[1]};
+  const std::uint64_t stored = H5Dget_storage_size(id());
+  const Handle type = checked(H5Dget_type(id()), H5Tclose, name_, "read the type");
+  const double declared = static_cast<double>(shape.rows) * static_cast<double>(shape.columns) *
+                          static_cast<double>(H5Tget_size(type.get()));
+  if (stored > file_size(*this) || declared > static_cast<double>(greatest_compression * stored)) {
+    throw InputError(fmt::format("{}: is declared to have {} rows of {} numbers, which the file does not hold",
+                                 name_, shape.rows, shape.columns));
+  }
+  return shape;
+}
+
+void Dataset::require_shape(const Shape& expected) const {
+  const Shape found = stored_shape();
+  if (found.rows == expected.rows && (found.rows == 0 || found.columns == expected.columns)) return;
+  throw InputError(fmt::format("{}: has {} rows of {} numbers, expected {} rows of {}", name_, found.rows,
+                               found.columns, expected.rows, expected.columns));
+}
+
 void Dataset::read_bytes(void* values, hid_t memory_type, std::uint64_t size, const Slab& slab,
                          std::uint64_t columns, bool collective) const {
-  const std::vector<std::uint64_t> lengths = shape();
-  const std::uint64_t rows = lengths.empty() ? 1 : lengths[0];
-  std::uint64_t found_columns = 1;
-  for (std::size_t i = 1; i < lengths.size(); ++i) found_columns *= lengths[i];
-  if (lengths.size() > 2 || slab.total != rows || (rows > 0 && columns != found_columns)) {
-    throw InputError(fmt::format("{}: has {} rows of {} numbers, expected {} rows of {}", name_, rows,
-                                 found_columns, slab.total, columns));
-  }
+  require_shape({slab.total, columns});
   if (size != slab.count * columns) throw InternalError(name_ + ": the room for the rows has another size");
   const Handle type = checked(H5Dget_type(id()), H5Tclose, name_, "read the type");
   if (H5Tget_class(type.get()) != H5Tget_class(memory_type) ||
       H5Tget_size(type.get()) != H5Tget_size(memory_type)) {
     throw InputError(fmt::format("{}: has numbers of another type than expected", name_));
   }
-  if (rows == 0) return;
+  if (slab.total == 0) return;
   const Handle space = checked(H5Dget_space(id()), H5Sclose, name_, "read the shape");
-  if (lengths.empty()) {
+  const int dimensions = H5Sget_simple_extent_ndims(space.get());
+  if (dimensions == 0) {
     check(H5Dread(id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name_, "read");
     return;
   }
-  const Handle memory = select(space.get(), slab, columns, lengths.size() == 1, name_);
+  const Handle memory = select(space.get(), slab, columns, dimensions == 1, name_);
   const Handle transfer = transfer_properties(collective, name_);
   check(H5Dread(id(), memory_type, memory.get(), space.get(), transfer.get(), values), name_, "read");
 }
@@ -288,9 +318,12 @@ std::vector<std::string> Group::names(Order order) const {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
-  check(H5Literate(id(), order == Order::creation ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME, H5_ITER_INC, &index,
-                   add, &names),
+  // HDF5 1.10 sorts in a table of its own, which it frees unfilled, and dies, where the group is damaged.
+  const bool by_creation = order == Order::creation;
+  check(H5Literate(id(), by_creation ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME,
+                   by_creation ? H5_ITER_INC : H5_ITER_NATIVE, &index, add, &names),
         name_, "list the group");
+  if (!by_creation) std::ranges::sort(names);
   return names;
 }
 

@@ -71,17 +71,18 @@ class Object {
   void set_attribute(const std::string& name, std::int64_t value) const;
   void set_attribute(const std::string& name, double value) const;
   void set_attribute(const std::string& name, std::span<const std::int64_t> values) const;
-  /// UTF-8 of variable length.
+  /// UTF-8 of variable length, for other programs alone: h5py shows it as a text, `text_attribute` refuses it.
   void set_attribute(const std::string& name, std::string_view text) const;
   /// Text of exactly its length, stored in the attribute itself (at least one byte; `Type` of VTKHDF).
   void set_fixed_attribute(const std::string& name, std::string_view text,
-                           Characters characters = Characters::ascii) const;
+                           Characters characters = Characters::utf8) const;
 
   [[nodiscard]] bool has_attribute(const std::string& name) const;
   [[nodiscard]] std::vector<std::string> attribute_names() const;
   [[nodiscard]] std::int64_t integer_attribute(const std::string& name) const;
   [[nodiscard]] double real_attribute(const std::string& name) const;
-  /// A text of fixed or of variable length.
+  /// A text of fixed length. Those of variable length are refused: libhdf5 follows a damaged reference to one
+  /// into nowhere.
   [[nodiscard]] std::string text_attribute(const std::string& name) const;
 
   [[nodiscard]] hid_t id() const { return handle_.get(); }
@@ -101,6 +102,15 @@ class Dataset : public Object {
   /// Lengths of the dimensions.
   [[nodiscard]] std::vector<std::uint64_t> shape() const;
 
+  struct Shape {
+    std::uint64_t rows, columns;
+  };
+  /// Shape of a list (one column) or table, to be asked before room is made for it.
+  /// @throws InputError if it has more dimensions, or the file is too small to hold what it declares
+  [[nodiscard]] Shape stored_shape() const;
+  /// @throws InputError naming both shapes, as `stored_shape`
+  void require_shape(const Shape& expected) const;
+
   /// Reads rows [slab.first, slab.first + slab.count), all columns, row by row.
   /// @throws InputError also if the type is of another class or width than T, or the array has other columns.
   template <class T>
@@ -110,13 +120,15 @@ class Dataset : public Object {
   /// The whole array, by this process alone.
   template <class T>
   [[nodiscard]] std::vector<T> read_all() const {
-    std::uint64_t size = 1;
-    const std::vector<std::uint64_t> lengths = shape();
-    for (const std::uint64_t length : lengths) size *= length;
-    std::vector<T> values(size);
-    const std::uint64_t rows = lengths.empty() ? 1 : lengths[0];
-    read_bytes(values.data(), NumberType<T>::memory(), size, Slab::whole(rows), rows == 0 ? 0 : size / rows,
-               false);
+    return read_all<T>(stored_shape());
+  }
+  /// The same, of a known shape.
+  template <class T>
+  [[nodiscard]] std::vector<T> read_all(const Shape& expected) const {
+    require_shape(expected);
+    std::vector<T> values(expected.rows * expected.columns);
+    read_bytes(values.data(), NumberType<T>::memory(), values.size(), Slab::whole(expected.rows),
+               expected.columns, false);
     return values;
   }
 

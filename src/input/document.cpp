@@ -16,6 +16,7 @@
 #include <sstream>
 
 #include "src/base/error.hpp"
+#include "src/base/files.hpp"
 #include "src/base/text.hpp"
 #include "src/base/units.hpp"
 #include "src/input/structure_check.hpp"
@@ -24,6 +25,7 @@ namespace whipple::input {
 
 struct Document::State {
   std::filesystem::path path;
+  bool needs_units = false;  ///< a bare number has none
   toml::table root;
   std::vector<std::pair<std::pair<unsigned, unsigned>, std::string>>
       errors;  // sorted by position when thrown
@@ -114,6 +116,15 @@ void read_into(std::vector<std::string>* target, const toml::node& node, const P
   *target = values;
 }
 
+/// Numbers of a quantity, alone or in a list, need its unit.
+void require_units(const toml::node& node, const ParameterInfo& info) {
+  if (const toml::array* array = node.as_array()) {
+    for (const toml::node& entry : *array) require_units(entry, info);
+  } else if (node.is_number()) {
+    units::require_no_unit(*node.value<double>(), info.unit);
+  }
+}
+
 /// Reads into a copy of the target and commits it only if the value is admissible.
 void read_checked(const BoundParameter& parameter, const toml::node& node) {
   std::visit(
@@ -163,9 +174,9 @@ std::unique_ptr<Document::State> parse(const std::string& text, const std::files
     throw InputError(fmt::format(
         "{}:1:1: error: not a text in UTF-8 but, as it seems, in UTF-16; save it as UTF-8", path.string()));
   }
-  if (const auto stray = find_stray_character(text)) {
-    throw InputError(fmt::format("{}:{}:{}: error: a character beyond ASCII outside of quotes", path.string(),
-                                 stray->line, stray->column));
+  if (const auto fault = find_structure_fault(text)) {
+    throw InputError(
+        fmt::format("{}:{}:{}: error: {}", path.string(), fault->line, fault->column, fault->what));
   }
   try {
     state->root = toml::parse(std::string_view(text), path.string());
@@ -186,14 +197,14 @@ Document& Document::operator=(Document&&) noexcept = default;
 Document::~Document() = default;
 
 Document Document::from_file(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) {
-    throw InputError(fmt::format("{}: error: is a folder, expected a TOML file", path.string()));
-  }
-  std::ifstream file(path);
+  constexpr std::uintmax_t most_bytes = 16'000'000;  // of text: minutes of reading, and no case is so long
+  std::ifstream file(regular_file(path, most_bytes));
   if (!file) throw InputError(fmt::format("{}: error: cannot open the file", path.string()));
   std::ostringstream text;
   text << file.rdbuf();
-  return Document(parse(text.str(), path));
+  std::unique_ptr<State> state = parse(text.str(), path);
+  state->needs_units = true;
+  return Document(std::move(state));
 }
 
 Document Document::from_text(const std::string& text, const std::string& name) {
@@ -229,7 +240,7 @@ void Document::set(std::string_view key, std::string_view value) {
   if (table == nullptr) throw fault("the last part but one is not a table");
   const std::string line = fmt::format("value = {}", value);
   try {
-    const toml::table parsed = find_stray_character(line) ? toml::table() : toml::parse(line);
+    const toml::table parsed = find_structure_fault(line) ? toml::table() : toml::parse(line);
     if (parsed.size() == 1) {
       // Copies carry no position: errors then name --set, not line 1 of the file.
       table->insert_or_assign(path.back(), *parsed.get("value"));
@@ -279,6 +290,7 @@ bool Table::read(std::span<const BoundParameter> parameters) {
       continue;
     }
     try {
+      if (state_->needs_units) require_units(*node, info);
       read_checked(parameter, *node);
     } catch (const InputError& fault) {
       sound = false;

@@ -19,8 +19,10 @@ class Table;
 /// One input file. Errors are collected while its tables are read; `finish` throws them together.
 class Document {
  public:
+  /// What people wrote: every number of a quantity needs its unit, but for 0.
   /// @throws InputError if the file is missing or is not TOML (with file:line:column).
   static Document from_file(const std::filesystem::path& path);
+  /// What a program wrote: a number without a unit is in SI.
   static Document from_text(const std::string& text, const std::string& name);
 
   Document(Document&&) noexcept;

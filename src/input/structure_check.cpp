@@ -15,18 +15,28 @@ class Scanner {
  public:
   explicit Scanner(std::string_view text) : text_(text) {}
 
-  std::optional<StrayCharacter> run() {
+  std::optional<StructureFault> run() {
     if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;  // byte order mark
     while (at_ < text_.size()) {
       const char c = text_[at_];
       const bool beyond_ascii = static_cast<unsigned char>(c) >= 0x80;
-      if (beyond_ascii && (place_ == Place::structure || behind_line_break_)) return position();
+      if (beyond_ascii && (place_ == Place::structure || behind_line_break_))
+        return fault("a character beyond ASCII outside of quotes");
+      if (place_ == Place::structure && !count_parts(c)) return fault("a key of more than 32 parts");
       step(c);
     }
     return std::nullopt;
   }
 
  private:
+  /// A point between the parts of a key, or in a number. @returns whether there are not too many
+  bool count_parts(char c) {
+    constexpr int most_parts = 32;
+    if (c == '.') ++points_;
+    if (c == '=' || c == ',' || c == '[' || c == '{' || c == '\n') points_ = 0;
+    return points_ < most_parts;
+  }
+
   void step(char c) {
     if (behind_line_break_ && !is_blank(c)) behind_line_break_ = false;
     switch (place_) {
@@ -89,8 +99,9 @@ class Scanner {
     return true;
   }
 
-  [[nodiscard]] StrayCharacter position() const {
-    StrayCharacter found;
+  [[nodiscard]] StructureFault fault(const char* what) const {
+    StructureFault found;
+    found.what = what;
     for (const char c : text_.substr(0, at_)) {
       const bool continuation = (static_cast<unsigned char>(c) & 0xc0) == 0x80;
       if (c == '\n') {
@@ -105,12 +116,13 @@ class Scanner {
 
   std::string_view text_;
   std::size_t at_ = 0;
+  int points_ = 0;  // since the last key or value began
   Place place_ = Place::structure;
   bool behind_line_break_ = false;
 };
 
 }  // namespace
 
-std::optional<StrayCharacter> find_stray_character(std::string_view text) { return Scanner(text).run(); }
+std::optional<StructureFault> find_structure_fault(std::string_view text) { return Scanner(text).run(); }
 
 }  // namespace whipple::input

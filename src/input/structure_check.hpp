@@ -6,17 +6,20 @@
 
 namespace whipple::input {
 
-/// Where a text holds a character beyond ASCII outside of strings and comments.
-struct StrayCharacter {
+/// What toml++ must not see.
+struct StructureFault {
   unsigned line = 1;
   unsigned column = 1;
+  const char* what = "";
 };
 
-/// TOML allows characters beyond ASCII in strings and comments only. toml++ up to 3.4 does not refuse them
-/// elsewhere but runs into an unreachable branch (https://github.com/marzer/tomlplusplus/issues/190 and 295),
-/// so they are looked for before it sees the text. The same branch waits behind a backslash that ends a line
-/// of a multi-line string: a character beyond ASCII that follows the line break counts as stray too.
-/// @returns the first such character; none if the text may be parsed
-std::optional<StrayCharacter> find_stray_character(std::string_view text);
+/// Looks for two things that TOML forbids or no input needs, and that toml++ up to 3.4 does not survive:
+/// - characters beyond ASCII outside of strings and comments, at which it runs into an unreachable branch
+///   (https://github.com/marzer/tomlplusplus/issues/190 and 295); the same branch waits behind a backslash that
+///   ends a line of a multi-line string: a character beyond ASCII that follows the line break counts too
+/// - keys of very many parts ("a.a.a..."), each of which is a table within a table: taking them apart again
+///   overflows the stack
+/// @returns the first; none if the text may be parsed
+std::optional<StructureFault> find_structure_fault(std::string_view text);
 
 }  // namespace whipple::input

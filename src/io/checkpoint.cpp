@@ -81,7 +81,7 @@ void write_points(const hdf5::Group& group, const Points& points, const Ranks& r
     storage.columns = Numbers<Value>::columns;
     const std::span<const Number> numbers(reinterpret_cast<const Number*>(values.data()), n * width<Value>());
     const hdf5::Dataset array = group.write<Number>(field.name, numbers, slab, storage);
-    array.set_attribute("unit", std::string_view(field.unit));
+    array.set_fixed_attribute("unit", field.unit);
   });
 }
 
@@ -106,13 +106,21 @@ void require_fields(const hdf5::Group& group) {
 template <class Points>
 void read_points(const hdf5::Group& group, Points& points, const Ranks& ranks) {
   require_fields<Points>(group);
-  const auto total = static_cast<std::uint64_t>(group.integer_attribute("count"));
+  const std::int64_t declared = group.integer_attribute("count");
+  if (declared < 0) throw InputError(fmt::format("{}: is declared to hold {} points", group.name(), declared));
+  const auto total = static_cast<std::uint64_t>(declared);
+  const std::vector<std::string> found = group.names();
+  // Before any room is made: what the file declares, it must hold.
+  for_each_field<Points>([&](const auto& field) {
+    using Value = typename std::decay_t<decltype(points.*(field.values))>::value_type;
+    if (std::ranges::find(found, field.name) == found.end()) return;
+    group.open_dataset(field.name).require_shape({total, width<Value>()});
+  });
   const auto rank = static_cast<std::uint64_t>(ranks.rank());
   const auto count = static_cast<std::uint64_t>(ranks.count());
   const std::uint64_t first = total * rank / count;
   const hdf5::Slab slab{first, total * (rank + 1) / count - first, total};
   resize(points, slab.count);
-  const std::vector<std::string> found = group.names();
   for_each_field<Points>([&](const auto& field) {
     auto& values = points.*(field.values);
     if (field.optional) {
@@ -188,7 +196,7 @@ void write_named(const hdf5::Group& group, const std::string& name, std::span<co
   const hdf5::Dataset array =
       group.write<Number>(fmt::format("{:06}", group.names().size()), numbers.first(mine),
                           {0, mine, numbers.size()}, checksummed);
-  array.set_attribute("name", std::string_view(name));
+  array.set_fixed_attribute("name", name);
 }
 
 void write_values(const hdf5::Group& group, const CheckpointValues& values, const Ranks& ranks) {

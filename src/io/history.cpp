@@ -10,6 +10,7 @@
 
 #include "src/base/error.hpp"
 #include "src/io/run_directory.hpp"
+#include "src/io/sealed_file.hpp"
 
 namespace whipple::io {
 namespace {
@@ -92,6 +93,7 @@ History History::restart(std::filesystem::path path, std::int64_t last_step) {
     }
     if (value > static_cast<double>(last_step)) break;  // steps ascend: what follows is later
     kept = end + 1;
+    ++history.rows_;
   }
   if (kept != all.size()) write_text_atomically(history.path_, all.substr(0, kept));
   return history;
@@ -125,6 +127,11 @@ void History::append(std::span<const HistoryValue> row) {
   stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream_.flush();
   if (!stream_) throw InputError(fmt::format("{}: cannot write the row; is the disk full?", path_.string()));
+  ++rows_;
+}
+
+void History::force_to_disk() const {
+  if (rows_ > 0) io::force_to_disk(path_);
 }
 
 }  // namespace whipple::io

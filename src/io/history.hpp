@@ -30,6 +30,12 @@ class History {
   /// @throws InputError if the file has no column "step" or a damaged row
   static History restart(std::filesystem::path path, std::int64_t last_step);
 
+  /// Rows of the file.
+  [[nodiscard]] std::int64_t rows() const { return rows_; }
+
+  /// A power failure after this leaves all rows so far. @throws InputError naming the file
+  void force_to_disk() const;
+
   /// Appends a row. The first row of the object decides, or after a restart must match, the columns.
   /// @throws InputError   if the file cannot be written or a restarted table has other columns
   /// @throws InternalError if the columns changed between two rows
@@ -40,6 +46,7 @@ class History {
  private:
   std::filesystem::path path_;
   std::ofstream stream_;
+  std::int64_t rows_ = 0;
   std::string header_;      ///< of the file; empty before the first row
   bool continued_ = false;  ///< the header was read, not written
 };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/io/sealed_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -105,6 +107,14 @@ void require_seal(const fs::path& path) {
   if (found != seal_text(format, size, digest) || digest_of(path) != digest) {
     throw InputError(fmt::format("{}: damaged: the content does not match its digest", path.string()));
   }
+}
+
+void force_to_disk(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) fail(path, "open the file");
+  const int synced = ::fsync(file);
+  ::close(file);
+  if (synced != 0) fail(path, "force the file to disk");
 }
 
 }  // namespace whipple::io

@@ -12,12 +12,15 @@ namespace whipple::io {
 /// Bytes at the beginning of the file that belong to the seal.
 constexpr std::uint64_t seal_size = 512;
 /// Format of checkpoints; a reader refuses newer ones.
-constexpr int checkpoint_format = 1;
+constexpr int checkpoint_format = 2;
 
 /// Writes the seal of a complete file into its first bytes. @throws InputError naming the file
 void seal(const std::filesystem::path& path);
 
 /// @throws InputError naming the file and what is wrong: not sealed, of a newer format, truncated, damaged
 void require_seal(const std::filesystem::path& path);
+
+/// A power failure after this leaves the content of the file. @throws InputError naming the file
+void force_to_disk(const std::filesystem::path& path);
 
 }  // namespace whipple::io

@@ -34,7 +34,7 @@ void UnstructuredGrid::write(const std::filesystem::path& path, const Ranks& ran
   const hdf5::Group vtk = file.root.create_group("VTKHDF");
   const std::array<std::int64_t, 2> version = {1, 0};
   vtk.set_attribute("Version", version);
-  vtk.set_fixed_attribute("Type", "UnstructuredGrid");
+  vtk.set_fixed_attribute("Type", "UnstructuredGrid", hdf5::Characters::ascii);
   const auto rank = static_cast<std::uint64_t>(ranks.rank()),
              partitions = static_cast<std::uint64_t>(ranks.count());
   const auto write_count = [&](const char* name, std::uint64_t count) {

@@ -49,6 +49,9 @@ void read_body(Case& setup, input::Table table, std::set<std::string>& names,
         "name", fmt::format("'name' is \"{}\": letters, digits, '_' and '-' only, it names columns of output",
                             body.name));
   }
+  if (body.name.empty() && table.has("name")) {
+    table.error_at("name", "'name' is empty: output files name the body by it");
+  }
   if (!body.name.empty() && !names.insert(body.name).second) {
     table.error_at("name", fmt::format("two bodies are called \"{}\"", body.name));
   }

@@ -357,13 +357,11 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   if (contact && !setup.bodies.empty()) check_contact(setup, *contact);
   setup.gauges = read_gauges(root);
   if (complete) {
-    for (const std::string& fault : gauge_faults(setup.gauges, setup.geometry, [&](const Vector3& point) {
-           return std::ranges::any_of(setup.bodies, [&](const Body& b) {
-             return !b.discretization.is_bars() && b.shape->contains(point);
-           });
-         })) {
-      root.error(fault);
-    }
+    check_gauges(setup.gauges, root, setup.geometry, [&](const Vector3& point) {
+      return std::ranges::any_of(setup.bodies, [&](const Body& b) {
+        return !b.discretization.is_bars() && b.shape->contains(point);
+      });
+    });
   }
   document.finish();
   return setup;
@@ -414,7 +412,7 @@ std::string to_toml(const Case& setup, const std::vector<std::string>& material_
 
 std::string describe_case() {
   std::string text =
-      "Case file (TOML). Quantities are numbers in SI or texts with a unit, \"6.58 km/s\".\n\n";
+      "Case file (TOML). Quantities are texts with a unit, \"6.58 km/s\".\n\n";
   text += describe_table(Case::parameters());
   text += "\n[domain]\n" + describe_table(Domain::parameters());
   text += "\n[domain.boundary], or boundary = { x_lower = \"symmetry\", ... }\n" +

@@ -47,10 +47,24 @@ std::string Gauges::toml() const {
   return text;
 }
 
+namespace {
+
+/// The table that each of `Gauges::all` stands in.
+std::vector<input::Table> tables_of(const Gauges& gauges, input::Table& root) {
+  std::vector<input::Table> tables = root.list("gauge");
+  const std::vector<input::Table> lines = root.list("tracers");
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    tables.insert(tables.end(), static_cast<std::size_t>(gauges.tracers[i].count), lines[i]);
+  return tables;
+}
+
+}  // namespace
+
 Gauges read_gauges(input::Table& root) {
   Gauges gauges;
   const auto check_name = [](input::Table& table, const std::string& name) {
     const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+    if (name.empty() && table.has("name")) table.error_at("name", "'name' is empty: it names columns");
     if (!std::ranges::all_of(name, allowed)) {
       table.error_at(
           "name", fmt::format("'name' is \"{}\": letters, digits, '_' and '-' only, it names columns", name));
@@ -67,32 +81,33 @@ Gauges read_gauges(input::Table& root) {
     check_name(table, line.name);
   }
   std::set<std::string> names;
-  for (const Gauge& gauge : gauges.all()) {
-    if (!gauge.name.empty() && !names.insert(gauge.name).second) {
-      root.error(fmt::format("two gauges are called \"{}\"", gauge.name));
-    }
+  std::vector<input::Table> tables = tables_of(gauges, root);
+  const std::vector<Gauge> all = gauges.all();
+  for (std::size_t g = 0; g < all.size(); ++g) {
+    if (!all[g].name.empty() && !names.insert(all[g].name).second)
+      tables[g].error_at("name", fmt::format("two gauges are called \"{}\"", all[g].name));
   }
   return gauges;
 }
 
-std::vector<std::string> gauge_faults(const Gauges& gauges, const grid::Geometry& geometry,
-                                      const std::function<bool(const Vector3&)>& in_matter) {
-  std::vector<std::string> faults;
-  for (const Gauge& gauge : gauges.all()) {
-    const Vector3& x = gauge.position;
+void check_gauges(const Gauges& gauges, input::Table& root, const grid::Geometry& geometry,
+                  const std::function<bool(const Vector3&)>& in_matter) {
+  std::vector<input::Table> tables = tables_of(gauges, root);
+  const std::vector<Gauge> all = gauges.all();
+  for (std::size_t g = 0; g < all.size(); ++g) {
+    const Vector3& x = all[g].position;
+    const auto fault = [&](const char* what) {
+      tables[g].error_at("position", fmt::format("gauge \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m {}", all[g].name,
+                                                 x[0], x[1], x[2], what));
+    };
     bool inside = true;
     for (int a = 0; a < 3; ++a) inside &= x[a] >= geometry.lower[a] && x[a] <= geometry.upper(a);
     if (!inside) {
-      faults.push_back(fmt::format("gauge \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m is outside of the domain",
-                                   gauge.name, x[0], x[1], x[2]));
-    } else if (gauge.moving() && !in_matter(x)) {
-      faults.push_back(
-          fmt::format("gauge \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m moves with matter, but no body is "
-                      "there that has some (bars do not count)",
-                      gauge.name, x[0], x[1], x[2]));
+      fault("is outside of the domain");
+    } else if (all[g].moving() && !in_matter(x)) {
+      fault("moves with matter, but no body is there that has some (bars do not count)");
     }
   }
-  return faults;
 }
 
 }  // namespace whipple::setup

@@ -44,10 +44,9 @@ struct Gauges {
 /// Reads [[gauge]] and [[tracers]]; errors of names and numbers are those of the document.
 Gauges read_gauges(input::Table& root);
 
-/// A gauge that cannot be: outside of the domain, or moving and where no matter is.
+/// Reports at its table each gauge that cannot be: outside of the domain, or moving and where no matter is.
 /// @param in_matter  whether some body of particles or elements fills a point
-/// @returns one message per gauge at fault
-std::vector<std::string> gauge_faults(const Gauges& gauges, const grid::Geometry& geometry,
-                                      const std::function<bool(const Vector3&)>& in_matter);
+void check_gauges(const Gauges& gauges, input::Table& root, const grid::Geometry& geometry,
+                  const std::function<bool(const Vector3&)>& in_matter);
 
 }  // namespace whipple::setup

@@ -107,16 +107,14 @@ int run(const RunOptions& options) {
     const io::RunDirectory directory =
         io::RunDirectory::open(options.output_directory, checkpoint.values.text("run_name"));
     if (ranks.is_root()) log::add_file(directory.log_file());
-    ranks.on_root([&] {
-      directory.remove_partial_files();
-      if (options.overrides.empty()) return;
-      // The next restart goes on with the changed input; its materials are the copies in the run directory.
-      std::vector<std::string> materials;
+    ranks.on_root([&] { directory.remove_partial_files(); });
+    std::string changed_input;
+    if (!options.overrides.empty()) {
+      std::vector<std::string> materials;  // the copies in the run directory
       for (const setup::Body& body : setup.bodies) materials.push_back(body.material);
-      directory.write_input(setup::to_toml(setup, materials) +
-                            provenance(setup, options.program, ranks.count()));
-    });
-    return run_steps(setup, directory, std::move(checkpoint), options, ranks);
+      changed_input = setup::to_toml(setup, materials) + provenance(setup, options.program, ranks.count());
+    }
+    return run_steps(setup, directory, std::move(checkpoint), changed_input, options, ranks);
   }
   setup::Case setup = setup::read_case(options.case_file, options.overrides);
   require_memory(setup, parallel::world());

@@ -15,7 +15,8 @@ struct RunOptions {
   std::filesystem::path case_file;         ///< empty on restart: run.toml of the directory
   std::filesystem::path output_directory;  ///< empty: the name of the case's folder, or of its file, in ./run
   bool restart = false;                    ///< go on from the latest checkpoint in output_directory
-  bool force = false;                      ///< remove the outputs of an earlier run in output_directory
+  bool force = false;                      ///< remove the outputs of an earlier run in output_directory; on
+                                           ///< restart: go on though rows of its tables are missing
   int threads = 0;                         ///< of each rank; 0: its share of the cores
   double wall_time = 0.0;                  ///< s, then a checkpoint is written and the run ends; 0: no limit
   std::string program = "whipple";         ///< name and version, for provenance

@@ -22,6 +22,7 @@
 #include "src/parallel/threads.hpp"
 #include "src/solver/checkpointing.hpp"
 #include "src/solver/gauges.hpp"
+#include "src/solver/restart.hpp"
 #include "src/solver/signals.hpp"
 #include "src/solver/simulation.hpp"
 
@@ -32,6 +33,10 @@ using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
 constexpr int out_of_time_code = 124;  // that of timeout(1)
+
+/// Names in checkpoints of the rows that the tables have.
+constexpr const char* history_rows = "history_rows";
+constexpr const char* gauges_rows = "gauges_rows";
 
 /// J, part of the internal energy of these points.
 double stored_cold_work(const MaterialPoints& points) {
@@ -245,18 +250,29 @@ class Runner {
   }
 
   Runner(const setup::Case& setup, const io::RunDirectory& directory, io::Checkpoint checkpoint,
-         const RunOptions& options, const io::Ranks& ranks)
+         const std::string& changed_input, const RunOptions& options, const io::Ranks& ranks)
       : directory_(directory),
         ranks_(ranks),
         wall_time_(options.wall_time),
-        simulation_(setup, std::move(checkpoint.particles), from_checkpoint(checkpoint.values),
-                    parallel::world(), std::move(checkpoint.meshes), std::move(checkpoint.bars)),
-        series_(setup, directory, directory.path()),
+        simulation_(resume(setup, checkpoint, parallel::world())),
+        series_(setup, with_input(directory, changed_input, ranks), directory.path()),
         recorder_(setup.gauges.all(), checkpoint.values),
         snapshots_(checkpoint.values.integer("snapshots")) {
     ranks_.on_root([&] {
-      history_.emplace(io::History::restart(directory.history_file(), simulation_.state().step));
-      gauges_.emplace(io::History::restart(gauges_file(), simulation_.state().step));
+      const auto reopen = [&](const fs::path& file, const char* rows) {
+        io::History table = io::History::restart(file, simulation_.state().step);
+        const std::int64_t expected = checkpoint.values.integer(rows);
+        if (table.rows() != expected && !options.force) {
+          throw InputError(
+              fmt::format("{}: has {} rows up to step {} of the checkpoint, but {} were written; bring the file "
+                          "back, or go on without them: whipple run --restart {} --force",
+                          file.string(), table.rows(), simulation_.state().step, expected,
+                          directory.path().string()));
+        }
+        return table;
+      };
+      history_.emplace(reopen(directory.history_file(), history_rows));
+      gauges_.emplace(reopen(gauges_file(), gauges_rows));
     });
     series_.restart(simulation_.state().time);
     log::info("restarted from {} at step {}, t = {:.6g} s", checkpoint.path.string(),
@@ -338,6 +354,15 @@ class Runner {
     return {static_cast<int>(numbers[0]), numbers[1] > 0.0, numbers[2] > 0.0};
   }
 
+  /// The next restart goes on with the changed input.
+  static const io::RunDirectory& with_input(const io::RunDirectory& directory, const std::string& changed,
+                                            const io::Ranks& ranks) {
+    ranks.on_root([&] {
+      if (!changed.empty()) directory.write_input(changed);
+    });
+    return directory;
+  }
+
   static double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
   }
@@ -407,8 +432,19 @@ class Runner {
     writer_.wait();
     io::CheckpointValues values = to_checkpoint(simulation_.state());
     values.integers["snapshots"] = snapshots_;
+    const auto rows_of = [&](const std::optional<io::History>& table) {
+      return std::stoll(ranks_.broadcast(table ? fmt::format("{}", table->rows()) : ""));
+    };
+    values.integers[history_rows] = rows_of(history_);
+    values.integers[gauges_rows] = rows_of(gauges_);
     recorder_.to_checkpoint(values);
     values.texts["run_name"] = directory_.name();
+    remember_input(simulation_.setup(), values);
+    // What the checkpoint counts must not be lost where it is kept.
+    ranks_.on_root([&] {
+      history_->force_to_disk();
+      gauges_->force_to_disk();
+    });
     const fs::path path = io::write_checkpoint(
         folder, simulation_.state().step, simulation_.particles(), values, simulation_.communicator(),
         simulation_.meshes_for_checkpoint(), simulation_.bars_for_checkpoint());
@@ -462,8 +498,8 @@ int run_steps(const setup::Case& setup, const io::RunDirectory& directory, const
 }
 
 int run_steps(const setup::Case& setup, const io::RunDirectory& directory, io::Checkpoint checkpoint,
-              const RunOptions& options, const io::Ranks& ranks) {
-  return Runner(setup, directory, std::move(checkpoint), options, ranks).run();
+              const std::string& changed_input, const RunOptions& options, const io::Ranks& ranks) {
+  return Runner(setup, directory, std::move(checkpoint), changed_input, options, ranks).run();
 }
 
 }  // namespace whipple::solver

@@ -14,7 +14,9 @@ int run_steps(const setup::Case& setup, const io::RunDirectory& directory, const
               const io::Ranks& ranks);
 
 /// The same from a checkpoint on.
+/// @param changed_input  replaces run.toml once the case has taken the state over; empty: it stays
+/// @throws InputError if the checkpoint is not one of this case, or rows of the tables before it are missing
 int run_steps(const setup::Case& setup, const io::RunDirectory& directory, io::Checkpoint checkpoint,
-              const RunOptions& options, const io::Ranks& ranks);
+              const std::string& changed_input, const RunOptions& options, const io::Ranks& ranks);
 
 }  // namespace whipple::solver

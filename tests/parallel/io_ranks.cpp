@@ -113,7 +113,7 @@ TEST_F(RanksTest, a_snapshot_has_one_partition_per_rank) {
   EXPECT_EQ(vtk.open_dataset("Connectivity").read_all<std::int64_t>(), connectivity);
   EXPECT_EQ(vtk.open_group("PointData").open_dataset("id").read_all<std::uint64_t>(), all.id);
   EXPECT_EQ(file.root.open_group("run").integer_attribute("ranks"), ranks_.count());
-  EXPECT_EQ(file.root.open_group("run").text_attribute("input").size(), 100'000U);
+  EXPECT_TRUE(file.root.open_group("run").has_attribute("input"));
 
   series.restart(0.5);
   EXPECT_EQ(series.size(), 1U);

@@ -2,7 +2,9 @@
 // Proves: a run that is killed (SIGKILL) and restarted gives bitwise the history of an undisturbed run; one
 // and two threads give bitwise the same; SIGTERM writes a checkpoint and ends cleanly; a failed state is
 // saved and named. Every run is a child process, as a user's would be, and MPI is started in none of the
-// parents.
+// parents. And that a run goes on from a checkpoint of its own input only: grid, bodies, materials, gauges,
+// rows of its tables, numbers that a state can have.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,6 +21,8 @@
 #include "src/base/log.hpp"
 #include "src/base/progress.hpp"
 #include "src/io/checkpoint.hpp"
+#include "src/setup/case.hpp"
+#include "src/solver/restart.hpp"
 #include "src/solver/run.hpp"
 #include "tests/parallel/debris_case.hpp"
 
@@ -88,7 +92,8 @@ class Run : public testing::Test {
       } catch (const StateError& error) {
         std::ofstream(options.output_directory / "error.txt") << error.what();
         code = 3;
-      } catch (const InputError&) {
+      } catch (const InputError& error) {
+        std::ofstream(options.output_directory / "error.txt") << error.what();
         code = 2;
       }
       _exit(code);
@@ -203,6 +208,145 @@ TEST_F(Run, NothingIsOverwritten) {
   const int status = run_in_child(options("whole"));
   EXPECT_EQ(WEXITSTATUS(status), 2);
   EXPECT_EQ(first_difference(history("whole"), before), "");
+}
+
+/// A ball in flight, its run ended after the first step.
+class Restart : public Run {
+ protected:
+  void SetUp() override {
+    Run::SetUp();
+    fs::copy_file(WHIPPLE_SOURCE_DIR "/eos/materials/aluminium_1100_mie_gruneisen.toml", folder_ / "metal.toml");
+    std::ofstream(folder_ / "debris.toml") << R"(
+[domain]
+lower = ["-3 mm", "-3 mm", "-3 mm"]
+upper = ["3 mm", "3 mm", "3 mm"]
+cell_size = "1 mm"
+[time]
+end = "4 us"
+[[body]]
+name = "ball"
+material = "metal.toml"
+velocity = ["1 km/s", "0 m/s", "0 m/s"]
+shape = { sphere = { center = ["0 mm", "0 mm", "0 mm"], radius = "2 mm" } }
+[[body]]
+name = "plate"
+material = "metal.toml"
+shape = { box = { lower = ["-3 mm", "-3 mm", "2 mm"], upper = ["3 mm", "3 mm", "3 mm"] } }
+[[gauge]]
+name = "rear"
+kind = "moving"
+position = ["1 mm", "1 mm", "1 mm"]
+)";
+    begin({});
+  }
+  void begin(const std::vector<std::pair<std::string, std::string>>& overrides) const {
+    solver::RunOptions first = options("run");
+    first.force = true;
+    first.wall_time = 1e-9;
+    first.overrides = overrides;
+    ASSERT_EQ(WEXITSTATUS(run_in_child(first)), 124);
+  }
+  /// Goes on for another step. @returns the exit code
+  int restart(const std::vector<std::pair<std::string, std::string>>& changes = {}, bool force = false) {
+    solver::RunOptions again = options("run");
+    again.case_file.clear();
+    again.restart = true;
+    again.force = force;
+    again.wall_time = 1e-9;
+    again.overrides = changes;
+    fs::remove(folder_ / "run" / "error.txt");
+    return WEXITSTATUS(run_in_child(again));
+  }
+  [[nodiscard]] std::string error() const { return text(folder_ / "run" / "error.txt"); }
+  void replace(const fs::path& file, const std::string& old, const std::string& by) const {
+    std::string content = text(folder_ / "run" / file);
+    const std::size_t at = content.find(old);
+    ASSERT_NE(at, std::string::npos) << old;
+    content.replace(at, old.size(), by);
+    std::ofstream(folder_ / "run" / file, std::ios::binary) << content;
+  }
+};
+
+TEST_F(Restart, WithAnotherInputIsRefusedAndNamesWhatDiffers) {
+  using testing::HasSubstr;
+  const io::CheckpointValues values =
+      io::read_checkpoint(io::list_checkpoints(folder_ / "run" / "checkpoint").front(), MPI_COMM_SELF).values;
+  const auto refused = [&](const fs::path& file, const std::string& old, const std::string& by,
+                           const std::string& named) {
+    const std::string before = text(folder_ / "run" / file);
+    replace(file, old, by);
+    try {
+      solver::require_same_input(setup::read_case(folder_ / "run" / "run.toml", {}), values);
+      ADD_FAILURE() << "accepted: " << by;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::AllOf(HasSubstr(named), HasSubstr("put them back")));
+    }
+    std::ofstream(folder_ / "run" / file, std::ios::binary) << before;
+  };
+  refused("run.toml", "cell_size = \"0.001 m\"", "cell_size = \"0.9 mm\"",
+          "domain.cell_size = \"0.0009 m\", was \"0.001 m\"");
+  refused("run.toml", "radius = \"0.002 m\"", "radius = \"2.1 mm\"", "body[0].shape");
+  refused("run.toml", "name = \"rear\"", "name = \"back\"", "gauge[0].name = \"back\", was \"rear\"");
+  refused("materials/metal.toml", "\ngruneisen = 1.97", "\ngruneisen = 1.96", "the material of body \"ball\" is another");
+  EXPECT_EQ(restart({{"gauge.0.position", "[\"0 m\", \"0 m\", \"0 m\"]"}}), 2);
+  EXPECT_THAT(error(), HasSubstr("gauge[0].position"));
+  EXPECT_EQ(restart({{"time.end", "5 us"}, {"output.snapshot_every", "2 us"}}), 124) << error();
+  EXPECT_EQ(restart(), 124) << "run.toml holds the change now: " << error();
+}
+
+TEST_F(Restart, WithAMethodThatTheStateDoesNotServeNamesTheKeyAndLeavesTheInput) {
+  begin({{"contact.method", "none"}});
+  const std::string before = text(folder_ / "run" / "run.toml");
+  EXPECT_EQ(restart({{"contact.method", "multi_field"}}), 2);
+  EXPECT_THAT(error(), testing::HasSubstr("changed since then: contact.method = \"multi_field\", was \"none\""));
+  EXPECT_EQ(text(folder_ / "run" / "run.toml"), before);
+}
+
+TEST_F(Restart, WithRowsMissingBeforeTheCheckpointIsRefusedUnlessForced) {
+  const std::string whole = history("run");
+  const std::size_t last_row = whole.rfind('\n', whole.size() - 2) + 1;
+  std::ofstream(folder_ / "run" / "history.csv", std::ios::binary) << whole.substr(0, last_row);
+  EXPECT_EQ(restart(), 2);
+  EXPECT_THAT(error(), testing::HasSubstr("has 1 rows up to step 1 of the checkpoint, but 2 were written"));
+  EXPECT_EQ(restart({}, true), 124) << error();
+  EXPECT_EQ(restart(), 124) << "what was given up is not asked for again: " << error();
+}
+
+TEST_F(Restart, WithNumbersThatNoStateHasIsRefused) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const fs::path path = io::list_checkpoints(folder_ / "run" / "checkpoint").front();
+  const io::Checkpoint whole = io::read_checkpoint(path, MPI_COMM_SELF);
+  const setup::Case setup = setup::read_case(folder_ / "run" / "run.toml", {});
+  EXPECT_NO_THROW(solver::require_admissible(setup, whole, MPI_COMM_SELF));
+  using Forgery = std::function<void(io::Checkpoint&)>;
+  const std::vector<std::pair<const char*, Forgery>> forgeries = {
+      {"particles/body", [](io::Checkpoint& c) { c.particles.body[5] = 255; }},
+      {"particles/damage", [](io::Checkpoint& c) { c.particles.damage[0] = nan; }},
+      {"particles/failed", [](io::Checkpoint& c) { c.particles.failed[7] = 200; }},
+      {"particles/maximum_pressure", [](io::Checkpoint& c) { c.particles.maximum_pressure[9] = nan; }},
+      {"particles/melting_time", [](io::Checkpoint& c) { c.particles.melting_time[1] = -2.0; }},
+      {"particles/position", [](io::Checkpoint& c) { c.particles.position[3][1] = nan; }},
+      {"particles/deviatoric_stress", [](io::Checkpoint& c) { c.particles.deviatoric_stress[2].xy = 1.0 / 0.0; }},
+      {"values/initial_mass", [](io::Checkpoint& c) { c.values.reals["initial_mass"] = nan; }},
+      {"values/time", [](io::Checkpoint& c) { c.values.reals["time"] = nan; }},
+      {"values/step", [](io::Checkpoint& c) { c.values.integers["step"] = -1; }},
+      {"values/touched", [](io::Checkpoint& c) { c.values.arrays["touched"].assign(2, 1e300); }},
+  };
+  for (const auto& [named, forge] : forgeries) {
+    io::Checkpoint forged = whole;
+    forge(forged);
+    try {
+      solver::require_admissible(setup, forged, MPI_COMM_SELF);
+      ADD_FAILURE() << "accepted: " << named;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(named));
+    }
+  }
+  io::Checkpoint forged = whole;
+  forgeries.front().second(forged);
+  io::write_checkpoint(folder_ / "run" / "checkpoint", 1, forged.particles, forged.values, MPI_COMM_SELF);
+  EXPECT_EQ(restart(), 2);
+  EXPECT_THAT(error(), testing::HasSubstr(forgeries.front().first));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "eos/audit.hpp"
+#include "eos/models/jwl.hpp"
 #include "src/base/error.hpp"
 #include "src/material/material_file.hpp"
 #include "tests/unit/eos_impact_constants.hpp"
@@ -16,6 +17,7 @@
 namespace whipple::eos::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(EosAudit, LibraryIsUsableAndTheBriefFormIsQuick) {
@@ -30,6 +32,27 @@ TEST(EosAudit, LibraryIsUsableAndTheBriefFormIsQuick) {
     EXPECT_LT(seconds, 0.3);  // some 1 ms; busy machines
     EXPECT_NO_THROW(require_usable(material));
   }
+}
+
+/// Constants of tetryl, its density in another unit: all identities hold, of an explosive that does not exist.
+TEST(EosAudit, FindsExplosivesThatDoNotExist) {
+  const auto tetryl = [](double density, double pressure_1, double exponent_1) {
+    return JwlConstants{.reference_density = density,
+                        .pressure_1 = pressure_1,
+                        .pressure_2 = 10.671e9,
+                        .exponent_1 = exponent_1,
+                        .exponent_2 = 1.2,
+                        .gruneisen = 0.28,
+                        .detonation_energy = 8.2e9,
+                        .heat_capacity = 578};
+  };
+  EXPECT_EQ(audit(ModelEquationOfState<Jwl>(tetryl(1730, 586.83e9, 4.4))).verdict(), Verdict::sound);
+  const Audit dense = audit(ModelEquationOfState<Jwl>(tetryl(1.73e6, 586.83e9, 4.4)));
+  EXPECT_EQ(dense.verdict(), Verdict::not_usable);
+  EXPECT_THAT(dense.summary(), AllOf(HasSubstr("no matter at rest has more"), HasSubstr("detonates with 0.25")));
+  EXPECT_EQ(audit(ModelEquationOfState<Jwl>(tetryl(17.3, 586.83e9, 4.4))).verdict(), Verdict::not_usable);
+  // Searches end where there is no detonation to find.
+  EXPECT_THROW(ModelEquationOfState<Jwl>(tetryl(1730, 0.1, 0.999999999)), InputError);
 }
 
 TEST(EosAudit, CopperIsSoundAndItsFiguresAreThoseOfTheLoci) {

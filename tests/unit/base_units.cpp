@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
         Spelling{"383 J/(kg K)", "J/(kg K)", 383.0}, Spelling{"5 m s-1", "m/s", 5.0},
         Spelling{"5 m.s^-1", "m/s", 5.0}, Spelling{"+1.5 m", "m", 1.5}, Spelling{"-1.5 mm", "m", -1.5e-3},
         Spelling{"  1.5 m  ", "m", 1.5}, Spelling{"1.5m", "m", 1.5}, Spelling{"1e3 m", "m", 1e3},
-        Spelling{"42", "m/s", 42.0}));
+        Spelling{"42", "", 42.0}, Spelling{"0", "m/s", 0.0}));
 
 TEST(Units, ElectronVoltIsTheExactSiValue) {
   EXPECT_DOUBLE_EQ(convert(1.0, "eV", "J"), 1.602176634e-19);
@@ -91,6 +91,12 @@ TEST(Units, WrongDimensionNamesBothUnits) {
             "unit 'GPa' has the wrong dimension: expected a unit of the kind 'm/s'");
   EXPECT_EQ(message_of("3 GPa", ""),
             "unit 'GPa' has the wrong dimension: expected a unit of the kind '1 (no unit)'");
+}
+
+TEST(Units, ABareNumberIsNoQuantity) {
+  EXPECT_EQ(message_of("42", "m/s"), "is 42 without a unit; in SI units that would be \"42 m/s\"");
+  EXPECT_EQ(message_of("-0.0", "m/s"), "accepted");
+  EXPECT_EQ(message_of("42", ""), "accepted");
 }
 
 TEST(Units, UnknownUnitIsNamed) {

@@ -19,6 +19,7 @@ namespace {
 
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class EosCommand : public ::testing::Test {
  protected:
@@ -54,19 +55,39 @@ TEST_F(EosCommand, StateTakesEveryPairOfQuantities) {
   EXPECT_EQ(header.substr(0, 43), "rho_kg_m3,V_over_V0,P_GPa,T_K,e_kJ_kg,c_km_");
   std::vector<std::string> cells;
   for (std::istringstream words(row); std::getline(words, cell, ',');) cells.push_back(cell);
-  const std::string density = "--density " + cells[0],
+  const std::string density = fmt::format("--density '{} kg/m^3'", cells[0]),
                     pressure = fmt::format("--pressure '{} GPa'", cells[2]);
   for (const std::string& pair : {density + fmt::format(" --energy '{} kJ/kg'", cells[4]),
-                                  density + " " + pressure, density + fmt::format(" --entropy {}", cells[6]),
-                                  pressure + fmt::format(" --temperature {}", cells[3])}) {
+                                  density + " " + pressure, density + fmt::format(" --entropy '{} J/(kg K)'", cells[6]),
+                                  pressure + fmt::format(" --temperature '{} K'", cells[3])}) {
     ASSERT_EQ(run("state copper " + pair), 0) << output();
     EXPECT_THAT(output(), ContainsRegex("density +10000 +kg/m")) << pair;
     EXPECT_THAT(output(), ContainsRegex("temperature +1000 +K")) << pair;
   }
-  EXPECT_EQ(run("state copper --density 9000"), 2);
+  EXPECT_EQ(run("state copper --density '9 g/cm^3'"), 2);
   EXPECT_THAT(output(), HasSubstr("a state is named by two quantities"));
-  EXPECT_EQ(run("state copper --density 9000 --pressure '-90 GPa'"), 3);
+  EXPECT_EQ(run("state copper --density '9 g/cm^3' --pressure '-90 GPa'"), 3);
   EXPECT_THAT(output(), HasSubstr("below the coldest state of model gray"));
+}
+
+TEST_F(EosCommand, QuantitiesThatNoMatterHasAreInput) {
+  for (const char* arguments :
+       {"state copper --density '-1 kg/m^3' --temperature '300 K'", "match copper copper --velocity '0 m/s'",
+        "match copper copper --velocity '-1 km/s'", "isotherm copper --temperature '0 K'",
+        "hugoniot copper --initial-density '0 kg/m^3'", "isentrope copper --to '-2 g/cm^3'",
+        "cold copper --from '0 kg/m^3'", "state copper --density 9000 --temperature '300 K'",
+        "hugoniot copper --to 300"}) {
+    EXPECT_EQ(run(arguments), 2) << arguments << output();
+  }
+}
+
+TEST_F(EosCommand, SaysWhatAStateBeyondTheModelsPurposeIs) {
+  ASSERT_EQ(run("state copper --density '4 g/cm^3' --temperature '300 K'"), 0);
+  EXPECT_THAT(output(), ContainsRegex("names the surface of the model.*condensed, with voids: 0.26 %"));
+  ASSERT_EQ(run("state copper --density '9 g/cm^3' --temperature '2e8 K'"), 0);
+  EXPECT_THAT(output(), HasSubstr("2e+08 K is beyond 1e+05 K, to which the audit finds the model valid"));
+  ASSERT_EQ(run("state copper --density '9 g/cm^3' --temperature '2000 K'"), 0);
+  EXPECT_THAT(output(), Not(HasSubstr("beyond")));
 }
 
 TEST_F(EosCommand, SeveralMaterialsShareATableAndACsv) {

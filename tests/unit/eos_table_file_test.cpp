@@ -78,7 +78,7 @@ TEST_F(TableFiles, of_another_version_are_refused) {
   H5Adelete(file.root.id(), "version");
   file.root.set_attribute("version", std::int64_t{99});
   file.close();
-  EXPECT_THAT(refusal(), HasSubstr("version 99, this program reads version 3"));
+  EXPECT_THAT(refusal(), HasSubstr("version 99, this program reads version 4"));
 }
 
 TEST_F(TableFiles, that_were_changed_are_refused) {
@@ -131,6 +131,13 @@ TEST_F(TableFiles, of_the_cache_are_used_again_and_built_again_when_damaged) {
   EXPECT_EQ(built, 1);
   get(request);
   EXPECT_EQ(built, 0);
+  // The table of another material under the name of this one.
+  GrayConstants constants = test::copper();
+  constants.gruneisen *= 1.1;
+  const TableFile other{tabulate(test::GrayEos(constants), request), {}};
+  for (const auto& entry : fs::directory_iterator(cache)) write_table(entry.path(), other);
+  EXPECT_EQ(get(request).constants, copper().constants());
+  EXPECT_EQ(built, 1);
 }
 
 }  // namespace

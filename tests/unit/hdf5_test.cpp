@@ -26,7 +26,7 @@ TEST_F(Hdf5, reads_back_attributes_and_arrays) {
     const Group group = file.root.create_group("group");
     group.set_attribute("integer", std::int64_t{-7});
     group.set_attribute("real", 0.1);
-    group.set_attribute("text", std::string_view("µs, \"quoted\""));
+    group.set_fixed_attribute("text", "µs, \"quoted\"");
     group.set_attribute("long", std::string_view(long_text));
     group.set_fixed_attribute("fixed", "UnstructuredGrid");
     const std::vector<double> numbers = {1, 2, 3, 4, 5, 6};
@@ -38,7 +38,8 @@ TEST_F(Hdf5, reads_back_attributes_and_arrays) {
   EXPECT_EQ(group.integer_attribute("integer"), -7);
   EXPECT_EQ(group.real_attribute("real"), 0.1);
   EXPECT_EQ(group.text_attribute("text"), "µs, \"quoted\"");
-  EXPECT_EQ(group.text_attribute("long"), long_text);
+  EXPECT_THAT(message_of<InputError>([&] { (void)group.text_attribute("long"); }),
+              HasSubstr("attribute long is a text of variable length"));
   EXPECT_EQ(group.text_attribute("fixed"), "UnstructuredGrid");
   EXPECT_EQ(group.attribute_names(), (std::vector<std::string>{"fixed", "integer", "long", "real", "text"}));
   const Dataset numbers = group.open_dataset("numbers");
@@ -72,7 +73,7 @@ TEST_F(Hdf5, keeps_the_order_of_creation_and_changes_an_open_file) {
     const Group group = file.root.open_group("points");
     group.remove("a");
     group.set_fixed_attribute("empty", "");
-    group.set_fixed_attribute("text", "10 \u00b5s", Characters::utf8);
+    group.set_fixed_attribute("text", "10 \u00b5s");
     file.close();
   }
   const File file = File::open(path);
@@ -116,6 +117,34 @@ TEST_F(Hdf5, errors_name_file_act_and_reason) {
   std::vector<float> four(4);
   EXPECT_THAT(message_of<InputError>([&] { dataset.read_rows<float>(four, Slab::whole(4), 1); }),
               HasSubstr("has 3 rows of 1 numbers, expected 4 rows of 1"));
+}
+
+/// Room is made for what the file holds, not for what it declares.
+TEST_F(Hdf5, refuses_arrays_that_the_file_cannot_hold) {
+  const std::filesystem::path path = folder_ / "a.h5";
+  {
+    File file = File::create(path, File::Compatibility::vtk);
+    const std::vector<double> zeros(1 << 20);
+    file.root.write<double>("zeros", zeros, Slab::whole(zeros.size()), {.deflate = 9});
+    for (const bool in_chunks : {false, true}) {
+      const hsize_t rows = 1'000'000'000'000, chunk = 1 << 16;
+      const Handle space(H5Screate_simple(1, &rows, nullptr), H5Sclose);
+      const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+      if (in_chunks) H5Pset_chunk(creation.get(), 1, &chunk);
+      const Handle empty(H5Dcreate2(file.root.id(), in_chunks ? "chunks" : "block", H5T_IEEE_F64LE, space.get(),
+                                    H5P_DEFAULT, creation.get(), H5P_DEFAULT),
+                         H5Dclose);
+    }
+    file.close();
+  }
+  const File file = File::open(path);
+  for (const char* name : {"chunks", "block"}) {
+    const Dataset dataset = file.root.open_dataset(name);
+    EXPECT_THAT(message_of<InputError>([&] { (void)dataset.read_all<double>(); }),
+                AllOf(HasSubstr(name), HasSubstr("which the file does not hold")));
+  }
+  EXPECT_EQ(file.root.open_dataset("zeros").read_all<double>(), std::vector<double>(1 << 20))
+      << "a thousandfold compression is none";
 }
 
 TEST_F(Hdf5, a_full_disk_is_reported) {

@@ -2,6 +2,7 @@
 // Reading of TOML inputs: exact texts with file:line:column, all errors at once, unknown keys, --set.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -15,6 +16,7 @@ namespace whipple::input {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Domain {
   double cell_size = 1e-3;
@@ -130,6 +132,22 @@ TEST(Document, ReadsByteOrderMarksAndOtherLineEndsAndNamesOtherEncodings) {
     EXPECT_EQ(refusal(text),
               "case.toml:1:1: error: not a text in UTF-8 but, as it seems, in UTF-16; save it as UTF-8");
   }
+}
+
+// Each part of a dotted key is a table in a table, which the parser below takes apart by recursion.
+TEST(Document, KeysHaveABoundedNumberOfParts) {
+  const auto parts = [](int count, const std::string& point) {
+    std::string key = "a";
+    for (int i = 1; i < count; ++i) key += point + "a";
+    return key;
+  };
+  EXPECT_EQ(read_text(parts(300'000, ".") + " = 1\n"), "case.toml:1:64: error: a key of more than 32 parts");
+  EXPECT_THAT(read_text("x = { " + parts(33, " . ") + " = 1 }\n"), HasSubstr("more than 32 parts"));
+  EXPECT_THAT(read_text("[" + parts(33, ".") + "]\n"), HasSubstr("more than 32 parts"));
+  EXPECT_THAT(read_text(parts(32, ".") + " = 1\n"), HasSubstr("unknown key"));
+  std::string numbers = "x = [0.5";
+  for (int i = 0; i < 100; ++i) numbers += ", 0.5";
+  EXPECT_THAT(read_text(numbers + "]\n"), Not(HasSubstr("parts")));
 }
 
 TEST(Document, UnknownKeyIsAnErrorWithTheNearestName) {
@@ -300,6 +318,29 @@ TEST(Table, NamesOfTablesKeepTheOrderOfTheFile) {
   EXPECT_EQ(document.root().table_names(), (std::vector<std::string>{"zinc", "alpha", "middle"}));
 }
 
+/// What people write has units; what programs write (texts) may be in SI.
+TEST(Document, NumbersOfFilesNeedTheirUnits) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("whipple_units_" + std::to_string(getpid()) + ".toml");
+  const auto read_file = [&](const std::string& text, const char* set) {
+    std::ofstream(path) << text;
+    Domain domain;
+    Document document = Document::from_file(path);
+    if (set != nullptr) document.set("domain.cell_size", set);
+    return read(std::move(document), &domain);
+  };
+  const std::string rest = "\nlower = [0, 0.0, \"-1 mm\"]\n";
+  EXPECT_EQ(read_file("[domain]\ncell_size = \"1 mm\"" + rest, nullptr), "");
+  EXPECT_THAT(read_file("[domain]\ncell_size = 1" + rest, nullptr),
+              HasSubstr(":2:13: error: 'cell_size' is 1 without a unit; in SI units that would be \"1 m\""));
+  EXPECT_THAT(read_file("[domain]\ncell_size = \"1\"" + rest, nullptr), HasSubstr("is 1 without a unit"));
+  EXPECT_THAT(read_file("[domain]\ncell_size = \"1 mm\"\nlower = [0, 0, -1e-3]\n", nullptr),
+              HasSubstr("'lower' is -0.001 without a unit"));
+  EXPECT_THAT(read_file("[domain]\ncell_size = \"1 mm\"" + rest, "2"), HasSubstr("(--set): error: 'cell_size' is 2"));
+  EXPECT_EQ(read_file("[domain]\ncell_size = \"1 mm\"" + rest, "2 mm"), "");
+  std::filesystem::remove(path);
+}
+
 TEST(Document, FileErrorsNameTheFile) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   EXPECT_THROW(Document::from_file(folder), InputError);
@@ -309,6 +350,19 @@ TEST(Document, FileErrorsNameTheFile) {
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "/nonexistent/case.toml: error: cannot open the file");
   }
+  for (const char* endless : {"/dev/zero", "/dev/null"}) {
+    try {
+      Document::from_file(endless);
+      ADD_FAILURE() << endless;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("expected a regular file"));
+    }
+  }
+  const std::filesystem::path large = folder / ("whipple_large_" + std::to_string(getpid()) + ".toml");
+  std::ofstream(large) << "x = 1\n";
+  std::filesystem::resize_file(large, 17'000'000);
+  EXPECT_THROW(Document::from_file(large), InputError);
+  std::filesystem::remove(large);
 }
 
 }  // namespace

@@ -111,10 +111,10 @@ TEST_F(CheckpointFile, says_what_it_is_not) {
 
   const fs::path newer = write_checkpoint(folder_, 1, {}, {}, MPI_COMM_SELF);
   std::string bytes = read_text(newer);
-  bytes.replace(bytes.find("format 1"), 8, "format 9");
+  bytes.replace(bytes.find("format 2"), 8, "format 9");
   std::ofstream(newer, std::ios::binary) << bytes;
   EXPECT_THAT(message_of<InputError>([&] { (void)read_checkpoint(newer, MPI_COMM_SELF); }),
-              HasSubstr("of format 9; this program reads format 1"));
+              HasSubstr("of format 9; this program reads format 2"));
 
   CheckpointValues values;
   values.source = "x.h5";
@@ -131,8 +131,7 @@ TEST_F(CheckpointFile, names_missing_and_unknown_fields_and_other_units) {
     for_each_field<Particles>([&](const auto& field) {
       if (std::string(field.name) == left_out) return;
       const hdf5::Dataset array = group.write<double>(field.name, {}, hdf5::Slab::whole(0));
-      array.set_attribute("unit",
-                          std::string_view(std::string(field.name) == "volume" ? volume_unit : field.unit));
+      array.set_fixed_attribute("unit", std::string(field.name) == "volume" ? volume_unit : field.unit);
     });
     if (*added != 0) group.write<double>(added, {}, hdf5::Slab::whole(0));
     file.close();
@@ -142,6 +141,23 @@ TEST_F(CheckpointFile, names_missing_and_unknown_fields_and_other_units) {
   EXPECT_THAT(write("temperature", "", "m^3"), HasSubstr("missing fields: temperature"));
   EXPECT_THAT(write("", "spin", "m^3"), HasSubstr("unknown fields: spin"));
   EXPECT_THAT(write("", "", "cm^3"), HasSubstr("is in cm^3, expected m^3"));
+}
+
+/// A seal is no proof: whoever can write a file can seal it.
+TEST_F(CheckpointFile, of_more_points_than_it_holds_is_refused) {
+  const fs::path path = write_checkpoint(folder_, 1, random_bits(40, 2), some_values(), MPI_COMM_SELF);
+  for (const std::int64_t count : {std::int64_t{-1}, std::int64_t{39}, std::int64_t{1'000'000'000'000'000'000}}) {
+    hdf5::File file = hdf5::File::open(path, hdf5::File::Access::modify);
+    {
+      const hdf5::Group particles = file.root.open_group("particles");
+      H5Adelete(particles.id(), "count");
+      particles.set_attribute("count", count);
+    }
+    file.close();
+    seal(path);
+    EXPECT_THAT(message_of<InputError>([&] { (void)read_checkpoint(path, MPI_COMM_SELF); }),
+                AllOf(HasSubstr(path.string()), HasSubstr(std::to_string(count))));
+  }
 }
 
 TEST_F(CheckpointFile, an_unwritable_folder_is_the_users_matter) {

@@ -60,6 +60,7 @@ def check_file(path, time, ranks):
             require(array.dtype == kind, f"{path}: {name} is {array.dtype}")
             require(array.shape == ((n,) if columns == 0 else (n, columns)), f"{path}: {name} has shape {array.shape}")
             require("unit" in array.attrs, f"{path}: {name} has no unit")
+            require(name != "pressure" or array.attrs["unit"] == "Pa", f"{path}: pressure in {array.attrs['unit']}")
         require({"velocity", "mass", "body", "id"} <= set(vtk["PointData"]), f"{path}: a field of reports is missing")
         require(len(np.unique(vtk["PointData/id"][:])) == n, f"{path}: an id occurs twice")
 

@@ -154,8 +154,15 @@ TEST(Potential, ReportsDamagedFiles) {
                 .find("word.eam.alloy:8: error: the potential file has '1.0D-3' for a number of an embedding "
                       "function"),
             std::string::npos);
-  EXPECT_NE(write("brace.eam.alloy", "a\nb\nc\n1 Cu\n10 0.1 10 0.1 5.5}2967\n").find(":5: error"),
+  // LAMMPS takes words of a header for formats, and dies of a brace in one.
+  const std::string head = "a {b}\nb\nc\n1 Cu\n";
+  for (const char* sizes : {"10 0.1 10 0.1 5.5}29", "10 0.1 10 0.1 5.5 {}", "10 0.1 10 0.1 5.5 \x01"}) {
+    const std::string fault = write("brace.eam.alloy", head + sizes + "\n");
+    EXPECT_NE(fault.find(":5: error: the potential file holds braces"), std::string::npos) << fault;
+  }
+  EXPECT_NE(write("brace.eam", "a\n29 63.55 3.615 {fcc}\n").find(":2: error: the potential file holds braces"),
             std::string::npos);
+  EXPECT_NE(write("glued.eam.alloy", head + "10 0.1 10 0.1 5.5x\n").find("table sizes"), std::string::npos);
   EXPECT_NE(write("empty.eam", "").find("ends too early"), std::string::npos);
   EXPECT_NE(write("potential.meam", "x").find("unknown ending"), std::string::npos);
 }

@@ -150,8 +150,8 @@ def variants(case):
     require(list(found) == ["coarse", "normal", "fine", "offset_1", "offset_2", "offset_3", "frame"], str(list(found)))
     require(found["offset_3"].assignments == ['domain.lower=[0, 0, "-8.75 mm"]'], str(found["offset_3"]))
     require(found["frame"].assignments == [
-        "body.0.velocity=[0, 0, 500]", "body.1.velocity=[0, 0, -500]", "domain.lower=[0, 0, -0.018]",
-        "domain.upper=[0.004, 0.004, 0.008]"], str(found["frame"].assignments))
+        'body.0.velocity=[0, 0, "500 m/s"]', 'body.1.velocity=[0, 0, "-500 m/s"]', 'domain.lower=[0, 0, "-0.018 m"]',
+        'domain.upper=["0.004 m", "0.004 m", "0.008 m"]'], str(found["frame"].assignments))
     require(run.assignments("fine") == ["domain.cell_size=0.5 mm", "time.courant=0.4"], "refined with the cells")
     require(report_sensitivity.projectile_size(run.resolved()["body"]) == 4e-3, "size of the projectile")
     try:
@@ -178,7 +178,7 @@ def snapshots_go_back_to_rest(work):
         require(np.allclose(file["VTKHDF/Points"][:], [[1.0, 2.0, 3.005]]), "positions")
         require(np.allclose(file["VTKHDF/PointData/velocity"][:], [[0.0, 0.0, 900.0]]), "velocities")
     text = (folder / "run.toml").read_text()
-    require("velocity = [0, 0, 1000]\nangular_velocity = [0, 0, 0]\n[[body]]\nvelocity = [0, 0, 0]" in text, text)
+    require('velocity = [0, 0, "1000 m/s"]\nangular_velocity = [0, 0, 0]\n[[body]]\nvelocity = [0, 0, 0]' in text, text)
 
 
 def write_run(folder, depth, mass, error):

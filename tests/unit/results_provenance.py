@@ -37,6 +37,12 @@ def stale_runs_are_found():
     require(state(record) == results_record.CURRENT, "the same")
     require(state(None) == results_record.MISSING, "no record")
     require(state(record, ("whipple", "run", "--set")) == results_record.STALE, "another command")
+    def set_to(value):
+        return ["whipple", "run", "--set", f"body.0.velocity={value}"]
+    bare = changed(record, "command", set_to("[0, 0, -150]"))
+    require(state(bare, set_to("[0, 0, '-150 m/s']")) == results_record.CURRENT, "the same quantity with its unit")
+    require(state(bare, set_to("[0, 0, '-0.15 km/s']")) == results_record.CURRENT, "the same quantity in another unit")
+    require(state(bare, set_to("[0, 0, '-151 m/s']")) == results_record.STALE, "another quantity")
     require(state(changed(record, "case", "x")) == results_record.STALE, "another case")
     require(state(changed(record, "materials", {"copper.toml": "x"})) == results_record.STALE, "another material")
     require(state(changed(record, "source", "x")) == results_record.OLDER_SOURCE, "another source")

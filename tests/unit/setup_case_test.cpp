@@ -125,6 +125,15 @@ TEST(GaugesOfACase, AreReadWrittenAndNumbered) {
 }
 
 TEST(GaugesOfACase, MistakesAreNamed) {
+  const auto line_of = [](const std::string& text, const std::string& key) {
+    return "case.toml:" + std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find(key)), '\n')) + ":";
+  };
+  const std::string outside = domain + sphere + replaced(gauges, "\"5 mm\"", "\"50 mm\"");
+  expect_error(outside, {line_of(outside, "position").c_str()});
+  const std::string twice = domain + sphere + replaced(gauges, "\"inside\"", "\"fixed\"");
+  expect_error(twice, {line_of(twice, "name = \"fixed\"\nkind").c_str()});
+  const std::string nameless = domain + replaced(sphere, "\"sphere\"", "\"\"");
+  expect_error(nameless, {line_of(nameless, "name = \"\"").c_str(), "'name' is empty"});
   expect_error(domain + sphere + replaced(gauges, "\"5 mm\"", "\"50 mm\""),
                {"gauge \"fixed\"", "outside of the domain"});
   expect_error(domain + sphere + replaced(gauges, "\"-4 mm\"", "\"4 mm\""),

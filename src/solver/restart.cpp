@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/restart.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "src/base/error.hpp"
+#include "src/base/hash.hpp"
+#include "src/base/log.hpp"
+#include "src/material/failure/criterion.hpp"
+#include "src/parallel/mpi.hpp"
+#include "src/solver/checkpointing.hpp"
+
+namespace whipple::solver {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Tables whose keys decide what particles and elements there are.
+constexpr std::array<std::string_view, 4> fixed_tables = {"domain", "body", "gauge", "tracers"};
+
+/// Material and mesh of every body, by what they hold: the material files of a run are copies.
+std::map<std::string, std::string> digests(const setup::Case& setup) {
+  std::map<std::string, std::string> found;
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const Material& material = *setup.materials[b];
+    std::string all = sha256_of_file(material.file);
+    for (const fs::path& companion : material.companions)
+      all += sha256_of_file(material.file.parent_path() / companion);
+    found[fmt::format("material of body \"{}\"", setup.bodies[b].name)] = sha256(all);
+    if (const std::string& mesh = setup.bodies[b].discretization.mesh; !mesh.empty())
+      found[fmt::format("mesh of body \"{}\"", setup.bodies[b].name)] = sha256_of_file(mesh);
+  }
+  return found;
+}
+
+std::string text_of(const setup::Case& setup) {
+  return setup::to_toml(setup, std::vector<std::string>(setup.bodies.size()));
+}
+
+/// "table.key" and value of every line of `setup::to_toml`, without its comments; tables of lists are numbered.
+std::map<std::string, std::string> keys_of(std::string_view toml) {
+  std::map<std::string, std::string> keys;
+  std::map<std::string, int> entries;
+  std::string table, list;
+  for (std::size_t at = 0; at < toml.size();) {
+    const std::size_t end = std::min(toml.find('\n', at), toml.size());
+    std::string_view line = toml.substr(at, end - at);
+    at = end + 1;
+    if (line.starts_with('[')) {
+      const bool of_list = line.starts_with("[[");
+      std::string name(line.substr(of_list ? 2 : 1, line.find(']') - (of_list ? 2 : 1)));
+      const std::string owner = list.substr(0, list.find('['));
+      if (!list.empty() && name.starts_with(owner + ".")) name = list + name.substr(owner.size());
+      table = of_list ? fmt::format("{}[{}]", name, entries[name]++) : name;
+      if (of_list && name.find('.') == std::string::npos) list = table;
+    } else if (const std::size_t equals = line.find(" = "); equals != std::string_view::npos && line[0] != '#') {
+      line = line.substr(0, line.rfind("  # "));
+      keys[fmt::format("{}{}{}", table, table.empty() ? "" : ".", line.substr(0, equals))] = line.substr(equals + 3);
+    }
+  }
+  return keys;
+}
+
+bool is_fixed(std::string_view key) {
+  const std::string_view table = key.substr(0, key.find_first_of(".["));
+  return std::ranges::find(fixed_tables, table) != fixed_tables.end();
+}
+
+// ---- admissible numbers
+
+struct Admissible {
+  std::string_view field;
+  Range range;
+};
+constexpr double most = 1.0 + 1e-9;  // of fractions, with their round-off
+constexpr std::array admissible = {
+    Admissible{"mass", {.lower = 0.0, .lower_open = true}},
+    Admissible{"volume", {.lower = 0.0, .lower_open = true}},
+    Admissible{"void_volume", {.lower = 0.0}},
+    Admissible{"temperature", {.lower = 0.0}},
+    Admissible{"sound_speed", {.lower = 0.0}},
+    Admissible{"plastic_strain", {.lower = 0.0}},
+    Admissible{"melted_fraction", {.lower = 0.0, .upper = most}},
+    Admissible{"vaporised_fraction", {.lower = 0.0, .upper = most}},
+    Admissible{"damage", {.lower = 0.0, .upper = most}},
+    Admissible{"failed", {.lower = 0.0, .upper = failure::code_count - 1.0}},
+    Admissible{"melting_time", {.lower = never}},
+    Admissible{"distension", {.lower = 0.0, .lower_open = true}},
+    Admissible{"failure_threshold_factor", {.lower = 0.0}},
+    Admissible{"length", {.lower = 0.0, .lower_open = true}},
+    Admissible{"reference_length", {.lower = 0.0, .lower_open = true}},
+    Admissible{"constrained", {.lower = 0.0, .upper = fem::constraint::all}},
+    Admissible{"broken", {.lower = 0.0, .upper = 1.0}},
+    Admissible{"time", {.lower = 0.0}},
+    Admissible{"time_step", {.lower = 0.0}},
+    Admissible{"initial_mass", {.lower = 0.0}},
+    Admissible{"touched", {.lower = 0.0, .upper = 4294967295.0}},  // halves of words
+};
+
+/// Any finite number unless the table says otherwise.
+Range range_of(std::string_view name) {
+  const auto found = std::ranges::find(admissible, name, &Admissible::field);
+  return found == admissible.end() ? Range{} : found->range;
+}
+
+class Checker {
+ public:
+  explicit Checker(const io::Checkpoint& checkpoint) : file_(checkpoint.path.string()) {}
+
+  template <class Numbers>
+  void require(const std::string& name, const Numbers& numbers, const Range& range) const {
+    for (std::size_t i = 0; i < std::size(numbers); ++i) {
+      const auto value = static_cast<double>(numbers[i]);
+      if (std::isfinite(value) && range.contains(value)) continue;
+      const std::string bounds = range.text();
+      throw InputError(fmt::format("{}: {}: number {} is {}, but must be {}; is the file another program's?",
+                                   file_, name, i, value, bounds == "any" ? "finite" : bounds));
+    }
+  }
+
+  /// @param indices  admissible numbers of what points to nodes and bodies
+  template <class Points>
+  void require_points(const std::string& group, const Points& points,
+                      const std::map<std::string, Range>& indices = {}) const {
+    for_each_field<Points>([&](const auto& field) {
+      const auto& values = points.*(field.values);
+      using Value = typename std::decay_t<decltype(values)>::value_type;
+      const auto index = indices.find(field.name);
+      const Range range = index == indices.end() ? range_of(field.name) : index->second;
+      const std::string name = group + "/" + field.name;
+      if constexpr (std::is_arithmetic_v<Value>) {
+        require(name, values, range);
+      } else {  // vectors and tensors are nothing but their numbers
+        using Number = std::conditional_t<std::is_same_v<Value, fem::Corners> ||
+                                              std::is_same_v<Value, std::array<std::uint32_t, 2>>,
+                                          std::uint32_t, double>;
+        require(name,
+                std::span(reinterpret_cast<const Number*>(values.data()),
+                          values.size() * sizeof(Value) / sizeof(Number)),
+                range);
+      }
+    });
+  }
+
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(fmt::format("{}: {}", file_, what)); }
+
+ private:
+  std::string file_;
+};
+
+/// Numbers of what there are `count` of.
+Range below(double count) { return {.lower = 0.0, .upper = count, .upper_open = true}; }
+
+}  // namespace
+
+void remember_input(const setup::Case& setup, io::CheckpointValues& values) {
+  values.texts["input"] = text_of(setup);
+  for (const auto& [name, digest] : digests(setup)) values.texts[name] = digest;
+}
+
+std::string require_same_input(const setup::Case& setup, const io::CheckpointValues& values) {
+  const std::map<std::string, std::string> now = keys_of(text_of(setup)), then = keys_of(values.text("input"));
+  std::set<std::string> keys;
+  for (const auto& list : {now, then})
+    for (const auto& [key, value] : list) keys.insert(key);
+  const auto shown = [](const auto& list, const std::string& key) {
+    const auto found = list.find(key);
+    return found == list.end() ? std::string("absent") : found->second;
+  };
+  std::vector<std::string> fixed, free;
+  for (const std::string& key : keys) {
+    const std::string present = shown(now, key), former = shown(then, key);
+    if (present == former || key == "title") continue;
+    (is_fixed(key) ? fixed : free).push_back(fmt::format("{} = {}, was {}", key, present, former));
+  }
+  for (const auto& [name, digest] : digests(setup)) {
+    const auto former = values.texts.find(name);
+    if (former == values.texts.end() || former->second != digest)
+      fixed.push_back(fmt::format("the {} is another", name));
+  }
+  if (!fixed.empty()) {
+    throw InputError(fmt::format(
+        "{}: is a checkpoint of another input than run.toml and its files:\n  {}\n  Grid, bodies, materials and "
+        "gauges are those of the checkpoint: put them back, or begin anew with whipple run CASE.toml -o DIR",
+        values.source, fmt::join(fixed, "\n  ")));
+  }
+  return fmt::format("{}", fmt::join(free, "; "));
+}
+
+void require_admissible(const setup::Case& setup, const io::Checkpoint& checkpoint, MPI_Comm communicator) {
+  const Checker checker(checkpoint);
+  const Range bodies = below(static_cast<double>(setup.bodies.size()));
+  for (const auto& [name, value] : checkpoint.values.reals)
+    checker.require("values/" + name, std::span(&value, 1), range_of(name));
+  for (const auto& [name, value] : checkpoint.values.integers)
+    checker.require("values/" + name, std::span(&value, 1), range::non_negative());
+  for (const auto& [name, array] : checkpoint.values.arrays)
+    checker.require("values/" + name, array, range_of(name));
+  checker.require_points("particles", checkpoint.particles, {{"body", bodies}});
+  const auto of_all_ranks = [&](std::size_t count) {
+    std::array<double, 1> sum = {static_cast<double>(count)};
+    parallel::sum(communicator, sum);
+    return sum[0];
+  };
+  for (const fem::Mesh& mesh : checkpoint.meshes) {
+    checker.require("meshes/body", std::span(&mesh.body, 1), bodies);
+    checker.require_points("nodes", mesh.nodes);
+    checker.require_points("elements", mesh.elements, {{"corners", below(of_all_ranks(mesh.nodes.size()))}});
+    checker.require_points("points", mesh.points);
+    const std::size_t expected = mesh.elements.size() * fem::points_per_element(mesh.quadrature);
+    if (of_all_ranks(mesh.points.size()) != of_all_ranks(expected))
+      checker.fail("meshes: elements and Gauss points differ in number");
+  }
+  for (const fem::Bars& bars : checkpoint.bars) {
+    checker.require("bars/body", std::span(&bars.body, 1), bodies);
+    checker.require_points("nodes", bars.nodes);
+    checker.require_points("bars", bars.elements, {{"ends", below(of_all_ranks(bars.nodes.size()))}});
+  }
+}
+
+Simulation resume(const setup::Case& setup, io::Checkpoint& checkpoint, MPI_Comm communicator) {
+  const std::string changed = require_same_input(setup, checkpoint.values);
+  require_admissible(setup, checkpoint, communicator);
+  if (!changed.empty()) log::info("changed since the checkpoint: {}", changed);
+  try {
+    return {setup,        std::move(checkpoint.particles), from_checkpoint(checkpoint.values),
+            communicator, std::move(checkpoint.meshes),    std::move(checkpoint.bars)};
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}; changed since then: {}", checkpoint.path.string(), error.what(),
+                                 changed.empty() ? "nothing" : changed));
+  }
+}
+
+}  // namespace whipple::solver
