@@ -10,8 +10,6 @@
 #include <random>
 #include <system_error>
 
-#include <system_error>
-
 #include "src/base/error.hpp"
 #include "src/base/text.hpp"
 

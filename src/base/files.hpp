@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string_view>
 #include <limits>
+#include <string_view>
 
 namespace whipple {
 
