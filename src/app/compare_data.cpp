@@ -244,7 +244,8 @@ std::vector<double> measured_quantity(const std::filesystem::path& file, const s
     for (std::size_t i = 0; i < table.rows(); ++i) values.push_back(of_row(i));
     return values;
   };
-  if (const auto found = table.find(MeasuredTable::quantity_of(wanted))) return table.numbers(*found);
+  const std::string quantity = MeasuredTable::quantity_of(wanted);
+  if (const auto found = table.find(quantity); !quantity.empty() && found) return table.numbers(*found);
   const std::vector<double> us = table.numbers("us"), up = table.numbers("up");
   const bool shocks = !us.empty() && !up.empty();
   if (wanted == "V_over_V0") {

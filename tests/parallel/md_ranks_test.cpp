@@ -97,7 +97,7 @@ TEST_F(WhippleMd, ExitCodesTellWhatHappened) {
   write(
       "plan.toml",
       "element = \"Cu\"\npotential = \"copper_universal_3\"\n[[isotherm]]\nvolume_ratio = [1.0]\ncells = 3\n"
-      "temperature = 5000\nequilibration_steps = 200\nsteps = 200\ntime_step = \"80 fs\"\n");
+      "temperature = \"5000 K\"\nequilibration_steps = 200\nsteps = 200\ntime_step = \"80 fs\"\n");
   const Outcome failed = run(mpirun(2, command("failed.md.h5")));
   EXPECT_EQ(failed.code, 3) << failed.text;
   EXPECT_NE(failed.text.find("FAILED: LAMMPS: "), std::string::npos) << failed.text;

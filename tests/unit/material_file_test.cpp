@@ -118,7 +118,7 @@ reference_density = "8.93 km/s"
 hugoniot_intercept = "3.94 km/s"
 hugoniot_slpoe = 1.49
 gruneisen = 1.96
-heat_capacity = -3.0
+heat_capacity = "-3 J/(kg K)"
 [strength]
 model = "jonson_cook"
 [[failure]]

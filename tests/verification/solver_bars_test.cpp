@@ -24,10 +24,10 @@ constexpr double dx = 1e-3, length = 0.02, width = 2 * dx, speed = 2.0;
 std::string elastic(const std::string& name, double density, double young, const std::string& strength) {
   return write_material(name,
                         "name = \"" + name + "\"\nsource = \"test\"\n[eos]\nmodel = \"mie_gruneisen\"\n" +
-                            "source = \"test\"\nreference_density = " + number(density) +
-                            "\nhugoniot_intercept = " + number(std::sqrt(young / 3 / density)) +
-                            "\nhugoniot_slope = 1e-3\ngruneisen = 1e-3\nheat_capacity = 1000\n[strength]\n" +
-                            "source = \"test\"\nshear_modulus = " + number(0.5 * young) + "\n" + strength);
+                            "source = \"test\"\nreference_density = \"" + number(density) + " kg/m^3\"" +
+                            "\nhugoniot_intercept = \"" + number(std::sqrt(young / 3 / density)) + " m/s\"" +
+                            "\nhugoniot_slope = 1e-3\ngruneisen = 1e-3\nheat_capacity = \"1000 J/(kg K)\"\n[strength]\n" +
+                            "source = \"test\"\nshear_modulus = \"" + number(0.5 * young) + " Pa\"\n" + strength);
 }
 std::string matrix() { return elastic("matrix", 2000.0, 10e9, "model = \"elastic\"\n"); }
 std::string steel(const std::string& strength = "model = \"elastic\"\n") {
@@ -108,7 +108,7 @@ TEST(Bars, WaveInAReinforcedColumnIsThatOfTheComposite) {
 }
 
 TEST(Bars, YieldBreakAndKeepEnergy) {
-  const std::string von_mises = "model = \"von_mises\"\nyield_stress = 20e6\nhardening_modulus = 1e9\n";
+  const std::string von_mises = "model = \"von_mises\"\nyield_stress = \"20 MPa\"\nhardening_modulus = \"1 GPa\"\n";
   const Problem problem = column(true, 12e-6, von_mises, ", bar_failure_strain = 1e-3");
   solver::Simulation simulation(problem.read(), parallel::world());
   Watch watch;
@@ -140,7 +140,7 @@ std::string impact() {
          "[[body]]\nname = \"block\"\ncontact_group = \"target\"\nmaterial = \"" + aluminium_file +
          "\"\nshape = { box = { lower = [0, 0, 0], upper = [5e-3, 5e-3, 3e-3] } }\n" +
          "[[body]]\nname = \"steel\"\ncontact_group = \"target\"\nmaterial = \"" +
-         steel("model = \"von_mises\"\nyield_stress = 0.5e9\n") +
+         steel("model = \"von_mises\"\nyield_stress = \"0.5 GPa\"\n") +
          "\"\ndiscretization = { method = \"bars\", bar_diameter = 4e-4, bar_failure_strain = 0.5 }\n"
          "[[body.bar]]\nfrom = [0, 0.5e-3, 1e-3]\nto = [5e-3, 0.5e-3, 1e-3]\ncount = 3\nstep = [0, 1.5e-3, "
          "0]\n"
