@@ -102,7 +102,8 @@ Quantities measure(const Run& run, const Start& start, const Options& options, c
   append(row, cloud_measures(snapshot, frame, start.target ? start.extents[*start.target] : Extent{}));
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
     append(row, body_measures(snapshot, frame, b, run.bodies[b], outflow.at(b, snapshot.time)));
-    append(row, bar_measures(snapshot, frame, b, run.bodies[b], run.cell_size, options.diameter_at));
+    append(row, bar_measures(snapshot, frame, b, run.bodies[b], run.cell_size, options.diameter_at,
+                             frame.wall && start.extents[b].upper > *frame.wall - 0.01 * run.cell_size));
   }
   const bool has_volumes = snapshot.scalar("density") != nullptr;
   if (start.target && has_volumes && !frame.wall) {

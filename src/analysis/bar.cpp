@@ -13,8 +13,6 @@
 namespace whipple::analysis {
 namespace {
 
-constexpr double least_filled = 0.99;  // of a layer at the wall that the bar touches
-
 /// Share of a layer that matter fills within a radius.
 double core_fraction(const RingField& field, std::size_t layer, double radius) {
   double filled = 0.0, area = 0.0;
@@ -27,8 +25,9 @@ double core_fraction(const RingField& field, std::size_t layer, double radius) {
 }
 
 /// Diameters of circles with the cross-sections of the layers of thickness `size` above `lower`.
+/// @param may_stand_off  look whether the matter ends before the wall, and begin there
 std::vector<double> diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body, double size,
-                              double lower, double upper, bool wall_at_upper) {
+                              double lower, double upper, bool wall_at_upper, bool may_stand_off) {
   double radius = 0.0;
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     if (snapshot.body[i] == body) radius = std::max(radius, frame.radius(snapshot.position[i]));
@@ -41,13 +40,13 @@ std::vector<double> diameters(const Snapshot& snapshot, const Frame& frame, std:
   }
   // A bar that meets its wall stands a part of a cell before it: the layer there is not full, at the axis either.
   // The layers begin at the bar's face then.
-  if (wall_at_upper && result.size() > 2) {
+  if (may_stand_off && result.size() > 2) {
     const std::size_t k = result.size() - 1;
     const double core = 0.25 * result[k - 1], full = core_fraction(field, k - 1, core);
     const double filled = full > 0.0 ? core_fraction(field, k, core) / full : 1.0;
-    if (filled > 0.5 && filled < least_filled) {
+    if (filled > 0.5 && filled < 1.0) {
       const double gap = (1.0 - filled) * size;
-      return diameters(snapshot, frame, body, size, lower - gap, upper - gap, true);
+      return diameters(snapshot, frame, body, size, lower - gap, upper - gap, true, false);
     }
   }
   return result;
@@ -65,7 +64,7 @@ Table diameter_profile(const Snapshot& snapshot, const Frame& frame, const Run& 
     const Extent extent = axial_extent(snapshot, frame, b, run.bodies[b].spacing);
     if (!(extent.length() > 0.0) || !std::isfinite(extent.length())) continue;
     const std::vector<double> d =
-        diameters(snapshot, frame, b, run.cell_size, extent.lower, extent.upper, false);
+        diameters(snapshot, frame, b, run.cell_size, extent.lower, extent.upper, false, false);
     for (std::size_t k = 0; k < d.size(); ++k) {
       table.append({{"axial", "m", "axial coordinate of the middle of the layer",
                      extent.lower + (static_cast<double>(k) + 0.5) * run.cell_size},
@@ -77,7 +76,7 @@ Table diameter_profile(const Snapshot& snapshot, const Frame& frame, const Run& 
 }
 
 Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,
-                        const BodyInput& input, double cell_size, double diameter_at) {
+                        const BodyInput& input, double cell_size, double diameter_at, bool held) {
   if (!frame.wall) return {};
   // Axial coordinates grow towards the wall: the bar lies below it.
   const double wall = *frame.wall;
@@ -85,7 +84,7 @@ Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_
   if (!std::isfinite(extent.length())) return {};  // nothing of it is left
   const double size = cell_size;
   const double lower = wall - std::ceil((wall - extent.lower) / size + 1.0) * size;
-  const std::vector<double> d = diameters(snapshot, frame, body, size, lower, wall, true);
+  const std::vector<double> d = diameters(snapshot, frame, body, size, lower, wall, true, !held);
   const auto name = [&](const char* measure) { return fmt::format("{}.{}", measure, input.name); };
   const std::size_t n = d.size();
   Quantities row = {

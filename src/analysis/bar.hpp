@@ -12,8 +12,9 @@ Table diameter_profile(const Snapshot& snapshot, const Frame& frame, const Run& 
 
 /// Of a body against a wall: length, diameter and state at the foot.
 /// @param diameter_at distance from the wall at which the diameter is asked for; 0: not
+/// @param held        it touched the wall from the start, so that no gap can be between them
 Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,
-                        const BodyInput& input, double cell_size, double diameter_at);
+                        const BodyInput& input, double cell_size, double diameter_at, bool held);
 
 /// Spall of a body in planar impact, from the gaps along the axis at the last snapshot.
 Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Frame& frame, std::size_t body,

@@ -272,7 +272,7 @@ TEST(Bar, LengthAndDiametersOfAConeOnACylinder) {
   frame.sign = -1.0;
   frame.wall = 0.0;
   const Quantities row =
-      bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.5 * cell}, cell, 5e-3);
+      bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.5 * cell}, cell, 5e-3, true);
   EXPECT_NEAR(value(row, "length.bar"), 20e-3, 1e-9);
   EXPECT_NEAR(value(row, "foot_diameter.bar"), 12e-3, 0.06e-3);
   EXPECT_NEAR(value(row, "diameter_at.bar"), 10e-3, 0.06e-3);
@@ -288,7 +288,7 @@ TEST(Bar, AFootThatStandsAPartOfACellBeforeTheWallIsAsWide) {
   Frame frame = quarter(200);
   frame.sign = -1.0;
   frame.wall = 0.0;
-  const Quantities row = bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.25 * cell}, cell, 0.0);
+  const Quantities row = bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.25 * cell}, cell, 0.0, false);
   EXPECT_NEAR(value(row, "foot_diameter.bar"), 10e-3, 0.05e-3);
 }
 
