@@ -68,7 +68,7 @@ finished() {
 stage "packages and build"
 scripts/install_deps.sh
 configured=$(cmake --preset release 2>&1) || { echo "$configured"; exit 1; }
-echo "building: two to four minutes on two idle cores"
+echo "building: about five minutes on two idle cores"
 cmake --build --preset release --parallel "$(nproc)" --target whipple whipple-md whipple-fit -- --quiet
 mkdir -p "$output" "$stamps"
 
