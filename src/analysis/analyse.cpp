@@ -43,8 +43,15 @@ struct Start {
 };
 
 Start start_of(const Run& run, const Snapshot& first, const Options& options) {
-  const Snapshot last = read_snapshot(run.snapshots.back());
-  Start start{.frame = find_frame(run, first, options.axis, &last), .extents = {}, .target = {}, .columns = {},
+  // Where something moves at the start, the last snapshot says nothing about the axis.
+  std::optional<Snapshot> last;
+  if (std::ranges::all_of(run.bodies, [](const BodyInput& body) { return body.velocity.isZero(0.0); })) {
+    last = read_snapshot(run.snapshots.back());
+  }
+  Start start{.frame = find_frame(run, first, options.axis, last ? &*last : nullptr),
+              .extents = {},
+              .target = {},
+              .columns = {},
               .near_axis = {}};
   const Frame& frame = start.frame;
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
