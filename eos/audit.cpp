@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "eos/detonation.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

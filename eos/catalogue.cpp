@@ -25,8 +25,8 @@
 #include "eos/modifiers/p_alpha.hpp"
 #include "eos/modifiers/scale.hpp"
 #include "eos/modifiers/shift.hpp"
-#include "src/base/error.hpp"
-#include "src/base/text.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/text.hpp"
 
 namespace whipple::eos {
 namespace {

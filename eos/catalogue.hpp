@@ -7,7 +7,7 @@
 #include <string>
 
 #include "eos/equation_of_state.hpp"
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 
 /// All equations of state that a material can name. A new model is one line of catalogue.cpp.
 namespace whipple::eos {

@@ -9,7 +9,7 @@
 
 #include "eos/closure_search.hpp"
 #include "eos/inversions.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

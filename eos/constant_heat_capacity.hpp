@@ -13,9 +13,9 @@
 #include <variant>
 
 #include "eos/equation_of_state.hpp"
-#include "src/base/error.hpp"
-#include "src/base/parameter_table.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/parameter_table.hpp"
+#include "src/core/base/vector_math.hpp"
 
 /// The common core of the models with a constant heat capacity (docs/theory/equations_of_state.md, section
 /// 2).

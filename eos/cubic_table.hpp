@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "src/base/vector_math.hpp"
+#include "src/core/base/vector_math.hpp"
 
 namespace whipple::eos {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "src/base/vector_math.hpp"
+#include "src/core/base/vector_math.hpp"
 
 namespace whipple::eos {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "eos/root.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 

@@ -10,9 +10,9 @@
 #include "md_fitting/plan/plan.hpp"
 #include "md_fitting/protocols/campaign.hpp"
 #include "md_fitting/protocols/critical_point.hpp"
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
-#include "src/base/progress.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/progress.hpp"
 
 namespace whipple::md {
 namespace {

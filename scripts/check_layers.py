@@ -12,40 +12,40 @@ import tempfile
 
 # Module (folder) -> the modules that it may use. A module may always use itself. The order is that of the layers.
 MAY_USE = {
-    "src/base": [],
-    "src/input": ["src/base"],
-    "src/parallel": ["src/base"],
-    "src/process": ["src/base"],
-    "src/hdf5": ["src/base", "src/parallel"],
-    "eos": ["src/base"],
-    "md_fitting/data_set": ["src/base", "src/hdf5"],
+    "src/core/base": [],
+    "src/core/input": ["src/core/base"],
+    "src/core/parallel": ["src/core/base"],
+    "src/core/process": ["src/core/base"],
+    "src/core/hdf5": ["src/core/base", "src/core/parallel"],
+    "eos": ["src/core/base"],
+    "md_fitting/data_set": ["src/core/base", "src/core/hdf5"],
     # Reads the store and starts whipple-md as a process: no LAMMPS on the solver's side.
-    "eos/md": ["src/base", "src/process", "eos", "md_fitting/data_set"],
-    "eos/files": ["src/base", "src/hdf5", "eos", "eos/md"],
-    "src/particles": ["src/base", "src/parallel"],
-    "src/grid": ["src/base", "src/parallel"],
-    "src/material": ["src/base", "src/input", "eos", "eos/md", "eos/files", "src/particles"],
-    "src/transfer": ["src/base", "src/parallel", "src/particles", "src/grid"],
-    "src/fem": ["src/base", "src/parallel", "src/particles", "src/material"],
-    "src/contact": ["src/base", "src/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
-    "src/afemp": ["src/base", "src/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
-    "src/io": ["src/base", "src/parallel", "src/hdf5", "src/particles", "src/fem"],
-    "src/setup": ["src/base", "src/input", "src/parallel", "eos", "eos/files", "src/particles", "src/grid", "src/material",
+    "eos/md": ["src/core/base", "src/core/process", "eos", "md_fitting/data_set"],
+    "eos/files": ["src/core/base", "src/core/hdf5", "eos", "eos/md"],
+    "src/particles": ["src/core/base", "src/core/parallel"],
+    "src/grid": ["src/core/base", "src/core/parallel"],
+    "src/material": ["src/core/base", "src/core/input", "eos", "eos/md", "eos/files", "src/particles"],
+    "src/transfer": ["src/core/base", "src/core/parallel", "src/particles", "src/grid"],
+    "src/fem": ["src/core/base", "src/core/parallel", "src/particles", "src/material"],
+    "src/contact": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
+    "src/afemp": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
+    "src/io": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/particles", "src/fem"],
+    "src/setup": ["src/core/base", "src/core/input", "src/core/parallel", "eos", "eos/files", "src/particles", "src/grid", "src/material",
                   "src/fem", "src/io"],
-    "src/solver": ["src/base", "src/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
+    "src/solver": ["src/core/base", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
                    "src/fem", "src/contact", "src/afemp", "src/io", "src/setup"],
     # Times the solver.
-    "src/bench": ["src/base", "src/parallel", "src/process", "src/particles", "src/grid", "src/transfer", "src/io", "src/setup", "src/solver"],
+    "src/bench": ["src/core/base", "src/core/parallel", "src/core/process", "src/particles", "src/grid", "src/transfer", "src/io", "src/setup", "src/solver"],
     # Reads what runs wrote; knows no solver.
-    "src/analysis": ["src/base", "src/input", "src/parallel", "src/hdf5"],
-    "md_fitting/plan": ["src/base", "src/input"],
-    "md_fitting/lammps": ["src/base", "md_fitting/data_set"],
-    "md_fitting/protocols": ["src/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],
-    "md_fitting/fit": ["src/base", "src/input", "src/process", "eos", "md_fitting/data_set", "md_fitting/plan"],
+    "src/analysis": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/hdf5"],
+    "md_fitting/plan": ["src/core/base", "src/core/input"],
+    "md_fitting/lammps": ["src/core/base", "md_fitting/data_set"],
+    "md_fitting/protocols": ["src/core/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],
+    "md_fitting/fit": ["src/core/base", "src/core/input", "src/core/process", "eos", "md_fitting/data_set", "md_fitting/plan"],
     # The program whipple-md.
-    "md_fitting": ["src/base", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],
+    "md_fitting": ["src/core/base", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],
     # The program whipple: it starts the other two, so of their side it knows the plan's keys only.
-    "src/app": ["src/base", "src/input", "src/parallel", "src/process", "eos", "eos/files", "src/particles", "src/grid", "src/material",
+    "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/files", "src/particles", "src/grid", "src/material",
                 "src/transfer", "src/io", "src/analysis", "src/setup", "src/solver", "src/bench", "md_fitting/plan"],
 }
 
@@ -59,17 +59,17 @@ VERSION_QUERY = "src/app/version_command.cpp"  # asks the libraries for their ve
 
 # What is allowed in a few places only: (name, pattern of the line, the places).
 CONFINED = [
-    ("an OpenMP pragma", re.compile(r"^\s*#\s*pragma\s+omp|\b_Pragma\s*\(\s*\"omp"), ["src/parallel"]),
-    ("OpenMP's interface", re.compile(r"^\s*#\s*include\s*<omp\.h>"), ["src/parallel"]),
+    ("an OpenMP pragma", re.compile(r"^\s*#\s*pragma\s+omp|\b_Pragma\s*\(\s*\"omp"), ["src/core/parallel"]),
+    ("OpenMP's interface", re.compile(r"^\s*#\s*include\s*<omp\.h>"), ["src/core/parallel"]),
     ("an MPI call", re.compile(r"\bP?MPI_[A-Z][a-z]\w*\s*\("),
-     ["src/parallel", "src/grid", "src/io", VERSION_QUERY, "md_fitting/lammps", "md_fitting/protocols",
+     ["src/core/parallel", "src/grid", "src/io", VERSION_QUERY, "md_fitting/lammps", "md_fitting/protocols",
       "md_fitting/md_worker.cpp"]),
-    ("toml++", re.compile(r"^\s*#\s*include\s*[<\"]toml\+\+"), ["src/input"]),
+    ("toml++", re.compile(r"^\s*#\s*include\s*[<\"]toml\+\+"), ["src/core/input"]),
     ("GSL", re.compile(r"^\s*#\s*include\s*[<\"]gsl/"), ["md_fitting/fit"]),
     ("LAMMPS", re.compile(r"^\s*#\s*include\s*[<\"](lammps/|library\.h)"), ["md_fitting/lammps"]),
-    ("HDF5", re.compile(r"^\s*#\s*include\s*[<\"](hdf5|H5\w+)\.h"), ["src/hdf5", VERSION_QUERY]),
+    ("HDF5", re.compile(r"^\s*#\s*include\s*[<\"](hdf5|H5\w+)\.h"), ["src/core/hdf5", VERSION_QUERY]),
     ("p4est", re.compile(r"^\s*#\s*include\s*[<\"](p[48]est\w*|sc(_\w+)?)\.h"), ["src/grid", VERSION_QUERY]),
-    ("UDUNITS2", re.compile(r"^\s*#\s*include\s*[<\"]udunits2\.h"), ["src/base"]),
+    ("UDUNITS2", re.compile(r"^\s*#\s*include\s*[<\"]udunits2\.h"), ["src/core/base"]),
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
@@ -160,7 +160,8 @@ def check_cmake(root):
         text = re.sub(r"#.*", "", path.read_text(encoding="utf-8"))
         for body in re.findall(r"whipple_library\s*\(([^)]*)\)", text):
             for library in re.findall(r"\bwhipple_\w+", body.partition("DEPENDS")[2]):
-                used = LIBRARY_OF.get(library, "src/" + library.removeprefix("whipple_"))
+                name = library.removeprefix("whipple_")
+                used = LIBRARY_OF.get(library, f"src/core/{name}" if f"src/core/{name}" in MAY_USE else f"src/{name}")
                 if used not in MAY_USE:
                     faults.append(f"{relative}: {library} is in no layer")
                 elif used != module and used not in MAY_USE[module]:
@@ -182,8 +183,8 @@ def check(root):
 def self_test():
     """Each bad file must be found, and for the expected reason."""
     bad = {
-        "src/base/upward.hpp": ('#include "src/solver/run.hpp"\n', "src/base may not use src/solver"),
-        "eos/reads_files.cpp": ('#include "src/input/document.hpp"\n', "eos may not use src/input"),
+        "src/core/base/upward.hpp": ('#include "src/solver/run.hpp"\n', "src/core/base may not use src/solver"),
+        "eos/reads_files.cpp": ('#include "src/core/input/document.hpp"\n', "eos may not use src/core/input"),
         "eos/models/knows_particles.hpp": ('#include "src/particles/p.hpp"\n', "eos may not use src/particles"),
         "src/material/knows_grid.cpp": ('#include "src/grid/g.hpp"\n', "src/material may not use src/grid"),
         "src/solver/starts_md.cpp": ('#include "md_fitting/plan/plan.hpp"\n', "src/solver may not use md_fitting/plan"),
@@ -196,7 +197,7 @@ def self_test():
         "src/app/lammps.cpp": ("#include <lammps/library.h>\n", "LAMMPS outside of"),
         "src/solver/hdf5.cpp": ("#include <hdf5.h>\n", "HDF5 outside of"),
         "src/solver/forest.cpp": ("#include <p8est_bits.h>\n", "p4est outside of"),
-        "src/base/relative.cpp": ('#include "upward.hpp"\n', '"upward.hpp" is no file of a layer'),
+        "src/core/base/relative.cpp": ('#include "upward.hpp"\n', '"upward.hpp" is no file of a layer'),
         "src/nowhere/file.cpp": ("", "this folder is in no layer"),
         "src/io/a.hpp": ('#include "src/io/b.hpp"\n', "include cycle: src/io/a.hpp -> src/io/b.hpp -> src/io/a.hpp"),
         "src/transfer/CMakeLists.txt": ("whipple_library(transfer SOURCES a.cpp DEPENDS whipple_material)\n",
@@ -204,10 +205,10 @@ def self_test():
     }
     good = {
         "src/solver/run.hpp": '#include "src/particles/p.hpp"\n// MPI_Barrier(c) in a comment\nMPI_Comm comm;\n',
-        "src/input/document.hpp": "/* #include <hdf5.h>\n*/\n",
+        "src/core/input/document.hpp": "/* #include <hdf5.h>\n*/\n",
         "src/particles/p.hpp": "", "src/grid/g.hpp": "", "md_fitting/plan/plan.hpp": "", "md_fitting/lammps/l.hpp": "",
         "src/io/b.hpp": '#include "src/io/a.hpp"\n',
-        "src/hdf5/hdf5.hpp": "#include <hdf5.h>\n",
+        "src/core/hdf5/hdf5.hpp": "#include <hdf5.h>\n",
     }
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)

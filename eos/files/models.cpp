@@ -13,7 +13,7 @@
 #include "eos/files/table_file.hpp"
 #include "eos/md/worker_source.hpp"
 #include "eos/table/sesame.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "eos/files/sesame_layout.hpp"
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/log.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/log.hpp"
 
 namespace whipple::eos {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "eos/files/sesame.hpp"
 #include "eos/files/sesame_layout.hpp"
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 
 namespace whipple::eos {
 namespace {

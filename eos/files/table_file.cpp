@@ -12,11 +12,11 @@
 #include <system_error>
 #include <utility>
 
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/hash.hpp"
-#include "src/base/log.hpp"
-#include "src/hdf5/hdf5.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/hash.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/hdf5/hdf5.hpp"
 
 namespace whipple::eos {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "eos/loci/isentrope.hpp"
 #include "eos/root.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 

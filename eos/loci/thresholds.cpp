@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "eos/loci/isentrope.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

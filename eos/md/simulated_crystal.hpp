@@ -9,7 +9,7 @@
 
 #include "eos/equation_of_state.hpp"
 #include "eos/md/crystal_surface.hpp"
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 
 namespace whipple::eos {
 

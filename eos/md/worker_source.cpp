@@ -9,10 +9,10 @@
 #include <fstream>
 #include <set>
 
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
-#include "src/base/text.hpp"
-#include "src/process/mpirun.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/text.hpp"
+#include "src/core/process/mpirun.hpp"
 
 namespace whipple::eos {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "eos/models/debye_function.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

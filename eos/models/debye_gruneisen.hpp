@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "eos/equation_of_state.hpp"
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 
 namespace whipple::eos {
 

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <limits>
 
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
 
 namespace whipple::eos {
 namespace {

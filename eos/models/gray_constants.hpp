@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 
 namespace whipple::eos {
 

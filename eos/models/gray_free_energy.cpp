@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "eos/models/gray_reference_pressure.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

@@ -7,7 +7,7 @@
 #include "eos/models/gray_constants.hpp"
 #include "eos/models/shock_curve.hpp"
 #include "eos/vapour_dome.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/vector_math.hpp"
 
 /// Helmholtz free energy of GRAY in closed form, phase by phase (docs/theory/gray.md, sections 2 to 4). All
 /// arguments and results SI; V is the specific volume in m^3/kg, T in K. Cheap to construct (a quarter

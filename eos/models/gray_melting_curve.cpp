@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "eos/root.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "eos/models/shock_curve.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/vector_math.hpp"
 
 namespace whipple::eos {
 

@@ -8,7 +8,7 @@
 
 #include "eos/models/gray_free_energy.hpp"
 #include "eos/root.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "eos/constant_heat_capacity.hpp"
 #include "eos/fourfold_table.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 

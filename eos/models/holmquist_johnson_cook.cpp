@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "eos/model_equation_of_state.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

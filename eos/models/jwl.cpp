@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "eos/detonation.hpp"
-#include "src/base/log.hpp"
+#include "src/core/base/log.hpp"
 
 namespace whipple::eos {
 

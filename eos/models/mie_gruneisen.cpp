@@ -2,7 +2,7 @@
 // Equation numbers: docs/theory/equations_of_state.md.
 #include "eos/models/mie_gruneisen.hpp"
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

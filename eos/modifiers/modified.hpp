@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "eos/equation_of_state.hpp"
-#include "src/base/error.hpp"
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/parameter_table.hpp"
 
 /// Modifiers: equations of state around another one (docs/theory/equations_of_state.md, "Modifiers").
 namespace whipple::eos {

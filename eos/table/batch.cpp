@@ -8,7 +8,7 @@
 
 #include "eos/table/kernel.hpp"
 #include "eos/table/table.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/vector_math.hpp"
 
 namespace whipple::eos {
 namespace {

@@ -8,7 +8,7 @@
 #include <mutex>
 
 #include "eos/table/strip.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "eos/table/table.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/vector_math.hpp"
 
 /// The innermost functions of a table, shared by its evaluation and by its construction.
 namespace whipple::eos::table {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

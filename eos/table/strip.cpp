@@ -10,7 +10,7 @@
 
 #include "eos/table/hermite_fit.hpp"
 #include "eos/table/kernel.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos::table {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "eos/root.hpp"
 #include "eos/table/kernel.hpp"
-#include "src/base/error.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/vector_math.hpp"
 
 namespace whipple::eos {
 namespace {

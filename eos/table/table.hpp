@@ -8,7 +8,7 @@
 
 #include "eos/equation_of_state.hpp"
 #include "eos/table/layout.hpp"
-#include "src/base/simd.hpp"
+#include "src/core/base/simd.hpp"
 
 /// A complete equation of state as a table of its entropy (docs/theory/equations_of_state.md, section
 /// "Tables"). One piecewise polynomial s(ln rho, z), z = ln(e - e_0(rho)), gives everything else,

@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "md_fitting/data_set/store_order.hpp"
-#include "src/base/error.hpp"
-#include "src/base/file_lock.hpp"
-#include "src/base/units.hpp"
-#include "src/hdf5/hdf5.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/file_lock.hpp"
+#include "src/core/base/units.hpp"
+#include "src/core/hdf5/hdf5.hpp"
 
 namespace whipple::md {
 namespace {

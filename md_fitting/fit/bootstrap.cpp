@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {

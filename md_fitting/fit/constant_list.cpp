@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "md_fitting/fit/table_access.hpp"
-#include "src/base/error.hpp"
-#include "src/base/units.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/units.hpp"
 
 namespace whipple::fit {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "md_fitting/fit/element_defaults.hpp"
 #include "md_fitting/fit/fit_result.hpp"
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 
 namespace whipple::fit {
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 

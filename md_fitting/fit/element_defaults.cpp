@@ -7,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {

@@ -15,10 +15,10 @@
 #include "md_fitting/fit/material_writer.hpp"
 #include "md_fitting/fit/proposal.hpp"
 #include "md_fitting/fit/solid_models.hpp"
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/units.hpp"
-#include "src/process/scripts.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/units.hpp"
+#include "src/core/process/scripts.hpp"
 
 namespace whipple::fit {
 namespace {

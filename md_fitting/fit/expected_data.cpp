@@ -9,7 +9,7 @@
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/gray.hpp"
 #include "md_fitting/fit/laws.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {

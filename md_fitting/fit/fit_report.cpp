@@ -12,7 +12,7 @@
 
 #include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/element_defaults.hpp"
-#include "src/base/text_table.hpp"
+#include "src/core/base/text_table.hpp"
 
 namespace whipple::fit {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "eos/catalogue.hpp"
 #include "md_fitting/fit/constant_list.hpp"
-#include "src/base/error.hpp"
-#include "src/base/normal_samples.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/normal_samples.hpp"
 
 namespace whipple::fit {
 namespace {

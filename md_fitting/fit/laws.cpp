@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "eos/root.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {

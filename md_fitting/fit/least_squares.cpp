@@ -12,7 +12,7 @@
 #include <exception>
 #include <memory>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {

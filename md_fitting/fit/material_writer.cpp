@@ -15,11 +15,11 @@
 
 #include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/element_defaults.hpp"
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/hash.hpp"
-#include "src/base/text.hpp"
-#include "src/base/units.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/hash.hpp"
+#include "src/core/base/text.hpp"
+#include "src/core/base/units.hpp"
 
 namespace whipple::fit {
 namespace {

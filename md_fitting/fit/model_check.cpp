@@ -9,7 +9,7 @@
 #include "eos/models/gray.hpp"
 #include "md_fitting/fit/laws.hpp"
 #include "md_fitting/fit/vapour_fit.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {

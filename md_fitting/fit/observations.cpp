@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {

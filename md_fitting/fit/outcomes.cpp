@@ -11,7 +11,7 @@
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/gray.hpp"
 #include "md_fitting/fit/table_access.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {

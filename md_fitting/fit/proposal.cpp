@@ -13,7 +13,7 @@
 #include "md_fitting/fit/gray_fit.hpp"
 #include "md_fitting/fit/outcomes.hpp"
 #include "md_fitting/fit/solid_problem.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {

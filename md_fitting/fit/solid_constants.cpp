@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 

@@ -10,7 +10,7 @@
 
 #include "md_fitting/fit/laws.hpp"
 #include "md_fitting/fit/solid_problem.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {

@@ -15,8 +15,8 @@
 #include "md_fitting/fit/element_defaults.hpp"
 #include "md_fitting/fit/model_check.hpp"
 #include "md_fitting/fit/solid_fit.hpp"
-#include "src/base/error.hpp"
-#include "src/base/units.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/units.hpp"
 
 namespace whipple::fit {
 namespace {

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "eos/models/gray_constants.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 

@@ -12,7 +12,7 @@
 #include "md_fitting/fit/bounds.hpp"
 #include "md_fitting/fit/least_squares.hpp"
 #include "md_fitting/fit/table_access.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {

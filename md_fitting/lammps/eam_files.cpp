@@ -14,8 +14,8 @@
 #include <utility>
 
 #include "md_fitting/lammps/elements.hpp"
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 
 namespace whipple::md {
 namespace {

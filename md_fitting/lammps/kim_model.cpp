@@ -15,8 +15,8 @@
 
 #include "md_fitting/lammps/elements.hpp"
 #include "md_fitting/lammps/units.hpp"
-#include "src/base/error.hpp"
-#include "src/base/text.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/text.hpp"
 
 namespace whipple::md {
 namespace {

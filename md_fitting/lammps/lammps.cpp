@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::md {
 namespace {

@@ -15,9 +15,9 @@
 #include "md_fitting/lammps/eam_files.hpp"
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/lammps/zhou_2004.hpp"
-#include "src/base/error.hpp"
-#include "src/base/hash.hpp"
-#include "src/base/text.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/hash.hpp"
+#include "src/core/base/text.hpp"
 
 namespace whipple::md {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "src/base/parameter_table.hpp"
-#include "src/input/document.hpp"
+#include "src/core/base/parameter_table.hpp"
+#include "src/core/input/document.hpp"
 
 namespace whipple::md {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 
 namespace whipple::md {
 

@@ -20,7 +20,7 @@
 #include "md_fitting/plan/piston.hpp"
 #include "md_fitting/plan/spall.hpp"
 #include "md_fitting/plan/zero_pressure.hpp"
-#include "src/input/document.hpp"
+#include "src/core/input/document.hpp"
 
 /// The plan of a campaign of molecular-dynamics points: a TOML file that names what is to be measured. This
 /// library knows neither LAMMPS nor potentials; `whipple describe md` prints its tables. Each protocol has

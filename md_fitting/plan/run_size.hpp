@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 
 namespace whipple::md {
 

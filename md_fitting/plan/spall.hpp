@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "md_fitting/plan/run_size.hpp"
-#include "src/input/document.hpp"
+#include "src/core/input/document.hpp"
 
 namespace whipple::md {
 

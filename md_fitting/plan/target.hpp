@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 
 namespace whipple::md {
 

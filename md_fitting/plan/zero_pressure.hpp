@@ -5,7 +5,7 @@
 
 #include "md_fitting/plan/run_size.hpp"
 #include "md_fitting/plan/target.hpp"
-#include "src/input/document.hpp"
+#include "src/core/input/document.hpp"
 
 namespace whipple::md {
 

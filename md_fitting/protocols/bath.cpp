@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "md_fitting/protocols/statistics.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::md {
 namespace {

@@ -17,10 +17,10 @@
 
 #include "md_fitting/data_set/store_order.hpp"
 #include "md_fitting/protocols/point_team.hpp"
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
-#include "src/base/progress.hpp"
-#include "src/base/units.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/progress.hpp"
+#include "src/core/base/units.hpp"
 
 namespace whipple::md {
 namespace {

@@ -14,9 +14,9 @@
 #include "md_fitting/protocols/phase.hpp"
 #include "md_fitting/protocols/statistics.hpp"
 #include "md_fitting/protocols/structure.hpp"
-#include "src/base/error.hpp"
-#include "src/base/hash.hpp"
-#include "src/base/log.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/hash.hpp"
+#include "src/core/base/log.hpp"
 
 namespace whipple::md {
 namespace {

@@ -8,7 +8,7 @@
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/crystal.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::md {
 namespace {

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::md {
 namespace {

@@ -13,7 +13,7 @@
 #include "md_fitting/protocols/hugoniot_guess.hpp"
 #include "md_fitting/protocols/statistics.hpp"
 #include "md_fitting/protocols/structure.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::md {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "md_fitting/lammps/units.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::md {
 

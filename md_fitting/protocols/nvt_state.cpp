@@ -12,7 +12,7 @@
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/statistics.hpp"
 #include "md_fitting/protocols/structure.hpp"
-#include "src/base/hash.hpp"
+#include "src/core/base/hash.hpp"
 
 namespace whipple::md {
 namespace {

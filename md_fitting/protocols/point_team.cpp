@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::md {
 namespace {

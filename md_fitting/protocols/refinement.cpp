@@ -6,7 +6,7 @@
 #include <set>
 
 #include "md_fitting/protocols/replicas.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::md {
 namespace {

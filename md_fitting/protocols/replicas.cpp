@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "src/base/error.hpp"
-#include "src/base/hash.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/hash.hpp"
 
 namespace whipple::md {
 

@@ -14,7 +14,7 @@
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/statistics.hpp"
 #include "md_fitting/protocols/structure.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::md {
 namespace {

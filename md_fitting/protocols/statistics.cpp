@@ -9,7 +9,7 @@
 #include <numeric>
 #include <vector>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::md {
 namespace {

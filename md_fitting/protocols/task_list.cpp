@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/error.hpp"
-#include "src/base/hash.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/hash.hpp"
 
 namespace whipple::md {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "src/fem/hexahedron.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::afemp {
 namespace {

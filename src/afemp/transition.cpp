@@ -5,12 +5,12 @@
 #include <array>
 #include <cmath>
 
-#include "src/base/marks.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/marks.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/grid/block_table.hpp"
-#include "src/parallel/mpi.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::afemp {
 namespace {

@@ -21,9 +21,9 @@
 #include "src/analysis/surfaces.hpp"
 #include "src/analysis/table.hpp"
 #include "src/analysis/witness.hpp"
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/log.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/log.hpp"
 
 namespace whipple::analysis {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::analysis {
 namespace {

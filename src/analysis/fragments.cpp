@@ -9,8 +9,8 @@
 #include <numeric>
 
 #include "src/analysis/cloud.hpp"
-#include "src/base/error.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::analysis {
 namespace {

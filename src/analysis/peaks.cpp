@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::analysis {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/error.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::analysis {
 namespace {

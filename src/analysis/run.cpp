@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/parameter_table.hpp"
-#include "src/hdf5/hdf5.hpp"
-#include "src/input/document.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/parameter_table.hpp"
+#include "src/core/hdf5/hdf5.hpp"
+#include "src/core/input/document.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::analysis {
 namespace {

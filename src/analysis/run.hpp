@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "src/base/tensor.hpp"
+#include "src/core/base/tensor.hpp"
 
 /// Measures of a finished or running run, from run.toml and the snapshots alone (docs/theory/analysis.md).
 /// SI.

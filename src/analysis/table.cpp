@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 
 namespace whipple::analysis {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/hdf5/hdf5.hpp"
+#include "src/core/hdf5/hdf5.hpp"
 
 namespace whipple::analysis {
 

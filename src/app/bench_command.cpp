@@ -12,16 +12,16 @@
 #include <vector>
 
 #include "src/app/build_info.hpp"
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/log.hpp"
-#include "src/base/text_table.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/text_table.hpp"
 #include "src/bench/machine.hpp"
 #include "src/bench/measurement.hpp"
 #include "src/io/run_directory.hpp"
-#include "src/parallel/mpi.hpp"
-#include "src/process/mpirun.hpp"
-#include "src/process/paths.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/process/mpirun.hpp"
+#include "src/core/process/paths.hpp"
 
 namespace whipple::app {
 namespace {

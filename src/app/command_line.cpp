@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
-#include "src/base/progress.hpp"
-#include "src/base/text.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/progress.hpp"
+#include "src/core/base/text.hpp"
 
 namespace whipple::app {
 namespace {

@@ -14,11 +14,11 @@
 
 #include "src/app/compare_data.hpp"
 #include "src/app/eos_queries.hpp"
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/text_table.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/text_table.hpp"
 #include "src/material/material_file.hpp"
-#include "src/process/scripts.hpp"
+#include "src/core/process/scripts.hpp"
 
 namespace whipple::app {
 namespace {

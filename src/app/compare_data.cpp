@@ -18,8 +18,8 @@
 #include "eos/inversions.hpp"
 #include "eos/loci.hpp"
 #include "src/app/measured_table.hpp"
-#include "src/base/error.hpp"
-#include "src/process/paths.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/process/paths.hpp"
 
 namespace whipple::app {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "eos/files/models.hpp"
 #include "md_fitting/plan/plan.hpp"
-#include "src/base/error.hpp"
-#include "src/base/text.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/text.hpp"
 #include "src/material/failure/catalogue.hpp"
 #include "src/material/material_file.hpp"
 #include "src/material/strength/catalogue.hpp"

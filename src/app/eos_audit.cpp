@@ -10,8 +10,8 @@
 #include "eos/audit.hpp"
 #include "eos/detonation.hpp"
 #include "eos/models/jwl.hpp"
-#include "src/base/error.hpp"
-#include "src/base/text_table.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/text_table.hpp"
 
 namespace whipple::app {
 namespace {

@@ -16,9 +16,9 @@
 #include "src/app/eos_queries.hpp"
 #include "src/app/eos_samples.hpp"
 #include "src/app/eos_tabulate.hpp"
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/log.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/log.hpp"
 #include "src/material/material_file.hpp"
 
 namespace whipple::app {

@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "eos/inversions.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::app {
 namespace {

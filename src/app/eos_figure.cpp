@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "src/app/compare_data.hpp"
-#include "src/base/error.hpp"
-#include "src/process/scripts.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/process/scripts.hpp"
 
 namespace whipple::app {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "eos/inversions.hpp"
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
-#include "src/base/units.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/units.hpp"
 
 namespace whipple::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/material/material_samples.hpp"
 
 namespace whipple::app {

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/text_table.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/text_table.hpp"
 
 namespace whipple::app {
 namespace {

@@ -11,12 +11,12 @@
 #include "eos/files/sesame.hpp"
 #include "eos/files/table_file.hpp"
 #include "src/app/eos_queries.hpp"
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/progress.hpp"
-#include "src/base/text_table.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/progress.hpp"
+#include "src/core/base/text_table.hpp"
 #include "src/material/material_file.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::app {
 namespace {

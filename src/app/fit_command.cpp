@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "src/process/paths.hpp"
-#include "src/process/process.hpp"
+#include "src/core/process/paths.hpp"
+#include "src/core/process/process.hpp"
 
 namespace whipple::app {
 

@@ -25,7 +25,7 @@
 #include "src/app/run_command.hpp"
 #include "src/app/units_command.hpp"
 #include "src/app/version_command.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace {
 

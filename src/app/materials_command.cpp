@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "src/app/materials_table.hpp"
-#include "src/base/log.hpp"
+#include "src/core/base/log.hpp"
 #include "src/material/material_file.hpp"
 
 namespace whipple::app {

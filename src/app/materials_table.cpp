@@ -10,7 +10,7 @@
 
 #include "eos/detonation.hpp"
 #include "eos/loci.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/material/material_file.hpp"
 
 namespace whipple::app {

@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "md_fitting/plan/plan.hpp"
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
-#include "src/process/mpirun.hpp"
-#include "src/process/paths.hpp"
-#include "src/process/process.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/process/mpirun.hpp"
+#include "src/core/process/paths.hpp"
+#include "src/core/process/process.hpp"
 
 namespace whipple::app {
 namespace {

@@ -11,9 +11,9 @@
 #include <limits>
 #include <span>
 
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/units.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/units.hpp"
 
 namespace whipple::app {
 namespace {

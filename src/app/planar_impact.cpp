@@ -8,7 +8,7 @@
 
 #include "eos/loci/impedance.hpp"
 #include "eos/loci/isentrope.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::app {
 namespace {

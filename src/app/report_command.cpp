@@ -13,9 +13,9 @@
 #include "src/analysis/run.hpp"
 #include "src/app/analyse_command.hpp"
 #include "src/app/planar_impact.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/io/run_directory.hpp"
-#include "src/process/scripts.hpp"
+#include "src/core/process/scripts.hpp"
 
 namespace whipple::app {
 namespace {

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "src/app/build_info.hpp"
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
-#include "src/base/units.hpp"
-#include "src/parallel/mpi.hpp"
-#include "src/process/mpirun.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/units.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/process/mpirun.hpp"
 #include "src/solver/run.hpp"
 
 namespace whipple::app {

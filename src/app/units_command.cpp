@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "src/base/error.hpp"
-#include "src/base/units.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/units.hpp"
 
 namespace whipple::app {
 namespace {

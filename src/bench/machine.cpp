@@ -7,10 +7,10 @@
 #include <cmath>
 #include <vector>
 
-#include "src/base/error.hpp"
-#include "src/base/simd.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/simd.hpp"
 #include "src/bench/reference_kernel.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::bench {
 namespace {

@@ -12,9 +12,9 @@
 
 #include "src/bench/stage_cost.hpp"
 #include "src/io/ranks.hpp"
-#include "src/parallel/mpi.hpp"
-#include "src/parallel/threads.hpp"
-#include "src/process/paths.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
+#include "src/core/process/paths.hpp"
 #include "src/setup/tables.hpp"
 #include "src/solver/simulation.hpp"
 

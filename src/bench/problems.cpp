@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::bench {
 namespace {

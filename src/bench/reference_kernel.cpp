@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "src/base/error.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/vector_math.hpp"
 
 namespace whipple::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "src/base/simd.hpp"
+#include "src/core/base/simd.hpp"
 
 namespace whipple::bench {
 

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "src/contact/pressing.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::contact {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "src/base/simd.hpp"
-#include "src/base/tensor.hpp"
+#include "src/core/base/simd.hpp"
+#include "src/core/base/tensor.hpp"
 #include "src/grid/block_grid.hpp"
 
 namespace whipple::contact {

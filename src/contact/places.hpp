@@ -11,7 +11,7 @@
 
 #include "src/contact/surface_points.hpp"
 #include "src/grid/block_grid.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/particles/particles.hpp"
 #include "src/transfer/shape_function.hpp"
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <unordered_map>
 
-#include "src/base/vector_math.hpp"
-#include "src/parallel/mpi.hpp"
+#include "src/core/base/vector_math.hpp"
+#include "src/core/parallel/mpi.hpp"
 
 namespace whipple::contact {
 

@@ -8,7 +8,7 @@
 
 #include "src/contact/parting.hpp"
 #include "src/contact/places.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::contact {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/fem/lists.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::fem {
 namespace {

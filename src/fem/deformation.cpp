@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/fem/element_kernels.hpp"
 #include "src/fem/step.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::fem {
 

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "src/base/prefetch.hpp"
-#include "src/base/simd.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/prefetch.hpp"
+#include "src/core/base/simd.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/fem/hexahedron.hpp"
 #include "src/fem/mesh.hpp"
 #include "src/fem/step.hpp"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <iterator>
 
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::fem {
 namespace {

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/text.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/text.hpp"
 #include "src/fem/facets.hpp"
 #include "src/fem/structured.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "src/base/vector_math.hpp"
+#include "src/core/base/vector_math.hpp"
 
 /// The trilinear hexahedron in its modes (docs/theory/fem.md, 2): a nodal field u_a = sum_k u_k phi_k(xi_a)
 /// with phi = 1, xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta. T is a number, or a register of them:

@@ -9,12 +9,12 @@
 #include <cmath>
 #include <limits>
 
-#include "src/base/error.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/fem/hexahedron.hpp"
 #include "src/fem/lists.hpp"
 #include "src/fem/order.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::fem {
 namespace {

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "src/base/tensor.hpp"
+#include "src/core/base/tensor.hpp"
 #include "src/particles/material_points.hpp"
 
 /// Eight-node hexahedra of one body: structures and what is done to them outside of the time step

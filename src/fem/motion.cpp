@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/error.hpp"
-#include "src/base/marks.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/marks.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/fem/step.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::fem {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fem {
 namespace {

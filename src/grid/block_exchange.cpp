@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "src/grid/block_grid.hpp"
-#include "src/parallel/mpi.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::grid {
 

@@ -5,8 +5,8 @@
 
 #include "src/grid/block_grid.hpp"
 #include "src/grid/block_reach.hpp"
-#include "src/parallel/mpi.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::grid {
 namespace {

@@ -7,11 +7,11 @@
 #include <atomic>
 #include <cmath>
 
-#include "src/base/error.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/grid/block_reach.hpp"
-#include "src/parallel/mpi.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::grid {
 namespace {

@@ -9,13 +9,13 @@
 #include <span>
 #include <vector>
 
-#include "src/base/gaps.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/gaps.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/grid/block_table.hpp"
 #include "src/grid/forest.hpp"
 #include "src/grid/geometry.hpp"
 #include "src/grid/stencil.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::grid {
 

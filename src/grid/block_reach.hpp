@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "src/base/vector_math.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"
 
 /// Which blocks around its own a particle's stencil touches.

@@ -11,8 +11,8 @@
 #include <map>
 #include <mutex>
 
-#include "src/base/error.hpp"
-#include "src/parallel/mpi.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/parallel/mpi.hpp"
 
 namespace whipple::grid {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "src/base/tensor.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/tensor.hpp"
+#include "src/core/base/vector_math.hpp"
 
 namespace whipple::grid {
 

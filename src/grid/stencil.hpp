@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "src/base/vector_math.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/grid/geometry.hpp"
 
 /// The nodes that a point reaches, and those that the points of a block reach together.

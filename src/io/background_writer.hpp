@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::io {
 

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
-#include "src/hdf5/hdf5.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/hdf5/hdf5.hpp"
 #include "src/io/ranks.hpp"
 #include "src/io/sealed_file.hpp"
 

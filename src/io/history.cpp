@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/io/sealed_file.hpp"
 

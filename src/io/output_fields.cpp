@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "src/base/error.hpp"
-#include "src/base/text.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/text.hpp"
 
 namespace whipple::io {
 namespace {

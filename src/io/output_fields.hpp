@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "src/base/vector_math.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/particles/particles.hpp"
 
 namespace whipple::io {

@@ -4,7 +4,7 @@
 #include <exception>
 #include <numeric>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::io {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "src/base/files.hpp"
-#include "src/hdf5/hdf5.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/hdf5/hdf5.hpp"
 
 namespace whipple::io {
 

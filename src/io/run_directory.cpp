@@ -14,8 +14,8 @@
 #include <system_error>
 #include <vector>
 
-#include "src/base/error.hpp"
-#include "src/base/text.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/text.hpp"
 
 namespace whipple::io {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "src/base/file_lock.hpp"
-#include "src/base/files.hpp"
+#include "src/core/base/file_lock.hpp"
+#include "src/core/base/files.hpp"
 
 namespace whipple::io {
 

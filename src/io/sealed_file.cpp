@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::io {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/io/run_directory.hpp"
 
 namespace whipple::io {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::io {
 

@@ -14,10 +14,10 @@
 #include <variant>
 #include <vector>
 
-#include "src/hdf5/hdf5.hpp"
+#include "src/core/hdf5/hdf5.hpp"
 #include "src/io/output_fields.hpp"
 #include "src/io/ranks.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 /// What the VTKHDF files of particles and of elements have in common (docs/output.md).
 namespace whipple::io {

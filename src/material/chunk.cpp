@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "src/base/vector_math.hpp"
+#include "src/core/base/vector_math.hpp"
 
 namespace whipple::material {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "src/base/vector_math.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/material/kinematics.hpp"
 #include "src/material/update.hpp"
 

@@ -3,8 +3,8 @@
 #include <bit>
 #include <cmath>
 
-#include "src/base/simd.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/simd.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/material/chunk.hpp"
 
 namespace whipple::material {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/simd.hpp"
+#include "src/core/base/simd.hpp"
 
 namespace whipple::material {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "src/base/tensor.hpp"
+#include "src/core/base/tensor.hpp"
 
 /// Kinematics and elastic trial of one step (docs/theory/material.md, sections 1 and 2) for a chunk of
 /// points, one array per tensor component, so that the compiler works on several points at a time.

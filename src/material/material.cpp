@@ -9,8 +9,8 @@
 
 #include "eos/inversions.hpp"
 #include "eos/modifiers/distended.hpp"
-#include "src/base/error.hpp"
-#include "src/base/text.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/text.hpp"
 #include "src/material/strength/brittle.hpp"
 #include "src/material/strength/none.hpp"
 

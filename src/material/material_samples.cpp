@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "src/base/error.hpp"
-#include "src/base/normal_samples.hpp"
-#include "src/input/document.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/normal_samples.hpp"
+#include "src/core/input/document.hpp"
 #include "src/material/material_file.hpp"
 
 namespace whipple {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/tensor.hpp"
+#include "src/core/base/tensor.hpp"
 
 namespace whipple::material {
 

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
-#include "src/base/simd.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/simd.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/material/chunk.hpp"
 
 namespace whipple {

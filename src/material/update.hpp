@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "src/base/tensor.hpp"
+#include "src/core/base/tensor.hpp"
 #include "src/material/kinematics.hpp"
 #include "src/material/material.hpp"
 

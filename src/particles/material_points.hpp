@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "src/base/prefetch.hpp"
-#include "src/base/tensor.hpp"
+#include "src/core/base/prefetch.hpp"
+#include "src/core/base/tensor.hpp"
 
 namespace whipple {
 

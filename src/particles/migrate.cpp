@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/particles/rows.hpp"
 
 namespace whipple {

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <type_traits>
 
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "src/base/gaps.hpp"
+#include "src/core/base/gaps.hpp"
 #include "src/particles/material_points.hpp"
 
 namespace whipple {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/particles/material_points.hpp"
 
 /// Rows of sets of points (particles, nodes, elements, Gauss points) with all of their fields.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 
 namespace whipple::setup {
 

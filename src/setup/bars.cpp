@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::setup {
 namespace {

@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/material/material_file.hpp"
 #include "src/setup/bars.hpp"
 #include "src/setup/case.hpp"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "src/base/parameter_table.hpp"
-#include "src/base/tensor.hpp"
-#include "src/input/document.hpp"
+#include "src/core/base/parameter_table.hpp"
+#include "src/core/base/tensor.hpp"
+#include "src/core/input/document.hpp"
 #include "src/setup/artificial_viscosity.hpp"
 #include "src/setup/body_state.hpp"
 #include "src/setup/discretization.hpp"

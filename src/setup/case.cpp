@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "src/base/error.hpp"
-#include "src/base/text.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/text.hpp"
 #include "src/io/output_fields.hpp"
 #include "src/setup/seeding.hpp"
 

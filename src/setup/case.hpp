@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 #include "src/grid/geometry.hpp"
 #include "src/material/material.hpp"
 #include "src/setup/body.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/fem/step.hpp"
 
 namespace whipple::setup {

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <optional>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/setup/bars.hpp"
 #include "src/setup/meshing.hpp"
 

@@ -9,10 +9,10 @@
 
 #include "eos/files/table_file.hpp"
 #include "eos/table/table_of_model.hpp"
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
-#include "src/base/progress.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/progress.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::setup {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <iterator>
 
-#include "src/parallel/mpi.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {

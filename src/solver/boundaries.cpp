@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "src/base/gaps.hpp"
-#include "src/base/vector_math.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/gaps.hpp"
+#include "src/core/base/vector_math.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {

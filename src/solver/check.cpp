@@ -6,11 +6,11 @@
 #include <functional>
 
 #include "eos/table/table.hpp"
-#include "src/base/error.hpp"
-#include "src/base/machine.hpp"
-#include "src/base/text.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/machine.hpp"
+#include "src/core/base/text.hpp"
 #include "src/io/ranks.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/setup/remarks.hpp"
 #include "src/setup/tables.hpp"
 #include "src/solver/forecast.hpp"

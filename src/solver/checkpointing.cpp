@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {

@@ -7,9 +7,9 @@
 #include <array>
 
 #include "src/afemp/transition.hpp"
-#include "src/base/error.hpp"
-#include "src/parallel/mpi.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/particles/migrate.hpp"
 #include "src/particles/rows.hpp"
 #include "src/solver/simulation.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/parallel/mpi.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {

@@ -9,12 +9,12 @@
 
 #include "src/afemp/conversion.hpp"
 #include "src/afemp/transition.hpp"
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/material/update.hpp"
-#include "src/parallel/mpi.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {

@@ -6,9 +6,9 @@
 #include <array>
 #include <limits>
 
-#include "src/base/log.hpp"
-#include "src/parallel/mpi.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {

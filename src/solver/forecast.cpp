@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 
 namespace whipple::solver {
 namespace {

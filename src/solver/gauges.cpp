@@ -10,9 +10,9 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/fem/hexahedron.hpp"
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 
 namespace whipple::solver {
 namespace {

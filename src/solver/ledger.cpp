@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/marks.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/marks.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/io/output_fields.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::solver {
 

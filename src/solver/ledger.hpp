@@ -11,7 +11,7 @@
 
 #include "src/fem/bars.hpp"
 #include "src/fem/mesh.hpp"
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/particles/particles.hpp"
 
 /// What is conserved, and where it went.

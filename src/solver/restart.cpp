@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include "src/base/error.hpp"
-#include "src/base/hash.hpp"
-#include "src/base/log.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/hash.hpp"
+#include "src/core/base/log.hpp"
 #include "src/material/failure/criterion.hpp"
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/solver/checkpointing.hpp"
 
 namespace whipple::solver {

@@ -12,12 +12,12 @@
 #include <memory>
 #include <optional>
 
-#include "src/base/log.hpp"
-#include "src/base/text.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/text.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/run_directory.hpp"
-#include "src/parallel/mpi.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/setup/remarks.hpp"
 #include "src/setup/tables.hpp"
 #include "src/solver/preparation.hpp"

@@ -10,16 +10,16 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
-#include "src/base/progress.hpp"
-#include "src/base/resource_error.hpp"
-#include "src/base/text.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/progress.hpp"
+#include "src/core/base/resource_error.hpp"
+#include "src/core/base/text.hpp"
 #include "src/io/background_writer.hpp"
 #include "src/io/element_series.hpp"
 #include "src/io/history.hpp"
 #include "src/io/particle_series.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/solver/checkpointing.hpp"
 #include "src/solver/gauges.hpp"
 #include "src/solver/restart.hpp"

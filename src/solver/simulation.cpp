@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "src/afemp/transition.hpp"
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/material/update.hpp"
-#include "src/parallel/mpi.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/transfer/conduction.hpp"
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/particles_to_grid.hpp"

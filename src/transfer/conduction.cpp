@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/transfer/scalar_fields.hpp"
 
 namespace whipple::transfer {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 
 namespace whipple::transfer {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/transfer/full_mass_matrix.hpp"
 
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/particles_to_grid.hpp"
 

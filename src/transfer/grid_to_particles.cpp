@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "src/base/error.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
 #include "src/transfer/stress_columns.hpp"
 #include "src/transfer/transition_nodes.hpp"

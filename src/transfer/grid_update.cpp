@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/base/vector_math.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/vector_math.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::transfer {
 namespace {

@@ -7,9 +7,9 @@
 #include <span>
 #include <type_traits>
 
-#include "src/base/prefetch.hpp"
-#include "src/base/simd.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/prefetch.hpp"
+#include "src/core/base/simd.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/shape_function.hpp"

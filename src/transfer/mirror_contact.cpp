@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/vector_math.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/vector_math.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::transfer {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/base/vector_math.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/transfer/mirror_contact.hpp"
 
 namespace whipple::transfer {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/transfer/particles_to_grid.hpp"
 
-#include "src/base/prefetch.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/prefetch.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
 #include "src/transfer/stress_columns.hpp"
 #include "src/transfer/transition_nodes.hpp"

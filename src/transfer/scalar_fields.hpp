@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
 
 /// Scalar fields on the grid by quadratic B-splines, also where the transfer takes wider functions, or by

@@ -11,8 +11,8 @@
 #include <string>
 #include <string_view>
 
-#include "src/base/error.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "src/parallel/mpi.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
 #include "src/transfer/scalar_fields.hpp"
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstddef>
 
-#include "src/base/tensor.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/tensor.hpp"
+#include "src/core/base/vector_math.hpp"
 
 namespace whipple::transfer {
 

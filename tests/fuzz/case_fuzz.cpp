@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/log.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/log.hpp"
 #include "src/io/run_directory.hpp"
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/setup/seeding.hpp"
 #include "src/solver/simulation.hpp"
 

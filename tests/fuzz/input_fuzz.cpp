@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "src/base/error.hpp"
-#include "src/base/units.hpp"
-#include "src/input/document.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/units.hpp"
+#include "src/core/input/document.hpp"
 
 namespace whipple::input {
 namespace {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <random>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/run_directory.hpp"
 #include "tests/unit/io_support.hpp"

@@ -11,7 +11,7 @@
 #include "md_fitting/data_set/data_set.hpp"
 #include "md_fitting/lammps/eam_files.hpp"
 #include "md_fitting/lammps/potential.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::md {

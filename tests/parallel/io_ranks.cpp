@@ -6,8 +6,8 @@
 
 #include <numeric>
 
-#include "src/base/error.hpp"
-#include "src/hdf5/hdf5.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/hdf5/hdf5.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/particle_series.hpp"
 #include "tests/unit/io_support.hpp"

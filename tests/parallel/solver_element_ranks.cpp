@@ -20,7 +20,7 @@
 #include "src/io/element_series.hpp"
 #include "src/io/particle_series.hpp"
 #include "src/io/ranks.hpp"
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "tests/parallel/solver_ranks.hpp"
 #include "tests/verification/same_state.hpp"
 #include "tests/verification/solver_problems.hpp"

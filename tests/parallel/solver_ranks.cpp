@@ -16,10 +16,10 @@
 #include <limits>
 #include <map>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/ranks.hpp"
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/particles/migrate.hpp"
 #include "src/solver/checkpointing.hpp"
 #include "src/solver/gauges.hpp"

@@ -17,9 +17,9 @@
 #include <sstream>
 #include <thread>
 
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
-#include "src/base/progress.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/progress.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/setup/case.hpp"
 #include "src/solver/restart.hpp"

@@ -11,7 +11,7 @@
 #include "src/afemp/conversion.hpp"
 #include "src/afemp/transition.hpp"
 #include "src/fem/structured.hpp"
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 
 namespace whipple::afemp {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "src/base/gaps.hpp"
+#include "src/core/base/gaps.hpp"
 
 namespace whipple {
 namespace {

@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "src/base/marks.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/marks.hpp"
+#include "src/core/base/vector_math.hpp"
 
 namespace whipple {
 namespace {

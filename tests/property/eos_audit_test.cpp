@@ -9,7 +9,7 @@
 
 #include "eos/audit.hpp"
 #include "eos/models/jwl.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/material/material_file.hpp"
 #include "tests/unit/eos_impact_constants.hpp"
 #include "tests/unit/eos_support.hpp"

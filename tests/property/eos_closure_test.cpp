@@ -8,7 +8,7 @@
 #include <random>
 
 #include "eos/closure.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/eos_support.hpp"
 
 namespace whipple::eos::test {

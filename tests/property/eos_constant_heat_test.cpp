@@ -12,7 +12,7 @@
 
 #include "eos/identities.hpp"
 #include "eos/loci.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/eos_impact_constants.hpp"
 #include "tests/unit/eos_support.hpp"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "eos/inversions.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/material/material_file.hpp"
 #include "tests/unit/eos_impact_constants.hpp"
 

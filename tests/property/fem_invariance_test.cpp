@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "src/base/simd.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/simd.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "src/particles/rows.hpp"
 #include "tests/unit/fem_support.hpp"
 

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "md_fitting/fit/design.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "md_fitting/fit/solid_models.hpp"
 #include "md_fitting/fit/vapour_fit.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/property/fit_recovery.hpp"
 
 namespace whipple::fit {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 
 namespace whipple::solver {
 namespace {

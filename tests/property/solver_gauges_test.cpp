@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/setup/case.hpp"
 
 namespace whipple::solver {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/particles/particles.hpp"
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/grid_update.hpp"

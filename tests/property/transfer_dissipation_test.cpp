@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/transfer/losses.hpp"
 #include "src/transfer/shock_conduction.hpp"
 #include "tests/property/transfer_support.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <mutex>
 
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/grid_update.hpp"
 #include "src/transfer/kernels.hpp"

@@ -17,7 +17,7 @@
 #include "src/analysis/radiograph.hpp"
 #include "src/analysis/surfaces.hpp"
 #include "src/analysis/witness.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::analysis {
 namespace {

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "src/base/error.hpp"
-#include "src/base/file_lock.hpp"
-#include "src/base/files.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/file_lock.hpp"
+#include "src/core/base/files.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "src/base/parameter_table.hpp"
-#include "src/base/units.hpp"
+#include "src/core/base/parameter_table.hpp"
+#include "src/core/base/units.hpp"
 
 namespace whipple {
 namespace {

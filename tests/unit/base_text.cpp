@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "src/base/error.hpp"
-#include "src/base/progress.hpp"
-#include "src/base/tensor.hpp"
-#include "src/base/text.hpp"
-#include "src/base/text_table.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/progress.hpp"
+#include "src/core/base/tensor.hpp"
+#include "src/core/base/text.hpp"
+#include "src/core/base/text_table.hpp"
 
 namespace whipple {
 namespace {

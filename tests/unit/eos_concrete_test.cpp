@@ -11,7 +11,7 @@
 #include "eos/models/holmquist_johnson_cook.hpp"
 #include "eos/modifiers/distended.hpp"
 #include "eos/modifiers/p_alpha.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/eos_support.hpp"
 
 namespace whipple::eos::test {

@@ -13,7 +13,7 @@
 #include "eos/inversions.hpp"
 #include "eos/loci.hpp"
 #include "eos/models/debye_function.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/eos_support.hpp"
 #include "tests/validation/eos_marsh.hpp"
 

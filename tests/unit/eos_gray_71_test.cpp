@@ -8,7 +8,7 @@
 
 #include "eos/loci.hpp"
 #include "eos/models/gray_71.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/eos_support.hpp"
 
 namespace whipple::eos::test {

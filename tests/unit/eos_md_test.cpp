@@ -11,7 +11,7 @@
 
 #include "eos/identities.hpp"
 #include "eos/md/simulated_crystal.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::eos {
 namespace {

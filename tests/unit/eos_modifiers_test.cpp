@@ -13,7 +13,7 @@
 #include "eos/modifiers/p_alpha.hpp"
 #include "eos/modifiers/scale.hpp"
 #include "eos/modifiers/shift.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/eos_support.hpp"
 
 namespace whipple::eos::test {

@@ -12,7 +12,7 @@
 #include "eos/identities.hpp"
 #include "eos/loci.hpp"
 #include "eos/table/sesame.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/material/material_file.hpp"
 #include "tests/unit/eos_support.hpp"
 #include "tests/unit/folder_test.hpp"

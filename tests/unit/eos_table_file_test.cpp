@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "eos/files/table_file.hpp"
-#include "src/base/error.hpp"
-#include "src/hdf5/hdf5.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/hdf5/hdf5.hpp"
 #include "src/material/material_file.hpp"
 #include "tests/unit/eos_support.hpp"
 #include "tests/unit/folder_test.hpp"

@@ -10,7 +10,7 @@
 #include "eos/loci/hugoniot.hpp"
 #include "eos/table/builder.hpp"
 #include "eos/table/table_of_model.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/eos_support.hpp"
 
 namespace whipple::eos {

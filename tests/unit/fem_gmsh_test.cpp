@@ -9,7 +9,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/fem/gmsh.hpp"
 #include "src/fem/structured.hpp"
 #include "tests/unit/fem_support.hpp"

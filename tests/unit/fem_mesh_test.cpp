@@ -11,7 +11,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/fem/facets.hpp"
 #include "src/fem/order.hpp"
 #include "tests/unit/fem_support.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "md_fitting/fit/least_squares.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {

@@ -13,7 +13,7 @@
 #include "md_fitting/fit/cross_validation.hpp"
 #include "md_fitting/fit/least_squares.hpp"
 #include "md_fitting/fit/solid_models.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::fit {
 namespace {

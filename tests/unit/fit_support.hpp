@@ -15,7 +15,7 @@
 #include "eos/models/gray.hpp"
 #include "md_fitting/data_set/data_set.hpp"
 #include "md_fitting/fit/laws.hpp"
-#include "src/base/hash.hpp"
+#include "src/core/base/hash.hpp"
 
 /// Points as molecular dynamics would give them, from a GRAY model with known constants and noise of known
 /// size.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The HDF5 layer: what is written is read back bit by bit, and failures name the file, the act and HDF5's
 // reason.
-#include "src/hdf5/hdf5.hpp"
+#include "src/core/hdf5/hdf5.hpp"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/folder_test.hpp"
 
 namespace whipple::hdf5 {

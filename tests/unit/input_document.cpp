@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "src/base/error.hpp"
-#include "src/input/document.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/input/document.hpp"
 
 namespace whipple::input {
 namespace {

@@ -9,8 +9,8 @@
 #include <limits>
 #include <thread>
 
-#include "src/base/error.hpp"
-#include "src/hdf5/hdf5.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/hdf5/hdf5.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/io/sealed_file.hpp"

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <vector>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/io/history.hpp"
 #include "src/io/run_directory.hpp"
 #include "tests/unit/io_support.hpp"

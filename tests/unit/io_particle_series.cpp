@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "src/base/error.hpp"
-#include "src/hdf5/hdf5.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/hdf5/hdf5.hpp"
 #include "src/io/background_writer.hpp"
 #include "src/io/particle_series.hpp"
 #include "src/io/run_directory.hpp"

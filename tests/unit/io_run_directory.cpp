@@ -6,7 +6,7 @@
 #include <fstream>
 #include <limits>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/io/run_directory.hpp"
 #include "tests/unit/io_support.hpp"
 

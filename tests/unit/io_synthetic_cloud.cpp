@@ -13,13 +13,13 @@
 #include <random>
 #include <vector>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/io/history.hpp"
 #include "src/io/particle_series.hpp"
 #include "src/io/ranks.hpp"
 #include "src/io/run_directory.hpp"
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 
 namespace {
 

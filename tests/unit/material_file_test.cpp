@@ -14,7 +14,7 @@
 #include <tuple>
 
 #include "eos/catalogue.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/material/failure/catalogue.hpp"
 #include "src/material/material_samples.hpp"
 #include "src/material/strength/catalogue.hpp"

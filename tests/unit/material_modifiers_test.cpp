@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/material/material_file.hpp"
 #include "src/material/update.hpp"
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/material/material.hpp"
 #include "src/material/strength/johnson_cook.hpp"
 #include "src/material/strength/none.hpp"

@@ -14,7 +14,7 @@
 #include "md_fitting/protocols/liquid_vapour.hpp"
 #include "md_fitting/protocols/piston.hpp"
 #include "md_fitting/protocols/spall.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
 
 namespace whipple::md {

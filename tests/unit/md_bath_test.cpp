@@ -11,7 +11,7 @@
 
 #include "md_fitting/protocols/bath.hpp"
 #include "md_fitting/protocols/statistics.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::md {
 namespace {

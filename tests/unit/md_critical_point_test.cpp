@@ -6,7 +6,7 @@
 #include <random>
 
 #include "md_fitting/protocols/critical_point.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::md {
 namespace {

@@ -13,9 +13,9 @@
 
 #include "md_fitting/data_set/data_set.hpp"
 #include "md_fitting/data_set/store_order.hpp"
-#include "src/base/error.hpp"
-#include "src/base/hash.hpp"
-#include "src/hdf5/hdf5.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/hash.hpp"
+#include "src/core/hdf5/hdf5.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::md {

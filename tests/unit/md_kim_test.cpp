@@ -9,7 +9,7 @@
 
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/protocols/nvt_state.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
 
 namespace whipple::md {

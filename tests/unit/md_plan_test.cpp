@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "md_fitting/plan/plan.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::md {
 namespace {

@@ -11,7 +11,7 @@
 #include "md_fitting/lammps/lammps.hpp"
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/lammps/zhou_2004.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::md {

@@ -11,9 +11,9 @@
 #include "md_fitting/protocols/campaign.hpp"
 #include "md_fitting/protocols/refinement.hpp"
 #include "md_fitting/protocols/replicas.hpp"
-#include "src/base/error.hpp"
-#include "src/base/hash.hpp"
-#include "src/base/log.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/hash.hpp"
+#include "src/core/base/log.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
 #include "tests/unit/temporary_folder.hpp"
 

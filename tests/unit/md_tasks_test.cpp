@@ -8,8 +8,8 @@
 #include <set>
 
 #include "md_fitting/protocols/catalogue.hpp"
-#include "src/base/error.hpp"
-#include "src/base/hash.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/hash.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
 
 namespace whipple::md {

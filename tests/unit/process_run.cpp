@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <thread>
 
-#include "src/base/error.hpp"
-#include "src/process/process.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/process/process.hpp"
 
 namespace whipple::process {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/setup/shapes/shape.hpp"
 
 namespace whipple::setup {

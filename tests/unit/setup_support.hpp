@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/setup/case.hpp"
 
 namespace whipple::setup {

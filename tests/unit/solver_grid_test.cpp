@@ -11,10 +11,10 @@
 #include <set>
 #include <thread>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/grid/block_grid.hpp"
-#include "src/parallel/mpi.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::grid {
 namespace {

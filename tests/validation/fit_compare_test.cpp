@@ -16,7 +16,7 @@
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/gray.hpp"
 #include "src/app/compare_data.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::app {

@@ -12,8 +12,8 @@
 #include "md_fitting/protocols/lattice.hpp"
 #include "md_fitting/protocols/nvt_state.hpp"
 #include "md_fitting/protocols/zero_pressure.hpp"
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
 #include "tests/unit/temporary_folder.hpp"
 

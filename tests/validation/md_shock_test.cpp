@@ -15,7 +15,7 @@
 #include "md_fitting/protocols/piston.hpp"
 #include "md_fitting/protocols/spall.hpp"
 #include "md_fitting/protocols/zero_pressure.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
 
 namespace whipple::md {

@@ -10,7 +10,7 @@
 #include "md_fitting/protocols/catalogue.hpp"
 #include "md_fitting/protocols/cold_curve.hpp"
 #include "md_fitting/protocols/elastic.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/md_mpi_environment.hpp"
 
 namespace whipple::md {

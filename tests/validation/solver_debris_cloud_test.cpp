@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "eos/loci.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/verification/solver_problems.hpp"
 
 namespace whipple::verification {

@@ -7,7 +7,7 @@
 
 #include "eos/inversions.hpp"
 #include "eos/loci.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/eos_support.hpp"
 
 namespace whipple::eos::test {

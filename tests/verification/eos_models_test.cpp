@@ -8,7 +8,7 @@
 #include "eos/detonation.hpp"
 #include "eos/inversions.hpp"
 #include "eos/loci.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/unit/eos_impact_constants.hpp"
 #include "tests/unit/eos_support.hpp"
 

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/fem/bars.hpp"
 
 namespace whipple::fem_test {

@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "src/afemp/transition.hpp"
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/fem/step.hpp"
 #include "src/material/update.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "tests/verification/same_state.hpp"
 #include "tests/verification/solver_problems.hpp"
 

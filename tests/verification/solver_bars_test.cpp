@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <numbers>
 
-#include "src/base/error.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "tests/verification/contact_problems.hpp"
 #include "tests/verification/same_state.hpp"
 

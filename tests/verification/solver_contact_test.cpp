@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "tests/verification/contact_problems.hpp"
 
 namespace whipple::verification {

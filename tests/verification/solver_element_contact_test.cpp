@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/parallel/threads.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "tests/verification/contact_problems.hpp"
 #include "tests/verification/same_state.hpp"
 

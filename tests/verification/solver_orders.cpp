@@ -7,7 +7,7 @@
 #include <array>
 #include <iostream>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "tests/verification/element_orders.hpp"
 
 namespace whipple::verification {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "src/io/run_directory.hpp"
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/setup/case.hpp"
 #include "src/solver/simulation.hpp"
 #include "tests/unit/temporary_folder.hpp"

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/base/error.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/parallel/threads.hpp"
 #include "tests/unit/temporary_folder.hpp"
 #include "tests/verification/contact_problems.hpp"
 #include "tests/verification/same_state.hpp"

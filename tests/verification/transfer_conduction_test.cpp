@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "src/parallel/mpi.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/transfer/conduction.hpp"
 #include "src/transfer/fill.hpp"
 #include "src/transfer/shape_function.hpp"

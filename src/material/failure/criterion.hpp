@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "src/base/parameter_table.hpp"
-#include "src/base/tensor.hpp"
+#include "src/core/base/parameter_table.hpp"
+#include "src/core/base/tensor.hpp"
 
 namespace whipple::failure {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/material/failure/criterion.hpp"
 
 namespace whipple::failure {

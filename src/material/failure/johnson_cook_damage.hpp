@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/error.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/material/failure/criterion.hpp"
 
 namespace whipple::failure {

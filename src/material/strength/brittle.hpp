@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 #include "src/material/strength/elastic_constants.hpp"
 #include "src/material/strength/strength.hpp"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 #include "src/material/strength/strength.hpp"
 
 namespace whipple::strength {

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "src/base/error.hpp"
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/parameter_table.hpp"
 
 namespace whipple::strength {
 

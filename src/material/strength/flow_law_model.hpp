@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <span>
 
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 #include "src/material/strength/return_in_batch.hpp"
 #include "src/material/strength/strength.hpp"
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "src/base/simd.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/simd.hpp"
+#include "src/core/base/vector_math.hpp"
 
 namespace whipple::strength {
 namespace {

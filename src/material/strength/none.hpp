@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 #include "src/material/strength/strength.hpp"
 
 namespace whipple::strength {

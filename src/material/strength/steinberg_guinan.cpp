@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "src/base/simd.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/simd.hpp"
+#include "src/core/base/vector_math.hpp"
 
 namespace whipple::strength {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/error.hpp"
-#include "src/base/parameter_table.hpp"
-#include "src/base/vector_math.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/parameter_table.hpp"
+#include "src/core/base/vector_math.hpp"
 #include "src/material/strength/radial_return.hpp"
 #include "src/material/strength/return_in_batch.hpp"
 #include "src/material/strength/strength.hpp"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 #include "src/material/strength/strength.hpp"
 
 namespace whipple::strength {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/material/strength/hardening_law.hpp"
 
 namespace whipple::strength {

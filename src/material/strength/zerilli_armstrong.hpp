@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 #include "src/material/strength/elastic_constants.hpp"
 #include "src/material/strength/flow_law_model.hpp"
 #include "src/material/strength/radial_return.hpp"

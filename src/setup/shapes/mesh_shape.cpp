@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/fem/gmsh.hpp"
 #include "src/fem/hexahedron.hpp"
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "src/base/tensor.hpp"
+#include "src/core/base/tensor.hpp"
 #include "src/fem/mesh.hpp"
-#include "src/input/document.hpp"
+#include "src/core/input/document.hpp"
 
 namespace whipple::setup {
 

@@ -11,7 +11,7 @@
 #include <map>
 #include <sstream>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 #include "src/material/material_file.hpp"
 #include "tests/verification/exact/runs.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::verification::exact {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/base/vector_math.hpp"
+#include "src/core/base/vector_math.hpp"
 
 namespace whipple {
 namespace libmvec {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/base/text_table.hpp"
+#include "src/core/base/text_table.hpp"
 
 #include <algorithm>
 

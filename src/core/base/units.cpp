@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/base/units.hpp"
+#include "src/core/base/units.hpp"
 
 #include <fmt/format.h>
 #include <udunits2.h>
@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::units {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 
-#include "src/base/text.hpp"
-#include "src/base/units.hpp"
+#include "src/core/base/text.hpp"
+#include "src/core/base/units.hpp"
 
 namespace whipple {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "src/process/process.hpp"
+#include "src/core/process/process.hpp"
 
 namespace whipple::process {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/process/scripts.hpp"
+#include "src/core/process/scripts.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/process/paths.hpp"
-#include "src/process/process.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/process/paths.hpp"
+#include "src/core/process/process.hpp"
 
 namespace whipple::process {
 

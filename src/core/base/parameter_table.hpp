@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "src/base/tensor.hpp"
+#include "src/core/base/tensor.hpp"
 
 /// One declaration per constant of a model: name, member, unit, range, meaning. It drives reading, unit and
 /// range checks, error texts, `whipple describe`, the manual, provenance and which constants a fit may vary.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/base/machine.hpp"
+#include "src/core/base/machine.hpp"
 
 #include <fmt/format.h>
 #include <sched.h>
@@ -14,7 +14,7 @@
 #include <string_view>
 #include <thread>
 
-#include "src/base/log.hpp"
+#include "src/core/base/log.hpp"
 
 namespace whipple {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/base/file_lock.hpp"
+#include "src/core/base/file_lock.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,8 +11,8 @@
 #include <cerrno>
 #include <cstring>
 
-#include "src/base/error.hpp"
-#include "src/base/log.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
 
 namespace whipple {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/base/hash.hpp"
+#include "src/core/base/hash.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 
 namespace whipple {
 namespace {

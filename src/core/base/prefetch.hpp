@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "src/base/simd.hpp"
+#include "src/core/base/simd.hpp"
 
 /// The processor foresees which memory is read next as long as few arrays are read and each for long. Sweeps
 /// over points read a score of arrays, some dozens of values of each in turn: they ask for their values

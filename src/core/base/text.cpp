@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/base/text.hpp"
+#include "src/core/base/text.hpp"
 
 #include <fmt/format.h>
 

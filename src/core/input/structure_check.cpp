@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/input/structure_check.hpp"
+#include "src/core/input/structure_check.hpp"
 
 #include <string_view>
 

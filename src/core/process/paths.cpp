@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/process/paths.hpp"
+#include "src/core/process/paths.hpp"
 
 #include <fmt/format.h>
 
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 namespace whipple::process {
 

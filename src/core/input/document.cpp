@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/input/document.hpp"
+#include "src/core/input/document.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,11 +15,11 @@
 #include <set>
 #include <sstream>
 
-#include "src/base/error.hpp"
-#include "src/base/files.hpp"
-#include "src/base/text.hpp"
-#include "src/base/units.hpp"
-#include "src/input/structure_check.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/core/base/text.hpp"
+#include "src/core/base/units.hpp"
+#include "src/core/input/structure_check.hpp"
 
 namespace whipple::input {
 

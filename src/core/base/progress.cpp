@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/base/progress.hpp"
+#include "src/core/base/progress.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "src/base/text.hpp"
+#include "src/core/base/text.hpp"
 
 namespace whipple {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/base/error.hpp"
+#include "src/core/base/error.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <new>
 #include <system_error>
 
-#include "src/base/resource_error.hpp"
+#include "src/core/base/resource_error.hpp"
 
 namespace whipple {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/base/files.hpp"
+#include "src/core/base/files.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,8 +10,8 @@
 #include <random>
 #include <system_error>
 
-#include "src/base/error.hpp"
-#include "src/base/text.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/text.hpp"
 
 namespace whipple {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/process/mpirun.hpp"
+#include "src/core/process/mpirun.hpp"
 
 #include <fmt/ranges.h>
 #include <unistd.h>
@@ -10,8 +10,8 @@
 #include <cstring>
 #include <string_view>
 
-#include "src/base/log.hpp"
-#include "src/process/paths.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/process/paths.hpp"
 
 namespace whipple::process {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/hdf5/hdf5.hpp"
+#include "src/core/hdf5/hdf5.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/base/error.hpp"
-#include "src/parallel/threads.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/parallel/threads.hpp"
 
 namespace whipple::hdf5 {
 namespace {

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "src/base/simd.hpp"
+#include "src/core/base/simd.hpp"
 
 /// Elementary functions of four doubles at once, by the vector mathematics library of glibc (libmvec, AVX2
 /// variant; error at most 4 units in the last place). For batch loops; a single point and a batch of points
@@ -29,7 +29,7 @@ extern "C" {
 inline Lanes exp(Lanes x) { return Lanes(libmvec::_ZGVdN4v_exp(__m256d(x))); }
 /// exp(x) - 1
 inline Lanes exp_minus_1(Lanes x) { return Lanes(libmvec::_ZGVdN4v_expm1(__m256d(x))); }
-/// Not `log`: that is the namespace of the messages (src/base/log.hpp).
+/// Not `log`: that is the namespace of the messages (src/core/base/log.hpp).
 inline Lanes natural_log(Lanes x) { return Lanes(libmvec::_ZGVdN4v_log(__m256d(x))); }
 /// Natural logarithm of positive normal numbers to 4e-8: for starting values, at a third of the cost. The
 /// compiler makes vectors of it in loops.

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "src/base/parameter_table.hpp"
+#include "src/core/base/parameter_table.hpp"
 
 /// TOML input with all errors at once, each as "file:line:column: error: what, where, what is accepted".
 namespace whipple::input {
