@@ -34,6 +34,9 @@ MAY_USE = {
                   "src/fem", "src/io"],
     "src/solver": ["src/core/base", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
                    "src/fem", "src/contact", "src/afemp", "src/io", "src/setup"],
+    # The loop around the solver: what a run writes, and what may be asked of it.
+    "src/run": ["src/core/base", "src/core/input", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/fem",
+                "src/io", "src/setup", "src/solver"],
     # Times the solver.
     "src/bench": ["src/core/base", "src/core/parallel", "src/core/process", "src/particles", "src/grid", "src/transfer", "src/io", "src/setup", "src/solver"],
     # Reads what runs wrote; knows no solver.
@@ -46,7 +49,7 @@ MAY_USE = {
     "md_fitting": ["src/core/base", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],
     # The program whipple: it starts the other two, so of their side it knows the plan's keys only.
     "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/files", "src/particles", "src/grid", "src/material",
-                "src/transfer", "src/io", "src/analysis", "src/setup", "src/solver", "src/bench", "md_fitting/plan"],
+                "src/transfer", "src/io", "src/analysis", "src/setup", "src/solver", "src/run", "src/bench", "md_fitting/plan"],
 }
 
 # CMake library -> module, where the name is not the last part of the folder.
@@ -183,10 +186,11 @@ def check(root):
 def self_test():
     """Each bad file must be found, and for the expected reason."""
     bad = {
-        "src/core/base/upward.hpp": ('#include "src/solver/run.hpp"\n', "src/core/base may not use src/solver"),
+        "src/core/base/upward.hpp": ('#include "src/solver/simulation.hpp"\n', "src/core/base may not use src/solver"),
         "eos/reads_files.cpp": ('#include "src/core/input/document.hpp"\n', "eos may not use src/core/input"),
         "eos/models/knows_particles.hpp": ('#include "src/particles/p.hpp"\n', "eos may not use src/particles"),
         "src/material/knows_grid.cpp": ('#include "src/grid/g.hpp"\n', "src/material may not use src/grid"),
+        "src/solver/knows_run.cpp": ('#include "src/run/run.hpp"\n', "src/solver may not use src/run"),
         "src/solver/starts_md.cpp": ('#include "md_fitting/plan/plan.hpp"\n', "src/solver may not use md_fitting/plan"),
         "md_fitting/fit/knows_lammps.cpp": ('#include "md_fitting/lammps/l.hpp"\n',
                                             "md_fitting/fit may not use md_fitting/lammps"),
@@ -204,7 +208,8 @@ def self_test():
                                         "src/transfer may not link whipple_material"),
     }
     good = {
-        "src/solver/run.hpp": '#include "src/particles/p.hpp"\n// MPI_Barrier(c) in a comment\nMPI_Comm comm;\n',
+        "src/solver/simulation.hpp": '#include "src/particles/p.hpp"\n// MPI_Barrier(c) in a comment\nMPI_Comm comm;\n',
+        "src/run/run.hpp": '#include "src/solver/simulation.hpp"\n',
         "src/core/input/document.hpp": "/* #include <hdf5.h>\n*/\n",
         "src/particles/p.hpp": "", "src/grid/g.hpp": "", "md_fitting/plan/plan.hpp": "", "md_fitting/lammps/l.hpp": "",
         "src/io/b.hpp": '#include "src/io/a.hpp"\n',

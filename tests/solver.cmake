@@ -1,18 +1,20 @@
-# Tests of grid, transfer, setup and solver.
+# Tests of grid, transfer, setup, solver and run.
 whipple_test(test_transfer STARTS_MPI
   SOURCES unit/solver_grid_test.cpp unit/transfer_first_touches_test.cpp property/transfer_shape_function_test.cpp property/solver_transfer_test.cpp property/transfer_kernels_test.cpp property/transfer_dissipation_test.cpp
           verification/transfer_conduction_test.cpp
   DEPENDS whipple_transfer LABELS fast)
 whipple_test(test_solver STARTS_MPI
-  SOURCES parallel/solver_restart_test.cpp verification/solver_planar_impact_test.cpp
-          verification/solver_taylor_bar_test.cpp verification/solver_elastic_test.cpp
+  SOURCES verification/solver_planar_impact_test.cpp verification/solver_taylor_bar_test.cpp verification/solver_elastic_test.cpp
           verification/solver_contact_test.cpp verification/solver_bars_test.cpp verification/solver_element_contact_test.cpp verification/solver_orders_test.cpp
           verification/solver_methods_test.cpp verification/solver_failure_test.cpp
           verification/solver_viscous_test.cpp verification/solver_wall_test.cpp validation/solver_debris_cloud_test.cpp
-          validation/solver_table_test.cpp regression/solver_regression_test.cpp fuzz/case_fuzz.cpp property/solver_forecast_test.cpp property/solver_gauges_test.cpp
-  DEPENDS whipple_solver GTest::gmock LABELS fast)
+          validation/solver_table_test.cpp regression/solver_regression_test.cpp fuzz/case_fuzz.cpp
+  DEPENDS whipple_run GTest::gmock LABELS fast)
+whipple_test(test_run STARTS_MPI
+  SOURCES parallel/run_restart_test.cpp property/run_forecast_test.cpp property/run_gauges_test.cpp
+  DEPENDS whipple_run GTest::gmock LABELS fast)
 whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp
-             DEPENDS whipple_solver LABELS fast)
+             DEPENDS whipple_run LABELS fast)
 whipple_test(test_contact_sweep STARTS_MPI SOURCES verification/solver_gap_sweep_test.cpp
              DEPENDS whipple_solver LABELS long)
 # Files alone, for many trials with sanitizers (docs/testing.md); the tests above hold the same.
@@ -28,7 +30,7 @@ whipple_test(test_setup SOURCES unit/setup_bodies_test.cpp unit/setup_case_test.
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
 add_executable(test_solver_ranks parallel/solver_ranks.cpp parallel/solver_wall_ranks.cpp parallel/solver_element_ranks.cpp)
-target_link_libraries(test_solver_ranks PRIVATE whipple_flags whipple_solver whipple_analysis GTest::gtest)
+target_link_libraries(test_solver_ranks PRIVATE whipple_flags whipple_run whipple_analysis GTest::gtest)
 foreach(ranks 1 2 4 8)
   if(ranks GREATER 4)
     set(label long)

@@ -15,7 +15,7 @@
 #include "src/core/base/units.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/process/mpirun.hpp"
-#include "src/solver/run.hpp"
+#include "src/run/run.hpp"
 
 namespace whipple::app {
 namespace {
@@ -31,8 +31,8 @@ struct Arguments {
   bool force = false;
 };
 
-solver::RunOptions run_options(const Arguments& arguments) {
-  solver::RunOptions options{
+run::RunOptions run_options(const Arguments& arguments) {
+  run::RunOptions options{
       .case_file = arguments.case_file,
       .output_directory = arguments.output,
       .restart = !arguments.restart.empty(),
@@ -89,7 +89,7 @@ int run_on_ranks(const Arguments& arguments) {
 /// Runs the case on the ranks that this process belongs to.
 int run_here(const Arguments& arguments) {
   try {
-    return solver::run(run_options(arguments));
+    return run::run_case(run_options(arguments));
   } catch (const std::exception& error) {
     log::record_error(error.what());  // also into log.txt, if the run directory is there
     if (parallel::size(parallel::world()) > 1) {
@@ -157,7 +157,7 @@ void add_check_command(CLI::App& app) {
   command->footer("Example:\n  whipple check cases/copper_disk_on_aluminium/case.toml --threads 2");
   command->callback([arguments] {
     if (arguments->case_file.empty()) throw InputError("expected a case file (CASE.toml)");
-    fmt::print("{}", solver::check(run_options(*arguments)));
+    fmt::print("{}", run::check_case(run_options(*arguments)));
   });
 }
 

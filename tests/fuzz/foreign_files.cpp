@@ -23,7 +23,7 @@
 #include "src/io/sealed_file.hpp"
 #include "src/material/material_file.hpp"
 #include "src/setup/case.hpp"
-#include "src/solver/restart.hpp"
+#include "src/run/restart.hpp"
 #include "tests/unit/eos_support.hpp"
 #include "tests/unit/folder_test.hpp"
 
@@ -145,7 +145,7 @@ TEST_F(ForeignFiles, CheckpointsThatWereSealedAgain) {
   };
   try_all(path, sealed, [&] {
     const io::Checkpoint checkpoint = io::read_checkpoint(path, MPI_COMM_SELF);
-    solver::require_admissible(one_body(), checkpoint, MPI_COMM_SELF);
+    run::require_admissible(one_body(), checkpoint, MPI_COMM_SELF);
     for (const std::uint32_t body : checkpoint.particles.body) ASSERT_EQ(body, 0U);
     for (const double mass : checkpoint.particles.mass) ASSERT_GT(mass, 0.0);
   });

@@ -21,8 +21,8 @@
 #include "src/io/ranks.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/particles/migrate.hpp"
-#include "src/solver/checkpointing.hpp"
-#include "src/solver/gauges.hpp"
+#include "src/run/checkpointing.hpp"
+#include "src/run/gauges.hpp"
 #include "src/solver/simulation.hpp"
 #include "tests/parallel/debris_case.hpp"
 
@@ -227,10 +227,10 @@ TEST_F(SolverRanks, GoOnFromACheckpointInContact) {
   Simulation together(read(contact), MPI_COMM_WORLD);
   advance_to(together, 0.5e-6);
   const fs::path file = io::write_checkpoint(folder_ / "contact", together.state().step, together.particles(),
-                                             to_checkpoint(together.state()), MPI_COMM_WORLD);
+                                             run::to_checkpoint(together.state()), MPI_COMM_WORLD);
   advance_to(together, 0.8e-6);
   io::Checkpoint checkpoint = io::read_checkpoint(file, MPI_COMM_SELF);
-  Simulation alone(read(contact), std::move(checkpoint.particles), from_checkpoint(checkpoint.values),
+  Simulation alone(read(contact), std::move(checkpoint.particles), run::from_checkpoint(checkpoint.values),
                    MPI_COMM_SELF);
   advance_to(alone, 0.8e-6);
   expect_equal(together, alone, 1e-11);
@@ -244,8 +244,8 @@ TEST_F(SolverRanks, GaugesAgreeWithOneRankAndFollowTheSameParticles) {
                                             {"disk", "moving", {0.0, 0.0, -3e-3}},
                                             {"empty", "fixed", {11e-3, 11e-3, 7e-3}}};
   Simulation together(read(), MPI_COMM_WORLD), alone(read(), MPI_COMM_SELF);
-  const GaugeRecorder all(gauges, together);
-  const GaugeRecorder one(gauges, alone);
+  const run::GaugeRecorder all(gauges, together);
+  const run::GaugeRecorder one(gauges, alone);
   io::CheckpointValues of_all, of_one;
   all.to_checkpoint(of_all);
   one.to_checkpoint(of_one);
@@ -253,7 +253,7 @@ TEST_F(SolverRanks, GaugesAgreeWithOneRankAndFollowTheSameParticles) {
   EXPECT_EQ(of_all.integers.size(), 2U);
   advance_to(together, 0.5e-6);
   advance_to(alone, 0.5e-6);
-  const std::vector<io::HistoryValue> a = all.row(together), b = GaugeRecorder(gauges, of_one).row(alone);
+  const std::vector<io::HistoryValue> a = all.row(together), b = run::GaugeRecorder(gauges, of_one).row(alone);
   ASSERT_EQ(a.size(), b.size());
   std::map<std::string, double> value;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -295,21 +295,21 @@ TEST_F(SolverRanks, GoOnFromACheckpointOfAnotherNumberOfRanks) {
   Simulation together(read(), MPI_COMM_WORLD);
   advance_to(together, 0.5e-6);
   const fs::path of_all = io::write_checkpoint(folder_ / "all", together.state().step, together.particles(),
-                                               to_checkpoint(together.state()), MPI_COMM_WORLD);
+                                               run::to_checkpoint(together.state()), MPI_COMM_WORLD);
   ranks_.on_root([&] {
-    io::write_checkpoint(folder_ / "one", alone.state().step, alone.particles(), to_checkpoint(alone.state()),
+    io::write_checkpoint(folder_ / "one", alone.state().step, alone.particles(), run::to_checkpoint(alone.state()),
                          MPI_COMM_SELF);
   });
   advance_to(alone, 1e-6);
 
   io::Checkpoint checkpoint = io::read_checkpoint(of_all, MPI_COMM_SELF);
-  Simulation from_all(read(), std::move(checkpoint.particles), from_checkpoint(checkpoint.values),
+  Simulation from_all(read(), std::move(checkpoint.particles), run::from_checkpoint(checkpoint.values),
                       MPI_COMM_SELF);
   advance_to(from_all, 1e-6);
   expect_equal(from_all, alone, 1e-11);
 
   checkpoint = io::read_latest_checkpoint(folder_ / "one", MPI_COMM_WORLD);
-  Simulation from_one(read(), std::move(checkpoint.particles), from_checkpoint(checkpoint.values),
+  Simulation from_one(read(), std::move(checkpoint.particles), run::from_checkpoint(checkpoint.values),
                       MPI_COMM_WORLD);
   advance_to(from_one, 1e-6);
   expect_equal(from_one, alone, 1e-11);

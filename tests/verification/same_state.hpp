@@ -9,7 +9,7 @@
 #include <string>
 
 #include "src/io/checkpoint.hpp"
-#include "src/solver/checkpointing.hpp"
+#include "src/run/checkpointing.hpp"
 #include "src/solver/simulation.hpp"
 
 /// States that must be the same bit for bit, and restarts.
@@ -44,7 +44,7 @@ inline void expect_same(const solver::Simulation& a, const solver::Simulation& b
 /// Writes a checkpoint of a simulation into a folder. Collective.
 inline std::filesystem::path save(const solver::Simulation& simulation, const std::filesystem::path& folder) {
   return io::write_checkpoint(folder, simulation.state().step, simulation.particles(),
-                              solver::to_checkpoint(simulation.state()), simulation.communicator(),
+                              run::to_checkpoint(simulation.state()), simulation.communicator(),
                               simulation.meshes_for_checkpoint(), simulation.bars_for_checkpoint());
 }
 
@@ -53,7 +53,7 @@ inline solver::Simulation restored(const setup::Case& setup, const std::filesyst
                                    MPI_Comm communicator) {
   io::Checkpoint checkpoint = io::read_checkpoint(file, communicator);
   return solver::Simulation(setup, std::move(checkpoint.particles),
-                            solver::from_checkpoint(checkpoint.values), communicator,
+                            run::from_checkpoint(checkpoint.values), communicator,
                             std::move(checkpoint.meshes), std::move(checkpoint.bars));
 }
 

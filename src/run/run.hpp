@@ -8,7 +8,7 @@
 
 #include "src/setup/case.hpp"
 
-namespace whipple::solver {
+namespace whipple::run {
 
 /// What the user asks of a run besides the case.
 struct RunOptions {
@@ -28,9 +28,9 @@ struct RunOptions {
 /// @returns 0; 128 + number of the signal that ended the run; 124 at the limit of wall time
 /// @throws InputError before any work and before anything is written if the input is wrong;
 ///         StateError if the physics leaves its range: the state is saved in the folder failed/ of the run
-int run(const RunOptions& options);
+int run_case(const RunOptions& options);
 
 /// What `whipple check` prints: bodies, particles, memory, steps, time, from the case and two measured steps.
-std::string check(const RunOptions& options);
+std::string check_case(const RunOptions& options);
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/solver/checkpointing.hpp"
+#include "src/run/checkpointing.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "src/core/base/error.hpp"
 #include "src/solver/simulation.hpp"
 
-namespace whipple::solver {
+namespace whipple::run {
 namespace {
 
 /// Calls f(name, number) for every number of the state: one list for writing and reading.
@@ -43,21 +38,21 @@ std::vector<std::uint64_t> words(const std::vector<double>& halves) {
 
 }  // namespace
 
-io::CheckpointValues to_checkpoint(const RunState& state) {
+io::CheckpointValues to_checkpoint(const solver::RunState& state) {
   io::CheckpointValues values;
   values.integers["step"] = state.step;
   values.integers["particles_at_rest"] = state.particles_at_rest;
   values.arrays["touched"] = halves(state.touched);
   std::vector<double>& outflow = values.arrays["outflow_of_body"];
-  for (const BodyOutflow& out : state.outflow_of_body) {
+  for (const solver::BodyOutflow& out : state.outflow_of_body) {
     outflow.insert(outflow.end(), {out.mass, out.momentum[0], out.momentum[1], out.momentum[2], out.energy});
   }
   for_each_real(state, [&](const std::string& name, double value) { values.reals[name] = value; });
   return values;
 }
 
-RunState from_checkpoint(const io::CheckpointValues& values) {
-  RunState state;
+solver::RunState from_checkpoint(const io::CheckpointValues& values) {
+  solver::RunState state;
   state.step = values.integer("step");
   state.particles_at_rest = values.integer("particles_at_rest");
   state.touched = words(values.array("touched"));
@@ -69,30 +64,4 @@ RunState from_checkpoint(const io::CheckpointValues& values) {
   return state;
 }
 
-/// A checkpoint of the same case holds the optional fields that it needs; of another case, perhaps not.
-void Simulation::require_fields() const {
-  Particles needed;
-  needed.mass.resize(particles_.size());
-  for (const auto& material : setup_.materials) use_fields(*material, needed);
-  if (std::ranges::any_of(setup_.bodies, [](const auto& body) { return body.failure_scatter.given(); })) {
-    needed.failure_threshold_factor.resize(particles_.size());
-  }
-  if (carries_affine_velocity()) needed.affine_velocity.resize(particles_.size());
-  if (carries_extent()) needed.extent.resize(particles_.size());
-  if (setup_.dissipation.keeps_losses()) {
-    needed.unresolved_energy.resize(particles_.size());
-    needed.closing_rate.resize(particles_.size());
-    needed.heating_viscosity.resize(particles_.size());
-  }
-  std::string missing;
-  for_each_field<Particles>([&](const auto& field) {
-    if (field.optional && (needed.*(field.values)).size() > (particles_.*(field.values)).size()) {
-      missing = field.name;
-    }
-  });
-  if (!missing.empty()) {
-    throw InputError(fmt::format("the checkpoint has no field \"{}\", which the case needs", missing));
-  }
-}
-
-}  // namespace whipple::solver
+}  // namespace whipple::run

@@ -9,7 +9,7 @@
 #include "src/setup/gauges.hpp"
 #include "src/solver/simulation.hpp"
 
-namespace whipple::solver {
+namespace whipple::run {
 
 /// The gauges of a run: rows of gauges.csv. An element counts as the eight particles that it may become
 /// (src/afemp/conversion.hpp), with their numbers. A moving gauge is one particle, the nearest to its place at the
@@ -20,7 +20,7 @@ namespace whipple::solver {
 class GaugeRecorder {
  public:
   /// Finds the particles of the moving gauges. Collective.
-  GaugeRecorder(const std::vector<setup::Gauge>& gauges, const Simulation& simulation);
+  GaugeRecorder(const std::vector<setup::Gauge>& gauges, const solver::Simulation& simulation);
   /// Goes on with the particles of a checkpoint.
   /// @throws InputError if the checkpoint does not hold these gauges
   GaugeRecorder(const std::vector<setup::Gauge>& gauges, const io::CheckpointValues& values);
@@ -29,11 +29,11 @@ class GaugeRecorder {
   /// Adds the particles of the moving gauges.
   void to_checkpoint(io::CheckpointValues& values) const;
   /// State of all gauges now. Collective.
-  [[nodiscard]] std::vector<io::HistoryValue> row(const Simulation& simulation) const;
+  [[nodiscard]] std::vector<io::HistoryValue> row(const solver::Simulation& simulation) const;
 
  private:
   std::vector<setup::Gauge> gauges_;
   std::vector<std::uint64_t> particle_;  // of each moving gauge; fixed: not used
 };
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/solver/runner.hpp"
+#include "src/run/runner.hpp"
 
 #include <fmt/format.h>
 
@@ -20,13 +20,13 @@
 #include "src/io/history.hpp"
 #include "src/io/particle_series.hpp"
 #include "src/core/parallel/threads.hpp"
-#include "src/solver/checkpointing.hpp"
-#include "src/solver/gauges.hpp"
-#include "src/solver/restart.hpp"
-#include "src/solver/signals.hpp"
+#include "src/run/checkpointing.hpp"
+#include "src/run/gauges.hpp"
+#include "src/run/restart.hpp"
+#include "src/run/signals.hpp"
 #include "src/solver/simulation.hpp"
 
-namespace whipple::solver {
+namespace whipple::run {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -45,16 +45,16 @@ double stored_cold_work(const MaterialPoints& points) {
 }
 
 /// Figures of all ranks. Collective.
-std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
-  const RunState& state = simulation.state();
-  const Totals& t = simulation.totals();
+std::vector<io::HistoryValue> history_row(const solver::Simulation& simulation) {
+  const solver::RunState& state = simulation.state();
+  const solver::Totals& t = simulation.totals();
   const Particles& particles = simulation.particles();
   const std::vector<setup::Body>& bodies = simulation.setup().bodies;
-  std::vector<PhaseMasses> by_body =
-      phase_masses(particles, simulation.meshes(), simulation.bars(), bodies.size());
+  std::vector<solver::PhaseMasses> by_body =
+      solver::phase_masses(particles, simulation.meshes(), simulation.bars(), bodies.size());
   sum_over_ranks(simulation.communicator(), by_body);
-  PhaseMasses all;
-  for (const PhaseMasses& body : by_body) all += body;
+  solver::PhaseMasses all;
+  for (const solver::PhaseMasses& body : by_body) all += body;
   const auto largest = [](const std::vector<double>& values, double so_far) {
     return parallel::maximum(values.size(), so_far, [&](std::size_t p) { return values[p]; });
   };
@@ -112,7 +112,7 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
       {"squeezed_beside_voids", "kg", state.squeezed_beside_voids},
       {"particles", "1", static_cast<double>(simulation.particle_count())},
   };
-  for (const Limiter& limiter : limiters) row.push_back({limiter.name, "1", state.ledger.*(limiter.count)});
+  for (const solver::Limiter& limiter : solver::limiters) row.push_back({limiter.name, "1", state.ledger.*(limiter.count)});
   if (simulation.setup().has_elements()) {
     row.push_back({"elements", "1", static_cast<double>(simulation.element_count())});
     row.push_back({"converted_mass", "kg", state.ledger.converted_mass});
@@ -146,7 +146,7 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
     }
   }
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const BodyOutflow& out = state.outflow_of_body[b];
+    const solver::BodyOutflow& out = state.outflow_of_body[b];
     const std::string& name = bodies[b].name;
     row.push_back({"outflow_mass." + name, "kg", out.mass});
     row.push_back({"outflow_momentum_x." + name, "kg m/s", out.momentum[0]});
@@ -157,9 +157,9 @@ std::vector<io::HistoryValue> history_row(const Simulation& simulation) {
   return row;
 }
 
-std::string profile_as_json(Simulation& simulation, double wall_seconds) {
+std::string profile_as_json(solver::Simulation& simulation, double wall_seconds) {
   nlohmann::json stages = nlohmann::json::array();
-  for (const Profile::Stage& stage : simulation.profile().stages()) {
+  for (const solver::Profile::Stage& stage : simulation.profile().stages()) {
     stages.push_back({{"stage", stage.name}, {"seconds", stage.seconds}, {"calls", stage.calls}});
   }
   return nlohmann::json({{"wall_seconds", wall_seconds},
@@ -213,12 +213,12 @@ struct Snapshots {
     particles.restart(time);
     if (elements) elements->restart(time);
   }
-  void write(const Simulation& simulation) {
+  void write(const solver::Simulation& simulation) {
     particles.write(simulation.particles(), simulation.state().time);
     if (elements) elements->write(simulation.meshes(), simulation.bars(), simulation.state().time);
   }
   /// Takes the state of now; what is returned writes it. Of a run on one rank.
-  [[nodiscard]] std::function<void()> prepare(const Simulation& simulation) {
+  [[nodiscard]] std::function<void()> prepare(const solver::Simulation& simulation) {
     const double time = simulation.state().time;
     const std::function<void()> of_elements =
         elements ? elements->prepare(simulation.meshes(), simulation.bars(), time) : std::function<void()>();
@@ -305,7 +305,7 @@ class Runner {
     Requests requests;
     while (simulation_.state().time < end && !requests.end()) {
       advance(end);
-      const RunState& state = simulation_.state();
+      const solver::RunState& state = simulation_.state();
       const bool last = state.time >= end;
       if (last || state.step % setup.output.history_every == 0) append_history();
       if (last || state.step % setup.output.gauges_every == 0) append_gauges();
@@ -452,8 +452,8 @@ class Runner {
   }
 
   void report_end(const Requests& requests, double wall) {
-    const RunState& state = simulation_.state();
-    const Totals& totals = simulation_.totals();
+    const solver::RunState& state = simulation_.state();
+    const solver::Totals& totals = simulation_.totals();
     if (requests.end() && state.time < simulation_.setup().time.end) {
       const std::string by =
           requests.signal != 0 ? fmt::format("signal {}", requests.signal) : "the limit of wall time";
@@ -463,7 +463,7 @@ class Runner {
     log::info("{} steps to t = {:.6g} s in {}; energy error {:.2e}, momentum error {:.2e}, outflow {:.3g} kg",
               state.step, state.time, format_duration(wall), state.ledger.energy_error(totals),
               state.ledger.momentum_error(totals), state.ledger.outflow.mass);
-    for (const Limiter& limiter : limiters) {
+    for (const solver::Limiter& limiter : solver::limiters) {
       const double count = state.ledger.*(limiter.count);
       if (count > 0.0) log::info("{}: {:.0f} times", limiter.meaning, count);
     }
@@ -481,7 +481,7 @@ class Runner {
   io::RunDirectory directory_;
   io::Ranks ranks_;
   double wall_time_;  // s, 0: no limit
-  Simulation simulation_;
+  solver::Simulation simulation_;
   Snapshots series_;
   io::BackgroundWriter writer_;  // of the series
   GaugeRecorder recorder_;
@@ -502,4 +502,4 @@ int run_steps(const setup::Case& setup, const io::RunDirectory& directory, io::C
   return Runner(setup, directory, std::move(checkpoint), changed_input, options, ranks).run();
 }
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

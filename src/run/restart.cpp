@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/solver/restart.hpp"
+#include "src/run/restart.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,9 +18,9 @@
 #include "src/core/base/log.hpp"
 #include "src/material/failure/criterion.hpp"
 #include "src/core/parallel/mpi.hpp"
-#include "src/solver/checkpointing.hpp"
+#include "src/run/checkpointing.hpp"
 
-namespace whipple::solver {
+namespace whipple::run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -228,7 +228,7 @@ void require_admissible(const setup::Case& setup, const io::Checkpoint& checkpoi
   }
 }
 
-Simulation resume(const setup::Case& setup, io::Checkpoint& checkpoint, MPI_Comm communicator) {
+solver::Simulation resume(const setup::Case& setup, io::Checkpoint& checkpoint, MPI_Comm communicator) {
   const std::string changed = require_same_input(setup, checkpoint.values);
   require_admissible(setup, checkpoint, communicator);
   if (!changed.empty()) log::info("changed since the checkpoint: {}", changed);
@@ -241,4 +241,4 @@ Simulation resume(const setup::Case& setup, io::Checkpoint& checkpoint, MPI_Comm
   }
 }
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

@@ -4,7 +4,7 @@
 #include "src/core/parallel/mpi.hpp"
 #include "src/setup/case.hpp"
 
-namespace whipple::solver {
+namespace whipple::run {
 
 /// Threads of this rank: as asked, or its share of the machine.
 void set_threads(int threads, MPI_Comm communicator);
@@ -13,4 +13,4 @@ void set_threads(int threads, MPI_Comm communicator);
 /// @throws InputError if the case takes more memory than the machines of all ranks have
 void require_memory(const setup::Case& setup, MPI_Comm communicator);
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

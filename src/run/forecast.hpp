@@ -3,7 +3,7 @@
 
 #include "src/solver/simulation.hpp"
 
-namespace whipple::solver {
+namespace whipple::run {
 
 /// What a run will cost, as ranges. Runs of all cases of the repository lie inside those of the steps.
 struct Forecast {
@@ -20,6 +20,6 @@ struct Forecast {
 /// it is longer. Time: matter at rest costs next to nothing; a particle takes part from when the sound, or the
 /// fastest matter, can have come to it from the bodies that move.
 /// @param simulation  at its start, with `transfer.rest_tolerance` 0, so that all matter takes part; advanced
-Forecast forecast(Simulation& simulation);
+Forecast forecast(solver::Simulation& simulation);
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

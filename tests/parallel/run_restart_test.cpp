@@ -22,8 +22,8 @@
 #include "src/core/base/progress.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/setup/case.hpp"
-#include "src/solver/restart.hpp"
-#include "src/solver/run.hpp"
+#include "src/run/restart.hpp"
+#include "src/run/run.hpp"
 #include "tests/parallel/debris_case.hpp"
 
 namespace whipple {
@@ -70,7 +70,7 @@ class Run : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  [[nodiscard]] solver::RunOptions options(const std::string& directory, int threads = 1) const {
+  [[nodiscard]] run::RunOptions options(const std::string& directory, int threads = 1) const {
     return {.case_file = folder_ / "debris.toml",
             .output_directory = folder_ / directory,
             .restart = false,
@@ -81,14 +81,14 @@ class Run : public testing::Test {
   }
 
   /// Runs in a child; `watch` may send it signals. @returns the status of waitpid
-  static int run_in_child(const solver::RunOptions& options, const std::function<void(pid_t)>& watch = {}) {
+  static int run_in_child(const run::RunOptions& options, const std::function<void(pid_t)>& watch = {}) {
     const pid_t child = fork();
     if (child == 0) {
       log::set_level(log::Level::quiet);
       set_progress_visible(false);
       int code = 99;
       try {
-        code = solver::run(options);
+        code = run::run_case(options);
       } catch (const StateError& error) {
         std::ofstream(options.output_directory / "error.txt") << error.what();
         code = 3;
@@ -161,7 +161,7 @@ TEST_F(Run, KilledAndRestartedGivesBitwiseTheSameHistory) {
   const int status = run_in_child(options("killed"), signal_at("killed", 30, SIGKILL));
   ASSERT_TRUE(WIFSIGNALED(status)) << "the run ended before it could be killed";
   ASSERT_LT(history_rows("killed"), history_rows("whole"));
-  solver::RunOptions again = options("killed");
+  run::RunOptions again = options("killed");
   again.case_file.clear();
   again.restart = true;
   ASSERT_EQ(run_in_child(again), 0);
@@ -191,7 +191,7 @@ TEST_F(Run, TerminationWritesACheckpointAndEndsCleanly) {
 
 TEST_F(Run, EnergyOutOfBoundsStopsWithTheStateSaved) {
   // MUSL loses energy in the impact; with a tight limit the run must stop, name the step, and save the state.
-  solver::RunOptions tight = options("tight");
+  run::RunOptions tight = options("tight");
   tight.overrides = {{"time.scheme", "musl"}, {"output.maximum_energy_error", "1e-6"}};
   const int status = run_in_child(tight);
   ASSERT_TRUE(WIFEXITED(status));
@@ -240,7 +240,7 @@ position = ["1 mm", "1 mm", "1 mm"]
     begin({});
   }
   void begin(const std::vector<std::pair<std::string, std::string>>& overrides) const {
-    solver::RunOptions first = options("run");
+    run::RunOptions first = options("run");
     first.force = true;
     first.wall_time = 1e-9;
     first.overrides = overrides;
@@ -248,7 +248,7 @@ position = ["1 mm", "1 mm", "1 mm"]
   }
   /// Goes on for another step. @returns the exit code
   int restart(const std::vector<std::pair<std::string, std::string>>& changes = {}, bool force = false) {
-    solver::RunOptions again = options("run");
+    run::RunOptions again = options("run");
     again.case_file.clear();
     again.restart = true;
     again.force = force;
@@ -276,7 +276,7 @@ TEST_F(Restart, WithAnotherInputIsRefusedAndNamesWhatDiffers) {
     const std::string before = text(folder_ / "run" / file);
     replace(file, old, by);
     try {
-      solver::require_same_input(setup::read_case(folder_ / "run" / "run.toml", {}), values);
+      run::require_same_input(setup::read_case(folder_ / "run" / "run.toml", {}), values);
       ADD_FAILURE() << "accepted: " << by;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), testing::AllOf(HasSubstr(named), HasSubstr("put them back")));
@@ -317,7 +317,7 @@ TEST_F(Restart, WithNumbersThatNoStateHasIsRefused) {
   const fs::path path = io::list_checkpoints(folder_ / "run" / "checkpoint").front();
   const io::Checkpoint whole = io::read_checkpoint(path, MPI_COMM_SELF);
   const setup::Case setup = setup::read_case(folder_ / "run" / "run.toml", {});
-  EXPECT_NO_THROW(solver::require_admissible(setup, whole, MPI_COMM_SELF));
+  EXPECT_NO_THROW(run::require_admissible(setup, whole, MPI_COMM_SELF));
   using Forgery = std::function<void(io::Checkpoint&)>;
   const std::vector<std::pair<const char*, Forgery>> forgeries = {
       {"particles/body", [](io::Checkpoint& c) { c.particles.body[5] = 255; }},
@@ -336,7 +336,7 @@ TEST_F(Restart, WithNumbersThatNoStateHasIsRefused) {
     io::Checkpoint forged = whole;
     forge(forged);
     try {
-      solver::require_admissible(setup, forged, MPI_COMM_SELF);
+      run::require_admissible(setup, forged, MPI_COMM_SELF);
       ADD_FAILURE() << "accepted: " << named;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr(named));

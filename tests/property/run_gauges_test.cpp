@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gauges in bodies of elements see the state there, and follow it when elements become particles.
-#include "src/solver/gauges.hpp"
+#include "src/run/gauges.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "src/core/parallel/mpi.hpp"
 #include "src/setup/case.hpp"
 
-namespace whipple::solver {
+namespace whipple::run {
 namespace {
 
 std::string text(const std::string& method, const std::string& velocity, const std::string& end) {
@@ -40,7 +40,7 @@ position = ["0.3 mm", "0.3 mm", "1.2 mm"]
 )";
 }
 
-std::map<std::string, double> values(const GaugeRecorder& recorder, const Simulation& simulation) {
+std::map<std::string, double> values(const GaugeRecorder& recorder, const solver::Simulation& simulation) {
   std::map<std::string, double> row;
   for (const io::HistoryValue& value : recorder.row(simulation)) row[value.name] = value.value;
   return row;
@@ -48,7 +48,7 @@ std::map<std::string, double> values(const GaugeRecorder& recorder, const Simula
 
 TEST(Gauges, SeeElements) {
   const setup::Case setup = setup::read_case_text(text("finite_elements", "100 m/s", "1 us"), "case.toml");
-  Simulation simulation(setup, parallel::world());
+  solver::Simulation simulation(setup, parallel::world());
   const GaugeRecorder recorder(setup.gauges.all(), simulation);
   const double density = setup.materials[0]->reference.density;
   auto now = values(recorder, simulation);
@@ -61,7 +61,7 @@ TEST(Gauges, SeeElements) {
 
 TEST(Gauges, FollowMatterThroughItsConversion) {
   const setup::Case setup = setup::read_case_text(text("adaptive", "-250 m/s", "4 us"), "case.toml");
-  Simulation simulation(setup, parallel::world());
+  solver::Simulation simulation(setup, parallel::world());
   const GaugeRecorder recorder(setup.gauges.all(), simulation);
   const std::size_t elements = simulation.element_count();
   double before = values(recorder, simulation)["matter.z"];
@@ -77,4 +77,4 @@ TEST(Gauges, FollowMatterThroughItsConversion) {
 }
 
 }  // namespace
-}  // namespace whipple::solver
+}  // namespace whipple::run

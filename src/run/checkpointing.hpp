@@ -4,12 +4,12 @@
 #include "src/io/checkpoint.hpp"
 #include "src/solver/simulation.hpp"
 
-namespace whipple::solver {
+namespace whipple::run {
 
 /// Everything of the run's state by name, for a checkpoint.
-io::CheckpointValues to_checkpoint(const RunState& state);
+io::CheckpointValues to_checkpoint(const solver::RunState& state);
 
 /// @throws InputError naming what is missing
-RunState from_checkpoint(const io::CheckpointValues& values);
+solver::RunState from_checkpoint(const io::CheckpointValues& values);
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/solver/forecast.hpp"
+#include "src/run/forecast.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include "src/core/parallel/mpi.hpp"
 
-namespace whipple::solver {
+namespace whipple::run {
 namespace {
 
 /// Actual steps over the end divided by the step allowed at the start: 0.58 to 1.22 in the cases of the
@@ -45,7 +45,7 @@ struct Box {
 /// Calls `visit(body, position, velocity, sound speed, is it under stress)` for every
 /// particle and every node of elements of this rank.
 template <class Visit>
-void for_each_point(const Simulation& s, const Visit& visit) {
+void for_each_point(const solver::Simulation& s, const Visit& visit) {
   const Particles& points = s.particles();
   for (std::size_t p = 0; p < points.size(); ++p) {
     const double c = points.sound_speed[p];
@@ -63,7 +63,7 @@ void for_each_point(const Simulation& s, const Visit& visit) {
 }
 
 /// Mean share, over the run, of the particles and nodes that take part.
-double moving_share(const Simulation& s) {
+double moving_share(const solver::Simulation& s) {
   const setup::Case& setup = s.setup();
   if (!setup.gravity.acceleration.isZero(0.0) || setup.heat.conduction) return 1.0;
   const std::size_t count = s.bodies().size();
@@ -107,7 +107,7 @@ double moving_share(const Simulation& s) {
 
 }  // namespace
 
-Forecast forecast(Simulation& s) {
+Forecast forecast(solver::Simulation& s) {
   const double end = s.setup().time.end;
   Forecast result;
   const double steps = end / s.accurate_time_step();
@@ -134,4 +134,4 @@ Forecast forecast(Simulation& s) {
   return result;
 }
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

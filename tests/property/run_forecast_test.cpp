@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The forecast of `whipple check` against runs: steps inside the range, and the share of matter that moves.
-#include "src/solver/forecast.hpp"
+#include "src/run/forecast.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "src/core/parallel/mpi.hpp"
 
-namespace whipple::solver {
+namespace whipple::run {
 namespace {
 
 setup::Case case_of(const std::string& name, const std::vector<std::pair<std::string, std::string>>& overrides) {
@@ -23,7 +23,7 @@ struct Outcome {
 };
 
 Outcome outcome_of(const setup::Case& setup) {
-  Simulation simulation(setup, parallel::world());
+  solver::Simulation simulation(setup, parallel::world());
   Outcome outcome;
   double resting = 0.0;
   while (simulation.state().time < setup.time.end) {
@@ -38,7 +38,7 @@ Outcome outcome_of(const setup::Case& setup) {
 void expect_foreseen(const setup::Case& setup) {
   setup::Case awake = setup;
   awake.transfer.rest_tolerance = 0.0;
-  Simulation simulation(awake, parallel::world());
+  solver::Simulation simulation(awake, parallel::world());
   const Forecast foreseen = forecast(simulation);
   const Outcome outcome = outcome_of(setup);
   EXPECT_LE(foreseen.least_steps, outcome.steps);
@@ -64,4 +64,4 @@ TEST(Forecast, OfAProjectileThatFliesFirst) {
 }
 
 }  // namespace
-}  // namespace whipple::solver
+}  // namespace whipple::run

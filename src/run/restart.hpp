@@ -9,7 +9,7 @@
 
 /// What makes a checkpoint one of a case: the input that it was written with, and numbers that a state can
 /// have. A seal shows damage; it does not show a checkpoint of another run, or a forged one.
-namespace whipple::solver {
+namespace whipple::run {
 
 /// Adds the case to the values: every key, and the digests of the files of materials and meshes.
 void remember_input(const setup::Case& setup, io::CheckpointValues& values);
@@ -28,6 +28,6 @@ void require_admissible(const setup::Case& setup, const io::Checkpoint& checkpoi
 /// The simulation at the checkpoint, if it passes both; says which keys have changed. Takes particles, meshes and
 /// bars out of the checkpoint. Collective.
 /// @throws InputError naming these keys if the case needs what the checkpoint does not hold
-Simulation resume(const setup::Case& setup, io::Checkpoint& checkpoint, MPI_Comm communicator);
+solver::Simulation resume(const setup::Case& setup, io::Checkpoint& checkpoint, MPI_Comm communicator);
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

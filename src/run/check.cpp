@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 
 #include "eos/table/table.hpp"
 #include "src/core/base/error.hpp"
@@ -13,51 +12,18 @@
 #include "src/core/parallel/threads.hpp"
 #include "src/setup/remarks.hpp"
 #include "src/setup/tables.hpp"
-#include "src/solver/forecast.hpp"
-#include "src/solver/preparation.hpp"
-#include "src/solver/run.hpp"
+#include "src/run/forecast.hpp"
+#include "src/run/preparation.hpp"
+#include "src/run/run.hpp"
 #include "src/solver/simulation.hpp"
 
-namespace whipple::solver {
-
-namespace {
-
-/// Ranks that share the processors of this one. Collective.
-int ranks_beside(MPI_Comm communicator) {
-  const std::size_t own = std::hash<std::string>{}(processor_set());
-  const std::vector<std::vector<std::size_t>> mine(static_cast<std::size_t>(parallel::size(communicator)),
-                                                   {own});
-  const std::vector<std::vector<std::size_t>> all = parallel::exchange(communicator, mine);
-  return static_cast<int>(std::ranges::count(all, std::vector{own}));
-}
-
-}  // namespace
-
-void set_threads(int threads, MPI_Comm communicator) {
-  const int share = std::max(1, usable_processors() / ranks_beside(communicator));
-  if (threads <= 0) {  // the first rank asks, and warns, for all
-    threads = static_cast<int>(
-        parallel::maximum(communicator, parallel::rank(communicator) == 0 ? threads_of_environment() : 0));
-  }
-  parallel::set_threads(threads > 0 ? threads : share);
-}
-
-void require_memory(const setup::Case& setup, MPI_Comm communicator) {
-  const double needed = setup::expected_memory(setup);
-  const double available = physical_memory() * parallel::size(communicator) /
-                           static_cast<double>(parallel::ranks_on_machine(communicator));
-  if (needed <= available) return;
-  throw InputError(fmt::format(
-      "{}: the particles of all bodies take up to {}, and there are {}: enlarge 'domain.cell_size' or reduce "
-      "'per_cell', or take more machines",
-      setup.file.string(), format_bytes(needed), format_bytes(available)));
-}
+namespace whipple::run {
 
 namespace {
 
 /// Faces that a body touches and is one with its image at, and faces whose wall or image it meets as another
 /// body; empty where there are none.
-std::string at_faces(const setup::Case& setup, const Simulation& simulation, std::size_t body) {
+std::string at_faces(const setup::Case& setup, const solver::Simulation& simulation, std::size_t body) {
   constexpr std::array<const char*, 6> names = {"x_lower", "x_upper", "y_lower",
                                                 "y_upper", "z_lower", "z_upper"};
   std::string held, met;
@@ -74,14 +40,14 @@ std::string at_faces(const setup::Case& setup, const Simulation& simulation, std
 
 }  // namespace
 
-std::string check(const RunOptions& options) {
+std::string check_case(const RunOptions& options) {
   const MPI_Comm communicator = parallel::world();
   set_threads(options.threads, communicator);
   setup::Case setup = setup::read_case(options.case_file, options.overrides);
   require_memory(setup, communicator);
   setup::tabulate_materials(setup, io::Ranks(communicator));
   setup.transfer.rest_tolerance = 0.0;  // the cost is measured with all matter taking part
-  Simulation simulation(setup, communicator);
+  solver::Simulation simulation(setup, communicator);
   std::string text = fmt::format("{}\n{}\n\n", setup.file.string(), setup.title);
   text += fmt::format("grid: {} x {} x {} cells of {:.6g} mm\n", setup.geometry.cells[0],
                       setup.geometry.cells[1], setup.geometry.cells[2], 1e3 * setup.geometry.cell_size);
@@ -126,4 +92,4 @@ std::string check(const RunOptions& options) {
   return text;
 }
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/solver/gauges.hpp"
+#include "src/run/gauges.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include "src/fem/hexahedron.hpp"
 #include "src/core/parallel/mpi.hpp"
 
-namespace whipple::solver {
+namespace whipple::run {
 namespace {
 
 /// A particle, or one of the eight that an element may become.
@@ -29,7 +29,7 @@ struct Part {
 /// Calls f(part) for all parts of this rank; of elements, those for which `seen(element, centre, half its
 /// diagonal)` is true.
 template <class Seen, class F>
-void for_each_part(const Simulation& simulation, const Seen& seen, const F& f) {
+void for_each_part(const solver::Simulation& simulation, const Seen& seen, const F& f) {
   const Particles& particles = simulation.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) {
     f(Part{particles.id[p], particles.position[p], particles.velocity[p], particles.mass[p], particles.volume[p],
@@ -122,7 +122,7 @@ double spline(double x) {
 std::string checkpoint_name(const setup::Gauge& gauge) { return "gauge_particle." + gauge.name; }
 
 /// Particle nearest to each position; of several, the one of the least number.
-std::vector<std::uint64_t> nearest(const std::vector<setup::Gauge>& gauges, const Simulation& simulation) {
+std::vector<std::uint64_t> nearest(const std::vector<setup::Gauge>& gauges, const solver::Simulation& simulation) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> closest(gauges.size(), -infinity), number(gauges.size(), -infinity);
   const auto distance = [&](std::size_t g, const Part& part) {
@@ -152,7 +152,7 @@ std::vector<std::uint64_t> nearest(const std::vector<setup::Gauge>& gauges, cons
 
 }  // namespace
 
-GaugeRecorder::GaugeRecorder(const std::vector<setup::Gauge>& gauges, const Simulation& simulation)
+GaugeRecorder::GaugeRecorder(const std::vector<setup::Gauge>& gauges, const solver::Simulation& simulation)
     : gauges_(gauges), particle_(nearest(gauges, simulation)) {}
 
 GaugeRecorder::GaugeRecorder(const std::vector<setup::Gauge>& gauges, const io::CheckpointValues& values)
@@ -172,7 +172,7 @@ void GaugeRecorder::to_checkpoint(io::CheckpointValues& values) const {
   }
 }
 
-std::vector<io::HistoryValue> GaugeRecorder::row(const Simulation& simulation) const {
+std::vector<io::HistoryValue> GaugeRecorder::row(const solver::Simulation& simulation) const {
   const double per_cell = 1.0 / simulation.setup().domain.cell_size;
   std::vector<Sums> sums(gauges_.size());
   std::unordered_multimap<std::uint64_t, std::size_t> gauge_of;
@@ -226,4 +226,4 @@ std::vector<io::HistoryValue> GaugeRecorder::row(const Simulation& simulation) c
   return row;
 }
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

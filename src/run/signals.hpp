@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-namespace whipple::solver {
+namespace whipple::run {
 
 /// Catches SIGINT, SIGTERM (end the run) and SIGUSR1 (write a checkpoint) while it lives. SIGUSR2 counts as
 /// SIGTERM: it is the one that mpirun passes on to its ranks without killing them a second later.
@@ -18,4 +18,4 @@ class Signals {
   [[nodiscard]] bool checkpoint_requested() const;
 };
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/solver/run.hpp"
+#include "src/run/run.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -20,11 +20,11 @@
 #include "src/core/parallel/threads.hpp"
 #include "src/setup/remarks.hpp"
 #include "src/setup/tables.hpp"
-#include "src/solver/preparation.hpp"
-#include "src/solver/runner.hpp"
+#include "src/run/preparation.hpp"
+#include "src/run/runner.hpp"
 #include "src/solver/simulation.hpp"
 
-namespace whipple::solver {
+namespace whipple::run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -92,7 +92,7 @@ fs::path output_directory(const RunOptions& options, const fs::path& case_file) 
 
 }  // namespace
 
-int run(const RunOptions& options) {
+int run_case(const RunOptions& options) {
   const io::Ranks ranks(parallel::world());
   if (!ranks.is_root()) log::set_level(log::Level::quiet);
   set_threads(options.threads, parallel::world());
@@ -127,4 +127,4 @@ int run(const RunOptions& options) {
   return run_steps(setup, directory, options, ranks);
 }
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/solver/signals.hpp"
+#include "src/run/signals.hpp"
 
 #include <array>
 #include <csignal>
 
-namespace whipple::solver {
+namespace whipple::run {
 namespace {
 
 // A handler may only touch such variables.
@@ -43,4 +43,4 @@ bool Signals::checkpoint_requested() const {
   return requested;
 }
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

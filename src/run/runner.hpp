@@ -4,9 +4,9 @@
 #include "src/io/checkpoint.hpp"
 #include "src/io/ranks.hpp"
 #include "src/io/run_directory.hpp"
-#include "src/solver/run.hpp"
+#include "src/run/run.hpp"
 
-namespace whipple::solver {
+namespace whipple::run {
 
 /// The steps of a new run and everything that it writes into its folder. Collective.
 /// @returns the exit code of `run`
@@ -19,4 +19,4 @@ int run_steps(const setup::Case& setup, const io::RunDirectory& directory, const
 int run_steps(const setup::Case& setup, const io::RunDirectory& directory, io::Checkpoint checkpoint,
               const std::string& changed_input, const RunOptions& options, const io::Ranks& ranks);
 
-}  // namespace whipple::solver
+}  // namespace whipple::run

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/run/preparation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "src/core/base/error.hpp"
+#include "src/core/base/machine.hpp"
+#include "src/core/base/text.hpp"
+#include "src/core/parallel/threads.hpp"
+#include "src/setup/seeding.hpp"
+
+namespace whipple::run {
+namespace {
+
+/// Ranks that share the processors of this one. Collective.
+int ranks_beside(MPI_Comm communicator) {
+  const std::size_t own = std::hash<std::string>{}(processor_set());
+  const std::vector<std::vector<std::size_t>> mine(static_cast<std::size_t>(parallel::size(communicator)),
+                                                   {own});
+  const std::vector<std::vector<std::size_t>> all = parallel::exchange(communicator, mine);
+  return static_cast<int>(std::ranges::count(all, std::vector{own}));
+}
+
+}  // namespace
+
+void set_threads(int threads, MPI_Comm communicator) {
+  const int share = std::max(1, usable_processors() / ranks_beside(communicator));
+  if (threads <= 0) {  // the first rank asks, and warns, for all
+    threads = static_cast<int>(
+        parallel::maximum(communicator, parallel::rank(communicator) == 0 ? threads_of_environment() : 0));
+  }
+  parallel::set_threads(threads > 0 ? threads : share);
+}
+
+void require_memory(const setup::Case& setup, MPI_Comm communicator) {
+  const double needed = setup::expected_memory(setup);
+  const double available = physical_memory() * parallel::size(communicator) /
+                           static_cast<double>(parallel::ranks_on_machine(communicator));
+  if (needed <= available) return;
+  throw InputError(fmt::format(
+      "{}: the particles of all bodies take up to {}, and there are {}: enlarge 'domain.cell_size' or reduce "
+      "'per_cell', or take more machines",
+      setup.file.string(), format_bytes(needed), format_bytes(available)));
+}
+
+}  // namespace whipple::run
