@@ -13,9 +13,7 @@
 #include "src/io/sealed_file.hpp"
 
 namespace whipple::io {
-namespace {
 
-/// A name with commas or quotes (a body may be called so) is quoted in the way of RFC 4180.
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string result = "\"";
@@ -25,6 +23,8 @@ std::string csv_cell(const std::string& text) {
   }
   return result + '"';
 }
+
+namespace {
 
 std::string header_of(std::span<const HistoryValue> row) {
   std::string header;

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -32,12 +33,17 @@ std::regex own(const std::string& names) {
   return std::regex("(" + names + R"()((\.[0-9a-f]{8})?\.partial)?)");
 }
 const std::regex& own_outputs() {
-  static const std::regex names = own(R"((run\.toml|history\.csv|gauges\.csv|log\.txt|profile\.json))"
+  static const std::regex names = own(R"((run\.toml|(history|gauges|steering)\.csv|log\.txt|(profile|status)\.json))"
                                       R"(|.+\.(particles|elements)\.(hdf\.series|[0-9]{6,}\.hdf))");
   return names;
 }
 const std::regex& own_checkpoints() {
   static const std::regex names = own(R"(checkpoint\.[0-9]{8,}\.h5)");
+  return names;
+}
+/// Requests that nobody has followed.
+const std::regex& own_requests() {
+  static const std::regex names = own(R"(.+\.toml(\.taken)?)");
   return names;
 }
 /// Copies of the materials; only what a killed run left of them is removed.
@@ -107,6 +113,14 @@ std::shared_ptr<const FileLock> lock_run(const fs::path& path) {
       path / lock_name, fmt::format("the run directory {}", path.string()), FileLock::IfHeld::refuse);
 }
 
+bool is_running(const fs::path& path) {
+  const int lock = ::open((path / lock_name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (lock < 0) return false;
+  const bool is_held = ::flock(lock, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(lock);
+  return is_held;
+}
+
 RunDirectory RunDirectory::create(const fs::path& path, const std::string& name, bool force) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -126,6 +140,7 @@ RunDirectory RunDirectory::create(const fs::path& path, const std::string& name,
   require_empty();
   require_own_folder(directory.checkpoint_folder());
   require_own_folder(directory.failed_folder());
+  require_own_folder(directory.control_folder());
   require_writable(path);
   directory.lock_ = lock_run(path);
   require_empty();  // unless another run was faster
@@ -136,6 +151,7 @@ RunDirectory RunDirectory::create(const fs::path& path, const std::string& name,
     fs::create_directory(directory.checkpoint_folder(), error);
     if (error) fail(directory.checkpoint_folder(), "make the folder", error.value());
   }
+  if (fs::is_directory(directory.control_folder())) remove_matching(directory.control_folder(), own_requests());
   if (fs::is_directory(directory.failed_folder())) {
     remove_matching(directory.failed_folder(), own_checkpoints());
     fs::remove(directory.failed_folder(), error);  // stays if it holds something else
@@ -156,7 +172,7 @@ void RunDirectory::remove_partial_files() const {
   remove_matching(path_, own_outputs(), Which::partial);
   for (const auto& [folder, names] :
        {std::pair(checkpoint_folder(), own_checkpoints()), std::pair(failed_folder(), own_checkpoints()),
-        std::pair(path_ / "materials", own_materials())}) {
+        std::pair(control_folder(), own_requests()), std::pair(path_ / "materials", own_materials())}) {
     if (fs::is_directory(fs::symlink_status(folder))) remove_matching(folder, names, Which::partial);
   }
 }

@@ -21,6 +21,9 @@ std::string read_text(const std::filesystem::path& path);
 /// @throws InputError if there is no such folder, or another run holds it
 std::shared_ptr<const FileLock> lock_run(const std::filesystem::path& path);
 
+/// Returns whether a process holds the lock of a run directory.
+bool is_running(const std::filesystem::path& path);
+
 /// The folder that holds all output of one run (docs/output.md). One process makes it.
 class RunDirectory {
  public:
@@ -39,6 +42,11 @@ class RunDirectory {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] std::filesystem::path input_file() const { return path_ / "run.toml"; }
   [[nodiscard]] std::filesystem::path history_file() const { return path_ / "history.csv"; }
+  [[nodiscard]] std::filesystem::path gauges_file() const { return path_ / "gauges.csv"; }
+  [[nodiscard]] std::filesystem::path status_file() const { return path_ / "status.json"; }
+  /// Where requests to the run are put, and the table of their answers.
+  [[nodiscard]] std::filesystem::path control_folder() const { return path_ / "control"; }
+  [[nodiscard]] std::filesystem::path steering_file() const { return path_ / "steering.csv"; }
   [[nodiscard]] std::filesystem::path log_file() const { return path_ / "log.txt"; }
   [[nodiscard]] std::filesystem::path profile_file() const { return path_ / "profile.json"; }
   [[nodiscard]] std::filesystem::path checkpoint_folder() const { return path_ / "checkpoint"; }

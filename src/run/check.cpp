@@ -21,8 +21,8 @@ namespace whipple::run {
 
 namespace {
 
-/// Faces that a body touches and is one with its image at, and faces whose wall or image it meets as another
-/// body; empty where there are none.
+/// Lists the faces of the domain at which a body is joined to its mirror image, and those whose wall or image it
+/// meets in contact; empty where there are none.
 std::string at_faces(const setup::Case& setup, const solver::Simulation& simulation, std::size_t body) {
   constexpr std::array<const char*, 6> names = {"x_lower", "x_upper", "y_lower",
                                                 "y_upper", "z_lower", "z_upper"};
@@ -46,7 +46,7 @@ std::string check_case(const RunOptions& options) {
   setup::Case setup = setup::read_case(options.case_file, options.overrides);
   require_memory(setup, communicator);
   setup::tabulate_materials(setup, io::Ranks(communicator));
-  setup.transfer.rest_tolerance = 0.0;  // the cost is measured with all matter taking part
+  setup.transfer.rest_tolerance = 0.0;  // the cost is measured with no block inactive
   solver::Simulation simulation(setup, communicator);
   std::string text = fmt::format("{}\n{}\n\n", setup.file.string(), setup.title);
   text += fmt::format("grid: {} x {} x {} cells of {:.6g} mm\n", setup.geometry.cells[0],

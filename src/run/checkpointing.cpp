@@ -6,7 +6,7 @@
 namespace whipple::run {
 namespace {
 
-/// Calls f(name, number) for every number of the state: one list for writing and reading.
+/// Calls f(name, number) for every real number of the state: one list for writing and reading.
 template <class State, class Function>
 void for_each_real(State& state, Function&& f) {
   f("time", state.time);
@@ -18,7 +18,7 @@ void for_each_real(State& state, Function&& f) {
   for_each_number(state.ledger, f);
 }
 
-/// Words of bits as halves, which double precision holds exactly.
+/// Splits words of bits into halves, which double precision holds exactly.
 std::vector<double> halves(const std::vector<std::uint64_t>& words) {
   std::vector<double> halves;
   for (const std::uint64_t word : words) {
@@ -28,6 +28,7 @@ std::vector<double> halves(const std::vector<std::uint64_t>& words) {
   return halves;
 }
 
+/// Joins the halves of words of bits.
 std::vector<std::uint64_t> words(const std::vector<double>& halves) {
   std::vector<std::uint64_t> words;
   for (std::size_t i = 0; i + 1 < halves.size(); i += 2) {

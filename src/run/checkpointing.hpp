@@ -6,10 +6,10 @@
 
 namespace whipple::run {
 
-/// Everything of the run's state by name, for a checkpoint.
+/// Collects the state of a run by name, for a checkpoint.
 io::CheckpointValues to_checkpoint(const solver::RunState& state);
 
-/// @throws InputError naming what is missing
+/// Restores the state of a run. @throws InputError naming what is missing
 solver::RunState from_checkpoint(const io::CheckpointValues& values);
 
 }  // namespace whipple::run

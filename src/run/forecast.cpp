@@ -13,15 +13,15 @@
 namespace whipple::run {
 namespace {
 
-/// Actual steps over the end divided by the step allowed at the start: 0.58 to 1.22 in the cases of the
+/// Ratio of the actual number of steps to end time over initially allowed step: 0.58 to 1.22 in the cases of the
 /// repository, more where elements are crushed.
 constexpr double fewest_steps = 0.55, most_steps = 1.3;
-/// Contact, melting and failure make a step dearer than at the start, free flight makes it cheaper.
+/// Contact, melting and failure make a step more expensive than initially, free flight makes it cheaper.
 constexpr double cheapest = 0.5, dearest = 2.0;
 constexpr double usual_steps = 0.85;
 constexpr double beside_steps = 2.0;  // s, at most: reading, tables, writing in small runs
 
-/// Blocks wake as a whole, and one layer of them before motion arrives.
+/// Blocks are activated as a whole, and one layer of them ahead of motion.
 constexpr int layers_of_blocks = 2;
 
 constexpr double calibration_time = 1.0;  // s
@@ -42,8 +42,8 @@ struct Box {
   }
 };
 
-/// Calls `visit(body, position, velocity, sound speed, is it under stress)` for every
-/// particle and every node of elements of this rank.
+/// Calls `visit(body, position, velocity, sound speed, whether stressed)` for every particle and every node of
+/// elements of this rank.
 template <class Visit>
 void for_each_point(const solver::Simulation& s, const Visit& visit) {
   const Particles& points = s.particles();
@@ -62,7 +62,7 @@ void for_each_point(const solver::Simulation& s, const Visit& visit) {
   for (const fem::Bars& bars : s.bars()) of_nodes(bars.nodes, bars.body);
 }
 
-/// Mean share, over the run, of the particles and nodes that take part.
+/// Estimates the mean active fraction of the particles and nodes over the run. Collective.
 double moving_share(const solver::Simulation& s) {
   const setup::Case& setup = s.setup();
   if (!setup.gravity.acceleration.isZero(0.0) || setup.heat.conduction) return 1.0;

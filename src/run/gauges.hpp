@@ -11,24 +11,23 @@
 
 namespace whipple::run {
 
-/// The gauges of a run: rows of gauges.csv. An element counts as the eight particles that it may become
-/// (src/afemp/conversion.hpp), with their numbers. A moving gauge is one particle, the nearest to its place at the
-/// start, and its row holds the state of that particle; a fixed gauge holds the means over the particles
-/// around it, weighted with the quadratic B-spline of the grid's cell size and with their mass (velocity,
-/// energy, temperature, strain, fractions) or volume (density, pressure, stress). What there is no matter for
-/// is NaN.
+/// Measures the state at the gauges of a run. An element counts as the eight particles that it may become
+/// (src/afemp/conversion.hpp), with their numbers. A moving gauge follows the particle that was nearest to its
+/// initial position; a fixed gauge averages over the particles around it, weighted with the quadratic B-spline of
+/// the grid's cell size and with mass (velocity, energy, temperature, strain, fractions) or volume (density,
+/// pressure, stress). Without material the values are NaN.
 class GaugeRecorder {
  public:
   /// Finds the particles of the moving gauges. Collective.
   GaugeRecorder(const std::vector<setup::Gauge>& gauges, const solver::Simulation& simulation);
-  /// Goes on with the particles of a checkpoint.
+  /// Continues with the particles of a checkpoint.
   /// @throws InputError if the checkpoint does not hold these gauges
   GaugeRecorder(const std::vector<setup::Gauge>& gauges, const io::CheckpointValues& values);
 
   [[nodiscard]] bool empty() const { return gauges_.empty(); }
-  /// Adds the particles of the moving gauges.
+  /// Adds the particles of the moving gauges to a checkpoint.
   void to_checkpoint(io::CheckpointValues& values) const;
-  /// State of all gauges now. Collective.
+  /// Computes the row of gauges.csv: the state at all gauges now. Collective.
   [[nodiscard]] std::vector<io::HistoryValue> row(const solver::Simulation& simulation) const;
 
  private:

@@ -17,7 +17,7 @@
 namespace whipple::run {
 namespace {
 
-/// Ranks that share the processors of this one. Collective.
+/// Counts the ranks that share the processors of this one. Collective.
 int ranks_beside(MPI_Comm communicator) {
   const std::size_t own = std::hash<std::string>{}(processor_set());
   const std::vector<std::vector<std::size_t>> mine(static_cast<std::size_t>(parallel::size(communicator)),

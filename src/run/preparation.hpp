@@ -6,10 +6,11 @@
 
 namespace whipple::run {
 
-/// Threads of this rank: as asked, or its share of the machine.
+/// Sets the number of threads of this rank: as asked, else from the environment, else its part of the processors
+/// that ranks share. Collective.
 void set_threads(int threads, MPI_Comm communicator);
 
-/// Before any work: a machine that runs out of memory ends the run, and others with it.
+/// Checks before any work that memory suffices: running out of it would kill the job. Collective.
 /// @throws InputError if the case takes more memory than the machines of all ranks have
 void require_memory(const setup::Case& setup, MPI_Comm communicator);
 

@@ -25,10 +25,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Tables whose keys decide what particles and elements there are.
+/// Tables whose keys determine the particles and elements.
 constexpr std::array<std::string_view, 4> fixed_tables = {"domain", "body", "gauge", "tracers"};
 
-/// Material and mesh of every body, by what they hold: the material files of a run are copies.
+/// Computes digests of the material and mesh files of every body: the material files of a run are copies.
 std::map<std::string, std::string> digests(const setup::Case& setup) {
   std::map<std::string, std::string> found;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
@@ -47,7 +47,7 @@ std::string text_of(const setup::Case& setup) {
   return setup::to_toml(setup, std::vector<std::string>(setup.bodies.size()));
 }
 
-/// "table.key" and value of every line of `setup::to_toml`, without its comments; tables of lists are numbered.
+/// Maps "table.key" to the value for every line of `setup::to_toml`, without comments; tables of lists are numbered.
 std::map<std::string, std::string> keys_of(std::string_view toml) {
   std::map<std::string, std::string> keys;
   std::map<std::string, int> entries;
@@ -107,7 +107,7 @@ constexpr std::array admissible = {
     Admissible{"touched", {.lower = 0.0, .upper = 4294967295.0}},  // halves of words
 };
 
-/// Any finite number unless the table says otherwise.
+/// Returns the admissible range of a field: any finite number unless the table says otherwise.
 Range range_of(std::string_view name) {
   const auto found = std::ranges::find(admissible, name, &Admissible::field);
   return found == admissible.end() ? Range{} : found->range;
@@ -128,7 +128,7 @@ class Checker {
     }
   }
 
-  /// @param indices  admissible numbers of what points to nodes and bodies
+  /// Checks every field of a set of points. @param indices  ranges of the fields that are indices
   template <class Points>
   void require_points(const std::string& group, const Points& points,
                       const std::map<std::string, Range>& indices = {}) const {
@@ -158,7 +158,7 @@ class Checker {
   std::string file_;
 };
 
-/// Numbers of what there are `count` of.
+/// Returns the range of the indices of `count` things.
 Range below(double count) { return {.lower = 0.0, .upper = count, .upper_open = true}; }
 
 }  // namespace

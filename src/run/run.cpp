@@ -8,7 +8,6 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -20,8 +19,20 @@
 #include "src/core/parallel/threads.hpp"
 #include "src/setup/remarks.hpp"
 #include "src/setup/tables.hpp"
+#include "src/run/directory_control.hpp"
+#include "src/run/material_copies.hpp"
+#include "src/run/observers/checkpoints.hpp"
+#include "src/run/observers/gauges.hpp"
+#include "src/run/observers/history.hpp"
+#include "src/run/observers/input_record.hpp"
+#include "src/run/observers/progress.hpp"
+#include "src/run/observers/snapshots.hpp"
+#include "src/run/observers/status_file.hpp"
+#include "src/run/observers/summary.hpp"
 #include "src/run/preparation.hpp"
+#include "src/run/restart.hpp"
 #include "src/run/runner.hpp"
+#include "src/run/signal_control.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::run {
@@ -35,21 +46,6 @@ std::string run_name(const fs::path& case_file) {
   if (stem != "case") return stem;
   const std::string folder = fs::absolute(case_file).parent_path().filename().string();
   return folder.empty() ? stem : folder;
-}
-
-/// Material files as they lie in the run directory, so that a restart does not depend on files elsewhere.
-std::vector<std::string> material_copies(const setup::Case& setup) {
-  std::vector<std::string> names;
-  std::map<std::string, fs::path> taken;
-  for (const auto& material : setup.materials) {
-    std::string name = material->file.filename().string();
-    for (int i = 2; taken.contains(name) && taken[name] != material->file; ++i) {
-      name = fmt::format("{}_{}.toml", material->file.stem().string(), i);
-    }
-    taken[name] = material->file;
-    names.push_back("materials/" + name);
-  }
-  return names;
 }
 
 std::string provenance(const setup::Case& setup, const std::string& program, int ranks) {
@@ -90,32 +86,33 @@ fs::path output_directory(const RunOptions& options, const fs::path& case_file) 
   return options.output_directory.empty() ? fs::path("run") / run_name(case_file) : options.output_directory;
 }
 
-}  // namespace
+/// What a run writes, in the order in which it is written after a step.
+Observers observers_of(solver::Simulation& simulation, const io::RunDirectory& directory, const RunOptions& options,
+                       const io::Ranks& ranks) {
+  const setup::Case& setup = simulation.setup();
+  const Table::Options history{directory.history_file(), "history_rows", &Schedule::history_every, options.force};
+  const Table::Options gauges{directory.gauges_file(), "gauges_rows", &Schedule::gauges_every, options.force};
+  Observers all;
+  all.push_back(std::make_unique<ProgressBar>(ranks));
+  all.push_back(std::make_unique<Summary>(directory, simulation.profile(), ranks));
+  all.push_back(std::make_unique<InputRecord>(directory, ranks));
+  all.push_back(std::make_unique<HistoryTable>(setup, history, ranks));
+  all.push_back(std::make_unique<GaugeTable>(gauges, ranks));
+  all.push_back(std::make_unique<Snapshots>(setup, directory, ranks));
+  all.push_back(std::make_unique<Checkpoints>(directory));
+  all.push_back(std::make_unique<StatusFile>(directory, options.program, ranks));
+  return all;
+}
 
-int run_case(const RunOptions& options) {
-  const io::Ranks ranks(parallel::world());
-  if (!ranks.is_root()) log::set_level(log::Level::quiet);
-  set_threads(options.threads, parallel::world());
-  if (options.restart) {
-    std::shared_ptr<const FileLock> lock;  // before anything is read that another run may write
-    ranks.on_root([&] { lock = io::lock_run(options.output_directory); });
-    const fs::path input = options.output_directory / "run.toml";
-    setup::Case setup = setup::read_case(input, options.overrides);
-    setup::tabulate_materials(setup, ranks);
-    io::Checkpoint checkpoint =
-        io::read_latest_checkpoint(options.output_directory / "checkpoint", parallel::world());
-    const io::RunDirectory directory =
-        io::RunDirectory::open(options.output_directory, checkpoint.values.text("run_name"));
-    if (ranks.is_root()) log::add_file(directory.log_file());
-    ranks.on_root([&] { directory.remove_partial_files(); });
-    std::string changed_input;
-    if (!options.overrides.empty()) {
-      std::vector<std::string> materials;  // the copies in the run directory
-      for (const setup::Body& body : setup.bodies) materials.push_back(body.material);
-      changed_input = setup::to_toml(setup, materials) + provenance(setup, options.program, ranks.count());
-    }
-    return run_steps(setup, directory, std::move(checkpoint), changed_input, options, ranks);
-  }
+int run_with_controls(Runner& runner, const io::RunDirectory& directory, const io::Ranks& ranks) {
+  SignalControl signals;
+  std::vector<RunControl*> controls = {&signals};
+  std::optional<DirectoryControl> requests;
+  ranks.on_root([&] { controls.push_back(&requests.emplace(directory)); });
+  return runner.run(controls);
+}
+
+int begin(const RunOptions& options, const io::Ranks& ranks) {
   setup::Case setup = setup::read_case(options.case_file, options.overrides);
   require_memory(setup, parallel::world());
   setup::tabulate_materials(setup, ranks);
@@ -124,7 +121,44 @@ int run_case(const RunOptions& options) {
   if (ranks.is_root()) log::add_file(directory.log_file());
   log::info("{}: {}", setup.title.empty() ? directory.name() : setup.title, directory.path().string());
   for (const std::string& remark : setup::remarks(setup)) log::warning("{}", remark);
-  return run_steps(setup, directory, options, ranks);
+  solver::Simulation simulation(setup, parallel::world());
+  Runner runner(simulation, observers_of(simulation, directory, options, ranks), options.wall_time);
+  runner.begin();
+  return run_with_controls(runner, directory, ranks);
+}
+
+int go_on(const RunOptions& options, const io::Ranks& ranks) {
+  std::shared_ptr<const FileLock> lock;  // before anything is read that another run may write
+  ranks.on_root([&] { lock = io::lock_run(options.output_directory); });
+  setup::Case setup = setup::read_case(options.output_directory / "run.toml", options.overrides);
+  setup::tabulate_materials(setup, ranks);
+  io::Checkpoint checkpoint =
+      io::read_latest_checkpoint(options.output_directory / "checkpoint", parallel::world());
+  const io::RunDirectory directory =
+      io::RunDirectory::open(options.output_directory, checkpoint.values.text("run_name"));
+  if (ranks.is_root()) log::add_file(directory.log_file());
+  ranks.on_root([&] { directory.remove_partial_files(); });
+  solver::Simulation simulation = resume(setup, checkpoint, parallel::world());
+  if (!options.overrides.empty()) {  // the next restart goes on with them
+    ranks.on_root([&] {
+      directory.write_input(setup::to_toml(setup, material_copies(setup)) +
+                            provenance(setup, options.program, ranks.count()));
+    });
+  }
+  Runner runner(simulation, observers_of(simulation, directory, options, ranks), options.wall_time);
+  runner.resume(checkpoint.values);
+  log::info("restarted from {} at step {}, t = {:.6g} s", checkpoint.path.string(), simulation.state().step,
+            simulation.state().time);
+  return run_with_controls(runner, directory, ranks);
+}
+
+}  // namespace
+
+int run_case(const RunOptions& options) {
+  const io::Ranks ranks(parallel::world());
+  if (!ranks.is_root()) log::set_level(log::Level::quiet);
+  set_threads(options.threads, parallel::world());
+  return options.restart ? go_on(options, ranks) : begin(options, ranks);
 }
 
 }  // namespace whipple::run

@@ -10,27 +10,28 @@
 
 namespace whipple::run {
 
-/// What the user asks of a run besides the case.
+/// Holds what the user asks of a run besides the case.
 struct RunOptions {
   std::filesystem::path case_file;         ///< empty on restart: run.toml of the directory
   std::filesystem::path output_directory;  ///< empty: the name of the case's folder, or of its file, in ./run
-  bool restart = false;                    ///< go on from the latest checkpoint in output_directory
+  bool restart = false;                    ///< continue from the latest checkpoint in output_directory
   bool force = false;                      ///< remove the outputs of an earlier run in output_directory; on
-                                           ///< restart: go on though rows of its tables are missing
-  int threads = 0;                         ///< of each rank; 0: its share of the cores
+                                           ///< restart: continue although rows of its tables are missing
+  int threads = 0;                         ///< of each rank; 0: its part of the cores
   double wall_time = 0.0;                  ///< s, then a checkpoint is written and the run ends; 0: no limit
   std::string program = "whipple";         ///< name and version, for provenance
   std::vector<std::pair<std::string, std::string>> overrides;  ///< --set
 };
 
-/// Runs a case from its file to its last snapshot (docs/output.md has what it writes). Collective.
-/// SIGINT and SIGTERM write a checkpoint and end the run, SIGUSR1 writes one and goes on.
+/// Runs a case from its file to its last snapshot; docs/output.md lists the files that it writes. Collective.
+/// Signals (`SignalControl`) and files in the run directory (`DirectoryControl`) steer it.
 /// @returns 0; 128 + number of the signal that ended the run; 124 at the limit of wall time
 /// @throws InputError before any work and before anything is written if the input is wrong;
 ///         StateError if the physics leaves its range: the state is saved in the folder failed/ of the run
 int run_case(const RunOptions& options);
 
-/// What `whipple check` prints: bodies, particles, memory, steps, time, from the case and two measured steps.
+/// Describes what a case would run, for `whipple check`: bodies, particles, memory, and steps and wall time from a
+/// few measured steps. Collective. @throws InputError if the case is wrong
 std::string check_case(const RunOptions& options);
 
 }  // namespace whipple::run

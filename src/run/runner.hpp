@@ -1,22 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "src/io/checkpoint.hpp"
-#include "src/io/ranks.hpp"
-#include "src/io/run_directory.hpp"
-#include "src/run/run.hpp"
+#include <chrono>
+#include <span>
+
+#include "src/run/observer.hpp"
 
 namespace whipple::run {
 
-/// The steps of a new run and everything that it writes into its folder. Collective.
-/// @returns the exit code of `run`
-int run_steps(const setup::Case& setup, const io::RunDirectory& directory, const RunOptions& options,
-              const io::Ranks& ranks);
+/// The loop of a run: steps, requests between them, observers after them. All calls are collective.
+class Runner {
+ public:
+  /// @param simulation  must outlive this object
+  /// @param wall_time   s, after which the run stops; 0: no limit
+  Runner(solver::Simulation& simulation, Observers observers, double wall_time = 0.0);
 
-/// The same from a checkpoint on.
-/// @param changed_input  replaces run.toml once the case has taken the state over; empty: it stays
-/// @throws InputError if the checkpoint is not one of this case, or rows of the tables before it are missing
-int run_steps(const setup::Case& setup, const io::RunDirectory& directory, io::Checkpoint checkpoint,
-              const std::string& changed_input, const RunOptions& options, const io::Ranks& ranks);
+  /// Calls the observers at the first state.
+  void begin();
+  /// Calls the observers at the state of a checkpoint.
+  void resume(const io::CheckpointValues& values);
+
+  /// Steps to the end of the schedule, or until a control asks for the end.
+  /// @returns 0; 128 + number of the signal that stopped the run; 124 at the limit of wall time
+  /// @throws StateError    if the physics left its range
+  /// @throws ResourceError if disk or memory do not suffice
+  int run(std::span<RunControl* const> controls);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void steps();
+  void at_border();
+  [[nodiscard]] Requests asked();
+  void follow(const Request& request);
+  [[nodiscard]] Moment now() const;
+  [[nodiscard]] bool has_ended() const;
+  [[nodiscard]] Outcome outcome() const;
+  [[nodiscard]] std::string failed(Outcome outcome);
+
+  solver::Simulation& simulation_;
+  Observers observers_;
+  double wall_time_;
+  Schedule schedule_;
+  std::span<RunControl* const> controls_;
+  Requests requests_;
+  bool paused_ = false;
+  Clock::time_point begin_ = Clock::now(), last_checkpoint_ = begin_;
+};
 
 }  // namespace whipple::run

@@ -267,6 +267,19 @@ position = ["1 mm", "1 mm", "1 mm"]
   }
 };
 
+TEST_F(Restart, WithAnotherSnapshotIntervalGoesOnAtItsMultiples) {
+  begin({{"output.snapshot_every", "1 ns"}});  // the next multiple is then a large one
+  run::RunOptions again = options("run");
+  again.case_file.clear();
+  again.restart = true;
+  again.overrides = {{"output.snapshot_every", "1 us"}};
+  ASSERT_EQ(run_in_child(again), 0);
+  const std::string index = text(folder_ / "run" / "debris.particles.hdf.series");
+  std::size_t snapshots = 0;
+  for (std::size_t at = index.find("\"time\""); at != std::string::npos; at = index.find("\"time\"", at + 1)) ++snapshots;
+  EXPECT_EQ(snapshots, 6U) << "at the start, after the first step, and at 1, 2, 3 and 4 us: " << index;
+}
+
 TEST_F(Restart, WithAnotherInputIsRefusedAndNamesWhatDiffers) {
   using testing::HasSubstr;
   const io::CheckpointValues values =

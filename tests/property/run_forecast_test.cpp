@@ -18,13 +18,13 @@ setup::Case case_of(const std::string& name, const std::vector<std::pair<std::st
   return setup::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/" + name + "/case.toml", overrides);
 }
 
-struct Outcome {
+struct Measured {
   double steps = 0.0, moving = 0.0;  ///< mean share of the particles that were not at rest
 };
 
-Outcome outcome_of(const setup::Case& setup) {
+Measured measured(const setup::Case& setup) {
   solver::Simulation simulation(setup, parallel::world());
-  Outcome outcome;
+  Measured outcome;
   double resting = 0.0;
   while (simulation.state().time < setup.time.end) {
     simulation.advance(setup.time.end);
@@ -40,7 +40,7 @@ void expect_foreseen(const setup::Case& setup) {
   awake.transfer.rest_tolerance = 0.0;
   solver::Simulation simulation(awake, parallel::world());
   const Forecast foreseen = forecast(simulation);
-  const Outcome outcome = outcome_of(setup);
+  const Measured outcome = measured(setup);
   EXPECT_LE(foreseen.least_steps, outcome.steps);
   EXPECT_GE(foreseen.most_steps, outcome.steps);
   EXPECT_LT(foreseen.most_steps, 2.5 * foreseen.least_steps);

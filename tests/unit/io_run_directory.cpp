@@ -52,13 +52,18 @@ TEST_F(RunDirectoryTest, force_removes_its_own_outputs_and_nothing_else) {
                        "checkpoint/checkpoint.00000012.h5",
                        "checkpoint/checkpoint.00000012.h5.partial",
                        "checkpoint/checkpoint.00000013.h5.0123abcd.partial",
-                       "failed/checkpoint.00000012.h5"};
+                       "failed/checkpoint.00000012.h5",
+                       "status.json",
+                       "steering.csv",
+                       "control/1700.toml",
+                       "control/1700.toml.taken"};
   const char* others[] = {
       "notes.md",         "case.toml",       "particles.hdf",          "disk.particles.7.hdf",
       "run.toml.backup",  "history.csv.old", "checkpoint/keep.h5",     "checkpoint/checkpoint.1.h5",
-      "my.particles.txt", "report.html",     "disk.particles.000007.h"};
+      "my.particles.txt", "report.html",     "disk.particles.000007.h", "control/notes.txt"};
   fs::create_directories(folder_ / "checkpoint");
   fs::create_directories(folder_ / "failed");
+  fs::create_directories(folder_ / "control");
   fs::create_directories(folder_ / "subfolder" / "deep");
   touch(folder_ / "subfolder" / "run.toml");
   for (const char* file : own) touch(folder_ / file);
@@ -93,7 +98,9 @@ TEST_F(RunDirectoryTest, has_one_run_at_a_time) {
     EXPECT_THAT(message_of<InputError>([&] { (void)RunDirectory::create(path, "disk", true); }),
                 AllOf(HasSubstr(path.string()), HasSubstr(holder)));
     EXPECT_THAT(message_of<InputError>([&] { (void)lock_run(path); }), HasSubstr(holder));
+    EXPECT_TRUE(is_running(path));
   }
+  EXPECT_FALSE(is_running(path));
   EXPECT_NO_THROW((void)lock_run(path));
   EXPECT_THAT(message_of<InputError>([&] { (void)lock_run(folder_ / "none"); }), HasSubstr("no such folder"));
 }

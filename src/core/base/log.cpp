@@ -7,10 +7,13 @@
 
 #include <memory>
 
+#include "src/core/base/last_message.hpp"
+
 namespace whipple::log {
 namespace {
 
 Level present_level = Level::normal;
+std::string latest;
 
 spdlog::logger& logger() {
   static const std::shared_ptr<spdlog::logger> instance = [] {
@@ -43,6 +46,7 @@ void add_file(const std::filesystem::path& path) {
 }
 
 void record_error(const std::string& message) {
+  latest = message;
   const auto& sinks = logger().sinks();
   for (std::size_t i = 1; i < sinks.size(); ++i) {
     sinks[i]->log({"whipple", spdlog::level::err, message});
@@ -50,8 +54,16 @@ void record_error(const std::string& message) {
   }
 }
 
-void write_info(const std::string& message) { logger().info(message); }
-void write_warning(const std::string& message) { logger().warn("warning: {}", message); }
+void write_info(const std::string& message) {
+  latest = message;
+  logger().info(message);
+}
+void write_warning(const std::string& message) {
+  latest = message;
+  logger().warn("warning: {}", message);
+}
 void write_detail(const std::string& message) { logger().debug(message); }
+
+const std::string& last_message() { return latest; }
 
 }  // namespace whipple::log

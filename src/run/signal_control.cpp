@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/run/signals.hpp"
+#include "src/run/signal_control.hpp"
 
 #include <array>
 #include <csignal>
@@ -25,22 +25,20 @@ extern "C" void on_signal(int number) {
 
 }  // namespace
 
-Signals::Signals() {
+SignalControl::SignalControl() {
   end_signal = 0;
   checkpoint_signal = 0;
   for (std::size_t i = 0; i < caught.size(); ++i) former[i] = std::signal(caught[i], on_signal);
 }
 
-Signals::~Signals() {
+SignalControl::~SignalControl() {
   for (std::size_t i = 0; i < caught.size(); ++i) std::signal(caught[i], former[i]);
 }
 
-int Signals::end_requested() const { return end_signal; }
-
-bool Signals::checkpoint_requested() const {
-  const bool requested = checkpoint_signal != 0;
+void SignalControl::ask(const Moment&, Requests& requests) {
+  if (end_signal != 0) requests.signal = end_signal;
+  if (checkpoint_signal != 0) requests.checkpoint = true;
   checkpoint_signal = 0;
-  return requested;
 }
 
 }  // namespace whipple::run

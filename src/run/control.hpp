@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "src/run/requests.hpp"
+
+namespace whipple::run {
+
+struct Moment;
+
+/// Everything that is asked of a run at one border between steps.
+struct Requests {
+  int signal = 0;            ///< number of the signal that ends the run
+  bool out_of_time = false;  ///< the limit of wall time ends the run
+  bool checkpoint = false;
+  Request steering;
+
+  /// Whether the run ends before its time.
+  [[nodiscard]] bool stop() const { return signal != 0 || out_of_time; }
+};
+
+/// Asks things of a run. The loop calls it on every rank after each step, and again and again while the run is
+/// paused; what one rank asks for, all do.
+class RunControl {
+ public:
+  virtual ~RunControl() = default;
+
+  /// Adds what is asked now. Called without communication between the ranks; only the first rank may fill in
+  /// `steering`, and only where it is still empty.
+  virtual void ask(const Moment& moment, Requests& requests) = 0;
+};
+
+}  // namespace whipple::run

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/run/material_copies.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+
+namespace whipple::run {
+
+std::vector<std::string> material_copies(const setup::Case& setup) {
+  std::vector<std::string> names;
+  std::map<std::string, std::filesystem::path> taken;
+  for (const auto& material : setup.materials) {
+    std::string name = material->file.filename().string();
+    for (int i = 2; taken.contains(name) && taken[name] != material->file; ++i) {
+      name = fmt::format("{}_{}.toml", material->file.stem().string(), i);
+    }
+    taken[name] = material->file;
+    names.push_back("materials/" + name);
+  }
+  return names;
+}
+
+}  // namespace whipple::run

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/setup/case.hpp"
+
+namespace whipple::run {
+
+/// Returns the material file of every body as it lies in the run directory, "materials/copper.toml": a restart
+/// does not depend on files elsewhere.
+std::vector<std::string> material_copies(const setup::Case& setup);
+
+}  // namespace whipple::run

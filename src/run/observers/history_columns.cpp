@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/run/observers/history_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
+
+namespace whipple::run {
+namespace {
+
+using Source = HistorySource;
+
+/// A column of the table; its name is followed by that of the body where it is one of bodies.
+struct Column {
+  std::string_view name, unit, meaning;
+  double (*value)(const Source&);
+};
+struct BodyColumn {
+  std::string_view name, unit, meaning;
+  double (*value)(const Source&, std::size_t body);
+};
+
+// clang-format off
+const auto always = std::to_array<Column>({
+    {"step", "", "number of the step", [](const Source& s) { return static_cast<double>(s.state.step); }},
+    {"time", "s", "simulated time", [](const Source& s) { return s.state.time; }},
+    {"dt", "s", "time step", [](const Source& s) { return s.state.time_step; }},
+    {"mass", "kg", "mass in the domain", [](const Source& s) { return s.totals.mass; }},
+    {"kinetic_energy", "J", "kinetic energy of particles and nodes",
+     [](const Source& s) { return s.totals.kinetic_energy; }},
+    {"affine_kinetic_energy", "J", "kinetic energy of the particles' affine velocity fields",
+     [](const Source& s) { return s.totals.affine_kinetic_energy; }},
+    {"internal_energy", "J", "internal energy", [](const Source& s) { return s.totals.internal_energy; }},
+    {"unresolved_energy", "J", "kinetic energy of motion that the cells do not resolve",
+     [](const Source& s) { return s.totals.unresolved_energy; }},
+    {"unresolved_share", "1", "unresolved_energy over the kinetic energy of resolved motion",
+     [](const Source& s) { return s.totals.unresolved_share(); }},
+    {"total_energy", "J", "sum of the energies", [](const Source& s) { return s.totals.energy(); }},
+    {"energy_error", "1", "error of the total energy over the energy that the run exchanged",
+     [](const Source& s) { return s.ledger.energy_error(s.totals); }},
+    {"momentum_x", "kg m/s", "momentum along x", [](const Source& s) { return s.totals.momentum[0]; }},
+    {"momentum_y", "kg m/s", "momentum along y", [](const Source& s) { return s.totals.momentum[1]; }},
+    {"momentum_z", "kg m/s", "momentum along z", [](const Source& s) { return s.totals.momentum[2]; }},
+    {"momentum_error", "1", "error of the momentum over the momentum that the run exchanged",
+     [](const Source& s) { return s.ledger.momentum_error(s.totals); }},
+    {"viscous_work", "J", "work of the artificial viscosity", [](const Source& s) { return s.ledger.viscous_work; }},
+    {"plastic_work", "J", "plastic work that became heat", [](const Source& s) { return s.ledger.plastic_work; }},
+    {"transfer_heat", "J", "kinetic energy lost in transfers that became internal at once",
+     [](const Source& s) { return s.ledger.transfer_heat; }},
+    {"unresolved_kept", "J", "kinetic energy that became unresolved",
+     [](const Source& s) { return s.ledger.unresolved_kept; }},
+    {"unresolved_returned", "J", "unresolved energy that became internal",
+     [](const Source& s) { return s.ledger.unresolved_returned; }},
+    {"conducted_heat", "J", "internal energy conducted between particles in shocks",
+     [](const Source& s) { return s.ledger.conducted_heat; }},
+    {"contact_heat", "J", "kinetic energy lost by normal impulses of contact",
+     [](const Source& s) { return s.ledger.contact_heat; }},
+    {"friction_heat", "J", "kinetic energy lost by friction", [](const Source& s) { return s.ledger.friction_heat; }},
+    {"contact_impulse", "N s", "sum of the normal impulses of contact",
+     [](const Source& s) { return s.ledger.contact_impulse; }},
+    {"friction_impulse", "N s", "sum of the tangential impulses of contact",
+     [](const Source& s) { return s.ledger.friction_impulse; }},
+    {"outflow_mass", "kg", "mass that has left the domain", [](const Source& s) { return s.ledger.outflow.mass; }},
+    {"outflow_energy", "J", "energy that has left the domain",
+     [](const Source& s) { return s.ledger.outflow.energy(); }},
+    {"wall_impulse_x", "N s", "impulse of mirror planes and walls along x",
+     [](const Source& s) { return s.ledger.wall_impulse[0]; }},
+    {"wall_impulse_y", "N s", "impulse of mirror planes and walls along y",
+     [](const Source& s) { return s.ledger.wall_impulse[1]; }},
+    {"wall_impulse_z", "N s", "impulse of mirror planes and walls along z",
+     [](const Source& s) { return s.ledger.wall_impulse[2]; }},
+    {"mass_solid", "kg", "solid mass", [](const Source& s) { return s.all_bodies.mass[0]; }},
+    {"mass_melting", "kg", "mass between solid and liquid", [](const Source& s) { return s.all_bodies.mass[1]; }},
+    {"mass_liquid", "kg", "liquid mass", [](const Source& s) { return s.all_bodies.mass[2]; }},
+    {"mass_vapour", "kg", "mass that is at least half vapour", [](const Source& s) { return s.all_bodies.mass[3]; }},
+    {"failed_mass", "kg", "mass that has failed", [](const Source& s) { return s.all_bodies.failed; }},
+    {"maximum_speed", "m/s", "greatest speed of a particle or node", [](const Source& s) { return s.maximum_speed; }},
+    {"maximum_pressure", "Pa", "greatest pressure", [](const Source& s) { return s.maximum_pressure; }},
+    {"maximum_temperature", "K", "greatest temperature", [](const Source& s) { return s.maximum_temperature; }},
+    {"squeezed_beside_voids", "kg", "intact mass under pressure in cells that it does not fill",
+     [](const Source& s) { return s.state.squeezed_beside_voids; }},
+    {"particles", "1", "number of particles", [](const Source& s) { return s.particles; }},
+});
+
+const auto of_elements = std::to_array<Column>({
+    {"elements", "1", "number of finite elements left", [](const Source& s) { return s.elements; }},
+    {"converted_mass", "kg", "mass of elements that became particles",
+     [](const Source& s) { return s.ledger.converted_mass; }},
+    {"conversion_heat", "J", "kinetic energy that conversions turned into internal energy",
+     [](const Source& s) { return s.ledger.conversion_heat; }},
+    {"hourglass_energy", "J", "energy stored in hourglass modes",
+     [](const Source& s) { return s.totals.hourglass_energy; }},
+});
+
+const auto of_cold_work = std::to_array<Column>({
+    {"stored_cold_work", "J", "part of the internal energy that plastic work stored without heating",
+     [](const Source& s) { return s.stored_cold_work; }},
+});
+
+const auto of_bars = std::to_array<Column>({
+    {"bars", "1", "number of bars", [](const Source& s) { return s.bars; }},
+    {"broken_bars", "1", "bars that have broken", [](const Source& s) { return s.broken_bars; }},
+    {"bar_energy", "J", "internal energy of the bars", [](const Source& s) { return s.bar_energy; }},
+});
+
+const auto phases_of_body = std::to_array<BodyColumn>({
+    {"mass_solid", "kg", "solid mass of the body",
+     [](const Source& s, std::size_t b) { return s.by_body[b].mass[0]; }},
+    {"mass_melting", "kg", "mass of the body between solid and liquid",
+     [](const Source& s, std::size_t b) { return s.by_body[b].mass[1]; }},
+    {"mass_liquid", "kg", "liquid mass of the body",
+     [](const Source& s, std::size_t b) { return s.by_body[b].mass[2]; }},
+    {"mass_vapour", "kg", "mass of the body that is at least half vapour",
+     [](const Source& s, std::size_t b) { return s.by_body[b].mass[3]; }},
+});
+
+const auto outflow_of_body = std::to_array<BodyColumn>({
+    {"outflow_mass", "kg", "mass of the body that has left the domain",
+     [](const Source& s, std::size_t b) { return s.state.outflow_of_body[b].mass; }},
+    {"outflow_momentum_x", "kg m/s", "momentum along x of what has left",
+     [](const Source& s, std::size_t b) { return s.state.outflow_of_body[b].momentum[0]; }},
+    {"outflow_momentum_y", "kg m/s", "momentum along y of what has left",
+     [](const Source& s, std::size_t b) { return s.state.outflow_of_body[b].momentum[1]; }},
+    {"outflow_momentum_z", "kg m/s", "momentum along z of what has left",
+     [](const Source& s, std::size_t b) { return s.state.outflow_of_body[b].momentum[2]; }},
+    {"outflow_energy", "J", "energy of what has left",
+     [](const Source& s, std::size_t b) { return s.state.outflow_of_body[b].energy; }},
+});
+// clang-format on
+
+/// What decides which of the columns a file has.
+struct Parts {
+  bool elements = false, cold_work = false, bars = false;
+  std::vector<std::string> bodies;
+};
+
+std::vector<HistoryColumn> columns_of(const Parts& parts) {
+  std::vector<HistoryColumn> columns;
+  const auto add = [&](std::span<const Column> group) {
+    for (const Column& c : group)
+      columns.push_back({std::string(c.name), std::string(c.unit), std::string(c.meaning), c.value});
+  };
+  const auto add_for_bodies = [&](std::span<const BodyColumn> group) {
+    for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
+      for (const BodyColumn& c : group) {
+        columns.push_back({fmt::format("{}.{}", c.name, parts.bodies[b]), std::string(c.unit), std::string(c.meaning),
+                           [value = c.value, b](const Source& s) { return value(s, b); }});
+      }
+    }
+  };
+  add(always);
+  for (const solver::Limiter& limiter : solver::limiters) {
+    columns.push_back({limiter.name, "1", std::string("times: ") + limiter.meaning,
+                       [count = limiter.count](const Source& s) { return s.ledger.*count; }});
+  }
+  if (parts.elements) add(of_elements);
+  if (parts.cold_work) add(of_cold_work);
+  if (parts.bars) add(of_bars);
+  add_for_bodies(phases_of_body);
+  add_for_bodies(outflow_of_body);
+  return columns;
+}
+
+bool stores_cold_work(const setup::Case& setup) {
+  return std::ranges::any_of(setup.materials, [](const auto& material) { return material->stores_cold_work(); });
+}
+
+/// J, part of the internal energy of these points.
+double cold_work_of(const MaterialPoints& points) {
+  return parallel::sum<double>(points.stored_cold_work.size(),
+                               [&](std::size_t p) { return points.mass[p] * points.stored_cold_work[p]; });
+}
+
+double largest(const std::vector<double>& values, double so_far) {
+  return parallel::maximum(values.size(), so_far, [&](std::size_t p) { return values[p]; });
+}
+
+double fastest(const std::vector<Vector3>& velocity, double so_far) {
+  return std::sqrt(parallel::maximum(velocity.size(), so_far * so_far,
+                                     [&](std::size_t p) { return velocity[p].squaredNorm(); }));
+}
+
+}  // namespace
+
+HistorySource::HistorySource(const solver::Simulation& simulation)
+    : state(simulation.state()),
+      ledger(state.ledger),
+      totals(simulation.totals()),
+      by_body(solver::phase_masses(simulation.particles(), simulation.meshes(), simulation.bars(),
+                           simulation.setup().bodies.size())),
+      particles(static_cast<double>(simulation.particle_count())),
+      elements(static_cast<double>(simulation.element_count())) {
+  solver::sum_over_ranks(simulation.communicator(), by_body);
+  for (const solver::PhaseMasses& body : by_body) all_bodies += body;
+
+  const Particles& points = simulation.particles();
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  std::array<double, 3> maxima = {fastest(points.velocity, 0.0), largest(points.pressure, none),
+                                  largest(points.temperature, none)};
+  std::array<double, 4> sums = {cold_work_of(points), 0.0, 0.0, 0.0};
+  for (const fem::Mesh& mesh : simulation.meshes()) {
+    maxima = {fastest(mesh.nodes.velocity, maxima[0]), largest(mesh.points.pressure, maxima[1]),
+              largest(mesh.points.temperature, maxima[2])};
+    sums[0] += cold_work_of(mesh.points);
+  }
+  for (const fem::Bars& of_body : simulation.bars()) {
+    sums[1] += static_cast<double>(of_body.elements.size());
+    sums[2] += static_cast<double>(std::ranges::count(of_body.elements.broken, 1));
+    sums[3] += fem::internal_energy(of_body);
+  }
+  parallel::maximum(simulation.communicator(), maxima);
+  if (simulation.setup().has_bars() || stores_cold_work(simulation.setup())) {
+    parallel::sum(simulation.communicator(), sums);
+  }
+  maximum_speed = maxima[0];
+  maximum_pressure = maxima[1];
+  maximum_temperature = maxima[2];
+  stored_cold_work = sums[0];
+  bars = sums[1];
+  broken_bars = sums[2];
+  bar_energy = sums[3];
+}
+
+std::vector<HistoryColumn> history_columns(const setup::Case& setup) {
+  Parts parts{.elements = setup.has_elements(),
+              .cold_work = stores_cold_work(setup),
+              .bars = setup.has_bars(),
+              .bodies = {}};
+  for (const setup::Body& body : setup.bodies) parts.bodies.push_back(body.name);
+  return columns_of(parts);
+}
+
+std::string history_columns_as_markdown() {
+  std::string text;
+  for (const HistoryColumn& column : columns_of({true, true, true, {"BODY"}})) {
+    text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
+  }
+  return text;
+}
+
+std::vector<io::HistoryValue> history_row(std::span<const HistoryColumn> columns,
+                                          const solver::Simulation& simulation) {
+  const HistorySource source(simulation);
+  std::vector<io::HistoryValue> row;
+  row.reserve(columns.size());
+  for (const HistoryColumn& column : columns) row.push_back({column.name, column.unit, column.value(source)});
+  return row;
+}
+
+}  // namespace whipple::run

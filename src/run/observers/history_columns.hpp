@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "src/io/history.hpp"
+#include "src/setup/case.hpp"
+#include "src/solver/simulation.hpp"
+
+namespace whipple::run {
+
+/// What the columns of history.csv are computed from: a simulation, and sums and maxima over all ranks (SI).
+struct HistorySource {
+  const solver::RunState& state;
+  const solver::Ledger& ledger;
+  const solver::Totals& totals;
+  std::vector<solver::PhaseMasses> by_body;
+  solver::PhaseMasses all_bodies;
+  double maximum_speed = 0.0, maximum_pressure = 0.0, maximum_temperature = 0.0;
+  double particles = 0.0, elements = 0.0;
+  double stored_cold_work = 0.0;
+  double bars = 0.0, broken_bars = 0.0, bar_energy = 0.0;
+
+  /// Collective.
+  explicit HistorySource(const solver::Simulation& simulation);
+};
+
+/// A column of history.csv.
+struct HistoryColumn {
+  std::string name;
+  std::string unit;
+  std::string meaning;
+  std::function<double(const HistorySource&)> value;
+};
+
+/// Lists the columns that a case has, in the order of the file.
+std::vector<HistoryColumn> history_columns(const setup::Case& setup);
+
+/// Lists all columns that there are as rows `| name | unit | meaning |` of docs/output.md.
+std::string history_columns_as_markdown();
+
+/// Computes the row of now. Collective.
+std::vector<io::HistoryValue> history_row(std::span<const HistoryColumn> columns,
+                                          const solver::Simulation& simulation);
+
+}  // namespace whipple::run

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "src/io/background_writer.hpp"
+#include "src/io/element_series.hpp"
+#include "src/io/particle_series.hpp"
+#include "src/io/ranks.hpp"
+#include "src/io/run_directory.hpp"
+#include "src/run/observer.hpp"
+
+namespace whipple::run {
+
+/// The files of the snapshots of a run: particles, and elements and bars of cases that have some.
+class SnapshotFiles {
+ public:
+  /// Reads run.toml for their provenance. @param folder  where they go
+  SnapshotFiles(const setup::Case& setup, const io::RunDirectory& directory, const std::filesystem::path& folder);
+
+  /// Drops what is later than a checkpoint. Collective.
+  void restart(double time);
+  /// Writes the state of now. Collective.
+  void write(const solver::Simulation& simulation);
+  /// Takes the state of now; what is returned writes it. Of a run on one rank.
+  [[nodiscard]] std::function<void()> prepare(const solver::Simulation& simulation);
+
+  [[nodiscard]] const io::ParticleSeries& particles() const { return particles_; }
+
+ private:
+  io::ParticleSeries particles_;
+  std::optional<io::ElementSeries> elements_;
+};
+
+/// Writes snapshots: at the start, after the steps that pass a multiple of the interval, on request, at the end;
+/// and of a state that left the range of the physics into the folder failed/.
+class Snapshots : public RunObserver {
+ public:
+  Snapshots(const setup::Case& setup, const io::RunDirectory& directory, const io::Ranks& ranks)
+      : directory_(directory), ranks_(ranks), files_(setup, directory, directory.path()) {}
+
+  void begin(const Moment& moment) override;
+  void resume(const Moment& moment, const io::CheckpointValues& values) override;
+  void after_step(const Moment& moment) override;
+  void remember(io::CheckpointValues& values) override;
+  void end(const Moment& moment, Outcome& outcome) override;
+
+ private:
+  void write(const Moment& moment);
+
+  io::RunDirectory directory_;
+  io::Ranks ranks_;
+  SnapshotFiles files_;
+  io::BackgroundWriter writer_;  // of the files
+  double every_ = 0.0;           // s, of the schedule that `next_` belongs to
+  std::int64_t next_ = 0;        // multiple of the interval at which the next snapshot is due
+  std::int64_t last_step_ = -1;  // of the last snapshot
+};
+
+}  // namespace whipple::run

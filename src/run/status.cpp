@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/run/status.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "src/core/base/error.hpp"
+#include "src/io/run_directory.hpp"
+
+namespace whipple::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
+void write_status(const std::filesystem::path& file, const RunStatus& status) {
+  const Json json = {{"state", status.state},
+                     {"time", status.time},
+                     {"step", status.step},
+                     {"time_step", status.time_step},
+                     {"end", status.end},
+                     {"wall_time", status.wall_time},
+                     {"time_left", status.time_left ? Json(*status.time_left) : Json(nullptr)},
+                     {"revision", status.revision},
+                     {"message", status.message},
+                     {"written", status.written}};
+  // Messages may quote files of any encoding.
+  io::write_text_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+RunStatus read_status(const std::filesystem::path& run) {
+  const std::filesystem::path file = run / "status.json";
+  RunStatus status;
+  try {
+    const Json json = Json::parse(io::read_text(file));
+    json.at("state").get_to(status.state);
+    json.at("time").get_to(status.time);
+    json.at("step").get_to(status.step);
+    json.at("time_step").get_to(status.time_step);
+    json.at("end").get_to(status.end);
+    json.at("wall_time").get_to(status.wall_time);
+    if (!json.at("time_left").is_null()) status.time_left = json.at("time_left").get<double>();
+    json.at("revision").get_to(status.revision);
+    json.at("message").get_to(status.message);
+    json.at("written").get_to(status.written);
+  } catch (const Json::exception& error) {
+    throw InputError(fmt::format("{}: is no status of a run: {}", file.string(), error.what()));
+  }
+  if ((status.state == "running" || status.state == "paused") && !io::is_running(run)) status.state = "lost";
+  return status;
+}
+
+}  // namespace whipple::run
