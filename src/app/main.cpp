@@ -23,6 +23,7 @@
 #include "src/app/md_command.hpp"
 #include "src/app/report_command.hpp"
 #include "src/app/run_command.hpp"
+#include "src/app/steer_command.hpp"
 #include "src/app/units_command.hpp"
 #include "src/app/version_command.hpp"
 #include "src/core/base/error.hpp"
@@ -57,6 +58,8 @@ int whipple_main(int argc, char** argv) {
 
   add_run_command(app);
   add_check_command(app);
+  add_status_command(app);
+  add_steer_command(app);
   add_md_command(app);
   add_fit_command(app);
   add_compare_command(app);

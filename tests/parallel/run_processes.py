@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Processes of a run and what befalls them: a second writer, signals, a killed launcher, a full disk, on one rank and two.
+"""Processes of a run and what befalls them: a second writer, signals, a killed launcher, a full disk, requests, on one rank and two.
 
 Usage: run_processes.py WHIPPLE CASE.toml PLAN.toml FOLDER
 """
 import csv
+import json
 import os
 import pathlib
 import re
@@ -135,6 +136,46 @@ def two_ranks():
     require(code == 3 and "--restart" in message, f"full disk: {code}, {message}")
 
 
+def steered():
+    """A run on two ranks is paused, goes on, is asked nonsense and ends, from another process; then it is restarted."""
+    run = FOLDER / "steered"
+    launcher = start(CASE, "-o", run, "--ranks", "2", "--set", "time.end='1 s'")
+
+    def steer(*request):
+        return subprocess.run([WHIPPLE, "steer", run, *request], capture_output=True, text=True)
+
+    def status():
+        return json.loads((run / "status.json").read_text())
+
+    def answers():
+        file = run / "steering.csv"
+        return list(csv.DictReader(file.open(newline=""))) if file.exists() else []
+
+    wait_for(lambda: (run / "history.csv").exists(), "the history")
+    goes_on(run, launcher)
+    require(status()["state"] == "running", f"status of a run that goes on: {status()}")
+    require(steer("pause").returncode == 0, "a request is refused")
+    wait_for(lambda: status()["state"] == "paused", "the pause")
+    step = status()["step"]
+    time.sleep(1.2)
+    require(last_step(run) == step and status()["step"] == step, "a paused run makes steps")
+    require(steer("snapshots").returncode == 2 and not list(run.glob("control/*")), "a bad request is not refused")
+    (run / "control" / "bad.toml").write_text("request = 'nothing'")
+    wait_for(lambda: len(answers()) == 2, "the answer to a bad request")
+    require(steer("resume").returncode == 0, "a request is refused")
+    goes_on(run, launcher)
+    listed = subprocess.run([WHIPPLE, "status", FOLDER], capture_output=True, text=True).stdout
+    require(re.search(r"steered +running", listed), f"whipple status: {listed}")
+    require(steer("end").returncode == 0, "a request is refused")
+    code, message = finish(launcher)
+    require(code == 0 and status()["state"] == "done", f"ended by request: {code}, {message}, {status()}")
+    results = [row["result"].split()[0].rstrip(":,") for row in answers()]
+    require(results == ["accepted", "refused", "accepted", "accepted"], f"answers: {answers()}")
+    require(steer("snapshot").returncode == 2, "a run that has ended takes requests")
+    before = last_step(run)
+    require(finish(start("--restart", run))[0] == 0 and last_step(run) == before, "the end is not that of the restart")
+
+
 def molecular_dynamics():
     launcher = subprocess.Popen([WHIPPLE, "md", PLAN, "-o", FOLDER / "store.md.h5", "--ranks", "2", "--quiet"],
                                 stderr=subprocess.PIPE, text=True)
@@ -156,6 +197,7 @@ def main():
     FOLDER.mkdir(parents=True)
     one_rank()
     two_ranks()
+    steered()
     molecular_dynamics()
     shutil.rmtree(FOLDER)
 

@@ -59,7 +59,7 @@ class CommandLine : public ::testing::Test {
 };
 
 TEST_F(CommandLine, EverySubcommandHasHelpWithAnExample) {
-  for (const char* command : {"run", "check", "eos", "md", "fit", "compare", "analyse", "report", "describe",
+  for (const char* command : {"run", "check", "status", "steer", "eos", "md", "fit", "compare", "analyse", "report", "describe",
                               "materials", "units", "bench", "version"}) {
     const Result result = whipple(std::string(command) + " --help");
     EXPECT_EQ(result.code, 0) << command;

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/app/steer_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "src/core/base/error.hpp"
+#include "src/core/base/text.hpp"
+#include "src/core/base/text_table.hpp"
+#include "src/run/directory_control.hpp"
+#include "src/run/requests.hpp"
+#include "src/run/status.hpp"
+
+namespace whipple::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder itself, or the run directories in it, by name.
+std::vector<fs::path> runs_in(const fs::path& folder) {
+  if (!fs::is_directory(folder)) throw InputError(fmt::format("{}: there is no such folder", folder.string()));
+  if (fs::exists(folder / "status.json")) return {folder};
+  std::vector<fs::path> runs;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (fs::exists(entry.path() / "status.json")) runs.push_back(entry.path());
+  }
+  std::ranges::sort(runs);
+  if (runs.empty()) throw InputError(fmt::format("{}: holds no run with a status.json", folder.string()));
+  return runs;
+}
+
+void print_status(const fs::path& folder) {
+  std::vector<std::vector<std::string>> rows = {{"run", "state", "done", "step", "t [us]", "end [us]", "left", "message"}};
+  for (const fs::path& run : runs_in(folder)) {
+    const run::RunStatus s = run::read_status(run);
+    const bool goes_on = s.state == "running" || s.state == "paused";
+    rows.push_back({run.string(), s.state, fmt::format("{:.1f} %", s.end > 0.0 ? 100.0 * s.time / s.end : 0.0),
+                    fmt::format("{}", s.step), fmt::format("{:.4g}", 1e6 * s.time), fmt::format("{:.4g}", 1e6 * s.end),
+                    goes_on && s.time_left ? format_duration(*s.time_left) : "",
+                    s.message.substr(0, s.message.find('\n'))});
+  }
+  fmt::print("{}", text_table(rows, "llrrrrrl"));
+}
+
+}  // namespace
+
+void add_steer_command(CLI::App& app) {
+  struct Arguments {
+    std::string run, request, value;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("steer", "Ask something of a run that goes on");
+  command->add_option("run", arguments->run, "The run directory")->required();
+  command->add_option("request", arguments->request, "What is asked")->required();
+  command->add_option("value", arguments->value, "The new value, with its unit");
+  command->footer("Requests:\n" + run::describe_acts() +
+                  "The answer stands in steering.csv of the run directory.\n"
+                  "Example:\n  whipple steer run/disk snapshot\n  whipple steer run/disk end '5 us'");
+  command->callback([arguments] { run::steer(arguments->run, arguments->request, arguments->value); });
+}
+
+void add_status_command(CLI::App& app) {
+  auto folder = std::make_shared<std::string>("run");
+  CLI::App* command = app.add_subcommand("status", "How far runs are");
+  command->add_option("dir", *folder, "A run directory, or a folder of some (default: run)");
+  command->footer("Example:\n  whipple status run/disk");
+  command->callback([folder] { print_status(*folder); });
+}
+
+}  // namespace whipple::app
