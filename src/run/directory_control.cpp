@@ -78,7 +78,7 @@ Request DirectoryControl::take(const fs::path& file, const Moment& moment) {
     if (result.empty()) {
       answer(moment, words, result_of(request, moment.schedule));
     }
-  } catch (const InputError& error) {
+  } catch (const std::exception& error) {  // whatever is in the file, the run goes on
     result = error.what();
   }
   fs::remove(taken, fault);

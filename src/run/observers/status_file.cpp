@@ -7,7 +7,9 @@
 #include <ctime>
 #include <optional>
 
+#include "src/core/base/error.hpp"
 #include "src/core/base/last_message.hpp"
+#include "src/core/base/log.hpp"
 #include "src/run/status.hpp"
 
 namespace whipple::run {
@@ -45,18 +47,22 @@ void StatusFile::end(const Moment& moment, Outcome& outcome) {
 void StatusFile::write(const Moment& moment, const std::string& state, const std::string& message) {
   if (!ranks_.is_root()) return;
   const double done = moment.time() - first_time_, left = moment.schedule.end - moment.time();
-  write_status(file_, {.state = state,
-                       .time = moment.time(),
-                       .step = moment.step(),
-                       .time_step = moment.simulation.state().time_step,
-                       .end = moment.schedule.end,
-                       .wall_time = moment.wall_time,
-                       .time_left = done > 0.0 ? std::optional(moment.wall_time * left / done) : std::nullopt,
-                       .revision = program_,
-                       .message = message,
-                       .written = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)))});
   written_ = state;
   written_at_ = Clock::now();
+  try {
+    write_status(file_, {.state = state,
+                         .time = moment.time(),
+                         .step = moment.step(),
+                         .time_step = moment.simulation.state().time_step,
+                         .end = moment.schedule.end,
+                         .wall_time = moment.wall_time,
+                         .time_left = done > 0.0 ? std::optional(moment.wall_time * left / done) : std::nullopt,
+                         .revision = program_,
+                         .message = message,
+                         .written = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)))});
+  } catch (const InputError& error) {  // nothing of the results; the other ranks know of no error
+    log::warning("{}", error.what());
+  }
 }
 
 }  // namespace whipple::run
