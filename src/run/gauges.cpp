@@ -17,7 +17,7 @@
 namespace whipple::run {
 namespace {
 
-/// A particle, or one of the eight that an element may become.
+/// Describes a particle, or one of the eight that an element may become.
 struct Part {
   std::uint64_t id;
   Vector3 position, velocity;
@@ -26,8 +26,8 @@ struct Part {
   std::size_t p;
 };
 
-/// Calls f(part) for all parts of this rank; of elements, those for which `seen(element, centre, half its
-/// diagonal)` is true.
+/// Calls f(part) for all particles of this rank and for the parts of those elements for which
+/// `seen(element, centre, half its diagonal)` is true.
 template <class Seen, class F>
 void for_each_part(const solver::Simulation& simulation, const Seen& seen, const F& f) {
   const Particles& particles = simulation.particles();
@@ -64,7 +64,7 @@ void for_each_part(const solver::Simulation& simulation, const Seen& seen, const
   }
 }
 
-/// What a gauge tells of the state, and what it is weighted with in a mean over particles.
+/// Defines a quantity of the state at a gauge, and whether volume or mass weights it in a mean over particles.
 struct Quantity {
   const char* name;
   const char* unit;
@@ -90,7 +90,7 @@ constexpr auto quantities = std::to_array<Quantity>({
     {"vaporised_fraction", "1", false, [](const P& a, std::size_t p) { return a.vaporised_fraction[p]; }},
 });
 
-/// Weighted sums of one gauge over the particles of a rank.
+/// Accumulates the weighted sums of one gauge over the particles of a rank.
 struct Sums {
   double mass = 0.0, volume = 0.0;  // weights
   std::array<double, 3> position{}, velocity{};
@@ -110,9 +110,9 @@ struct Sums {
 };
 static_assert(sizeof(Sums) == (8 + quantities.size()) * sizeof(double));
 
-constexpr double support = 1.5;  // of it, in cells
+constexpr double support = 1.5;  // of the B-spline, in cells
 
-/// Quadratic B-spline of a distance in cells.
+/// Evaluates the quadratic B-spline at a distance in cells.
 double spline(double x) {
   const double r = std::abs(x);
   if (r < 0.5) return 0.75 - r * r;
@@ -121,7 +121,7 @@ double spline(double x) {
 
 std::string checkpoint_name(const setup::Gauge& gauge) { return "gauge_particle." + gauge.name; }
 
-/// Particle nearest to each position; of several, the one of the least number.
+/// Finds the particle nearest to each moving gauge; of several, the one of the least number. Collective.
 std::vector<std::uint64_t> nearest(const std::vector<setup::Gauge>& gauges, const solver::Simulation& simulation) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> closest(gauges.size(), -infinity), number(gauges.size(), -infinity);
@@ -220,7 +220,7 @@ std::vector<io::HistoryValue> GaugeRecorder::row(const solver::Simulation& simul
     for (std::size_t q = 0; q < quantities.size(); ++q) {
       const double weight = quantities[q].by_volume ? s.volume : s.mass;
       row.push_back({fmt::format("{}.{}", gauges_[g].name, quantities[q].name), quantities[q].unit,
-                     s.value[q] / weight});  // 0/0: no matter
+                     s.value[q] / weight});  // 0/0: no material
     }
   }
   return row;

@@ -40,7 +40,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Name of a run: the folder of its case, or the file if that is not called case.toml.
+/// Names a run by the folder of its case, or by the file if that is not called case.toml.
 std::string run_name(const fs::path& case_file) {
   const std::string stem = case_file.stem().string();
   if (stem != "case") return stem;
@@ -86,7 +86,7 @@ fs::path output_directory(const RunOptions& options, const fs::path& case_file) 
   return options.output_directory.empty() ? fs::path("run") / run_name(case_file) : options.output_directory;
 }
 
-/// What a run writes, in the order in which it is written after a step.
+/// Lists the observers of a run, in the order in which they follow a step.
 Observers observers_of(solver::Simulation& simulation, const io::RunDirectory& directory, const RunOptions& options,
                        const io::Ranks& ranks) {
   const setup::Case& setup = simulation.setup();
@@ -104,6 +104,7 @@ Observers observers_of(solver::Simulation& simulation, const io::RunDirectory& d
   return all;
 }
 
+/// Makes the steps while signals and files of the run directory steer them. @returns the exit code
 int run_with_controls(Runner& runner, const io::RunDirectory& directory, const io::Ranks& ranks) {
   SignalControl signals;
   std::vector<RunControl*> controls = {&signals};
@@ -112,6 +113,7 @@ int run_with_controls(Runner& runner, const io::RunDirectory& directory, const i
   return runner.run(controls);
 }
 
+/// Runs a case from its start. @returns the exit code
 int begin(const RunOptions& options, const io::Ranks& ranks) {
   setup::Case setup = setup::read_case(options.case_file, options.overrides);
   require_memory(setup, parallel::world());
@@ -127,6 +129,7 @@ int begin(const RunOptions& options, const io::Ranks& ranks) {
   return run_with_controls(runner, directory, ranks);
 }
 
+/// Continues a run from its latest checkpoint. @returns the exit code
 int go_on(const RunOptions& options, const io::Ranks& ranks) {
   std::shared_ptr<const FileLock> lock;  // before anything is read that another run may write
   ranks.on_root([&] { lock = io::lock_run(options.output_directory); });
