@@ -85,8 +85,8 @@ std::string check_case(const RunOptions& options) {
   text += fmt::format("steps: {:.0f} to {:.0f} to t = {:.6g} us\n", cost.least_steps, cost.most_steps,
                       1e6 * setup.time.end);
   text += fmt::format(
-      "estimated time: {} to {} on {} threads ({:.0f} ns per particle{} and step, measured; on average {:.0f} % of them "
-      "take part)\n",
+      "estimated time: {} to {} on {} threads ({:.0f} ns per particle{} and step, measured; on average {:.0f} % of "
+      "them take part)\n",
       format_duration(cost.least_time), format_duration(cost.most_time), parallel::threads(), cost.nanoseconds,
       setup.has_elements() ? " or element" : "", 1e2 * cost.moving_share);
   return text;

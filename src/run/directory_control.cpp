@@ -92,8 +92,8 @@ void DirectoryControl::answer(const Moment& moment, const RequestWords& words, c
   const bool is_new = !fs::exists(table_, ignored);
   std::ofstream table(table_, std::ios::app | std::ios::binary);
   if (is_new) table << "time [s],step,request,value,result\n";
-  table << fmt::format("{},{},{},{},{}\n", moment.time(), moment.step(), io::csv_cell(words.request), io::csv_cell(words.value),
-                       io::csv_cell(result));
+  table << fmt::format("{},{},{},{},{}\n", moment.time(), moment.step(), io::csv_cell(words.request),
+                       io::csv_cell(words.value), io::csv_cell(result));
   table.flush();
   if (!table) log::warning("{}: cannot write the line; is the disk full?", table_.string());  // the run goes on
   log::info("request {}{}{}: {}", words.request, words.value.empty() ? "" : " ", words.value, result);

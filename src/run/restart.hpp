@@ -14,8 +14,8 @@ namespace whipple::run {
 /// Adds the case to the values of a checkpoint: every key, and digests of the material and mesh files.
 void remember_input(const setup::Case& setup, io::CheckpointValues& values);
 
-/// Compares a case with the input that a checkpoint was written with. Grid, bodies, their files and the gauges must be the
-/// same.
+/// Compares a case with the input that a checkpoint was written with. Grid, bodies, their files and the gauges
+/// must be the same.
 /// @returns the other keys that differ, "contact.method = \"none\", was \"multi_field\""; empty if none does
 /// @throws InputError naming what differs and the way out
 std::string require_same_input(const setup::Case& setup, const io::CheckpointValues& values);

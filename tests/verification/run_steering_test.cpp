@@ -273,8 +273,8 @@ TEST_F(Steering, ABadRequestIsAnsweredAndChangesNothing) {
   EXPECT_EQ(text_of(free.folder / "run.toml"), text_of(steered.folder / "run.toml"));
   const std::string answers = text_of(steered.folder / "steering.csv");
   EXPECT_EQ(lines_of(steered.folder / "steering.csv").size(), 10U) << answers;
-  for (const char* reason : {"did you mean \"\"snapshot\"\"?", "mm", "must be >= 0 s", "must be >= 1 and <= 1", "the run is not paused",
-                             "6.toml", "already", "unknown key", "takes no value"}) {
+  for (const char* reason : {"did you mean \"\"snapshot\"\"?", "mm", "must be >= 0 s", "must be >= 1 and <= 1",
+                             "the run is not paused", "6.toml", "already", "unknown key", "takes no value"}) {
     EXPECT_THAT(answers, HasSubstr(reason));
   }
   EXPECT_TRUE(fs::is_empty(steered.folder / "control"));
@@ -364,7 +364,9 @@ TEST_F(Steering, ObserversSeeTheFailureOfARun) {
 
 TEST(HistoryColumns, StandInTheManual) {
   const std::string table = history_columns_as_markdown();
-  EXPECT_THAT(text_of(WHIPPLE_SOURCE_DIR "/docs/output.md"), HasSubstr(table)) << "docs/output.md must hold:\n" << table;
+  EXPECT_THAT(text_of(WHIPPLE_SOURCE_DIR "/docs/output.md"), HasSubstr(table))
+      << "docs/output.md must hold:\n"
+      << table;
 }
 
 TEST(Requests, StandInTheManual) {
