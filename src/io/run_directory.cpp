@@ -116,7 +116,7 @@ std::shared_ptr<const FileLock> lock_run(const fs::path& path) {
 bool is_running(const fs::path& path) {
   const int lock = ::open((path / lock_name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (lock < 0) return false;
-  const bool is_held = ::flock(lock, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  const bool is_held = ::flock(lock, LOCK_SH | LOCK_NB) != 0;  // or the file system has no locks: the file counts
   ::close(lock);
   return is_held;
 }
