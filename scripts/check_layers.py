@@ -30,15 +30,15 @@ MAY_USE = {
     "src/contact": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
     "src/afemp": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
     "src/io": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/particles", "src/fem"],
-    "src/setup": ["src/core/base", "src/core/input", "src/core/parallel", "eos", "eos/files", "src/particles", "src/grid", "src/material",
+    "src/case": ["src/core/base", "src/core/input", "src/core/parallel", "eos", "eos/files", "src/particles", "src/grid", "src/material",
                   "src/fem", "src/io"],
     "src/solver": ["src/core/base", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
-                   "src/fem", "src/contact", "src/afemp", "src/io", "src/setup"],
+                   "src/fem", "src/contact", "src/afemp", "src/io", "src/case"],
     # The loop around the solver: what a run writes, and what may be asked of it.
     "src/run": ["src/core/base", "src/core/input", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/fem",
-                "src/io", "src/setup", "src/solver"],
+                "src/io", "src/case", "src/solver"],
     # Times the solver.
-    "src/bench": ["src/core/base", "src/core/parallel", "src/core/process", "src/particles", "src/grid", "src/transfer", "src/io", "src/setup", "src/solver"],
+    "src/bench": ["src/core/base", "src/core/parallel", "src/core/process", "src/particles", "src/grid", "src/transfer", "src/io", "src/case", "src/solver"],
     # Reads what runs wrote; knows no solver.
     "src/analysis": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/hdf5"],
     "md_fitting/plan": ["src/core/base", "src/core/input"],
@@ -49,7 +49,7 @@ MAY_USE = {
     "md_fitting": ["src/core/base", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],
     # The program whipple: it starts the other two, so of their side it knows the plan's keys only.
     "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/files", "src/particles", "src/grid", "src/material",
-                "src/transfer", "src/io", "src/analysis", "src/setup", "src/solver", "src/run", "src/bench", "md_fitting/plan"],
+                "src/transfer", "src/io", "src/analysis", "src/case", "src/solver", "src/run", "src/bench", "md_fitting/plan"],
 }
 
 # CMake library -> module, where the name is not the last part of the folder.
@@ -196,7 +196,7 @@ def self_test():
                                             "md_fitting/fit may not use md_fitting/lammps"),
         "src/grid/pragma.cpp": ("#pragma omp parallel for\n", "an OpenMP pragma outside of"),
         "src/solver/communicates.cpp": ("void f() { MPI_Barrier(c); }\n", "an MPI call outside of"),
-        "src/setup/toml.cpp": ("#include <toml++/toml.h>\n", "toml++ outside of"),
+        "src/case/toml.cpp": ("#include <toml++/toml.h>\n", "toml++ outside of"),
         "eos/gsl.cpp": ("#include <gsl/gsl_fit.h>\n", "GSL outside of"),
         "src/app/lammps.cpp": ("#include <lammps/library.h>\n", "LAMMPS outside of"),
         "src/solver/hdf5.cpp": ("#include <hdf5.h>\n", "HDF5 outside of"),

@@ -25,8 +25,8 @@ whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.
 # Writes docs/orders_of_convergence.md; a program of its own, as it takes minutes.
 add_executable(orders_of_convergence EXCLUDE_FROM_ALL verification/solver_orders.cpp)
 target_link_libraries(orders_of_convergence PRIVATE whipple_flags whipple_solver)
-whipple_test(test_setup SOURCES unit/setup_bodies_test.cpp unit/setup_case_test.cpp unit/setup_shape_test.cpp unit/setup_remarks_test.cpp
-             DEPENDS whipple_setup LABELS fast)
+whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_case_test.cpp unit/case_shape_test.cpp unit/case_remarks_test.cpp
+             DEPENDS whipple_case LABELS fast)
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
 add_executable(test_solver_ranks parallel/solver_ranks.cpp parallel/solver_wall_ranks.cpp parallel/solver_element_ranks.cpp)

@@ -17,8 +17,8 @@
 #include "src/material/failure/catalogue.hpp"
 #include "src/material/material_file.hpp"
 #include "src/material/strength/catalogue.hpp"
-#include "src/setup/case.hpp"
-#include "src/setup/shapes/shape.hpp"
+#include "src/case/case.hpp"
+#include "src/case/shapes/shape.hpp"
 
 namespace whipple::app {
 namespace {
@@ -67,11 +67,11 @@ std::string single(const std::string& topic, const std::string& name, const std:
 const std::vector<Topic>& topics() {
   static const std::vector<Topic> all = {
       {"case", "Case files (`whipple run CASE.toml`)",
-       [](const std::string& name) { return single("case", name, setup::describe_case()); },
+       [](const std::string& name) { return single("case", name, cases::describe_case()); },
        [] { return std::vector<std::string>(); }},
       {"shape", "Shapes of bodies",
-       [](const std::string& name) { return describe_catalogue("shape", setup::shape_catalogue(), name); },
-       [] { return names_of(setup::shape_catalogue()); }},
+       [](const std::string& name) { return describe_catalogue("shape", cases::shape_catalogue(), name); },
+       [] { return names_of(cases::shape_catalogue()); }},
       {"eos", "Equations of state (`[eos]` of a material file)",
        [](const std::string& name) {
          return describe_catalogue("equation of state", std::span<const eos::ModelEntry>(eos::all_models()),

@@ -31,7 +31,7 @@ nlohmann::json states_of(const std::string& body, const Material& material, cons
   return entry;
 }
 
-nlohmann::json impact(const setup::Case& setup, std::size_t projectile, std::size_t target, double velocity) {
+nlohmann::json impact(const cases::Case& setup, std::size_t projectile, std::size_t target, double velocity) {
   const Material &left = *setup.materials[projectile], &right = *setup.materials[target];
   const eos::ImpedanceMatch match =
       eos::match_impact(eos::Hugoniot(*left.eos), eos::Hugoniot(*right.eos), velocity);
@@ -54,10 +54,10 @@ nlohmann::json impact(const setup::Case& setup, std::size_t projectile, std::siz
 
 }  // namespace
 
-nlohmann::json planar_impacts(const setup::Case& setup, int axis) {
+nlohmann::json planar_impacts(const cases::Case& setup, int axis) {
   nlohmann::json impacts = nlohmann::json::array();
   const auto fastest = std::ranges::max_element(
-      setup.bodies, {}, [](const setup::Body& body) { return body.velocity.norm(); });
+      setup.bodies, {}, [](const cases::Body& body) { return body.velocity.norm(); });
   const auto projectile = static_cast<std::size_t>(fastest - setup.bodies.begin());
   std::set<std::string> seen;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {

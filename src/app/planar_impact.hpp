@@ -3,7 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "src/setup/case.hpp"
+#include "src/case/case.hpp"
 
 namespace whipple::app {
 
@@ -13,6 +13,6 @@ namespace whipple::app {
 /// {...} or null}]} with density (kg/m^3), temperature (K), melted_fraction, vaporised_fraction. Bodies of the same
 /// material count once. Empty where nothing moves; what a model refuses is left out.
 /// @param axis  of the impact: 0, 1, 2
-nlohmann::json planar_impacts(const setup::Case& setup, int axis);
+nlohmann::json planar_impacts(const cases::Case& setup, int axis);
 
 }  // namespace whipple::app

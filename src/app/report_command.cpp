@@ -32,7 +32,7 @@ struct ReportOptions {
 /// planar_impact.json, for the page.
 void write_planar_impacts(const analysis::Run& run, const std::filesystem::path& output) {
   const int axis = analysis::find_frame(run, analysis::read_snapshot(run.snapshots.front())).axis;
-  const setup::Case setup = setup::read_case(run.folder / "run.toml", {});
+  const cases::Case setup = cases::read_case(run.folder / "run.toml", {});
   io::write_text_atomically(output / "planar_impact.json", planar_impacts(setup, axis).dump(1));
 }
 

@@ -15,7 +15,7 @@
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/core/process/paths.hpp"
-#include "src/setup/tables.hpp"
+#include "src/case/build/tables.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::bench {
@@ -32,7 +32,7 @@ double peak_memory() {
 }
 
 /// All matter flies on without forces (see Problem::thinning).
-solver::Simulation thinned(const setup::Case& setup, const solver::Simulation& formed, double time) {
+solver::Simulation thinned(const cases::Case& setup, const solver::Simulation& formed, double time) {
   Particles particles = formed.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) particles.position[p] += time * particles.velocity[p];
   return {setup, std::move(particles), formed.state(), formed.communicator()};
@@ -79,8 +79,8 @@ Part time_steps(solver::Simulation& simulation, std::size_t steps) {
 Measurement measure(const Problem& problem, int threads, Length length) {
   const MPI_Comm world = parallel::world();
   parallel::set_threads(threads);
-  setup::Case setup = setup::read_case(process::find_data(problem.case_file).string(), problem.overrides);
-  setup::tabulate_materials(setup, io::Ranks(world));
+  cases::Case setup = cases::read_case(process::find_data(problem.case_file).string(), problem.overrides);
+  cases::tabulate_materials(setup, io::Ranks(world));
   std::optional<solver::Simulation> simulation(std::in_place, setup, world);
   const bool whole = length == Length::whole;
   const int share = length == Length::quick ? 5 : 1;

@@ -47,7 +47,7 @@ double sums(double n, double inner, double row) {
 
 }  // namespace
 
-StageCost stage_cost(std::string_view stage, const setup::Case& setup, double nodes_per_particle) {
+StageCost stage_cost(std::string_view stage, const cases::Case& setup, double nodes_per_particle) {
   const double n = transfer::stencil(transfer::shape_function(setup.transfer.shape_function)).count;
   const std::string& update = setup.transfer.particle_update;
   const bool affine = update == "relaxed_affine" || update == "apic";

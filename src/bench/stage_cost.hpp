@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "src/setup/case.hpp"
+#include "src/case/case.hpp"
 
 namespace whipple::bench {
 
@@ -19,6 +19,6 @@ struct StageCost {
 /// are not counted cost 0.
 /// @param stage  its name in solver::Profile
 /// @param nodes_per_particle  nodes of the active blocks over particles
-StageCost stage_cost(std::string_view stage, const setup::Case& setup, double nodes_per_particle);
+StageCost stage_cost(std::string_view stage, const cases::Case& setup, double nodes_per_particle);
 
 }  // namespace whipple::bench

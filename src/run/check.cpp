@@ -10,8 +10,8 @@
 #include "src/core/base/text.hpp"
 #include "src/io/ranks.hpp"
 #include "src/core/parallel/threads.hpp"
-#include "src/setup/remarks.hpp"
-#include "src/setup/tables.hpp"
+#include "src/case/remarks.hpp"
+#include "src/case/build/tables.hpp"
 #include "src/run/forecast.hpp"
 #include "src/run/preparation.hpp"
 #include "src/run/run.hpp"
@@ -23,7 +23,7 @@ namespace {
 
 /// Lists the faces of the domain at which a body is joined to its mirror image, and those whose wall or image it
 /// meets in contact; empty where there are none.
-std::string at_faces(const setup::Case& setup, const solver::Simulation& simulation, std::size_t body) {
+std::string at_faces(const cases::Case& setup, const solver::Simulation& simulation, std::size_t body) {
   constexpr std::array<const char*, 6> names = {"x_lower", "x_upper", "y_lower",
                                                 "y_upper", "z_lower", "z_upper"};
   std::string held, met;
@@ -43,9 +43,9 @@ std::string at_faces(const setup::Case& setup, const solver::Simulation& simulat
 std::string check_case(const RunOptions& options) {
   const MPI_Comm communicator = parallel::world();
   set_threads(options.threads, communicator);
-  setup::Case setup = setup::read_case(options.case_file, options.overrides);
+  cases::Case setup = cases::read_case(options.case_file, options.overrides);
   require_memory(setup, communicator);
-  setup::tabulate_materials(setup, io::Ranks(communicator));
+  cases::tabulate_materials(setup, io::Ranks(communicator));
   setup.transfer.rest_tolerance = 0.0;  // the cost is measured with no block inactive
   solver::Simulation simulation(setup, communicator);
   std::string text = fmt::format("{}\n{}\n\n", setup.file.string(), setup.title);
@@ -58,7 +58,7 @@ std::string check_case(const RunOptions& options) {
     return static_cast<std::size_t>(count);
   };
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
-    const setup::BodySummary& body = simulation.bodies()[b];
+    const cases::BodySummary& body = simulation.bodies()[b];
     std::string parts = fmt::format("{} particles", total(body.count));
     for (const fem::Mesh& mesh : meshes) {
       if (mesh.body == b)
@@ -78,7 +78,7 @@ std::string check_case(const RunOptions& options) {
     }
   }
   for (const std::string& remark : setup.contact_fields.remarks) text += remark + "\n";
-  for (const std::string& remark : setup::remarks(setup)) text += "warning: " + remark + "\n";
+  for (const std::string& remark : cases::remarks(setup)) text += "warning: " + remark + "\n";
   const Forecast cost = forecast(simulation);
   text += fmt::format("particles: {}, active blocks: {}, memory: {} now\n", simulation.particle_count(),
                       simulation.grid().slots(), format_bytes(static_cast<double>(simulation.bytes())));

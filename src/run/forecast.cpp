@@ -64,7 +64,7 @@ void for_each_point(const solver::Simulation& s, const Visit& visit) {
 
 /// Estimates the mean active fraction of the particles and nodes over the run. Collective.
 double moving_share(const solver::Simulation& s) {
-  const setup::Case& setup = s.setup();
+  const cases::Case& setup = s.setup();
   if (!setup.gravity.acceleration.isZero(0.0) || setup.heat.conduction) return 1.0;
   const std::size_t count = s.bodies().size();
   std::vector<Box> moving(count);

@@ -119,16 +119,16 @@ double spline(double x) {
   return r < 1.5 ? 0.5 * (1.5 - r) * (1.5 - r) : 0.0;
 }
 
-std::string checkpoint_name(const setup::Gauge& gauge) { return "gauge_particle." + gauge.name; }
+std::string checkpoint_name(const cases::Gauge& gauge) { return "gauge_particle." + gauge.name; }
 
 /// Finds the particle nearest to each moving gauge; of several, the one of the least number. Collective.
-std::vector<std::uint64_t> nearest(const std::vector<setup::Gauge>& gauges, const solver::Simulation& simulation) {
+std::vector<std::uint64_t> nearest(const std::vector<cases::Gauge>& gauges, const solver::Simulation& simulation) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> closest(gauges.size(), -infinity), number(gauges.size(), -infinity);
   const auto distance = [&](std::size_t g, const Part& part) {
     return (part.position - gauges[g].position).squaredNorm();
   };
-  const bool any = std::ranges::any_of(gauges, [](const setup::Gauge& g) { return g.moving(); });
+  const bool any = std::ranges::any_of(gauges, [](const cases::Gauge& g) { return g.moving(); });
   const auto for_all = [&](const auto& f) {
     const auto seen = [&](std::uint64_t, const Vector3&, double) { return true; };
     if (any) for_each_part(simulation, seen, f);
@@ -152,10 +152,10 @@ std::vector<std::uint64_t> nearest(const std::vector<setup::Gauge>& gauges, cons
 
 }  // namespace
 
-GaugeRecorder::GaugeRecorder(const std::vector<setup::Gauge>& gauges, const solver::Simulation& simulation)
+GaugeRecorder::GaugeRecorder(const std::vector<cases::Gauge>& gauges, const solver::Simulation& simulation)
     : gauges_(gauges), particle_(nearest(gauges, simulation)) {}
 
-GaugeRecorder::GaugeRecorder(const std::vector<setup::Gauge>& gauges, const io::CheckpointValues& values)
+GaugeRecorder::GaugeRecorder(const std::vector<cases::Gauge>& gauges, const io::CheckpointValues& values)
     : gauges_(gauges), particle_(gauges.size(), 0) {
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     if (gauges_[g].moving()) {

@@ -6,7 +6,7 @@
 
 #include "src/io/checkpoint.hpp"
 #include "src/io/history.hpp"
-#include "src/setup/gauges.hpp"
+#include "src/case/gauges.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::run {
@@ -19,10 +19,10 @@ namespace whipple::run {
 class GaugeRecorder {
  public:
   /// Finds the particles of the moving gauges. Collective.
-  GaugeRecorder(const std::vector<setup::Gauge>& gauges, const solver::Simulation& simulation);
+  GaugeRecorder(const std::vector<cases::Gauge>& gauges, const solver::Simulation& simulation);
   /// Continues with the particles of a checkpoint.
   /// @throws InputError if the checkpoint does not hold these gauges
-  GaugeRecorder(const std::vector<setup::Gauge>& gauges, const io::CheckpointValues& values);
+  GaugeRecorder(const std::vector<cases::Gauge>& gauges, const io::CheckpointValues& values);
 
   [[nodiscard]] bool empty() const { return gauges_.empty(); }
   /// Adds the particles of the moving gauges to a checkpoint.
@@ -31,7 +31,7 @@ class GaugeRecorder {
   [[nodiscard]] std::vector<io::HistoryValue> row(const solver::Simulation& simulation) const;
 
  private:
-  std::vector<setup::Gauge> gauges_;
+  std::vector<cases::Gauge> gauges_;
   std::vector<std::uint64_t> particle_;  // of each moving gauge; fixed: not used
 };
 

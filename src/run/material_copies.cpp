@@ -8,7 +8,7 @@
 
 namespace whipple::run {
 
-std::vector<std::string> material_copies(const setup::Case& setup) {
+std::vector<std::string> material_copies(const cases::Case& setup) {
   std::vector<std::string> names;
   std::map<std::string, std::filesystem::path> taken;
   for (const auto& material : setup.materials) {

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "src/setup/case.hpp"
+#include "src/case/case.hpp"
 
 namespace whipple::run {
 
 /// Returns the material file of every body as it lies in the run directory, "materials/copper.toml": a restart
 /// does not depend on files elsewhere.
-std::vector<std::string> material_copies(const setup::Case& setup);
+std::vector<std::string> material_copies(const cases::Case& setup);
 
 }  // namespace whipple::run

@@ -12,7 +12,7 @@
 #include "src/core/base/machine.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/parallel/threads.hpp"
-#include "src/setup/seeding.hpp"
+#include "src/case/build/seeding.hpp"
 
 namespace whipple::run {
 namespace {
@@ -37,8 +37,8 @@ void set_threads(int threads, MPI_Comm communicator) {
   parallel::set_threads(threads > 0 ? threads : share);
 }
 
-void require_memory(const setup::Case& setup, MPI_Comm communicator) {
-  const double needed = setup::expected_memory(setup);
+void require_memory(const cases::Case& setup, MPI_Comm communicator) {
+  const double needed = cases::expected_memory(setup);
   const double available = physical_memory() * parallel::size(communicator) /
                            static_cast<double>(parallel::ranks_on_machine(communicator));
   if (needed <= available) return;

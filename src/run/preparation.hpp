@@ -2,7 +2,7 @@
 #pragma once
 
 #include "src/core/parallel/mpi.hpp"
-#include "src/setup/case.hpp"
+#include "src/case/case.hpp"
 
 namespace whipple::run {
 
@@ -12,6 +12,6 @@ void set_threads(int threads, MPI_Comm communicator);
 
 /// Checks before any work that memory suffices: running out of it would kill the job. Collective.
 /// @throws InputError if the case takes more memory than the machines of all ranks have
-void require_memory(const setup::Case& setup, MPI_Comm communicator);
+void require_memory(const cases::Case& setup, MPI_Comm communicator);
 
 }  // namespace whipple::run

@@ -44,8 +44,8 @@ const ParameterInfo* find(const std::vector<Parameter<Owner>>& parameters, std::
 /// Unit and range of a key of the case.
 ParameterInfo parameter_of(std::string_view key) {
   const std::string_view name = key.substr(key.find('.') + 1);
-  const auto time = setup::TimeControl::parameters();
-  const auto output = setup::OutputControl::parameters();
+  const auto time = cases::TimeControl::parameters();
+  const auto output = cases::OutputControl::parameters();
   const ParameterInfo* info = key.starts_with("time.") ? find(time, name) : find(output, name);
   if (info == nullptr) throw InternalError(fmt::format("the case has no key {}", key));
   return *info;
@@ -61,14 +61,14 @@ double whole_number(const std::string& text) {
 
 }  // namespace
 
-Schedule::Schedule(const setup::Case& setup)
+Schedule::Schedule(const cases::Case& setup)
     : end(setup.time.end),
       snapshot_every(setup.output.snapshot_every),
       checkpoint_every(setup.output.checkpoint_every),
       history_every(static_cast<double>(setup.output.history_every)),
       gauges_every(static_cast<double>(setup.output.gauges_every)) {}
 
-void Schedule::write_to(setup::Case& setup) const {
+void Schedule::write_to(cases::Case& setup) const {
   setup.time.end = end;
   setup.output.snapshot_every = snapshot_every;
   setup.output.checkpoint_every = checkpoint_every;

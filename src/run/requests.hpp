@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "src/setup/case.hpp"
+#include "src/case/case.hpp"
 
 namespace whipple::run {
 
@@ -19,9 +19,9 @@ struct Schedule {
   double history_every;     ///< steps
   double gauges_every;      ///< steps
 
-  explicit Schedule(const setup::Case& setup);
+  explicit Schedule(const cases::Case& setup);
   /// Puts the numbers into a case.
-  void write_to(setup::Case& setup) const;
+  void write_to(cases::Case& setup) const;
 };
 
 /// What may be asked of a run at the border between two steps.

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 4> fixed_tables = {"domain", "body", "gauge", "tracers"};
 
 /// Computes digests of the material and mesh files of every body: the material files of a run are copies.
-std::map<std::string, std::string> digests(const setup::Case& setup) {
+std::map<std::string, std::string> digests(const cases::Case& setup) {
   std::map<std::string, std::string> found;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Material& material = *setup.materials[b];
@@ -43,11 +43,11 @@ std::map<std::string, std::string> digests(const setup::Case& setup) {
   return found;
 }
 
-std::string text_of(const setup::Case& setup) {
-  return setup::to_toml(setup, std::vector<std::string>(setup.bodies.size()));
+std::string text_of(const cases::Case& setup) {
+  return cases::to_toml(setup, std::vector<std::string>(setup.bodies.size()));
 }
 
-/// Maps "table.key" to the value for every line of `setup::to_toml`, without comments; tables of lists are numbered.
+/// Maps "table.key" to the value for every line of `cases::to_toml`, without comments; tables of lists are numbered.
 std::map<std::string, std::string> keys_of(std::string_view toml) {
   std::map<std::string, std::string> keys;
   std::map<std::string, int> entries;
@@ -163,12 +163,12 @@ Range below(double count) { return {.lower = 0.0, .upper = count, .upper_open = 
 
 }  // namespace
 
-void remember_input(const setup::Case& setup, io::CheckpointValues& values) {
+void remember_input(const cases::Case& setup, io::CheckpointValues& values) {
   values.texts["input"] = text_of(setup);
   for (const auto& [name, digest] : digests(setup)) values.texts[name] = digest;
 }
 
-std::string require_same_input(const setup::Case& setup, const io::CheckpointValues& values) {
+std::string require_same_input(const cases::Case& setup, const io::CheckpointValues& values) {
   const std::map<std::string, std::string> now = keys_of(text_of(setup)), then = keys_of(values.text("input"));
   std::set<std::string> keys;
   for (const auto& list : {now, then})
@@ -197,7 +197,7 @@ std::string require_same_input(const setup::Case& setup, const io::CheckpointVal
   return fmt::format("{}", fmt::join(free, "; "));
 }
 
-void require_admissible(const setup::Case& setup, const io::Checkpoint& checkpoint, MPI_Comm communicator) {
+void require_admissible(const cases::Case& setup, const io::Checkpoint& checkpoint, MPI_Comm communicator) {
   const Checker checker(checkpoint);
   const Range bodies = below(static_cast<double>(setup.bodies.size()));
   for (const auto& [name, value] : checkpoint.values.reals)
@@ -228,7 +228,7 @@ void require_admissible(const setup::Case& setup, const io::Checkpoint& checkpoi
   }
 }
 
-solver::Simulation resume(const setup::Case& setup, io::Checkpoint& checkpoint, MPI_Comm communicator) {
+solver::Simulation resume(const cases::Case& setup, io::Checkpoint& checkpoint, MPI_Comm communicator) {
   const std::string changed = require_same_input(setup, checkpoint.values);
   require_admissible(setup, checkpoint, communicator);
   if (!changed.empty()) log::info("changed since the checkpoint: {}", changed);

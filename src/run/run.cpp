@@ -17,8 +17,8 @@
 #include "src/io/run_directory.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
-#include "src/setup/remarks.hpp"
-#include "src/setup/tables.hpp"
+#include "src/case/remarks.hpp"
+#include "src/case/build/tables.hpp"
 #include "src/run/directory_control.hpp"
 #include "src/run/material_copies.hpp"
 #include "src/run/observers/checkpoints.hpp"
@@ -48,7 +48,7 @@ std::string run_name(const fs::path& case_file) {
   return folder.empty() ? stem : folder;
 }
 
-std::string provenance(const setup::Case& setup, const std::string& program, int ranks) {
+std::string provenance(const cases::Case& setup, const std::string& program, int ranks) {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   return fmt::format(
@@ -59,7 +59,7 @@ std::string provenance(const setup::Case& setup, const std::string& program, int
                                                           std::chrono::system_clock::now())))));
 }
 
-io::RunDirectory new_directory(const setup::Case& setup, const fs::path& path, const RunOptions& options,
+io::RunDirectory new_directory(const cases::Case& setup, const fs::path& path, const RunOptions& options,
                                const io::Ranks& ranks) {
   const std::string name = run_name(setup.file);
   std::optional<io::RunDirectory> created;
@@ -77,7 +77,7 @@ io::RunDirectory new_directory(const setup::Case& setup, const fs::path& path, c
                       fs::copy_options::overwrite_existing);
       }
     }
-    directory.write_input(setup::to_toml(setup, copies) + provenance(setup, options.program, ranks.count()));
+    directory.write_input(cases::to_toml(setup, copies) + provenance(setup, options.program, ranks.count()));
   });
   return created ? *created : io::RunDirectory::open(path, name);
 }
@@ -89,7 +89,7 @@ fs::path output_directory(const RunOptions& options, const fs::path& case_file) 
 /// Lists the observers of a run, in the order in which they follow a step.
 Observers observers_of(solver::Simulation& simulation, const io::RunDirectory& directory, const RunOptions& options,
                        const io::Ranks& ranks) {
-  const setup::Case& setup = simulation.setup();
+  const cases::Case& setup = simulation.setup();
   const Table::Options history{directory.history_file(), "history_rows", &Schedule::history_every, options.force};
   const Table::Options gauges{directory.gauges_file(), "gauges_rows", &Schedule::gauges_every, options.force};
   Observers all;
@@ -115,14 +115,14 @@ int run_with_controls(Runner& runner, const io::RunDirectory& directory, const i
 
 /// Runs a case from its start. @returns the exit code
 int begin(const RunOptions& options, const io::Ranks& ranks) {
-  setup::Case setup = setup::read_case(options.case_file, options.overrides);
+  cases::Case setup = cases::read_case(options.case_file, options.overrides);
   require_memory(setup, parallel::world());
-  setup::tabulate_materials(setup, ranks);
+  cases::tabulate_materials(setup, ranks);
   const io::RunDirectory directory =
       new_directory(setup, output_directory(options, options.case_file), options, ranks);
   if (ranks.is_root()) log::add_file(directory.log_file());
   log::info("{}: {}", setup.title.empty() ? directory.name() : setup.title, directory.path().string());
-  for (const std::string& remark : setup::remarks(setup)) log::warning("{}", remark);
+  for (const std::string& remark : cases::remarks(setup)) log::warning("{}", remark);
   solver::Simulation simulation(setup, parallel::world());
   Runner runner(simulation, observers_of(simulation, directory, options, ranks), options.wall_time);
   runner.begin();
@@ -133,8 +133,8 @@ int begin(const RunOptions& options, const io::Ranks& ranks) {
 int go_on(const RunOptions& options, const io::Ranks& ranks) {
   std::shared_ptr<const FileLock> lock;  // before anything is read that another run may write
   ranks.on_root([&] { lock = io::lock_run(options.output_directory); });
-  setup::Case setup = setup::read_case(options.output_directory / "run.toml", options.overrides);
-  setup::tabulate_materials(setup, ranks);
+  cases::Case setup = cases::read_case(options.output_directory / "run.toml", options.overrides);
+  cases::tabulate_materials(setup, ranks);
   io::Checkpoint checkpoint =
       io::read_latest_checkpoint(options.output_directory / "checkpoint", parallel::world());
   const io::RunDirectory directory =
@@ -144,7 +144,7 @@ int go_on(const RunOptions& options, const io::Ranks& ranks) {
   solver::Simulation simulation = resume(setup, checkpoint, parallel::world());
   if (!options.overrides.empty()) {  // the next restart goes on with them
     ranks.on_root([&] {
-      directory.write_input(setup::to_toml(setup, material_copies(setup)) +
+      directory.write_input(cases::to_toml(setup, material_copies(setup)) +
                             provenance(setup, options.program, ranks.count()));
     });
   }

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/setup/case.hpp"
+#include "src/case/case.hpp"
 
 namespace whipple::run {
 

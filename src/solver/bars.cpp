@@ -7,14 +7,14 @@
 #include <cmath>
 
 #include "src/afemp/transition.hpp"
-#include "src/setup/bars.hpp"
+#include "src/case/build/bars.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {
 
 void Simulation::set_up_bars() {
   for (fem::Bars& bars : bars_) {
-    bars.material = setup::bar_material(*setup_.materials[bars.body], setup_.bodies[bars.body]);
+    bars.material = cases::bar_material(*setup_.materials[bars.body], setup_.bodies[bars.body]);
     fem::connect(bars);
   }
 }

@@ -19,7 +19,7 @@ contact::Normal normal(const std::string& name) {
 }  // namespace
 
 void Simulation::set_up_contact() {
-  const setup::ContactControl& control = setup_.contact;
+  const cases::ContactControl& control = setup_.contact;
   if (!setup_.contact_fields.several()) return;
   // Other schemes strain bodies by velocities before contact, or after it of each body alone.
   const bool common = control.method == "auto" && setup_.time.scheme == "symplectic";

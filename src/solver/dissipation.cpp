@@ -8,12 +8,12 @@
 namespace whipple::solver {
 
 void Simulation::set_up_dissipation() {
-  const setup::Dissipation& control = setup_.dissipation;
+  const cases::Dissipation& control = setup_.dissipation;
   initial_density_.clear();
   shock_conductivity_.clear();
   for (std::size_t b = 0; b < setup_.bodies.size(); ++b) {
     const eos::State& reference = setup_.materials[b]->reference;
-    const setup::ArtificialViscosity& viscosity = setup_.viscosity_of(b);
+    const cases::ArtificialViscosity& viscosity = setup_.viscosity_of(b);
     initial_density_.push_back(setup_.bodies[b].initial.of(*setup_.materials[b]).density);
     shock_conductivity_.push_back({.heat_capacity = std::max(reference.heat_capacity, 0.0),
                                    .linear_viscosity = viscosity.linear,
@@ -26,7 +26,7 @@ void Simulation::set_up_dissipation() {
 }
 
 void Simulation::conduct_in_shocks() {
-  const setup::Dissipation& control = setup_.dissipation;
+  const cases::Dissipation& control = setup_.dissipation;
   if (!control.keeps_losses() || !(control.shock_conduction > 0.0)) return;
   profile_.time("conduction", [&] {
     step_.conducted_heat += transfer::conduct_in_shocks(

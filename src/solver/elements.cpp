@@ -22,19 +22,19 @@ namespace {
 
 constexpr std::int64_t conversion_every = 4;  // steps: distortion grows by a few per cent in each
 
-afemp::Thresholds thresholds(const setup::Conversion& control) {
+afemp::Thresholds thresholds(const cases::Conversion& control) {
   return {.plastic_strain = control.plastic_strain,
           .time_step_ratio = control.time_step_ratio,
           .jacobian = control.jacobian,
           .failed = control.failed};
 }
 
-fem::HourglassControl hourglass(const setup::Discretization& control) {
+fem::HourglassControl hourglass(const cases::Discretization& control) {
   using enum fem::HourglassControl::Kind;
   return {control.hourglass == "viscous" ? viscous : stiffness, control.hourglass_coefficient};
 }
 
-fem::ViscosityCoefficients viscosity(const setup::ArtificialViscosity& control) {
+fem::ViscosityCoefficients viscosity(const cases::ArtificialViscosity& control) {
   return {.linear = std::max(control.linear, control.expansion), .quadratic = control.quadratic};
 }
 
@@ -55,7 +55,7 @@ void Simulation::convert_elements() {
     const double grid_step = grid_time_step();
     double converted = 0.0;
     for (fem::Mesh& mesh : meshes_) {
-      const setup::Body& body = setup_.bodies[mesh.body];
+      const cases::Body& body = setup_.bodies[mesh.body];
       if (!body.discretization.converts()) continue;
       const std::vector<std::uint8_t> distorted = afemp::distorted_elements(
           mesh, thresholds(body.conversion), viscosity(setup_.viscosity_of(mesh.body)), grid_step);
@@ -155,7 +155,7 @@ void Simulation::book_gravity(const fem::Nodes& nodes, const fem::Motion& motion
 std::string Simulation::deform_elements(std::size_t m, bool heated) {
   using Clock = std::chrono::steady_clock;
   fem::Mesh& mesh = meshes_[m];
-  const setup::Body& body = setup_.bodies[mesh.body];
+  const cases::Body& body = setup_.bodies[mesh.body];
   const Material& material = *setup_.materials[mesh.body];
   UpdateSettings settings = update_settings(mesh.body);
   settings.lengths = mesh.points.length;

@@ -16,7 +16,7 @@
 namespace whipple::solver {
 
 UpdateSettings Simulation::update_settings(std::size_t body) const {
-  const setup::ArtificialViscosity& viscosity = setup_.viscosity_of(body);
+  const cases::ArtificialViscosity& viscosity = setup_.viscosity_of(body);
   return {.time_step = state_.time_step,
           .cell_size = setup_.domain.cell_size,
           .linear_viscosity = viscosity.linear,

@@ -30,14 +30,14 @@ constexpr double rest_of_old_shares = 0.8;
 /// Of the stable time step: a few particles of thin matter must not hold up the others for accuracy's sake.
 constexpr double least_share_for_accuracy = 0.125;
 
-transfer::AffineField affine_field(const setup::TransferControl& control) {
+transfer::AffineField affine_field(const cases::TransferControl& control) {
   using enum transfer::AffineField;
   if (control.particle_update != "relaxed_affine" && control.particle_update != "apic") return none;
   return control.affine_field == "turned" ? turned : deformed;
 }
 
 /// beta of every particle update; FMPM is PIC with another grid velocity.
-transfer::Relaxation relaxation(const setup::TransferControl& control) {
+transfer::Relaxation relaxation(const cases::TransferControl& control) {
   const std::string& update = control.particle_update;
   if (update == "apic" || update == "pic" || update == "fmpm") return {.kappa = 0.0, .fixed = 1.0};
   if (update == "flip") return {.kappa = 0.0, .fixed = 0.0};
@@ -47,17 +47,17 @@ transfer::Relaxation relaxation(const setup::TransferControl& control) {
 
 }  // namespace
 
-Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
+Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator)
     : setup_(setup),
       shape_(transfer::shape_function(setup.transfer.shape_function)),
       communicator_(communicator),
       grid_(setup.geometry, communicator) {
   if (parallel::rank(communicator) == 0) {
-    for (const std::string& text : setup::placement_warnings(setup)) log::warning("{}", text);
+    for (const std::string& text : cases::placement_warnings(setup)) log::warning("{}", text);
     for (const std::string& text : setup.contact_fields.warnings) log::warning("{}", text);
     for (const std::string& text : setup.contact_fields.remarks) log::info("{}", text);
   }
-  setup::Seeding seeding = setup::seed(setup, parallel::rank(communicator), parallel::size(communicator));
+  cases::Seeding seeding = cases::seed(setup, parallel::rank(communicator), parallel::size(communicator));
   particles_ = std::move(seeding.particles);
   bodies_ = std::move(seeding.bodies);
   meshes_ = std::move(seeding.meshes);
@@ -79,7 +79,7 @@ Simulation::Simulation(const setup::Case& setup, MPI_Comm communicator)
   state_.ledger.wall_impulse += seeding.wall_impulse;
 }
 
-Simulation::Simulation(const setup::Case& setup, Particles particles, const RunState& state,
+Simulation::Simulation(const cases::Case& setup, Particles particles, const RunState& state,
                        MPI_Comm communicator, std::vector<fem::Mesh> meshes, std::vector<fem::Bars> bars)
     : setup_(setup),
       shape_(transfer::shape_function(setup.transfer.shape_function)),
@@ -115,7 +115,7 @@ void Simulation::prepare() {
   first_touches_->set(state_.touched);
   set_up_bars();
   set_up_dissipation();
-  if (const setup::Gravity g = setup_.gravity; !g.acceleration.isZero(0.0)) {
+  if (const cases::Gravity g = setup_.gravity; !g.acceleration.isZero(0.0)) {
     add_acceleration([g](const Particles&, std::size_t, double time) { return g.at(time); });
   }
   sum_over_ranks();
@@ -300,7 +300,7 @@ bool Simulation::bin(grid::Stencil stencil) {
 /// By body (so that a material is a range), then by block, then by stencil.
 void Simulation::sort_particles() {
   std::vector<std::uint32_t> next;
-  for (const setup::BodySummary& body : bodies_) next.push_back(static_cast<std::uint32_t>(body.first));
+  for (const cases::BodySummary& body : bodies_) next.push_back(static_cast<std::uint32_t>(body.first));
   grid_.list_by_stencil(by_stencil_);
   sorted_.resize(particles_.size());
   for (const std::uint32_t p : by_stencil_) sorted_[next[particles_.body[p]]++] = p;

@@ -18,8 +18,8 @@
 #include "src/grid/block_grid.hpp"
 #include "src/material/update.hpp"
 #include "src/particles/particles.hpp"
-#include "src/setup/case.hpp"
-#include "src/setup/seeding.hpp"
+#include "src/case/case.hpp"
+#include "src/case/build/seeding.hpp"
 #include "src/solver/ledger.hpp"
 #include "src/solver/profile.hpp"
 #include "src/transfer/conduction.hpp"
@@ -54,13 +54,13 @@ struct RunState {
 class Simulation {
  public:
   /// Seeds the bodies of the case.
-  explicit Simulation(const setup::Case& setup, MPI_Comm communicator);
+  explicit Simulation(const cases::Case& setup, MPI_Comm communicator);
   /// Goes on from a checkpoint.
   /// @param particles the share of this rank, any share
   /// @param meshes of the bodies of elements: on each rank any share of nodes and elements, the corners being
   /// numbers of the nodes of all ranks
   /// @param bars   of the bodies of bars, the same
-  Simulation(const setup::Case& setup, Particles particles, const RunState& state, MPI_Comm communicator,
+  Simulation(const cases::Case& setup, Particles particles, const RunState& state, MPI_Comm communicator,
              std::vector<fem::Mesh> meshes = {}, std::vector<fem::Bars> bars = {});
 
   /// Advances one step of the case's scheme; not beyond `until` (s).
@@ -75,7 +75,7 @@ class Simulation {
   /// Adds one to those that act already, gravity among them. On particles only.
   void add_acceleration(Acceleration acceleration) { accelerations_.push_back(std::move(acceleration)); }
 
-  [[nodiscard]] const setup::Case& setup() const { return setup_; }
+  [[nodiscard]] const cases::Case& setup() const { return setup_; }
   /// The particles of this rank.
   [[nodiscard]] const Particles& particles() const { return particles_; }
   /// Number of particles of all ranks.
@@ -98,7 +98,7 @@ class Simulation {
   /// Is a body one with its image at a face, as the field that it moves in (docs/theory/mpm.md, 3)?
   [[nodiscard]] bool is_one_with_image(std::size_t body, std::size_t face) const;
   /// The bodies as seeded; `first` and `count` are those of this rank now.
-  [[nodiscard]] const std::vector<setup::BodySummary>& bodies() const { return bodies_; }
+  [[nodiscard]] const std::vector<cases::BodySummary>& bodies() const { return bodies_; }
   [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
   [[nodiscard]] Profile& profile() { return profile_; }
   /// Least share of its cells that matter of more than a pressure (Pa) fills, 1e300 without any: a look at
@@ -211,13 +211,13 @@ class Simulation {
   [[nodiscard]] std::string describe_element(const fem::Mesh& mesh, std::size_t point,
                                              const std::string& reason) const;
 
-  setup::Case setup_;
+  cases::Case setup_;
   transfer::ShapeFunction shape_;
   MPI_Comm communicator_;
   Particles particles_;
   std::vector<fem::Mesh> meshes_;
   std::vector<fem::Bars> bars_;
-  std::vector<setup::BodySummary> bodies_;
+  std::vector<cases::BodySummary> bodies_;
   grid::BlockGrid grid_;
   transfer::GridUpdate grid_update_;
   transfer::FullMassMatrix full_mass_matrix_;

@@ -7,14 +7,14 @@
 #include <memory>
 #include <vector>
 
-#include "src/setup/seeding.hpp"
+#include "src/case/build/seeding.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {
 
 /// A velocity field is one with its image where one of its bodies touches the plane at the start.
 void Simulation::set_up_walls() {
-  const std::vector<std::uint8_t> touched = setup::faces_touched(setup_);
+  const std::vector<std::uint8_t> touched = cases::faces_touched(setup_);
   std::vector<std::uint8_t> field_of_body = contact_field_of_body_;
   field_of_body.resize(touched.size(), 0);  // one field without contact of bodies
   const unsigned fields = *std::ranges::max_element(field_of_body) + 1U;

@@ -12,7 +12,7 @@ double work_of_material(const Material& material) { return 0.25 * material.eos->
 
 }  // namespace
 
-void work_of_particles(const setup::Case& setup, std::span<const setup::BodySummary> bodies,
+void work_of_particles(const cases::Case& setup, std::span<const cases::BodySummary> bodies,
                        std::vector<double>& work) {
   work.clear();
   for (std::size_t b = 0; b < bodies.size(); ++b) {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "src/fem/mesh.hpp"
-#include "src/setup/case.hpp"
-#include "src/setup/seeding.hpp"
+#include "src/case/case.hpp"
+#include "src/case/build/seeding.hpp"
 
 /// Work of a step, by which the blocks are shared out among the ranks: counted, not timed, so that a run on
 /// so many ranks gives the same bits every time (docs/architecture.md). Unit: the transfers of one particle.
@@ -26,7 +26,7 @@ constexpr double work_of_element(fem::Quadrature quadrature) {
 /// Of every particle: its transfers and its material.
 /// @param bodies  the ranges of this rank's particles
 /// @param work    resized; its memory serves the next time (new pages cost more than the values)
-void work_of_particles(const setup::Case& setup, std::span<const setup::BodySummary> bodies,
+void work_of_particles(const cases::Case& setup, std::span<const cases::BodySummary> bodies,
                        std::vector<double>& work);
 
 }  // namespace whipple::solver

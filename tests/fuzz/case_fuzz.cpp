@@ -17,7 +17,7 @@
 #include "src/core/base/log.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/core/parallel/mpi.hpp"
-#include "src/setup/seeding.hpp"
+#include "src/case/build/seeding.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple {
@@ -161,9 +161,9 @@ TEST(CaseFuzz, IsReadOrRefusedAndRunsOrEndsWithAStateError) {
     const std::string text = Mutator(random())(io::read_text(file));
     const double begin = processor_time();
     try {
-      setup::Case setup = setup::read_case_text(text, file.string());
+      cases::Case setup = cases::read_case_text(text, file.string());
       ++read;
-      if (setup::expected_memory(setup) < small) {
+      if (cases::expected_memory(setup) < small) {
         solver::Simulation simulation(setup, parallel::world());
         for (int step = 0; step < 2 && simulation.state().time < setup.time.end; ++step) {
           simulation.advance(setup.time.end);

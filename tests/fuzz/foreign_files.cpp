@@ -22,7 +22,7 @@
 #include "src/io/run_directory.hpp"
 #include "src/io/sealed_file.hpp"
 #include "src/material/material_file.hpp"
-#include "src/setup/case.hpp"
+#include "src/case/case.hpp"
 #include "src/run/restart.hpp"
 #include "tests/unit/eos_support.hpp"
 #include "tests/unit/folder_test.hpp"
@@ -127,8 +127,8 @@ Particles matter() {
 }
 
 /// A case of one body, without its files.
-setup::Case one_body() {
-  setup::Case setup;
+cases::Case one_body() {
+  cases::Case setup;
   setup.bodies.emplace_back().name = "body";
   return setup;
 }

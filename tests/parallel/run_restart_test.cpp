@@ -21,7 +21,7 @@
 #include "src/core/base/log.hpp"
 #include "src/core/base/progress.hpp"
 #include "src/io/checkpoint.hpp"
-#include "src/setup/case.hpp"
+#include "src/case/case.hpp"
 #include "src/run/restart.hpp"
 #include "src/run/run.hpp"
 #include "tests/parallel/debris_case.hpp"
@@ -289,7 +289,7 @@ TEST_F(Restart, WithAnotherInputIsRefusedAndNamesWhatDiffers) {
     const std::string before = text(folder_ / "run" / file);
     replace(file, old, by);
     try {
-      run::require_same_input(setup::read_case(folder_ / "run" / "run.toml", {}), values);
+      run::require_same_input(cases::read_case(folder_ / "run" / "run.toml", {}), values);
       ADD_FAILURE() << "accepted: " << by;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), testing::AllOf(HasSubstr(named), HasSubstr("put them back")));
@@ -329,7 +329,7 @@ TEST_F(Restart, WithNumbersThatNoStateHasIsRefused) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const fs::path path = io::list_checkpoints(folder_ / "run" / "checkpoint").front();
   const io::Checkpoint whole = io::read_checkpoint(path, MPI_COMM_SELF);
-  const setup::Case setup = setup::read_case(folder_ / "run" / "run.toml", {});
+  const cases::Case setup = cases::read_case(folder_ / "run" / "run.toml", {});
   EXPECT_NO_THROW(run::require_admissible(setup, whole, MPI_COMM_SELF));
   using Forgery = std::function<void(io::Checkpoint&)>;
   const std::vector<std::pair<const char*, Forgery>> forgeries = {

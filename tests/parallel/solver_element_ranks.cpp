@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 using verification::restored;
 using verification::save;
 
-setup::Case read(const std::string& text) { return setup::read_case_text(text, "element_ranks.toml"); }
+cases::Case read(const std::string& text) { return cases::read_case_text(text, "element_ranks.toml"); }
 
 /// A bar that flies, turns and vibrates by itself, its end held to a prescribed velocity.
 std::string bar(const std::string& element) {
@@ -210,7 +210,7 @@ TEST_F(ElementRanks, ElementsThatBecomeParticlesAgreeWithOneRank) {
 TEST_F(ElementRanks, ContactAgreesWithOneRank) {
   for (const char* normal : {"separating", "logistic_regression"}) {
     const double end = normal[0] == 's' ? 1e-6 : 0.4e-6;
-    const setup::Case setup = read(impact(contact(normal)));
+    const cases::Case setup = read(impact(contact(normal)));
     Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
     advance_to(together, end);
     advance_to(alone, end);
@@ -226,7 +226,7 @@ TEST_F(ElementRanks, ContactAgreesWithOneRank) {
 }
 
 TEST_F(ElementRanks, GiveTheSameBitsEveryTime) {
-  const setup::Case setup = read(impact(contact("separating")));
+  const cases::Case setup = read(impact(contact("separating")));
   Simulation first(setup, MPI_COMM_WORLD), second(setup, MPI_COMM_WORLD);
   advance_to(first, 0.5e-6);
   advance_to(second, 0.5e-6);
@@ -236,7 +236,7 @@ TEST_F(ElementRanks, GiveTheSameBitsEveryTime) {
 // Two ranks, then one, then all.
 TEST_F(ElementRanks, GoOnFromACheckpointOfAnotherNumberOfRanks) {
   for (const std::string& more : {std::string(), contact("separating")}) {
-    const setup::Case setup = read(impact(more));
+    const cases::Case setup = read(impact(more));
     Simulation alone(setup, MPI_COMM_SELF);
     advance_to(alone, 0.3e-6);
     advance_to(alone, 0.6e-6);
@@ -266,7 +266,7 @@ TEST_F(ElementRanks, GoOnFromACheckpointOfAnotherNumberOfRanks) {
 
 TEST_F(ElementRanks, BarsInParticlesAgreeWithOneRank) {
   const std::string metal = verification::aluminium("bars_on_ranks", "0.3 GPa");
-  const setup::Case setup = read(R"(
+  const cases::Case setup = read(R"(
 [domain]
 lower = ["0 mm", "0 mm", "-6 mm"]
 upper = ["6 mm", "6 mm", "6 mm"]
@@ -335,7 +335,7 @@ step = ["0 mm", "1.5 mm", "0 mm"]
 }
 
 TEST_F(ElementRanks, SnapshotsAreThoseOfOneRank) {
-  const setup::Case setup = read(impact());
+  const cases::Case setup = read(impact());
   Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
   advance_to(together, 0.5e-6);
   advance_to(alone, 0.5e-6);

@@ -57,8 +57,8 @@ class SolverRanks : public testing::Test {
     ranks_.on_root([&] { fs::remove_all(folder_); });
   }
   using Overrides = std::vector<std::pair<std::string, std::string>>;
-  [[nodiscard]] setup::Case read(const Overrides& overrides = {}) const {
-    return setup::read_case(folder_ / "case.toml", overrides);
+  [[nodiscard]] cases::Case read(const Overrides& overrides = {}) const {
+    return cases::read_case(folder_ / "case.toml", overrides);
   }
 
   io::Ranks ranks_{MPI_COMM_WORLD};
@@ -239,7 +239,7 @@ TEST_F(SolverRanks, GoOnFromACheckpointInContact) {
 }
 
 TEST_F(SolverRanks, GaugesAgreeWithOneRankAndFollowTheSameParticles) {
-  const std::vector<setup::Gauge> gauges = {{"fixed", "fixed", {1e-3, 1e-3, 1e-3}},
+  const std::vector<cases::Gauge> gauges = {{"fixed", "fixed", {1e-3, 1e-3, 1e-3}},
                                             {"moving", "moving", {2e-3, 2e-3, 2.8e-3}},
                                             {"disk", "moving", {0.0, 0.0, -3e-3}},
                                             {"empty", "fixed", {11e-3, 11e-3, 7e-3}}};
@@ -327,7 +327,7 @@ TEST_F(SolverRanks, MoreRanksThanBlocksDoNoHarm) {
 }
 
 TEST_F(SolverRanks, AnErrorOfOneRankEndsTheStepOnAll) {
-  setup::Seeding seeding = setup::seed(read(), ranks_.rank(), ranks_.count());
+  cases::Seeding seeding = cases::seed(read(), ranks_.rank(), ranks_.count());
   RunState state;
   state.ledger.initial = totals_of(seeding.particles, 0.25 * 1.2e-3 * 1.2e-3);
   sum_over_ranks(MPI_COMM_WORLD, state.ledger.initial);

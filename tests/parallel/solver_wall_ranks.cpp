@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "src/setup/case.hpp"
+#include "src/case/case.hpp"
 #include "tests/parallel/solver_ranks.hpp"
 #include "tests/verification/contact_problems.hpp"
 #include "tests/verification/same_state.hpp"
@@ -14,7 +14,7 @@ namespace whipple::solver {
 namespace {
 
 /// Three blocks that fly into the corner of three walls.
-setup::Case blocks_into_corner(const std::string& contact) {
+cases::Case blocks_into_corner(const std::string& contact) {
   using namespace verification;
   constexpr double cell = 1e-3;
   const std::string material = aluminium("aluminium_of_ranks", "0.3 GPa");
@@ -23,7 +23,7 @@ setup::Case blocks_into_corner(const std::string& contact) {
     return std::string("[[body]]\nname = \"") + name + "\"\nmaterial = \"" + material +
            "\"\nvelocity = " + vector3(velocity) + "\nshape = { " + box(cell * lower, cell * upper) + " }\n";
   };
-  return setup::read_case_text(
+  return cases::read_case_text(
       Method{}.time_toml(2e-6) + Method{}.toml() + contact +
           "[domain]\nlower = [0, 0, 0]\nupper = [0.024, 0.024, 0.024]\ncell_size = 0.001\nboundary = { "
           "x_lower = \"symmetry\", y_lower = \"separating\", z_lower = \"no_slip\" }\n" +
@@ -36,7 +36,7 @@ setup::Case blocks_into_corner(const std::string& contact) {
 class WallRanks : public testing::TestWithParam<const char*> {};
 
 TEST_P(WallRanks, AgreeWithOneRank) {
-  const setup::Case setup = blocks_into_corner(GetParam());
+  const cases::Case setup = blocks_into_corner(GetParam());
   Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
   advance_to(together, 2e-6);
   advance_to(alone, 2e-6);

@@ -14,15 +14,15 @@
 namespace whipple::run {
 namespace {
 
-setup::Case case_of(const std::string& name, const std::vector<std::pair<std::string, std::string>>& overrides) {
-  return setup::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/" + name + "/case.toml", overrides);
+cases::Case case_of(const std::string& name, const std::vector<std::pair<std::string, std::string>>& overrides) {
+  return cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/" + name + "/case.toml", overrides);
 }
 
 struct Measured {
   double steps = 0.0, moving = 0.0;  ///< mean share of the particles that were not at rest
 };
 
-Measured measured(const setup::Case& setup) {
+Measured measured(const cases::Case& setup) {
   solver::Simulation simulation(setup, parallel::world());
   Measured outcome;
   double resting = 0.0;
@@ -35,8 +35,8 @@ Measured measured(const setup::Case& setup) {
   return outcome;
 }
 
-void expect_foreseen(const setup::Case& setup) {
-  setup::Case awake = setup;
+void expect_foreseen(const cases::Case& setup) {
+  cases::Case awake = setup;
   awake.transfer.rest_tolerance = 0.0;
   solver::Simulation simulation(awake, parallel::world());
   const Forecast foreseen = forecast(simulation);

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "src/core/parallel/mpi.hpp"
-#include "src/setup/case.hpp"
+#include "src/case/case.hpp"
 
 namespace whipple::run {
 namespace {
@@ -47,7 +47,7 @@ std::map<std::string, double> values(const GaugeRecorder& recorder, const solver
 }
 
 TEST(Gauges, SeeElements) {
-  const setup::Case setup = setup::read_case_text(text("finite_elements", "100 m/s", "1 us"), "case.toml");
+  const cases::Case setup = cases::read_case_text(text("finite_elements", "100 m/s", "1 us"), "case.toml");
   solver::Simulation simulation(setup, parallel::world());
   const GaugeRecorder recorder(setup.gauges.all(), simulation);
   const double density = setup.materials[0]->reference.density;
@@ -60,7 +60,7 @@ TEST(Gauges, SeeElements) {
 }
 
 TEST(Gauges, FollowMatterThroughItsConversion) {
-  const setup::Case setup = setup::read_case_text(text("adaptive", "-250 m/s", "4 us"), "case.toml");
+  const cases::Case setup = cases::read_case_text(text("adaptive", "-250 m/s", "4 us"), "case.toml");
   solver::Simulation simulation(setup, parallel::world());
   const GaugeRecorder recorder(setup.gauges.all(), simulation);
   const std::size_t elements = simulation.element_count();

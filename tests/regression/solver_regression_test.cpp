@@ -11,8 +11,8 @@ namespace whipple::verification {
 namespace {
 
 TEST(Regression, DebrisCloudKeepsItsSums) {
-  const setup::Case setup =
-      setup::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/copper_disk_on_aluminium/case.toml",
+  const cases::Case setup =
+      cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/copper_disk_on_aluminium/case.toml",
                        {{"domain.cell_size", "1 mm"}, {"time.end", "3 us"}});
   solver::Simulation simulation(setup, parallel::world());
   run_to(simulation, setup.time.end);

@@ -9,8 +9,8 @@
 namespace whipple::app {
 namespace {
 
-setup::Case case_of(const std::string& velocity) {
-  return setup::read_case_text(R"(
+cases::Case case_of(const std::string& velocity) {
+  return cases::read_case_text(R"(
 [domain]
 lower = ["0 mm", "0 mm", "-4 mm"]
 upper = ["4 mm", "4 mm", "8 mm"]

@@ -19,9 +19,9 @@
 namespace whipple::verification {
 namespace {
 
-const setup::Case& disk_case() {
-  static const setup::Case setup =
-      setup::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/copper_disk_on_aluminium/case.toml",
+const cases::Case& disk_case() {
+  static const cases::Case setup =
+      cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/copper_disk_on_aluminium/case.toml",
                        {{"domain.cell_size", "0.8 mm"}});
   return setup;
 }
@@ -98,8 +98,8 @@ TEST(DebrisCloud, IsTheSameForEveryTimeStep) {
     double internal_energy = 0, debris_mass = 0, debris_momentum = 0, front = 0, melted = 0;
   };
   const auto cloud = [](const char* courant) {
-    const setup::Case setup =
-        setup::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/copper_disk_on_aluminium/case.toml",
+    const cases::Case setup =
+        cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/copper_disk_on_aluminium/case.toml",
                          {{"domain.cell_size", "1 mm"}, {"time.end", "4 us"}, {"time.courant", courant}});
     solver::Simulation simulation(setup, parallel::world());
     EnergyWatch watch;
@@ -147,7 +147,7 @@ TEST(LeadCloud, HeatsTheSameForEveryTimeStep) {
     double heat = 0, melted = 0, vapour = 0;  // J, kg, kg
   };
   const auto cloud = [](const char* courant) {
-    const setup::Case setup = setup::read_case(
+    const cases::Case setup = cases::read_case(
         std::string(WHIPPLE_SOURCE_DIR) + "/cases/lead_sphere_on_plate_gray/case.toml",
         {{"domain.cell_size", "2.1428571429 mm"}, {"time.end", "10 us"}, {"time.courant", courant}});
     solver::Simulation simulation(setup, parallel::world());
@@ -176,7 +176,7 @@ TEST(LeadCloud, HeatsTheSameForEveryTimeStep) {
 }
 
 TEST(DebrisCloud, AnUndefinedStateStopsWithItsParticleNamed) {
-  Particles particles = setup::seed(disk_case()).particles;
+  Particles particles = cases::seed(disk_case()).particles;
   particles.specific_internal_energy[777] = std::nan("");
   solver::RunState state;
   state.ledger.initial = solver::totals_of(particles, 0.25 * std::pow(disk_case().domain.cell_size, 2));

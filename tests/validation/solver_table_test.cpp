@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "src/setup/tables.hpp"
+#include "src/case/build/tables.hpp"
 #include "tests/verification/solver_problems.hpp"
 
 namespace whipple::verification {
@@ -20,13 +20,13 @@ struct Outcome {
 };
 
 Outcome outcome(const std::string& evaluation) {
-  setup::Case setup =
-      setup::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/copper_disk_on_aluminium/case.toml",
+  cases::Case setup =
+      cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/copper_disk_on_aluminium/case.toml",
                        {{"domain.cell_size", "1.2 mm"},
                         {"time.end", "5 us"},
                         {"body.0.equation_of_state", evaluation},
                         {"body.1.equation_of_state", evaluation}});
-  setup::tabulate_materials(setup, io::Ranks(parallel::world()));
+  cases::tabulate_materials(setup, io::Ranks(parallel::world()));
   EXPECT_EQ(setup.materials[0]->eos->model(), evaluation == "table" ? "table" : "gray");
   solver::Simulation simulation(setup, parallel::world());
   const double particles = static_cast<double>(simulation.particles().size());

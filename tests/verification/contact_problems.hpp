@@ -58,11 +58,11 @@ struct Problem {
   std::string contact;  ///< table; empty: the default, by which bodies may be bonded
   std::vector<BodyOptions> bodies;
   std::string more = {};
-  [[nodiscard]] setup::Case read() const {
+  [[nodiscard]] cases::Case read() const {
     std::string text = method.time_toml(end) + method.toml() + "[output]\nmaximum_energy_error = 10.0\n" +
                        domain + contact + more;
     for (const BodyOptions& body : bodies) text += body.toml(!contact.empty());
-    return setup::read_case_text(text, "contact.toml");
+    return cases::read_case_text(text, "contact.toml");
   }
 };
 

@@ -21,12 +21,12 @@ struct ElementMethod {
 
 /// Relative error (rms over the mass) of velocity and displacement of a motion along x, n elements.
 inline double element_motion_error(const ExactMotion& motion, const ElementMethod& method, int n) {
-  const setup::Case setup = motion_case(
+  const cases::Case setup = motion_case(
       motion, {}, n,
       "discretization = { method = \"finite_elements\", element = \"" + method.element + "\" }\n");
   const long steps = motion_steps(motion, n);
   const double dt = motion.end() / static_cast<double>(steps);
-  std::vector<fem::Mesh> meshes = setup::seed(setup).meshes;
+  std::vector<fem::Mesh> meshes = cases::seed(setup).meshes;
   fem::Mesh& mesh = meshes.front();
   afemp::mark_surface(mesh, setup.geometry);
   std::map<std::uint64_t, Vector3> start, middle;  // material places of nodes and of the centres of elements

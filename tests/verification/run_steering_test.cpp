@@ -37,8 +37,8 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-setup::Case ball_on_plate() {
-  return setup::read_case_text(R"(
+cases::Case ball_on_plate() {
+  return cases::read_case_text(R"(
 [domain]
 lower = ["-3 mm", "-3 mm", "-4 mm"]
 upper = ["3 mm", "3 mm", "2 mm"]
@@ -120,10 +120,10 @@ class Steering : public ::testing::Test {
              const std::vector<std::pair<std::string, std::string>>& files = {}) {
     Result result;
     result.folder = temporary_.path() / std::to_string(++runs_);
-    const setup::Case setup = ball_on_plate();
+    const cases::Case setup = ball_on_plate();
     const io::Ranks ranks(parallel::world());
     const io::RunDirectory directory = io::RunDirectory::create(result.folder, "ball", false);
-    directory.write_input(setup::to_toml(setup, material_copies(setup)) + "\n[provenance]\nprogram = \"test\"\n");
+    directory.write_input(cases::to_toml(setup, material_copies(setup)) + "\n[provenance]\nprogram = \"test\"\n");
     solver::Simulation simulation(setup, parallel::world());
     Observers observers;
     observers.push_back(std::make_unique<Watch>(result.paused));

@@ -49,7 +49,7 @@ inline std::filesystem::path save(const solver::Simulation& simulation, const st
 }
 
 /// Goes on from a checkpoint. Collective.
-inline solver::Simulation restored(const setup::Case& setup, const std::filesystem::path& file,
+inline solver::Simulation restored(const cases::Case& setup, const std::filesystem::path& file,
                                    MPI_Comm communicator) {
   io::Checkpoint checkpoint = io::read_checkpoint(file, communicator);
   return solver::Simulation(setup, std::move(checkpoint.particles),

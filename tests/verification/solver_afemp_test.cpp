@@ -20,7 +20,7 @@ namespace {
 
 using solver::Simulation;
 
-setup::Case read(const std::string& text) { return setup::read_case_text(text, "afemp.toml"); }
+cases::Case read(const std::string& text) { return cases::read_case_text(text, "afemp.toml"); }
 
 /// The text with one place of it changed.
 std::string with(std::string text, const std::string& old, const std::string& changed) {
@@ -101,7 +101,7 @@ TEST(Adaptive, WarnsOfThresholdsThatConvertEverythingAndOfContactAtTheStart) {
 }
 
 TEST(Adaptive, ResultIsBitwiseTheSameForOneAndTwoThreads) {
-  const setup::Case setup = read(impact("adaptive", "one_point"));
+  const cases::Case setup = read(impact("adaptive", "one_point"));
   const int threads = parallel::threads();
   parallel::set_threads(1);
   Simulation one(setup, parallel::world());
@@ -116,7 +116,7 @@ TEST(Adaptive, ResultIsBitwiseTheSameForOneAndTwoThreads) {
 TEST(Adaptive, RestartIsBitwiseTheRunThatGoesOn) {
   const TemporaryFolder folder;
   for (const char* element : {"one_point", "b_bar"}) {
-    const setup::Case setup = read(impact("adaptive", element));
+    const cases::Case setup = read(impact("adaptive", element));
     Simulation whole(setup, parallel::world());
     // In the middle of contact and conversion; steps, as times would shorten them.
     for (int step = 0; step < 100; ++step) whole.advance(4e-6);
@@ -134,7 +134,7 @@ TEST(Adaptive, RestartIsBitwiseTheRunThatGoesOn) {
 // finite elements makes with the same time steps.
 TEST(Elements, ABodyByItselfIsThatOfTheLibrary) {
   for (const char* element : {"one_point", "b_bar"}) {
-    const setup::Case setup = read(fmt::format(R"(
+    const cases::Case setup = read(fmt::format(R"(
 [domain]
 lower = ["-4 mm", "-4 mm", "-12 mm"]
 upper = ["4 mm", "4 mm", "12 mm"]
@@ -179,7 +179,7 @@ shape = {{ box = {{ lower = ["-1.5 mm", "-1.5 mm", "-8 mm"], upper = ["1.5 mm", 
 struct Interface {
   static constexpr double start = 0.02, width = 0.024, seen = 0.03, speed = 1.0;
 
-  static setup::Case column(const std::string& transfer) {
+  static cases::Case column(const std::string& transfer) {
     return read(fmt::format(R"(
 [domain]
 lower = ["0 mm", "0 mm", "-75 mm"]
@@ -210,7 +210,7 @@ shape = {{ box = {{ lower = ["0 mm", "0 mm", "0 mm"], upper = ["2 mm", "2 mm", "
 
   /// Share of the wave that comes back from the interface.
   static double reflection(bool from_elements, const std::string& transfer) {
-    const setup::Case setup = column(transfer);
+    const cases::Case setup = column(transfer);
     const Simulation seeded(setup, parallel::world());
     Particles particles = seeded.particles();
     std::vector<fem::Mesh> meshes = seeded.meshes();
@@ -281,11 +281,11 @@ material = "{}"
 shape = {{ box = {{ lower = ["0 mm", "0 mm", "0 mm"], upper = ["4 mm", "3 mm", "4 mm"] }} }}
 )",
                                          material);
-  const setup::Case of_particles =
+  const cases::Case of_particles =
       read(common +
            "discretization = { per_cell = 1 }\n[transfer]\nshape_function = \"linear\"\n"
            "particle_update = \"flip\"\n");
-  const setup::Case of_elements =
+  const cases::Case of_elements =
       read(common + "discretization = { method = \"finite_elements\", hourglass_coefficient = 0 }\n");
   const Simulation seeded(of_particles, parallel::world());
   Particles particles = seeded.particles();
@@ -334,7 +334,7 @@ shape = {{ box = {{ lower = ["0 mm", "0 mm", "0 mm"], upper = ["4 mm", "3 mm", "
 // A bar of elements against a rigid wall: energy and the wall's impulse are booked.
 TEST(Elements, WallsStopThem) {
   for (const char* wall : {"symmetry", "separating", "no_slip"}) {
-    const setup::Case setup = read(fmt::format(R"(
+    const cases::Case setup = read(fmt::format(R"(
 [domain]
 lower = ["-6 mm", "-6 mm", "0 mm"]
 upper = ["6 mm", "6 mm", "14 mm"]
@@ -364,7 +364,7 @@ shape = {{ cylinder = {{ center = ["0 mm", "0 mm", "5.5 mm"], radius = "2 mm", h
 
 // Node conditions: a pulled bar gains the energy that the prescribed nodes' work gives.
 TEST(Elements, PrescribedVelocitiesDoWork) {
-  const setup::Case setup = read(fmt::format(R"(
+  const cases::Case setup = read(fmt::format(R"(
 [domain]
 lower = ["-2 mm", "-2 mm", "-2 mm"]
 upper = ["4 mm", "4 mm", "14 mm"]

@@ -149,7 +149,7 @@ std::string impact() {
 }
 
 TEST(Bars, ImpactKeepsEnergyAndMomentumAndRestartsBitwise) {
-  const setup::Case setup = setup::read_case_text(impact(), "bars.toml");
+  const cases::Case setup = cases::read_case_text(impact(), "bars.toml");
   solver::Simulation whole(setup, parallel::world());
   const double mass = whole.totals().mass;
   const std::size_t bars = whole.bars().front().elements.size();
@@ -176,7 +176,7 @@ TEST(Bars, ImpactKeepsEnergyAndMomentumAndRestartsBitwise) {
 TEST(Bars, FaultsAreNamed) {
   const auto error_of = [](const std::string& text) {
     try {
-      static_cast<void>(solver::Simulation(setup::read_case_text(text, "bars.toml"), parallel::world()));
+      static_cast<void>(solver::Simulation(cases::read_case_text(text, "bars.toml"), parallel::world()));
     } catch (const InputError& error) {
       return std::string(error.what());
     }
@@ -195,7 +195,7 @@ TEST(Bars, FaultsAreNamed) {
   EXPECT_NE(
       error_of(replaced(alone, "\"auto\"", "\"multi_field\"")).find("bars have no surface of their own"),
       std::string::npos);
-  EXPECT_EQ(setup::read_case_text(alone, "bars.toml").contact_fields.of_body,
+  EXPECT_EQ(cases::read_case_text(alone, "bars.toml").contact_fields.of_body,
             (std::vector<std::uint8_t>{0, 1, 1}));  // with the body around them
   expect_error("bar_diameter = 4e-4, ", "", "bars need a 'bar_diameter'");
   expect_error("from = [0.5e-3, 0, 2e-3]", "from = [0.5e-3, -1e-3, 2e-3]", "reach out of the domain along y");

@@ -42,14 +42,14 @@ double bending_loss(double courant) {
   method.courant = courant;
   method.linear_viscosity = method.quadratic_viscosity = 0;
   const double end = 3 * period;
-  const setup::Case setup = setup::read_case_text(
+  const cases::Case setup = cases::read_case_text(
       elastic_case(
           method, end,
           "[domain]\nlower = [-0.008, -0.008, -0.008]\nupper = [0.032, 0.016, 0.016]\ncell_size = 0.001\n",
           "shape = { box = { lower = [0.00023, 0.000299, 0.000161], upper = [0.02423, 0.003299, 0.003161] } "
           "}\n"),
       "beam.toml");
-  Particles particles = setup::seed(setup).particles;
+  Particles particles = cases::seed(setup).particles;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Vector3& x = particles.position[p];
     const double b = kl * (x[0] - 0.23 * mm) / length;
@@ -97,7 +97,7 @@ TEST(Sphere, RotationKeepsAngularMomentumAndStaysCold) {
                 "0.000161], radius = "
                 "0.004 } }\n",
                 omega);
-  const setup::Case setup = setup::read_case_text(
+  const cases::Case setup = cases::read_case_text(
       elastic_case(method, end,
                    "[domain]\nlower = [-0.01, -0.01, -0.01]\nupper = [0.01, 0.01, 0.01]\ncell_size = 0.001\n",
                    body),

@@ -277,7 +277,7 @@ TEST(ElementContact, ObliqueImpactOfElasticSpheresBesideHertz) {
 // Contact finds everything anew in each step; the checkpoint holds nothing of it.
 TEST(ElementContact, ARestartIsBitwiseTheRunThatGoesOn) {
   const TemporaryFolder folder;
-  const setup::Case setup = impact({.friction = 0.3}, ball).read();
+  const cases::Case setup = impact({.friction = 0.3}, ball).read();
   solver::Simulation whole(setup, parallel::world());
   for (int step = 0; step < 50; ++step) whole.advance(2e-6);
   solver::Simulation restarted = restored(setup, save(whole, folder.path()), parallel::world());

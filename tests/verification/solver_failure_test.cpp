@@ -36,7 +36,7 @@ TEST_P(SpallByModel, MakesAndLosesNoEnergyAndPartsThePlate) {
           ? "failure_scatter = { weibull_modulus = " + std::to_string(model.scatter) + ", seed = 1 }\n"
           : "";
   const std::string file = material(model);
-  const setup::Case setup = setup::read_case_text(R"(
+  const cases::Case setup = cases::read_case_text(R"(
 [domain]
 lower = ["0 mm", "0 mm", "-3 mm"]
 upper = ["0.1 mm", "0.1 mm", "6 mm"]
@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 /// Fall (m/s) of the free surface of a plate of a library metal before its spall signal; cells of 0.1 mm.
 double pullback(const std::string& material, double flyer, double speed, double end) {
-  const setup::Case setup = setup::read_case_text(fmt::format(R"(
+  const cases::Case setup = cases::read_case_text(fmt::format(R"(
 [domain]
 lower = ["0 mm", "0 mm", "-4 mm"]
 upper = ["0.1 mm", "0.1 mm", "6 mm"]
@@ -146,7 +146,7 @@ TEST(LibrarySpall, PullbackOfTheFreeSurfaceIsThatOfTheMeasuredSpallStrength) {
 
 // Measured: 25.65 mm long, 13.82 mm across the impact end (cases/taylor_bars, 167 m/s).
 TEST(LibrarySpall, CopperBarDoesNotFailWhereNothingWasSeenToFail) {
-  const setup::Case setup = setup::read_case_text(R"(
+  const cases::Case setup = cases::read_case_text(R"(
 [domain]
 lower = ["0 mm", "0 mm", "0 mm"]
 upper = ["10 mm", "10 mm", "37 mm"]

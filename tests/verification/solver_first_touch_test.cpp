@@ -63,7 +63,7 @@ TEST(FirstTouch, SlowBodiesKeepTheirStep) {
 // In flight, in the step of the touch, and after it.
 TEST(FirstTouch, RestartsBitwiseTheSame) {
   const PlanarGap set{.speed = 3000.0, .gap = 6.3, .after = 0.05e-6};
-  const setup::Case setup = set.problem().read();
+  const cases::Case setup = set.problem().read();
   solver::Simulation simulation(setup, parallel::world());
   const TemporaryFolder folder;
   std::vector<std::filesystem::path> checkpoints;

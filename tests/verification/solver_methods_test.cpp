@@ -17,9 +17,9 @@
 namespace whipple::verification {
 namespace {
 
-setup::Case read(Method method, double end, const std::string& transfer_options, const std::string& rest) {
+cases::Case read(Method method, double end, const std::string& transfer_options, const std::string& rest) {
   method.options = transfer_options;
-  return setup::read_case_text(
+  return cases::read_case_text(
       method.time_toml(end) + method.toml() + "[output]\nmaximum_energy_error = 1e9\n" + rest,
       "methods.toml");
 }
@@ -32,7 +32,7 @@ std::string block_of_aluminium(const std::string& options = "") {
          options;
 }
 
-solver::Simulation simulation_of(const setup::Case& setup, Particles particles) {
+solver::Simulation simulation_of(const cases::Case& setup, Particles particles) {
   solver::RunState state;
   state.ledger.initial = solver::totals_of(
       particles, transfer::affine_inertia(transfer::shape_function(setup.transfer.shape_function),
@@ -65,10 +65,10 @@ std::string name_of(const Method& m) { return m.scheme + " " + m.shape_function 
 // Bodies that touch at the start meet in small steps, and no step compresses matter by more than the limit,
 // at the rate of the step before.
 /// A slab that flies at 5 km/s onto one that it touches.
-setup::Case touching_slabs(const std::string& method, double first_step, double limit) {
+cases::Case touching_slabs(const std::string& method, double first_step, double limit) {
   const std::string slab = "material = \"" + elastic_aluminium() + "\"\ndiscretization = { method = \"" +
                            method + "\" }\nshape = { box = { ";
-  return setup::read_case_text(
+  return cases::read_case_text(
       fmt::format("[time]\nend = 1\ncourant = 0.8\nfirst_step = {}\ncompression_limit = {}\n", first_step, limit) +
           "[domain]\nlower = [-0.01, 0, 0]\nupper = [0.01, 0.002, 0.002]\ncell_size = 0.001\n"
           "boundary = { y_lower = \"symmetry\", y_upper = \"symmetry\", z_lower = \"symmetry\", "
@@ -131,8 +131,8 @@ TEST(EveryMethod, IsGalileanInvariantAndKeepsMomentum) {
   for (Method method : all_methods()) {
     constexpr double dt = 2e-8;
     method.first_step = 1.0;
-    const setup::Case setup = read(method, 1.0, "", block_of_aluminium());
-    Particles particles = setup::seed(setup).particles;
+    const cases::Case setup = read(method, 1.0, "", block_of_aluminium());
+    Particles particles = cases::seed(setup).particles;
     std::mt19937 random(1);
     std::normal_distribution<double> normal;
     for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -238,7 +238,7 @@ TEST(EveryMethod, BooksTheImpulseOfWalls) {
       "\"\nvelocity = [-50, -40, 30]\nshape = { box = { lower = [0.0034, 0.0036, 0.0047], upper = [0.0064, "
       "0.0066, 0.0077] } }\n";
   for (const Method& method : all_methods()) {
-    const setup::Case setup = read(method, 1e-6, "", rest);
+    const cases::Case setup = read(method, 1e-6, "", rest);
     solver::Simulation simulation(setup, parallel::world());
     for (int i = 0; i < 10; ++i) simulation.advance(1e-6);
     EXPECT_LT(simulation.state().ledger.momentum_error(simulation.totals()), 1e-12) << name_of(method);
@@ -262,7 +262,7 @@ Rebound rebound(const std::string& wall, const Method& method, const std::string
   constexpr double length = 0.04, speed = 10;
   const double c = std::sqrt(5328.0 * 5328.0 + 4.0 / 3.0 * 27.6e9 / 2785.0);
   const double end = 3 * length / c;
-  const setup::Case setup =
+  const cases::Case setup =
       read(method, end, "",
            "[domain]\nlower = [0, 0, 0]\nupper = [0.06, " + cell + ", " + cell + "]\ncell_size = " + cell +
                "\nboundary = { x_lower = \"" + wall +
@@ -323,10 +323,10 @@ std::string stretching_gas(const std::string& splitting) {
 // A gas that expands five-fold along x: its particles part, those that are divided stay neighbours.
 TEST(Splitting, KeepsStretchedMatterTogetherAndEverySumExact) {
   for (const bool split : {false, true}) {
-    const setup::Case setup =
+    const cases::Case setup =
         read(Method{}, 1.0, "",
              stretching_gas(split ? "[splitting]\nlength = 1.0\nmaximum_generations = 6\n" : ""));
-    Particles particles = setup::seed(setup).particles;
+    Particles particles = cases::seed(setup).particles;
     for (std::size_t p = 0; p < particles.size(); ++p) {
       particles.velocity[p] = {1e5 * particles.position[p][0], 0, 0};
       particles.affine_velocity[p] = Vector3(1e5, 0, 0).asDiagonal();
@@ -364,9 +364,9 @@ TEST(Splitting, KeepsStretchedMatterTogetherAndEverySumExact) {
 // the sums are the same and so are the particles, as long as they are alone to the last digit.
 TEST(FreeFlight, GivesWhatTheGridWouldGive) {
   const auto run = [](bool free) {
-    const setup::Case setup = read(Method{}, 1.0, free ? "free_flight = true\n" : "",
+    const cases::Case setup = read(Method{}, 1.0, free ? "free_flight = true\n" : "",
                                    block_of_aluminium("velocity = [100, 0, 0]\n"));
-    Particles particles = setup::seed(setup).particles;
+    Particles particles = cases::seed(setup).particles;
     for (const std::size_t p : {0UL, 1UL}) {
       particles.failed[p] = 1;
       particles.position[p] = {p == 0 ? 0.002 : 0.0105, 0.0012, 0.0013};
@@ -394,7 +394,7 @@ TEST(FreeFlight, GivesWhatTheGridWouldGive) {
 }
 
 TEST(RandomShift, LeavesFreeMotionAndConservationExact) {
-  const setup::Case setup =
+  const cases::Case setup =
       read(Method{}, 1.0, "random_shift = true\n", block_of_aluminium("velocity = [700, -300, 200]\n"));
   solver::Simulation simulation(setup, parallel::world());
   const std::vector<Vector3> start = simulation.particles().position;
@@ -412,14 +412,14 @@ TEST(RandomShift, LeavesFreeMotionAndConservationExact) {
 // much lighter than its neighbours.
 TEST(PartialVolumes, MeetTheMassOfACurvedBody) {
   const auto error = [](bool partial) {
-    const setup::Case setup = read(
+    const cases::Case setup = read(
         Method{}, 1.0, "",
         "[domain]\nlower = [-0.01, -0.01, -0.01]\nupper = [0.01, 0.01, 0.01]\ncell_size = "
         "0.001\n[[body]]\nname "
         "= \"sphere\"\nmaterial = \"" +
             elastic_aluminium() + "\"\ndiscretization = { partial_volumes = " + (partial ? "true" : "false") +
             " }\nshape = { sphere = { center = [0.0002, 0.0003, 0.0001], radius = 0.0037 } }\n");
-    const setup::Seeding seeding = setup::seed(setup);
+    const cases::Seeding seeding = cases::seed(setup);
     Vector3 center = Vector3::Zero();
     double mass = 0, second = 0;
     const auto [lightest, heaviest] = std::ranges::minmax(seeding.particles.mass);
@@ -449,7 +449,7 @@ TEST(PartialVolumes, MeetTheMassOfACurvedBody) {
 // An oblique plate of a third of a particle has slivers in many cells, and keeps its mass whichever of them
 // become particles.
 TEST(PartialVolumes, KeepAPlateThinnerThanAParticle) {
-  const setup::Case setup = read(
+  const cases::Case setup = read(
       Method{}, 1.0, "",
       "[domain]\nlower = [-0.01, -0.01, -0.01]\nupper = [0.01, 0.01, 0.01]\ncell_size = "
       "0.001\n[[body]]\nname = \"plate\"\nmaterial = \"" +
@@ -457,7 +457,7 @@ TEST(PartialVolumes, KeepAPlateThinnerThanAParticle) {
           "\"\ndiscretization = { partial_volumes = true }\nshape = { moved = { angle = \"20 deg\", axis = "
           "[0, 1, 0], shape = { box = { lower = [-0.005, -0.004, 0], upper = [0.005, 0.004, 0.00017] } } } "
           "}\n");
-  const setup::Seeding seeding = setup::seed(setup);
+  const cases::Seeding seeding = cases::seed(setup);
   const double mass = std::reduce(seeding.particles.mass.begin(), seeding.particles.mass.end());
   EXPECT_GT(seeding.particles.size(), 100U);
   EXPECT_NEAR(mass, seeding.bodies[0].mass, 1e-12 * mass);

@@ -196,7 +196,7 @@ class SimpleWave : public ExactMotion {
 };
 
 /// A grid of n cells with one body that fills it, and how the body is discretised.
-inline setup::Case motion_case(const ExactMotion& motion, const Method& method, int n,
+inline cases::Case motion_case(const ExactMotion& motion, const Method& method, int n,
                                const std::string& discretization = {}) {
   const double dx = 1.0 / n;
   char text[2048];
@@ -219,7 +219,7 @@ shape = { box = { lower = [0, 0, 0], upper = [1, %.17g, %.17g] } }
   Method chosen = method;
   chosen.courant = chosen.first_step = 1.0;  // the time step is set by who advances
   chosen.linear_viscosity = chosen.quadratic_viscosity = 0;
-  return setup::read_case_text(chosen.time_toml(motion.end()) + chosen.toml() + text, "motion.toml");
+  return cases::read_case_text(chosen.time_toml(motion.end()) + chosen.toml() + text, "motion.toml");
 }
 
 /// Steps of a run on n cells.
@@ -230,13 +230,13 @@ inline long motion_steps(const ExactMotion& motion, int n) {
 /// Relative error (rms over the mass) of velocity and displacement of a motion on a grid of n cells.
 inline double motion_error(const ExactMotion& motion, const Method& method, int n) {
   const double dx = 1.0 / n;
-  const setup::Case setup = motion_case(motion, method, n);
+  const cases::Case setup = motion_case(motion, method, n);
   const long steps = motion_steps(motion, n);
   const double dt = motion.end() / static_cast<double>(steps);
   // Velocities belong half a step before the positions (leapfrog); with stresses updated first, stresses a
   // whole step.
   const double stress_time = method.scheme == "usf" ? -dt : 0.0;
-  Particles particles = setup::seed(setup).particles;
+  Particles particles = cases::seed(setup).particles;
   std::vector<Vector3> start(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Vector3 X = start[particles.id[p]] = particles.position[p];

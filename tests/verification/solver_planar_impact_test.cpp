@@ -51,8 +51,8 @@ velocity = [%.17g, 0, 0]
 shape = { box = { lower = [0, 0, 0], upper = [%.9g, 0.00015, 0.00015] } }
 )",
                 dx, up, -slab, -up, slab);
-  const setup::Case setup =
-      setup::read_case_text(method.time_toml(end) + method.toml() + bodies, "planar_impact.toml");
+  const cases::Case setup =
+      cases::read_case_text(method.time_toml(end) + method.toml() + bodies, "planar_impact.toml");
   solver::Simulation simulation(setup, parallel::world());
   std::vector<double> start(simulation.particles().size());
   for (std::size_t p = 0; p < start.size(); ++p) {
@@ -159,8 +159,8 @@ shape = { box = { lower = [-0.0039, 0, 0], upper = [0.0001, 0.0001, 0.0001] } }
 )",
                 up);
   const double end = 0.9 * 4e-3 / (c0 + s * up);  // the shock has not reached the free surface
-  const setup::Case setup =
-      setup::read_case_text(method.time_toml(end) + method.toml() + bodies, "shock_front.toml");
+  const cases::Case setup =
+      cases::read_case_text(method.time_toml(end) + method.toml() + bodies, "shock_front.toml");
   solver::Simulation simulation(setup, parallel::world());
   std::vector<double> depth(simulation.particles().size());
   for (std::size_t p = 0; p < depth.size(); ++p) {

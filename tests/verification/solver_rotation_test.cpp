@@ -31,7 +31,7 @@ TenTurns ten_turns(const std::string& shape, const std::string& affine_field) {
                 "0.001\n[[body]]\nname = \"sphere\"\nmaterial = \"%s\"\nangular_velocity = [0, 0, "
                 "%.17g]\nshape = { sphere = { center = [0.00023, 0.000299, 0.000161], radius = 0.003 } }\n",
                 elastic_aluminium().c_str(), omega);
-  solver::Simulation simulation(setup::read_case_text(method.time_toml(end) + method.toml() +
+  solver::Simulation simulation(cases::read_case_text(method.time_toml(end) + method.toml() +
                                                           "[output]\nmaximum_energy_error = 1e9\n" + body,
                                                       "rotation.toml"),
                                 parallel::world());

@@ -35,7 +35,7 @@ material = "copper_taylor.toml"
 velocity = ["0 m/s", "0 m/s", "-190 m/s"]
 shape = { cylinder = { center = ["0 mm", "0 mm", "12.73 mm"], axis = "z", radius = "3.8 mm", height = "25.46 mm" } }
 )";
-  const setup::Case setup = setup::read_case_text(text, "taylor_bar.toml");
+  const cases::Case setup = cases::read_case_text(text, "taylor_bar.toml");
   solver::Simulation simulation(setup, parallel::world());
   EnergyWatch watch;
   run_to(simulation, setup.time.end, std::ref(watch));

@@ -51,7 +51,7 @@ Decay decay(int cells) {
   const auto mm = [](double x) { return std::to_string(1e3 * x); };
   const std::string box = "lower = [0.0, 0.0, 0.0]\nupper = [\"" + mm(length) + " mm\", \"" + mm(length) +
                           " mm\", \"" + mm(dx) + " mm\"]\n";
-  const setup::Case setup = setup::read_case_text(
+  const cases::Case setup = cases::read_case_text(
       "[domain]\n" + box + "cell_size = \"" + mm(dx) +
           " mm\"\nboundary = { x_lower = \"symmetry\", x_upper = \"symmetry\", y_lower = \"symmetry\", "
           "y_upper = "
@@ -61,7 +61,7 @@ Decay decay(int cells) {
           fluid() + "\"\nshape = { box = { " + "lower = [0.0, 0.0, 0.0], upper = [\"" + mm(length) +
           " mm\", \"" + mm(length) + " mm\", \"" + mm(dx) + " mm\"] } }\n",
       "vortex.toml");
-  Particles particles = setup::seed(setup).particles;
+  Particles particles = cases::seed(setup).particles;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const double x = wave * particles.position[p][0], y = wave * particles.position[p][1];
     particles.velocity[p] = speed * Vector3(std::sin(x) * std::cos(y), -std::cos(x) * std::sin(y), 0.0);
@@ -126,7 +126,7 @@ struct Channel {
   static double error(int cells) {
     const double dx = width / cells;
     const std::string thickness = std::to_string(1e3 * dx) + " mm";
-    const setup::Case setup = setup::read_case_text(
+    const cases::Case setup = cases::read_case_text(
         "[domain]\nlower = [0, 0, 0]\nupper = [\"70 mm\", \"10 mm\", \"" + thickness + "\"]\ncell_size = \"" +
             thickness +
             "\"\nboundary = { y_lower = \"no_slip\", y_upper = \"no_slip\", z_lower = \"symmetry\", z_upper "

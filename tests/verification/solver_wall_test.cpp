@@ -46,10 +46,10 @@ struct Column {
   std::string more = {};  // of the body
 
   [[nodiscard]] double touch() const { return gap * dx / speed; }
-  [[nodiscard]] setup::Case read(double end) const {
+  [[nodiscard]] cases::Case read(double end) const {
     const double front = -gap * dx, rear = front - cells * dx;
     const std::string side = number(dx);
-    return setup::read_case_text(
+    return cases::read_case_text(
         method.time_toml(end) + method.toml() + "[output]\nmaximum_energy_error = 10.0\n[domain]\nlower = [" +
             number(-50 * dx) + ", 0, 0]\nupper = [0, " + side + ", " + side + "]\ncell_size = " + side +
             "\nboundary = { x_upper = \"" + wall +
@@ -185,7 +185,7 @@ double rebound(const std::string& wall, double gap) {
   constexpr double cell = 1e-3, length = 0.04, speed = 10.0;
   const double c = std::sqrt(5328.0 * 5328.0 + 4.0 / 3.0 * 27.6e9 / 2785.0);
   const double end = gap * cell / speed + 3.0 * length / c;
-  const setup::Case setup = setup::read_case_text(
+  const cases::Case setup = cases::read_case_text(
       Method{}.time_toml(end) + Method{}.toml() +
           "[domain]\nlower = [0, 0, 0]\nupper = [0.06, 0.001, 0.001]\n" +
           "cell_size = 0.001\nboundary = { x_lower = \"" + wall +
@@ -232,7 +232,7 @@ struct MeetingSlabs {
     if (!half) {
       text += body("right", soft_aluminium(), box({near, 0, 0}, {far, dx, dx}), {-speed, 0, 0});
     }
-    return solver::Simulation(setup::read_case_text(text, "slabs.toml"), parallel::world());
+    return solver::Simulation(cases::read_case_text(text, "slabs.toml"), parallel::world());
   }
 };
 
@@ -290,7 +290,7 @@ TEST(WallContact, OfASphereIsThatOfTwo) {
     text += body("left", soft_aluminium(), sphere({-radius - gap, 0, 0}, radius), {speed, 0, 0}, partial);
     if (!half)
       text += body("right", soft_aluminium(), sphere({radius + gap, 0, 0}, radius), {-speed, 0, 0}, partial);
-    return setup::read_case_text(text, "spheres.toml");
+    return cases::read_case_text(text, "spheres.toml");
   };
   std::optional<solver::Simulation> half, full;
   half.emplace(simulate(true), parallel::world());
@@ -328,7 +328,7 @@ TEST(WallContact, MatterOnAPlaneAtTheStartIsOneWithItsImage) {
     if (!half) {
       text += body("right", soft_aluminium(), box({thick, 0, 0}, {thick + flyer, dx, dx}), {-speed, 0, 0});
     }
-    return solver::Simulation(setup::read_case_text(text, "slab.toml"), parallel::world());
+    return solver::Simulation(cases::read_case_text(text, "slab.toml"), parallel::world());
   };
   solver::Simulation half = simulate(true), full = simulate(false);
   double tension = 0.0;
@@ -356,9 +356,9 @@ TEST(WallContact, MatterOnAPlaneAtTheStartIsOneWithItsImage) {
 
 /// A block that flies obliquely into the corner of three walls, with another beside it in the same fields or
 /// fields of their own.
-setup::Case corner(const std::string& contact, const std::string& z_lower, double end) {
+cases::Case corner(const std::string& contact, const std::string& z_lower, double end) {
   constexpr double cell = 1e-3;
-  return setup::read_case_text(
+  return cases::read_case_text(
       Method{}.time_toml(end) + Method{}.toml() + contact +
           "[domain]\nlower = [0, 0, 0]\nupper = [0.012, 0.012, 0.012]\ncell_size = 0.001\nboundary = { "
           "x_lower = "
@@ -379,7 +379,7 @@ TEST(WallContact, IsExactWherePlanesAndBodiesMeetAndTheSameByThreadsAndRestart) 
                     own = "[contact]\nmethod = \"multi_field\"\nfriction = 0.2\n";
   for (const auto& [contact, z_lower] :
        {std::pair(none, "separating"), std::pair(none, "no_slip"), std::pair(own, "no_slip")}) {
-    const setup::Case setup = corner(contact, z_lower, end);
+    const cases::Case setup = corner(contact, z_lower, end);
     solver::Simulation simulation(setup, parallel::world());
     const Vector3 momentum = simulation.totals().momentum;
     EnergyWatch watch;
@@ -418,7 +418,7 @@ TEST(WallContact, StopsElementsThatMoveWithTheGridWhereTheirFacetsTouch) {
   const double length = 10 * dx, touch = gap * dx / speed, end = touch + 0.8 * length / shock_speed(speed);
   std::string sides = column_sides;
   sides.replace(sides.find('{') + 1, 0, " x_upper = \"separating\",");
-  const setup::Case setup = setup::read_case_text(
+  const cases::Case setup = cases::read_case_text(
       Method{}.time_toml(end) + Method{}.toml() + "[domain]\nlower = [-0.004, 0, 0]\nupper = " +
           vector3({0.0, 4 * dx, dx}) + "\ncell_size = " + number(dx) + "\n" + sides +
           body("particles", soft_aluminium(), box({-gap * dx - length, 0, 0}, {-gap * dx, 2 * dx, dx}),

@@ -11,7 +11,7 @@ namespace whipple::run {
 /// Writes history.csv: energies, momentum, masses of the phases, errors.
 class HistoryTable : public Table {
  public:
-  HistoryTable(const setup::Case& setup, Options options, const io::Ranks& ranks)
+  HistoryTable(const cases::Case& setup, Options options, const io::Ranks& ranks)
       : Table(std::move(options), ranks), columns_(history_columns(setup)) {}
 
  protected:

@@ -167,7 +167,7 @@ std::vector<HistoryColumn> columns_of(const Parts& parts) {
   return columns;
 }
 
-bool stores_cold_work(const setup::Case& setup) {
+bool stores_cold_work(const cases::Case& setup) {
   return std::ranges::any_of(setup.materials, [](const auto& material) { return material->stores_cold_work(); });
 }
 
@@ -227,12 +227,12 @@ HistorySource::HistorySource(const solver::Simulation& simulation)
   bar_energy = sums[3];
 }
 
-std::vector<HistoryColumn> history_columns(const setup::Case& setup) {
+std::vector<HistoryColumn> history_columns(const cases::Case& setup) {
   Parts parts{.elements = setup.has_elements(),
               .cold_work = stores_cold_work(setup),
               .bars = setup.has_bars(),
               .bodies = {}};
-  for (const setup::Body& body : setup.bodies) parts.bodies.push_back(body.name);
+  for (const cases::Body& body : setup.bodies) parts.bodies.push_back(body.name);
   return columns_of(parts);
 }
 

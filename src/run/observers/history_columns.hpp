@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "src/io/history.hpp"
-#include "src/setup/case.hpp"
+#include "src/case/case.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple::run {
@@ -38,7 +38,7 @@ struct HistoryColumn {
 };
 
 /// Lists the columns that a case has, in the order of the file.
-std::vector<HistoryColumn> history_columns(const setup::Case& setup);
+std::vector<HistoryColumn> history_columns(const cases::Case& setup);
 
 /// Lists all columns that there are as rows `| name | unit | meaning |` of docs/output.md.
 std::string history_columns_as_markdown();

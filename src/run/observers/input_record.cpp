@@ -11,11 +11,11 @@ void InputRecord::after_step(const Moment& moment) {
   const Act act = moment.requests.steering.act;
   if (act == Act::none || entry_of(act).changes == nullptr) return;
   ranks_.on_root([&] {
-    setup::Case setup = moment.simulation.setup();
+    cases::Case setup = moment.simulation.setup();
     moment.schedule.write_to(setup);
     const std::string former = io::read_text(directory_.input_file());
     const std::size_t provenance = former.rfind("\n[provenance]");
-    directory_.write_input(setup::to_toml(setup, material_copies(setup)) +
+    directory_.write_input(cases::to_toml(setup, material_copies(setup)) +
                            (provenance == std::string::npos ? "" : former.substr(provenance)));
   });
 }

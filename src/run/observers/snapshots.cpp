@@ -29,7 +29,7 @@ std::string input_without_start(const fs::path& file) {
   return text;
 }
 
-io::SeriesOptions series_options(const setup::Case& setup, const io::RunDirectory& directory,
+io::SeriesOptions series_options(const cases::Case& setup, const io::RunDirectory& directory,
                                  const fs::path& folder) {
   io::SeriesOptions options{.folder = folder,
                             .name = directory.name(),
@@ -51,7 +51,7 @@ std::int64_t next_multiple(double time, double every) {
 
 }  // namespace
 
-SnapshotFiles::SnapshotFiles(const setup::Case& setup, const io::RunDirectory& directory, const fs::path& folder)
+SnapshotFiles::SnapshotFiles(const cases::Case& setup, const io::RunDirectory& directory, const fs::path& folder)
     : particles_(series_options(setup, directory, folder), parallel::world()) {
   if (setup.has_elements() || setup.has_bars())
     elements_.emplace(series_options(setup, directory, folder), parallel::world());

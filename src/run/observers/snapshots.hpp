@@ -19,7 +19,7 @@ namespace whipple::run {
 class SnapshotFiles {
  public:
   /// Reads run.toml for their provenance. @param folder  where they go
-  SnapshotFiles(const setup::Case& setup, const io::RunDirectory& directory, const std::filesystem::path& folder);
+  SnapshotFiles(const cases::Case& setup, const io::RunDirectory& directory, const std::filesystem::path& folder);
 
   /// Drops what is later than a checkpoint. Collective.
   void restart(double time);
@@ -39,7 +39,7 @@ class SnapshotFiles {
 /// and of a state that left the range of the physics into the folder failed/.
 class Snapshots : public RunObserver {
  public:
-  Snapshots(const setup::Case& setup, const io::RunDirectory& directory, const io::Ranks& ranks)
+  Snapshots(const cases::Case& setup, const io::RunDirectory& directory, const io::Ranks& ranks)
       : directory_(directory), ranks_(ranks), files_(setup, directory, directory.path()) {}
 
   void begin(const Moment& moment) override;

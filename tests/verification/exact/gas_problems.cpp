@@ -182,7 +182,7 @@ Result noh_spherical(int cells) {
   constexpr double end = 0.6;
   const Noh exact{3, 5.0 / 3};
   const double dx = 1.0 / cells;
-  const setup::Case setup = default_case(end, octant(1.0, cells) + fmt::format(R"(
+  const cases::Case setup = default_case(end, octant(1.0, cells) + fmt::format(R"(
 [[body]]
 name = "gas"
 material = "{}"
@@ -233,7 +233,7 @@ Result sedov(int cells) {
   constexpr double end = 1.0, edge = 1.2, gamma = 1.4, energy = 0.851072;
   const Sedov exact(energy, 1.0, gamma);
   const double dx = edge / cells;
-  const setup::Case setup =
+  const cases::Case setup =
       default_case(end, octant(edge, cells) + fmt::format(R"(
 [[body]]
 name = "gas"

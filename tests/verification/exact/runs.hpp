@@ -22,16 +22,16 @@ inline std::string& options_of_all_cases() {
 /// @param end   s
 /// @param text  domain and bodies
 /// @param more  tables of options, if not the defaults
-inline setup::Case default_case(double end, const std::string& text, const std::string& more = {}) {
+inline cases::Case default_case(double end, const std::string& text, const std::string& more = {}) {
   char time[64];
   std::snprintf(time, sizeof time, "[time]\nend = %.9g\n", end);
-  return setup::read_case_text(time + options_of_all_cases() + more + text, "exact.toml");
+  return cases::read_case_text(time + options_of_all_cases() + more + text, "exact.toml");
 }
 
 /// A simulation of seeded particles after `change` of their state (velocities, energies).
-inline solver::Simulation start_with(const setup::Case& setup,
+inline solver::Simulation start_with(const cases::Case& setup,
                                      const std::function<void(Particles&)>& change) {
-  Particles particles = setup::seed(setup).particles;
+  Particles particles = cases::seed(setup).particles;
   change(particles);
   solver::RunState state;
   state.ledger.initial = solver::totals_of(

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/case/artificial_viscosity.hpp"
+
+namespace whipple::cases {
+
+ParameterTable<ArtificialViscosity> ArtificialViscosity::parameters() {
+  return {
+      real("linear", &ArtificialViscosity::linear, "", range::non_negative(),
+           "c1 of q = rho l |D| (c2 l |D| + c1 c), in compression")
+          .optional(),
+      real("quadratic", &ArtificialViscosity::quadratic, "", range::non_negative(), "c2 of the same")
+          .optional(),
+      real("expansion", &ArtificialViscosity::expansion, "", range::non_negative(),
+           "c1 of q = -rho l |D| c1 c in expansion, never more than the pressure: damps the overshoot of a "
+           "shock that leaves through a free surface; 0: none")
+          .optional()};
+}
+
+}  // namespace whipple::cases

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "src/core/base/parameter_table.hpp"
+
+namespace whipple::cases {
+
+/// Coefficients of the artificial viscosity q (docs/theory/material.md, eq. 8).
+struct ArtificialViscosity {
+  double linear = 0.25;    ///< c1
+  double quadratic = 1.0;  ///< c2
+  double expansion = 0.0;  ///< c1 of expanding matter
+  static ParameterTable<ArtificialViscosity> parameters();
+};
+
+}  // namespace whipple::cases

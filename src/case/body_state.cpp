@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/case/body_state.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace whipple::cases {
+namespace {
+
+std::optional<double> if_given(double value) {
+  return std::isinf(value) ? std::nullopt : std::optional(value);
+}
+
+/// Finaliser of SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): every bit of the result depends on all bits.
+std::uint64_t mixed(std::uint64_t x) {
+  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+  return x ^ (x >> 31U);
+}
+
+/// In (0, 1].
+double uniform(std::uint64_t seed, std::uint64_t id) {
+  constexpr std::uint64_t golden = 0x9e3779b97f4a7c15U;
+  const std::uint64_t bits = mixed(mixed(seed + golden) + golden * (id + 1));
+  return static_cast<double>((bits >> 11U) + 1) * 0x1p-53;
+}
+
+}  // namespace
+
+ParameterTable<InitialState> InitialState::parameters() {
+  using I = InitialState;
+  return {
+      real("pressure", &I::pressure, "Pa", range::any(), "pressure").optional("0, of a gas its reference"),
+      real("temperature", &I::temperature, "K", range::positive(), "temperature")
+          .optional("reference temperature"),
+      real("density", &I::density, "kg/m^3", range::positive(), "density").optional("from the others")};
+}
+
+bool InitialState::given() const {
+  return std::isfinite(pressure) || std::isfinite(temperature) || std::isfinite(density);
+}
+
+eos::State InitialState::of(const Material& material) const {
+  if (!given()) return material.reference;
+  return initial_state(material, if_given(density), if_given(temperature), if_given(pressure));
+}
+
+ParameterTable<FailureScatter> FailureScatter::parameters() {
+  using S = FailureScatter;
+  return {
+      real("weibull_modulus", &S::weibull_modulus, "", range::positive(), "m of the Weibull distribution"),
+      integer("seed", &S::seed, range::between(0, 1e18), "seed of the scatter").optional(),
+      real("reference_volume", &S::reference_volume, "m^3", range::positive(),
+           "volume for which the thresholds were measured: larger particles fail earlier")
+          .optional("no effect of size")};
+}
+
+bool FailureScatter::given() const { return std::isfinite(weibull_modulus); }
+
+double FailureScatter::factor(std::uint64_t id, double volume) const {
+  const double m = weibull_modulus;
+  const double size = std::isfinite(reference_volume) ? reference_volume / volume : 1.0;
+  const double of_mean_one = std::pow(-std::log(uniform(static_cast<std::uint64_t>(seed), id)), 1.0 / m) /
+                             std::tgamma(1.0 + 1.0 / m);
+  return of_mean_one * std::pow(size, 1.0 / m);
+}
+
+}  // namespace whipple::cases

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/case/build/meshing.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/core/base/error.hpp"
+#include "src/fem/step.hpp"
+
+namespace whipple::cases {
+namespace {
+
+constexpr double plane_tolerance = 1e-6;  ///< in cells
+
+/// Face of the domain that halves bodies, as a plane.
+struct Plane {
+  int axis;
+  double coordinate, inward;  // m; +1 or -1
+  grid::Boundary kind;
+};
+
+std::vector<Plane> planes_of(const Case& setup) {
+  std::vector<Plane> planes;
+  for (int face = 0; face < 6; ++face) {
+    const grid::Boundary kind = setup.geometry.boundary[static_cast<std::size_t>(face)];
+    if (kind == grid::Boundary::outflow) continue;
+    const int axis = face / 2;
+    const bool low = face % 2 == 0;
+    planes.push_back(
+        {axis, low ? setup.geometry.lower[axis] : setup.geometry.upper(axis), low ? 1.0 : -1.0, kind});
+  }
+  return planes;
+}
+
+/// The part of space before all mirror planes.
+Shape::Bounds before_planes(const Case& setup) {
+  const Vector3 everywhere = Vector3::Constant(std::numeric_limits<double>::infinity());
+  Shape::Bounds bounds{-everywhere, everywhere};
+  for (const Plane& plane : planes_of(setup)) {
+    (plane.inward > 0.0 ? bounds.lower : bounds.upper)[plane.axis] = plane.coordinate;
+  }
+  return bounds;
+}
+
+/// Drops elements beyond a plane and puts nodes that are nearly on it exactly there.
+void cut(fem::Hexahedra& mesh, const Plane& plane, double tolerance, const std::string& body) {
+  for (Vector3& node : mesh.nodes) {
+    double& x = node[plane.axis];
+    if (std::abs(x - plane.coordinate) < tolerance) x = plane.coordinate;
+  }
+  std::vector<fem::Corners> kept;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    bool before = false, beyond = false;
+    for (const std::uint32_t node : mesh.elements[e]) {
+      const double depth = plane.inward * (mesh.nodes[node][plane.axis] - plane.coordinate);
+      before = before || depth > 0.0;
+      beyond = beyond || depth < 0.0;
+    }
+    if (before && beyond) {
+      throw InputError(
+          fmt::format("body \"{}\": the mirror plane {} = {} m cuts through element {}: nodes must lie on it",
+                      body, "xyz"[plane.axis], plane.coordinate, e));
+    }
+    if (before) kept.push_back(mesh.elements[e]);
+  }
+  mesh.elements = std::move(kept);
+}
+
+void drop_unused_nodes(fem::Hexahedra& mesh) {
+  constexpr auto unused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number(mesh.nodes.size(), unused);
+  for (const fem::Corners& corners : mesh.elements) {
+    for (const std::uint32_t node : corners) number[node] = 0;
+  }
+  std::vector<Vector3> nodes;
+  for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
+    if (number[a] == unused) continue;
+    number[a] = static_cast<std::uint32_t>(nodes.size());
+    nodes.push_back(mesh.nodes[a]);
+  }
+  mesh.nodes = std::move(nodes);
+  for (fem::Corners& corners : mesh.elements) {
+    for (std::uint32_t& node : corners) node = number[node];
+  }
+}
+
+/// Nodes on mirror planes keep to them, those on walls that matter sticks to stay there.
+void hold_at_planes(const Case& setup, fem::Mesh& mesh, Vector3& wall_impulse) {
+  fem::Nodes& nodes = mesh.nodes;
+  std::vector<double> heat(nodes.size(), 0.0);
+  for (const Plane& plane : planes_of(setup)) {
+    if (plane.kind == grid::Boundary::separating) continue;
+    const std::uint8_t directions =
+        plane.kind == grid::Boundary::no_slip ? fem::constraint::all : fem::constraint::axis(plane.axis);
+    const std::vector<std::uint32_t> held =
+        fem::nodes_on_plane(mesh, plane.axis, plane.coordinate, plane_tolerance * setup.geometry.cell_size);
+    fem::constrain(mesh, held, directions, Vector3::Zero());
+    for (const std::uint32_t a : held) {
+      for (int i = 0; i < 3; ++i) {
+        if ((directions & fem::constraint::axis(i)) == 0) continue;
+        double& v = nodes.velocity[a][i];
+        heat[a] += 0.5 * nodes.mass[a] * v * v;
+        wall_impulse[i] -= nodes.mass[a] * v;
+        v = 0.0;
+      }
+    }
+  }
+  fem::add_heat(mesh, heat);
+}
+
+void apply(const NodeCondition& condition, const std::string& body, fem::Mesh& mesh) {
+  std::uint8_t directions = fem::constraint::none;
+  for (const std::string& direction : condition.directions) {
+    directions = static_cast<std::uint8_t>(directions | fem::constraint::axis(direction[0] - 'x'));
+  }
+  std::vector<std::uint32_t> inside;
+  for (std::uint32_t a = 0; a < mesh.nodes.size(); ++a) {
+    const Vector3& x = mesh.nodes.position[a];
+    if ((x.array() >= condition.lower.array()).all() && (x.array() <= condition.upper.array()).all()) {
+      inside.push_back(a);
+    }
+  }
+  if (inside.empty()) {
+    throw InputError(fmt::format("body \"{}\": a node_condition holds no node of its mesh", body));
+  }
+  fem::constrain(mesh, inside, directions, condition.velocity);
+}
+
+}  // namespace
+
+fem::Hexahedra hexahedra_of(const Case& setup, const Body& body) {
+  const double size = body.discretization.size(setup.domain.cell_size);
+  std::optional<fem::Hexahedra> mesh = body.shape->hexahedra(size, before_planes(setup));
+  if (!mesh) {
+    throw InputError(
+        fmt::format("body \"{}\": there are structured meshes of box, cylinder, tube, sphere and ogive, "
+                    "turned or moved ones "
+                    "included; for other shapes give a Gmsh file, discretization.mesh",
+                    body.name));
+  }
+  const double tolerance = plane_tolerance * setup.geometry.cell_size;
+  for (const Plane& plane : planes_of(setup)) cut(*mesh, plane, tolerance, body.name);
+  drop_unused_nodes(*mesh);
+  fem::check(*mesh, fmt::format("body \"{}\"", body.name));
+  return std::move(*mesh);
+}
+
+std::vector<fem::Mesh> make_meshes(const Case& setup, std::uint64_t first_particle_id,
+                                   Vector3& wall_impulse) {
+  std::vector<fem::Mesh> meshes;
+  std::uint64_t node_id = 0, element_id = (first_particle_id + 7) / 8;
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const Body& body = setup.bodies[b];
+    if (!body.discretization.has_elements()) continue;
+    const Material& material = *setup.materials[b];
+    const auto quadrature =
+        body.discretization.element == "b_bar" ? fem::Quadrature::b_bar : fem::Quadrature::one_point;
+    fem::Mesh& mesh = meshes.emplace_back(fem::make_mesh(hexahedra_of(setup, body), quadrature,
+                                                         static_cast<std::uint32_t>(b), node_id, element_id));
+    node_id += mesh.nodes.size();
+    element_id += mesh.elements.size();
+    const eos::State state = body.initial.of(material);
+    fem::set_density(mesh, body_density(material, state));
+    const std::vector<double> volume = mesh.points.volume;
+    initialise(material, mesh.points, 0, mesh.points.size(), state);
+    const std::size_t rows = fem::points_per_element(quadrature);
+    if (body.failure_scatter.given()) mesh.points.failure_threshold_factor.resize(mesh.points.size());
+    for (std::size_t i = 0; body.failure_scatter.given() && i < mesh.points.size(); ++i) {
+      const std::uint64_t id = 8 * mesh.elements.id[i / rows] + i % rows;
+      mesh.points.failure_threshold_factor[i] = body.failure_scatter.factor(id, volume[i]);
+    }
+    const Shape::Bounds bounds = body.shape->bounds();
+    const Vector3 center = 0.5 * (bounds.lower + bounds.upper);
+    for (std::size_t a = 0; a < mesh.nodes.size(); ++a) {
+      mesh.nodes.velocity[a] = body.velocity + body.angular_velocity.cross(mesh.nodes.position[a] - center);
+    }
+    hold_at_planes(setup, mesh, wall_impulse);
+    for (const NodeCondition& condition : body.node_conditions) apply(condition, body.name, mesh);
+  }
+  return meshes;
+}
+
+}  // namespace whipple::cases

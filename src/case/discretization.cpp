@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/case/discretization.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "src/case/case.hpp"
+
+namespace whipple::cases {
+
+ParameterTable<Discretization> Discretization::parameters() {
+  using D = Discretization;
+  return {
+      choice(
+          "method", &D::method, {"particles", "finite_elements", "adaptive", "bars"},
+          "how the body is represented: particles | eight-node hexahedra | hexahedra that become particles "
+          "where they are distorted ([body.conversion]) | bars that carry axial forces and move with the "
+          "matter "
+          "around ([[body.bar]])")
+          .optional(),
+      integer("per_cell", &D::per_cell, range::between(1, 1000), "particles per full cell: 1, 8, 27 or 64")
+          .optional(),
+      boolean("partial_volumes", &D::partial_volumes,
+              "particles at curved or oblique surfaces take the part of their volume that lies in the body")
+          .optional("true"),
+      real("element_size", &D::element_size, "m", range::positive(), "edge of the elements, at most 2 cells")
+          .optional("cell_size"),
+      choice("element", &D::element, {"one_point", "b_bar"},
+             "quadrature of the elements: one point with hourglass control | 2 x 2 x 2 points with the "
+             "element's mean volumetric strain")
+          .optional(),
+      choice("hourglass", &D::hourglass, {"stiffness", "viscous"},
+             "control of the modes that one-point elements do not see: resists their amplitude | their rate")
+          .optional(),
+      real("hourglass_coefficient", &D::hourglass_coefficient, "", range::between(0.0, 1.0),
+           "of the same: share of the greatest stiffness or of the critical damping")
+          .optional(),
+      text("mesh", &D::mesh, "Gmsh file (2.2 or 4.1) with the hexahedra of the body instead of a shape")
+          .optional(),
+      real("mesh_unit", &D::mesh_unit, "m", range::positive(), "length of a unit of that file").optional(),
+      text("group", &D::group, "physical group of that file; empty: the only one").optional(),
+      real("bar_diameter", &D::bar_diameter, "m", range::non_negative(), "of bars").optional(),
+      real("bar_failure_strain", &D::bar_failure_strain, "", range::positive(),
+           "plastic strain at which a bar breaks")
+          .optional("never")};
+}
+
+double Discretization::size(double cell_size) const {
+  return std::isfinite(element_size) ? element_size : cell_size;
+}
+
+ParameterTable<Conversion> Conversion::parameters() {
+  using C = Conversion;
+  return {real("plastic_strain", &C::plastic_strain, "", range::positive(),
+               "equivalent plastic strain above which an element becomes particles")
+              .optional("never"),
+          real("time_step_ratio", &C::time_step_ratio, "", range::between(0.0, 1.0),
+               "the same below this ratio of its stable time step to that of the grid; 0: never")
+              .optional(),
+          real("jacobian", &C::jacobian, "", range::between(0.0, 1.0),
+               "the same where its least Jacobian falls below this share of the mean one; 0: never")
+              .optional(),
+          boolean("failed", &C::failed, "the same when its material has failed").optional()};
+}
+
+ParameterTable<BarRow> BarRow::parameters() {
+  using B = BarRow;
+  return {vector("from", &B::from, "m", range::any(), "one end"),
+          vector("to", &B::to, "m", range::any(),
+                 "the other end; on a mirror plane for a bar that goes through it"),
+          integer("count", &B::count, range::between(1, 100000), "how many parallel bars").optional(),
+          vector("step", &B::step, "m", range::any(), "from one of them to the next").optional()};
+}
+
+ParameterTable<NodeCondition> NodeCondition::parameters() {
+  using N = NodeCondition;
+  return {vector("lower", &N::lower, "m", range::any(), "corner of a box: the nodes in it at the start"),
+          vector("upper", &N::upper, "m", range::any(), "its other corner"),
+          text_list("directions", &N::directions, {"x", "y", "z"}, "directions that are prescribed"),
+          vector("velocity", &N::velocity, "m/s", range::any(), "velocity in those directions").optional()};
+}
+
+void check_elements(const Case& setup, Discretization& control, input::Table& table) {
+  if (!control.has_elements() && !control.is_bars()) {
+    if (!control.mesh.empty()) table.error_at("mesh", "'mesh' belongs to bodies with finite elements");
+    return;
+  }
+  if (setup.time.scheme != "symplectic") {
+    table.error_at("method", fmt::format("finite elements work with time.scheme = \"symplectic\" only, not "
+                                         "\"{}\"",
+                                         setup.time.scheme));
+  }
+  if (!setup.transfer.shape_function.ends_with("bspline")) {
+    table.error_at("method", fmt::format("finite elements work with B-splines only, not with "
+                                         "transfer.shape_function = \"{}\"",
+                                         setup.transfer.shape_function));
+  }
+  if (setup.heat.conduction) {
+    table.error_at("method", "finite elements do not conduct heat: heat.conduction must be off");
+  }
+  if (control.is_bars()) {
+    if (!(control.bar_diameter > 0.0)) table.error_at("method", "bars need a 'bar_diameter'");
+    if (!control.mesh.empty()) table.error_at("mesh", "bars stand in [[body.bar]], not in a 'mesh'");
+  }
+  if (control.partial_volumes) {
+    table.error_at("partial_volumes", "'partial_volumes' belongs to bodies of particles");
+  }
+  const double size = control.size(setup.domain.cell_size);
+  if (!(size <= 2.0 * setup.domain.cell_size)) {
+    table.error_at(
+        "element_size",
+        fmt::format("'element_size' is {} m; the grid, which carries contact and conversion, takes "
+                    "elements of at most 2 cells, {} m",
+                    size, 2.0 * setup.domain.cell_size));
+  }
+  if (!control.mesh.empty()) control.mesh = (table.folder() / control.mesh).lexically_normal().string();
+  if (control.mesh.empty() && !control.group.empty()) {
+    table.error_at("group", "'group' names a physical group of a Gmsh file: give 'mesh' as well");
+  }
+}
+
+}  // namespace whipple::cases

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "src/core/base/parameter_table.hpp"
+#include "src/core/base/tensor.hpp"
+#include "src/core/input/document.hpp"
+
+namespace whipple::cases {
+
+struct Case;
+
+/// How a body is represented: particles, finite elements, or elements that become particles.
+struct Discretization {
+  std::string method = "particles";
+  // of particles
+  std::int64_t per_cell = 8;
+  bool partial_volumes = false;
+  bool partial_volumes_given = false;  ///< in the case file; else `choose_volumes` decides
+  // of elements
+  double element_size = std::numeric_limits<double>::infinity();  ///< m; infinite: that of the cells
+  std::string element = "one_point";
+  std::string hourglass = "stiffness";
+  double hourglass_coefficient = 0.05;
+  std::string mesh;        ///< Gmsh file instead of a shape; absolute path
+  double mesh_unit = 1.0;  ///< m per unit of its coordinates
+  std::string group;       ///< physical group in it; empty: the only one
+  // of bars
+  double bar_diameter = 0.0;                                            ///< m
+  double bar_failure_strain = std::numeric_limits<double>::infinity();  ///< plastic
+  static ParameterTable<Discretization> parameters();
+
+  /// Hexahedra.
+  [[nodiscard]] bool has_elements() const { return method == "finite_elements" || converts(); }
+  [[nodiscard]] bool is_bars() const { return method == "bars"; }
+  [[nodiscard]] bool converts() const { return method == "adaptive"; }
+  /// Edge of the elements, m.
+  [[nodiscard]] double size(double cell_size) const;
+};
+
+/// `conversion` of an adaptive body: thresholds beyond which an element becomes particles.
+struct Conversion {
+  double plastic_strain = std::numeric_limits<double>::infinity();
+  double time_step_ratio = 0.2;
+  double jacobian = 0.2;
+  bool failed = true;
+  static ParameterTable<Conversion> parameters();
+};
+
+/// One `node_condition` of a body: nodes whose velocity is prescribed along some axes.
+struct NodeCondition {
+  Vector3 lower = Vector3::Zero();  ///< m, corners of the box that the nodes lie in at the start
+  Vector3 upper = Vector3::Zero();
+  std::vector<std::string> directions;
+  Vector3 velocity = Vector3::Zero();  ///< m/s
+  static ParameterTable<NodeCondition> parameters();
+};
+
+/// One `bar` of a body of bars: a row of parallel ones.
+struct BarRow {
+  Vector3 from = Vector3::Zero();  ///< m
+  Vector3 to = Vector3::Zero();    ///< m
+  std::int64_t count = 1;
+  Vector3 step = Vector3::Zero();  ///< m, from one to the next
+  static ParameterTable<BarRow> parameters();
+};
+
+/// Reports in the table of a discretization what finite elements need of the rest of the case (read before),
+/// and makes the path of a mesh absolute.
+void check_elements(const Case& setup, Discretization& control, input::Table& table);
+
+}  // namespace whipple::cases

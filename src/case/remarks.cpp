@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/case/remarks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "eos/audit.hpp"
+#include "src/case/build/seeding.hpp"
+#include "src/fem/structured.hpp"
+
+namespace whipple::cases {
+namespace {
+
+/// Along each axis, 0 where they overlap; m.
+Vector3 gap(const Shape::Bounds& a, const Shape::Bounds& b) {
+  return (b.lower - a.upper).cwiseMax(a.lower - b.upper).cwiseMax(Vector3::Zero());
+}
+
+/// Does a box that moves with a velocity (m/s) come to another one before the end (s)?
+bool meet(const Shape::Bounds& a, const Shape::Bounds& b, const Vector3& velocity, double end) {
+  double first = 0.0, last = end;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double near = b.lower[axis] - a.upper[axis], far = b.upper[axis] - a.lower[axis];
+    if (velocity[axis] == 0.0) {
+      if (near > 0.0 || far < 0.0) return false;
+      continue;
+    }
+    first = std::max(first, std::min(near / velocity[axis], far / velocity[axis]));
+    last = std::min(last, std::max(near / velocity[axis], far / velocity[axis]));
+  }
+  return first <= last;
+}
+
+/// Between bodies whose boxes overlap in two directions there is a gap in the third one.
+void remark_on_gaps(const Case& setup, std::vector<std::string>& remarks) {
+  constexpr double round_off = 1e-6;  // cells
+  const double h = setup.domain.cell_size;
+  for (std::size_t a = 0; a < setup.bodies.size(); ++a) {
+    for (std::size_t b = a + 1; b < setup.bodies.size(); ++b) {
+      const Vector3 apart = gap(setup.bodies[a].shape->bounds(), setup.bodies[b].shape->bounds());
+      if (!(apart.norm() > round_off * h && apart.norm() < h)) continue;
+      remarks.push_back(
+          fmt::format("between '{}' and '{}' is a gap of {:.4g} mm, less than a cell of {:.4g} mm: it closes as a gap "
+                      "does, but what happens in it is not resolved",
+                      setup.bodies[a].name, setup.bodies[b].name, 1e3 * apart.norm(), 1e3 * h));
+    }
+  }
+}
+
+/// A wall or a mirror plane may be what a body is meant to meet.
+void remark_on_directions(const Case& setup, std::vector<std::string>& remarks) {
+  const bool walls = std::ranges::any_of(setup.geometry.boundary,
+                                         [](auto face) { return face != grid::Boundary::outflow; });
+  if (setup.bodies.size() < 2 || walls || !setup.gravity.acceleration.isZero(0.0)) return;
+  for (const Body& a : setup.bodies) {
+    if (a.velocity.isZero(0.0)) continue;
+    const auto meets = [&](const Body& b) {
+      return &b != &a &&
+             meet(a.shape->bounds(), b.shape->bounds(), a.velocity - b.velocity, setup.time.end);
+    };
+    if (std::ranges::any_of(setup.bodies, meets)) continue;
+    remarks.push_back(fmt::format("'{}' meets no other body until t = {:.4g} us: does it fly the right way, and long "
+                                  "enough?",
+                                  a.name, 1e6 * setup.time.end));
+  }
+}
+
+/// Matter behind the shock of bodies that are alike moves with half the speed at which they meet.
+void remark_on_speeds(const Case& setup, std::vector<std::string>& remarks) {
+  double fastest = 0.0;
+  for (const Body& a : setup.bodies) {
+    for (const Body& b : setup.bodies) fastest = std::max(fastest, (a.velocity - b.velocity).norm());
+  }
+  std::set<std::string> seen;
+  for (const auto& material : setup.materials) {
+    if (fastest == 0.0 || !seen.insert(material->name).second) continue;
+    const double limit =
+        eos::audit(*material->eos, eos::AuditDepth::brief).range.strongest_shock.particle_velocity;
+    if (!(limit > 0.0) || 0.5 * fastest <= limit) continue;
+    remarks.push_back(fmt::format("bodies meet at {:.4g} km/s; '{}' is audited for shocks with up to {:.4g} km/s behind "
+                                  "the front (whipple eos audit)",
+                                  1e-3 * fastest, material->name, 1e-3 * limit));
+  }
+}
+
+/// Products of an explosive are a gas that starts at the pressure of a burn at constant volume.
+void remark_on_explosives(const Case& setup, std::vector<std::string>& remarks) {
+  constexpr double much = 0.1e9;  // Pa
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const Material& material = *setup.materials[b];
+    if (material.eos->condensed() || material.reference.pressure < much) continue;
+    remarks.push_back(fmt::format("'{}' starts burnt, as the gas of '{}' at {:.4g} GPa all over: no detonation runs "
+                                  "through it{}",
+                                  setup.bodies[b].name, material.name, 1e-9 * material.reference.pressure,
+                                  setup.bodies[b].velocity.isZero(0.0) ? "" : ", and no projectile is like that"));
+  }
+}
+
+constexpr std::array<const char*, 6> face_names = {"x_lower", "x_upper", "y_lower",
+                                                   "y_upper", "z_lower", "z_upper"};
+
+/// A body that a symmetry plane cuts is one with its mirror image: it cannot move along the normal, nor turn
+/// about an axis in the plane. One that only touches may move into the plane: it meets its image there.
+void remark_on_plane(const Case& setup, const Body& body, std::size_t face,
+                     std::vector<std::string>& remarks) {
+  const grid::Geometry& g = setup.geometry;
+  const auto a = static_cast<int>(face / 2);
+  const bool lower = face % 2 == 0;
+  const Shape::Bounds bounds = body.shape->bounds();
+  const bool cut = lower ? bounds.lower[a] < g.lower[a] - 0.05 * g.cell_size
+                         : bounds.upper[a] > g.upper(a) + 0.05 * g.cell_size;
+  const double normal = body.velocity[a];
+  const bool away = lower ? normal > 0.0 : normal < 0.0;
+  constexpr double none = 1e-9;
+  if (std::abs(normal) > none * body.velocity.norm() && (cut || away)) {
+    remarks.push_back(fmt::format(
+        "'{}' {} the symmetry plane {} and moves along its normal, at {:.6g} m/s {}: its mirror image "
+        "moves the other way; set {} of its velocity to 0, or take the whole body",
+        body.name, cut ? "is cut by" : "touches", face_names[face], std::abs(normal),
+        away ? "off the plane" : "through it", "xyz"[a]));
+  }
+  Vector3 across = body.angular_velocity;
+  across[a] = 0.0;
+  if (across.norm() > none * body.angular_velocity.norm()) {
+    remarks.push_back(fmt::format(
+        "'{}' {} the symmetry plane {} and turns about an axis that is not the plane's normal {}: its "
+        "mirror image turns the other way; take the whole body",
+        body.name, cut ? "is cut by" : "touches", face_names[face], "xyz"[a]));
+  }
+}
+
+void remark_on_symmetry(const Case& setup, std::vector<std::string>& remarks) {
+  const std::vector<std::uint8_t> touched = faces_touched(setup);
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    for (std::size_t face = 0; face < face_names.size(); ++face) {
+      const bool mirror = setup.geometry.boundary[face] == grid::Boundary::symmetry;
+      if (mirror && (touched[b] >> face & 1U) != 0) remark_on_plane(setup, setup.bodies[b], face, remarks);
+    }
+  }
+}
+
+void remark_on_meshes(const Case& setup, std::vector<std::string>& remarks) {
+  for (const Body& body : setup.bodies) {
+    if (body.discretization.mesh.empty()) continue;
+    const auto mesh = body.shape->hexahedra(setup.geometry.cell_size, body.shape->bounds());
+    const std::size_t nodes = mesh ? fem::unmerged_nodes(*mesh) : 0;
+    if (nodes == 0) continue;
+    remarks.push_back(
+        fmt::format("'{}': {} nodes of its mesh {} lie in the place of another node: parts that meet "
+                    "there are not joined; Gmsh joins them with 'Coherence Mesh;'",
+                    body.name, nodes, body.discretization.mesh));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> remarks(const Case& setup) {
+  std::vector<std::string> found;
+  remark_on_gaps(setup, found);
+  remark_on_directions(setup, found);
+  remark_on_speeds(setup, found);
+  remark_on_explosives(setup, found);
+  remark_on_symmetry(setup, found);
+  remark_on_meshes(setup, found);
+  return found;
+}
+
+}  // namespace whipple::cases

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "src/core/base/tensor.hpp"
+#include "src/core/input/document.hpp"
+#include "src/fem/mesh.hpp"
+
+namespace whipple::cases {
+
+/// Region of space that a body fills at the start.
+class Shape {
+ public:
+  struct Bounds {
+    Vector3 lower, upper;  ///< m; infinite where the shape has no end
+  };
+  virtual ~Shape() = default;
+  [[nodiscard]] virtual bool contains(const Vector3& point) const = 0;
+  [[nodiscard]] virtual Bounds bounds() const = 0;
+  /// Volume (m^3), to judge a discretisation by: exact for primitives, to about 1e-3 for combinations.
+  [[nodiscard]] virtual double volume() const = 0;
+  /// Do whole cells of a lattice over its bounds fill it: is it a box along the axes?
+  [[nodiscard]] virtual bool fills_lattice() const { return false; }
+  /// `{ NAME = ... }` as it stands in a case file.
+  [[nodiscard]] virtual std::string toml() const = 0;
+  /// Structured mesh of the shape, or of its part within `clip`, whose finite faces halve it; elements
+  /// beyond may be left. Nothing for shapes that have none.
+  /// @param size  wanted edge of the elements, m
+  /// @throws InputError if it is not positive
+  [[nodiscard]] virtual std::optional<fem::Hexahedra> hexahedra(double /*size*/,
+                                                                const Bounds& /*clip*/) const {
+    return std::nullopt;
+  }
+};
+
+/// A kind of shape: one line of the catalogue per primitive or combination.
+struct ShapeEntry {
+  std::string name;
+  std::string summary;
+  std::string (*describe)();
+  /// Reads the key `name` of a table. Reports errors in the document and returns null then.
+  std::unique_ptr<Shape> (*read)(input::Table& holder, const std::string& name);
+};
+/// Everything that `shape = { NAME = ... }` may hold.
+std::span<const ShapeEntry> shape_catalogue();
+/// The two parts of it.
+std::span<const ShapeEntry> primitives();
+std::span<const ShapeEntry> combinations();
+
+/// Reads the one shape that a table `{ NAME = ... }` holds. Reports errors in the document and returns null
+/// then.
+std::unique_ptr<Shape> read_only_shape(input::Table& holder);
+
+/// Reads `shape = { NAME = ... }` of a body: bounded, not empty. Reports errors in the document and returns
+/// null then.
+std::unique_ptr<Shape> read_shape(input::Table& body);
+
+}  // namespace whipple::cases
