@@ -31,7 +31,7 @@ MAY_USE = {
     "src/afemp": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
     "src/io": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/particles", "src/fem"],
     "src/case": ["src/core/base", "src/core/input", "src/core/parallel", "eos", "eos/files", "src/particles", "src/grid", "src/material",
-                  "src/fem", "src/io"],
+                  "src/transfer", "src/fem", "src/contact", "src/io"],
     "src/solver": ["src/core/base", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
                    "src/fem", "src/contact", "src/afemp", "src/io", "src/case"],
     # The loop around the solver: what a run writes, and what may be asked of it.
@@ -39,8 +39,8 @@ MAY_USE = {
                 "src/io", "src/case", "src/solver"],
     # Times the solver.
     "src/bench": ["src/core/base", "src/core/parallel", "src/core/process", "src/particles", "src/grid", "src/transfer", "src/io", "src/case", "src/solver"],
-    # Reads what runs wrote; knows no solver.
-    "src/analysis": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/hdf5"],
+    # Reads what runs wrote, with the keys of a case; knows no solver.
+    "src/analysis": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/hdf5", "src/grid", "src/case"],
     "md_fitting/plan": ["src/core/base", "src/core/input"],
     "md_fitting/lammps": ["src/core/base", "md_fitting/data_set"],
     "md_fitting/protocols": ["src/core/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],

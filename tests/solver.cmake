@@ -4,7 +4,7 @@ whipple_test(test_transfer STARTS_MPI
           verification/transfer_conduction_test.cpp
   DEPENDS whipple_transfer LABELS fast)
 whipple_test(test_solver STARTS_MPI
-  SOURCES verification/solver_planar_impact_test.cpp verification/solver_taylor_bar_test.cpp verification/solver_elastic_test.cpp
+  SOURCES unit/case_in_code_test.cpp verification/solver_planar_impact_test.cpp verification/solver_taylor_bar_test.cpp verification/solver_elastic_test.cpp
           verification/solver_contact_test.cpp verification/solver_bars_test.cpp verification/solver_element_contact_test.cpp verification/solver_orders_test.cpp
           verification/solver_methods_test.cpp verification/solver_failure_test.cpp
           verification/solver_viscous_test.cpp verification/solver_wall_test.cpp validation/solver_debris_cloud_test.cpp
@@ -25,7 +25,7 @@ whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.
 # Writes docs/orders_of_convergence.md; a program of its own, as it takes minutes.
 add_executable(orders_of_convergence EXCLUDE_FROM_ALL verification/solver_orders.cpp)
 target_link_libraries(orders_of_convergence PRIVATE whipple_flags whipple_solver)
-whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_case_test.cpp unit/case_shape_test.cpp unit/case_remarks_test.cpp
+whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_case_test.cpp unit/case_check_test.cpp unit/case_shape_test.cpp unit/case_remarks_test.cpp
              DEPENDS whipple_case LABELS fast)
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "src/case/discretization.hpp"
+#include "src/case/domain.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/parameter_table.hpp"
@@ -21,50 +23,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Input {
-  std::string title;
-  Vector3 lower = Vector3::Zero(), upper = Vector3::Zero();
-  double cell_size = 0.0;
-};
-
-struct Words {
-  std::string x_lower, x_upper, y_lower, y_upper, z_lower, z_upper;
-};
-
 struct BodyKeys {
   std::string name;
   Vector3 velocity = Vector3::Zero();
-  std::int64_t per_cell = 8;
-  std::string method = "particles";
-  double element_size = 0.0;  // 0: that of the cells
 };
 
-void read_domain(input::Table domain, Run& run) {
-  Input input;
-  domain.read(ParameterTable<Input>{vector("lower", &Input::lower, "m", range::any(), "lower corner"),
-                                    vector("upper", &Input::upper, "m", range::any(), "upper corner"),
-                                    real("cell_size", &Input::cell_size, "m", range::positive(),
-                                         "edge of the cells")},
-              input);
-  run.cell_size = input.cell_size;
-  run.lower = input.lower;
-  run.upper = input.upper;
-  Words words;
-  if (auto boundary = domain.optional_table("boundary")) {
-    const auto face = [](const char* name, std::string Words::* member) {
-      return text(name, member, "kind of the face").optional();
-    };
-    boundary->read(ParameterTable<Words>{face("x_lower", &Words::x_lower), face("x_upper", &Words::x_upper),
-                                         face("y_lower", &Words::y_lower), face("y_upper", &Words::y_upper),
-                                         face("z_lower", &Words::z_lower), face("z_upper", &Words::z_upper)},
-                   words);
+void read_domain(input::Table table, Run& run) {
+  cases::Domain domain;
+  table.read(cases::Domain::parameters(), domain);
+  if (auto boundary = table.optional_table("boundary")) {
+    boundary->read(cases::Faces::parameters(), domain.boundary);
   }
-  const std::array<const std::string*, 6> kinds = {&words.x_lower, &words.x_upper, &words.y_lower,
-                                                   &words.y_upper, &words.z_lower, &words.z_upper};
+  run.cell_size = domain.cell_size;
+  run.lower = domain.lower;
+  run.upper = domain.upper;
+  const std::array<grid::Boundary, 6> faces = domain.boundary.in_order();
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<Eigen::Index>(a);
-    if (*kinds[2 * a + 1] == "symmetry") run.mirror_planes[a] = input.upper[axis];
-    if (*kinds[2 * a] == "symmetry") run.mirror_planes[a] = input.lower[axis];
+    if (faces[2 * a + 1] == grid::Boundary::symmetry) run.mirror_planes[a] = domain.upper[axis];
+    if (faces[2 * a] == grid::Boundary::symmetry) run.mirror_planes[a] = domain.lower[axis];
   }
 }
 
@@ -76,20 +53,14 @@ void read_bodies(input::Table root, Run& run) {
             text("name", &BodyKeys::name, "name of the body"),
             vector("velocity", &BodyKeys::velocity, "m/s", range::any(), "initial velocity").optional()},
         body);
+    cases::Discretization made;
     if (auto discretization = table.optional_table("discretization")) {
-      discretization->read(
-          ParameterTable<BodyKeys>{
-              integer("per_cell", &BodyKeys::per_cell, range::between(1, 1000), "particles per cell")
-                  .optional(),
-              text("method", &BodyKeys::method, "particles or elements").optional(),
-              real("element_size", &BodyKeys::element_size, "m", range::any(), "edge of the elements")
-                  .optional()},
-          body);
+      discretization->read(cases::Discretization::parameters(), made);
     }
     // An element counts as the eight particles that it may become.
-    const double spacing = body.method == "particles"
-                               ? run.cell_size / std::cbrt(static_cast<double>(body.per_cell))
-                               : 0.5 * (body.element_size > 0.0 ? body.element_size : run.cell_size);
+    const double spacing = made.has_particles()
+                               ? run.cell_size / std::cbrt(static_cast<double>(made.per_cell))
+                               : 0.5 * made.size(run.cell_size);
     run.bodies.push_back({body.name, body.velocity, spacing});
   }
 }
@@ -171,9 +142,7 @@ Run read_run(const fs::path& folder) {
   run.folder = folder;
   input::Document document = input::Document::from_file(folder / "run.toml");
   input::Table root = document.root();
-  Input input;
-  root.read(ParameterTable<Input>{text("title", &Input::title, "title").optional()}, input);
-  run.title = input.title;
+  root.read(ParameterTable<Run>{text("title", &Run::title, "title").optional()}, run);
   if (auto domain = root.required_table("domain")) read_domain(*domain, run);
   read_bodies(root, run);
   document.finish_partly_read();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/bench/stage_cost.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -45,40 +46,70 @@ double sums(double n, double inner, double row) {
   return multiply_add * (n * n * n * inner + n * n * row) + 3.0 * n * weights;
 }
 
+/// What the cost of a stage depends on.
+struct Method {
+  double reach;  ///< nodes that a particle reaches per direction
+  bool affine;
+  bool exact_energy;
+  double nodes;  ///< per particle, of the active blocks
+
+  [[nodiscard]] double affine_bytes() const { return affine ? bytes_of(&P::affine_velocity) : 0.0; }
+  [[nodiscard]] double node_bytes() const { return node * nodes; }
+};
+
+constexpr double velocity = bytes_of(&P::velocity);
+
+StageCost particles_to_grid(const Method& m) {
+  return {place + velocity + m.affine_bytes() + stress + bytes_of(&M::mass, &M::sound_speed) +
+              2.0 * m.node_bytes(),
+          sums(m.reach, 4.0, 9.0)};
+}
+
+StageCost grid_to_particles(const Method& m) {
+  if (!m.exact_energy) return {place + 3.0 * velocity + m.node_bytes(), sums(m.reach, 2.0, 2.0)};
+  // v, dv/dz, d, dd/dz, b, heat; with C: moments of d and b, and C r in the particle's field
+  return {place + 3.0 * velocity + 2.0 * m.affine_bytes() + stress +
+              bytes_of(&M::mass, &M::specific_internal_energy) + bytes_of(&M::specific_internal_energy) +
+              m.node_bytes(),
+          sums(m.reach, m.affine ? 11.0 : 8.0, m.affine ? 16.0 : 10.0)};
+}
+
+struct StageEntry {
+  std::string_view name;  ///< in solver::Profile
+  StageCost (*cost)(const Method&);
+};
+
+constexpr std::array<StageEntry, 9> stages = {{
+    {"particles to grid", particles_to_grid},
+    {"grid", [](const Method& m) { return StageCost{2.0 * m.node_bytes(), 40.0 * m.nodes}; }},
+    {"grid to particles", grid_to_particles},
+    {"momentum to grid",
+     [](const Method& m) {
+       return StageCost{place + velocity + bytes_of(&M::mass) + m.node_bytes(), sums(m.reach, 1.0, 1.0)};
+     }},
+    {"velocity gradient",
+     [](const Method& m) { return StageCost{place + m.node_bytes(), sums(m.reach, 2.0, 3.0)}; }},
+    {"material", [](const Method&) { return StageCost{bytes_of(&M::mass) + 2.0 * material_state, 0.0}; }},
+    {"bin particles",
+     [](const Method&) { return StageCost{bytes_of(&P::position) + 2.0 * sizeof(std::uint32_t), 0.0}; }},
+    {"time step", [](const Method&) { return StageCost{velocity + bytes_of(&M::sound_speed), 4.0}; }},
+    {"ledger",
+     [](const Method&) {
+       return StageCost{velocity + bytes_of(&P::affine_velocity) +
+                            bytes_of(&M::mass, &M::specific_internal_energy),
+                        50.0};
+     }},
+}};
+
 }  // namespace
 
 StageCost stage_cost(std::string_view stage, const cases::Case& setup, double nodes_per_particle) {
-  const double n = transfer::stencil(transfer::shape_function(setup.transfer.shape_function)).count;
-  const std::string& update = setup.transfer.particle_update;
-  const bool affine = update == "relaxed_affine" || update == "apic";
-  const bool exact_energy = setup.time.scheme == "symplectic";
-  const double c = affine ? bytes_of(&P::affine_velocity) : 0.0;
-  const double nodes = node * nodes_per_particle;
-  const double velocity = bytes_of(&P::velocity);
-  if (stage == "particles to grid") {
-    return {place + velocity + c + stress + bytes_of(&M::mass, &M::sound_speed) + 2.0 * nodes,
-            sums(n, 4.0, 9.0)};
-  }
-  if (stage == "grid") return {2.0 * nodes, 40.0 * nodes_per_particle};
-  if (stage == "grid to particles" && exact_energy) {
-    // v, dv/dz, d, dd/dz, b, heat; with C: moments of d and b, and C r in the particle's field
-    return {place + 3.0 * velocity + 2.0 * c + stress + bytes_of(&M::mass, &M::specific_internal_energy) +
-                bytes_of(&M::specific_internal_energy) + nodes,
-            sums(n, affine ? 11.0 : 8.0, affine ? 16.0 : 10.0)};
-  }
-  if (stage == "grid to particles") return {place + 3.0 * velocity + nodes, sums(n, 2.0, 2.0)};
-  if (stage == "momentum to grid") {
-    return {place + velocity + bytes_of(&M::mass) + nodes, sums(n, 1.0, 1.0)};
-  }
-  if (stage == "velocity gradient") return {place + nodes, sums(n, 2.0, 3.0)};
-  if (stage == "material") return {bytes_of(&M::mass) + 2.0 * material_state, 0.0};
-  if (stage == "bin particles") return {bytes_of(&P::position) + 2.0 * sizeof(std::uint32_t), 0.0};
-  if (stage == "time step") return {velocity + bytes_of(&M::sound_speed), 4.0};
-  if (stage == "ledger") {
-    return {velocity + bytes_of(&P::affine_velocity) + bytes_of(&M::mass, &M::specific_internal_energy),
-            50.0};
-  }
-  return {};
+  const auto* const entry = std::ranges::find(stages, stage, &StageEntry::name);
+  if (entry == stages.end()) return {};
+  return entry->cost({.reach = static_cast<double>(transfer::stencil(setup.transfer.shape_function).count),
+                      .affine = cases::is_affine(setup.transfer.particle_update),
+                      .exact_energy = setup.time.scheme == cases::Scheme::symplectic,
+                      .nodes = nodes_per_particle});
 }
 
 }  // namespace whipple::bench

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/case/artificial_viscosity.hpp"
 
+#include "src/case/case.hpp"
+
 namespace whipple::cases {
 
 ParameterTable<ArtificialViscosity> ArtificialViscosity::parameters() {
@@ -15,5 +17,7 @@ ParameterTable<ArtificialViscosity> ArtificialViscosity::parameters() {
            "shock that leaves through a free surface; 0: none")
           .optional()};
 }
+
+const ArtificialViscosity& ArtificialViscosity::inherited(const Case& setup) { return setup.viscosity; }
 
 }  // namespace whipple::cases

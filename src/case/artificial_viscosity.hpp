@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "src/core/base/parameter_table.hpp"
+#include "src/case/section.hpp"
 
 namespace whipple::cases {
 
@@ -10,7 +10,10 @@ struct ArtificialViscosity {
   double linear = 0.25;    ///< c1
   double quadratic = 1.0;  ///< c2
   double expansion = 0.0;  ///< c1 of expanding matter
+
   static ParameterTable<ArtificialViscosity> parameters();
+  /// Returns that of the case, whose values a body takes where it gives none.
+  static const ArtificialViscosity& inherited(const Case& setup);
 };
 
 }  // namespace whipple::cases

@@ -1,30 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "src/case/artificial_viscosity.hpp"
 #include "src/case/body_state.hpp"
 #include "src/case/discretization.hpp"
+#include "src/case/section.hpp"
 #include "src/case/shapes/shape.hpp"
-#include "src/core/base/parameter_table.hpp"
 #include "src/core/base/tensor.hpp"
-#include "src/core/input/document.hpp"
 
 namespace whipple::cases {
 
-struct Case;
+/// How an equation of state is evaluated.
+enum class Evaluation : std::uint8_t {
+  model,  ///< by the model itself
+  table,  ///< by a table of it
+};
+constexpr std::array<Word<Evaluation>, 2> words(Evaluation) {
+  return {{{Evaluation::model, "model"}, {Evaluation::table, "table"}}};
+}
 
 struct Body {
   std::string name;
   std::string material;  ///< file as written in the case
-  std::string equation_of_state = "model";
+  Evaluation equation_of_state = Evaluation::model;
   double table_error = 1e-4;
-  Vector3 velocity = Vector3::Zero();
-  Vector3 angular_velocity = Vector3::Zero();
+  Vector3 velocity = Vector3::Zero();          ///< m/s
+  Vector3 angular_velocity = Vector3::Zero();  ///< rad/s
   std::string contact_group;
   Discretization discretization;
   Conversion conversion;
@@ -33,18 +42,17 @@ struct Body {
   InitialState initial;
   FailureScatter failure_scatter;
   std::optional<ArtificialViscosity> viscosity;  ///< instead of that of the case
-  std::shared_ptr<const Shape> shape;
+  std::shared_ptr<const Shape> shape;            ///< of bars and meshes: made by `complete`
+
   static ParameterTable<Body> parameters();
+  static std::span<const Section<Body>> sections();
+  /// Reads the shape.
+  void read_rest(input::Table& table);
+  [[nodiscard]] std::string rest_to_toml() const;
+  void check(const Case& setup, const Faults& faults) const;
+
+  /// Returns whether the shape is a key of the body, not made of its bars or its mesh.
+  [[nodiscard]] bool has_own_shape() const { return !discretization.is_bars() && discretization.mesh.empty(); }
 };
-
-/// Reads the tables [[body]] and their materials into the case; faults are reported at the tables.
-void read_bodies(Case& setup, const std::vector<input::Table>& tables);
-
-/// The body as a table [[body]] with every default.
-/// @param material file name to write instead of that of the case
-std::string body_to_toml(Body body, const std::string& material);
-
-/// All keys of [[body]] for `whipple describe case`.
-std::string describe_body();
 
 }  // namespace whipple::cases

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "src/core/base/parameter_table.hpp"
+#include "src/case/section.hpp"
 #include "src/material/material.hpp"
 
 namespace whipple::cases {

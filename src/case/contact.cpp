@@ -3,11 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-
-#include "src/case/build/bars.hpp"
-#include "src/case/build/touch.hpp"
+#include "src/case/build/contact_fields.hpp"
 #include "src/case/case.hpp"
 
 namespace whipple::cases {
@@ -15,15 +11,13 @@ namespace whipple::cases {
 ParameterTable<ContactControl> ContactControl::parameters() {
   return {
       choice(
-          "method", &ContactControl::method, {"auto", "none", "multi_field"},
+          "method", &ContactControl::method,
           "bodies have velocity fields of their own where they meet, but for those that touch at the start "
-          "and "
-          "have the same velocity: they touch, move as one along the normal while they press, slide and part "
-          "| "
-          "all bodies move in one velocity field, bonded where they meet | all have their own, and impulses "
+          "and have the same velocity: they touch, move as one along the normal while they press, slide and part "
+          "| all bodies move in one velocity field, bonded where they meet | all have their own, and impulses "
           "stop them")
           .optional(),
-      choice("normal", &ContactControl::normal, {"collinear", "separating", "logistic_regression"},
+      choice("normal", &ContactControl::normal,
              "normal between two bodies: mean of those of both | of one of them or their mean, along which "
              "they are farthest apart | of the plane that separates their particles")
           .optional(),
@@ -41,182 +35,18 @@ ParameterTable<ContactControl> ContactControl::parameters() {
           .optional()};
 }
 
-namespace {
-
-/// Number of different fields.
-unsigned count_of(const std::vector<std::uint8_t>& fields) {
-  return fields.empty() ? 0 : *std::ranges::max_element(fields) + 1U;
-}
-
-/// Bodies of one contact group share a field, any other body has its own.
-std::vector<std::uint8_t> fields_of_groups(const std::vector<Body>& bodies) {
-  std::vector<std::uint8_t> fields;
-  std::map<std::string, unsigned> of_group;
-  unsigned next = 0;
-  for (const Body& body : bodies) {
-    unsigned field = next;
-    if (!body.contact_group.empty()) field = of_group.try_emplace(body.contact_group, next).first->second;
-    if (field == next) ++next;
-    fields.push_back(static_cast<std::uint8_t>(std::min(field, 255U)));
-  }
-  return fields;
-}
-
-/// Bodies joined to one another.
-class Bonds {
- public:
-  explicit Bonds(const std::vector<Body>& bodies) : leader_(bodies.size()), group_(bodies.size()) {
-    std::map<std::string, std::size_t> first;
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      leader_[b] = b;
-      group_[b] = bodies[b].contact_group;
-      if (!group_[b].empty()) leader_[b] = first.try_emplace(group_[b], b).first->second;
-    }
-  }
-  [[nodiscard]] std::size_t leader(std::size_t b) const {
-    while (leader_[b] != b) b = leader_[b];
-    return b;
-  }
-  [[nodiscard]] bool joined(std::size_t a, std::size_t b) const { return leader(a) == leader(b); }
-  /// Bodies of different groups stay apart.
-  [[nodiscard]] bool may_join(std::size_t a, std::size_t b) const {
-    const std::string &of_a = group_[leader(a)], &of_b = group_[leader(b)];
-    return of_a.empty() || of_b.empty() || of_a == of_b;
-  }
-  void join(std::size_t a, std::size_t b) {
-    const std::size_t first = std::min(leader(a), leader(b)), second = std::max(leader(a), leader(b));
-    if (group_[first].empty()) group_[first] = group_[second];
-    leader_[second] = first;
-  }
-  /// Numbers of the fields, in the order of the bodies.
-  [[nodiscard]] std::vector<unsigned> fields() const {
-    std::vector<unsigned> numbers(leader_.size());
-    unsigned next = 0;
-    for (std::size_t b = 0; b < numbers.size(); ++b) {
-      numbers[b] = leader(b) == b ? next++ : numbers[leader(b)];
-    }
-    return numbers;
-  }
-
- private:
-  std::vector<std::size_t> leader_;
-  std::vector<std::string> group_;  // of leaders
-};
-
-/// Joins bars to the body that they reinforce.
-void join_bars(const Case& setup, Bonds& bonds, ContactFields& found) {
-  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
-    const Body& bars = setup.bodies[b];
-    if (!bars.discretization.is_bars() || !bars.contact_group.empty()) continue;
-    if (const auto around = body_around_bars(setup, bars)) {
-      found.remarks.push_back(
-          fmt::format("contact: the bars of body \"{}\" move with body \"{}\" around them", bars.name,
-                      setup.bodies[*around].name));
-      bonds.join(b, *around);
-    } else {
-      found.warnings.push_back(
-          fmt::format("body \"{}\": its bars lie in no body, and bars have no surface of their own: no body "
-                      "touches them; contact_group names what they reinforce",
-                      bars.name));
-    }
-  }
-}
-
-/// Joins what touches at the start and moves alike.
-void join_layers(const Case& setup, Bonds& bonds, ContactFields& found) {
-  const std::vector<Body>& bodies = setup.bodies;
-  for (std::size_t a = 0; a < bodies.size(); ++a) {
-    if (bodies[a].discretization.is_bars()) continue;
-    for (std::size_t b = a + 1; b < bodies.size(); ++b) {
-      if (bodies[b].discretization.is_bars() || bonds.joined(a, b) || !bonds.may_join(a, b)) continue;
-      if (!bodies[a].contact_group.empty() && !bodies[b].contact_group.empty()) continue;
-      if (!touch_and_move_alike(setup, bodies[a], bodies[b])) continue;
-      found.remarks.push_back(
-          fmt::format("contact: bodies \"{}\" and \"{}\" touch at the start and have the same velocity: they "
-                      "are bonded; a contact_group of its own for each lets them part",
-                      bodies[a].name, bodies[b].name));
-      bonds.join(a, b);
-    }
-  }
-}
-
-/// Warns of bodies that meet across a gap in one field.
-void warn_of_gaps(const Case& setup, ContactFields& found) {
-  for (std::size_t a = 0; a < setup.bodies.size(); ++a) {
-    for (std::size_t b = a + 1; b < setup.bodies.size(); ++b) {
-      if (found.of_body[a] != found.of_body[b]) continue;
-      if (setup.bodies[a].discretization.is_bars() || setup.bodies[b].discretization.is_bars()) continue;
-      const double gap = gap_that_closes(setup, setup.bodies[a], setup.bodies[b]);
-      if (!(gap > 0.0)) continue;
-      found.warnings.push_back(fmt::format(
-          "bodies \"{}\" and \"{}\" meet across a gap of {:.3g} mm in one velocity field: they act on each "
-          "other two cells early, and pressures where they meet come out 3 to 5 times too high: "
-          "contact.method "
-          "= \"auto\", without a common contact_group, gives each its own",
-          setup.bodies[a].name, setup.bodies[b].name, 1e3 * gap));
-    }
-  }
-}
-
-}  // namespace
-
-bool ContactFields::several() const { return count_of(of_body) > 1; }
-
-ContactFields find_contact_fields(const Case& setup) {
-  ContactFields found;
-  found.of_body.assign(setup.bodies.size(), 0);
-  const std::string& method = setup.contact.method;
-  const bool possible = setup.transfer.particle_update != "fmpm";
-  if (method == "multi_field") {
-    found.of_body = fields_of_groups(setup.bodies);
-  } else if (method == "auto" && possible && setup.bodies.size() > 1) {
-    Bonds bonds(setup.bodies);
-    join_bars(setup, bonds, found);
-    join_layers(setup, bonds, found);
-    const std::vector<unsigned> fields = bonds.fields();
-    const unsigned last = grid::maximum_fields - 1;
-    for (std::size_t b = 0; b < fields.size(); ++b) {
-      found.of_body[b] = static_cast<std::uint8_t>(std::min(fields[b], last));
-    }
-    if (const unsigned all = *std::ranges::max_element(fields) + 1; all > grid::maximum_fields) {
-      found.warnings.push_back(fmt::format(
-          "{} bodies or groups of them can meet, at most {} can have velocity fields of their own: "
-          "the last {} are bonded to one another where they meet; contact_group chooses which",
-          all, grid::maximum_fields, all - last));
-    }
-  } else if (method == "auto" && !possible && setup.bodies.size() > 1) {
-    found.warnings.push_back(
-        "the full mass matrix (transfer.particle_update = \"fmpm\") knows no contact: all bodies move in one "
-        "velocity field, bonded where they meet");
-  }
-  warn_of_gaps(setup, found);
-  return found;
-}
-
-void choose_volumes(Case& setup) {
-  for (Body& body : setup.bodies) {
-    Discretization& made = body.discretization;
-    if (made.partial_volumes_given || made.method != "particles") continue;
-    made.partial_volumes = !body.shape->fills_lattice();
-  }
-}
-
-void check_contact(const Case& setup, input::Table& contact) {
-  if (setup.contact.method != "multi_field") return;
-  if (setup.transfer.particle_update == "fmpm") {
-    contact.error_at("method",
-                     "'method': the full mass matrix (transfer.particle_update = \"fmpm\") knows no contact; "
-                     "take another update");
+void ContactControl::check(const Case& setup, const Faults& faults) const {
+  if (method != ContactMethod::multi_field || setup.bodies.empty()) return;
+  if (setup.transfer.particle_update == ParticleUpdate::fmpm) {
+    faults.add("method", "'method': the full mass matrix (transfer.particle_update = \"fmpm\") knows no contact; "
+                         "take another update");
   }
   const unsigned count = count_of(fields_of_groups(setup.bodies));
-  if (count < 2) {
-    contact.error_at("method", "'method' is \"multi_field\", but all bodies are one contact group");
-  }
+  if (count < 2) faults.add("method", "'method' is \"multi_field\", but all bodies are one contact group");
   if (count > grid::maximum_fields) {
-    contact.error_at("method",
-                     fmt::format("'method': {} bodies or contact groups, at most {} can have velocity "
-                                 "fields of their own: join some with contact_group",
-                                 count, grid::maximum_fields));
+    faults.add("method", fmt::format("'method': {} bodies or contact groups, at most {} can have velocity "
+                                     "fields of their own: join some with contact_group",
+                                     count, grid::maximum_fields));
   }
 }
 

@@ -1,45 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <string>
-#include <vector>
 
-#include "src/core/base/parameter_table.hpp"
-#include "src/core/input/document.hpp"
+#include "src/case/section.hpp"
+#include "src/contact/surfaces.hpp"
 
 namespace whipple::cases {
 
-struct Case;
+/// Which bodies have velocity fields of their own.
+enum class ContactMethod : std::uint8_t {
+  automatic,    ///< all but those that touch at the start and move alike
+  none,         ///< one field for all
+  multi_field,  ///< all, or each contact group
+};
+constexpr std::array<Word<ContactMethod>, 3> words(ContactMethod) {
+  return {{{ContactMethod::automatic, "auto"},
+           {ContactMethod::none, "none"},
+           {ContactMethod::multi_field, "multi_field"}}};
+}
 
 /// Contact of bodies (docs/theory/contact.md).
 struct ContactControl {
-  std::string method = "auto";
-  std::string normal = "separating";
+  ContactMethod method = ContactMethod::automatic;
+  contact::Normal normal = contact::Normal::separating;
   double friction = 0.3;
   bool gap_test = true;
   double gap = 0.0;  ///< in cells
   bool everywhere = false;
+
   static ParameterTable<ContactControl> parameters();
+  /// Adds what contact needs of scheme and bodies.
+  void check(const Case& setup, const Faults& faults) const;
 };
-
-/// Which bodies share a velocity field, and why.
-struct ContactFields {
-  std::vector<std::uint8_t> of_body;  ///< numbers from 0
-  std::vector<std::string> remarks;   ///< what `auto` decided
-  std::vector<std::string> warnings;  ///< bodies that meet, but have no fields of their own
-  /// Is there more than one?
-  [[nodiscard]] bool several() const;
-};
-
-/// Velocity fields of the bodies of a case by its method of contact.
-ContactFields find_contact_fields(const Case& setup);
-
-/// Lets the particles of curved bodies take the part of their volume that lies in the body, unless the case
-/// file says otherwise: mass and surfaces follow from them.
-void choose_volumes(Case& setup);
-
-/// What contact needs of scheme and bodies, reported at its table.
-void check_contact(const Case& setup, input::Table& contact);
 
 }  // namespace whipple::cases

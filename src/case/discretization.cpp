@@ -13,11 +13,10 @@ ParameterTable<Discretization> Discretization::parameters() {
   using D = Discretization;
   return {
       choice(
-          "method", &D::method, {"particles", "finite_elements", "adaptive", "bars"},
+          "method", &D::method,
           "how the body is represented: particles | eight-node hexahedra | hexahedra that become particles "
           "where they are distorted ([body.conversion]) | bars that carry axial forces and move with the "
-          "matter "
-          "around ([[body.bar]])")
+          "matter around ([[body.bar]])")
           .optional(),
       integer("per_cell", &D::per_cell, range::between(1, 1000), "particles per full cell: 1, 8, 27 or 64")
           .optional(),
@@ -26,11 +25,11 @@ ParameterTable<Discretization> Discretization::parameters() {
           .optional("true"),
       real("element_size", &D::element_size, "m", range::positive(), "edge of the elements, at most 2 cells")
           .optional("cell_size"),
-      choice("element", &D::element, {"one_point", "b_bar"},
+      choice("element", &D::element,
              "quadrature of the elements: one point with hourglass control | 2 x 2 x 2 points with the "
              "element's mean volumetric strain")
           .optional(),
-      choice("hourglass", &D::hourglass, {"stiffness", "viscous"},
+      choice("hourglass", &D::hourglass,
              "control of the modes that one-point elements do not see: resists their amplitude | their rate")
           .optional(),
       real("hourglass_coefficient", &D::hourglass_coefficient, "", range::between(0.0, 1.0),
@@ -81,42 +80,56 @@ ParameterTable<NodeCondition> NodeCondition::parameters() {
           vector("velocity", &N::velocity, "m/s", range::any(), "velocity in those directions").optional()};
 }
 
-void check_elements(const Case& setup, Discretization& control, input::Table& table) {
-  if (!control.has_elements() && !control.is_bars()) {
-    if (!control.mesh.empty()) table.error_at("mesh", "'mesh' belongs to bodies with finite elements");
-    return;
+void Discretization::read_rest(input::Table& table) {
+  partial_volumes_given = table.has("partial_volumes");
+  if (!mesh.empty()) mesh = (table.folder() / mesh).lexically_normal().string();
+}
+
+namespace {
+
+void check_elements(const Discretization& control, const Case& setup, const Faults& faults) {
+  if (setup.time.scheme != Scheme::symplectic) {
+    faults.add("method", fmt::format("finite elements work with time.scheme = \"symplectic\" only, not \"{}\"",
+                                     word_of(setup.time.scheme)));
   }
-  if (setup.time.scheme != "symplectic") {
-    table.error_at("method", fmt::format("finite elements work with time.scheme = \"symplectic\" only, not "
-                                         "\"{}\"",
-                                         setup.time.scheme));
-  }
-  if (!setup.transfer.shape_function.ends_with("bspline")) {
-    table.error_at("method", fmt::format("finite elements work with B-splines only, not with "
-                                         "transfer.shape_function = \"{}\"",
-                                         setup.transfer.shape_function));
+  if (!transfer::carries_affine_field(setup.transfer.shape_function)) {
+    faults.add("method", fmt::format("finite elements work with B-splines only, not with "
+                                     "transfer.shape_function = \"{}\"",
+                                     word_of(setup.transfer.shape_function)));
   }
   if (setup.heat.conduction) {
-    table.error_at("method", "finite elements do not conduct heat: heat.conduction must be off");
+    faults.add("method", "finite elements do not conduct heat: heat.conduction must be off");
   }
   if (control.is_bars()) {
-    if (!(control.bar_diameter > 0.0)) table.error_at("method", "bars need a 'bar_diameter'");
-    if (!control.mesh.empty()) table.error_at("mesh", "bars stand in [[body.bar]], not in a 'mesh'");
+    if (!(control.bar_diameter > 0.0)) faults.add("method", "bars need a 'bar_diameter'");
+    if (!control.mesh.empty()) faults.add("mesh", "bars stand in [[body.bar]], not in a 'mesh'");
   }
   if (control.partial_volumes) {
-    table.error_at("partial_volumes", "'partial_volumes' belongs to bodies of particles");
+    faults.add("partial_volumes", "'partial_volumes' belongs to bodies of particles");
   }
   const double size = control.size(setup.domain.cell_size);
   if (!(size <= 2.0 * setup.domain.cell_size)) {
-    table.error_at(
-        "element_size",
-        fmt::format("'element_size' is {} m; the grid, which carries contact and conversion, takes "
-                    "elements of at most 2 cells, {} m",
-                    size, 2.0 * setup.domain.cell_size));
+    faults.add("element_size",
+               fmt::format("'element_size' is {} m; the grid, which carries contact and conversion, takes "
+                           "elements of at most 2 cells, {} m",
+                           size, 2.0 * setup.domain.cell_size));
   }
-  if (!control.mesh.empty()) control.mesh = (table.folder() / control.mesh).lexically_normal().string();
   if (control.mesh.empty() && !control.group.empty()) {
-    table.error_at("group", "'group' names a physical group of a Gmsh file: give 'mesh' as well");
+    faults.add("group", "'group' names a physical group of a Gmsh file: give 'mesh' as well");
+  }
+}
+
+}  // namespace
+
+void Discretization::check(const Case& setup, const Faults& faults) const {
+  const double edge = std::cbrt(static_cast<double>(per_cell));
+  if (std::abs(edge - std::round(edge)) > 1e-9) {
+    faults.add("per_cell", fmt::format("'per_cell' is {}, expected a cube: 1, 8, 27, 64", per_cell));
+  }
+  if (has_elements() || is_bars()) {
+    check_elements(*this, setup, faults);
+  } else if (!mesh.empty()) {
+    faults.add("mesh", "'mesh' belongs to bodies with finite elements");
   }
 }
 

@@ -1,29 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
-#include "src/core/base/parameter_table.hpp"
+#include "src/case/section.hpp"
 #include "src/core/base/tensor.hpp"
-#include "src/core/input/document.hpp"
+#include "src/fem/mesh.hpp"
+#include "src/fem/step.hpp"
 
 namespace whipple::cases {
 
-struct Case;
+/// What a body is made of.
+enum class Representation : std::uint8_t {
+  particles,
+  finite_elements,
+  adaptive,  ///< elements that become particles
+  bars,
+};
+constexpr std::array<Word<Representation>, 4> words(Representation) {
+  return {{{Representation::particles, "particles"},
+           {Representation::finite_elements, "finite_elements"},
+           {Representation::adaptive, "adaptive"},
+           {Representation::bars, "bars"}}};
+}
 
 /// How a body is represented: particles, finite elements, or elements that become particles.
 struct Discretization {
-  std::string method = "particles";
+  Representation method = Representation::particles;
   // of particles
   std::int64_t per_cell = 8;
   bool partial_volumes = false;
   bool partial_volumes_given = false;  ///< in the case file; else `choose_volumes` decides
   // of elements
   double element_size = std::numeric_limits<double>::infinity();  ///< m; infinite: that of the cells
-  std::string element = "one_point";
-  std::string hourglass = "stiffness";
+  fem::Quadrature element = fem::Quadrature::one_point;
+  fem::HourglassControl::Kind hourglass = fem::HourglassControl::Kind::stiffness;
   double hourglass_coefficient = 0.05;
   std::string mesh;        ///< Gmsh file instead of a shape; absolute path
   double mesh_unit = 1.0;  ///< m per unit of its coordinates
@@ -31,12 +46,18 @@ struct Discretization {
   // of bars
   double bar_diameter = 0.0;                                            ///< m
   double bar_failure_strain = std::numeric_limits<double>::infinity();  ///< plastic
-  static ParameterTable<Discretization> parameters();
 
+  static ParameterTable<Discretization> parameters();
+  /// Notes which keys are given, and makes the path of a mesh absolute.
+  void read_rest(input::Table& table);
+  /// Adds what elements and bars need of the rest of the case.
+  void check(const Case& setup, const Faults& faults) const;
+
+  [[nodiscard]] bool has_particles() const { return method == Representation::particles; }
   /// Hexahedra.
-  [[nodiscard]] bool has_elements() const { return method == "finite_elements" || converts(); }
-  [[nodiscard]] bool is_bars() const { return method == "bars"; }
-  [[nodiscard]] bool converts() const { return method == "adaptive"; }
+  [[nodiscard]] bool has_elements() const { return method == Representation::finite_elements || converts(); }
+  [[nodiscard]] bool is_bars() const { return method == Representation::bars; }
+  [[nodiscard]] bool converts() const { return method == Representation::adaptive; }
   /// Edge of the elements, m.
   [[nodiscard]] double size(double cell_size) const;
 };
@@ -67,9 +88,5 @@ struct BarRow {
   Vector3 step = Vector3::Zero();  ///< m, from one to the next
   static ParameterTable<BarRow> parameters();
 };
-
-/// Reports in the table of a discretization what finite elements need of the rest of the case (read before),
-/// and makes the path of a mesh absolute.
-void check_elements(const Case& setup, Discretization& control, input::Table& table);
 
 }  // namespace whipple::cases

@@ -1,14 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "src/core/base/parameter_table.hpp"
+#include <array>
+#include <cstdint>
+
+#include "src/case/section.hpp"
+#include "src/case/time_control.hpp"
 
 namespace whipple::cases {
+
+/// What the kinetic energy that transfers lose is.
+enum class Losses : std::uint8_t {
+  unresolved,  ///< motion that the grid does not resolve
+  heat,
+  by_scheme,  ///< not given: `default_losses`
+};
+constexpr std::array<Word<Losses>, 2> words(Losses) {
+  return {{{Losses::unresolved, "unresolved"}, {Losses::heat, "heat"}}};
+}
+/// Returns the losses of a case that names none.
+constexpr Losses default_losses(Scheme scheme) {
+  return scheme == Scheme::symplectic ? Losses::unresolved : Losses::heat;
+}
 
 /// What becomes of the kinetic energy that a step takes from the motion of the grid
 /// (docs/theory/dissipation.md): one set of numbers for all cases.
 struct Dissipation {
-  std::string losses = "unresolved";
+  Losses losses = Losses::by_scheme;
   double heat_share = 0.1;           ///< f of eq. 3
   double collision_rate = 1.0;       ///< r of eq. 4
   double affine_gain = 1.5;          ///< a of eq. 6
@@ -16,8 +34,10 @@ struct Dissipation {
   double shock_conduction = 1.0;     ///< 1/Pr of eq. 8
   double conduction_onset = 0.03;    ///< a0 of eq. 8
   double conduction_rise = 0.05;     ///< a1 of eq. 8
-  [[nodiscard]] bool keeps_losses() const { return losses == "unresolved"; }
+  [[nodiscard]] bool keeps_losses() const { return losses == Losses::unresolved; }
+
   static ParameterTable<Dissipation> parameters();
+  void check(const Case& setup, const Faults& faults) const;
 };
 
 }  // namespace whipple::cases

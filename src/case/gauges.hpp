@@ -1,25 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "src/core/base/parameter_table.hpp"
-#include "src/core/input/document.hpp"
-#include "src/grid/geometry.hpp"
+#include "src/case/section.hpp"
+#include "src/core/base/tensor.hpp"
 
 namespace whipple::cases {
+
+enum class GaugeKind : std::uint8_t {
+  fixed,   ///< in space
+  moving,  ///< with the particle nearest to it at the start
+};
+constexpr std::array<Word<GaugeKind>, 2> words(GaugeKind) {
+  return {{{GaugeKind::fixed, "fixed"}, {GaugeKind::moving, "moving"}}};
+}
 
 /// A place whose state is written over time.
 struct Gauge {
   std::string name;
-  std::string kind = "fixed";  ///< "fixed" in space, or "moving" with the particle nearest to it at the start
+  GaugeKind kind = GaugeKind::fixed;
   Vector3 position = Vector3::Zero();  ///< m, at the start
-  static ParameterTable<Gauge> parameters();
 
-  [[nodiscard]] bool moving() const { return kind == "moving"; }
+  static ParameterTable<Gauge> parameters();
+  void check(const Case& setup, const Faults& faults) const;
+
+  [[nodiscard]] bool moving() const { return kind == GaugeKind::moving; }
 };
 
 /// Moving gauges at equal distances on a line.
@@ -27,26 +36,16 @@ struct Tracers {
   std::string name;                                      ///< of the gauges, with _1, _2, ...
   Vector3 from = Vector3::Zero(), to = Vector3::Zero();  ///< m
   std::int64_t count = 2;
+
   static ParameterTable<Tracers> parameters();
+  void check(const Case& setup, const Faults& faults) const;
+
+  /// Returns the gauges on the line.
+  [[nodiscard]] std::vector<Gauge> gauges() const;
 };
 
-/// What a case asks to be recorded.
-struct Gauges {
-  std::vector<Gauge> points;     ///< [[gauge]]
-  std::vector<Tracers> tracers;  ///< [[tracers]]
-
-  /// All gauges, those of the tracers last.
-  [[nodiscard]] std::vector<Gauge> all() const;
-  /// As it stands in a case file.
-  [[nodiscard]] std::string toml() const;
-};
-
-/// Reads [[gauge]] and [[tracers]]; errors of names and numbers are those of the document.
-Gauges read_gauges(input::Table& root);
-
-/// Reports at its table each gauge that cannot be: outside of the domain, or moving and where no matter is.
-/// @param in_matter  whether some body of particles or elements fills a point
-void check_gauges(const Gauges& gauges, input::Table& root, const grid::Geometry& geometry,
-                  const std::function<bool(const Vector3&)>& in_matter);
+/// Adds each gauge that cannot be: outside of the domain, or moving and where no matter is. For a case with
+/// geometry and shapes.
+void check_places_of_gauges(const Case& setup, const Faults& faults);
 
 }  // namespace whipple::cases

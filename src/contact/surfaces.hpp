@@ -20,6 +20,11 @@ enum class Normal : std::uint8_t {
   separating,           ///< of one body, the other, or their mean: along which they are farthest apart
   logistic_regression,  ///< of the plane that separates their particles best
 };
+constexpr std::array<Word<Normal>, 3> words(Normal) {
+  return {{{Normal::collinear, "collinear"},
+           {Normal::separating, "separating"},
+           {Normal::logistic_regression, "logistic_regression"}}};
+}
 
 /// Where the surfaces of the velocity fields are, at the nodes of the contact slots.
 class Surfaces {

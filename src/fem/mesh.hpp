@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "src/core/base/tensor.hpp"
+#include "src/core/base/words.hpp"
 #include "src/particles/material_points.hpp"
 
 /// Eight-node hexahedra of one body: structures and what is done to them outside of the time step
@@ -32,6 +33,9 @@ enum class Quadrature : std::uint8_t {
   one_point,  ///< mean gradient of Flanagan & Belytschko, with hourglass control
   b_bar,      ///< 2 x 2 x 2 Gauss points, volumetric strain of the element's mean (Hughes' B-bar)
 };
+constexpr std::array<Word<Quadrature>, 2> words(Quadrature) {
+  return {{{Quadrature::one_point, "one_point"}, {Quadrature::b_bar, "b_bar"}}};
+}
 constexpr std::size_t points_per_element(Quadrature quadrature) {
   return quadrature == Quadrature::one_point ? 1 : 8;
 }

@@ -24,6 +24,9 @@ struct HourglassControl {
     viscous,    ///< resists the rate; what it takes becomes heat at once
     stiffness,  ///< resists the amplitude; its work is stored as hourglass energy
   };
+  friend constexpr std::array<Word<Kind>, 2> words(Kind) {
+    return {{{Kind::stiffness, "stiffness"}, {Kind::viscous, "viscous"}}};
+  }
   Kind kind = Kind::stiffness;
   double coefficient = 0.05;  ///< share of the element's greatest stiffness, or of its critical damping
 };

@@ -7,6 +7,7 @@
 
 #include "src/core/base/tensor.hpp"
 #include "src/core/base/vector_math.hpp"
+#include "src/core/base/words.hpp"
 
 namespace whipple::grid {
 
@@ -29,6 +30,12 @@ enum class Boundary : std::uint8_t {
   no_slip,     ///< wall that matter sticks to
   separating,  ///< frictionless wall that pushes and does not hold
 };
+constexpr std::array<Word<Boundary>, 4> words(Boundary) {
+  return {{{Boundary::outflow, "outflow"},
+           {Boundary::symmetry, "symmetry"},
+           {Boundary::no_slip, "no_slip"},
+           {Boundary::separating, "separating"}}};
+}
 
 /// The uniform background grid of the domain: node i of a direction lies at lower + i * cell_size.
 struct Geometry {

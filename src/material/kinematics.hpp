@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "src/core/base/tensor.hpp"
+#include "src/core/base/words.hpp"
 
 /// Kinematics and elastic trial of one step (docs/theory/material.md, sections 1 and 2) for a chunk of
 /// points, one array per tensor component, so that the compiler works on several points at a time.
@@ -26,6 +27,9 @@ enum class StressRotation : std::uint8_t {
   hughes_winget,  ///< both of the configuration in the middle of the step
   polar,          ///< of the polar decomposition I + dt L = V R
 };
+constexpr std::array<Word<StressRotation>, 2> words(StressRotation) {
+  return {{{StressRotation::hughes_winget, "hughes_winget"}, {StressRotation::polar, "polar"}}};
+}
 
 /// Input and result of the two functions below. One object, so that the compiler knows its arrays to be
 /// disjoint.

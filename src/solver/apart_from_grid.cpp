@@ -86,10 +86,10 @@ bool Simulation::matter_may_rest() const {
 /// How often particles bring something to the nodes in a step: each time, motion gets to blocks that share
 /// nodes with those where it was (docs/theory/mpm.md, section 8).
 int Simulation::layers_ahead_of_motion() const {
-  const std::string& scheme = setup_.time.scheme;
-  const int layers = scheme == "musl" || scheme == "usf" ? 2 : 1;
-  return setup_.transfer.particle_update == "fmpm" ? layers + static_cast<int>(setup_.transfer.fmpm_order) - 1
-                                                   : layers;
+  const int layers = cases::transfers_per_step(setup_.time.scheme);
+  return setup_.transfer.particle_update == cases::ParticleUpdate::fmpm
+             ? layers + static_cast<int>(setup_.transfer.fmpm_order) - 1
+             : layers;
 }
 
 /// Blocks without motion and stress keep their state until motion may reach them. The layers between take

@@ -28,7 +28,7 @@ std::size_t Simulation::bar_node_count() const {
 /// The nodes that move with the grid: those of elements in transition, then all of the bars'.
 void Simulation::collect_nodes() {
   afemp::collect(meshes_, transition_);
-  if (setup_.transfer.particle_update != "relaxed_affine") transition_.unrelaxed = 0;
+  if (setup_.transfer.particle_update != cases::ParticleUpdate::relaxed_affine) transition_.unrelaxed = 0;
   std::size_t i = transition_.size();
   for (const fem::Bars& bars : bars_) {
     const fem::Nodes& from = bars.nodes;

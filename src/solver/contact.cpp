@@ -9,23 +9,16 @@
 #include "src/solver/simulation.hpp"
 
 namespace whipple::solver {
-namespace {
-
-contact::Normal normal(const std::string& name) {
-  using enum contact::Normal;
-  return name == "collinear" ? collinear : name == "logistic_regression" ? logistic_regression : separating;
-}
-
-}  // namespace
 
 void Simulation::set_up_contact() {
   const cases::ContactControl& control = setup_.contact;
   if (!setup_.contact_fields.several()) return;
   // Other schemes strain bodies by velocities before contact, or after it of each body alone.
-  const bool common = control.method == "auto" && setup_.time.scheme == "symplectic";
+  const bool common = control.method == cases::ContactMethod::automatic &&
+                      setup_.time.scheme == cases::Scheme::symplectic;
   contact_.emplace(
       contact::Settings{.response = common ? contact::Response::common_field : contact::Response::impulses,
-                        .normal = normal(control.normal),
+                        .normal = control.normal,
                         .friction = control.friction,
                         .gap_test = control.gap_test,
                         .gap = control.gap,
@@ -37,7 +30,8 @@ void Simulation::set_up_contact() {
 /// softer.
 std::vector<double> Simulation::least_relaxation_rates() const {
   constexpr double share_of_tight_matter = 0.25;
-  if (setup_.transfer.particle_update != "relaxed_affine") return {};  // others relax by no speed of sound
+  // Others relax by no speed of sound.
+  if (setup_.transfer.particle_update != cases::ParticleUpdate::relaxed_affine) return {};
   const std::vector<std::uint8_t>& field_of_body = setup_.contact_fields.of_body;
   std::vector<double> rates(*std::ranges::max_element(field_of_body) + std::size_t{1},
                             std::numeric_limits<double>::infinity());

@@ -30,8 +30,7 @@ afemp::Thresholds thresholds(const cases::Conversion& control) {
 }
 
 fem::HourglassControl hourglass(const cases::Discretization& control) {
-  using enum fem::HourglassControl::Kind;
-  return {control.hourglass == "viscous" ? viscous : stiffness, control.hourglass_coefficient};
+  return {control.hourglass, control.hourglass_coefficient};
 }
 
 fem::ViscosityCoefficients viscosity(const cases::ArtificialViscosity& control) {

@@ -25,8 +25,7 @@ UpdateSettings Simulation::update_settings(std::size_t body) const {
           .affine_gain = setup_.dissipation.affine_gain,
           .affine_compression = setup_.dissipation.affine_compression,
           .initial_density = initial_density_[body],
-          .rotation = setup_.time.stress_rotation == "polar" ? material::StressRotation::polar
-                                                             : material::StressRotation::hughes_winget,
+          .rotation = setup_.time.stress_rotation,
           .time = state_.time + state_.time_step};
 }
 

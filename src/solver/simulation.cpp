@@ -32,16 +32,26 @@ constexpr double least_share_for_accuracy = 0.125;
 
 transfer::AffineField affine_field(const cases::TransferControl& control) {
   using enum transfer::AffineField;
-  if (control.particle_update != "relaxed_affine" && control.particle_update != "apic") return none;
-  return control.affine_field == "turned" ? turned : deformed;
+  if (!cases::is_affine(control.particle_update)) return none;
+  return control.affine_field == cases::AffineTransport::turned ? turned : deformed;
 }
 
 /// beta of every particle update; FMPM is PIC with another grid velocity.
 transfer::Relaxation relaxation(const cases::TransferControl& control) {
-  const std::string& update = control.particle_update;
-  if (update == "apic" || update == "pic" || update == "fmpm") return {.kappa = 0.0, .fixed = 1.0};
-  if (update == "flip") return {.kappa = 0.0, .fixed = 0.0};
-  if (update == "blend") return {.kappa = 0.0, .fixed = 1.0 - control.flip_fraction};
+  using enum cases::ParticleUpdate;
+  switch (control.particle_update) {
+    case apic:
+    case pic:
+    case fmpm:
+      return {.kappa = 0.0, .fixed = 1.0};
+    case flip:
+      return {.kappa = 0.0, .fixed = 0.0};
+    case blend:
+      return {.kappa = 0.0, .fixed = 1.0 - control.flip_fraction};
+    case relaxed_affine:
+    case by_scheme:
+      break;
+  }
   return {.kappa = control.kappa, .fixed = -1.0};
 }
 
@@ -49,7 +59,7 @@ transfer::Relaxation relaxation(const cases::TransferControl& control) {
 
 Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator)
     : setup_(setup),
-      shape_(transfer::shape_function(setup.transfer.shape_function)),
+      shape_(setup.transfer.shape_function),
       communicator_(communicator),
       grid_(setup.geometry, communicator) {
   if (parallel::rank(communicator) == 0) {
@@ -82,7 +92,7 @@ Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator)
 Simulation::Simulation(const cases::Case& setup, Particles particles, const RunState& state,
                        MPI_Comm communicator, std::vector<fem::Mesh> meshes, std::vector<fem::Bars> bars)
     : setup_(setup),
-      shape_(transfer::shape_function(setup.transfer.shape_function)),
+      shape_(setup.transfer.shape_function),
       communicator_(communicator),
       particles_(std::move(particles)),
       meshes_(std::move(meshes)),
@@ -161,14 +171,15 @@ double Simulation::particle_affine_inertia() const {
 }
 
 void Simulation::advance(double until) {
-  if (setup_.time.scheme == "musl") {
-    step_musl(*this, until);
-  } else if (setup_.time.scheme == "usl") {
-    step_usl(*this, until);
-  } else if (setup_.time.scheme == "usf") {
-    step_usf(*this, until);
-  } else {
-    step_symplectic(*this, until);
+  switch (setup_.time.scheme) {
+    case cases::Scheme::symplectic:
+      return step_symplectic(*this, until);
+    case cases::Scheme::musl:
+      return step_musl(*this, until);
+    case cases::Scheme::usl:
+      return step_usl(*this, until);
+    case cases::Scheme::usf:
+      return step_usf(*this, until);
   }
 }
 
@@ -350,7 +361,7 @@ void Simulation::advance_grid() {
         grid_, state_.time_step, relaxation(setup_.transfer), [&] { apply_contact(); });
     step_.wall_impulse += balance.wall_impulse;
   });
-  if (setup_.transfer.particle_update != "fmpm") return;
+  if (setup_.transfer.particle_update != cases::ParticleUpdate::fmpm) return;
   finish_exchange();
   profile_.time("full mass matrix", [&] {
     step_.wall_impulse += full_mass_matrix_.apply(shape_, particles_, grid_, grid_update_,
@@ -408,7 +419,8 @@ void Simulation::update_velocity_and_material() {
 }
 
 void Simulation::map_momentum_to_grid() {
-  if (setup_.time.scheme == "usf") find_surfaces_at_walls();  // the grid has not been advanced in this step
+  // Of this scheme the grid has not been advanced in this step.
+  if (setup_.time.scheme == cases::Scheme::usf) find_surfaces_at_walls();
   profile_.time("momentum to grid", [&] {
     transfer::momentum_to_grid(shape_, particles_, particles_.velocity, grid_,
                                [&] { grid_update_.send(grid_, grid::BlockGrid::Part::first); });

@@ -8,11 +8,10 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string>
-#include <string_view>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/vector_math.hpp"
+#include "src/core/base/words.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
 
@@ -21,6 +20,13 @@
 namespace whipple::transfer {
 
 enum class ShapeFunction : std::uint8_t { linear, gimp, convected_gimp, quadratic_bspline, cubic_bspline };
+constexpr std::array<Word<ShapeFunction>, 5> words(ShapeFunction) {
+  return {{{ShapeFunction::quadratic_bspline, "quadratic_bspline"},
+           {ShapeFunction::cubic_bspline, "cubic_bspline"},
+           {ShapeFunction::convected_gimp, "convected_gimp"},
+           {ShapeFunction::gimp, "gimp"},
+           {ShapeFunction::linear, "linear"}}};
+}
 
 /// Weights, derivatives and distances of the nodes that a particle reaches along one direction, from its
 /// distance to the first of them in cells: `shift` to `shift` + 1 of the stencil.
@@ -34,7 +40,6 @@ struct AxisWeights {
 
 /// Piecewise linear functions of the cells: two nodes per direction, gradients jump at the faces of cells.
 struct Linear {
-  static constexpr std::string_view name = "linear";
   static constexpr auto kind = ShapeFunction::linear;
   static constexpr int count = 2;
   static constexpr grid::Stencil stencil{.shift = 0.0, .count = count};
@@ -54,7 +59,6 @@ struct Linear {
 /// Quadratic B-splines: three nodes per direction, continuous gradients (Steffen, Kirby & Berzins, IJNME 76
 /// (2008) 922). Sum of N r r^T is dx^2/4 everywhere, which the affine transfer relies on.
 struct QuadraticBSpline {
-  static constexpr std::string_view name = "quadratic_bspline";
   static constexpr auto kind = ShapeFunction::quadratic_bspline;
   static constexpr int count = 3;
   static constexpr grid::Stencil stencil{.shift = 0.5, .count = count};
@@ -75,7 +79,6 @@ struct QuadraticBSpline {
 /// Cubic B-splines: four nodes per direction, continuous second derivatives; sum of N r r^T is dx^2/3
 /// everywhere.
 struct CubicBSpline {
-  static constexpr std::string_view name = "cubic_bspline";
   static constexpr auto kind = ShapeFunction::cubic_bspline;
   static constexpr int count = 4;
   static constexpr grid::Stencil stencil{.shift = 1.0, .count = count};
@@ -122,7 +125,6 @@ AxisWeights<nodes> averaged_linear_weights(double from_first, double h, double c
 /// GIMP with the domains of the beginning (uniform GIMP): at most half a cell on either side of the particle,
 /// so three nodes per direction.
 struct Gimp {
-  static constexpr std::string_view name = "gimp";
   static constexpr auto kind = ShapeFunction::gimp;
   static constexpr int count = 3;
   static constexpr grid::Stencil stencil{.shift = 0.5, .count = count};
@@ -137,7 +139,6 @@ struct Gimp {
 /// Phys. 227 (2008) 9628): four nodes per direction, domains of up to one cell on either side of the
 /// particle.
 struct ConvectedGimp {
-  static constexpr std::string_view name = "convected_gimp";
   static constexpr auto kind = ShapeFunction::convected_gimp;
   static constexpr int count = 4;
   static constexpr grid::Stencil stencil{.shift = 1.0, .count = count};
@@ -174,15 +175,6 @@ decltype(auto) with_shape(ShapeFunction kind, Function&& f) {
   throw InternalError("unknown shape function");
 }
 
-/// The shape function of that name.
-inline ShapeFunction shape_function(std::string_view name) {
-  for (const ShapeFunction kind : {ShapeFunction::linear, ShapeFunction::gimp, ShapeFunction::convected_gimp,
-                                   ShapeFunction::quadratic_bspline, ShapeFunction::cubic_bspline}) {
-    if (with_shape(kind, [&]<class Shape>(Shape) { return Shape::name == name; })) return kind;
-  }
-  throw InternalError(std::string("unknown shape function ").append(name));
-}
-
 inline grid::Stencil stencil(ShapeFunction kind) {
   return with_shape(kind, []<class Shape>(Shape) { return Shape::stencil; });
 }
@@ -194,6 +186,11 @@ inline double affine_inertia(ShapeFunction kind, double cell_size) {
     if constexpr (CarriesAffineField<Shape>) return Shape::second_moment * cell_size * cell_size;
     return 0.0;
   });
+}
+
+/// Returns whether the functions can carry an affine field.
+inline bool carries_affine_field(ShapeFunction kind) {
+  return with_shape(kind, []<class Shape>(Shape) { return CarriesAffineField<Shape>; });
 }
 
 /// Half-sizes (in cells) of the box along the axes that has the second moments of the particle's domain:

@@ -45,15 +45,15 @@ void shear(const Material& material, MaterialPoints& points) {
 }
 
 TEST(TensilePressure, ResponseDecidesWhatIsLeftOfTheDeviatorAndWhatComesBack) {
-  for (const std::string response : {"failure", "opening", "cut_off"}) {
-    SCOPED_TRACE(response);
+  for (const auto& [response, word] : words(failure::SpallResponse{})) {
+    SCOPED_TRACE(word);
     const Material material = with_law(failure::TensilePressure{{}, 1e9, response});
     MaterialPoints points = points_of(material, 1);
     shear(material, points);
     const double yield = equivalent_stress(points.deviatoric_stress[0]);
     ASSERT_GT(yield, 150e6);
     strain_to(material, points, 1.03e-9, 100);  // 4.2 GPa of tension without a limit
-    const bool cut_off = response == "cut_off";
+    const bool cut_off = response == failure::SpallResponse::cut_off;
     EXPECT_EQ(points.failed[0] == failure::intact, cut_off);
     EXPECT_NEAR(points.pressure[0], cut_off ? -1e9 : 0.0, 1.0);
     EXPECT_NEAR(equivalent_stress(points.deviatoric_stress[0]), cut_off ? yield : 0.0, 1e-6 * yield);
@@ -61,17 +61,17 @@ TEST(TensilePressure, ResponseDecidesWhatIsLeftOfTheDeviatorAndWhatComesBack) {
     strain_to(material, points, 0.99e-9, 100);
     EXPECT_EQ(points.void_volume[0], 0.0);
     EXPECT_NEAR(points.pressure[0], cold_eos.pressure(8930.0 / 0.99, 0.0), 1e-3 * modulus);
-    EXPECT_EQ(points.failed[0] == failure::intact, response != "failure");
+    EXPECT_EQ(points.failed[0] == failure::intact, response != failure::SpallResponse::failure);
     shear(material, points);
     const double after = equivalent_stress(points.deviatoric_stress[0]);
-    EXPECT_NEAR(after, response == "failure" ? 0.0 : yield, 0.1 * yield);
+    EXPECT_NEAR(after, response == failure::SpallResponse::failure ? 0.0 : yield, 0.1 * yield);
     strain_to(material, points, 1.01e-9, 20);  // 1.4 GPa: it parts again, at the same tension
     EXPECT_NEAR(points.pressure[0], cut_off ? -1e9 : 0.0, 1.0);
   }
 }
 
 TEST(TensilePressure, CutOffHoldsForALongExpansionAndGivesNoEnergy) {
-  const Material material = with_law(failure::TensilePressure{{}, 0.5e9, "cut_off"});
+  const Material material = with_law(failure::TensilePressure{{}, 0.5e9, failure::SpallResponse::cut_off});
   MaterialPoints points = points_of(material, 1);
   strain_to(material, points, 1.5e-9, 2000);
   EXPECT_NEAR(points.pressure[0], -0.5e9, 1.0);
@@ -86,7 +86,7 @@ TEST(TulerButcher, ConstantTensionFailsAtTheExactTime) {
   constexpr double sigma_0 = 0.4e9, tau = 1e-6;
   for (const double lambda : {1.0, 2.0, 2.5}) {
     for (const double times : {1.5, 2.0, 3.0}) {
-      for (const std::string measure : {"mean_stress", "principal_stress"}) {
+      for (const auto& [measure, word] : words(failure::Tension{})) {
         const Material material = with_law(failure::TulerButcher{sigma_0, lambda, tau, measure, false});
         MaterialPoints points = points_of(material, 1);
         points.volume[0] = points.mass[0] / (cold_eos.rho0 * (1.0 - times * sigma_0 / modulus));
@@ -102,15 +102,15 @@ TEST(TulerButcher, ConstantTensionFailsAtTheExactTime) {
           }
         }
         EXPECT_EQ(points.failed[0], failure::spalled);
-        EXPECT_NEAR(steps * dt, exact, 1.01 * dt) << lambda << " " << times << " " << measure;
+        EXPECT_NEAR(steps * dt, exact, 1.01 * dt) << lambda << " " << times << " " << word;
       }
     }
   }
 }
 
 TEST(TulerButcher, NothingAccumulatesBelowTheThresholdAndPrincipalStressIsTheSameInEveryFrame) {
-  const failure::TulerButcher mean{0.4e9, 2.0, 1e-6, "mean_stress", false},
-      principal{0.4e9, 2.0, 1e-6, "principal_stress", false};
+  const failure::TulerButcher mean{0.4e9, 2.0, 1e-6, failure::Tension::mean_stress, false},
+      principal{0.4e9, 2.0, 1e-6, failure::Tension::principal_stress, false};
   // 0.3 GPa of mean tension and 0.2 GPa of deviator along an axis: 0.5 GPa across the plane.
   const Matrix3 turn = (Eigen::AngleAxisd(0.7, Vector3::UnitX()) * Eigen::AngleAxisd(1.1, Vector3::UnitZ()))
                            .toRotationMatrix();
@@ -139,7 +139,7 @@ TEST(TulerButcher, NothingAccumulatesBelowTheThresholdAndPrincipalStressIsTheSam
 
 TEST(TulerButcher, HealsOnlyIfAskedTo) {
   for (const bool healing : {false, true}) {
-    const Material material = with_law(failure::TulerButcher{0.4e9, 2.0, 1e-8, "mean_stress", healing});
+    const Material material = with_law(failure::TulerButcher{0.4e9, 2.0, 1e-8, failure::Tension::mean_stress, healing});
     MaterialPoints points = points_of(material, 1);
     strain_to(material, points, 1.02e-9, 100);
     ASSERT_EQ(points.failed[0], failure::spalled);
@@ -251,7 +251,7 @@ TEST(ViscousVoidGrowth, MoltenMatterPartsAtTheFirstTension) {
 TEST(Spall, OneModelOfAMaterialOpensVoids) {
   const auto voids = std::make_shared<failure::CriterionModel<failure::ViscousVoidGrowth>>(copper_voids);
   const auto cut_off = std::make_shared<failure::CriterionModel<failure::TensilePressure>>(
-      failure::TensilePressure{{}, 1e9, "cut_off"});
+      failure::TensilePressure{{}, 1e9, failure::SpallResponse::cut_off});
   try {
     with(taylor_copper(), {voids, cut_off});
     FAIL() << "accepted";

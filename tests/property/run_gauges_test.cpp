@@ -49,7 +49,7 @@ std::map<std::string, double> values(const GaugeRecorder& recorder, const solver
 TEST(Gauges, SeeElements) {
   const cases::Case setup = cases::read_case_text(text("finite_elements", "100 m/s", "1 us"), "case.toml");
   solver::Simulation simulation(setup, parallel::world());
-  const GaugeRecorder recorder(setup.gauges.all(), simulation);
+  const GaugeRecorder recorder(setup.all_gauges(), simulation);
   const double density = setup.materials[0]->reference.density;
   auto now = values(recorder, simulation);
   EXPECT_NEAR(now["place.density"], density, 1e-9 * density);
@@ -62,7 +62,7 @@ TEST(Gauges, SeeElements) {
 TEST(Gauges, FollowMatterThroughItsConversion) {
   const cases::Case setup = cases::read_case_text(text("adaptive", "-250 m/s", "4 us"), "case.toml");
   solver::Simulation simulation(setup, parallel::world());
-  const GaugeRecorder recorder(setup.gauges.all(), simulation);
+  const GaugeRecorder recorder(setup.all_gauges(), simulation);
   const std::size_t elements = simulation.element_count();
   double before = values(recorder, simulation)["matter.z"];
   while (simulation.state().time < setup.time.end) {

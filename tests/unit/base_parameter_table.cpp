@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -16,6 +18,11 @@ namespace whipple {
 namespace {
 
 using ::testing::HasSubstr;
+
+enum class Colour : std::uint8_t { by_temperature, red, blue };
+constexpr std::array<Word<Colour>, 2> words(Colour) {
+  return {{{Colour::blue, "blue"}, {Colour::red, "red"}}};
+}
 
 struct Model {
   double density = 8930.0;
@@ -154,6 +161,26 @@ TEST(ParameterTable, LongListsOfWordsGoBelowTheirRow) {
   for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
   EXPECT_LE(longest, 100U);
   for (const std::string& word : words) EXPECT_THAT(text, HasSubstr(word));
+}
+
+TEST(ParameterTable, WordsStandForTheValuesOfAnEnumeration) {
+  EXPECT_EQ(word_of(Colour::red), "red");
+  EXPECT_EQ(word_of(Colour::by_temperature), "");
+  struct Owner {
+    Colour colour = Colour::by_temperature;
+  };
+  const ParameterTable<Owner> table = {choice("colour", &Owner::colour, "of the light").optional("by heat")};
+  EXPECT_THAT(describe_table<Owner>(table), HasSubstr("blue | red  by heat"));
+  Owner owner;
+  const std::vector<BoundParameter> bound = whipple::bind(table, owner);
+  // Not given: no input holds it, and none is written.
+  EXPECT_TRUE(is_unset(bound[0]));
+  EXPECT_EQ(to_toml(bound), "# colour = \"\"  # of the light\n");
+  const auto& target = std::get<ChoiceTarget>(bound[0].target);
+  target.set(target.value, "red");
+  EXPECT_EQ(owner.colour, Colour::red);
+  EXPECT_FALSE(is_unset(bound[0]));
+  EXPECT_EQ(to_toml(bound), "colour = \"red\"  # of the light\n");
 }
 
 // A unit that does not parse would make every reading of the key fail.

@@ -41,7 +41,7 @@ TEST(Case, RefusesCombinationsThatHaveNoMeaning) {
     const std::string with_scheme = replaced(domain, "end =", "scheme = \"" + scheme + "\"\nend =");
     expect_error(with_scheme + "[transfer]\nparticle_update = \"apic\"\n" + sphere,
                  {"scheme \"" + scheme + "\" carries no affine field", "\"flip\", \"pic\", \"blend\""});
-    EXPECT_EQ(read_case_text(with_scheme + sphere, "case.toml").transfer.particle_update, "flip");
+    EXPECT_EQ(read_case_text(with_scheme + sphere, "case.toml").transfer.particle_update, ParticleUpdate::flip);
   }
   expect_error(
       replaced(replaced(domain, "end =", "scheme = \"usf\"\nend ="), "\"symmetry\" }", "\"separating\" }") +
@@ -112,7 +112,7 @@ count = 5
 
 TEST(GaugesOfACase, AreReadWrittenAndNumbered) {
   const Case setup = read_case_text(domain + sphere + gauges, "case.toml");
-  const std::vector<Gauge> all = setup.gauges.all();
+  const std::vector<Gauge> all = setup.all_gauges();
   ASSERT_EQ(all.size(), 7U);
   EXPECT_FALSE(all[0].moving());
   EXPECT_TRUE(all[1].moving());
@@ -120,8 +120,8 @@ TEST(GaugesOfACase, AreReadWrittenAndNumbered) {
   EXPECT_EQ(all[6].name, "line_5");
   EXPECT_NEAR(all[4].position[0], 1e-3, 1e-15);
   const Case again = read_case_text(to_toml(setup, {"copper.toml"}), "run.toml");
-  ASSERT_EQ(again.gauges.all().size(), 7U);
-  EXPECT_EQ(again.gauges.all()[5].position, all[5].position);
+  ASSERT_EQ(again.all_gauges().size(), 7U);
+  EXPECT_EQ(again.all_gauges()[5].position, all[5].position);
 }
 
 TEST(GaugesOfACase, MistakesAreNamed) {
@@ -217,7 +217,7 @@ TEST(Contact, OptionsAndWhatTheyExclude) {
       "[[body]]\nname = \"other\"\nmaterial = \"copper.toml\"\nshape = { sphere = { center = "
       "[\"8 mm\", \"8 mm\", \"3 mm\"], radius = \"1 mm\" } }\n";
   const Case both = read_case_text(domain + on + sphere + second, "case.toml");
-  EXPECT_EQ(both.contact.normal, "separating");
+  EXPECT_EQ(both.contact.normal, contact::Normal::separating);
   EXPECT_TRUE(both.contact.gap_test);
   EXPECT_EQ(both.contact_fields.of_body, (std::vector<std::uint8_t>{0, 1}));
   const std::string grouped = replaced(sphere, "[[body]]\n", "[[body]]\ncontact_group = \"a\"\n") +

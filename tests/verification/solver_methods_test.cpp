@@ -35,7 +35,7 @@ std::string block_of_aluminium(const std::string& options = "") {
 solver::Simulation simulation_of(const cases::Case& setup, Particles particles) {
   solver::RunState state;
   state.ledger.initial = solver::totals_of(
-      particles, transfer::affine_inertia(transfer::shape_function(setup.transfer.shape_function),
+      particles, transfer::affine_inertia(setup.transfer.shape_function,
                                           setup.domain.cell_size));
   return {setup, std::move(particles), state, parallel::world()};
 }

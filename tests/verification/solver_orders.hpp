@@ -257,7 +257,7 @@ inline double motion_error(const ExactMotion& motion, const Method& method, int 
   }
   solver::RunState state;
   state.ledger.initial = solver::totals_of(
-      particles, transfer::affine_inertia(transfer::shape_function(method.shape_function), dx));
+      particles, transfer::affine_inertia(setup.transfer.shape_function, dx));
   solver::Simulation simulation(setup, std::move(particles), state, parallel::world());
   if (const auto acceleration = motion.acceleration()) {
     simulation.add_acceleration([&start, acceleration](const Particles& q, std::size_t p, double t) {

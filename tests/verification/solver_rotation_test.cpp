@@ -35,7 +35,7 @@ TenTurns ten_turns(const std::string& shape, const std::string& affine_field) {
                                                           "[output]\nmaximum_energy_error = 1e9\n" + body,
                                                       "rotation.toml"),
                                 parallel::world());
-  const double inertia = transfer::affine_inertia(transfer::shape_function(shape), 1e-3);
+  const double inertia = transfer::affine_inertia(simulation.setup().transfer.shape_function, 1e-3);
   const auto angular_momentum = [&] {
     const Particles& q = simulation.particles();
     double sum = 0;

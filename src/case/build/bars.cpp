@@ -10,6 +10,8 @@
 #include <numbers>
 
 #include "src/core/base/error.hpp"
+#include "src/material/strength/elastic.hpp"
+#include "src/material/strength/von_mises.hpp"
 
 namespace whipple::cases {
 namespace {
@@ -45,15 +47,7 @@ void for_each_bar(const Body& body, Function&& f) {
 
 }  // namespace
 
-std::unique_ptr<Shape> read_bar_shape(const Body& body, input::Table& table) {
-  if (table.has("shape")) {
-    table.error_at("shape", "a body of bars has no 'shape': its bars stand in [[body.bar]]");
-    return nullptr;
-  }
-  if (body.bars.empty()) {
-    table.error("a body of bars needs [[body.bar]]");
-    return nullptr;
-  }
+std::shared_ptr<const Shape> shape_of_bars(const Body& body) {
   const Vector3 everywhere = Vector3::Constant(std::numeric_limits<double>::infinity());
   Shape::Bounds bounds{everywhere, -everywhere};
   double length = 0.0;
@@ -61,7 +55,7 @@ std::unique_ptr<Shape> read_bar_shape(const Body& body, input::Table& table) {
     bounds = {bounds.lower.cwiseMin(from).cwiseMin(to), bounds.upper.cwiseMax(from).cwiseMax(to)};
     length += (to - from).norm();
   });
-  return std::make_unique<BarShape>(bounds, area_of(body) * length);
+  return std::make_shared<BarShape>(bounds, area_of(body) * length);
 }
 
 std::optional<std::string> fault_of_bars(const Case& setup, const Body& bars) {
@@ -99,11 +93,11 @@ std::optional<std::size_t> body_around_bars(const Case& setup, const Body& bars)
 
 fem::BarMaterial bar_material(const Material& material, const Body& body) {
   const strength::Strength& strength = *material.strength;
-  const bool elastic = strength.model() == "elastic";
+  const bool elastic = strength.model() == strength::Elastic::name;
   const auto refuse = [&](const std::string& why) {
     throw InputError(fmt::format("body \"{}\": bars of {}: {}", body.name, material.name, why));
   };
-  if (!elastic && strength.model() != "von_mises") {
+  if (!elastic && strength.model() != strength::VonMises::name) {
     refuse(fmt::format("their strength is elastic or von_mises, not {}", strength.model()));
   }
   if (!material.failure.empty()) {

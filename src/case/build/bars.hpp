@@ -12,9 +12,8 @@
 
 namespace whipple::cases {
 
-/// What the bars of a body fill: holds no point, has bounds and a volume.
-/// Reports errors in the document and returns null then.
-std::unique_ptr<Shape> read_bar_shape(const Body& body, input::Table& table);
+/// Returns what the bars of a body fill: holds no point, has bounds and a volume.
+std::shared_ptr<const Shape> shape_of_bars(const Body& body);
 
 /// Why these bars cannot be where they are: in a body of elements.
 std::optional<std::string> fault_of_bars(const Case& setup, const Body& bars);

@@ -157,9 +157,7 @@ std::vector<fem::Mesh> make_meshes(const Case& setup, std::uint64_t first_partic
     const Body& body = setup.bodies[b];
     if (!body.discretization.has_elements()) continue;
     const Material& material = *setup.materials[b];
-    const auto quadrature =
-        body.discretization.element == "b_bar" ? fem::Quadrature::b_bar : fem::Quadrature::one_point;
-    fem::Mesh& mesh = meshes.emplace_back(fem::make_mesh(hexahedra_of(setup, body), quadrature,
+    fem::Mesh& mesh = meshes.emplace_back(fem::make_mesh(hexahedra_of(setup, body), body.discretization.element,
                                                          static_cast<std::uint32_t>(b), node_id, element_id));
     node_id += mesh.nodes.size();
     element_id += mesh.elements.size();
@@ -167,7 +165,7 @@ std::vector<fem::Mesh> make_meshes(const Case& setup, std::uint64_t first_partic
     fem::set_density(mesh, body_density(material, state));
     const std::vector<double> volume = mesh.points.volume;
     initialise(material, mesh.points, 0, mesh.points.size(), state);
-    const std::size_t rows = fem::points_per_element(quadrature);
+    const std::size_t rows = fem::points_per_element(mesh.quadrature);
     if (body.failure_scatter.given()) mesh.points.failure_threshold_factor.resize(mesh.points.size());
     for (std::size_t i = 0; body.failure_scatter.given() && i < mesh.points.size(); ++i) {
       const std::uint64_t id = 8 * mesh.elements.id[i / rows] + i % rows;

@@ -336,7 +336,7 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
       }
     }
     const Lattice lattice = lattice_of(setup, body);
-    if (setup.transfer.shape_function == "gimp" &&
+    if (setup.transfer.shape_function == transfer::ShapeFunction::gimp &&
         lattice.spacing.maxCoeff() > (1.0 + 1e-9) * setup.geometry.cell_size) {
       faults.push_back({b, fmt::format("body \"{}\": its particles are {:.3g} cells wide, and "
                                        "shape_function = \"gimp\" takes particles of one cell at most: raise "

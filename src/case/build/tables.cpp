@@ -37,7 +37,7 @@ void replace_models(Case& setup) {
   std::map<std::pair<std::shared_ptr<const Material>, double>, std::shared_ptr<const Material>> tables;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Body& body = setup.bodies[b];
-    if (body.equation_of_state != "table") continue;
+    if (body.equation_of_state != Evaluation::table) continue;
     auto& table = tables[{setup.materials[b], body.table_error}];
     try {
       if (!table) table = tabulated(*setup.materials[b], body.table_error);

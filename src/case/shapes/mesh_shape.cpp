@@ -120,29 +120,19 @@ class MeshShape final : public Shape {
 
 }  // namespace
 
-std::unique_ptr<Shape> read_mesh_shape(const Discretization& control, input::Table& table) {
-  if (table.has("shape")) {
-    table.error_at("shape", "a body has a 'shape' or a 'discretization.mesh', not both");
-    return nullptr;
-  }
-  try {
-    const fem::GmshFile file = fem::GmshFile::read(control.mesh, control.mesh_unit);
-    std::string group = control.group;
-    if (group.empty()) {
-      const std::vector<std::string> names = file.group_names(3);
-      if (names.size() != 1) {
-        throw InputError(
-            fmt::format("{}: has {} physical groups of volumes, name one by "
-                        "discretization.group: {}",
-                        control.mesh, names.size(), fmt::join(names, ", ")));
-      }
-      group = names.front();
+std::unique_ptr<Shape> shape_of_mesh(const Discretization& control) {
+  const fem::GmshFile file = fem::GmshFile::read(control.mesh, control.mesh_unit);
+  std::string group = control.group;
+  if (group.empty()) {
+    const std::vector<std::string> names = file.group_names(3);
+    if (names.size() != 1) {
+      throw InputError(
+          fmt::format("{}: has {} physical groups of volumes, name one by discretization.group: {}",
+                      control.mesh, names.size(), fmt::join(names, ", ")));
     }
-    return std::make_unique<MeshShape>(file.hexahedra(group));
-  } catch (const InputError& error) {
-    table.error_at("discretization", error.what());
-    return nullptr;
+    group = names.front();
   }
+  return std::make_unique<MeshShape>(file.hexahedra(group));
 }
 
 }  // namespace whipple::cases

@@ -8,8 +8,9 @@
 
 namespace whipple::cases {
 
-/// The shape that the hexahedra of a Gmsh file fill (keys mesh, group and mesh_unit of a discretization).
-/// Reports errors in the document and returns null then.
-std::unique_ptr<Shape> read_mesh_shape(const Discretization& control, input::Table& table);
+/// Returns the shape that the hexahedra of a Gmsh file fill (keys mesh, group and mesh_unit of a
+/// discretization).
+/// @throws InputError if the file cannot be used
+std::unique_ptr<Shape> shape_of_mesh(const Discretization& control);
 
 }  // namespace whipple::cases

@@ -4,15 +4,48 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+
+#include "src/case/shapes/box.hpp"
+#include "src/case/shapes/cone.hpp"
+#include "src/case/shapes/cylinder.hpp"
+#include "src/case/shapes/difference.hpp"
+#include "src/case/shapes/half_space.hpp"
+#include "src/case/shapes/intersection.hpp"
+#include "src/case/shapes/moved.hpp"
+#include "src/case/shapes/ogive.hpp"
+#include "src/case/shapes/sphere.hpp"
+#include "src/case/shapes/tube.hpp"
+#include "src/case/shapes/union.hpp"
+#include "src/core/base/parameter_table.hpp"
 
 namespace whipple::cases {
 
+namespace {
+
+template <class Kind>
+ShapeEntry entry() {
+  if constexpr (requires { Kind::parameters(); }) {
+    return {Kind::name, Kind::summary, [] { return describe_table(Kind::parameters()); },
+            [](input::Table& holder, const std::string& key) -> std::unique_ptr<Shape> {
+              auto table = holder.required_table(key);
+              auto shape = std::make_unique<Kind>();
+              if (!table || !table->read(Kind::parameters(), *shape)) return nullptr;
+              return shape;
+            }};
+  } else {
+    return {Kind::name, Kind::summary, Kind::describe, Kind::read};
+  }
+}
+
+}  // namespace
+
+/// One line per shape.
 std::span<const ShapeEntry> shape_catalogue() {
-  static const std::vector<ShapeEntry> all = [] {
-    std::vector<ShapeEntry> entries(primitives().begin(), primitives().end());
-    entries.insert(entries.end(), combinations().begin(), combinations().end());
-    return entries;
-  }();
+  static const std::array all = {entry<Sphere>(), entry<Box>(), entry<Cylinder>(), entry<Tube>(),
+                                 entry<Cone>(), entry<Ogive>(), entry<HalfSpace>(),
+                                 // made of others
+                                 entry<Union>(), entry<Intersection>(), entry<Difference>(), entry<Moved>()};
   return all;
 }
 
@@ -31,23 +64,24 @@ std::unique_ptr<Shape> read_only_shape(input::Table& holder) {
   return nullptr;
 }
 
+std::string fault_of(const Shape& shape) {
+  const Shape::Bounds bounds = shape.bounds();
+  if (!(bounds.lower.array() < bounds.upper.array()).all()) {
+    return "is empty: the lower corner is not below the upper one";
+  }
+  if (!(bounds.upper - bounds.lower).allFinite()) return "has no end: intersect it with a bounded shape";
+  return {};
+}
+
 std::unique_ptr<Shape> read_shape(input::Table& body) {
   auto holder = body.required_table("shape");
   if (!holder) return nullptr;
   std::unique_ptr<Shape> shape = read_only_shape(*holder);
   if (!shape) return nullptr;  // its errors are reported
-  const Shape::Bounds bounds = shape->bounds();
-  const auto refuse = [&](const char* why) {
-    body.error_at("shape", fmt::format("'{}.shape' {}", body.name(), why));
-    return nullptr;
-  };
-  if (!(bounds.lower.array() < bounds.upper.array()).all()) {
-    return refuse("is empty: the lower corner is not below the upper one");
-  }
-  if (!(bounds.upper - bounds.lower).allFinite()) {
-    return refuse("has no end: intersect it with a bounded shape");
-  }
-  return shape;
+  const std::string fault = fault_of(*shape);
+  if (fault.empty()) return shape;
+  body.error_at("shape", fmt::format("'{}.shape' {}", body.name(), fault));
+  return nullptr;
 }
 
 }  // namespace whipple::cases

@@ -38,7 +38,8 @@ class Shape {
   }
 };
 
-/// A kind of shape: one line of the catalogue per primitive or combination.
+/// A kind of shape. Its class has `name`, `summary` and either `parameters()`, or `describe()` and `read`: one
+/// header, and one line in the catalogue.
 struct ShapeEntry {
   std::string name;
   std::string summary;
@@ -48,13 +49,13 @@ struct ShapeEntry {
 };
 /// Everything that `shape = { NAME = ... }` may hold.
 std::span<const ShapeEntry> shape_catalogue();
-/// The two parts of it.
-std::span<const ShapeEntry> primitives();
-std::span<const ShapeEntry> combinations();
 
 /// Reads the one shape that a table `{ NAME = ... }` holds. Reports errors in the document and returns null
 /// then.
 std::unique_ptr<Shape> read_only_shape(input::Table& holder);
+
+/// Returns why a shape cannot be that of a body ("is empty ..."); empty if it can.
+std::string fault_of(const Shape& shape);
 
 /// Reads `shape = { NAME = ... }` of a body: bounded, not empty. Reports errors in the document and returns
 /// null then.

@@ -8,10 +8,33 @@
 #include <cstring>
 #include <new>
 #include <system_error>
+#include <utility>
 
 #include "src/core/base/resource_error.hpp"
 
 namespace whipple {
+
+namespace {
+
+std::string all_messages(const std::vector<InputFault>& faults) {
+  std::string all;
+  for (const InputFault& fault : faults) all += (all.empty() ? "" : "\n") + fault.message();
+  return all;
+}
+
+}  // namespace
+
+std::string InputFault::message() const {
+  if (file.empty()) return key.empty() ? text : fmt::format("{}: error: {}", key, text);
+  if (line == 0) return fmt::format("{} (--set): error: {}", file, text);
+  return fmt::format("{}:{}:{}: error: {}", file, line, column, text);
+}
+
+InputError::InputError(const std::string& message) : InputError(std::vector{InputFault{.text = message}}) {}
+
+InputError::InputError(std::vector<InputFault> faults)
+    : std::runtime_error(all_messages(faults)),
+      faults_(std::make_shared<const std::vector<InputFault>>(std::move(faults))) {}
 
 ExitCode exit_code(const std::exception& error) {
   if (dynamic_cast<const InputError*>(&error) != nullptr) return ExitCode::input;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace whipple {
 
@@ -14,11 +16,30 @@ enum class ExitCode : int {
   internal = 4,  ///< a defect of this program
 };
 
+/// One fault of an input, with its place.
+struct InputFault {
+  std::string file = {};  ///< empty: the input is not from a file
+  unsigned line = 0;      ///< from 1; 0: not in the file (--set)
+  unsigned column = 0;
+  std::string key = {};  ///< as --set takes it, "body.0.shape"; empty: of no key
+  std::string text;
+
+  /// Returns "file:line:column: error: text", with the key for a place outside of files.
+  [[nodiscard]] std::string message() const;
+};
+
 /// The user's input is wrong. The message names what, where, the offending value and what is accepted;
 /// it may hold several lines, one per error of the input.
 class InputError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit InputError(const std::string& message);
+  explicit InputError(std::vector<InputFault> faults);
+
+  /// Returns the faults one by one; at least one.
+  [[nodiscard]] const std::vector<InputFault>& faults() const { return *faults_; }
+
+ private:
+  std::shared_ptr<const std::vector<InputFault>> faults_;
 };
 
 /// A physical state left the range of its model (NaN, negative volume, equation of state out of range).

@@ -58,8 +58,7 @@ std::string first_fault(const Values& values, Check check_one) {
 std::string default_of(const BoundParameter& parameter) {
   if (parameter.info.required) return "required";
   if (!parameter.info.default_text.empty()) return parameter.info.default_text;
-  double* const* number = std::get_if<double*>(&parameter.target);
-  return number != nullptr && std::isinf(**number) ? "no bound" : value_as_toml(parameter);
+  return is_unset(parameter) ? "no bound" : value_as_toml(parameter);
 }
 
 /// The words of a list on indented lines of at most a hundred columns.
@@ -116,16 +115,21 @@ std::string value_as_toml(const BoundParameter& parameter) {
                                  std::vector<std::string> items;
                                  for (const std::string& value : *values) items.push_back(toml_string(value));
                                  return fmt::format("[{}]", fmt::join(items, ", "));
-                               }},
+                               },
+                               [](const ChoiceTarget& choice) { return toml_string(choice.word(choice.value)); }},
                     parameter.target);
+}
+
+bool is_unset(const BoundParameter& parameter) {
+  if (double* const* number = std::get_if<double*>(&parameter.target)) return std::isinf(**number);
+  const ChoiceTarget* choice = std::get_if<ChoiceTarget>(&parameter.target);
+  return choice != nullptr && choice->word(choice->value).empty();
 }
 
 std::string to_toml(std::span<const BoundParameter> parameters) {
   std::string result;
   for (const BoundParameter& parameter : parameters) {
-    double* const* number = std::get_if<double*>(&parameter.target);
-    const bool no_bound = number != nullptr && std::isinf(**number);
-    result += fmt::format("{}{} = {}  # {}\n", no_bound ? "# " : "", parameter.info.name,
+    result += fmt::format("{}{} = {}  # {}\n", is_unset(parameter) ? "# " : "", parameter.info.name,
                           value_as_toml(parameter), parameter.info.meaning);
   }
   return result;
@@ -175,7 +179,8 @@ std::string check(const BoundParameter& parameter) {
                    return first_fault(std::array{(*value)[0], (*value)[1], (*value)[2]}, number);
                  },
                  [&](std::vector<double>* values) { return first_fault(*values, number); },
-                 [&](std::vector<std::string>* values) { return first_fault(*values, word); }},
+                 [&](std::vector<std::string>* values) { return first_fault(*values, word); },
+                 [](const ChoiceTarget&) { return std::string(); }},
       parameter.target);
 }
 

@@ -2,15 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "src/core/base/tensor.hpp"
+#include "src/core/base/words.hpp"
 
 /// One declaration per constant of a model: name, member, unit, range, meaning. It drives reading, unit and
 /// range checks, error texts, `whipple describe`, the manual, provenance and which constants a fit may vary.
@@ -49,9 +52,28 @@ struct ParameterInfo {
   std::string default_text = {};     ///< what `describe` shows as default; empty: the value
 };
 
+/// An enumeration's value behind its words, whatever its type.
+struct ChoiceTarget {
+  void* value;
+  /// Returns the word of the value; empty if it has none.
+  std::string (*word)(const void* value);
+  /// Sets the value to that of one of the accepted words.
+  void (*set)(void* value, std::string_view word);
+};
+
+template <class Enum>
+ChoiceTarget choice_target(Enum& value) {
+  return {&value, [](const void* from) { return std::string(word_of(*static_cast<const Enum*>(from))); },
+          [](void* to, std::string_view text) {
+            for (const Word<Enum>& word : words(Enum{})) {
+              if (word.text == text) *static_cast<Enum*>(to) = word.value;
+            }
+          }};
+}
+
 /// Where a value goes.
 using ParameterTarget = std::variant<double*, std::int64_t*, bool*, std::string*, Vector3*,
-                                     std::vector<double>*, std::vector<std::string>*>;
+                                     std::vector<double>*, std::vector<std::string>*, ChoiceTarget>;
 
 /// A parameter tied to one object.
 struct BoundParameter {
@@ -63,7 +85,8 @@ template <class Owner>
 struct Parameter {
   using Member =
       std::variant<double Owner::*, std::int64_t Owner::*, bool Owner::*, std::string Owner::*,
-                   Vector3 Owner::*, std::vector<double> Owner::*, std::vector<std::string> Owner::*>;
+                   Vector3 Owner::*, std::vector<double> Owner::*, std::vector<std::string> Owner::*,
+                   std::function<ChoiceTarget(Owner&)>>;
   ParameterInfo info;
   Member member;
 
@@ -101,10 +124,20 @@ template <class Owner>
 Parameter<Owner> text(std::string name, std::string Owner::* member, std::string meaning) {
   return {{std::move(name), "", {}, std::move(meaning), true, {}}, member};
 }
+/// One of some words that stay words.
 template <class Owner>
 Parameter<Owner> choice(std::string name, std::string Owner::* member, std::vector<std::string> choices,
                         std::string meaning) {
   return {{std::move(name), "", {}, std::move(meaning), true, std::move(choices)}, member};
+}
+/// One of the words of an enumeration (words.hpp).
+template <class Owner, class Enum>
+  requires std::is_enum_v<Enum>
+Parameter<Owner> choice(std::string name, Enum Owner::* member, std::string meaning) {
+  std::vector<std::string> choices;
+  for (const Word<Enum>& word : words(Enum{})) choices.emplace_back(word.text);
+  return {{std::move(name), "", {}, std::move(meaning), true, std::move(choices)},
+          std::function<ChoiceTarget(Owner&)>([member](Owner& owner) { return choice_target(owner.*member); })};
 }
 /// Three components, each with a unit; the range holds for every component.
 template <class Owner>
@@ -132,7 +165,15 @@ std::vector<BoundParameter> bind(const ParameterTable<Owner>& table, Owner& owne
   for (const Parameter<Owner>& parameter : table) {
     bound.push_back(
         {parameter.info,
-         std::visit([&](auto member) { return ParameterTarget(&(owner.*member)); }, parameter.member)});
+         std::visit(
+             [&](const auto& member) -> ParameterTarget {
+               if constexpr (requires { member(owner); }) {
+                 return member(owner);
+               } else {
+                 return &(owner.*member);
+               }
+             },
+             parameter.member)});
   }
   return bound;
 }
@@ -140,8 +181,11 @@ std::vector<BoundParameter> bind(const ParameterTable<Owner>& table, Owner& owne
 /// The value as it stands in an input file: `"6580 m/s"`, `3`, `true`, `"text"`, `["1 m", "2 m", "3 m"]`.
 std::string value_as_toml(const BoundParameter& parameter);
 
-/// All parameters of a table as lines `name = value  # meaning`. An infinite default means that there is no
-/// bound; no input may hold it, so its line is a comment.
+/// Returns whether the value only marks "not given", as no input may hold it: an infinite number, or a value
+/// of an enumeration that has no word.
+bool is_unset(const BoundParameter& parameter);
+
+/// All parameters of a table as lines `name = value  # meaning`; the line of an unset one is a comment.
 std::string to_toml(std::span<const BoundParameter> parameters);
 
 /// Rows "name  unit  range  default  meaning" for `whipple describe`, aligned in columns.

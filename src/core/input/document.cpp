@@ -9,6 +9,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -27,8 +28,7 @@ struct Document::State {
   std::filesystem::path path;
   bool needs_units = false;  ///< a bare number has none
   toml::table root;
-  std::vector<std::pair<std::pair<unsigned, unsigned>, std::string>>
-      errors;  // sorted by position when thrown
+  std::vector<InputFault> errors;  // sorted by position when thrown
   std::map<const toml::table*, std::set<std::string, std::less<>>>
       known_keys;  // keys that a reader asked for
 
@@ -36,9 +36,11 @@ struct Document::State {
     return at.line == 0 ? fmt::format("{} (--set)", path.string())
                         : fmt::format("{}:{}:{}", path.string(), at.line, at.column);
   }
-  void error(const toml::node& node, const std::string& message) {
-    const toml::source_position at = node.source().begin;
-    errors.push_back({{at.line, at.column}, fmt::format("{}: error: {}", position(at), message)});
+  void error(const toml::source_position& at, std::string key, const std::string& message) {
+    errors.push_back({path.string(), at.line, at.column, std::move(key), message});
+  }
+  void error(const toml::node& node, std::string key, const std::string& message) {
+    error(node.source().begin, std::move(key), message);
   }
 };
 
@@ -127,15 +129,63 @@ void require_units(const toml::node& node, const ParameterInfo& info) {
 
 /// Reads into a copy of the target and commits it only if the value is admissible.
 void read_checked(const BoundParameter& parameter, const toml::node& node) {
+  const auto read = [&](auto& value) {
+    read_into(&value, node, parameter.info);
+    const std::string fault = check({parameter.info, ParameterTarget(&value)});
+    if (!fault.empty()) throw InputError(fault);
+  };
+  if (const ChoiceTarget* choice = std::get_if<ChoiceTarget>(&parameter.target)) {
+    std::string word;
+    read(word);
+    choice->set(choice->value, word);
+    return;
+  }
   std::visit(
-      [&](auto* target) {
-        auto value = *target;
-        read_into(&value, node, parameter.info);
-        const std::string fault = check({parameter.info, ParameterTarget(&value)});
-        if (!fault.empty()) throw InputError(fault);
-        *target = value;
+      [&]<class Target>(const Target& target) {
+        if constexpr (!std::is_same_v<Target, ChoiceTarget>) {
+          auto value = *target;
+          read(value);
+          *target = value;
+        }
       },
       parameter.target);
+}
+
+/// "body[1].shape" as --set takes it: "body.1.shape".
+std::string as_key(std::string_view name) {
+  std::string key;
+  for (const char c : name) {
+    if (c != ']') key += c == '[' ? '.' : c;
+  }
+  return key;
+}
+
+std::string joined(const std::string& table, std::string_view key) {
+  if (table.empty() || key.empty()) return table + std::string(key);
+  return fmt::format("{}.{}", table, key);
+}
+
+/// The node of a key, or of the innermost table that holds it.
+const toml::node& nearest_node(const toml::table& root, std::string_view key) {
+  const toml::node* node = &root;
+  while (!key.empty()) {
+    const std::string part(key.substr(0, key.find('.')));
+    key.remove_prefix(std::min(key.size(), part.size() + 1));
+    const toml::node* next = nullptr;
+    if (const toml::table* table = node->as_table()) {
+      next = table->get(part);
+    } else if (const toml::array* array = node->as_array()) {
+      const bool number = std::ranges::all_of(part, [](unsigned char c) { return std::isdigit(c) != 0; });
+      next = number && !part.empty() && part.size() < 9 ? array->get(std::stoul(part)) : nullptr;
+    }
+    if (next == nullptr) break;
+    node = next;
+  }
+  return *node;
+}
+
+bool is_at_or_below(std::string_view key, std::string_view above) {
+  return key.starts_with(above) && (key.size() == above.size() || key[above.size()] == '.');
 }
 
 /// Every key below `table` that no reader asked for.
@@ -147,11 +197,9 @@ void report_unknown(Document::State& state, const toml::table& table, const std:
     if (!known.contains(key_name)) {
       const std::vector<std::string> candidates(known.begin(), known.end());
       const std::string suggestion = did_you_mean(key_name, candidates);
-      const toml::source_position at = key.source().begin;
-      state.errors.push_back(
-          {{at.line, at.column},
-           fmt::format("{}: error: unknown key '{}'{} Accepted here: {}", state.position(at), path,
-                       suggestion.empty() ? "." : suggestion, fmt::join(candidates, ", "))});
+      state.error(key.source().begin, as_key(path),
+                  fmt::format("unknown key '{}'{} Accepted here: {}", path,
+                              suggestion.empty() ? "." : suggestion, fmt::join(candidates, ", ")));
     } else if (const toml::table* child = node.as_table(); child && state.known_keys.contains(child)) {
       report_unknown(state, *child, path);
     } else if (const toml::array* array = node.as_array()) {
@@ -266,11 +314,21 @@ void Document::finish() {
 
 void Document::finish_partly_read() {
   if (state_->errors.empty()) return;
-  std::ranges::stable_sort(state_->errors, {}, [](const auto& entry) { return entry.first; });
-  std::string all;
-  for (const auto& [position, message] : state_->errors) all += (all.empty() ? "" : "\n") + message;
-  state_->errors.clear();
-  throw InputError(all);
+  std::ranges::stable_sort(state_->errors, {},
+                           [](const InputFault& fault) { return std::pair(fault.line, fault.column); });
+  throw InputError(std::exchange(state_->errors, {}));
+}
+
+void Document::add(std::vector<InputFault> found) {
+  std::erase_if(found, [&](const InputFault& fault) {
+    return std::ranges::any_of(state_->errors, [&](const InputFault& known) {
+      return !known.key.empty() &&
+             (is_at_or_below(fault.key, known.key) || is_at_or_below(known.key, fault.key));
+    });
+  });
+  for (const InputFault& fault : found) {
+    state_->error(nearest_node(state_->root, fault.key), fault.key, fault.text);
+  }
 }
 
 bool Table::read(std::span<const BoundParameter> parameters) {
@@ -284,8 +342,9 @@ bool Table::read(std::span<const BoundParameter> parameters) {
     if (node == nullptr) {
       if (info.required) {
         sound = false;
-        error(fmt::format("missing key '{}'{}: {}{}", info.name, name_.empty() ? "" : " in [" + name_ + "]",
-                          info.meaning, info.unit.empty() ? "" : " (unit " + info.unit + ")"));
+        error_at(info.name, fmt::format("missing key '{}'{}: {}{}", info.name,
+                                        name_.empty() ? "" : " in [" + name_ + "]", info.meaning,
+                                        info.unit.empty() ? "" : " (unit " + info.unit + ")"));
       }
       continue;
     }
@@ -294,7 +353,7 @@ bool Table::read(std::span<const BoundParameter> parameters) {
       read_checked(parameter, *node);
     } catch (const InputError& fault) {
       sound = false;
-      state_->error(*node, fmt::format("'{}' {}", info.name, fault.what()));
+      error_at(info.name, fmt::format("'{}' {}", info.name, fault.what()));
     }
   }
   return sound;
@@ -308,7 +367,7 @@ std::optional<Table> Table::optional_table(std::string_view key) {
   if (node == nullptr) return std::nullopt;
   toml::table* table = node->as_table();
   if (table == nullptr) {
-    state_->error(*node, fmt::format("'{}' is {}, expected a table", key, type_name(*node)));
+    error_at(key, fmt::format("'{}' is {}, expected a table", key, type_name(*node)));
     return std::nullopt;
   }
   state_->known_keys[table];
@@ -318,8 +377,7 @@ std::optional<Table> Table::optional_table(std::string_view key) {
 std::optional<Table> Table::required_table(std::string_view key) {
   if (!has(key)) {
     state_->known_keys[&as_table(node_)].insert(std::string(key));
-    error(fmt::format("missing table [{}]",
-                      name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key)));
+    error_at(key, fmt::format("missing table [{}]", joined(name_, key)));
     return std::nullopt;
   }
   return optional_table(key);
@@ -332,15 +390,15 @@ std::vector<Table> Table::list(std::string_view key) {
   if (node == nullptr) return tables;
   toml::array* array = node->as_array();
   if (array == nullptr) {
-    state_->error(*node,
-                  fmt::format("'{}' is {}, expected a list of tables [[{}]]", key, type_name(*node), key));
+    error_at(key, fmt::format("'{}' is {}, expected a list of tables [[{}]]", key, type_name(*node), key));
     return tables;
   }
   for (std::size_t i = 0; i < array->size(); ++i) {
     toml::table* table = array->get(i)->as_table();
     if (table == nullptr) {
-      state_->error(*array->get(i), fmt::format("entry {} of '{}' is {}, expected a table", i, key,
-                                                type_name(*array->get(i))));
+      state_->error(*array->get(i), joined(key_path(), fmt::format("{}.{}", key, i)),
+                    fmt::format("entry {} of '{}' is {}, expected a table", i, key,
+                                type_name(*array->get(i))));
       continue;
     }
     state_->known_keys[table];
@@ -378,11 +436,13 @@ std::vector<std::string> Table::table_names() const {
 
 void Table::accept(std::string_view key) { state_->known_keys[&as_table(node_)].insert(std::string(key)); }
 
-void Table::error(const std::string& message) { state_->error(as_table(node_), message); }
+std::string Table::key_path() const { return as_key(name_); }
+
+void Table::error(const std::string& message) { state_->error(as_table(node_), key_path(), message); }
 
 void Table::error_at(std::string_view key, const std::string& message) {
   const toml::node* node = as_table(node_).get(key);
-  state_->error(node == nullptr ? as_table(node_) : *node, message);
+  state_->error(node == nullptr ? as_table(node_) : *node, joined(key_path(), key), message);
 }
 
 std::string Table::where(std::string_view key) const {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "src/core/base/error.hpp"
 #include "src/core/base/parameter_table.hpp"
 
 /// TOML input with all errors at once, each as "file:line:column: error: what, where, what is accepted".
@@ -35,6 +36,11 @@ class Document {
 
   Table root();
   [[nodiscard]] const std::filesystem::path& path() const;
+
+  /// Adds what a check has found wrong with the values, each fault at the place of its key, or of the table
+  /// nearest to it. Faults at, above or below a key that already has one are dropped: the value that was
+  /// checked is not the one in the file then.
+  void add(std::vector<InputFault> found);
 
   /// Reports every key that no reader asked for, then throws the collected errors, if any, as one InputError.
   void finish();
@@ -85,6 +91,8 @@ class Table {
   [[nodiscard]] std::string where(std::string_view key = {}) const;
   /// Path of the table in the document, "body[1].shape".
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// The same as --set and InputFault::key take it, "body.1.shape".
+  [[nodiscard]] std::string key_path() const;
   /// Folder of the file: relative paths in the input are resolved against it.
   [[nodiscard]] std::filesystem::path folder() const;
 

@@ -2,11 +2,20 @@
 #pragma once
 
 #include <algorithm>
-#include <string>
+#include <array>
+#include <cstdint>
 
 #include "src/material/failure/criterion.hpp"
 
 namespace whipple::failure {
+
+/// What a point loses at the spall strength.
+enum class SpallResponse : std::uint8_t { failure, opening, cut_off };
+constexpr std::array<Word<SpallResponse>, 3> words(SpallResponse) {
+  return {{{SpallResponse::failure, "failure"},
+           {SpallResponse::opening, "opening"},
+           {SpallResponse::cut_off, "cut_off"}}};
+}
 
 /// Spall at a constant tensile pressure p_cut (1 - f) k (Pa), with the melted fraction f and the scatter k of
 /// the threshold; the tensile strength vanishes with the solid. What happens there is the `response`:
@@ -21,14 +30,14 @@ namespace whipple::failure {
 /// (J. O. Hallquist, LS-DYNA Theory Manual (2006), spall models of material 10: cut-off, and zero deviator
 /// with tension no longer allowed); the linear loss with melting is this project's choice.
 struct TensilePressure : Threshold {
-  double spall_strength = 0.0;       ///< p_cut, Pa
-  std::string response = "failure";  ///< failure, opening, cut_off
+  double spall_strength = 0.0;  ///< p_cut, Pa
+  SpallResponse response = SpallResponse::failure;
 
   static ParameterTable<TensilePressure> parameters() {
     using P = TensilePressure;
     return {real("spall_strength", &P::spall_strength, "Pa", range::non_negative(),
                  "tensile pressure p_cut at which the solid parts"),
-            choice("response", &P::response, {"failure", "opening", "cut_off"},
+            choice("response", &P::response,
                    "what the point loses: tension and deviator for good, both while it is open, or only the "
                    "tension beyond p_cut")
                 .optional()};
@@ -43,9 +52,9 @@ struct TensilePressure : Threshold {
       "Source: Curran, Seaman and Shockey, Phys. Rep. 147 (1987) 253 (constant spall strength; linear loss "
       "with melting: own choice).";
 
-  [[nodiscard]] bool cuts_off() const { return response == "cut_off"; }
+  [[nodiscard]] bool cuts_off() const { return response == SpallResponse::cut_off; }
   [[nodiscard]] bool grows_voids() const { return cuts_off(); }
-  [[nodiscard]] Code healing_code() const { return response == "opening" ? tensile : intact; }
+  [[nodiscard]] Code healing_code() const { return response == SpallResponse::opening ? tensile : intact; }
 
   void mark(const State& state, std::span<double> /*damage*/, std::span<std::uint8_t> failed) const {
     if (cuts_off()) return;

@@ -2,13 +2,20 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <string>
+#include <cstdint>
 
 #include "src/material/failure/criterion.hpp"
 #include "src/material/principal.hpp"
 
 namespace whipple::failure {
+
+/// The tension that accumulates.
+enum class Tension : std::uint8_t { principal_stress, mean_stress };
+constexpr std::array<Word<Tension>, 2> words(Tension) {
+  return {{{Tension::principal_stress, "principal_stress"}, {Tension::mean_stress, "mean_stress"}}};
+}
 
 /// Spall by accumulated tension: a point fails (code 8) where
 ///   integral of (sigma/sigma_0 - 1)^lambda dt = tau,  sigma > sigma_0,
@@ -24,10 +31,10 @@ struct TulerButcher {
   static constexpr bool softens = false;
   static constexpr bool needs_strain = false;
 
-  double threshold = 0.0;                    ///< sigma_0, Pa
-  double exponent = 2.0;                     ///< lambda
-  double time = 0.0;                         ///< tau, s
-  std::string measure = "principal_stress";  ///< principal_stress, mean_stress
+  double threshold = 0.0;  ///< sigma_0, Pa
+  double exponent = 2.0;   ///< lambda
+  double time = 0.0;       ///< tau, s
+  Tension measure = Tension::principal_stress;
   bool healing = false;
 
   static ParameterTable<TulerButcher> parameters() {
@@ -38,7 +45,7 @@ struct TulerButcher {
         real("exponent", &P::exponent, "", range::positive(), "lambda").optional(),
         real("time", &P::time, "s", range::positive(),
              "tau = K/sigma_0^lambda: time to failure under twice the threshold"),
-        choice("measure", &P::measure, {"principal_stress", "mean_stress"},
+        choice("measure", &P::measure,
                "the tension sigma: the greatest principal stress or -p")
             .optional(),
         boolean("healing", &P::healing, "points whose void pressure has closed are whole again").optional()};
@@ -58,7 +65,7 @@ struct TulerButcher {
   [[nodiscard]] Code healing_code() const { return healing ? spalled : intact; }
 
   void mark(const State& state, std::span<double> damage, std::span<std::uint8_t> failed) const {
-    const bool principal = measure == "principal_stress";
+    const bool principal = measure == Tension::principal_stress;
     for (std::size_t i = 0; i < failed.size(); ++i) {
       if (failed[i] != intact) continue;
       const double pressure = state.pressure[i];

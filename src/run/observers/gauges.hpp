@@ -16,11 +16,11 @@ class GaugeTable : public Table {
 
   void begin(const Moment& moment) override {
     const solver::Simulation& simulation = moment.simulation;
-    recorder_.emplace(simulation.setup().gauges.all(), simulation);
+    recorder_.emplace(simulation.setup().all_gauges(), simulation);
     Table::begin(moment);
   }
   void resume(const Moment& moment, const io::CheckpointValues& values) override {
-    recorder_.emplace(moment.simulation.setup().gauges.all(), values);
+    recorder_.emplace(moment.simulation.setup().all_gauges(), values);
     Table::resume(moment, values);
   }
   void remember(io::CheckpointValues& values) override {

@@ -76,7 +76,7 @@ velocity = [{}, 0, 0]
       affine_field.empty() ? "" : "[transfer]\naffine_field = \"" + affine_field + "\"\n";
   solver::Simulation simulation(default_case(impact.end, text, more), parallel::world());
   const double inertia =
-      transfer::affine_inertia(transfer::shape_function(simulation.setup().transfer.shape_function), cell);
+      transfer::affine_inertia(simulation.setup().transfer.shape_function, cell);
   const Vector3 at_start = angular_momentum(simulation.particles(), inertia).total();
   const std::size_t count = simulation.particles().size();
   EnergyWatch watch;

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/case/domain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/case/case.hpp"
+
+namespace whipple::cases {
+
+ParameterTable<Faces> Faces::parameters() {
+  const auto face = [](const char* name, grid::Boundary Faces::* member) {
+    return choice(name, member,
+                  "matter leaves and is counted | frictionless mirror plane | wall that matter sticks to | "
+                  "frictionless wall that pushes but does not hold")
+        .optional();
+  };
+  return {face("x_lower", &Faces::x_lower), face("x_upper", &Faces::x_upper),
+          face("y_lower", &Faces::y_lower), face("y_upper", &Faces::y_upper),
+          face("z_lower", &Faces::z_lower), face("z_upper", &Faces::z_upper)};
+}
+
+bool Faces::any(grid::Boundary kind) const { return std::ranges::count(in_order(), kind) > 0; }
+
+ParameterTable<Domain> Domain::parameters() {
+  return {vector("lower", &Domain::lower, "m", range::any(), "lower corner of the domain"),
+          vector("upper", &Domain::upper, "m", range::any(),
+                 "upper corner; moved outwards to whole cells at outflow faces"),
+          real("cell_size", &Domain::cell_size, "m", range::positive(),
+               "edge of the cells of the background grid")};
+}
+
+std::span<const Section<Domain>> Domain::sections() {
+  static const std::array all = {
+      section<&Domain::boundary>("boundary", ", or boundary = { x_lower = \"symmetry\", ... }")};
+  return all;
+}
+
+namespace {
+
+/// Cells of an extent: whole but for round-off or not.
+struct Count {
+  double exact, nearest;
+  [[nodiscard]] bool whole() const { return std::abs(exact - nearest) < 1e-6 * std::max(nearest, 1.0); }
+  [[nodiscard]] bool possible() const { return exact > 0.0 && exact <= 1e6; }
+};
+
+Count cells_along(const Domain& domain, Eigen::Index axis) {
+  const double exact = (domain.upper[axis] - domain.lower[axis]) / domain.cell_size;
+  return {exact, std::round(exact)};
+}
+
+}  // namespace
+
+grid::Geometry Domain::geometry() const {
+  grid::Geometry g;
+  if (!(cell_size > 0.0)) return g;
+  g.lower = lower;
+  g.cell_size = cell_size;
+  g.boundary = boundary.in_order();
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Count count = cells_along(*this, static_cast<Eigen::Index>(a));
+    if (!count.possible()) continue;
+    g.cells[a] = static_cast<std::int32_t>(count.whole() ? count.nearest : std::ceil(count.exact));
+  }
+  return g;
+}
+
+void Domain::check(const Case& setup, const Faults& faults) const {
+  if (!(cell_size > 0.0)) return;  // out of its range
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<Eigen::Index>(a);
+    const Count count = cells_along(*this, axis);
+    const grid::Boundary end = boundary.in_order()[2 * a + 1];
+    if (!count.possible()) {
+      faults.add("upper", fmt::format("the domain has {} cells along {}; expected 1 to 1e6", count.exact,
+                                      "xyz"[a]));
+    } else if (!count.whole() && end != grid::Boundary::outflow) {
+      faults.add("upper", fmt::format("{}_upper is a {} face, so the domain must hold a whole number of cells "
+                                      "along {}: {} m holds {:.6g} cells of {} m",
+                                      "xyz"[a], word_of(end), "xyz"[a], upper[axis] - lower[axis], count.exact,
+                                      cell_size));
+    }
+  }
+  if (boundary.any(grid::Boundary::separating) && setup.time.scheme == Scheme::usf) {
+    faults.add("boundary",
+               "a separating wall is found to be in contact by the forces on the grid, which scheme \"usf\" "
+               "does not know yet where it needs them: take \"symplectic\", \"musl\" or \"usl\"");
+  }
+}
+
+}  // namespace whipple::cases

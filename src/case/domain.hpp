@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "src/case/section.hpp"
+#include "src/grid/geometry.hpp"
+
+namespace whipple::cases {
+
+/// What happens at each face of the domain.
+struct Faces {
+  grid::Boundary x_lower{}, x_upper{}, y_lower{}, y_upper{}, z_lower{}, z_upper{};
+
+  static ParameterTable<Faces> parameters();
+  /// Returns the faces in the order of grid::Geometry::boundary.
+  [[nodiscard]] std::array<grid::Boundary, 6> in_order() const {
+    return {x_lower, x_upper, y_lower, y_upper, z_lower, z_upper};
+  }
+  [[nodiscard]] bool any(grid::Boundary kind) const;
+};
+
+/// Part of space that is simulated, and its cells.
+struct Domain {
+  Vector3 lower = Vector3::Zero();  ///< m
+  Vector3 upper = Vector3::Zero();  ///< m
+  double cell_size = 0.0;           ///< m
+  Faces boundary;
+
+  static constexpr bool required = true;
+  static ParameterTable<Domain> parameters();
+  static std::span<const Section<Domain>> sections();
+  void check(const Case& setup, const Faults& faults) const;
+
+  /// Returns the grid of whole cells: walls lie on faces of cells, an outflow face at an upper end is moved
+  /// outwards to one. An axis along which `check` finds a fault may have no cells.
+  [[nodiscard]] grid::Geometry geometry() const;
+};
+
+}  // namespace whipple::cases

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "src/case/section.hpp"
+#include "src/core/base/tensor.hpp"
+
+namespace whipple::cases {
+
+struct Gravity {
+  Vector3 acceleration = Vector3::Zero();  ///< m/s^2
+  double rise_time = 0.0;                  ///< s
+
+  static ParameterTable<Gravity> parameters();
+  void check(const Case& setup, const Faults& faults) const;
+
+  /// Returns the acceleration at a time (s), which grows linearly from 0 to `rise_time`.
+  [[nodiscard]] Vector3 at(double time) const {
+    return rise_time > time ? Vector3(time / rise_time * acceleration) : acceleration;
+  }
+};
+
+}  // namespace whipple::cases

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/case/output_control.hpp"
+
+#include "src/io/output_fields.hpp"
+
+namespace whipple::cases {
+
+ParameterTable<OutputControl> OutputControl::parameters() {
+  return {real("snapshot_every", &OutputControl::snapshot_every, "s", range::non_negative(),
+               "simulated time between snapshots for ParaView; 0: first and last only")
+              .optional(),
+          real("checkpoint_every", &OutputControl::checkpoint_every, "s", range::non_negative(),
+               "wall-clock time between checkpoints; 0: at the end and on signals only")
+              .optional(),
+          integer("history_every", &OutputControl::history_every, range::between(1, 1e9),
+                  "steps between rows of history.csv")
+              .optional(),
+          integer("gauges_every", &OutputControl::gauges_every, range::between(1, 1e9),
+                  "steps between rows of gauges.csv")
+              .optional(),
+          real("maximum_energy_error", &OutputControl::maximum_energy_error, "", range::positive(),
+               "the run stops when the relative error of the total energy exceeds this")
+              .optional(),
+          text_list("fields", &OutputControl::fields, io::output_field_names(), "quantities in the snapshots")
+              .optional()};
+}
+
+std::vector<std::string> OutputControl::default_fields() { return io::default_output_fields(); }
+
+}  // namespace whipple::cases

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "src/case/shapes/shape.hpp"
+#include "src/core/input/document.hpp"
+
+namespace whipple::cases {
+
+using Parts = std::vector<std::unique_ptr<Shape>>;
+
+/// Returns the volume of a shape (m^3) by counting the points of a lattice over its bounds.
+double counted_volume(const Shape& shape);
+
+/// Returns "[{ ... }, { ... }]" as it stands in a case file.
+std::string list_as_toml(const Parts& parts);
+
+/// Reads the shapes of a list; empty if one of them is wrong, or there is none.
+Parts read_parts(input::Table& holder, const std::string& key);
+
+/// Reads the one shape of a key that must be there. Reports errors in the document and returns null then.
+std::unique_ptr<Shape> read_member(input::Table& table, const char* key);
+
+/// Reads a combination that is made of a list. Reports errors in the document and returns null then.
+template <class Combination>
+std::unique_ptr<Shape> read_list(input::Table& holder, const std::string& key) {
+  Parts parts = read_parts(holder, key);
+  if (parts.empty()) return nullptr;
+  return std::make_unique<Combination>(std::move(parts));
+}
+
+}  // namespace whipple::cases

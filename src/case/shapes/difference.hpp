@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "src/case/shapes/combination.hpp"
+
+namespace whipple::cases {
+
+/// A shape without others.
+class Difference final : public Shape {
+ public:
+  static constexpr const char* name = "difference";
+  static constexpr const char* summary =
+      "a shape without others: difference = { from = { ... }, minus = [{ ... }, ...] }";
+  static std::string describe() { return {}; }
+  static std::unique_ptr<Shape> read(input::Table& holder, const std::string& key) {
+    auto table = holder.required_table(key);
+    if (!table) return nullptr;
+    std::unique_ptr<Shape> from = read_member(*table, "from");
+    Parts minus = read_parts(*table, "minus");
+    if (!from || minus.empty()) return nullptr;
+    return std::make_unique<Difference>(std::move(from), std::move(minus));
+  }
+
+  Difference(std::unique_ptr<Shape> from, Parts minus) : from_(std::move(from)), minus_(std::move(minus)) {}
+  [[nodiscard]] bool contains(const Vector3& point) const override {
+    return from_->contains(point) &&
+           std::ranges::none_of(minus_, [&](const auto& part) { return part->contains(point); });
+  }
+  [[nodiscard]] Bounds bounds() const override { return from_->bounds(); }
+  [[nodiscard]] double volume() const override { return counted_volume(*this); }
+  [[nodiscard]] std::string toml() const override {
+    return fmt::format("{{ difference = {{ from = {}, minus = {} }} }}", from_->toml(), list_as_toml(minus_));
+  }
+
+ private:
+  std::unique_ptr<Shape> from_;
+  Parts minus_;
+};
+
+}  // namespace whipple::cases

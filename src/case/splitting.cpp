@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/case/splitting.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "src/case/case.hpp"
+
+namespace whipple::cases {
+
+ParameterTable<Splitting> Splitting::parameters() {
+  return {
+      real("length", &Splitting::length, "", range::between(0.0, 2.0),
+           "length in cells of an intact particle along its longest direction beyond which it is divided in "
+           "two; 0: never, 1 to 1.2 keeps stretched matter together")
+          .optional(),
+      integer("maximum_generations", &Splitting::maximum_generations, range::between(0, 20),
+              "divisions that a particle and its parts may undergo")
+          .optional()};
+}
+
+/// A length below that of the particles would divide all of them, as often as generations allow.
+void Splitting::check(const Case& setup, const Faults& faults) const {
+  for (const Body& body : setup.bodies) {
+    const double own = std::cbrt(1.0 / static_cast<double>(body.discretization.per_cell));
+    if (length == 0.0 || length >= own || !body.discretization.has_particles()) continue;
+    faults.add("length", fmt::format("'length' is {}, and the particles of body \"{}\" are {:.3g} cells long "
+                                     "from the start: expected at least that, or 0 (never)",
+                                     length, body.name, own));
+    return;
+  }
+}
+
+}  // namespace whipple::cases

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace whipple {
+
+/// One value of an enumeration with the word for it in input files. The words of an enumeration are declared
+/// once, beside it, by a constexpr function `words(Enum)`, found by its argument, that returns an array of
+/// these in the order in which `whipple describe` lists them. A value without a word cannot be asked for.
+template <class Enum>
+struct Word {
+  Enum value;
+  std::string_view text;
+};
+
+/// Returns the word of a value; empty if it has none.
+template <class Enum>
+constexpr std::string_view word_of(Enum value) {
+  for (const Word<Enum>& word : words(value)) {
+    if (word.value == value) return word.text;
+  }
+  return {};
+}
+
+}  // namespace whipple
