@@ -18,6 +18,9 @@ MAY_USE = {
     "src/core/process": ["src/core/base"],
     "src/core/hdf5": ["src/core/base", "src/core/parallel"],
     "eos": ["src/core/base"],
+    # Curves and comparisons with measurements, returned as data.
+    "eos/curves": ["src/core/base", "eos"],
+    "eos/experiments": ["src/core/base", "eos"],
     "md_fitting/data_set": ["src/core/base", "src/core/hdf5"],
     # Reads the store and starts whipple-md as a process: no LAMMPS on the solver's side.
     "eos/md": ["src/core/base", "src/core/process", "eos", "md_fitting/data_set"],
@@ -45,14 +48,16 @@ MAY_USE = {
     # The program whipple-md.
     "md_fitting": ["src/core/base", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],
     # The program whipple: it starts the other two, so of their side it knows the plan's keys only.
-    "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/files", "src/particles", "src/grid", "src/material",
+    "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/curves", "eos/experiments", "eos/files",
+                "src/particles", "src/grid", "src/material",
                 "src/transfer", "src/io", "src/analysis", "src/setup", "src/solver", "src/bench", "md_fitting/plan"],
 }
 
 # CMake library -> module, where the name is not the last part of the folder.
 LIBRARY_OF = {"whipple_md_data_set": "md_fitting/data_set", "whipple_md_plan": "md_fitting/plan",
               "whipple_md_lammps": "md_fitting/lammps", "whipple_md_protocols": "md_fitting/protocols",
-              "whipple_fit": "md_fitting/fit", "whipple_eos": "eos", "whipple_eos_files": "eos/files",
+              "whipple_fit": "md_fitting/fit", "whipple_eos": "eos", "whipple_eos_curves": "eos/curves",
+              "whipple_eos_experiments": "eos/experiments", "whipple_eos_files": "eos/files",
               "whipple_eos_md": "eos/md"}
 
 VERSION_QUERY = "src/app/version_command.cpp"  # asks the libraries for their version, nothing else
