@@ -11,7 +11,7 @@
 
 #include "eos/files/sesame.hpp"
 #include "eos/files/table_file.hpp"
-#include "eos/md/worker_source.hpp"
+#include "eos/models/simulated_crystal.hpp"
 #include "eos/table/sesame.hpp"
 #include "src/core/base/error.hpp"
 
@@ -93,18 +93,7 @@ ModelEntry simulated_entry() {
           [](const ParameterReader& read) -> std::function<std::unique_ptr<EquationOfState>()> {
             SimulatedConstants constants;
             read(whipple::bind(SimulatedConstants::parameters(), constants));
-            return [constants] {
-              const fs::path store =
-                  constants.store.empty() ? default_store(constants) : fs::path(constants.store);
-              if (!store.is_absolute()) {
-                throw InputError(
-                    fmt::format("store = \"{}\": expected an absolute path: copies of the material "
-                                "share it",
-                                constants.store));
-              }
-              return std::make_unique<SimulatedCrystal>(constants,
-                                                        std::make_unique<WorkerSource>(constants, store));
-            };
+            return [constants] { return simulated_crystal(constants); };
           }};
 }
 

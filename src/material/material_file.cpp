@@ -11,7 +11,7 @@
 
 #include "eos/audit.hpp"
 #include "eos/files/models.hpp"
-#include "eos/md/simulated_crystal.hpp"
+#include "eos/models/simulated_crystal.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/text.hpp"
