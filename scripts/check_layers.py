@@ -32,7 +32,7 @@ MAY_USE = {
     "src/fem": ["src/core/base", "src/core/parallel", "src/particles", "src/material"],
     "src/contact": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
     "src/afemp": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
-    "src/io": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/particles", "src/fem"],
+    "src/io": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/particles", "src/material", "src/fem"],
     "src/setup": ["src/core/base", "src/core/input", "src/core/parallel", "eos", "eos/files", "src/particles", "src/grid", "src/material",
                   "src/fem", "src/io"],
     "src/solver": ["src/core/base", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
