@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "eos/detonation.hpp"
+#include "eos/models/jwl.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::eos {
@@ -75,7 +76,7 @@ class Auditor {
 
   Audit run() {
     if (!check_reference()) return std::move(result_);
-    if (eos_.model() == "jwl") guarded("detonation", [&] { check_detonation(); });
+    if (eos_.model() == Jwl::name) guarded("detonation", [&] { check_detonation(); });
     guarded("cold curve", [&] { check_cold_curve(); });
     guarded("Hugoniot", [&] { check_hugoniot(); });
     if (thermal_) guarded("heat capacity", [&] { check_temperatures(); });

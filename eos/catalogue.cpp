@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "eos/catalogue.hpp"
 
-#include <fmt/core.h>
-#include <fmt/ranges.h>
-
-#include <array>
-#include <string_view>
-#include <vector>
+#include <memory>
+#include <utility>
 
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/debye_gruneisen.hpp"
@@ -25,8 +21,6 @@
 #include "eos/modifiers/p_alpha.hpp"
 #include "eos/modifiers/scale.hpp"
 #include "eos/modifiers/shift.hpp"
-#include "src/core/base/error.hpp"
-#include "src/core/base/text.hpp"
 
 namespace whipple::eos {
 namespace {
@@ -34,42 +28,32 @@ namespace {
 template <Model M>
 ModelEntry entry() {
   using Constants = typename M::Constants;
-  return {std::string(M::name), std::string(M::summary), [] { return describe_table(M::parameters()); },
-          [](const ParameterReader& read) -> std::function<std::unique_ptr<EquationOfState>()> {
-            Constants constants;
-            read(whipple::bind(M::parameters(), constants));
-            return [constants] { return std::make_unique<ModelEquationOfState<M>>(constants); };
-          }};
+  return catalogue_entry<ModelEntry>(M::name, M::summary, "", &M::parameters, [](const Constants& constants) {
+    return std::make_unique<ModelEquationOfState<M>>(constants);
+  });
 }
 
 template <class M>
 ModifierEntry modifier_entry() {
   using Constants = typename M::Constants;
-  return {std::string(M::name), std::string(M::summary), [] { return describe_table(M::parameters()); },
-          [](const ParameterReader& read)
-              -> std::function<std::unique_ptr<EquationOfState>(ModifierEntry::Base)> {
-            Constants constants;
-            read(whipple::bind(M::parameters(), constants));
-            return [constants](ModifierEntry::Base base) {
-              return std::make_unique<M>(std::move(base), constants);
-            };
-          }};
+  return catalogue_entry<ModifierEntry>(
+      M::name, M::summary, "", &M::parameters,
+      [](const Constants& constants, std::shared_ptr<const EquationOfState> inside) {
+        return std::make_unique<M>(std::move(inside), constants);
+      });
 }
 
 }  // namespace
 
-std::span<const ModifierEntry> modifier_catalogue() {
-  static const std::array entries = {
-      modifier_entry<Shift>(),
-      modifier_entry<Scale>(),
-      modifier_entry<Floor>(),
-      modifier_entry<PAlpha>(),
-  };
-  return entries;
+const Catalogue<ModifierEntry>& modifier_catalogue() {
+  static const Catalogue<ModifierEntry> all(
+      "modifier",
+      {modifier_entry<Shift>(), modifier_entry<Scale>(), modifier_entry<Floor>(), modifier_entry<PAlpha>()});
+  return all;
 }
 
-std::span<const ModelEntry> catalogue() {
-  static const std::array entries = {
+const Catalogue<ModelEntry>& catalogue() {
+  static const Catalogue<ModelEntry> all("equation of state", {
       // Condensed matter with its phases.
       entry<Gray>(),
       entry<Gray71>(),
@@ -86,18 +70,8 @@ std::span<const ModelEntry> catalogue() {
       entry<StiffenedGas>(),
       entry<IdealGas>(),
       entry<Jwl>(),
-  };
-  return entries;
-}
-
-const ModelEntry& find_model(std::string_view name) {
-  std::vector<std::string> names;
-  for (const ModelEntry& candidate : catalogue()) {
-    if (candidate.name == name) return candidate;
-    names.push_back(candidate.name);
-  }
-  throw InputError(fmt::format("unknown equation of state {}{}; known: {}", toml_string(name),
-                               did_you_mean(name, names), fmt::join(names, ", ")));
+  });
+  return all;
 }
 
 }  // namespace whipple::eos

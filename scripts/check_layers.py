@@ -18,18 +18,21 @@ MAY_USE = {
     "src/core/process": ["src/core/base"],
     "src/core/hdf5": ["src/core/base", "src/core/parallel"],
     "eos": ["src/core/base"],
+    # Curves and comparisons with measurements, returned as data.
+    "eos/curves": ["src/core/base", "eos"],
+    "eos/experiments": ["src/core/base", "eos"],
+    "eos/files": ["src/core/base", "src/core/hdf5", "eos"],
     "md_fitting/data_set": ["src/core/base", "src/core/hdf5"],
     # Reads the store and starts whipple-md as a process: no LAMMPS on the solver's side.
-    "eos/md": ["src/core/base", "src/core/process", "eos", "md_fitting/data_set"],
-    "eos/files": ["src/core/base", "src/core/hdf5", "eos", "eos/md"],
+    "md_fitting/simulated_crystal": ["src/core/base", "src/core/process", "eos", "md_fitting/data_set"],
     "src/particles": ["src/core/base", "src/core/parallel"],
     "src/grid": ["src/core/base", "src/core/parallel"],
-    "src/material": ["src/core/base", "src/core/input", "eos", "eos/md", "eos/files", "src/particles"],
+    "src/material": ["src/core/base", "src/core/input", "eos", "eos/files", "src/particles"],
     "src/transfer": ["src/core/base", "src/core/parallel", "src/particles", "src/grid"],
     "src/fem": ["src/core/base", "src/core/parallel", "src/particles", "src/material"],
     "src/contact": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/transfer", "src/fem"],
     "src/afemp": ["src/core/base", "src/core/parallel", "src/particles", "src/grid", "src/material", "src/transfer", "src/fem"],
-    "src/io": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/particles", "src/fem"],
+    "src/io": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/particles", "src/material", "src/fem"],
     "src/case": ["src/core/base", "src/core/input", "src/core/parallel", "eos", "eos/files", "src/particles", "src/grid", "src/material",
                   "src/transfer", "src/fem", "src/contact", "src/io"],
     "src/solver": ["src/core/base", "src/core/parallel", "eos", "src/particles", "src/grid", "src/material", "src/transfer",
@@ -47,16 +50,20 @@ MAY_USE = {
     "md_fitting/fit": ["src/core/base", "src/core/input", "src/core/process", "eos", "md_fitting/data_set", "md_fitting/plan"],
     # The program whipple-md.
     "md_fitting": ["src/core/base", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps", "md_fitting/protocols"],
-    # The program whipple: it starts the other two, so of their side it knows the plan's keys only.
-    "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/files", "src/particles", "src/grid", "src/material",
-                "src/transfer", "src/io", "src/analysis", "src/case", "src/solver", "src/run", "src/bench", "md_fitting/plan"],
+    # The program whipple: it starts the other two, so of their side it knows the plan's keys and the source that asks
+    # whipple-md for states.
+    "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/curves", "eos/experiments", "eos/files",
+                "src/particles", "src/grid", "src/material",
+                "src/transfer", "src/io", "src/analysis", "src/case", "src/solver", "src/run", "src/bench", "md_fitting/plan",
+                "md_fitting/simulated_crystal"],
 }
 
 # CMake library -> module, where the name is not the last part of the folder.
 LIBRARY_OF = {"whipple_md_data_set": "md_fitting/data_set", "whipple_md_plan": "md_fitting/plan",
               "whipple_md_lammps": "md_fitting/lammps", "whipple_md_protocols": "md_fitting/protocols",
-              "whipple_fit": "md_fitting/fit", "whipple_eos": "eos", "whipple_eos_files": "eos/files",
-              "whipple_eos_md": "eos/md"}
+              "whipple_fit": "md_fitting/fit", "whipple_eos": "eos", "whipple_eos_curves": "eos/curves",
+              "whipple_eos_experiments": "eos/experiments", "whipple_eos_files": "eos/files",
+              "whipple_md_simulated_crystal": "md_fitting/simulated_crystal"}
 
 VERSION_QUERY = "src/app/version_command.cpp"  # asks the libraries for their version, nothing else
 
@@ -188,6 +195,12 @@ def self_test():
     bad = {
         "src/core/base/upward.hpp": ('#include "src/solver/simulation.hpp"\n', "src/core/base may not use src/solver"),
         "eos/reads_files.cpp": ('#include "src/core/input/document.hpp"\n', "eos may not use src/core/input"),
+        "eos/models/starts_md.cpp": ('#include "md_fitting/simulated_crystal/worker_source.hpp"\n',
+                                     "eos may not use md_fitting/simulated_crystal"),
+        "src/material/reads_store.cpp": ('#include "md_fitting/data_set/data_set.hpp"\n',
+                                         "src/material may not use md_fitting/data_set"),
+        "eos/files/starts_programs.cpp": ('#include "src/core/process/mpirun.hpp"\n',
+                                          "eos/files may not use src/core/process"),
         "eos/models/knows_particles.hpp": ('#include "src/particles/p.hpp"\n', "eos may not use src/particles"),
         "src/material/knows_grid.cpp": ('#include "src/grid/g.hpp"\n', "src/material may not use src/grid"),
         "src/solver/knows_run.cpp": ('#include "src/run/run.hpp"\n', "src/solver may not use src/run"),
@@ -212,6 +225,8 @@ def self_test():
         "src/run/run.hpp": '#include "src/solver/simulation.hpp"\n',
         "src/core/input/document.hpp": "/* #include <hdf5.h>\n*/\n",
         "src/particles/p.hpp": "", "src/grid/g.hpp": "", "md_fitting/plan/plan.hpp": "", "md_fitting/lammps/l.hpp": "",
+        "md_fitting/simulated_crystal/worker_source.hpp": "", "md_fitting/data_set/data_set.hpp": "",
+        "src/core/process/mpirun.hpp": "",
         "src/io/b.hpp": '#include "src/io/a.hpp"\n',
         "src/core/hdf5/hdf5.hpp": "#include <hdf5.h>\n",
     }

@@ -177,9 +177,10 @@ def speed(snapshot):
     return 1e-3 * np.linalg.norm(snapshot.velocity, axis=1)
 
 
-FAILURE_COLOURS = ("#8fa3b5", "#d7402b", "#c9b037", "#b5547a", "#6d6fc4", "#c8762f", "#8c6d5a", "#5aa469")
+FAILURE_COLOURS = ("#8fa3b5", "#d7402b", "#c9b037", "#b5547a", "#6d6fc4", "#c8762f", "#8c6d5a", "#5aa469",
+                   "#2f4b7c")
 FAILURE_NAMES = ("intact", "tension", "plastic strain", "principal stress", "principal strain", "ductile damage",
-                 "fragmentation", "growth of voids")
+                 "fragmentation", "growth of voids", "accumulated tension")
 
 
 def failure_colours(snapshot):

@@ -6,7 +6,10 @@ whipple_test(eos_test
           property/eos_constant_heat_test.cpp verification/eos_loci_test.cpp verification/eos_models_test.cpp
           verification/eos_shock_test.cpp verification/eos_gas_loci_test.cpp validation/eos_copper_test.cpp
           unit/eos_table_test.cpp verification/eos_table_error_test.cpp
-  DEPENDS whipple_eos whipple_eos_md GTest::gmock LABELS fast)
+  DEPENDS whipple_eos GTest::gmock LABELS fast)
+# What the command line shows, without the command line.
+whipple_test(eos_curves_test SOURCES unit/eos_curves_test.cpp unit/eos_experiments_test.cpp
+             DEPENDS whipple_eos_curves whipple_eos_experiments LABELS fast)
 # The catalogue of materials is read by whipple_material.
 whipple_test(eos_library_test
   SOURCES property/eos_inversions_test.cpp property/eos_audit_test.cpp validation/eos_library_test.cpp

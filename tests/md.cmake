@@ -7,6 +7,7 @@ whipple_test(md_test
   DEPENDS whipple_md_protocols LABELS fast)
 whipple_test(md_shock_test TIMEOUT 7200 SOURCES validation/md_shock_test.cpp validation/md_honesty_test.cpp
   DEPENDS whipple_md_protocols LABELS long)
+whipple_test(md_simulated_crystal_test SOURCES unit/md_worker_source_test.cpp DEPENDS whipple_md_simulated_crystal LABELS fast)
 # Programs under mpirun, started by the test itself.
 add_executable(md_guard_abort parallel/md_guard_abort.cpp)
 target_link_libraries(md_guard_abort PRIVATE whipple_md_lammps)

@@ -8,10 +8,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "eos/files/sesame.hpp"
 #include "eos/files/table_file.hpp"
-#include "eos/md/worker_source.hpp"
+#include "eos/models/simulated_crystal.hpp"
 #include "eos/table/sesame.hpp"
 #include "src/core/base/error.hpp"
 
@@ -39,17 +41,20 @@ struct TableConstants {
   }
 };
 
-ModelEntry table_entry(const fs::path& folder, std::vector<fs::path>* used) {
-  return {std::string(Table::name), "table of another model, written by 'whipple eos table'",
-          [] { return describe_table(TableConstants::parameters()); },
-          [folder, used](const ParameterReader& read) -> std::function<std::unique_ptr<EquationOfState>()> {
-            TableConstants constants;
-            read(whipple::bind(TableConstants::parameters(), constants));
-            const fs::path file = constants.file;
-            if (used != nullptr && file.is_relative()) used->push_back(file);
-            return
-                [folder, file] { return std::make_unique<Table>(read_table(resolved(folder, file)).data); };
-          }};
+/// A relative name is that of a companion of the material file.
+template <class Constants>
+std::vector<fs::path> companions_of(const Constants& constants) {
+  const fs::path file = constants.file;
+  return file.is_relative() ? std::vector{file} : std::vector<fs::path>();
+}
+
+ModelEntry table_entry(const fs::path& folder) {
+  return catalogue_entry<ModelEntry>(
+      Table::name, "table of another model, written by 'whipple eos table'", "", &TableConstants::parameters,
+      [folder](const TableConstants& constants) {
+        return std::make_unique<Table>(read_table(resolved(folder, constants.file)).data);
+      },
+      companions_of<TableConstants>);
 }
 
 struct SesameConstants {
@@ -68,54 +73,32 @@ struct SesameConstants {
   }
 };
 
-ModelEntry sesame_entry(const fs::path& folder, std::vector<fs::path>* used) {
-  return {std::string(Sesame::name), "table 301 of a SESAME file",
-          [] { return describe_table(SesameConstants::parameters()); },
-          [folder, used](const ParameterReader& read) -> std::function<std::unique_ptr<EquationOfState>()> {
-            SesameConstants constants;
-            read(whipple::bind(SesameConstants::parameters(), constants));
-            const fs::path file = constants.file;
-            if (used != nullptr && file.is_relative()) used->push_back(file);
-            return [folder, file, constants] {
-              const fs::path path = resolved(folder, file);
-              const std::optional<int> number = constants.material == 0
-                                                    ? std::nullopt
-                                                    : std::optional(static_cast<int>(constants.material));
-              return std::make_unique<Sesame>(read_sesame(path, number), constants.reference_temperature,
-                                              path.string());
-            };
-          }};
+ModelEntry sesame_entry(const fs::path& folder) {
+  return catalogue_entry<ModelEntry>(
+      Sesame::name, "table 301 of a SESAME file", "", &SesameConstants::parameters,
+      [folder](const SesameConstants& constants) {
+        const fs::path path = resolved(folder, constants.file);
+        const std::optional<int> number =
+            constants.material == 0 ? std::nullopt : std::optional(static_cast<int>(constants.material));
+        return std::make_unique<Sesame>(read_sesame(path, number), constants.reference_temperature, path.string());
+      },
+      companions_of<SesameConstants>);
 }
 
 ModelEntry simulated_entry() {
-  return {std::string(SimulatedCrystal::name), "crystal simulated by whipple-md when a state is asked for",
-          [] { return describe_table(SimulatedConstants::parameters()); },
-          [](const ParameterReader& read) -> std::function<std::unique_ptr<EquationOfState>()> {
-            SimulatedConstants constants;
-            read(whipple::bind(SimulatedConstants::parameters(), constants));
-            return [constants] {
-              const fs::path store =
-                  constants.store.empty() ? default_store(constants) : fs::path(constants.store);
-              if (!store.is_absolute()) {
-                throw InputError(
-                    fmt::format("store = \"{}\": expected an absolute path: copies of the material "
-                                "share it",
-                                constants.store));
-              }
-              return std::make_unique<SimulatedCrystal>(constants,
-                                                        std::make_unique<WorkerSource>(constants, store));
-            };
-          }};
+  return catalogue_entry<ModelEntry>(SimulatedCrystal::name,
+                                     "crystal simulated by whipple-md when a state is asked for", "",
+                                     &SimulatedConstants::parameters, simulated_crystal);
 }
 
 }  // namespace
 
-std::vector<ModelEntry> all_models(const fs::path& folder, std::vector<fs::path>* used) {
+Catalogue<ModelEntry> all_models(const fs::path& folder) {
   std::vector<ModelEntry> entries(catalogue().begin(), catalogue().end());
-  entries.push_back(table_entry(folder, used));
-  entries.push_back(sesame_entry(folder, used));
+  entries.push_back(table_entry(folder));
+  entries.push_back(sesame_entry(folder));
   entries.push_back(simulated_entry());
-  return entries;
+  return {"equation of state", std::move(entries)};
 }
 
 }  // namespace whipple::eos

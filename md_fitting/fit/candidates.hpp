@@ -2,17 +2,17 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/fit/protocol.hpp"
 #include "md_fitting/plan/plan.hpp"
 
 namespace whipple::fit {
 
 /// A point that a plan with [adaptive] may ask for.
 struct PlannedPoint {
-  std::string protocol;       ///< "zero_pressure_volume", "hugoniot", "isochore", "coexistence"
+  Protocol protocol = Protocol::zero_pressure_volume;
   double volume_ratio = 0.0;  ///< V over that of the static crystal; of hugoniot and isochore
   double temperature = 0.0;   ///< K; of coexistence the first guess, of hugoniot none
   double pressure = 0.0;      ///< Pa; of coexistence

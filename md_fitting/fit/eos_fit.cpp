@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "md_fitting/fit/fit_report.hpp"
@@ -131,11 +134,28 @@ void write_samples(const Fit& fit, const StoreOrigin& origin, const std::filesys
                  : "");
 }
 
-Fit fit_model(const std::string& model, std::span<const md::PointRecord> points, const FitSettings& settings,
+Fit fit_model(FitModel model, std::span<const md::PointRecord> points, const FitSettings& settings,
               const std::string& store) {
-  if (model == "mie_gruneisen") return fit_mie_gruneisen(points, settings, store);
-  if (model == "debye_gruneisen") return fit_debye_gruneisen(points, settings, store);
-  return fit_gray(points, settings, store);
+  switch (model) {
+    case FitModel::gray:
+      return fit_gray(points, settings, store);
+    case FitModel::mie_gruneisen:
+      return fit_mie_gruneisen(points, settings, store);
+    case FitModel::debye_gruneisen:
+      return fit_debye_gruneisen(points, settings, store);
+  }
+  throw InternalError("unknown model of a fit");
+}
+
+/// The words of --model.
+std::vector<std::string> model_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, model] : fit_models) names.emplace_back(name);
+  return names;
+}
+
+FitModel model_of(std::string_view name) {
+  return std::ranges::find(fit_models, name, &std::pair<std::string_view, FitModel>::first)->second;
 }
 
 /// The next round of `whipple md --adaptive`: a plan of its points, or no file if the work is at its end.
@@ -177,7 +197,7 @@ void run(const Options& options) {
   for (std::size_t i = 0; i < options.stores.size(); ++i) {
     const std::filesystem::path& store = options.stores[i];
     const std::vector<md::PointRecord> points = md::read_store(store);
-    fits.push_back({stem(store), fit_model(options.model, points, chosen, store.string())});
+    fits.push_back({stem(store), fit_model(model_of(options.model), points, chosen, store.string())});
     if (files.empty()) continue;
     const Fit& fit = fits.back().fit;
     const std::filesystem::path model = options.template_file.empty()
@@ -217,7 +237,7 @@ int main_program(int argc, char** argv) {
       "Several stores are printed side by side; give -o once for each, or once as a folder.");
   app.add_option("stores", options.stores, "Stores NAME.md.h5 of whipple md")->required();
   app.add_option("--model", options.model, "Equation of state")
-      ->check(CLI::IsMember({"gray", "mie_gruneisen", "debye_gruneisen"}))
+      ->check(CLI::IsMember(model_names()))
       ->capture_default_str();
   app.add_option("-o,--output", options.outputs, "Material file to write, or a folder (ending with '/')")
       ->allow_extra_args(false);

@@ -12,6 +12,7 @@
 
 #include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/element_defaults.hpp"
+#include "src/core/base/error.hpp"
 #include "src/core/base/text_table.hpp"
 
 namespace whipple::fit {
@@ -24,7 +25,7 @@ struct Column {
   int decimals;
 };
 
-const std::vector<Column>& columns(const std::string& model) {
+const std::vector<Column>& columns(FitModel model) {
   static const std::vector<Column> gray = {{"V0", "cm3/g", "reference_specific_volume", 1e-3, 5},
                                            {"C", "km/s", "hugoniot_intercept", 1e3, 3},
                                            {"S", "", "hugoniot_slope", 1.0, 3},
@@ -44,7 +45,15 @@ const std::vector<Column>& columns(const std::string& model) {
       {"K0'", "", "bulk_modulus_slope", 1.0, 2},      {"gamma0", "", "gruneisen", 1.0, 3},
       {"a", "", "gruneisen_slope", 1.0, 2},           {"theta0", "K", "debye_temperature", 1.0, 0},
       {"T_m0", "K", "melting_temperature", 1.0, 0}};
-  return model == "mie_gruneisen" ? mie_gruneisen : model == "debye_gruneisen" ? debye : gray;
+  switch (model) {
+    case FitModel::gray:
+      return gray;
+    case FitModel::mie_gruneisen:
+      return mie_gruneisen;
+    case FitModel::debye_gruneisen:
+      return debye;
+  }
+  throw InternalError("unknown model of a fit");
 }
 
 using Row = std::vector<std::string>;
@@ -68,7 +77,7 @@ Row published_cells(const PublishedRow& row) {
                            row.gruneisen_slope, row.heat_coefficient,   row.melting_temperature};
   Row cells = {std::string(row.name)};
   for (std::size_t i = 0; i < std::size(values); ++i) {
-    cells.push_back(fmt::format("{:.{}f}", values[i] / columns("gray")[i].size, columns("gray")[i].decimals));
+    cells.push_back(fmt::format("{:.{}f}", values[i] / columns(FitModel::gray)[i].size, columns(FitModel::gray)[i].decimals));
   }
   cells.emplace_back();
   return cells;
@@ -156,7 +165,7 @@ std::string windows_text(const Fit& fit) {
 }  // namespace
 
 std::string constants_table(std::span<const NamedFit> fits) {
-  const std::string& model = fits.front().fit.model;
+  const FitModel model = fits.front().fit.model;
   Row titles = {""};
   Row units = {""};
   for (const Column& column : columns(model)) {
@@ -173,7 +182,7 @@ std::string constants_table(std::span<const NamedFit> fits) {
   }
   std::string sources;
   for (const PublishedRow& row : published_rows()) {
-    if (model != "gray" || !elements.contains(row.element)) continue;
+    if (model != FitModel::gray || !elements.contains(row.element)) continue;
     rows.push_back(published_cells(row));
     if (sources.find(row.source) == std::string::npos) {
       sources += fmt::format("{}{}", sources.empty() ? "" : "; ", row.source);
@@ -181,16 +190,16 @@ std::string constants_table(std::span<const NamedFit> fits) {
   }
   std::string text = text_table(rows, "lr");
   text += "errors: one standard deviation from noise and model error, in brackets from the noise alone\n";
-  if (model == "gray") text += "g: fitted rows the anharmonic coefficient of classical nuclei";
+  if (model == FitModel::gray) text += "g: fitted rows the anharmonic coefficient of classical nuclei";
   if (!sources.empty()) {
     text += fmt::format("; published rows that of the electrons, or the sum\npublished rows: {}", sources);
   }
-  return model == "gray" ? text + "\n" : text;
+  return model == FitModel::gray ? text + "\n" : text;
 }
 
 std::string fit_details(const Fit& fit) {
   std::string text;
-  text += fmt::format("model {}; potential {}; chi^2 = {:.1f} for {} degrees of freedom: {:.2f}\n", fit.model,
+  text += fmt::format("model {}; potential {}; chi^2 = {:.1f} for {} degrees of freedom: {:.2f}\n", name_of(fit.model),
                       fit.potential, fit.chi_squared, fit.degrees_of_freedom,
                       fit.chi_squared / fit.degrees_of_freedom);
   for (const ChiSquaredPart& part : fit.chi_squared_parts) {
@@ -223,7 +232,7 @@ std::string fit_details(const Fit& fit) {
         fmt::format("  V/V0 = {:.4f}  {:.3f} +- {:.3f}  line {:.3f}  {} states\n", ratio, isochore.gruneisen,
                     isochore.error, fit.gruneisen - fit.gruneisen_slope * (1.0 - ratio), isochore.states);
   }
-  if (fit.isochoric_melting_temperature && fit.model == "gray") {
+  if (fit.isochoric_melting_temperature && fit.model == FitModel::gray) {
     text += fmt::format(
         "\nmelting: the solid of volume V0 coexists with liquid at {:.0f} K; T_m0 of melting = \"{}\" is "
         "{:.0f} K\n",
@@ -250,7 +259,7 @@ std::string plot_data(const NamedFit& named) {
   const Fit& fit = named.fit;
   nlohmann::json data;
   data["title"] = named.name;
-  data["model"] = fit.model;
+  data["model"] = name_of(fit.model);
   data["reference_volume"] = fit.fitted_reference_volume;
   data["molar_mass"] = fit.molar_mass;
   data["gruneisen"] = {fit.gruneisen, fit.gruneisen_slope};

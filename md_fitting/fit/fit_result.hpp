@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -72,8 +74,16 @@ struct ModelCheck {
   double rms = 0.0, mean = 0.0, maximum = 0.0;  ///< model less molecular dynamics
 };
 
+/// Equations of state that can be fitted, and their names in the catalogue.
+enum class FitModel { gray, mie_gruneisen, debye_gruneisen };
+constexpr std::array<std::pair<std::string_view, FitModel>, 3> fit_models = {
+    {{"gray", FitModel::gray},
+     {"mie_gruneisen", FitModel::mie_gruneisen},
+     {"debye_gruneisen", FitModel::debye_gruneisen}}};
+constexpr std::string_view name_of(FitModel model) { return fit_models[static_cast<std::size_t>(model)].first; }
+
 struct Fit {
-  std::string model;  ///< name in the catalogue of equations of state
+  FitModel model = FitModel::gray;
   std::string element;
   std::string potential;
   std::vector<Constant> constants;  ///< of the material, in the order of the model's parameter table

@@ -17,7 +17,8 @@ namespace {
 
 /// Builds the model of a fit. @throws InputError if its constants contradict each other
 void require_material(const Fit& fit) {
-  const auto builder = eos::find_model(fit.model).declare([&](std::span<const BoundParameter> parameters) {
+  const eos::ModelEntry& model = eos::catalogue().at(name_of(fit.model));
+  const auto declared = model.declare([&](std::span<const BoundParameter> parameters) {
     for (const BoundParameter& parameter : parameters) {
       const std::string& name = parameter.info.name;
       if (double* const* number = std::get_if<double*>(&parameter.target)) {
@@ -31,7 +32,7 @@ void require_material(const Fit& fit) {
       }
     }
   });
-  static_cast<void>(builder());
+  static_cast<void>(declared.build());
 }
 
 }  // namespace

@@ -170,7 +170,7 @@ GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings
   fit.solid = fit_solid(std::move(data), model, fixed, settings, store_name);
   const SolidFit& solid = fit.solid;
   static_cast<Fit&>(fit) = solid.report;
-  fit.model = "gray";
+  fit.model = FitModel::gray;
   fit.gray = solid.constants.gray;
   fit.fitted_names = fit.left_out_names;
   fit.covariance = solid.covariance;

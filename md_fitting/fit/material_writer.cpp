@@ -238,16 +238,16 @@ std::filesystem::path default_template(const std::string& element) {
 std::string material_text(const Fit& fit, const StoreOrigin& origin,
                           const std::filesystem::path& template_file) {
   const std::string_view metal = element_defaults(fit.element).metal;
-  const bool gray = fit.model == "gray";
+  const bool gray = fit.model == FitModel::gray;
   std::string text = fmt::format("name = \"{} ({} fitted to molecular dynamics, {})\"\n", metal,
-                                 gray ? "GRAY" : fit.model, origin.name);
+                                 gray ? "GRAY" : name_of(fit.model), origin.name);
   text += fmt::format("source = {}\n", toml_string(fmt::format("whipple fit of {}; interatomic potential {}",
                                                                origin.name, fit.potential)));
   text +=
       fmt::format("note = \"solid from molecular dynamics; {} strength and failure as in {}\"\n\n",
                   gray ? "electrons, liquid and vapour from the named defaults as far as not fitted;" : "",
                   template_file.filename().string());
-  text += fmt::format("[eos]\nmodel = \"{}\"\n", fit.model);
+  text += fmt::format("[eos]\nmodel = \"{}\"\n", name_of(fit.model));
   text +=
       fmt::format("source = {}\n",
                   toml_string(fmt::format(

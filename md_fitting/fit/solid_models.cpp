@@ -40,7 +40,7 @@ struct Renamed {
   MatrixXd jacobian;  ///< d(constant of the model)/d(constant of the solid)
 };
 
-Fit renamed(const SolidFit& solid, const char* model, const Renamed& map) {
+Fit renamed(const SolidFit& solid, FitModel model, const Renamed& map) {
   Fit fit = solid.report;
   fit.model = model;
   fit.fitted_names = map.names;
@@ -101,7 +101,7 @@ Fit fit_mie_gruneisen(std::span<const md::PointRecord> points, const FitSettings
   map.jacobian(0, 0) = -1.0 / (v0 * v0);
   map.jacobian(4, 3) = 1.0;
   map.jacobian(4, 4) = -1.0;
-  Fit fit = renamed(solid, "mie_gruneisen", map);
+  Fit fit = renamed(solid, FitModel::mie_gruneisen, map);
 
   eos::MieGruneisenConstants constants;
   constants.reference_density = 1.0 / v0;
@@ -164,7 +164,7 @@ Fit fit_debye_gruneisen(std::span<const md::PointRecord> points, const FitSettin
               MatrixXd::Identity(count, count)};
   if (melts) map.names.emplace_back("melting_temperature");
   map.jacobian(0, 0) = -1.0 / (v0 * v0);
-  Fit fit = renamed(solid, "debye_gruneisen", map);
+  Fit fit = renamed(solid, FitModel::debye_gruneisen, map);
 
   Sources sources;
   eos::DebyeGruneisenConstants constants;

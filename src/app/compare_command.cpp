@@ -12,8 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "src/app/compare_data.hpp"
-#include "src/app/eos_queries.hpp"
+#include "eos/curves/table.hpp"
+#include "eos/experiments/comparison.hpp"
+#include "src/app/eos_figure.hpp"
+#include "src/app/eos_options.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/text_table.hpp"
@@ -22,6 +24,11 @@
 
 namespace whipple::app {
 namespace {
+
+using eos::experiments::Comparison;
+using eos::experiments::Experiment;
+using eos::experiments::ExperimentKind;
+using eos::experiments::same_density;
 
 struct CompareOptions {
   std::vector<std::string> materials;
@@ -32,29 +39,29 @@ struct CompareOptions {
   bool force = false;
 };
 
-/// How a kind is printed: deviations in `unit` of `unit_size` (SI or percent), abscissa likewise.
+/// How a kind is printed.
 struct Style {
   const char* kind;
-  const char* deviation;
-  double deviation_size;
-  const char* abscissa;
-  const char* abscissa_unit;
-  double abscissa_size;
-  const char* ordinate;
-  const char* ordinate_unit;
-  double ordinate_size;
+  const char* deviation;  ///< unit of the deviations
+  double deviation_size;  ///< of that unit in SI or percent
+  eos::curves::Column abscissa, ordinate;
 };
 
 Style style(ExperimentKind kind) {
+  using eos::curves::plain_column;
+  using eos::curves::quantity_column;
+  const auto pressure = quantity_column("P", "GPa", "Pa", "pressure");
+  const auto volume = plain_column("V/V0", "relative volume");
   switch (kind) {
     case ExperimentKind::shock_velocity:
-      return {"Hugoniot", "% of Us", 1.0, "up", "km/s", 1e3, "Us", "km/s", 1e3};
+      return {"Hugoniot", "% of Us", 1.0, quantity_column("up", "km/s", "m/s", "particle velocity"),
+              quantity_column("Us", "km/s", "m/s", "shock velocity")};
     case ExperimentKind::shock_pressure:
-      return {"Hugoniot", "GPa", 1e9, "V/V0", "", 1.0, "P", "GPa", 1e9};
+      return {"Hugoniot", "GPa", pressure.size, volume, pressure};
     case ExperimentKind::isotherm:
-      return {"isotherm", "GPa", 1e9, "V/V0", "", 1.0, "P", "GPa", 1e9};
+      return {"isotherm", "GPa", pressure.size, volume, pressure};
     case ExperimentKind::melting:
-      return {"melting line", "% of T", 1.0, "P", "GPa", 1e9, "T", "K", 1.0};
+      return {"melting line", "% of T", 1.0, pressure, quantity_column("T", "K", "K", "temperature")};
   }
   throw InternalError("unknown kind of experiment");
 }
@@ -94,9 +101,9 @@ void print_table(const std::vector<Row>& rows) {
     const bool any = row.comparison.points > 0;
     cells.push_back(
         {experiment.name, kind, row.label, fmt::format("{}", row.comparison.points),
-         fmt::format("{} {:.3g} ... {:.3g}{}{}", s.abscissa, experiment.abscissa.front() / s.abscissa_size,
-                     experiment.abscissa.back() / s.abscissa_size, *s.abscissa_unit == '\0' ? "" : " ",
-                     s.abscissa_unit),
+         fmt::format("{} {:.3g} ... {:.3g}{}{}", s.abscissa.name, experiment.abscissa.front() / s.abscissa.size,
+                     experiment.abscissa.back() / s.abscissa.size, s.abscissa.unit.empty() ? "" : " ",
+                     s.abscissa.unit),
          any ? figure(row.comparison.rms) : "-", any ? signed_figure(row.comparison.mean) : "-",
          any ? signed_figure(row.comparison.maximum) : "-", s.deviation});
   }
@@ -134,9 +141,9 @@ void write_csv(const std::vector<Row>& rows, const std::string& path) {
     const std::string name = comma ? '"' + experiment.name + '"' : experiment.name;
     for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
       file << fmt::format("{},\"{}\",{},{:.8g},{},{},{:.8g},{:.8g},{},{:.6g},{}\n", name, row.label,
-                          s.abscissa, experiment.abscissa[i] / s.abscissa_size, s.abscissa_unit, s.ordinate,
-                          experiment.ordinate[i] / s.ordinate_size, row.comparison.model[i] / s.ordinate_size,
-                          s.ordinate_unit, row.comparison.deviation[i] / s.deviation_size, s.deviation);
+                          s.abscissa.name, experiment.abscissa[i] / s.abscissa.size, s.abscissa.unit, s.ordinate.name,
+                          experiment.ordinate[i] / s.ordinate.size, row.comparison.model[i] / s.ordinate.size,
+                          s.ordinate.unit, row.comparison.deviation[i] / s.deviation_size, s.deviation);
     }
   }
   write_text_atomically(path, file.str());
@@ -172,19 +179,21 @@ void draw(const std::vector<Row>& rows, const std::string& path) {
                         {"source", experiment.source},
                         {"kind", s.kind},
                         {"temperature", experiment.temperature},
-                        {"abscissa", s.abscissa},
-                        {"abscissa_unit", s.abscissa_unit},
-                        {"ordinate", s.ordinate},
-                        {"ordinate_unit", s.ordinate_unit},
+                        {"abscissa", s.abscissa.name},
+                        {"abscissa_unit", s.abscissa.unit},
+                        {"ordinate", s.ordinate.name},
+                        {"ordinate_unit", s.ordinate.unit},
                         {"deviation_unit", s.deviation},
-                        {"x", numbers(experiment.abscissa, s.abscissa_size)},
-                        {"measured", numbers(experiment.ordinate, s.ordinate_size)},
+                        {"x", numbers(experiment.abscissa, s.abscissa.size)},
+                        {"measured", numbers(experiment.ordinate, s.ordinate.size)},
                         {"materials", nlohmann::json::array()}});
       last = &experiment;
     }
     // One curve for each initial density, with a gap between them.
     std::vector<double> x, densities;
-    const std::vector<double> stated = initial_densities(*row.material, experiment);
+    const Material& material = *row.material;
+    const std::vector<double> stated =
+        eos::experiments::initial_densities(material.reference.density, experiment);
     for (const double density : apart(stated)) {
       std::vector<double> own;
       for (std::size_t i = 0; i < stated.size(); ++i) {
@@ -198,12 +207,18 @@ void draw(const std::vector<Row>& rows, const std::string& path) {
     }
     panels.back()["materials"].push_back(
         {{"name", row.label},
-         {"x", numbers(x, s.abscissa_size)},
-         {"curve", numbers(curve(*row.material, experiment, x, densities), s.ordinate_size)},
+         {"x", numbers(x, s.abscissa.size)},
+         {"curve",
+          numbers(curve(*material.eos, material.reference, experiment, x, densities), s.ordinate.size)},
          {"deviation", numbers(row.comparison.deviation, s.deviation_size)},
          {"rms", row.comparison.rms / s.deviation_size}});
   }
   process::draw_json("scripts/plot_compare.py", panels.dump(1), path);
+}
+
+bool belongs_to(const Experiment& experiment, const Material& material) {
+  return eos::experiments::belongs_to(experiment, material.name) ||
+         eos::experiments::belongs_to(experiment, material.file.stem().string());
 }
 
 void run(const CompareOptions& options) {
@@ -214,7 +229,8 @@ void run(const CompareOptions& options) {
   for (const std::string& name : options.materials) materials.push_back(read_material(name));
   std::vector<Experiment> experiments;
   for (const std::string& name : options.experiments) {
-    std::ranges::move(read_experiments(find_experiment(name), temperature), std::back_inserter(experiments));
+    std::ranges::move(eos::experiments::read_experiments(find_experiment(name), temperature),
+                      std::back_inserter(experiments));
   }
   std::vector<Row> rows;
   for (const Experiment& experiment : experiments) {
@@ -225,7 +241,8 @@ void run(const CompareOptions& options) {
         return !other.material.empty() && belongs_to(other, material);
       });
       if ((of_others || experiment.only_its_material) && !belongs_to(experiment, material)) continue;
-      rows.push_back({&experiment, &material, material.file.stem().string(), compare(material, experiment)});
+      rows.push_back({&experiment, &material, material.file.stem().string(),
+                      compare(*material.eos, material.reference, experiment)});
     }
   }
   if (rows.empty()) throw InputError("none of the data is of one of the materials");

@@ -6,16 +6,16 @@
 
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "eos/files/models.hpp"
 #include "md_fitting/plan/plan.hpp"
+#include "src/core/base/catalogue.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/text.hpp"
 #include "src/material/failure/catalogue.hpp"
-#include "src/material/material_file.hpp"
 #include "src/material/strength/catalogue.hpp"
 #include "src/case/case.hpp"
 #include "src/case/shapes/shape.hpp"
@@ -32,30 +32,14 @@ struct Topic {
 };
 
 template <class Entry>
-std::vector<std::string> names_of(std::span<const Entry> catalogue) {
-  std::vector<std::string> names;
-  for (const Entry& entry : catalogue) names.push_back(entry.name);
-  return names;
+Topic topic_of(std::string name, std::string title, const Catalogue<Entry>& catalogue) {
+  return {std::move(name), std::move(title),
+          [catalogue](const std::string& entry) { return catalogue.describe(entry); },
+          [catalogue] { return catalogue.names(); }};
 }
 
-/// Summaries of a catalogue, or all constants of one entry.
-template <class Entry>
-std::string describe_catalogue(const std::string& kind, std::span<const Entry> catalogue,
-                               const std::string& name) {
-  std::string text;
-  for (const Entry& entry : catalogue) {
-    if (name.empty()) {
-      text += fmt::format("{:<18}  {}\n", entry.name, entry.summary);
-    } else if (entry.name == name) {
-      return fmt::format("{}: {}\n{}", entry.name, entry.summary, entry.describe());
-    }
-  }
-  if (!name.empty()) {
-    const std::vector<std::string> names = names_of(catalogue);
-    throw InputError(fmt::format("unknown {} \"{}\"{} (known: {})", kind, name, did_you_mean(name, names),
-                                 fmt::join(names, ", ")));
-  }
-  return text;
+Catalogue<cases::ShapeEntry> shapes() {
+  return {"shape", {cases::shape_catalogue().begin(), cases::shape_catalogue().end()}};
 }
 
 std::string single(const std::string& topic, const std::string& name, const std::string& text) {
@@ -69,24 +53,12 @@ const std::vector<Topic>& topics() {
       {"case", "Case files (`whipple run CASE.toml`)",
        [](const std::string& name) { return single("case", name, cases::describe_case()); },
        [] { return std::vector<std::string>(); }},
-      {"shape", "Shapes of bodies",
-       [](const std::string& name) { return describe_catalogue("shape", cases::shape_catalogue(), name); },
-       [] { return names_of(cases::shape_catalogue()); }},
-      {"eos", "Equations of state (`[eos]` of a material file)",
-       [](const std::string& name) {
-         return describe_catalogue("equation of state", std::span<const eos::ModelEntry>(eos::all_models()),
-                                   name);
-       },
-       [] { return names_of(std::span<const eos::ModelEntry>(eos::all_models())); }},
-      {"modifier", "Modifiers of equations of state (`[[eos.modifier]]` of a material file, in order)",
-       [](const std::string& name) {
-         return describe_catalogue("modifier", eos::modifier_catalogue(), name);
-       },
-       [] { return names_of(eos::modifier_catalogue()); }},
-      {"strength", "Strength models (`[strength]` of a material file)", describe_strength,
-       [] { return names_of(strength::catalogue()); }},
-      {"failure", "Failure criteria (`[[failure]]` of a material file)", describe_failure,
-       [] { return names_of(failure::catalogue()); }},
+      topic_of("shape", "Shapes of bodies", shapes()),
+      topic_of("eos", "Equations of state (`[eos]` of a material file)", eos::all_models()),
+      topic_of("modifier", "Modifiers of equations of state (`[[eos.modifier]]` of a material file, in order)",
+               eos::modifier_catalogue()),
+      topic_of("strength", "Strength models (`[strength]` of a material file)", strength::catalogue()),
+      topic_of("failure", "Failure criteria (`[[failure]]` of a material file)", failure::catalogue()),
       {"md", "Plans of molecular dynamics (`whipple md PLAN.toml`)",
        [](const std::string& name) { return single("md", name, md::describe_plan()); },
        [] { return std::vector<std::string>(); }},

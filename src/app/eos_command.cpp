@@ -4,25 +4,44 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "eos/audit.hpp"
+#include "eos/curves/diagrams.hpp"
+#include "eos/curves/samples.hpp"
+#include "eos/curves/tables.hpp"
 #include "src/app/eos_audit.hpp"
-#include "src/app/eos_diagrams.hpp"
 #include "src/app/eos_figure.hpp"
-#include "src/app/eos_queries.hpp"
-#include "src/app/eos_samples.hpp"
+#include "src/app/eos_options.hpp"
+#include "src/app/eos_remarks.hpp"
+#include "src/app/eos_table.hpp"
 #include "src/app/eos_tabulate.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
 #include "src/material/material_file.hpp"
+#include "src/material/material_samples.hpp"
 
 namespace whipple::app {
 namespace {
+
+using eos::curves::Column;
+using eos::curves::column_index;
+using eos::curves::CurveRow;
+using eos::curves::CurveTable;
+using eos::curves::DiagramKind;
+using eos::curves::Figure;
+using eos::curves::FigureCurve;
+using eos::curves::LineStyle;
+using eos::curves::Series;
+using eos::curves::Subjects;
+using eos::curves::Variable;
 
 /// Where a table goes besides the terminal.
 struct Output {
@@ -34,6 +53,13 @@ struct Output {
   bool force = false;
 };
 
+/// Draws from the covariance of a fitted material.
+struct SampleOptions {
+  int count = 0;
+  std::uint64_t seed = 1;
+  std::string release_pressure = "100 kPa";
+};
+
 struct Request {
   std::vector<std::string> materials;
   EosOptions options;
@@ -41,10 +67,10 @@ struct Request {
   Output output;
 };
 
-Materials read_materials(const std::vector<std::string>& names) {
-  Materials materials;
+Subjects read_subjects(const std::vector<std::string>& names) {
+  std::vector<Material> materials;
   for (const std::string& name : names) materials.push_back(read_material(name));
-  return materials;
+  return subjects_of(materials);
 }
 
 /// One column of a table over another, a curve for each material.
@@ -82,83 +108,162 @@ void write(const CurveTable& table, const Output& output) {
   if (!output.plot.empty()) draw(figure_of(table, output), output.plot);
 }
 
+void warn_of_ends(const CurveTable& table) {
+  for (const Series& series : table.series) {
+    if (series.end.empty()) continue;
+    log::warning("{}: the curve ends after {} points: {}", series.name, series.rows.size(), series.end);
+  }
+}
+
 /// A model answers wherever its formulas hold; what it says of hotter matter than it describes is no answer.
-void warn_beyond_audit(const CurveTable& table, const Materials& materials) {
+void warn_beyond_audit(const CurveTable& table, const Subjects& subjects) {
   const auto column = std::ranges::find(table.columns, "T_K", &Column::name);
-  if (column == table.columns.end() || table.series.size() != materials.size()) return;
+  if (column == table.columns.end() || table.series.size() != subjects.size()) return;
   const auto place = static_cast<std::size_t>(column - table.columns.begin());
-  for (std::size_t i = 0; i < materials.size(); ++i) {
+  for (std::size_t i = 0; i < subjects.size(); ++i) {
     double hottest = 0;
     for (const CurveRow& row : table.series[i].rows) hottest = std::fmax(hottest, std::get<double>(row[place]));
-    const double limit = eos::audit(*materials[i].eos, eos::AuditDepth::brief).range.greatest_temperature;
+    const double limit = eos::audit(*subjects[i].eos, eos::AuditDepth::brief).range.greatest_temperature;
     if (limit > 0 && hottest > limit) {
       log::warning("{}: {:.6g} K is beyond {:.4g} K, to which the audit finds the model valid (whipple eos audit)",
-                   materials[i].name, hottest, limit);
+                   subjects[i].name, hottest, limit);
     }
   }
 }
+
+/// Quantities that a subcommand may take.
+enum class Quantity {
+  density,
+  temperature,
+  energy,
+  pressure,
+  entropy,
+  particle_velocity,
+  initial_density,
+  reflected,
+  velocity,
+  from,
+  to,
+};
+
+/// The option of a quantity.
+struct QuantityOption {
+  Quantity quantity;
+  const char* name;
+  std::string EosOptions::* text;
+  const char* help;
+};
+
+const QuantityOption quantity_options[] = {
+    {Quantity::density, "--density", &EosOptions::density, "e.g. '9.5 g/cm^3'"},
+    {Quantity::temperature, "--temperature", &EosOptions::temperature, "e.g. '300 K'"},
+    {Quantity::energy, "--energy", &EosOptions::energy, "Specific internal energy, e.g. '1.2 MJ/kg'"},
+    {Quantity::pressure, "--pressure", &EosOptions::pressure, "e.g. '100 GPa'"},
+    {Quantity::entropy, "--entropy", &EosOptions::entropy, "Specific entropy, e.g. '500 J/(kg K)'"},
+    {Quantity::particle_velocity, "--particle-velocity", &EosOptions::particle_velocity, "e.g. '2 km/s'"},
+    {Quantity::initial_density, "--initial-density", &EosOptions::initial_density,
+     "Of porous matter ahead of the shock, e.g. '6 g/cm^3'"},
+    {Quantity::reflected, "--reflected", &EosOptions::reflected,
+     "From the state shocked to this pressure, e.g. '50 GPa'"},
+    {Quantity::velocity, "--velocity", &EosOptions::velocity, "Of the impactor, e.g. '5 km/s'"},
+    {Quantity::from, "--from", &EosOptions::from, "Begin of the curve, e.g. '10 GPa'"},
+    {Quantity::to, "--to", &EosOptions::to, "End of the curve, e.g. '150 GPa'"},
+};
 
 /// One subcommand: which quantities it takes and what it computes.
 struct Query {
   const char* name;
   const char* summary;
-  /// Of "dtepsu" (density, temperature, energy, pressure, entropy, particle velocity), "f" from, "o" to,
-  /// "i" initial density, "r" reflected, "v" impact velocity.
-  const char* quantities;
+  std::vector<Quantity> quantities;
   const char* x;  ///< default columns of the figure; null: a list without figure
   const char* y;
-  CurveTable (*table)(const EosOptions&, const Materials&);
-  std::vector<std::string> (*remarks)(const EosOptions&, const Materials&);  ///< may be null
+  CurveTable (*table)(const EosOptions&, const Subjects&);
+  Remarks (*remarks)(const EosOptions&, const Subjects&);  ///< may be null
   const char* example;
+  bool as_list = false;       ///< printed one quantity a line
+  bool with_samples = false;  ///< can be repeated for samples of a fitted material
 };
 
-const Query queries[] = {
-    {"state", "One state, from two quantities", "dteps", nullptr, nullptr, state_table, state_remarks,
-     "whipple eos state copper --density '10 g/cm^3' --temperature '3000 K'"},
-    {"hugoniot", "Hugoniot: principal, porous or through a shocked state; a curve, or one shocked state",
-     "dpufoir", "up_km_s", "us_km_s", hugoniot_table, hugoniot_remarks,
-     "whipple eos hugoniot copper aluminium --to '300 GPa' --plot hugoniot.png --with "
-     "cu_hugoniot_marsh1980\n  "
-     "whipple eos hugoniot copper --initial-density '6 g/cm^3' --pressure '40 GPa'"},
-    {"isotherm", "Pressure and density at constant temperature", "tfo", "V_over_V0", "P_GPa", isotherm_table,
-     nullptr, "whipple eos isotherm copper --temperature '298 K' --to '150 GPa'"},
-    {"isentrope", "Isentrope from a state to a pressure or density", "dtepso", "V_over_V0", "P_GPa",
-     isentrope_table, nullptr, "whipple eos isentrope copper --to '200 GPa'"},
-    {"release", "Release of a shocked state: residual temperature, melted and vaporised fraction", "dpuoi",
-     "V_over_V0", "P_GPa", release_table, release_remarks,
-     "whipple eos release copper --pressure '160 GPa' --to '0 Pa'"},
-    {"melt", "Solidus and liquidus over pressure; shocks that melt and vaporise on release", "fo", "P_GPa",
-     "liquidus_K", melt_table, melt_remarks, "whipple eos melt copper --to '100 GPa'"},
-    {"dome", "Liquid and vapour in equilibrium", "fo", "T_K", "P_MPa", dome_table, dome_remarks,
-     "whipple eos dome copper"},
-    {"cold", "Cold curve over density: pressure, energy, limits", "fo", "V_over_V0", "P_GPa", cold_table,
-     cold_remarks, "whipple eos cold copper --from '7 g/cm^3' --to '16 g/cm^3'"},
-    {"match", "Impact of the first material on the second, and the shock's way into the others", "v", nullptr,
-     nullptr, match_table, match_remarks, "whipple eos match copper aluminium --velocity '5.55 km/s'"},
-};
+CurveTable state_table(const EosOptions& o, const Subjects& subjects) {
+  return eos::curves::state_table(subjects, state_query(o));
+}
+CurveTable hugoniot_table(const EosOptions& o, const Subjects& subjects) {
+  const Variable variable = curve_variable(o, std::array{Variable::pressure, Variable::particle_velocity});
+  return eos::curves::hugoniot_table(subjects, hugoniot_start(o), shock_query(o), variable, curve_range(o, variable));
+}
+CurveTable isotherm_table(const EosOptions& o, const Subjects& subjects) {
+  return eos::curves::isotherm_table(subjects, quantity("--temperature", o.temperature, "K"),
+                                     curve_range(o, Variable::pressure));
+}
+CurveTable isentrope_table(const EosOptions& o, const Subjects& subjects) {
+  const Variable variable = curve_variable(o, std::array{Variable::pressure, Variable::density});
+  return eos::curves::isentrope_table(subjects, state_query(o), variable, curve_range(o, variable));
+}
+CurveTable release_table(const EosOptions& o, const Subjects& subjects) {
+  return eos::curves::release_table(subjects, hugoniot_start(o), shock_query(o), curve_range(o, Variable::pressure));
+}
+CurveTable cold_table(const EosOptions& o, const Subjects& subjects) {
+  return eos::curves::cold_table(subjects, curve_range(o, Variable::density));
+}
+CurveTable melt_table(const EosOptions& o, const Subjects& subjects) {
+  return eos::curves::melt_table(subjects, curve_range(o, Variable::pressure));
+}
+CurveTable dome_table(const EosOptions& o, const Subjects& subjects) {
+  return eos::curves::dome_table(subjects, curve_range(o, Variable::pressure));
+}
+CurveTable match_table(const EosOptions& o, const Subjects& subjects) {
+  return eos::curves::match_table(subjects, impact_velocity(o));
+}
 
-void add_quantities(CLI::App& sub, const std::string& takes, EosOptions& o) {
-  const auto option = [&](char key, const char* name, std::string& value, const char* help) {
-    if (takes.find(key) != std::string::npos) sub.add_option(name, value, help);
+const std::vector<Query>& queries() {
+  using enum Quantity;
+  static const std::vector<Query> all = {
+      {"state", "One state, from two quantities", {density, temperature, energy, pressure, entropy}, nullptr, nullptr,
+       state_table, state_remarks, "whipple eos state copper --density '10 g/cm^3' --temperature '3000 K'", true},
+      {"hugoniot", "Hugoniot: principal, porous or through a shocked state; a curve, or one shocked state",
+       {density, pressure, particle_velocity, from, to, initial_density, reflected}, "up_km_s", "us_km_s",
+       hugoniot_table, hugoniot_remarks,
+       "whipple eos hugoniot copper aluminium --to '300 GPa' --plot hugoniot.png --with "
+       "cu_hugoniot_marsh1980\n  "
+       "whipple eos hugoniot copper --initial-density '6 g/cm^3' --pressure '40 GPa'",
+       false, true},
+      {"isotherm", "Pressure and density at constant temperature", {temperature, from, to}, "V_over_V0", "P_GPa",
+       isotherm_table, nullptr, "whipple eos isotherm copper --temperature '298 K' --to '150 GPa'"},
+      {"isentrope", "Isentrope from a state to a pressure or density",
+       {density, temperature, energy, pressure, entropy, to}, "V_over_V0", "P_GPa", isentrope_table, nullptr,
+       "whipple eos isentrope copper --to '200 GPa'"},
+      {"release", "Release of a shocked state: residual temperature, melted and vaporised fraction",
+       {density, pressure, particle_velocity, to, initial_density}, "V_over_V0", "P_GPa", release_table,
+       release_remarks, "whipple eos release copper --pressure '160 GPa' --to '0 Pa'"},
+      {"melt", "Solidus and liquidus over pressure; shocks that melt and vaporise on release", {from, to}, "P_GPa",
+       "liquidus_K", melt_table, melt_remarks, "whipple eos melt copper --to '100 GPa'"},
+      {"dome", "Liquid and vapour in equilibrium", {from, to}, "T_K", "P_MPa", dome_table, dome_remarks,
+       "whipple eos dome copper"},
+      {"cold", "Cold curve over density: pressure, energy, limits", {from, to}, "V_over_V0", "P_GPa", cold_table,
+       cold_remarks, "whipple eos cold copper --from '7 g/cm^3' --to '16 g/cm^3'"},
+      {"match", "Impact of the first material on the second, and the shock's way into the others", {velocity}, nullptr,
+       nullptr, match_table, match_remarks, "whipple eos match copper aluminium --velocity '5.55 km/s'"},
   };
-  option('d', "--density", o.density, "e.g. '9.5 g/cm^3'");
-  option('t', "--temperature", o.temperature, "e.g. '300 K'");
-  option('e', "--energy", o.energy, "Specific internal energy, e.g. '1.2 MJ/kg'");
-  option('p', "--pressure", o.pressure, "e.g. '100 GPa'");
-  option('s', "--entropy", o.entropy, "Specific entropy, e.g. '500 J/(kg K)'");
-  option('u', "--particle-velocity", o.particle_velocity, "e.g. '2 km/s'");
-  option('i', "--initial-density", o.initial_density, "Of porous matter ahead of the shock, e.g. '6 g/cm^3'");
-  option('r', "--reflected", o.reflected, "From the state shocked to this pressure, e.g. '50 GPa'");
-  option('v', "--velocity", o.velocity, "Of the impactor, e.g. '5 km/s'");
-  option('f', "--from", o.from, "Begin of the curve, e.g. '10 GPa'");
-  option('o', "--to", o.to, "End of the curve, e.g. '150 GPa'");
+  return all;
+}
+
+void add_quantities(CLI::App& sub, const std::vector<Quantity>& takes, EosOptions& options) {
+  for (const auto& [quantity, name, text, help] : quantity_options) {
+    if (std::ranges::find(takes, quantity) != takes.end()) sub.add_option(name, options.*text, help);
+  }
 }
 
 /// The band of Hugoniots instead of one: mean, and two standard deviations to both sides in the figure.
 void run_samples(const Request& request) {
   if (request.materials.size() != 1) throw InputError("--samples: one material at a time");
-  const SampledHugoniot sampled =
-      sampled_hugoniot(request.options, request.samples, request.materials.front());
+  const EosOptions& o = request.options;
+  const double last = quantity("--to", o.to, "m/s").value_or(4000.0);
+  const double first = quantity("--from", o.from, "m/s").value_or(last / o.points);
+  const double release_pressure = *quantity("--release-pressure", request.samples.release_pressure, "Pa");
+  const MaterialSamples drawn =
+      sample_material(request.materials.front(), request.samples.count, request.samples.seed);
+  const eos::curves::SampledHugoniot sampled = eos::curves::sampled_hugoniot(
+      subjects_of(drawn.materials), eos::curves::spaced(first, last, o.points), release_pressure);
   print(sampled.table);
   const Output& output = request.output;
   if (!output.csv.empty()) {
@@ -172,7 +277,7 @@ void run_samples(const Request& request) {
     for (const double side : {-2.0, 2.0}) {
       FigureCurve edge = mean;
       edge.label = "two standard deviations";
-      edge.style = "dashed";
+      edge.style = LineStyle::dashed;
       for (std::size_t i = 0; i < edge.y.size(); ++i) {
         edge.y[i] += side * std::get<double>(sampled.table.series.front().rows[i][y + 1]) / figure.y.size;
       }
@@ -180,7 +285,10 @@ void run_samples(const Request& request) {
     }
     draw(figure, output.plot);
   }
-  for (const std::string& remark : sampled.remarks) fmt::print("{}\n", remark);
+  for (const std::string& remark : sample_remarks(sampled, drawn.materials.size())) fmt::print("{}\n", remark);
+  if (drawn.refused > 0) {
+    fmt::print("{} draws of which the model makes no material were replaced by others\n", drawn.refused);
+  }
 }
 
 void add_query(CLI::App& command, const Query& query) {
@@ -204,7 +312,7 @@ void add_query(CLI::App& command, const Query& query) {
                     "Measurements drawn as points: CSV files, or names of those that come with the program "
                     "(eos/data)");
   }
-  if (query.table == hugoniot_table) {
+  if (query.with_samples) {
     sub->add_option(
            "--samples", request->samples.count,
            "Draw so many sets of constants from the covariance of a fitted material: mean and standard "
@@ -222,13 +330,14 @@ void add_query(CLI::App& command, const Query& query) {
     require_new_file(output.csv, output.force);
     require_new_figure(output.plot, output.force);
     if (request->samples.count > 0) return run_samples(*request);
-    const Materials materials = read_materials(request->materials);
-    const CurveTable table = query.table(request->options, materials);
-    (query.table == state_table ? print_list : print)(table);
+    const Subjects subjects = read_subjects(request->materials);
+    const CurveTable table = query.table(request->options, subjects);
+    warn_of_ends(table);
+    (query.as_list ? print_list : print)(table);
     write(table, output);
-    warn_beyond_audit(table, materials);
+    warn_beyond_audit(table, subjects);
     if (query.remarks == nullptr) return;
-    for (const std::string& remark : query.remarks(request->options, materials)) fmt::print("{}\n", remark);
+    for (const std::string& remark : query.remarks(request->options, subjects)) fmt::print("{}\n", remark);
   });
 }
 
@@ -242,6 +351,11 @@ void add_audit(CLI::App& command) {
 }
 
 void add_plot(CLI::App& command) {
+  static const std::vector<std::pair<std::string, DiagramKind>> kinds = {
+      {"us-up", DiagramKind::shock_velocity},
+      {"p-v", DiagramKind::pressure_volume},
+      {"p-t", DiagramKind::pressure_temperature},
+      {"p-rho", DiagramKind::pressure_density}};
   struct Plot : Request {
     std::string kind;
     std::vector<std::string> releases;
@@ -255,7 +369,7 @@ void add_plot(CLI::App& command) {
          "us-up: Hugoniots and their melting range; p-v: Hugoniot, isotherm, cold curve; p-t: solidus, "
          "liquidus, Hugoniot, isentrope, releases; p-rho: Hugoniot, releases, liquid and vapour")
       ->required()
-      ->check(CLI::IsMember(diagram_kinds()));
+      ->check(CLI::IsMember(kinds));
   sub->add_option("-o,--output", plot->output.plot, "FILE.png, .pdf or .svg")->required();
   sub->add_option("--to", plot->options.to, "Greatest pressure (default 200 GPa)");
   sub->add_option("--release", plot->releases, "Shock pressures to release from, e.g. '100 GPa' '150 GPa'");
@@ -264,7 +378,11 @@ void add_plot(CLI::App& command) {
   sub->footer("Example:\n  whipple eos plot copper --kind p-t --to '300 GPa' -o copper_p_t.png");
   sub->callback([plot] {
     require_new_figure(plot->output.plot, plot->output.force);
-    Figure figure = diagram(plot->kind, plot->options, plot->releases, read_materials(plot->materials));
+    const double greatest = quantity("--to", plot->options.to, "Pa").value_or(200e9);
+    std::vector<double> releases;
+    for (const std::string& text : plot->releases) releases.push_back(*quantity("--release", text, "Pa"));
+    const DiagramKind kind = std::ranges::find(kinds, plot->kind, &std::pair<std::string, DiagramKind>::first)->second;
+    Figure figure = eos::curves::diagram(kind, read_subjects(plot->materials), greatest, releases);
     add_measurements(figure, plot->output.overlay);
     draw(figure, plot->output.plot);
   });
@@ -276,7 +394,7 @@ void add_eos_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("eos", "States and curves of a material's equation of state");
   command->require_subcommand(1);
   command->footer("Example:\n  whipple eos hugoniot copper --to '300 GPa' --plot hugoniot.png");
-  for (const Query& query : queries) add_query(*command, query);
+  for (const Query& query : queries()) add_query(*command, query);
   add_audit(*command);
   add_plot(*command);
   add_eos_tabulate(*command);

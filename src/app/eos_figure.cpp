@@ -6,12 +6,18 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "src/app/compare_data.hpp"
+#include "eos/experiments/experiment.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/process/paths.hpp"
 #include "src/core/process/scripts.hpp"
 
 namespace whipple::app {
 namespace {
+
+using eos::curves::Column;
+using eos::curves::Figure;
+using eos::curves::FigureCurve;
+using eos::curves::LineStyle;
 
 nlohmann::json numbers(const std::vector<double>& values) {
   nlohmann::json list = nlohmann::json::array();
@@ -19,6 +25,25 @@ nlohmann::json numbers(const std::vector<double>& values) {
     list.push_back(std::isfinite(value) ? nlohmann::json(value) : nlohmann::json());  // JSON has no NaN
   }
   return list;
+}
+
+/// The word of scripts/plot_curves.py.
+const char* word_of(LineStyle style) {
+  switch (style) {
+    case LineStyle::solid:
+      return "solid";
+    case LineStyle::dashed:
+      return "dashed";
+    case LineStyle::dotted:
+      return "dotted";
+    case LineStyle::dashdot:
+      return "dashdot";
+    case LineStyle::thin:
+      return "thin";
+    case LineStyle::marks:
+      return "marks";
+  }
+  throw InternalError("unknown style of a line");
 }
 
 nlohmann::json lines(const std::vector<FigureCurve>& curves) {
@@ -29,7 +54,7 @@ nlohmann::json lines(const std::vector<FigureCurve>& curves) {
                     {"x", numbers(curve.x)},
                     {"y", numbers(curve.y)},
                     {"colour", curve.colour},
-                    {"style", curve.style}});
+                    {"style", word_of(curve.style)}});
   }
   return list;
 }
@@ -41,13 +66,31 @@ std::string axis_label(const Column& column) {
 
 }  // namespace
 
+std::filesystem::path find_experiment(const std::string& name) {
+  std::filesystem::path path(name);
+  if (std::filesystem::exists(path)) return path;
+  if (!path.has_parent_path()) {
+    std::filesystem::path file = path;
+    if (!file.has_extension()) file += ".csv";
+    try {
+      return process::find_data(std::filesystem::path("eos/data") / file);
+    } catch (const InputError&) {
+      // Reported below, with the folders in the user's words.
+    }
+  }
+  throw InputError(
+      fmt::format("no experiment '{}': neither a file nor one of the data that come with the program "
+                  "(eos/data)",
+                  name));
+}
+
 void add_measurements(Figure& figure, const std::vector<std::string>& experiments) {
   for (const std::string& name : experiments) {
     const std::filesystem::path file = find_experiment(name);
     FigureCurve curve;
     curve.label = file.stem().string();
-    curve.x = measured_quantity(file, figure.x.name);
-    curve.y = measured_quantity(file, figure.y.name);
+    curve.x = eos::experiments::measured_quantity(file, figure.x.name);
+    curve.y = eos::experiments::measured_quantity(file, figure.y.name);
     for (double& value : curve.x) value /= figure.x.size;
     for (double& value : curve.y) value /= figure.y.size;
     figure.points.push_back(std::move(curve));

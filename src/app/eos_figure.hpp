@@ -5,33 +5,22 @@
 #include <string>
 #include <vector>
 
-#include "src/app/eos_table.hpp"
+#include "eos/curves/diagrams.hpp"
 
 /// Figures of `whipple eos`, drawn by scripts/plot_curves.py (PNG, PDF or SVG by the ending of the file).
 namespace whipple::app {
 
-/// A line, or separate points.
-struct FigureCurve {
-  std::string label;            ///< what it is: "Hugoniot", or the name of the measurements
-  std::string material;         ///< of which material; measurements have none
-  std::vector<double> x, y;     ///< in the units of the axes
-  int colour = 0;               ///< one of the palette; curves of one material share it
-  std::string style = "solid";  ///< solid | dashed | dotted | dashdot | thin | marks
-};
+/// Finds a table of measurements: a path, or a bare file name of those that come with the program (eos/data).
+/// @throws InputError if there is no such file
+std::filesystem::path find_experiment(const std::string& name);
 
-struct Figure {
-  std::string title;
-  Column x, y;  ///< what the axes show
-  bool logarithmic_x = false, logarithmic_y = false;
-  std::vector<FigureCurve> curves;
-  std::vector<FigureCurve> points;  ///< measurements
-};
-
-/// Measurements of the two quantities of the axes: CSV files, or names of those in eos/data.
+/// Adds measurements of the two quantities of the axes as points.
+/// @param experiments  as of `find_experiment`
 /// @throws InputError if a file has not the columns
-void add_measurements(Figure& figure, const std::vector<std::string>& experiments);
+void add_measurements(eos::curves::Figure& figure, const std::vector<std::string>& experiments);
 
-/// @throws InputError if the figure cannot be drawn
-void draw(const Figure& figure, const std::filesystem::path& path);
+/// Draws a figure into a file.
+/// @throws InputError if it cannot be drawn
+void draw(const eos::curves::Figure& figure, const std::filesystem::path& path);
 
 }  // namespace whipple::app

@@ -2,19 +2,22 @@
 #include "src/app/eos_table.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
-#include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/text_table.hpp"
 
 namespace whipple::app {
 namespace {
 
+using eos::curves::Cell;
+using eos::curves::Column;
+using eos::curves::CurveRow;
+using eos::curves::CurveTable;
+using eos::curves::Series;
 using Lines = std::vector<std::vector<std::string>>;
 
 bool known(const Cell& cell) {
@@ -54,56 +57,6 @@ std::string csv_word(const std::string& word) {
 }
 
 }  // namespace
-
-std::vector<Column> state_columns() {
-  return {{"rho_kg_m3", "kg/m^3", 1, "density"},
-          {"V_over_V0", "", 1, "relative volume V/V0"},
-          {"P_GPa", "GPa", 1e9, "pressure"},
-          {"T_K", "K", 1, "temperature"},
-          {"e_kJ_kg", "kJ/kg", 1e3, "specific internal energy"},
-          {"c_km_s", "km/s", 1e3, "sound speed"},
-          {"s_J_kg_K", "J/(kg K)", 1, "specific entropy"},
-          {"cv_J_kg_K", "J/(kg K)", 1, "heat capacity at constant volume"},
-          {"gamma", "", 1, "Grüneisen parameter"},
-          {"KT_GPa", "GPa", 1e9, "isothermal bulk modulus"},
-          {"KS_GPa", "GPa", 1e9, "isentropic bulk modulus", false},
-          {"cp_J_kg_K", "J/(kg K)", 1, "heat capacity at constant pressure", false},
-          {"alpha_1e-6_K", "1e-6/K", 1e-6, "volume expansion at constant pressure", false},
-          {"F_kJ_kg", "kJ/kg", 1e3, "Helmholtz energy", false},
-          {"G_kJ_kg", "kJ/kg", 1e3, "Gibbs energy", false},
-          {"melted", "", 1, "mass fraction of liquid and vapour"},
-          {"vaporised", "", 1, "mass fraction of vapour"},
-          {"phase", "", 1, "phase"}};
-}
-
-CurveRow state_cells(const eos::State& s, const eos::EquationOfState& eos) {
-  return {s.density,
-          eos.reference_density() / s.density,
-          s.pressure,
-          s.temperature,
-          s.specific_internal_energy,
-          s.sound_speed,
-          s.specific_entropy,
-          s.heat_capacity,
-          s.gruneisen,
-          s.isothermal_bulk_modulus,
-          s.isentropic_bulk_modulus,
-          s.isobaric_heat_capacity,
-          s.thermal_expansion,
-          s.helmholtz_energy,
-          s.gibbs_energy,
-          s.melted_fraction,
-          s.vaporised_fraction,
-          std::string(s.phase)};
-}
-
-std::size_t column_index(const CurveTable& table, const std::string& name) {
-  const auto found = std::ranges::find(table.columns, name, &Column::name);
-  if (found != table.columns.end()) return static_cast<std::size_t>(found - table.columns.begin());
-  std::vector<std::string> names;
-  for (const Column& column : table.columns) names.push_back(column.name);
-  throw InputError(fmt::format("no column '{}'; the columns are {}", name, fmt::join(names, ", ")));
-}
 
 void print(const CurveTable& table) {
   fmt::print("{}\n", table.title);

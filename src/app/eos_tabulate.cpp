@@ -10,7 +10,7 @@
 
 #include "eos/files/sesame.hpp"
 #include "eos/files/table_file.hpp"
-#include "src/app/eos_queries.hpp"
+#include "src/app/eos_options.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/progress.hpp"

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "eos/models/simulated_crystal.hpp"
+#include "md_fitting/simulated_crystal/worker_source.hpp"
 #include "src/app/analyse_command.hpp"
 #include "src/app/bench_command.hpp"
 #include "src/app/build_info.hpp"
@@ -49,6 +51,8 @@ bool has_threads(std::string_view command) {
 
 int whipple_main(int argc, char** argv) {
   using namespace whipple::app;
+  // The equations of state know of no other program: what simulates crystals for them is this one's choice.
+  whipple::eos::set_isochore_source(whipple::md::worker_source);
   CLI::App app{
       "From atoms to debris clouds: equations of state from molecular dynamics, and the material point\n"
       "method for hypervelocity impact",

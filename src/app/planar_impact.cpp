@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "eos/loci/impedance.hpp"
-#include "eos/loci/isentrope.hpp"
+#include "eos/curves/planar_impact.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::app {
@@ -20,36 +19,26 @@ nlohmann::json as_json(const eos::State& state) {
           {"vaporised_fraction", state.vaporised_fraction}};
 }
 
-/// Behind the shock and after release to zero pressure, null if the model ends before.
-nlohmann::json states_of(const std::string& body, const Material& material, const eos::State& shocked) {
-  nlohmann::json entry = {
-      {"body", body}, {"material", material.name}, {"shocked", as_json(shocked)}, {"released", nullptr}};
-  try {
-    entry["released"] = as_json(eos::release(*material.eos, shocked, 0.0).end.state);
-  } catch (const StateError&) {
-  }
-  return entry;
+nlohmann::json as_json(const std::string& body, const Material& material, const eos::curves::ImpactSide& side) {
+  return {{"body", body},
+          {"material", material.name},
+          {"shocked", as_json(side.shocked)},
+          {"released", side.released ? as_json(*side.released) : nlohmann::json()}};
 }
 
 nlohmann::json impact(const cases::Case& setup, std::size_t projectile, std::size_t target, double velocity) {
   const Material &left = *setup.materials[projectile], &right = *setup.materials[target];
-  const eos::ImpedanceMatch match =
-      eos::match_impact(eos::Hugoniot(*left.eos), eos::Hugoniot(*right.eos), velocity);
-  nlohmann::json result = {
-      {"projectile", setup.bodies[projectile].name},
-      {"target", setup.bodies[target].name},
-      {"velocity", velocity},
-      {"pressure", match.pressure},
-      {"interface_velocity", match.velocity},
-      {"free_surface_velocity", nullptr},
-      {"states", nlohmann::json::array({states_of(setup.bodies[projectile].name, left, match.left),
-                                        states_of(setup.bodies[target].name, right, match.right)})}};
-  try {
-    result["free_surface_velocity"] =
-        eos::free_surface_velocity(*right.eos, {match.right, match.right_shock_velocity, match.velocity});
-  } catch (const StateError&) {
-  }
-  return result;
+  const std::string &projectile_name = setup.bodies[projectile].name, &target_name = setup.bodies[target].name;
+  const eos::curves::PlanarImpact impact = eos::curves::planar_impact(*left.eos, *right.eos, velocity);
+  const auto& free_surface = impact.free_surface_velocity;
+  return {{"projectile", projectile_name},
+          {"target", target_name},
+          {"velocity", velocity},
+          {"pressure", impact.pressure},
+          {"interface_velocity", impact.interface_velocity},
+          {"free_surface_velocity", free_surface ? nlohmann::json(*free_surface) : nlohmann::json()},
+          {"states", nlohmann::json::array({as_json(projectile_name, left, impact.projectile),
+                                            as_json(target_name, right, impact.target)})}};
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/text.hpp"
+#include "src/material/failure/catalogue.hpp"
 
 namespace whipple::io {
 namespace {
@@ -29,7 +30,8 @@ double void_fraction(const Source& s, std::size_t i) {
 }
 
 // clang-format off
-const auto table = std::to_array<OutputField>({
+const auto& table() {
+  static const auto fields = std::to_array<OutputField>({
     {"velocity", "m/s", "velocity", true,
      [](const Source& s, std::size_t i) { return s.particles.velocity[i]; }},
     {"mass", "kg", "mass of the particle", true,
@@ -56,8 +58,7 @@ const auto table = std::to_array<OutputField>({
      [](const Source& s, std::size_t i) { return s.particles.vaporised_fraction[i]; }},
     {"plastic_strain", "1", "equivalent plastic strain", false,
      [](const Source& s, std::size_t i) { return s.particles.plastic_strain[i]; }},
-    {"failed", "", "0 intact; failed by 1 tension, 2 plastic strain, 3 principal stress, 4 principal strain, "
-     "5 ductile damage, 6 fragmentation, 7 growth of voids", false,
+    {"failed", "", failure::code_meanings(), false,
      [](const Source& s, std::size_t i) { return s.particles.failed[i]; }},
     {"damage", "1", "of failure criteria with a past: 0 none, 1 failed", false,
      [](const Source& s, std::size_t i) { return s.particles.damage[i]; }},
@@ -92,15 +93,17 @@ const auto table = std::to_array<OutputField>({
     {"id", "", "number of the particle, kept for its life", true,
      [](const Source& s, std::size_t i) { return s.particles.id[i]; }},
 });
+  return fields;
+}
 // clang-format on
 
 }  // namespace
 
-std::span<const OutputField> output_fields() { return table; }
+std::span<const OutputField> output_fields() { return table(); }
 
 std::vector<std::string> output_field_names() {
   std::vector<std::string> names;
-  for (const OutputField& field : table) names.emplace_back(field.name);
+  for (const OutputField& field : table()) names.emplace_back(field.name);
   return names;
 }
 
@@ -118,7 +121,7 @@ std::vector<OutputField> select_output_fields(std::span<const std::string> names
   }
   if (!unknown.empty()) throw InputError(fmt::format("{}\nknown: {}", unknown, fmt::join(known, ", ")));
   std::vector<OutputField> selected;
-  for (const OutputField& field : table) {
+  for (const OutputField& field : table()) {
     if (field.always || std::find(names.begin(), names.end(), field.name) != names.end())
       selected.push_back(field);
   }
@@ -127,7 +130,7 @@ std::vector<OutputField> select_output_fields(std::span<const std::string> names
 
 std::string describe_output_fields() {
   std::string text;
-  for (const OutputField& field : table) {
+  for (const OutputField& field : table()) {
     text += fmt::format("{:<26}{:<10}{}{}\n", field.name, field.unit, field.meaning,
                         field.always ? " (always written)" : "");
   }

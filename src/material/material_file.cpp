@@ -11,9 +11,10 @@
 
 #include "eos/audit.hpp"
 #include "eos/files/models.hpp"
-#include "eos/md/simulated_crystal.hpp"
+#include "eos/models/simulated_crystal.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
+#include "src/core/base/catalogue.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/input/document.hpp"
 #include "src/material/failure/catalogue.hpp"
@@ -85,28 +86,14 @@ ParameterTable<ThermalTable> thermal_constants() {
               .optional()};
 }
 
-template <class Entry>
-std::vector<std::string> names(std::span<const Entry> catalogue) {
-  std::vector<std::string> words;
-  for (const Entry& entry : catalogue) words.push_back(entry.name);
-  return words;
-}
-
-template <class Entry>
-const Entry* find(std::span<const Entry> catalogue, const std::string& name) {
-  const auto found = std::ranges::find(catalogue, name, &Entry::name);
-  return found == catalogue.end() ? nullptr : &*found;
-}
-
 /// Reads `model`, remarks and constants of one table; what builds the model, or nothing if `model` is at
 /// fault.
 template <class Entry>
-auto declare(std::span<const Entry> catalogue, input::Table table)
-    -> decltype(catalogue.front().declare({})) {
-  const std::string model = table.choice("model", names(catalogue));
+typename Entry::Declared declare(const Catalogue<Entry>& catalogue, input::Table table) {
+  const std::string model = table.choice("model", catalogue.names());
   Remarks remarks;
   table.read(remarks_of_table(), remarks);
-  const Entry* entry = find(catalogue, model);
+  const Entry* entry = catalogue.find(model);
   if (entry == nullptr) return {};
   return entry->declare([&table](std::span<const BoundParameter> parameters) { table.read(parameters); });
 }
@@ -144,33 +131,17 @@ std::map<std::string, fs::path> library_files() {
   return files;
 }
 
-template <class Entry>
-std::string describe_catalogue(std::span<const Entry> catalogue, const std::string& name, const char* kind) {
-  if (name.empty()) {
-    std::string all;
-    for (const Entry& entry : catalogue) all += fmt::format("  {:<18} {}\n", entry.name, entry.summary);
-    return all;
-  }
-  if (const Entry* entry = find(catalogue, name)) return entry->describe();
-  const std::vector<std::string> known = names(catalogue);
-  throw InputError(fmt::format("unknown {} '{}'{}; known: {}", kind, name, did_you_mean(name, known),
-                               fmt::join(known, ", ")));
-}
-
 /// A material file whose tables are read and checked, but whose parts are not built yet.
 struct Declared {
   Head head;
   MeasuredTable measured;
   ThermalTable thermal;
-  std::vector<fs::path> companions;
-  decltype(declare(std::span<const eos::ModelEntry>(), std::declval<input::Table>())) eos;
-  decltype(declare(strength::catalogue(), std::declval<input::Table>())) strength;
-  std::vector<decltype(declare(failure::catalogue(), std::declval<input::Table>()))> failure;
+  eos::ModelEntry::Declared eos;
+  strength::ModelEntry::Declared strength;
+  std::vector<failure::CriterionEntry::Declared> failure;
   std::string eos_line, strength_line;
   /// Modifiers of the equation of state, each with its place in the file.
-  std::vector<
-      std::pair<decltype(declare(eos::modifier_catalogue(), std::declval<input::Table>())), std::string>>
-      modifiers;
+  std::vector<std::pair<eos::ModifierEntry::Declared, std::string>> modifiers;
 };
 
 Declared declare_file(const fs::path& file,
@@ -182,8 +153,7 @@ Declared declare_file(const fs::path& file,
   root.read(head_of_file(), declared.head);
   for (const char* free : {"provenance", "covariance", "defaults"}) root.accept(free);
   if (auto table = root.required_table("eos")) {
-    const std::vector<eos::ModelEntry> models = eos::all_models(file.parent_path(), &declared.companions);
-    declared.eos = declare(std::span(models), *table);
+    declared.eos = declare(eos::all_models(file.parent_path()), *table);
     declared.eos_line = table->where();
     for (input::Table& modifier : table->list("modifier")) {
       declared.modifiers.emplace_back(declare(eos::modifier_catalogue(), modifier), modifier.where());
@@ -246,19 +216,19 @@ Material read_material(const fs::path& path, const fs::path& beside) {
 Material read_changed_material(const fs::path& file,
                                std::span<const std::pair<std::string, std::string>> changes) {
   const Declared declared = declare_file(file, changes);
-  std::shared_ptr<const eos::EquationOfState> eos = build(declared.eos, declared.eos_line, "eos");
-  for (const auto& [builder, line] : declared.modifiers) {
-    eos = build([&] { return builder(eos); }, line, "eos.modifier");
+  std::shared_ptr<const eos::EquationOfState> eos = build(declared.eos.build, declared.eos_line, "eos");
+  for (const auto& [modifier, line] : declared.modifiers) {
+    eos = build([&] { return modifier.build(eos); }, line, "eos.modifier");
   }
   std::shared_ptr<const strength::Strength> strength;
-  if (declared.strength) strength = build(declared.strength, declared.strength_line, "strength");
+  if (declared.strength.build) strength = build(declared.strength.build, declared.strength_line, "strength");
   std::vector<std::shared_ptr<const failure::Criterion>> failure;
-  for (const auto& builder : declared.failure) failure.push_back(builder());
+  for (const auto& criterion : declared.failure) failure.push_back(criterion.build());
   try {
     Material material =
         make_material(declared.head.name, std::move(eos), std::move(strength), std::move(failure));
     material.file = file;
-    material.companions = declared.companions;
+    material.companions = declared.eos.companions;
     material.source = declared.head.source;
     material.note = declared.head.note;
     material.group = declared.head.group;
@@ -299,14 +269,6 @@ std::vector<LibraryMaterial> library_materials() {
     }
   }
   return materials;
-}
-
-std::string describe_strength(const std::string& name) {
-  return describe_catalogue(strength::catalogue(), name, "strength model");
-}
-
-std::string describe_failure(const std::string& name) {
-  return describe_catalogue(failure::catalogue(), name, "failure criterion");
 }
 
 }  // namespace whipple

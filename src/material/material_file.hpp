@@ -49,10 +49,4 @@ struct LibraryMaterial {
 /// note.
 std::vector<LibraryMaterial> library_materials();
 
-/// Text of `whipple describe strength [NAME]` and `whipple describe failure [NAME]`: summaries of all models,
-/// or all about one.
-/// @throws InputError for an unknown name, with the nearest one
-std::string describe_strength(const std::string& name = {});
-std::string describe_failure(const std::string& name = {});
-
 }  // namespace whipple

@@ -10,10 +10,10 @@
 #include <functional>
 #include <random>
 
+#include "eos/experiments/comparison.hpp"
 #include "eos/files/sesame.hpp"
 #include "eos/files/table_file.hpp"
 #include "src/analysis/run.hpp"
-#include "src/app/compare_data.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/hdf5/hdf5.hpp"
@@ -190,8 +190,8 @@ TEST_F(ForeignFiles, TablesOfMeasurements) {
     const fs::path path = folder_ / name;
     fs::copy_file(fs::path(WHIPPLE_SOURCE_DIR "/eos/data") / name, path);
     try_all(path, garbled, [&] {
-      for (const app::Experiment& experiment : app::read_experiments(path))
-        static_cast<void>(app::compare(copper, experiment));
+      for (const auto& experiment : eos::experiments::read_experiments(path))
+        static_cast<void>(eos::experiments::compare(*copper.eos, copper.reference, experiment));
     });
   }
 }

@@ -273,7 +273,7 @@ TEST(EosDebye, ContradictingConstantsAreInputErrors) {
   c.isotherm = "birch_murnaghan";
   c.bulk_modulus_slope = 1.5;
   EXPECT_LT(DebyeGruneisen(c).maximum_density(), 2.5 * c.reference_density);
-  EXPECT_EQ(find_model("debye_gruneisen").name, "debye_gruneisen");
+  EXPECT_EQ(catalogue().at("debye_gruneisen").name, "debye_gruneisen");
 }
 
 }  // namespace

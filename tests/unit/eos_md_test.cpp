@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "eos/identities.hpp"
-#include "eos/md/simulated_crystal.hpp"
+#include "eos/models/simulated_crystal.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::eos {
@@ -172,6 +172,23 @@ TEST(SimulatedCrystal, RefusesWhatItCannotKnow) {
   SimulatedConstants uneven = constants(5e8);
   uneven.spacing = 0.07;
   EXPECT_THROW(SimulatedCrystal(uneven, std::make_unique<FormulaSource>(asked)), InputError);
+}
+
+// The seam through which a program brings what simulates: nothing without it, and the constants reach it.
+TEST(SimulatedCrystal, IsBuiltOnTheRegisteredSource) {
+  set_isochore_source({});
+  EXPECT_THROW(simulated_crystal(constants(5e8)), InputError);
+  std::atomic<int> asked = 0;
+  std::string potential;
+  set_isochore_source([&](const SimulatedConstants& c) {
+    potential = c.potential;
+    return std::make_unique<FormulaSource>(asked);
+  });
+  const std::unique_ptr<SimulatedCrystal> eos = simulated_crystal(constants(5e8));
+  set_isochore_source({});
+  EXPECT_EQ(potential, "formula");
+  EXPECT_EQ(eos->reference_density(), Made(5e8).eos.reference_density());
+  EXPECT_GT(asked, 0);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include "eos/catalogue.hpp"
@@ -390,13 +391,25 @@ TEST(PeakFields, KeepWhatWasReachedAndWhenHalfOfTheMassMelted) {
 }
 
 TEST(Describe, NamesEveryModelAndRefusesUnknownOnes) {
-  for (const auto& entry : strength::catalogue()) EXPECT_THAT(describe_strength(), HasSubstr(entry.name));
-  for (const auto& entry : failure::catalogue()) {
-    EXPECT_THAT(describe_failure(), HasSubstr(entry.summary));
-    EXPECT_THAT(describe_failure(entry.name), AllOf(HasSubstr("required"), HasSubstr("meaning")));
+  const auto& strength = strength::catalogue();
+  const auto& failure = failure::catalogue();
+  for (const auto& entry : strength) EXPECT_THAT(strength.describe(), HasSubstr(entry.name));
+  for (const auto& entry : failure) {
+    EXPECT_THAT(failure.describe(), HasSubstr(entry.summary));
+    EXPECT_THAT(failure.describe(entry.name), AllOf(HasSubstr("required"), HasSubstr("meaning")));
   }
-  EXPECT_THAT(describe_strength("johnson_cook"), HasSubstr("Johnson and Cook"));
-  EXPECT_THROW(static_cast<void>(describe_strength("johnson")), InputError);
+  EXPECT_THAT(strength.describe("johnson_cook"), HasSubstr("Johnson and Cook"));
+  EXPECT_THROW(static_cast<void>(strength.describe("johnson")), InputError);
+}
+
+// Every code that a point can fail with has its words in the output.
+TEST(Describe, NamesEveryCauseOfFailure) {
+  EXPECT_EQ(failure::code_meanings(),
+            "0 intact; failed by 1 tension, 2 plastic strain, 3 principal stress, 4 principal strain, "
+            "5 ductile damage, 6 fragmentation, 7 growth of voids, 8 accumulated tension");
+  std::set<int> codes = {failure::intact};
+  for (const auto& entry : failure::catalogue()) codes.insert(entry.code);
+  EXPECT_EQ(codes.size(), failure::code_count);
 }
 
 }  // namespace

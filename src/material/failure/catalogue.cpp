@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <map>
+#include <memory>
 
 #include "src/material/failure/grady_kipp.hpp"
 #include "src/material/failure/gurson.hpp"
@@ -18,32 +19,43 @@
 namespace whipple::failure {
 namespace {
 
-/// `Law` has name, summary, theory and parameters(); the criterion is made from it.
+/// `Law` has name, summary, theory, code, cause and parameters(); the criterion is made from it.
 template <class Law>
-ModelEntry entry() {
-  const auto describe = [] {
-    return fmt::format("{}: {}\n{}\n{}", Law::name, Law::summary, Law::theory,
-                       describe_table(Law::parameters()));
-  };
-  const auto declare =
-      [](const ParameterReader& reader) -> std::function<std::unique_ptr<const Criterion>()> {
-    Law law;
-    const auto bound = whipple::bind(Law::parameters(), law);
-    reader(bound);
-    return [law] { return std::make_unique<const CriterionModel<Law>>(law); };
-  };
-  return {Law::name, Law::summary, describe, declare};
+CriterionEntry entry() {
+  auto made = catalogue_entry<CriterionEntry>(
+      Law::name, Law::summary, Law::theory, &Law::parameters,
+      [](const Law& law) { return std::make_unique<const CriterionModel<Law>>(law); });
+  made.code = Law::code;
+  made.cause = Law::cause;
+  return made;
 }
 
 }  // namespace
 
-std::span<const ModelEntry> catalogue() {
-  static const std::array entries = {
-      entry<TensilePressure>(),   entry<TulerButcher>(),    entry<ViscousVoidGrowth>(),
-      entry<PlasticStrain>(),     entry<PrincipalStress>(), entry<PrincipalStrain>(),
-      entry<JohnsonCookDamage>(), entry<GradyKipp>(),       entry<Gurson>(),
-  };
-  return entries;
+const Catalogue<CriterionEntry>& catalogue() {
+  static const Catalogue<CriterionEntry> all("failure criterion", {
+      entry<TensilePressure>(),
+      entry<TulerButcher>(),
+      entry<ViscousVoidGrowth>(),
+      entry<PlasticStrain>(),
+      entry<PrincipalStress>(),
+      entry<PrincipalStrain>(),
+      entry<JohnsonCookDamage>(),
+      entry<GradyKipp>(),
+      entry<Gurson>(),
+  });
+  return all;
+}
+
+const std::string& code_meanings() {
+  static const std::string text = [] {
+    std::map<int, std::string> causes;  // criteria of one cause share a code
+    for (const CriterionEntry& entry : catalogue()) causes[entry.code] = entry.cause;
+    std::string words;
+    for (const auto& [code, cause] : causes) words += fmt::format("{}{} {}", words.empty() ? "" : ", ", code, cause);
+    return fmt::format("{} intact; failed by {}", static_cast<int>(intact), words);
+  }();
+  return text;
 }
 
 }  // namespace whipple::failure

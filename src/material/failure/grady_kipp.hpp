@@ -41,6 +41,8 @@ struct GradyKipp {
                 .optional()};
   }
   static constexpr const char* name = "grady_kipp";
+  static constexpr Code code = fragmented;
+  static constexpr const char* cause = "fragmentation";
   static constexpr const char* summary =
       "brittle fragmentation: growth of Weibull flaws, damage that softens (Grady-Kipp)";
   static constexpr const char* theory =

@@ -59,6 +59,8 @@ struct Gurson {
                 .optional()};
   }
   static constexpr const char* name = "gurson";
+  static constexpr Code code = void_growth;
+  static constexpr const char* cause = "growth of voids";
   static constexpr const char* summary =
       "ductile failure: growth, nucleation and coalescence of voids (Gurson, Tvergaard and Needleman)";
   static constexpr const char* theory =

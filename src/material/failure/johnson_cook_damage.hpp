@@ -47,6 +47,8 @@ struct JohnsonCookDamage {
                 .optional()};
   }
   static constexpr const char* name = "johnson_cook_damage";
+  static constexpr Code code = fractured;
+  static constexpr const char* cause = "ductile damage";
   static constexpr const char* summary =
       "ductile fracture: damage by plastic strain, triaxiality, rate and temperature (Johnson-Cook)";
   static constexpr const char* theory =

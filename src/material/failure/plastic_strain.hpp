@@ -17,6 +17,8 @@ struct PlasticStrain : Threshold {
                  "equivalent plastic strain at failure")};
   }
   static constexpr const char* name = "plastic_strain";
+  static constexpr Code code = plastic;
+  static constexpr const char* cause = "plastic strain";
   static constexpr const char* summary = "ductile failure: equivalent plastic strain beyond a limit";
   static constexpr const char* theory =
       "Fails (code 2) where the equivalent plastic strain exceeds failure_strain * scatter factor.";

@@ -19,6 +19,8 @@ struct PrincipalStrain : Threshold {
                  "greatest principal logarithmic strain eps_f at failure")};
   }
   static constexpr const char* name = "principal_strain";
+  static constexpr Code code = failure::principal_strain;
+  static constexpr const char* cause = "principal strain";
   static constexpr const char* summary = "failure: greatest principal strain beyond a limit";
   static constexpr const char* theory =
       "Fails (code 4) where the greatest principal value of the logarithmic strain (sum of the increments,\n"

@@ -18,6 +18,8 @@ struct PrincipalStress : Threshold {
                  "greatest principal stress sigma_f that the solid bears")};
   }
   static constexpr const char* name = "principal_stress";
+  static constexpr Code code = failure::principal_stress;
+  static constexpr const char* cause = "principal stress";
   static constexpr const char* summary = "brittle failure: greatest principal stress beyond the strength";
   static constexpr const char* theory =
       "Fails (code 3) where the greatest principal stress s_1 - p exceeds tensile_strength (1 - melted\n"

@@ -43,6 +43,8 @@ struct TensilePressure : Threshold {
                 .optional()};
   }
   static constexpr const char* name = "tensile_pressure";
+  static constexpr Code code = tensile;
+  static constexpr const char* cause = "tension";
   static constexpr const char* summary = "spall: tensile pressure beyond the spall strength";
   static constexpr const char* theory =
       "At p < -p_cut, p_cut = spall_strength (1 - melted fraction) * scatter factor, the response is\n"

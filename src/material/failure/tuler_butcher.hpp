@@ -51,6 +51,8 @@ struct TulerButcher {
         boolean("healing", &P::healing, "points whose void pressure has closed are whole again").optional()};
   }
   static constexpr const char* name = "tuler_butcher";
+  static constexpr Code code = spalled;
+  static constexpr const char* cause = "accumulated tension";
   static constexpr const char* summary = "spall: tension accumulated over time (Tuler-Butcher)";
   static constexpr const char* theory =
       "Fails (code 8) where the integral of (sigma/sigma_0 - 1)^exponent dt over sigma > sigma_0 reaches "

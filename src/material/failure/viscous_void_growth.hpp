@@ -46,6 +46,8 @@ struct ViscousVoidGrowth : Threshold {
         boolean("healing", &P::healing, "points whose void pressure has closed are whole again").optional()};
   }
   static constexpr const char* name = "viscous_void_growth";
+  static constexpr Code code = void_growth;
+  static constexpr const char* cause = "growth of voids";
   static constexpr const char* summary = "spall: growth of voids at a rate (Johnson 1981)";
   static constexpr const char* theory =
       "d(alpha)/dt = -nuclei^(2/3)/viscosity alpha (alpha - 1)^(1/3) (P +- P_s) beyond P_s = "

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/material/strength/catalogue.hpp"
 
-#include <fmt/format.h>
-
-#include <array>
+#include <memory>
 
 #include "src/material/strength/elastic.hpp"
 #include "src/material/strength/holmquist_johnson_cook.hpp"
@@ -21,47 +19,31 @@
 namespace whipple::strength {
 namespace {
 
-using Builder = std::function<std::unique_ptr<const Strength>()>;
-
-/// `Constants` has name, summary, theory and parameters(); `build` makes the model from them.
-template <class Constants, class Build>
-ModelEntry entry(Build build) {
-  const auto describe = [] {
-    return fmt::format("{}: {}\n{}\n{}", Constants::name, Constants::summary, Constants::theory,
-                       describe_table(Constants::parameters()));
-  };
-  const auto declare = [build](const ParameterReader& reader) -> Builder {
-    Constants constants;
-    const auto bound = whipple::bind(Constants::parameters(), constants);
-    reader(bound);
-    return [constants, build] { return build(constants); };
-  };
-  return {Constants::name, Constants::summary, describe, declare};
+/// `Constants` has name, summary, theory and parameters(); `Law` is made from them.
+template <class Constants, class Law>
+ModelEntry entry() {
+  return catalogue_entry<ModelEntry>(Constants::name, Constants::summary, Constants::theory, &Constants::parameters,
+                                     [](const Constants& constants) { return std::make_unique<const Law>(constants); });
 }
 
 }  // namespace
 
-std::span<const ModelEntry> catalogue() {
-  static const std::array entries = {
-      entry<None>([](const None&) { return std::make_unique<const NoneModel>(); }),
-      entry<ViscousFluid>([](const ViscousFluid& c) { return std::make_unique<const ViscousFluidModel>(c); }),
-      entry<Elastic>([](const Elastic& c) { return std::make_unique<const ElasticModel>(c); }),
-      entry<VonMises>([](const VonMises& c) { return std::make_unique<const VonMisesModel>(c); }),
-      entry<PowerLaw>([](const PowerLaw& c) { return std::make_unique<const PowerLawModel>(c); }),
-      entry<Voce>([](const Voce& c) { return std::make_unique<const VoceModel>(c); }),
-      entry<JohnsonCook>([](const JohnsonCook& c) { return std::make_unique<const JohnsonCookModel>(c); }),
-      entry<SteinbergGuinan>(
-          [](const SteinbergGuinan& c) { return std::make_unique<const SteinbergGuinanModel>(c); }),
-      entry<ZerilliArmstrong>(
-          [](const ZerilliArmstrong& c) { return std::make_unique<const ZerilliArmstrongModel>(c); }),
-      entry<HolmquistJohnsonCook>(
-          [](const HolmquistJohnsonCook& c) { return std::make_unique<const HolmquistJohnsonCookModel>(c); }),
-      entry<RiedelHiermaierThoma>(
-          [](const RiedelHiermaierThoma& c) { return std::make_unique<const RiedelHiermaierThomaModel>(c); }),
-      entry<JohnsonHolmquist2>(
-          [](const JohnsonHolmquist2& c) { return std::make_unique<const JohnsonHolmquist2Model>(c); }),
-  };
-  return entries;
+const Catalogue<ModelEntry>& catalogue() {
+  static const Catalogue<ModelEntry> all("strength model", {
+      entry<None, NoneModel>(),
+      entry<ViscousFluid, ViscousFluidModel>(),
+      entry<Elastic, ElasticModel>(),
+      entry<VonMises, VonMisesModel>(),
+      entry<PowerLaw, PowerLawModel>(),
+      entry<Voce, VoceModel>(),
+      entry<JohnsonCook, JohnsonCookModel>(),
+      entry<SteinbergGuinan, SteinbergGuinanModel>(),
+      entry<ZerilliArmstrong, ZerilliArmstrongModel>(),
+      entry<HolmquistJohnsonCook, HolmquistJohnsonCookModel>(),
+      entry<RiedelHiermaierThoma, RiedelHiermaierThomaModel>(),
+      entry<JohnsonHolmquist2, JohnsonHolmquist2Model>(),
+  });
+  return all;
 }
 
 }  // namespace whipple::strength

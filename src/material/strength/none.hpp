@@ -18,6 +18,7 @@ struct None {
 
 class NoneModel final : public Strength {
  public:
+  explicit NoneModel(const None& /*constants*/ = {}) {}
   [[nodiscard]] std::string_view model() const override { return None::name; }
   [[nodiscard]] bool carries_deviator() const override { return false; }
   void shear_modulus(const State&, std::span<double> modulus) const override {

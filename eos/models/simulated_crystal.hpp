@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "eos/equation_of_state.hpp"
-#include "eos/md/crystal_surface.hpp"
+#include "eos/models/crystal_surface.hpp"
 #include "src/core/base/parameter_table.hpp"
 
 namespace whipple::eos {
@@ -65,8 +65,16 @@ class SimulatedCrystal final : public EquationOfState {
   double reference_density_ = 0.0, energy_zero_ = 0.0;
 };
 
-/// The store of a material without one of its own: $XDG_CACHE_HOME/whipple/md, or ~/.cache/whipple/md, by
-/// element and potential.
-std::filesystem::path default_store(const SimulatedConstants& constants);
+/// Makes the source of a crystal's isochores from the constants of its model.
+/// @throws InputError if the potential or the store cannot be used
+using IsochoreSourceMaker = std::function<std::unique_ptr<IsochoreSource>(const SimulatedConstants&)>;
+
+/// Registers what simulates crystals, for the whole process. A program that can simulate calls it once, before it
+/// reads materials.
+void set_isochore_source(IsochoreSourceMaker maker);
+
+/// Builds the model on the registered source.
+/// @throws InputError if no source is registered, or as the source and the model do
+std::unique_ptr<SimulatedCrystal> simulated_crystal(const SimulatedConstants& constants);
 
 }  // namespace whipple::eos

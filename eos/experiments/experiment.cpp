@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/app/compare_data.hpp"
+#include "eos/experiments/experiment.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,13 +15,10 @@
 #include <regex>
 #include <string_view>
 
-#include "eos/inversions.hpp"
-#include "eos/loci.hpp"
-#include "src/app/measured_table.hpp"
+#include "eos/experiments/measured_table.hpp"
 #include "src/core/base/error.hpp"
-#include "src/core/process/paths.hpp"
 
-namespace whipple::app {
+namespace whipple::eos::experiments {
 namespace {
 
 constexpr double room_temperature = 298.0;  // K
@@ -35,8 +32,9 @@ bool says_hugoniot(const MeasuredTable& table) {
 }
 
 bool has_volumes(const MeasuredTable& table) {
-  constexpr std::array columns = {"V_over_V0", "atomic_volume", "V", "rho"};
-  return std::ranges::any_of(columns, [&](const char* name) { return table.find(name).has_value(); });
+  constexpr std::array columns = {Quantity::volume_ratio, Quantity::atomic_volume, Quantity::specific_volume,
+                                  Quantity::density};
+  return std::ranges::any_of(columns, [&](Quantity quantity) { return table.find(quantity).has_value(); });
 }
 
 std::string measured_material(const MeasuredTable& table) {
@@ -70,15 +68,15 @@ double isotherm_temperature(const MeasuredTable& table) {
 /// initial density, else that of the row at zero pressure.
 std::vector<double> volume_ratios(const MeasuredTable& table, const std::vector<double>& pressure,
                                   double& ambient_volume) {
-  if (const auto ratio = table.find("V_over_V0")) return table.numbers(*ratio);
+  if (const auto ratio = table.find(Quantity::volume_ratio)) return table.numbers(*ratio);
   std::vector<double> volume;
   bool of_atoms = false;
-  if (const auto atomic = table.find("atomic_volume")) {
+  if (const auto atomic = table.find(Quantity::atomic_volume)) {
     volume = table.numbers(*atomic);
     of_atoms = true;
-  } else if (const auto specific = table.find("V")) {
+  } else if (const auto specific = table.find(Quantity::specific_volume)) {
     volume = table.numbers(*specific);
-  } else if (const auto density = table.find("rho")) {
+  } else if (const auto density = table.find(Quantity::density)) {
     volume = table.numbers(*density);
     for (double& value : volume) value = 1.0 / value;
   } else {
@@ -87,7 +85,7 @@ std::vector<double> volume_ratios(const MeasuredTable& table, const std::vector<
                     "columns are {}",
                     table.file().string(), table.headings()));
   }
-  if (const std::vector<double> initial = table.numbers("rho0"); !initial.empty() && !of_atoms) {
+  if (const std::vector<double> initial = table.numbers(Quantity::initial_density); !initial.empty() && !of_atoms) {
     for (std::size_t i = 0; i < volume.size(); ++i) volume[i] *= initial[i];
     return volume;
   }
@@ -138,8 +136,8 @@ void set_points(Experiment& experiment, const MeasuredTable& table, const std::v
     }
   }
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return abscissa[i]; });
-  const std::vector<double> density = table.numbers("rho0");
-  const std::vector<double> porosity = table.numbers("m");
+  const std::vector<double> density = table.numbers(Quantity::initial_density);
+  const std::vector<double> porosity = table.numbers(Quantity::porosity);
   for (const std::size_t i : order) {
     experiment.abscissa.push_back(abscissa[i]);
     experiment.ordinate.push_back(ordinate[i]);
@@ -149,6 +147,7 @@ void set_points(Experiment& experiment, const MeasuredTable& table, const std::v
   }
   if (order.empty()) throw InputError(fmt::format("{}: no compressed state in it", experiment.file.string()));
 }
+
 /// Us = C + S up + S2 up^2/Us + S3 up^3/Us^2 (Steinberg), up and Us in m/s.
 double fitted_shock_velocity(const std::array<double, 4>& c, double up) {
   double us = c[0] + c[1] * up;
@@ -178,13 +177,14 @@ std::vector<Experiment> shock_fits(const MeasuredTable& table, const Experiment&
     const auto found = table.find_heading(heading);
     return found ? table.texts(*found) : std::vector<std::string>(table.rows());
   };
-  const auto constants = [&](const char* quantity) {
+  const auto constants = [&](Quantity quantity) {
     const std::vector<double> values = table.numbers(quantity);
     return values.empty() ? std::vector<double>(table.rows(), 0.0) : values;
   };
   const auto names = texts("material"), words = texts("library"), ranges = texts("range");
-  const std::array columns = {constants("C"), constants("S"), constants("S2"), constants("S3")};
-  const std::vector<double> density = constants("rho0");
+  const std::array columns = {constants(Quantity::hugoniot_intercept), constants(Quantity::hugoniot_slope),
+                              constants(Quantity::hugoniot_quadratic), constants(Quantity::hugoniot_cubic)};
+  const std::vector<double> density = constants(Quantity::initial_density);
   std::vector<Experiment> fits;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     Experiment fit = common;
@@ -219,46 +219,31 @@ std::vector<Experiment> shock_fits(const MeasuredTable& table, const Experiment&
 
 }  // namespace
 
-std::filesystem::path find_experiment(const std::string& name) {
-  std::filesystem::path path(name);
-  if (std::filesystem::exists(path)) return path;
-  if (!path.has_parent_path()) {
-    std::filesystem::path file = path;
-    if (!file.has_extension()) file += ".csv";
-    try {
-      return process::find_data(std::filesystem::path("eos/data") / file);
-    } catch (const InputError&) {
-      // Reported below, with the folders in the user's words.
-    }
-  }
-  throw InputError(
-      fmt::format("no experiment '{}': neither a file nor one of the data that come with the program "
-                  "(eos/data)",
-                  name));
-}
-
-std::vector<double> measured_quantity(const std::filesystem::path& file, const std::string& wanted) {
+std::vector<double> measured_quantity(const std::filesystem::path& file, std::string_view column) {
   const MeasuredTable table = MeasuredTable::read(file);
   const auto by_row = [&](const auto& of_row) {
     std::vector<double> values;
     for (std::size_t i = 0; i < table.rows(); ++i) values.push_back(of_row(i));
     return values;
   };
-  const std::string quantity = MeasuredTable::quantity_of(wanted);
-  if (const auto found = table.find(quantity); !quantity.empty() && found) return table.numbers(*found);
-  const std::vector<double> us = table.numbers("us"), up = table.numbers("up");
+  const std::optional<Quantity> wanted = MeasuredTable::quantity_of(std::string(column));
+  if (wanted) {
+    if (const auto found = table.find(*wanted)) return table.numbers(*found);
+  }
+  const std::vector<double> us = table.numbers(Quantity::shock_velocity);
+  const std::vector<double> up = table.numbers(Quantity::particle_velocity);
   const bool shocks = !us.empty() && !up.empty();
-  if (wanted == "V_over_V0") {
+  if (wanted == Quantity::volume_ratio) {
     if (shocks) return by_row([&](std::size_t i) { return 1 - up[i] / us[i]; });
-    if (const auto p = table.find("P")) {
+    if (const auto p = table.find(Quantity::pressure)) {
       double ambient_volume = 0.0;
       return volume_ratios(table, table.numbers(*p), ambient_volume);
     }
-  } else if (wanted == "P_GPa") {
-    const std::vector<double> rho0 = table.numbers("rho0");
+  } else if (wanted == Quantity::pressure) {
+    const std::vector<double> rho0 = table.numbers(Quantity::initial_density);
     if (shocks && !rho0.empty()) return by_row([&](std::size_t i) { return rho0[i] * us[i] * up[i]; });
   }
-  throw InputError(fmt::format("{}: no column that gives {}; the columns are {}", file.string(), wanted,
+  throw InputError(fmt::format("{}: no column that gives {}; the columns are {}", file.string(), column,
                                table.headings()));
 }
 
@@ -270,15 +255,17 @@ std::vector<Experiment> read_experiments(const std::filesystem::path& file,
   experiment.name = file.stem().string();
   experiment.source = table.comments().empty() ? "" : table.comments().front();
   experiment.material = measured_material(table);
-  if (table.find("C") && table.find("S")) return shock_fits(table, experiment);
-  const auto us = table.find("us");
-  const auto up = table.find("up");
+  if (table.find(Quantity::hugoniot_intercept) && table.find(Quantity::hugoniot_slope)) {
+    return shock_fits(table, experiment);
+  }
+  const auto us = table.find(Quantity::shock_velocity);
+  const auto up = table.find(Quantity::particle_velocity);
   if (us && up) {
     experiment.kind = ExperimentKind::shock_velocity;
     set_points(experiment, table, table.numbers(*up), table.numbers(*us));
     return {experiment};
   }
-  const auto p = table.find("P");
+  const auto p = table.find(Quantity::pressure);
   if (!p) {
     throw InputError(
         fmt::format("{}: neither a Hugoniot (columns us_km_s, up_km_s) nor pressures (P_GPa) with volumes or "
@@ -287,7 +274,7 @@ std::vector<Experiment> read_experiments(const std::filesystem::path& file,
                     file.string(), table.headings()));
   }
   const std::vector<double> pressure = table.numbers(*p);
-  if (const auto melting = table.find("T"); melting && !has_volumes(table)) {
+  if (const auto melting = table.find(Quantity::temperature); melting && !has_volumes(table)) {
     experiment.kind = ExperimentKind::melting;
     set_points(experiment, table, pressure, table.numbers(*melting));
     return {experiment};
@@ -303,95 +290,4 @@ std::vector<Experiment> read_experiments(const std::filesystem::path& file,
   return {experiment};
 }
 
-bool belongs_to(const Experiment& experiment, const Material& material) {
-  const auto lower = [](std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-  };
-  const std::string word = lower(experiment.material);
-  return lower(material.name).find(word) != std::string::npos ||
-         lower(material.file.stem().string()).find(word) != std::string::npos;
-}
-
-std::vector<double> initial_densities(const Material& material, const Experiment& experiment) {
-  const double solid = material.reference.density;
-  std::vector<double> densities;
-  for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
-    const double stated = std::isnan(experiment.initial_density[i]) ? solid / experiment.porosity[i]
-                                                                    : experiment.initial_density[i];
-    densities.push_back(stated > 0.0 && stated < (1.0 - same_density) * solid ? stated : solid);
-  }
-  return densities;
-}
-
-std::vector<double> curve(const Material& material, const Experiment& experiment,
-                          const std::vector<double>& abscissa, const std::vector<double>& initial_density) {
-  const eos::EquationOfState& eos = *material.eos;
-  std::vector<double> values;
-  values.reserve(abscissa.size());
-  const auto guarded = [&](const auto& function) {
-    for (std::size_t i = 0; i < abscissa.size(); ++i) {
-      try {
-        values.push_back(function(abscissa[i], initial_density[i]));
-      } catch (const StateError&) {
-        values.push_back(nan);  // outside the material's range: counted by the caller
-      }
-    }
-  };
-  if (experiment.kind == ExperimentKind::melting) {
-    guarded([&](double pressure, double) {
-      const auto melting = eos::melting_point(eos, pressure);
-      return melting ? 0.5 * (melting->solidus.temperature + melting->liquidus.temperature) : nan;
-    });
-    return values;
-  }
-  if (experiment.kind == ExperimentKind::isotherm) {
-    const double density = eos::density_at_pressure(eos, 0.0, experiment.temperature);
-    guarded([&](double ratio, double) {
-      return eos.state_at_temperature(density / ratio, experiment.temperature).pressure;
-    });
-    return values;
-  }
-  const eos::Hugoniot principal(eos, material.reference.density, material.reference.specific_internal_energy);
-  guarded([&](double x, double density) {
-    const eos::Hugoniot hugoniot =
-        density < material.reference.density ? eos::Hugoniot::porous(eos, density) : principal;
-    return experiment.kind == ExperimentKind::shock_velocity
-               ? hugoniot.at_particle_velocity(x).shock_velocity
-               : hugoniot.at_density(density / x).state.pressure;
-  });
-  return values;
-}
-
-Comparison compare(const Material& material, const Experiment& experiment) {
-  Comparison result;
-  const std::vector<double> densities = initial_densities(material, experiment);
-  result.model = curve(material, experiment, experiment.abscissa, densities);
-  for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
-    const double measured = experiment.ordinate[i];
-    const double difference = result.model[i] - measured;
-    const bool relative =
-        experiment.kind == ExperimentKind::shock_velocity || experiment.kind == ExperimentKind::melting;
-    const double deviation = relative ? 100.0 * difference / measured : difference;
-    result.deviation.push_back(deviation);
-    if (densities[i] < material.reference.density) result.porous.push_back(experiment.lines[i]);
-    if (experiment.initial_density[i] > (1.0 + same_density) * material.reference.density) {
-      result.denser.push_back(experiment.lines[i]);
-    }
-    if (std::isnan(deviation)) {
-      result.out_of_range.push_back(experiment.lines[i]);
-      continue;
-    }
-    ++result.points;
-    result.rms += deviation * deviation;
-    result.mean += deviation;
-    if (std::abs(deviation) > std::abs(result.maximum)) result.maximum = deviation;
-  }
-  if (result.points > 0) {
-    result.rms = std::sqrt(result.rms / result.points);
-    result.mean /= result.points;
-  }
-  return result;
-}
-
-}  // namespace whipple::app
+}  // namespace whipple::eos::experiments

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "eos/md/crystal_surface.hpp"
+#include "eos/models/crystal_surface.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,27 @@
 #include <string_view>
 #include <vector>
 
-namespace whipple::app {
+/// Reading of measured compression curves and their comparison with equations of state (docs/theory/fit.md,
+/// section 6).
+namespace whipple::eos::experiments {
+
+/// What a column of measurements holds; SI in memory.
+enum class Quantity {
+  shock_velocity,       ///< Us, m/s
+  particle_velocity,    ///< up, m/s
+  pressure,             ///< P, Pa
+  specific_volume,      ///< V, m^3/kg
+  atomic_volume,        ///< m^3 per atom
+  density,              ///< rho, kg/m^3
+  volume_ratio,         ///< V/V0
+  temperature,          ///< T, K
+  initial_density,      ///< rho0, kg/m^3
+  porosity,             ///< density of the solid over the initial one
+  hugoniot_intercept,   ///< C of a fit Us = C + S up + S2 up^2/Us + S3 up^3/Us^2, m/s
+  hugoniot_slope,       ///< S
+  hugoniot_quadratic,   ///< S2
+  hugoniot_cubic,       ///< S3
+};
 
 /// A text table of measurements, as people and programs write them (docs/how_to/equations_of_state.md,
 /// "Measured data"). Cells are separated by semicolons, tabs, commas or blanks, whichever of them the line of
@@ -26,12 +46,10 @@ class MeasuredTable {
   /// The headings as they are, separated by ", ".
   [[nodiscard]] std::string headings() const;
 
-  /// Column of a quantity: us, up, P, V, atomic_volume, rho, V_over_V0, T, rho0 (initial density), m
-  /// (porosity), C, S, S2, S3. Of several, that of the best spelling: a revised pressure scale before
-  /// another.
-  [[nodiscard]] std::optional<std::size_t> find(std::string_view quantity) const;
-  /// The quantity that a heading names; empty: none of those.
-  static std::string quantity_of(const std::string& heading);
+  /// Column of a quantity. Of several, that of the best spelling: a revised pressure scale before another.
+  [[nodiscard]] std::optional<std::size_t> find(Quantity quantity) const;
+  /// The quantity that a heading names, such as "us_km_s" or "P [GPa]"; none where it is no `Quantity`.
+  static std::optional<Quantity> quantity_of(const std::string& heading);
   /// Column of this very heading.
   [[nodiscard]] std::optional<std::size_t> find_heading(std::string_view heading) const;
 
@@ -39,13 +57,13 @@ class MeasuredTable {
   /// @throws InputError if the heading gives no unit to a quantity that has one, or a cell is no number
   [[nodiscard]] std::vector<double> numbers(std::size_t column) const;
   /// The numbers of a quantity; empty without such a column.
-  [[nodiscard]] std::vector<double> numbers(std::string_view quantity) const;
+  [[nodiscard]] std::vector<double> numbers(Quantity quantity) const;
   [[nodiscard]] std::vector<std::string> texts(std::size_t column) const;
 
  private:
   struct Column {
     std::string heading;
-    std::string quantity;      ///< empty: none of those above
+    std::optional<Quantity> quantity;
     std::size_t spelling = 0;  ///< place among its spellings, the best first
     std::optional<std::string> unit;
   };
@@ -60,4 +78,4 @@ class MeasuredTable {
   std::vector<int> lines_;
 };
 
-}  // namespace whipple::app
+}  // namespace whipple::eos::experiments

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "eos/md/worker_source.hpp"
+#include "md_fitting/simulated_crystal/worker_source.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <set>
 
@@ -14,18 +15,18 @@
 #include "src/core/base/text.hpp"
 #include "src/core/process/mpirun.hpp"
 
-namespace whipple::eos {
+namespace whipple::md {
 namespace {
 
 bool same(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b); }
 
 }  // namespace
 
-WorkerSource::WorkerSource(const SimulatedConstants& constants, const std::filesystem::path& store)
+WorkerSource::WorkerSource(const eos::SimulatedConstants& constants, const std::filesystem::path& store)
     : constants_(constants), store_(store) {
   compute({});
   std::set<std::string> tables;
-  for (const md::PointRecord& point : md::read_store(store_)) {
+  for (const PointRecord& point : read_store(store_)) {
     if (point.protocol != "lattice" || !mine(point)) continue;
     tables.insert(point.origin("potential_sha256"));
     static_volume_ = point.origin_number("static_specific_volume");
@@ -38,7 +39,7 @@ WorkerSource::WorkerSource(const SimulatedConstants& constants, const std::files
   }
 }
 
-bool WorkerSource::mine(const md::PointRecord& point) const {
+bool WorkerSource::mine(const PointRecord& point) const {
   const auto is = [&](const char* entry, const std::string& value) {
     const auto found = point.provenance.find(entry);
     return found != point.provenance.end() && found->second == value;
@@ -86,14 +87,14 @@ void WorkerSource::compute(std::span<const double> volume_ratios) const {
   }
 }
 
-bool WorkerSource::find(const std::vector<md::PointRecord>& points, double volume_ratio,
-                        SimulatedIsochore& isochore) const {
+bool WorkerSource::find(const std::vector<PointRecord>& points, double volume_ratio,
+                        eos::SimulatedIsochore& isochore) const {
   isochore = {};
   isochore.volume = volume_ratio * static_volume_;
   bool cold = false;
   for (const double temperature : constants_.temperature) {
     bool found = false;
-    for (const md::PointRecord& point : points) {
+    for (const PointRecord& point : points) {
       const bool crystal = point.protocol == "cold_curve";
       if ((!crystal && point.protocol != "isochore") || !mine(point) ||
           !same(point.condition("specific_volume"), isochore.volume)) {
@@ -111,8 +112,8 @@ bool WorkerSource::find(const std::vector<md::PointRecord>& points, double volum
       if (point.result("solid").value < 0.5 || point.result("crystal_share").value < whole) {
         throw StateError(fmt::format("{}: {}", point.label(), point.message));
       }
-      const md::Estimate pressure = point.result("pressure");
-      const md::Estimate energy = point.result("specific_internal_energy");
+      const Estimate pressure = point.result("pressure");
+      const Estimate energy = point.result("specific_internal_energy");
       isochore.states.push_back({temperature, pressure.value, pressure.error, energy.value, energy.error});
       found = true;
       break;
@@ -122,10 +123,10 @@ bool WorkerSource::find(const std::vector<md::PointRecord>& points, double volum
   return cold;
 }
 
-std::vector<SimulatedIsochore> WorkerSource::isochores(std::span<const double> volume_ratios) {
-  std::vector<SimulatedIsochore> isochores(volume_ratios.size());
+std::vector<eos::SimulatedIsochore> WorkerSource::isochores(std::span<const double> volume_ratios) {
+  std::vector<eos::SimulatedIsochore> isochores(volume_ratios.size());
   std::vector<double> missing;
-  std::vector<md::PointRecord> points = md::read_store(store_);
+  std::vector<PointRecord> points = read_store(store_);
   for (std::size_t i = 0; i < volume_ratios.size(); ++i) {
     if (!find(points, volume_ratios[i], isochores[i])) missing.push_back(volume_ratios[i]);
   }
@@ -133,7 +134,7 @@ std::vector<SimulatedIsochore> WorkerSource::isochores(std::span<const double> v
   log::info("{}: simulating {} states at V/Vs = {}", constants_.potential,
             missing.size() * constants_.temperature.size(), fmt::join(missing, ", "));
   compute(missing);
-  points = md::read_store(store_);
+  points = read_store(store_);
   for (std::size_t i = 0; i < volume_ratios.size(); ++i) {
     if (!find(points, volume_ratios[i], isochores[i])) {
       throw StateError(fmt::format("whipple-md brought no complete isochore at V/Vs = {}", volume_ratios[i]));
@@ -142,4 +143,29 @@ std::vector<SimulatedIsochore> WorkerSource::isochores(std::span<const double> v
   return isochores;
 }
 
-}  // namespace whipple::eos
+std::filesystem::path default_store(const eos::SimulatedConstants& constants) {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  std::filesystem::path folder;
+  if (cache != nullptr && *cache != '\0') {
+    folder = cache;
+  } else if (home != nullptr && *home != '\0') {
+    folder = std::filesystem::path(home) / ".cache";
+  } else {
+    throw InputError("neither XDG_CACHE_HOME nor HOME is set: give 'store'");
+  }
+  const std::string potential = std::filesystem::path(constants.potential).filename().string();
+  return folder / "whipple" / "md" / fmt::format("{}_{}.md.h5", constants.element, potential);
+}
+
+std::unique_ptr<eos::IsochoreSource> worker_source(const eos::SimulatedConstants& constants) {
+  const std::filesystem::path store =
+      constants.store.empty() ? default_store(constants) : std::filesystem::path(constants.store);
+  if (!store.is_absolute()) {
+    throw InputError(
+        fmt::format("store = \"{}\": expected an absolute path: copies of the material share it", constants.store));
+  }
+  return std::make_unique<WorkerSource>(constants, store);
+}
+
+}  // namespace whipple::md

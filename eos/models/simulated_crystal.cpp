@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "eos/md/simulated_crystal.hpp"
+#include "eos/models/simulated_crystal.hpp"
 
 #include <fmt/format.h>
 
@@ -31,6 +31,12 @@ CrystalSurface::Settings settings_of(const SimulatedConstants& c) {
           *std::max_element(c.temperature.begin(), c.temperature.end()),
           c.tolerance,
           static_cast<int>(c.divisions)};
+}
+
+/// What simulates crystals in this process.
+IsochoreSourceMaker& registered() {
+  static IsochoreSourceMaker maker;
+  return maker;
 }
 
 }  // namespace
@@ -202,19 +208,11 @@ std::string SimulatedCrystal::constants() const {
   return to_toml(whipple::bind(SimulatedConstants::parameters(), values));
 }
 
-std::filesystem::path default_store(const SimulatedConstants& constants) {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  std::filesystem::path folder;
-  if (cache != nullptr && *cache != '\0') {
-    folder = cache;
-  } else if (home != nullptr && *home != '\0') {
-    folder = std::filesystem::path(home) / ".cache";
-  } else {
-    throw InputError("neither XDG_CACHE_HOME nor HOME is set: give 'store'");
-  }
-  const std::string potential = std::filesystem::path(constants.potential).filename().string();
-  return folder / "whipple" / "md" / fmt::format("{}_{}.md.h5", constants.element, potential);
+void set_isochore_source(IsochoreSourceMaker maker) { registered() = std::move(maker); }
+
+std::unique_ptr<SimulatedCrystal> simulated_crystal(const SimulatedConstants& constants) {
+  if (!registered()) throw InputError("this program cannot simulate crystals: it has no source of isochores");
+  return std::make_unique<SimulatedCrystal>(constants, registered()(constants));
 }
 
 }  // namespace whipple::eos

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "src/app/measured_table.hpp"
+#include "eos/experiments/measured_table.hpp"
 
 #include <fmt/format.h>
 
@@ -15,32 +15,38 @@
 #include "src/core/base/files.hpp"
 #include "src/core/base/units.hpp"
 
-namespace whipple::app {
+namespace whipple::eos::experiments {
 namespace {
 
-/// A quantity with its spellings, the best first, without the signs that `plain` takes off. Spellings of one
+/// A quantity with the words that name it, the best first, without the signs that `plain` takes off. Spellings of one
 /// letter count only with a unit that fits: D is a shock velocity in km/s and a diameter in mm.
-struct Quantity {
-  std::string_view name;
+struct Spelling {
+  Quantity quantity;
   std::string_view si_unit;
-  std::array<std::string_view, 6> spellings;
+  std::array<std::string_view, 6> words;
 };
-constexpr std::array quantities = {
-    Quantity{"us", "m/s", {"us", "shockvelocity", "shockspeed", "d"}},
-    Quantity{"up", "m/s", {"up", "particlevelocity", "particlespeed", "u"}},
-    Quantity{"P", "Pa", {"p", "pressure", "previsedruby", "previsedscale", "prevised"}},
-    Quantity{"V", "m^3/kg", {"v", "specificvolume"}},
-    Quantity{"atomic_volume", "m^3", {"atomicvolume", "v"}},
-    Quantity{"rho", "kg/m^3", {"rho", "density", "r", "\u03c1"}},
-    Quantity{"V_over_V0", "", {"voverv0", "v/v0"}},
-    Quantity{"T", "K", {"tm", "t", "temperature", "meltingtemperature"}},
-    Quantity{"rho0", "kg/m^3", {"rho00", "r00", "rho0", "initialdensity", "density0", "\u03c10"}},
-    Quantity{"m", "", {"m", "porosity", "distension"}},
-    Quantity{"C", "m/s", {"c", "c0"}},
-    Quantity{"S", "", {"s", "s1"}},
-    Quantity{"S2", "", {"s2"}},
-    Quantity{"S3", "", {"s3"}},
+constexpr std::array spellings = {
+    Spelling{Quantity::shock_velocity, "m/s", {"us", "shockvelocity", "shockspeed", "d"}},
+    Spelling{Quantity::particle_velocity, "m/s", {"up", "particlevelocity", "particlespeed", "u"}},
+    Spelling{Quantity::pressure, "Pa", {"p", "pressure", "previsedruby", "previsedscale", "prevised"}},
+    Spelling{Quantity::specific_volume, "m^3/kg", {"v", "specificvolume"}},
+    Spelling{Quantity::atomic_volume, "m^3", {"atomicvolume", "v"}},
+    Spelling{Quantity::density, "kg/m^3", {"rho", "density", "r", "\u03c1"}},
+    Spelling{Quantity::volume_ratio, "", {"voverv0", "v/v0"}},
+    Spelling{Quantity::temperature, "K", {"tm", "t", "temperature", "meltingtemperature"}},
+    Spelling{Quantity::initial_density, "kg/m^3", {"rho00", "r00", "rho0", "initialdensity", "density0", "\u03c10"}},
+    Spelling{Quantity::porosity, "", {"m", "porosity", "distension"}},
+    Spelling{Quantity::hugoniot_intercept, "m/s", {"c", "c0"}},
+    Spelling{Quantity::hugoniot_slope, "", {"s", "s1"}},
+    Spelling{Quantity::hugoniot_quadratic, "", {"s2"}},
+    Spelling{Quantity::hugoniot_cubic, "", {"s3"}},
 };
+
+/// The line of a quantity above.
+const Spelling& spelling_of(Quantity quantity) {
+  return *std::ranges::find(spellings, quantity, &Spelling::quantity);
+}
+
 constexpr std::size_t other_scale = 100;  // rank of a pressure scale that is not the revised one
 
 /// "U_p", "u p" and "$u_{p}$" are "up".
@@ -172,19 +178,19 @@ MeasuredTable MeasuredTable::read(const std::filesystem::path& file) {
 }
 
 MeasuredTable::Column MeasuredTable::understand(const std::string& heading, int line) const {
-  Column column{heading, "", 0, std::nullopt};
-  const auto spelt = [](std::string_view text, const Quantity& quantity) -> std::optional<std::size_t> {
+  Column column{heading, std::nullopt, 0, std::nullopt};
+  const auto spelt = [](std::string_view text, const Spelling& known) -> std::optional<std::size_t> {
     const std::string bare = plain(text);
-    const auto found = std::ranges::find(quantity.spellings, bare);
-    if (!bare.empty() && found != quantity.spellings.end()) {
-      return static_cast<std::size_t>(found - quantity.spellings.begin());
+    const auto found = std::ranges::find(known.words, bare);
+    if (!bare.empty() && found != known.words.end()) {
+      return static_cast<std::size_t>(found - known.words.begin());
     }
-    const bool scale = quantity.name == "P" && (text.starts_with("P_") || text.starts_with("p_"));
+    const bool scale = known.quantity == Quantity::pressure && (text.starts_with("P_") || text.starts_with("p_"));
     if (scale && plain(text).find("err") == std::string::npos) return other_scale;
     return std::nullopt;
   };
-  const auto take = [&](const Quantity& quantity, std::size_t spelling, std::optional<std::string> unit) {
-    column.quantity = quantity.name;
+  const auto take = [&](const Spelling& known, std::size_t spelling, std::optional<std::string> unit) {
+    column.quantity = known.quantity;
     column.spelling = spelling;
     column.unit = std::move(unit);
     return column;
@@ -193,33 +199,33 @@ MeasuredTable::Column MeasuredTable::understand(const std::string& heading, int 
   if (bracket != std::string::npos && (heading.back() == ']' || heading.back() == ')')) {
     const std::string name = trimmed(heading.substr(0, bracket));
     const std::string unit = unit_text(heading.substr(bracket + 1, heading.size() - bracket - 2));
-    for (const Quantity& quantity : quantities) {
-      const auto spelling = spelt(name, quantity);
+    for (const Spelling& known : spellings) {
+      const auto spelling = spelt(name, known);
       if (!spelling) continue;
-      if (fits(unit, quantity.si_unit)) return take(quantity, *spelling, unit);
+      if (fits(unit, known.si_unit)) return take(known, *spelling, unit);
       if (plain(name).size() > 1) {
         throw InputError(fmt::format("{}:{}: column '{}': '{}' is no unit of the kind '{}'", file_.string(),
-                                     line, heading, unit, quantity.si_unit));
+                                     line, heading, unit, known.si_unit));
       }
     }
     return column;
   }
-  for (const Quantity& quantity : quantities) {
-    if (const auto spelling = spelt(heading, quantity); spelling && *spelling != other_scale) {
-      return take(quantity, *spelling,
-                  quantity.si_unit.empty() ? std::optional<std::string>("") : std::nullopt);
+  for (const Spelling& known : spellings) {
+    if (const auto spelling = spelt(heading, known); spelling && *spelling != other_scale) {
+      return take(known, *spelling,
+                  known.si_unit.empty() ? std::optional<std::string>("") : std::nullopt);
     }
   }
   // "up_km_s": the shortest ending that is a unit, so that P_revised_ruby_GPa is a P_revised_ruby.
-  for (const Quantity& quantity : quantities) {
+  for (const Spelling& known : spellings) {
     for (std::size_t at = heading.rfind('_'); at != std::string::npos && at > 0;
          at = heading.rfind('_', at - 1)) {
       std::string unit = heading.substr(at + 1);
       std::ranges::replace(unit, '_', '/');
       unit = unit_text(unit);
-      const auto spelling = spelt(heading.substr(0, at), quantity);
-      if (spelling && !unit.empty() && !quantity.si_unit.empty() && fits(unit, quantity.si_unit)) {
-        return take(quantity, *spelling, unit);
+      const auto spelling = spelt(heading.substr(0, at), known);
+      if (spelling && !unit.empty() && !known.si_unit.empty() && fits(unit, known.si_unit)) {
+        return take(known, *spelling, unit);
       }
     }
   }
@@ -236,9 +242,9 @@ bool MeasuredTable::take_units(const std::vector<std::string>& cells) {
     if (unit.empty()) continue;
     if (read_number(unit, number) && unit != "-") return false;
     Column& column = with_units[i];
-    if (column.quantity.empty()) continue;
-    const auto quantity = std::ranges::find(quantities, column.quantity, &Quantity::name);
-    if (!fits(unit_text(unit), quantity->si_unit)) return false;
+    if (!column.quantity) continue;
+    const Spelling& known = spelling_of(*column.quantity);
+    if (!fits(unit_text(unit), known.si_unit)) return false;
     column.unit = unit_text(unit);
     any = true;
   }
@@ -246,7 +252,7 @@ bool MeasuredTable::take_units(const std::vector<std::string>& cells) {
   return any;
 }
 
-std::string MeasuredTable::quantity_of(const std::string& heading) {
+std::optional<Quantity> MeasuredTable::quantity_of(const std::string& heading) {
   return MeasuredTable().understand(heading, 0).quantity;
 }
 
@@ -256,7 +262,7 @@ std::string MeasuredTable::headings() const {
   return text;
 }
 
-std::optional<std::size_t> MeasuredTable::find(std::string_view quantity) const {
+std::optional<std::size_t> MeasuredTable::find(Quantity quantity) const {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (columns_[i].quantity != quantity) continue;
@@ -274,14 +280,14 @@ std::optional<std::size_t> MeasuredTable::find_heading(std::string_view heading)
 std::vector<double> MeasuredTable::numbers(std::size_t index) const {
   const Column& column = columns_[index];
   units::Conversion conversion;
-  if (!column.quantity.empty()) {
-    const auto quantity = std::ranges::find(quantities, column.quantity, &Quantity::name);
+  if (column.quantity) {
+    const Spelling& known = spelling_of(*column.quantity);
     if (!column.unit) {
       throw InputError(
           fmt::format("{}: column '{}' gives no unit: write \"{} [{}]\", with the unit of the file",
-                      file_.string(), column.heading, column.heading, quantity->si_unit));
+                      file_.string(), column.heading, column.heading, known.si_unit));
     }
-    conversion = units::conversion(*column.unit, quantity->si_unit);
+    conversion = units::conversion(*column.unit, known.si_unit);
   }
   std::vector<double> values(rows());
   for (std::size_t row = 0; row < rows(); ++row) {
@@ -296,7 +302,7 @@ std::vector<double> MeasuredTable::numbers(std::size_t index) const {
   return values;
 }
 
-std::vector<double> MeasuredTable::numbers(std::string_view quantity) const {
+std::vector<double> MeasuredTable::numbers(Quantity quantity) const {
   const auto column = find(quantity);
   return column ? numbers(*column) : std::vector<double>();
 }
@@ -307,4 +313,4 @@ std::vector<std::string> MeasuredTable::texts(std::size_t column) const {
   return values;
 }
 
-}  // namespace whipple::app
+}  // namespace whipple::eos::experiments

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "eos/md/isochore_source.hpp"
+#include "eos/models/isochore_source.hpp"
 
 namespace whipple::eos {
 

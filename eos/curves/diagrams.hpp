@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "eos/curves/queries.hpp"
+#include "eos/curves/table.hpp"
+
+namespace whipple::eos::curves {
+
+enum class LineStyle { solid, dashed, dotted, dashdot, thin, marks };
+
+/// A line, or separate points.
+struct FigureCurve {
+  std::string label;         ///< what it is: "Hugoniot", or the name of the measurements
+  std::string material;      ///< of which material; measurements have none
+  std::vector<double> x, y;  ///< in the units of the axes
+  int colour = 0;            ///< number in the palette; curves of one material share it
+  LineStyle style = LineStyle::solid;
+};
+
+struct Figure {
+  std::string title;
+  Column x, y;  ///< what the axes show
+  bool logarithmic_x = false, logarithmic_y = false;
+  std::vector<FigureCurve> curves;
+  std::vector<FigureCurve> points;  ///< measurements
+};
+
+/// Diagrams of several loci.
+enum class DiagramKind {
+  shock_velocity,        ///< us-up: principal Hugoniots with their melting range
+  pressure_volume,       ///< p-v: Hugoniot, isotherm, cold curve
+  pressure_temperature,  ///< p-t: solidus, liquidus, Hugoniot, isentrope, releases
+  pressure_density,      ///< p-rho: Hugoniot, releases, liquid and vapour; logarithmic
+};
+
+/// Computes the curves of a diagram.
+/// @param greatest  pressure (Pa) at which the curves end
+/// @param releases  shock pressures (Pa) to release from; empty: a quarter, a half and all of the greatest one
+/// @throws InputError if the greatest pressure is not positive
+Figure diagram(DiagramKind kind, const Subjects& subjects, double greatest, std::vector<double> releases = {});
+
+}  // namespace whipple::eos::curves

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eos/curves/queries.hpp"
+#include "eos/curves/table.hpp"
+
+namespace whipple::eos::curves {
+
+/// Mean and standard deviation of a number over samples; what is not finite does not count.
+class Scatter {
+ public:
+  void add(double value);
+  void add(const std::optional<double>& value) {
+    if (value) add(*value);
+  }
+  [[nodiscard]] int count() const { return count_; }
+  [[nodiscard]] double mean() const;       ///< NaN without values
+  [[nodiscard]] double deviation() const;  ///< NaN with less than two values
+
+ private:
+  int count_ = 0;
+  double mean_ = 0.0, squares_ = 0.0;
+};
+
+/// A shock pressure (Pa) at which something begins or is complete.
+struct Threshold {
+  std::string text;  ///< "melting behind the shock begins at"
+  Scatter pressure;
+};
+
+/// What the scatter of the constants of an equation of state leaves uncertain of its Hugoniot.
+struct SampledHugoniot {
+  /// Mean and standard deviation over the samples at equal particle velocities: shock velocity, pressure, density,
+  /// temperature, melted fraction behind the shock, melted and vaporised fraction after release. At each velocity
+  /// the samples that have a state there count; the last column says how many.
+  CurveTable table;
+  std::vector<Threshold> thresholds;  ///< of melting and vaporisation, behind the shock and after release
+};
+
+/// Computes the Hugoniots of samples of one equation of state.
+/// @param velocities        particle velocities, m/s, rising
+/// @param release_pressure  Pa: end of the releases
+/// @throws InputError for fewer than two samples
+SampledHugoniot sampled_hugoniot(const Subjects& samples, const std::vector<double>& velocities,
+                                 double release_pressure);
+
+}  // namespace whipple::eos::curves

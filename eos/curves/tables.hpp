@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "eos/curves/queries.hpp"
+#include "eos/curves/table.hpp"
+
+namespace whipple::eos::curves {
+
+/// Quantities that a curve may run over.
+enum class Variable {
+  pressure,           ///< Pa
+  particle_velocity,  ///< m/s
+  density,            ///< kg/m^3
+};
+
+/// Ends (SI) and number of points of a curve; what is missing follows from the curve.
+struct CurveRange {
+  std::optional<double> from = {}, to = {};
+  int points = 21;
+};
+
+// One table of several subjects. Where the model of a subject ends on the way, its curve ends with the reason
+// (`Series::end`); StateError if it has no point at all, InputError if the quantities contradict each other.
+
+/// One state of each subject.
+CurveTable state_table(const Subjects& subjects, const StateQuery& query);
+/// Hugoniots over pressure (from zero to 200 GPa) or particle velocity, or the one shocked state of a query.
+CurveTable hugoniot_table(const Subjects& subjects, const HugoniotStart& start, const ShockQuery& query,
+                          Variable variable, const CurveRange& range);
+/// Isotherms over pressure, from zero to 100 GPa.
+/// @param temperature  K; missing: the reference temperature of each model
+CurveTable isotherm_table(const Subjects& subjects, std::optional<double> temperature, const CurveRange& range);
+/// Isentropes from a state to a pressure (100 GPa) or a density, at equal ratios of density.
+CurveTable isentrope_table(const Subjects& subjects, const StateQuery& start, Variable variable,
+                           const CurveRange& range);
+/// Release of a shocked state to a pressure (zero): along the isentrope, or of one point where it is in equilibrium
+/// of liquid and vapour.
+CurveTable release_table(const Subjects& subjects, const HugoniotStart& start, const ShockQuery& query,
+                         const CurveRange& range);
+/// Cold curves over density, from 0.9 to 1.5 of the reference density.
+CurveTable cold_table(const Subjects& subjects, const CurveRange& range);
+/// Solidus and liquidus over pressure, from zero to 100 GPa.
+CurveTable melt_table(const Subjects& subjects, const CurveRange& range);
+/// Liquid and vapour in equilibrium, at equal ratios of pressure from 100 Pa to the critical point.
+CurveTable dome_table(const Subjects& subjects, const CurveRange& range);
+/// Impact of the first subject on the second with a velocity (m/s), and the shock's way into the others.
+CurveTable match_table(const Subjects& subjects, double velocity);
+
+}  // namespace whipple::eos::curves

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/app/eos_options.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "src/core/base/error.hpp"
+#include "src/core/base/parameter_table.hpp"
+#include "src/core/base/units.hpp"
+
+namespace whipple::app {
+namespace {
+
+using eos::curves::Variable;
+
+const char* unit_of(Variable variable) {
+  switch (variable) {
+    case Variable::pressure:
+      return "Pa";
+    case Variable::particle_velocity:
+      return "m/s";
+    case Variable::density:
+      return "kg/m^3";
+  }
+  throw InternalError("unknown variable of a curve");
+}
+
+bool is_in(const std::string& text, const char* unit) {
+  try {
+    static_cast<void>(units::parse_quantity(text, unit));
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+std::optional<double> quantity(const char* option, const std::string& text, const char* unit) {
+  if (text.empty()) return std::nullopt;
+  double value = 0;
+  try {
+    value = units::parse_quantity(text, unit);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", option, error.what()));
+  }
+  const std::string_view kind = unit;
+  const Range range = kind == "kg/m^3" || kind == "K" ? range::positive()
+                      : kind == "m/s"                 ? range::non_negative()
+                                                      : range::any();
+  if (!range.contains(value))
+    throw InputError(fmt::format("{}: is {}, but must be {} {}", option, text, range.text(), unit));
+  return value;
+}
+
+eos::curves::StateQuery state_query(const EosOptions& o) {
+  return {quantity("--density", o.density, "kg/m^3"), quantity("--temperature", o.temperature, "K"),
+          quantity("--energy", o.energy, "J/kg"), quantity("--pressure", o.pressure, "Pa"),
+          quantity("--entropy", o.entropy, "J/(kg K)")};
+}
+
+eos::curves::HugoniotStart hugoniot_start(const EosOptions& o) {
+  return {quantity("--initial-density", o.initial_density, "kg/m^3"), quantity("--reflected", o.reflected, "Pa")};
+}
+
+eos::curves::ShockQuery shock_query(const EosOptions& o) {
+  return {quantity("--density", o.density, "kg/m^3"), quantity("--pressure", o.pressure, "Pa"),
+          quantity("--particle-velocity", o.particle_velocity, "m/s")};
+}
+
+Variable curve_variable(const EosOptions& o, std::span<const Variable> variables) {
+  if (o.to.empty()) return variables.front();
+  std::string known;
+  for (const Variable variable : variables) {
+    if (is_in(o.to, unit_of(variable))) return variable;
+    known += fmt::format("{}{}", known.empty() ? "" : " or in ", unit_of(variable));
+  }
+  throw InputError(fmt::format("--to: '{}': expected a quantity in {}", o.to, known));
+}
+
+eos::curves::CurveRange curve_range(const EosOptions& o, Variable variable) {
+  return {quantity("--from", o.from, unit_of(variable)), quantity("--to", o.to, unit_of(variable)), o.points};
+}
+
+double impact_velocity(const EosOptions& o) {
+  const auto velocity = quantity("--velocity", o.velocity, "m/s");
+  if (!velocity || *velocity == 0)
+    throw InputError("an impact needs a --velocity above zero, e.g. --velocity '5 km/s'");
+  return *velocity;
+}
+
+eos::curves::Subjects subjects_of(std::span<const Material> materials) {
+  eos::curves::Subjects subjects;
+  for (const Material& material : materials) subjects.push_back({material.name, material.eos});
+  return subjects;
+}
+
+}  // namespace whipple::app
