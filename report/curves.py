@@ -2,13 +2,19 @@
 """Curves over time: energies, errors, phases, time step, front and radial speeds."""
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from report import units
+from report.analysis import Analysis
+from report.history import History
 from report.pictures import PHASE_COLOURS, legend_below
+from report.run import Run
 from report.snapshot import PHASES
 
 
-def new_figure(columns, height=3.9):
+def new_figure(columns: int, height: float = 3.9) -> tuple[Figure, np.ndarray]:
+    """Makes a figure of so many panels over time. `height` in inches."""
     figure, axes = plt.subplots(1, columns, figsize=(12.0 if columns > 1 else 8.0, height), squeeze=False,
                                 layout="constrained")
     for ax in axes.flat:
@@ -19,11 +25,13 @@ def new_figure(columns, height=3.9):
     return figure, axes[0]
 
 
-def legend_above(ax, columns=3):
+def legend_above(ax: Axes, columns: int = 3) -> None:
+    """Adds a legend in rows above a panel."""
     ax.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=columns, frameon=False, fontsize=9, borderaxespad=0.2)
 
 
-def lines(ax, history, names, scale=1.0):
+def lines(ax: Axes, history: History, names: list[tuple[str, str]], scale: float = 1.0) -> bool:
+    """Draws the columns (name, label) that a history has. Returns whether there is one."""
     drawn = False
     for name, label in names:
         if name in history:
@@ -32,8 +40,8 @@ def lines(ax, history, names, scale=1.0):
     return drawn
 
 
-def phase_figure(run):
-    """Mass of every phase over time as shares of the mass, one panel per body."""
+def phase_figure(run: Run) -> Figure | None:
+    """Draws the mass of every phase over time as shares of the mass, one panel per body."""
     history = run.history
     first = f"mass_{PHASES[0]}."
     bodies = [column.removeprefix(first) for column in history.columns if column.startswith(first)]
@@ -57,7 +65,8 @@ def phase_figure(run):
     return figure
 
 
-def energy_figure(run):
+def energy_figure(run: Run) -> Figure | None:
+    """Draws the energies of the full problem, and the errors of the balances; None without columns of them."""
     history = run.history
     figure, (left, right) = new_figure(2)
     scale = run.multiplicity * 1e-3  # kJ
@@ -80,7 +89,8 @@ def energy_figure(run):
     return None
 
 
-def step_figure(run):
+def step_figure(run: Run) -> Figure | None:
+    """Draws time step, largest pressure and temperature; None without columns of them."""
     history = run.history
     figure, (left, middle, right) = new_figure(3)
     drawn = lines(left, history, [("dt", "time step")], units.NANOSECONDS)
@@ -95,8 +105,8 @@ def step_figure(run):
     return None
 
 
-def extent_figure(columns):
-    """Position and speed of front, rear and radius of the debris; `columns`: the series of the analysis."""
+def extent_figure(columns: dict[str, np.ndarray]) -> Figure:
+    """Draws position and speed of front, rear and radius of the debris; `columns`: the series of the analysis."""
     figure, (left, right) = new_figure(2)
     time = units.MICROSECONDS * columns["time"]
     for name, label, colour, outer in (("front", "front", "#c0392b", "foremost"), ("rear", "rear", "#2c6fbb", None),
@@ -118,8 +128,8 @@ def extent_figure(columns):
     return figure
 
 
-def fragment_figure(analysis):
-    """Number of debris fragments over their mass, with the power law fitted to it."""
+def fragment_figure(analysis: Analysis) -> Figure | None:
+    """Draws the number of debris fragments over their mass, with the power law fitted to it."""
     table = analysis.tables["fragment_distribution"]
     if not table or len(table["mass"]) < 2:
         return None
@@ -139,8 +149,8 @@ def fragment_figure(analysis):
     return figure
 
 
-def surface_figure(analysis):
-    """Crater and holes over time."""
+def surface_figure(analysis: Analysis) -> Figure | None:
+    """Draws crater and holes over time; None if there are none."""
     series = analysis.series
     craters = (("crater_depth", "crater, depth"), ("crater_diameter", "crater, diameter"))
     shown = [(name, label) for name, label in craters
@@ -158,8 +168,8 @@ def surface_figure(analysis):
     return figure
 
 
-def witness_figure(analysis):
-    """Loads on the witness plate by distance from the axis and over time."""
+def witness_figure(analysis: Analysis) -> Figure | None:
+    """Draws the loads on the witness plate by distance from the axis and over time."""
     if "witness_rings" not in analysis.tables:
         return None
     rings, flux = analysis.tables["witness_rings"], analysis.tables["witness_flux"]

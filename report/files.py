@@ -6,6 +6,8 @@ import tempfile
 from collections.abc import Callable
 from typing import BinaryIO
 
+from matplotlib.figure import Figure
+
 
 def write_whole(path: pathlib.Path, write: Callable[[BinaryIO], object]) -> None:
     """Lets `write(stream)` fill a file beside `path` that then takes its place: readers see the old or the new one."""
@@ -23,7 +25,7 @@ def write_whole(path: pathlib.Path, write: Callable[[BinaryIO], object]) -> None
             raise
 
 
-def save_figure(figure, path: str | pathlib.Path, **options) -> None:
+def save_figure(figure: Figure, path: str | pathlib.Path, **options) -> None:
     """Writes a figure in the format of its ending."""
     path = pathlib.Path(path)
     write_whole(path, lambda stream: figure.savefig(stream, format=path.suffix[1:], **options))

@@ -2,17 +2,19 @@
 """Curves of the gauges and tracers of a run over time (gauges.csv, docs/output.md)."""
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.figure import Figure
 
 from report import units
 from report.curves import legend_above, new_figure
 from report.history import History
+from report.run import Run
 
 PANELS = (("pressure", units.GIGAPASCALS, "pressure (GPa)"), ("speed", units.KM_PER_SECOND, "speed (km/s)"),
           ("temperature", 1.0, "temperature (K)"))
 FEW = 10  # more gauges than this share a colour scale instead of a legend
 
 
-def read(run) -> History:
+def read(run: Run) -> History:
     """Reads gauges.csv; without columns if the run has no gauges."""
     return History(run.folder / "gauges.csv")
 
@@ -29,7 +31,7 @@ def values(history: History, gauge: str, quantity: str) -> np.ndarray:
     return history[f"{gauge}.{quantity}"]
 
 
-def figure(history: History):
+def figure(history: History) -> Figure | None:
     """Draws pressure, speed and temperature of all gauges; None if there are none."""
     gauges = names(history)
     if not gauges or "time" not in history:

@@ -1,16 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of the cloud from the side: every particle a lit sphere, every element its lit faces."""
+import pathlib
+from collections.abc import Iterator
+
 import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 import PIL.Image
 from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from report import render as rendering
 from report import units
 from report.analysis import AXES, Analysis, Geometry
 from report.files import write_whole
+from report.run import Run
 from report.snapshot import PHASES, Snapshot
 
 PHASE_COLOURS = ("#5f7f9f", "#f4b942", "#d7402b", "#8e5bc9")
@@ -37,7 +42,7 @@ class View:
         self.geo = geo
         self.mirrored = geo.up in geo.planes
         self.depth_copies = 2 if geo.depth in geo.planes else 1
-        self.label_axes()
+        self._label_axes()
         edge = (1 - SHOWN_MASS) / 2
         lower, upper, reach_up, reach_down = np.inf, -np.inf, 0.0, 0.0
         for s in snapshots:
@@ -59,22 +64,23 @@ class View:
         self.pixel = (self.limits[1] - self.limits[0]) / width
         self.shape = (int(np.ceil((self.limits[3] - self.limits[2]) / self.pixel)), width)
 
-    def coordinates(self, position):
-        """Along the axis of flight, upward, toward the viewer of the section (m, from the axis)."""
+    def coordinates(self, position: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Computes the coordinates along the axis of flight, upward, toward the viewer (m, from the axis)."""
         offset = position - self.geo.centre
         return self.geo.sign * offset[:, self.geo.axis], offset[:, self.geo.up], -offset[:, self.geo.depth]
 
-    def label_axes(self):
+    def _label_axes(self):
         across, up = self.geo.axis_name(), AXES[self.geo.up]
         self.labels = ((f"{across} (mm)", f"{up} (mm)") if self.geo.oblique else
                        (f"along the flight, {across} (mm)", f"across, {up} (mm)"))
 
-    def extent(self, limits):
-        """Limits from the axis (m) in coordinates of the model, mm."""
+    def extent(self, limits: tuple) -> list[float]:
+        """Converts limits from the axis (m) in coordinates of the model, mm."""
         middle = self.geo.centre[self.geo.up]
         return [units.MILLIMETRES * (limit + offset) for limit, offset in zip(limits, (0.0, 0.0, middle, middle))]
 
-    def aspect(self):
+    def aspect(self) -> float:
+        """Computes height over width of a picture."""
         return self.shape[0] / self.shape[1]
 
 
@@ -85,8 +91,8 @@ def radii(snapshot: Snapshot) -> np.ndarray:
     return 0.5 * np.cbrt(snapshot.mass / np.maximum(snapshot.density, 1e-3))
 
 
-def render(snapshot, view, outside):
-    """Number of the particle or element seen in each pixel of the completed side view, and the light.
+def render(snapshot: Snapshot, view: View, outside: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Finds the number of the particle or element seen in each pixel of the completed side view, and the light.
     `outside` looks at the cloud from outside; otherwise it is cut along the plane of sight through its axis."""
     axial, up, toward = view.coordinates(snapshot.position)
     shown = np.full(len(snapshot), True) if outside else toward <= 0
@@ -109,8 +115,8 @@ def render(snapshot, view, outside):
     return canvas.picture()
 
 
-def paint(rendered, colours):
-    """RGB image (8 bit) of a rendered view; `colours` has one RGB row per particle."""
+def paint(rendered: tuple[np.ndarray, np.ndarray], colours: np.ndarray) -> np.ndarray:
+    """Makes the RGB image (8 bit) of a rendered view; `colours` has one RGB row per particle."""
     seen, light = rendered
     image = np.broadcast_to(BACKGROUND, (*seen.shape, 3)).copy()
     hit = seen >= 0
@@ -118,22 +124,26 @@ def paint(rendered, colours):
     return np.round(255 * image).astype(np.uint8)
 
 
-def phase_colours(snapshot):
+def phase_colours(snapshot: Snapshot) -> np.ndarray:
+    """Colours particles by phase: one RGB row each."""
     palette = np.array([matplotlib.colors.to_rgb(c) for c in PHASE_COLOURS])
     return palette[np.minimum(snapshot.phase, len(palette) - 1)]
 
 
-def body_colours(snapshot):
+def body_colours(snapshot: Snapshot) -> np.ndarray:
+    """Colours particles by body: one RGB row each."""
     palette = np.array([matplotlib.colors.to_rgb(c) for c in BODY_COLOURS])
     return palette[snapshot.body.astype(int) % len(palette)]
 
 
-def scale_colours(values, norm, name):
+def scale_colours(values: np.ndarray, norm: Normalize, name: str) -> np.ndarray:
+    """Colours values by a scale of matplotlib: one RGB row each."""
     return matplotlib.colormaps[name](norm(values))[:, :3]
 
 
-def panels(view, images, times, title, legend=None, bar=None, interpolation="antialiased"):
-    """A figure of one image per time, with axes in mm, and a legend or a colour bar (mappable, label)."""
+def panels(view: View, images: list[np.ndarray], times: list[float], title: str, legend: list[Patch] | None = None,
+           bar: tuple | None = None, interpolation: str = "antialiased") -> Figure:
+    """Draws one image per time, with axes in mm, and a legend or a colour bar (mappable, label)."""
     columns = min(2 if view.aspect() < 0.75 else 3, len(images))
     rows = -(-len(images) // columns)
     width = {1: 8.0, 2: 11.0, 3: 13.0}[columns]
@@ -162,7 +172,7 @@ def panels(view, images, times, title, legend=None, bar=None, interpolation="ant
     return figure
 
 
-def save(figure, path, dots_per_inch: int) -> None:
+def save(figure: Figure, path: pathlib.Path, dots_per_inch: int) -> None:
     """Draws once and writes the PNG (`savefig` draws a constrained layout twice)."""
     figure.set_dpi(dots_per_inch)
     figure.canvas.draw()
@@ -171,8 +181,8 @@ def save(figure, path, dots_per_inch: int) -> None:
     plt.close(figure)
 
 
-def legend_below(figure, handles, labels):
-    """A legend in a row below all panels."""
+def legend_below(figure: Figure, handles: list, labels: list[str]) -> None:
+    """Adds a legend in a row below all panels."""
     room = 0.4 / figure.get_figheight()
     figure.get_layout_engine().set(rect=(0, room, 1, 1 - room))
     figure.legend(handles, labels, loc="lower center", ncols=len(labels), frameon=False, fontsize=10)
@@ -188,7 +198,8 @@ FAILURE_NAMES = ("intact", "tension", "plastic strain", "principal stress", "pri
                  "fragmentation", "growth of voids")
 
 
-def failure_colours(snapshot):
+def failure_colours(snapshot: Snapshot) -> np.ndarray:
+    """Colours particles by what they failed by: one RGB row each."""
     palette = np.array([matplotlib.colors.to_rgb(c) for c in FAILURE_COLOURS])
     return palette[np.minimum(snapshot.failed.astype(int), len(palette) - 1)]
 
@@ -217,7 +228,7 @@ SCALED = (("temperature", "temperature", " (K)", "inferno", lambda s: s.temperat
           ("damage", "damage", "", "viridis", lambda s: s.damage))
 
 
-def cloud_figures(run, view: View, snapshots: list[Snapshot]):
+def cloud_figures(run: Run, view: View, snapshots: list[Snapshot]) -> Iterator[tuple[str, str, Figure]]:
     """Yields (file name, caption, figure) of every picture that the fields of the snapshots allow."""
     times = [s.time for s in snapshots]
     cuts = [render(s, view, outside=False) for s in snapshots]
@@ -256,7 +267,7 @@ def cloud_figures(run, view: View, snapshots: list[Snapshot]):
                       bar=(plt.cm.ScalarMappable(norm, palette), name + unit)))
 
 
-def radiograph_figure(analysis: Analysis, view: View):
+def radiograph_figure(analysis: Analysis, view: View) -> Figure:
     """Draws the areal density as grey, the transmission of the absorbers that the analysis was told."""
     pictures = analysis.pictures
     left, right, below, above = pictures[0].extent

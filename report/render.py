@@ -21,7 +21,8 @@ class Canvas:
         self._surface = np.full(self.height * self.width, -np.inf)
         self._last = np.empty(self.height * self.width, np.int64)  # read only where it was just written
 
-    def picture(self):
+    def picture(self) -> tuple[np.ndarray, np.ndarray]:
+        """Returns what is seen in each pixel, and its light, rows from below."""
         shape = (self.height, self.width)
         return self.seen.reshape(shape), self.light.reshape(shape)
 
@@ -38,8 +39,8 @@ class Canvas:
         self._surface[pixel] = depth[nearer]
         self.light[pixel] = light[nearer]
 
-    def spheres(self, x, y, z, radius, labels):
-        """Drawn offset by offset of their outline."""
+    def spheres(self, x: np.ndarray, y: np.ndarray, z: np.ndarray, radius: np.ndarray, labels: np.ndarray) -> None:
+        """Draws spheres, offset by offset of their outline."""
         classes = np.clip(np.round(radius), 1, 12).astype(int)
         order = np.argsort(z)
         column, row = np.floor(x).astype(int), np.floor(y).astype(int)
@@ -55,8 +56,8 @@ class Canvas:
                     self._put(mine, column[mine] + dx, row[mine] + dy, z[mine] + np.sqrt(inside), labels[mine],
                               AMBIENT + (1 - AMBIENT) * max(0.0, float(normal @ LIGHT)))
 
-    def quadrilaterals(self, corners, labels):
-        """`corners`: (n, 4, 3). Lit by the plane through each half; edges darker if they are far enough apart."""
+    def quadrilaterals(self, corners: np.ndarray, labels: np.ndarray) -> None:
+        """Draws faces, `corners`: (n, 4, 3). Lit by the plane through each half; edges darker if far enough apart."""
         if len(corners) == 0:
             return
         size = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
@@ -108,8 +109,8 @@ class Canvas:
                               light[inside])
 
 
-def surface_faces(connectivity):
-    """Faces (element, corners) that belong to one of the elements only."""
+def surface_faces(connectivity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Finds the faces (element, corners) that belong to one of the elements only."""
     faces = connectivity[:, FACES].reshape(-1, 4)
     keys = np.sort(faces, axis=1)
     order = np.lexsort(keys.T)

@@ -12,6 +12,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import numpy as np
+from matplotlib.figure import Figure
 
 from report import analysis as measures
 from report import curves, gauges, pictures, planar, sensitivity, units
@@ -63,23 +64,23 @@ class Report:
 
     def add_all(self, figures: list[tuple[str, pathlib.Path]]) -> None:
         """Adds all sections. `figures`: titles and PNG files to show before the pictures."""
-        self.summary()
-        self.input()
-        self.given_figures(figures)
-        self.cloud()
-        self.curves()
-        self.dissipation()
-        self.gauges()
+        self._summary()
+        self._input()
+        self._given_figures(figures)
+        self._cloud()
+        self._curves()
+        self._dissipation()
+        self._gauges()
         sensitivity.add_to(self.page, self.run.analysis)
 
-    def add_figure(self, name, caption, figure):
+    def _add_figure(self, name: str, caption: str, figure: Figure | None) -> None:
         if figure is None:
             return
         path = self.output / name
         pictures.save(figure, path, self.dots_per_inch)
         self.page.image(path, caption)
 
-    def summary(self):
+    def _summary(self):
         run, history = self.run, self.run.history
         tiles = []
         if history.last("time") is not None:
@@ -110,7 +111,7 @@ class Report:
                            f"Masses, axial momentum and energies below are those of the full problem "
                            f"({run.multiplicity} times the model) unless they are said to be of the model.")
 
-    def input(self):
+    def _input(self):
         run = self.run
         self.page.heading("Input")
         rows = []
@@ -134,13 +135,13 @@ class Report:
             self.page.table(["setting", "value"], facts, text_columns=(0, 1))
         self.page.details("complete input (run.toml)", run.input_text)
 
-    def given_figures(self, figures):
+    def _given_figures(self, figures):
         for title, path in figures:
             self.page.heading(title)
             (self.output / path.name).write_bytes(path.read_bytes())
             self.page.image(self.output / path.name, title)
 
-    def cloud(self):
+    def _cloud(self):
         run = self.run
         if not run.entries:
             self.page.note("The run has no snapshots: no pictures and no measures of the cloud.")
@@ -153,24 +154,25 @@ class Report:
         self.page.heading("Debris cloud")
         view = pictures.View(analysis.geometry, shown, self.dots_per_inch)
         for name, caption, figure in pictures.cloud_figures(run, view, shown):
-            self.add_figure(name, caption, figure)
-        self.add_figure("radiograph.png", f"Transmission along the line of sight through the complete problem, blurred "
-                        f"over a spot of {units.MILLIMETRES * analysis.spot:.3g} mm: what a flash radiograph shows, "
-                        f"without the response of a film.", pictures.radiograph_figure(analysis, view))
-        self.extent(analysis)
-        self.add_figure("surfaces.png", "Depth of the crater on the axis and diameter at the original surface; "
-                        "diameter within which less than half of a plate is left.", curves.surface_figure(analysis))
+            self._add_figure(name, caption, figure)
+        spot = units.MILLIMETRES * analysis.spot
+        self._add_figure("radiograph.png", "Transmission along the line of sight through the complete problem, blurred "
+                         f"over a spot of {spot:.3g} mm: what a flash radiograph shows, without the response of a "
+                         "film.", pictures.radiograph_figure(analysis, view))
+        self._extent(analysis)
+        self._add_figure("surfaces.png", "Depth of the crater on the axis and diameter at the original surface; "
+                         "diameter within which less than half of a plate is left.", curves.surface_figure(analysis))
         fragments = curves.fragment_figure(analysis)
         if fragments is not None:
             self.page.heading("Fragments of the debris")
-        self.add_figure("fragments.png", "Number of fragments of at least a mass (connected particles of condensed "
-                        "matter; fragments cut by symmetry planes are completed).", fragments)
-        self.add_figure("witness.png", "Loads on the witness plate if the debris flies on freely.",
-                        curves.witness_figure(analysis))
-        self.final_table(shown[-1].time, analysis)
+        self._add_figure("fragments.png", "Number of fragments of at least a mass (connected particles of condensed "
+                         "matter; fragments cut by symmetry planes are completed).", fragments)
+        self._add_figure("witness.png", "Loads on the witness plate if the debris flies on freely.",
+                         curves.witness_figure(analysis))
+        self._final_table(shown[-1].time, analysis)
         planar.add_to(self.page, self.output, analysis, run.history)
 
-    def extent(self, analysis):
+    def _extent(self, analysis):
         columns = analysis.series
         if not np.isfinite(columns["mean_velocity"]).any():
             return
@@ -181,11 +183,11 @@ class Report:
                 self.page.note(f"The {what} of the debris reached the border of the domain at "
                                f"{units.time(columns['time'][gone][0])}: it is not followed further, and the "
                                f"table below counts what is still inside.")
-        self.add_figure("extent.png", "Position and speed of the debris. " + "; ".join(
+        self._add_figure("extent.png", "Position and speed of the debris. " + "; ".join(
             f"{name}: {text}" for name, text in measures.DEFINITIONS
             if name in ("front, rear", "radius", "radial speed")) + ".", curves.extent_figure(columns))
 
-    def final_table(self, time, analysis):
+    def _final_table(self, time, analysis):
         run, geo, final = self.run, analysis.geometry, analysis.quantity
         self.page.heading(f"Cloud at {units.time(time)}")
         residual = final(f"mean_velocity.{geo.projectile}")
@@ -220,7 +222,7 @@ class Report:
             "residual_velocity": residual, "cloud": analysis.final,
             "bodies": [{"body": body, "part": part, **m} for body, part, m in analysis.bodies]}
 
-    def curves(self):
+    def _curves(self):
         run = self.run
         if "time" not in run.history:
             self.page.note("The run has no history.csv: no curves.")
@@ -229,15 +231,15 @@ class Report:
         phases = curves.phase_figure(run)
         if phases is None:
             self.page.note("The run wrote no masses of phases.")
-        self.add_figure("phases.png", "Mass of each phase over time, as shares of the mass of the body.", phases)
+        self._add_figure("phases.png", "Mass of each phase over time, as shares of the mass of the body.", phases)
         self.page.heading("Energy and momentum")
-        self.add_figure("energy.png", "Energies, and the errors of their balance relative to the beginning.",
-                        curves.energy_figure(run))
+        self._add_figure("energy.png", "Energies, and the errors of their balance relative to the beginning.",
+                         curves.energy_figure(run))
         self.page.heading("Time step and extreme states")
-        self.add_figure("step.png", "Time step, largest pressure and temperature of any particle.",
-                        curves.step_figure(run))
+        self._add_figure("step.png", "Time step, largest pressure and temperature of any particle.",
+                         curves.step_figure(run))
 
-    def dissipation(self):
+    def _dissipation(self):
         history, scale = self.run.history, self.run.multiplicity
         rows = [[cause, number(scale * history.last(name), 4), into] for name, cause, into in DISSIPATION
                 if history.last(name)]
@@ -254,12 +256,12 @@ class Report:
                          "the result.")
             self.page.note(text)
 
-    def gauges(self):
+    def _gauges(self):
         history = gauges.read(self.run)
         figure = gauges.figure(history)
         if figure is not None:
             self.page.heading("Gauges")
-            self.add_figure("gauges.png", "State at the gauges and tracers: " +
+            self._add_figure("gauges.png", "State at the gauges and tracers: " +
                             ", ".join(gauges.names(history)) + ".", figure)
 
     def write(self) -> pathlib.Path:
