@@ -97,6 +97,11 @@ def report_of_the_cloud(work):
                  "7.82 km/s"):
         require(word in text, f"{word!r} is not in the page")
 
+    with h5py.File(work / "report" / "analysis.h5") as file:  # what the page takes from there instead of run.toml
+        require(str(file.attrs["title"]) == "Synthetic cloud", "title")
+        require(str(file.attrs["bodies"]) == "disk\nplate", "bodies")
+        cells = file["quantities"].attrs["projectile_size"] / file.attrs["cell_size"]
+    require(f"This run: {cells:.3g} cells across the projectile." in text, f"{cells} cells across the projectile")
     with (CLOUD / "history.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
     last = {name.split(" [")[0]: float(value) for name, value in rows[-1].items()}

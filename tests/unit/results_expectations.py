@@ -2,20 +2,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """expected.toml of every case can be read, and comparisons say what they should.
 
-usage: results_expectations.py REPOSITORY
+usage: results_expectations.py REPOSITORY WHIPPLE
 """
 import contextlib
 import math
 import pathlib
+import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(sys.argv[1]).resolve()
+ROOT, WHIPPLE = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
 sys.path[0] = str(ROOT)
 
 from report import sensitivity  # noqa: E402
 from studies.validation import comparison, execution, page, provenance, variants  # noqa: E402
-from studies.validation.cases import BadExpectation, Case, Expectation, apply  # noqa: E402
+from studies.validation.cases import UNITS, BadExpectation, Case, Expectation, apply  # noqa: E402
 
 
 def require(condition, message):
@@ -44,6 +45,18 @@ def every_case_is_understood():
             require(len({v.name for v in found}) == len(found), "two variants of one name")
             for variant in found:
                 require("{" not in "".join(variant.assignments), f"{case.name}: {variant.assignments}")
+
+
+def units_are_those_of_the_program():
+    """The factors of expected.toml, by which cases are read for their variants too, against `whipple units`."""
+    kinds = {"m": "m", "cm": "m", "mm": "m", "um": "m", "s": "s", "ms": "s", "us": "s", "ns": "s", "m/s": "m/s",
+             "km/s": "m/s", "kg": "kg", "g": "kg", "mg": "kg", "J": "J", "kJ": "J", "Pa": "Pa", "MPa": "Pa", "GPa": "Pa",
+             "K": "K", "degree": "rad"}
+    require(set(UNITS) == {"", "1", "%", *kinds}, f"units without a kind: {set(UNITS) - set(kinds)}")
+    for unit, si in kinds.items():
+        done = subprocess.run([WHIPPLE, "units", f"1 {unit}", "--to", si], capture_output=True, text=True, check=True)
+        factor = float(done.stdout.split()[0])
+        require(abs(factor - UNITS[unit]) < 1e-12 * factor, f"1 {unit} is {done.stdout}, not {UNITS[unit]} {si}")
 
 
 def expectation(**keys):
@@ -217,6 +230,7 @@ def a_run_is_compared(case, work):
 
 with contextlib.ExitStack() as stack:
     every_case_is_understood()
+    units_are_those_of_the_program()
     comparisons()
     mistakes_are_named()
     assignments_are_those_of_the_program()
