@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Who may know whom: enforces the layers of docs/architecture.md from #include lines, CMake dependencies and
 imports of Python.

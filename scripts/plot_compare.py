@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Materials against experiments: plot_compare.py DATA.json FIGURE.png (started by whipple compare --plot)."""
 import json

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure of curves and measurements: plot_curves.py FIGURE.json OUTPUT (.png, .pdf or .svg), started by whipple eos.
 

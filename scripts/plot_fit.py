@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Data, fitted laws and residuals of whipple-fit: plot_fit.py DATA.json FIGURE.png (started by whipple fit --plot)."""
 import json

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Constants of all metals and potentials from molecular dynamics: runs what is missing of the short plans, fits every store,
 compares with experiments, and writes the tables of docs/results_md.md.
