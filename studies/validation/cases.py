@@ -242,7 +242,7 @@ class Measures:
     def projectile_size(self):
         """Smallest extent of the projectile (m); NaN where nothing moves at the start, or the shape states none."""
         if "projectile_size" not in self.single:
-            raise BadExpectation(f"{self.folder}: measured by an older program: run `whipple analyse {self.folder}`")
+            raise BadExpectation(f"{self.folder}/report is of an older program: remove it, to be measured again")
         return self.single["projectile_size"]
 
     def value(self, expectation):
