@@ -98,7 +98,7 @@ def report_of_the_cloud(work):
         require(word in text, f"{word!r} is not in the page")
 
     with h5py.File(work / "report" / "analysis.h5") as file:  # what the page takes from there instead of run.toml
-        require(str(file.attrs["title"]) == "Synthetic cloud", "title")
+        require(str(file.attrs["title"]) == "Synthetic cloud: copper disk on aluminium plate", "title")
         require(str(file.attrs["bodies"]) == "disk\nplate", "bodies")
         cells = file["quantities"].attrs["projectile_size"] / file.attrs["cell_size"]
     require(f"This run: {cells:.3g} cells across the projectile." in text, f"{cells} cells across the projectile")
