@@ -1,6 +1,7 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Who may know whom: enforces the layers of docs/architecture.md from #include lines and from CMake dependencies.
+"""Who may know whom: enforces the layers of docs/architecture.md from #include lines, CMake dependencies and
+imports of Python.
 
 Usage: check_layers.py [ROOT]      check the tree (default: the one that this script belongs to)
        check_layers.py --self-test  check that every rule finds its violation in a tree made for it
@@ -67,6 +68,9 @@ LIBRARY_OF = {"whipple_md_data_set": "md_fitting/data_set", "whipple_md_plan": "
 
 VERSION_QUERY = "src/app/version_command.cpp"  # asks the libraries for their version, nothing else
 
+# Folder of Python -> the others that it may import.
+PYTHON_MAY_USE = {"report": [], "studies": ["report"], "scripts": ["report", "studies"]}
+
 # What is allowed in a few places only: (name, pattern of the line, the places).
 CONFINED = [
     ("an OpenMP pragma", re.compile(r"^\s*#\s*pragma\s+omp|\b_Pragma\s*\(\s*\"omp"), ["src/core/parallel"]),
@@ -82,6 +86,7 @@ CONFINED = [
     ("UDUNITS2", re.compile(r"^\s*#\s*include\s*[<\"]udunits2\.h"), ["src/core/base"]),
 ]
 
+PYTHON_IMPORT = re.compile(rf"^\s*(?:from|import)\s+({'|'.join(PYTHON_MAY_USE)})\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 SOURCE_ENDINGS = {".hpp", ".cpp", ".h", ".in"}
 
@@ -179,6 +184,18 @@ def check_cmake(root):
     return faults
 
 
+def check_python(root):
+    """Each folder of Python imports those of PYTHON_MAY_USE alone."""
+    faults = []
+    for folder, uses in PYTHON_MAY_USE.items():
+        for path in sorted((root / folder).rglob("*.py")):
+            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+                found = PYTHON_IMPORT.match(line)
+                if found and found.group(1) not in (folder, *uses):
+                    faults.append(f"{path.relative_to(root)}:{number}: {folder} may not import {found.group(1)}")
+    return faults
+
+
 def check_table():
     """The table has an order: a module uses none that stands behind it."""
     order = {module: place for place, module in enumerate(MAY_USE)}
@@ -187,7 +204,7 @@ def check_table():
 
 
 def check(root):
-    return check_table() + check_sources(root) + check_cmake(root)
+    return check_table() + check_sources(root) + check_cmake(root) + check_python(root)
 
 
 def self_test():
@@ -219,6 +236,7 @@ def self_test():
         "src/io/a.hpp": ('#include "src/io/b.hpp"\n', "include cycle: src/io/a.hpp -> src/io/b.hpp -> src/io/a.hpp"),
         "src/transfer/CMakeLists.txt": ("whipple_library(transfer SOURCES a.cpp DEPENDS whipple_material)\n",
                                         "src/transfer may not link whipple_material"),
+        "report/knows_studies.py": ("from studies.validation import bands\n", "report may not import studies"),
     }
     good = {
         "src/solver/simulation.hpp": '#include "src/particles/p.hpp"\n// MPI_Barrier(c) in a comment\nMPI_Comm comm;\n',
@@ -229,6 +247,7 @@ def self_test():
         "src/core/process/mpirun.hpp": "",
         "src/io/b.hpp": '#include "src/io/a.hpp"\n',
         "src/core/hdf5/hdf5.hpp": "#include <hdf5.h>\n",
+        "studies/one/one.py": "from report.units import number\nimport reports\n",
     }
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)

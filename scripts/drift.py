@@ -21,8 +21,10 @@ import subprocess
 import sys
 import tomllib
 
-from results_data import ROOT, BadExpectation, Measures
-from results_runs import environment
+# The modules of the project are imported from its root.
+sys.path[0] = str(pathlib.Path(__file__).resolve().parents[1])
+from studies.validation.cases import ROOT, BadExpectation, Measures  # noqa: E402
+from studies.validation.execution import environment  # noqa: E402
 
 DATA = ROOT / "tests" / "data" / "drift"
 LEAST, GREATEST, FACTOR = 1e-3, 0.2, 10.0  # tolerance, over the change by the perturbation

@@ -1,7 +1,8 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Materials against experiments: plot_compare.py DATA.json FIGURE.png (started by whipple compare --plot)."""
 import json
+import pathlib
 import sys
 
 import matplotlib
@@ -9,7 +10,10 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from report_files import save_figure
+
+# The modules of the project are imported from its root.
+sys.path[0] = str(pathlib.Path(__file__).resolve().parents[1])
+from report.files import save_figure  # noqa: E402
 
 
 def numbers(values):

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure of curves and measurements: plot_curves.py FIGURE.json OUTPUT (.png, .pdf or .svg), started by whipple eos.
 
@@ -6,6 +6,7 @@ FIGURE.json: title, axes x and y (label with unit, logarithmic), curves and poin
 numbers x and y (null: not known), colour (index of the palette; curves of one material share it) and style.
 """
 import json
+import pathlib
 import re
 import sys
 
@@ -15,7 +16,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.lines import Line2D
-from report_files import save_figure
+
+# The modules of the project are imported from its root.
+sys.path[0] = str(pathlib.Path(__file__).resolve().parents[1])
+from report.files import save_figure  # noqa: E402
 
 # Colours that stay apart in print and for colour-blind readers (after Okabe and Ito).
 PALETTE = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#7a5195", "#e69f00", "#56b4e9", "#444444"]

@@ -9,7 +9,7 @@ Without --run, runs that are there are compared. A run lies in run/results/CASE/
 a position of the lattice or a moving frame. --band takes all variants of a run: three grids and what [band] of
 expected.toml declares of a headline, two grids of others. A run is repeated if its command, case, a material or the C++
 under src/ or eos/ has changed since; --any-source lets the last pass. --write renews docs/results.json with the runs that
-are there, and from it the page and scripts/grid_sensitivity.json; runs that are not here keep their tables, marked where
+are there, and from it the page and report/grid_sensitivity.json; runs that are not here keep their tables, marked where
 they are out of date. --check-fresh runs nothing: exit code 1 if a table belongs to another case or material, or the page
 to other data.
 Format of expected.toml: docs/how_to/expected_results.md; bands and marks: docs/theory/uncertainty.md.
@@ -18,20 +18,20 @@ Exit code 1 if a run failed, 2 for bad input; a difference from an experiment is
 import argparse
 import json
 import os
+import pathlib
 import sys
 
-import results_page
-import results_record
-import results_runs
-import results_study
-from results_data import ROOT, BadExpectation, all_cases
-from results_variants import variants_of
+# The modules of the project are imported from its root.
+sys.path[0] = str(pathlib.Path(__file__).resolve().parents[1])
+from studies.validation import comparison, execution, page, provenance  # noqa: E402
+from studies.validation.cases import ROOT, BadExpectation, all_cases  # noqa: E402
+from studies.validation.variants import variants_of  # noqa: E402
 
 
 def renewed(results, chosen):
     """The stored results with those runs replaced that are here."""
     for case in dict.fromkeys(case for case, _ in chosen):
-        study = results_study.case_study(case, [run for of, run in chosen if of is case])
+        study = comparison.case_study(case, [run for of, run in chosen if of is case])
         if not study["runs"]:
             continue
         former = {run["name"]: run for run in results["cases"].get(case.name, {}).get("runs", [])}
@@ -43,18 +43,18 @@ def renewed(results, chosen):
 
 
 def write(chosen):
-    results = renewed(results_page.load(), chosen)
-    results_page.STORE.write_text(json.dumps(results, indent=1, ensure_ascii=False) + "\n")
-    stale, _, _ = results_page.outdated(results, all_cases())
-    results_page.write(results, stale, results_record.digest_of_sources())
-    results_page.SENSITIVITIES.write_text(json.dumps(results_study.sensitivities(results), indent=1) + "\n")
-    print(f"wrote {results_page.STORE}, {results_page.PAGE}, {results_page.SENSITIVITIES}")
+    results = renewed(page.load(), chosen)
+    page.STORE.write_text(json.dumps(results, indent=1, ensure_ascii=False) + "\n")
+    stale, _, _ = page.outdated(results, all_cases())
+    page.write(results, stale, provenance.digest_of_sources())
+    page.SENSITIVITIES.write_text(json.dumps(comparison.sensitivities(results), indent=1) + "\n")
+    print(f"wrote {page.STORE}, {page.PAGE}, {page.SENSITIVITIES}")
 
 
 def check_fresh():
     """Prints what is out of date; returns the exit code."""
-    results = results_page.load()
-    stale, older, expectations = results_page.outdated(results, all_cases())
+    results = page.load()
+    stale, older, expectations = page.outdated(results, all_cases())
     for name, run in stale:
         print(f"stale: {name}:{run}: its case or a material has changed; repeat with --band --run --write")
     for name, run in older:
@@ -62,12 +62,12 @@ def check_fresh():
     for name in expectations:
         print(f"expectations changed: {name}; renew its marks with --write")
     if not results["cases"]:
-        print(f"no records yet: {results_page.STORE.name} is written by --write")
+        print(f"no records yet: {page.STORE.name} is written by --write")
         return 0
-    unlike = [line for line in results_page.body(results, "", set()).split("\n")
-              if line.startswith("|") and line not in results_page.written()]
+    unlike = [line for line in page.body(results, "", set()).split("\n")
+              if line.startswith("|") and line not in page.written()]
     if unlike:
-        print(f"{results_page.PAGE.name} does not say what {results_page.STORE.name} holds: {len(unlike)} rows, "
+        print(f"{page.PAGE.name} does not say what {page.STORE.name} holds: {len(unlike)} rows, "
               f"the first:\n  {unlike[0]}")
     return 1 if stale or unlike else 0
 
@@ -81,7 +81,7 @@ def listed(chosen, arguments):
         for variant in variants(run, arguments):
             line = f"    {variant.name:9} {' '.join([*run.assignments(variant.resolution), *variant.assignments])}"
             if arguments.cost:
-                found = results_runs.cost(arguments.whipple, case, run, variant)
+                found = execution.cost(arguments.whipple, case, run, variant)
                 if "error" in found:
                     line += f"\n              {found['error']}"
                 else:
@@ -98,7 +98,7 @@ def variants(run, arguments):
     if arguments.band:
         return variants_of(run, band=True)
     if arguments.resolution in run.cell_size:
-        return [results_runs.variant_named(run, arguments.resolution)]
+        return [execution.variant_named(run, arguments.resolution)]
     return []
 
 
@@ -120,19 +120,19 @@ def main():
     try:
         if arguments.check_fresh:
             return check_fresh()
-        chosen = results_runs.select(arguments.cases)
+        chosen = execution.select(arguments.cases)
         if arguments.list:
             listed(chosen, arguments)
             return 0
         failed = 0
         for case, run in chosen if arguments.run else ():
             for variant in variants(run, arguments):
-                failed += not results_runs.execute(arguments.whipple, case, run, variant, arguments.threads,
+                failed += not execution.execute(arguments.whipple, case, run, variant, arguments.threads,
                                                    any_source=arguments.any_source)
         for case, run in chosen:
-            for folder in results_runs.folders_there(case, run):
-                failed += not results_runs.analyse(arguments.whipple, folder, run, arguments.threads)
-        print(results_page.as_text(renewed({"cases": {}}, chosen)))
+            for folder in execution.folders_there(case, run):
+                failed += not execution.analyse(arguments.whipple, folder, run, arguments.threads)
+        print(page.as_text(renewed({"cases": {}}, chosen)))
         if arguments.write:
             write(chosen)
     except BadExpectation as error:

@@ -129,7 +129,7 @@ fi
 echo "written: $impact"
 
 stage "5/5 report"
-inputs=("$stamps/impact" "$comparison" scripts/report.py)
+inputs=("$stamps/impact" "$comparison" report/*.py)
 if up_to_date report "${inputs[@]}"; then
   echo "up to date"
 else

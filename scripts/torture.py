@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Kills runs again and again (SIGKILL) and lets them go on; the ends are compared with those of undisturbed runs: bitwise
 on one rank, to round-off on several.

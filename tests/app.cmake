@@ -12,6 +12,9 @@ add_test(NAME layers_self_test COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/sc
 set_tests_properties(layers layers_self_test PROPERTIES LABELS fast)
 
 if(WHIPPLE_PYTHON)
+  add_test(NAME studies COMMAND ${WHIPPLE_PYTHON} -m unittest discover -s studies/tests -t .
+           WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties(studies PROPERTIES LABELS fast TIMEOUT 120)
   add_test(NAME app_surroundings COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_surroundings.py
            ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml)
   set_tests_properties(app_surroundings PROPERTIES LABELS fast TIMEOUT 300)

@@ -32,9 +32,11 @@ if(WHIPPLE_PYTHON)
     set_tests_properties(io_vtkhdf_schema.${ranks} PROPERTIES LABELS fast TIMEOUT 120
       FIXTURES_REQUIRED synthetic_cloud_${ranks})
   endforeach()
-  add_test(NAME io_report COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/io_report.py
-           ${PROJECT_SOURCE_DIR}/scripts/report.py ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_1
-           $<TARGET_FILE:whipple>)
+  add_test(NAME report COMMAND ${WHIPPLE_PYTHON} -m unittest discover -s report/tests -t .
+           WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties(report PROPERTIES LABELS fast TIMEOUT 120)
+  add_test(NAME io_report COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/report/tests/synthetic_cloud.py
+           ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_1 $<TARGET_FILE:whipple>)
   set_tests_properties(io_report PROPERTIES LABELS fast TIMEOUT 300 FIXTURES_REQUIRED synthetic_cloud_1)
 endif()
 
@@ -44,7 +46,7 @@ find_program(WHIPPLE_XVFB_RUN xvfb-run)
 if(WHIPPLE_PYTHON AND WHIPPLE_PVBATCH AND WHIPPLE_XVFB_RUN)
   foreach(ranks 1 3)
     add_test(NAME io_paraview.${ranks}
-             COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/paraview_check.py
+             COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/io_paraview.py
                      ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_${ranks})
     set_tests_properties(io_paraview.${ranks} PROPERTIES LABELS "paraview" TIMEOUT 300 PROCESSORS 2
       FIXTURES_REQUIRED synthetic_cloud_${ranks})

@@ -210,6 +210,15 @@ void write_radiographs(const Run& run, const Frame& frame, const Options& option
   }
 }
 
+/// Writes what programs that show the run need of its input, so that they do not read it by rules of their own.
+void write_case(const Run& run, const hdf5::Group& root) {
+  std::vector<std::string> names;
+  for (const BodyInput& body : run.bodies) names.push_back(body.name);
+  root.set_attribute("title", std::string_view(run.title));
+  root.set_attribute("bodies", std::string_view(fmt::format("{}", fmt::join(names, "\n"))));
+  root.set_attribute("cell_size", run.cell_size);
+}
+
 void write_frame(const Run& run, const Start& start, const hdf5::Group& root) {
   const Frame& frame = start.frame;
   const hdf5::Group group = root.create_group("frame");
@@ -249,6 +258,9 @@ Quantities final_values(const Table& series, const Run& run, const Start& start)
         start.frame.impact_angle},
        {"front_speed_over_impact_speed", "1", "ratio", value("front_speed") / speed},
        {"radial_speed_over_impact_speed", "1", "ratio", value("radial_speed") / speed}});
+  const BodyInput& projectile = run.bodies[start.frame.projectile];
+  row.push_back({"projectile_size", "m", "smallest extent of the projectile by its shape in the case",
+                 projectile.velocity.isZero(0.0) ? nan : projectile.size});
   for (const BodyInput& body : run.bodies) {
     const std::string name = "front_velocity." + body.name;
     if (std::ranges::find(series.columns, name, &Column::name) == series.columns.end()) continue;
@@ -265,8 +277,9 @@ void explain(const Quantities& values) {
     const char* begin;
     const char* text;
   };
-  constexpr std::array<Reason, 7> reasons = {
-      {{"crater_", "no floor of a crater in the first target: it is open on the axis, or nothing has hit it"},
+  constexpr std::array<Reason, 8> reasons = {
+      {{"projectile_size", "nothing moves at the start, or the shape states no extent"},
+       {"crater_", "no floor of a crater in the first target: it is open on the axis, or nothing has hit it"},
        {"hole_", "the plate has no matter left, or no edge of a hole that ends inside of it"},
        {"front", "no debris flies forward, or it has come to the border of the domain"},
        {"foremost", "no debris flies forward, or it has come to the border of the domain"},
@@ -367,6 +380,7 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
   file.root.set_attribute("format", std::string_view("whipple-analysis"));
   file.root.set_attribute("version", std::int64_t{1});
   file.root.set_attribute("unit_system", std::string_view("SI"));
+  write_case(run, file.root);
   write_frame(run, start, file.root);
   for (const Table& table : tables) {
     write_hdf5(table, file.root);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -45,6 +46,39 @@ void read_domain(input::Table table, Run& run) {
   }
 }
 
+struct ShapeKeys {
+  double radius = 0.0;
+  double height = std::numeric_limits<double>::infinity();
+  Vector3 lower = Vector3::Zero(), upper = Vector3::Zero();
+};
+
+/// Reads the smallest extent of a shape (m); NaN of shapes that state none. Of a box the thickness along the
+/// velocity counts alone: that of a planar impact ends at mirror planes.
+double smallest_extent(input::Table holder, const Vector3& velocity) {
+  if (auto moved = holder.optional_table("moved")) {
+    if (auto shape = moved->optional_table("shape")) return smallest_extent(*shape, velocity);
+  }
+  ShapeKeys keys;
+  const auto radius = real("radius", &ShapeKeys::radius, "m", range::positive(), "radius");
+  const auto height = real("height", &ShapeKeys::height, "m", range::positive(), "length along the axis");
+  for (const char* round : {"sphere", "ogive", "cylinder"}) {
+    auto shape = holder.optional_table(round);
+    if (!shape) continue;
+    shape->read(ParameterTable<ShapeKeys>{radius}, keys);
+    if (shape->has("height")) shape->read(ParameterTable<ShapeKeys>{height}, keys);
+    return std::min(2.0 * keys.radius, keys.height);
+  }
+  if (auto box = holder.optional_table("box")) {
+    box->read(ParameterTable<ShapeKeys>{vector("lower", &ShapeKeys::lower, "m", range::any(), "corner"),
+                                        vector("upper", &ShapeKeys::upper, "m", range::any(), "corner")},
+              keys);
+    Eigen::Index along = 0;
+    velocity.cwiseAbs().maxCoeff(&along);
+    return keys.upper[along] - keys.lower[along];
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 void read_bodies(input::Table root, Run& run) {
   for (input::Table table : root.list("body")) {
     BodyKeys body;
@@ -61,7 +95,10 @@ void read_bodies(input::Table root, Run& run) {
     const double spacing = made.has_particles()
                                ? run.cell_size / std::cbrt(static_cast<double>(made.per_cell))
                                : 0.5 * made.size(run.cell_size);
-    run.bodies.push_back({body.name, body.velocity, spacing});
+    const auto shape = table.optional_table("shape");
+    const double size =
+        shape ? smallest_extent(*shape, body.velocity) : std::numeric_limits<double>::quiet_NaN();
+    run.bodies.push_back({body.name, body.velocity, spacing, size});
   }
 }
 

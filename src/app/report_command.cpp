@@ -55,7 +55,7 @@ int run_report(const ReportOptions& options) {
                                         "--output",
                                         output.string()};
   for (const std::string& figure : options.figures) arguments.insert(arguments.end(), {"--figure", figure});
-  return process::run_script("scripts/report.py", arguments);
+  return process::run_script("report", arguments);
 }
 
 }  // namespace

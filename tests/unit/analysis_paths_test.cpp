@@ -8,6 +8,7 @@
 #include "src/analysis/cloud.hpp"
 #include "src/analysis/columns.hpp"
 #include "src/analysis/outflow.hpp"
+#include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::analysis::paths {
 namespace {
@@ -100,6 +101,28 @@ TEST(Flight, WhereNothingMovesAtFirstTheAxisIsThatOfTheParting) {
   EXPECT_EQ(frame.projectile, 1U);
   EXPECT_EQ(frame.sign, 1.0);
   EXPECT_EQ(frame.impact_speed, 0.0);
+}
+
+double size_of(const std::string& shape) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "run.toml")
+      << "title = \"sizes\"\n[domain]\nlower = [0, 0, 0]\nupper = [\"1 mm\", \"1 mm\", \"1 mm\"]\n"
+         "cell_size = \"0.1 mm\"\n[[body]]\nname = \"ball\"\nvelocity = [0, 0, \"-3 km/s\"]\nshape = { "
+      << shape << " }\n";
+  return read_run(folder.path()).bodies.at(0).size;
+}
+
+TEST(Run, TheSizeOfABodyIsTheSmallestExtentOfItsShape) {
+  const std::string centre = "center = [0, 0, 0], ";
+  EXPECT_DOUBLE_EQ(size_of("sphere = { " + centre + "radius = \"2 mm\" }"), 4e-3);
+  EXPECT_DOUBLE_EQ(size_of("cylinder = { " + centre + "radius = \"2 mm\", height = \"1 mm\" }"), 1e-3);
+  EXPECT_DOUBLE_EQ(size_of("cylinder = { " + centre + "radius = \"2 mm\", height = \"1 cm\" }"), 4e-3);
+  // Thickness along the velocity, not the width of the column.
+  EXPECT_DOUBLE_EQ(size_of("box = { lower = [0, 0, \"-3 mm\"], upper = [\"1 um\", \"1 um\", 0] }"), 3e-3);
+  EXPECT_DOUBLE_EQ(size_of("moved = { angle = \"30 degree\", shape = { ogive = { " + centre +
+                           "radius = \"3.5 mm\", nose_length = \"9 mm\" } } }"),
+                   7e-3);
+  EXPECT_TRUE(std::isnan(size_of("union = [{ sphere = { " + centre + "radius = \"2 mm\" } }]")));
 }
 
 TEST(OutflowOfBodies, CountsInTheMeanVelocityOfItsBody) {

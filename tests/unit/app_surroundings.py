@@ -57,6 +57,19 @@ def modules_of_others(folder):
     found = subprocess.run([WHIPPLE, "report", folder], capture_output=True, text=True, cwd="/",
                            env={**os.environ, "WHIPPLE_PYTHON": str(python), "PYTHONPATH": f"{folder}:"})
     require(found.returncode == 0 and "/usr/lib/python3" in found.stdout, f"{found.stdout} {found.stderr}")
+    # The report itself, of a run that has a history alone, built and installed, in a folder of such modules.
+    for name in ("numpy", "matplotlib", "report", "os"):
+        (folder / f"{name}.py").write_text(f"raise SystemExit('the {name}.py of the folder ran')\n")
+    (folder / "history.csv").write_text("time [s]\n0\n")
+    subprocess.run(["cmake", "--install", BUILD, "--prefix", folder / "installed"], check=True, stdout=subprocess.DEVNULL)
+    for program in (WHIPPLE, folder / "installed" / "bin" / "whipple"):
+        (folder / "report" / "report.html").unlink(missing_ok=True)
+        found = subprocess.run([program, "report", folder], capture_output=True, text=True, cwd=folder,
+                               env={**os.environ, "PYTHONPATH": f"{folder}:"})
+        require(found.returncode == 0 and (folder / "report" / "report.html").is_file(), f"{found.stdout} {found.stderr}")
+    alone = subprocess.run(["/usr/bin/python3", "-E", folder / "installed" / "share" / "whipple" / "report", folder],
+                           capture_output=True, text=True, cwd=folder)
+    require(alone.returncode == 0, alone.stderr)
 
 
 def threads():

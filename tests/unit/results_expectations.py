@@ -2,24 +2,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """expected.toml of every case can be read, and comparisons say what they should.
 
-usage: results_expectations.py REPOSITORY
+usage: results_expectations.py REPOSITORY WHIPPLE
 """
 import contextlib
 import math
 import pathlib
+import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(sys.argv[1]).resolve()
-sys.path.insert(0, str(ROOT / "scripts"))
+ROOT, WHIPPLE = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
+sys.path[0] = str(ROOT)
 
-import report_sensitivity  # noqa: E402
-import results_page  # noqa: E402
-import results_record  # noqa: E402
-import results_runs  # noqa: E402
-import results_study  # noqa: E402
-import results_variants  # noqa: E402
-from results_data import BadExpectation, Case, Expectation, apply  # noqa: E402
+from report import sensitivity  # noqa: E402
+from studies.validation import comparison, execution, page, provenance, variants  # noqa: E402
+from studies.validation.cases import UNITS, BadExpectation, Case, Expectation, apply  # noqa: E402
 
 
 def require(condition, message):
@@ -42,12 +39,24 @@ def every_case_is_understood():
             require(not run.headline or len(run.grids()) == 3, f"{case.name}:{run.name}: a headline has three grids")
             for resolution in run.cell_size:
                 require(run.resolved(resolution)["domain"]["cell_size"] == run.cell_size[resolution], resolution)
-            for name, path in results_record.material_files(run).items():
+            for name, path in provenance.material_files(run).items():
                 require(path.is_file(), f"{case.name}:{run.name}: {name} is not found")
-            variants = results_variants.variants_of(run, band=True)
-            require(len({v.name for v in variants}) == len(variants), "two variants of one name")
-            for variant in variants:
+            found = variants.variants_of(run, band=True)
+            require(len({v.name for v in found}) == len(found), "two variants of one name")
+            for variant in found:
                 require("{" not in "".join(variant.assignments), f"{case.name}: {variant.assignments}")
+
+
+def units_are_those_of_the_program():
+    """The factors of expected.toml, by which cases are read for their variants too, against `whipple units`."""
+    kinds = {"m": "m", "cm": "m", "mm": "m", "um": "m", "s": "s", "ms": "s", "us": "s", "ns": "s", "m/s": "m/s",
+             "km/s": "m/s", "kg": "kg", "g": "kg", "mg": "kg", "J": "J", "kJ": "J", "Pa": "Pa", "MPa": "Pa", "GPa": "Pa",
+             "K": "K", "degree": "rad"}
+    require(set(UNITS) == {"", "1", "%", *kinds}, f"units without a kind: {set(UNITS) - set(kinds)}")
+    for unit, si in kinds.items():
+        done = subprocess.run([WHIPPLE, "units", f"1 {unit}", "--to", si], capture_output=True, text=True, check=True)
+        factor = float(done.stdout.split()[0])
+        require(abs(factor - UNITS[unit]) < 1e-12 * factor, f"1 {unit} is {done.stdout}, not {UNITS[unit]} {si}")
 
 
 def expectation(**keys):
@@ -144,18 +153,17 @@ def assignments_are_those_of_the_program():
                       "contact": {"gap_test": False}}, str(table))
 
 
-def variants(case):
+def variants_are_complete(case):
     run = case.runs[0]
-    found = {v.name: v for v in results_variants.variants_of(run, band=True)}
+    found = {v.name: v for v in variants.variants_of(run, band=True)}
     require(list(found) == ["coarse", "normal", "fine", "offset_1", "offset_2", "offset_3", "frame"], str(list(found)))
     require(found["offset_3"].assignments == ['domain.lower=[0, 0, "-8.75 mm"]'], str(found["offset_3"]))
     require(found["frame"].assignments == [
         'body.0.velocity=[0, 0, "500 m/s"]', 'body.1.velocity=[0, 0, "-500 m/s"]', 'domain.lower=[0, 0, "-0.018 m"]',
         'domain.upper=["0.004 m", "0.004 m", "0.008 m"]'], str(found["frame"].assignments))
     require(run.assignments("fine") == ["domain.cell_size=0.5 mm", "time.courant=0.4"], "refined with the cells")
-    require(report_sensitivity.projectile_size(run.resolved()["body"]) == 4e-3, "size of the projectile")
     try:
-        results_variants.frame_assignments(run.resolved(), (1.0, 0.0, 0.0), "test")
+        variants.frame_assignments(run.resolved(), (1.0, 0.0, 0.0), "test")
     except BadExpectation as error:
         require("x_lower" in str(error), str(error))
     else:
@@ -173,7 +181,7 @@ def snapshots_go_back_to_rest(work):
     with h5py.File(folder / "a.hdf", "w") as file:
         file["VTKHDF/Points"] = np.array([[1.0, 2.0, 3.0]], dtype="f4")
         file["VTKHDF/PointData/velocity"] = np.array([[0.0, 0.0, 400.0]], dtype="f4")
-    results_variants.back_to_rest(folder, (0.0, 0.0, -500.0), [[0, 0, 1000.0], [0, 0, 0]])
+    variants.back_to_rest(folder, (0.0, 0.0, -500.0), [[0, 0, 1000.0], [0, 0, 0]])
     with h5py.File(folder / "a.hdf") as file:
         require(np.allclose(file["VTKHDF/Points"][:], [[1.0, 2.0, 3.005]]), "positions")
         require(np.allclose(file["VTKHDF/PointData/velocity"][:], [[0.0, 0.0, 900.0]]), "velocities")
@@ -183,7 +191,7 @@ def snapshots_go_back_to_rest(work):
 
 def write_run(folder, depth, mass, error):
     (folder / "report").mkdir(parents=True)
-    (folder / "report" / "quantities.csv").write_text(f"quantity,value\ndepth,{depth}\n")
+    (folder / "report" / "quantities.csv").write_text(f"quantity,value\ndepth,{depth}\nprojectile_size,4e-3\n")
     (folder / "report" / "series.csv").write_text("time [s],depth [m]\n0,1\n1e-05,2\n2e-05,3\n")
     (folder / "report" / "bodies.csv").write_text(f"body part,mass [kg]\nwall debris,{mass}\n")
     (folder / "history.csv").write_text(f"step,energy_error [1],maximum_speed [m/s]\n0,1e-3,500\n1,-{error},700\n")
@@ -192,13 +200,13 @@ def write_run(folder, depth, mass, error):
 def a_run_is_compared(case, work):
     """Three grids of first order, three positions and a frame; a mass that differs; an identity that breaks in one run."""
     run, measures, records = case.runs[0], {}, {}
-    record = dict.fromkeys(results_study.RECORDED_KEYS, "-") | {"wall_time": 1.0, "dirty": False, "threads": 2}
-    for i, variant in enumerate(results_variants.variants_of(run, band=True)):
+    record = dict.fromkeys(comparison.RECORDED_KEYS, "-") | {"wall_time": 1.0, "dirty": False, "threads": 2}
+    for i, variant in enumerate(variants.variants_of(run, band=True)):
         folder = work / variant.name
         depth = {"coarse": 3.08, "normal": 3.04, "fine": 3.02}.get(variant.name, 3.04 + 0.001 * i)
         write_run(folder, depth, 7.0, 5e-3 if variant.name == "offset_2" else 4e-3)
-        measures[variant.name], records[variant.name] = results_runs.measures_of(folder, variant), record
-    study = results_study.run_study(case, run, {"only": (measures, records)})
+        measures[variant.name], records[variant.name] = execution.measures_of(folder, variant), record
+    study = comparison.run_study(case, run, {"only": (measures, records)})
     marks = [q["mark"] for q in study["quantities"]]
     require(marks == ["agrees", "agrees", "differs", "not found", "broken", "agrees"], str(marks))
     depth, _, _, _, _, speed = study["quantities"]
@@ -209,25 +217,26 @@ def a_run_is_compared(case, work):
     require(study["across"] == {"coarse": 2.0, "normal": 4.0, "fine": 8.0}, str(study["across"]))
     results = {"cases": {"made_up": {"title": case.title, "expected": "", "overrides": {}, "no_offsets": "", "no_frame": "",
                                      "runs": [study]}}}
-    text = results_page.body(results, "-", {("made_up", "only")})
+    text = page.body(results, "-", {("made_up", "only")})
     for words in ("| quantity | 2 mm | 1 mm | 0.5 mm | order | limit |", "**differs**", "Not current",
                   "scripts/results.py made_up:only --band --run", "**Experiments**, one line each: 1, of which 1 differs", "0 of 1 hold",
                   "of 5 quantities 4 have three grids; 4 are converged"):
         require(words in text, f"{words!r} is not in the page:\n{text}")
     require(text.count("a reason") == 2, "the cause is given where there is no agreement")
-    found = results_study.sensitivities(results)
+    found = comparison.sensitivities(results)
     require(found["fastest particle"][0]["cells"] == [4.0, 8.0], str(found))
-    require(report_sensitivity.rows(found)[0][4:] == ["8", "1 of 1"], str(report_sensitivity.rows(found)))
+    require(sensitivity.rows(found)[0][4:] == ["8", "1 of 1"], str(sensitivity.rows(found)))
 
 
 with contextlib.ExitStack() as stack:
     every_case_is_understood()
+    units_are_those_of_the_program()
     comparisons()
     mistakes_are_named()
     assignments_are_those_of_the_program()
     work = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory()))
     made_up = made_up_case(work)
-    variants(made_up)
+    variants_are_complete(made_up)
     snapshots_go_back_to_rest(work)
     a_run_is_compared(made_up, work)
 print("expectations: all checks passed")

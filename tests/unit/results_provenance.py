@@ -12,13 +12,11 @@ import tempfile
 import tomllib
 
 ROOT = pathlib.Path(sys.argv[1]).resolve()
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path[:1] = [str(ROOT), str(ROOT / "scripts")]
 
 import drift  # noqa: E402
-import frozen_parameters  # noqa: E402
-import results_page  # noqa: E402
-import results_record  # noqa: E402
-from results_data import Case, all_cases  # noqa: E402
+from studies.validation import frozen_parameters, page, provenance  # noqa: E402
+from studies.validation.cases import Case, all_cases  # noqa: E402
 
 
 def require(condition, message):
@@ -33,19 +31,19 @@ def changed(record, key, value):
 def stale_runs_are_found():
     record = {"command": ["whipple", "run"], "case": "a", "materials": {"copper.toml": "b"}, "source": "c"}
     inputs = {"case": "a", "materials": {"copper.toml": "b"}}
-    state = lambda r, command=("whipple", "run"): results_record.state(r, list(command), inputs, "c")  # noqa: E731
-    require(state(record) == results_record.CURRENT, "the same")
-    require(state(None) == results_record.MISSING, "no record")
-    require(state(record, ("whipple", "run", "--set")) == results_record.STALE, "another command")
+    state = lambda r, command=("whipple", "run"): provenance.state(r, list(command), inputs, "c")  # noqa: E731
+    require(state(record) == provenance.CURRENT, "the same")
+    require(state(None) == provenance.MISSING, "no record")
+    require(state(record, ("whipple", "run", "--set")) == provenance.STALE, "another command")
     def set_to(value):
         return ["whipple", "run", "--set", f"body.0.velocity={value}"]
     bare = changed(record, "command", set_to("[0, 0, -150]"))
-    require(state(bare, set_to("[0, 0, '-150 m/s']")) == results_record.CURRENT, "the same quantity with its unit")
-    require(state(bare, set_to("[0, 0, '-0.15 km/s']")) == results_record.CURRENT, "the same quantity in another unit")
-    require(state(bare, set_to("[0, 0, '-151 m/s']")) == results_record.STALE, "another quantity")
-    require(state(changed(record, "case", "x")) == results_record.STALE, "another case")
-    require(state(changed(record, "materials", {"copper.toml": "x"})) == results_record.STALE, "another material")
-    require(state(changed(record, "source", "x")) == results_record.OLDER_SOURCE, "another source")
+    require(state(bare, set_to("[0, 0, '-150 m/s']")) == provenance.CURRENT, "the same quantity with its unit")
+    require(state(bare, set_to("[0, 0, '-0.15 km/s']")) == provenance.CURRENT, "the same quantity in another unit")
+    require(state(bare, set_to("[0, 0, '-151 m/s']")) == provenance.STALE, "another quantity")
+    require(state(changed(record, "case", "x")) == provenance.STALE, "another case")
+    require(state(changed(record, "materials", {"copper.toml": "x"})) == provenance.STALE, "another material")
+    require(state(changed(record, "source", "x")) == provenance.OLDER_SOURCE, "another source")
 
 
 def digests_follow_the_files(work):
@@ -56,34 +54,34 @@ def digests_follow_the_files(work):
                                       '[[body]]\nmaterial = "copper.toml"\n')
     (folder / "own.toml").write_text("density = 1")
     run = Case(folder / "expected.toml").runs[0]
-    before = results_record.inputs_of(run)
+    before = provenance.inputs_of(run)
     require(set(before["materials"]) == {"own.toml", "copper.toml"} and all(before["materials"].values()), str(before))
     (folder / "own.toml").write_text("density = 1  # said again")
-    results_record.digest_of_toml.cache_clear()
-    require(results_record.inputs_of(run) == before, "comments do not count")
+    provenance.digest_of_toml.cache_clear()
+    require(provenance.inputs_of(run) == before, "comments do not count")
     (folder / "own.toml").write_text("density = 2")
-    results_record.digest_of_toml.cache_clear()
-    after = results_record.inputs_of(run)
+    provenance.digest_of_toml.cache_clear()
+    after = provenance.inputs_of(run)
     require(after["case"] == before["case"] and after["materials"]["own.toml"] != before["materials"]["own.toml"]
             and after["materials"]["copper.toml"] == before["materials"]["copper.toml"], f"{before}, {after}")
     stored = {"cases": {"case": {"expected": "x", "runs": [
         {"name": "only", "inputs": before, "records": {}}, {"name": "gone", "inputs": before, "records": {}}]}}}
-    stale, older, expectations = results_page.outdated(stored, [run.case])
+    stale, older, expectations = page.outdated(stored, [run.case])
     require(stale == [("case", "only"), ("case", "gone")] and not older and expectations == ["case"], str(stale))
     stored["cases"]["case"]["runs"] = [{"name": "only", "inputs": after, "records": {"normal": {"source": "another"}}}]
-    stale, older, _ = results_page.outdated(stored, [run.case])
+    stale, older, _ = page.outdated(stored, [run.case])
     require(not stale and older == [("case", "only")], f"{stale}, {older}")
 
     source = work / "src"
     source.mkdir()
     (source / "a.cpp").write_text("int a;")
-    first = results_record.digest_of_sources(work)
-    results_record.digest_of_sources.cache_clear()
+    first = provenance.digest_of_sources(work)
+    provenance.digest_of_sources.cache_clear()
     (source / "note.md").write_text("no code")
-    require(results_record.digest_of_sources(work) == first, "what is no code does not count")
-    results_record.digest_of_sources.cache_clear()
+    require(provenance.digest_of_sources(work) == first, "what is no code does not count")
+    provenance.digest_of_sources.cache_clear()
     (source / "a.cpp").write_text("int b;")
-    require(results_record.digest_of_sources(work) != first, "code counts")
+    require(provenance.digest_of_sources(work) != first, "code counts")
 
 
 def departures_need_a_reason(work):

@@ -9,9 +9,9 @@ import pathlib
 import sys
 
 ROOT = pathlib.Path(sys.argv[1]).resolve()
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path[0] = str(ROOT)
 
-import results_bands as bands  # noqa: E402
+from studies.validation import bands  # noqa: E402
 
 
 def require(condition, message):

@@ -14,7 +14,7 @@ std::filesystem::path own_executable();
 /// @throws InputError if it is not there
 std::filesystem::path find_executable(const std::string& name);
 
-/// A data file by its path in the source tree ("scripts/report.py"): share/whipple beside the installed
+/// A data file or folder by its path in the source tree ("scripts/plot_fit.py", "report"): share/whipple beside the installed
 /// executables first, then the source tree that this executable was built from.
 /// @throws InputError naming both places if it is in neither
 std::filesystem::path find_data(const std::filesystem::path& relative);

@@ -7,8 +7,9 @@
 
 namespace whipple::process {
 
-/// Runs one of the project's Python scripts ("scripts/report.py"). The interpreter is $WHIPPLE_PYTHON, else
-/// /usr/bin/python3 (Debian's, which has numpy, h5py and matplotlib), else python3 of the path.
+/// Runs one of the project's Python scripts ("scripts/plot_fit.py") or packages ("report"). The interpreter is
+/// $WHIPPLE_PYTHON, else /usr/bin/python3 (Debian's, which has numpy, h5py and matplotlib), else python3 of the
+/// path.
 /// @returns its exit code
 int run_script(const std::string& script, const std::vector<std::string>& arguments);
 

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Measures of a run, as `whipple analyse` wrote them into analysis.h5 (docs/output.md). SI."""
+import math
+import pathlib
+from dataclasses import dataclass, field
+
+import h5py
+import numpy as np
+
+from report.errors import NotARun
+
+AXES = "xyz"
+OBLIQUE = 0.01  # tangent of the angle of impact above which a picture has no direction of flight
+
+DEFINITIONS = [
+    ("axis", "the direction in which the bodies approach each other; through the symmetry planes, or the centre of "
+             "mass of the projectile where there are none"),
+    ("impact speed", "difference of the initial axial velocities of the fastest and the slowest body; the fastest is "
+                     "the projectile"),
+    ("debris, ejecta", "particles whose axial velocity exceeds 5% of the impact speed forward, backward"),
+    ("front, rear", "axial coordinate beyond, below which 0.1% of the debris mass lies"),
+    ("radius", "distance from the axis beyond which 0.1% of the debris mass lies"),
+    ("front, rear, expansion speed", "change of front, rear, radius from snapshot to snapshot; at the end the "
+                                     "least-squares slope over the last third of the snapshots (of those before the "
+                                     "debris reached the border of the domain)"),
+    ("radial speed", "component of the velocity away from the axis that 0.1% of the debris mass exceeds"),
+    ("half angle", "of the cone about the axis whose directions hold 95% of the kinetic energy of the debris"),
+    ("residual velocity", "mean axial velocity of what is left of a body (momentum over mass)"),
+    ("fragment", "particles of condensed matter connected by links of the linking length, by default a cell"),
+]
+
+
+@dataclass
+class Geometry:
+    """Frame of the impact in the coordinates of the model."""
+    axis: int          # 0, 1, 2: direction of flight
+    sign: float        # +1: the projectile flies upward along the axis
+    up: int            # transverse direction that pictures show upward
+    depth: int         # transverse direction of sight
+    centre: np.ndarray  # a point of the axis of the impact
+    impact_speed: float
+    projectile: str
+    impact_angle: float = 0.0  # of the relative velocity with the axis, rad
+    copies: int = 1    # of the model, in the full problem
+    planes: dict[int, float] = field(default_factory=dict)  # position of the symmetry planes by axis
+
+    def axis_name(self) -> str:
+        """Writes the direction of flight: "z", "-z"."""
+        return ("" if self.sign > 0 else "-") + AXES[self.axis]
+
+    @property
+    def oblique(self) -> bool:
+        """Whether the flight has no single axis of the model."""
+        return self.impact_speed > 0 and math.tan(self.impact_angle) > OBLIQUE
+
+
+@dataclass
+class Picture:
+    """Synthetic radiograph: areal density of all bodies (kg/m^2) and transmission, rows from below."""
+    time: float
+    extent: tuple      # axial from, to, up from, to (m)
+    areal_density: np.ndarray
+    transmission: np.ndarray
+
+
+class Analysis:
+    """Holds analysis.h5: the case, final values, a row per snapshot, tables, radiographs.
+
+    Raises NotARun if the file is missing, or is not one of `whipple analyse`.
+    """
+
+    def __init__(self, path: pathlib.Path):
+        try:
+            with h5py.File(path, "r") as file:
+                self._read(file)
+        except (OSError, KeyError) as error:
+            raise NotARun(f"{path}: {error}; made by `whipple analyse`") from None
+
+    def _read(self, file):
+        self.title, self.cell_size = str(file.attrs["title"]), float(file.attrs["cell_size"])
+        self.body_names = str(file.attrs["bodies"]).split("\n")
+        frame = file["frame"].attrs
+        self.geometry = Geometry(int(frame["axis"]), float(frame["sign"]), int(frame["up"]), int(frame["sight"]),
+                                 np.array([frame[f"centre_{a}"] for a in AXES]), float(frame["impact_speed"]),
+                                 str(frame["projectile"]), float(frame["impact_angle"]), int(frame["copies"]),
+                                 {i: float(frame[f"plane_{a}"]) for i, a in enumerate(AXES) if f"plane_{a}" in frame})
+        self.final = {name: float(value) for name, value in file["quantities"].attrs.items()
+                      if name not in ("meaning", "label", "labels")}
+        self.tables = {name: {column: data[:] for column, data in file[name].items()}
+                       for name in file if name not in ("frame", "quantities", "radiographs")}
+        self.units = {name: {column: data.attrs["unit"] for column, data in file[name].items()}
+                      for name in self.tables}
+        self.series = self.tables["series"]
+        labels = str(file["bodies"].attrs["labels"]).split("\n")
+        self.bodies = [(*label.rsplit(" ", 1), {column: float(values[i])
+                                                for column, values in self.tables["bodies"].items()})
+                       for i, label in enumerate(labels)]
+        self.pictures = [self._picture(group, float(file["radiographs"].attrs["pixel"]))
+                         for group in file["radiographs"].values()]
+        self.spot = float(file["radiographs"].attrs["spot"])
+
+    @staticmethod
+    def _picture(group, pixel):
+        total = sum(data[:] for name, data in group.items() if name.startswith("areal_density."))
+        left, below = float(group.attrs["lower_axial"]), float(group.attrs["lower_up"])
+        return Picture(float(group.attrs["time"]),
+                       (left, left + pixel * total.shape[1], below, below + pixel * total.shape[0]),
+                       total, group["transmission"][:])
+
+    def quantity(self, name: str) -> float:
+        """Returns a final value, NaN if there is none."""
+        return self.final.get(name, float("nan"))

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Command line of the report."""
+import argparse
+import pathlib
+import sys
+
+from report.errors import NotARun
+from report.run import Run
+from report.sections import Report
+
+
+def parse_figure(text: str) -> tuple[str, pathlib.Path]:
+    """Splits TITLE=FILE.png. Raises ArgumentTypeError if that is another text or there is no such file."""
+    title, separator, path = text.partition("=")
+    if not separator or not title:
+        raise argparse.ArgumentTypeError(f"{text!r}: give TITLE=FILE.png")
+    path = pathlib.Path(path)
+    if not path.is_file():
+        raise argparse.ArgumentTypeError(f"{path}: there is no such file")
+    return title, path
+
+
+def main(words: list[str] | None = None) -> int:
+    """Writes report.html, its PNG files and metrics.json. Returns the exit code: 2 if the folder is that of no run."""
+    parser = argparse.ArgumentParser(prog="report", description="Figures and tables of a run as one HTML page.",
+                                     epilog="example: report RUN_DIR --figure 'Hugoniot of copper=hugoniot.png'")
+    parser.add_argument("run", metavar="RUN_DIR", help="folder that `whipple run` wrote")
+    parser.add_argument("--output", metavar="DIR", help="folder of the report (default: RUN_DIR/report)")
+    parser.add_argument("--figure", metavar="TITLE=FILE.png", action="append", default=[], type=parse_figure,
+                        help="a figure to show before the pictures (Hugoniot, isotherm, ...); may be repeated")
+    parser.add_argument("--times", metavar="N", type=int, default=6, help="pictures at so many times (default 6)")
+    parser.add_argument("--dpi", metavar="N", type=int, default=180, help="dots per inch of the pictures (default 180)")
+    arguments = parser.parse_args(words)
+    try:
+        run = Run(arguments.run, arguments.output)
+        report = Report(run, max(arguments.times, 1), max(arguments.dpi, 20))
+        report.add_all(arguments.figure)
+        print(report.write())
+    except (NotARun, OSError) as error:
+        print(f"report: error: {error}", file=sys.stderr)
+        return 2
+    return 0

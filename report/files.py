@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files that are written as a whole or not at all."""
+import os
+import pathlib
+import tempfile
+from collections.abc import Callable
+from typing import BinaryIO
+
+from matplotlib.figure import Figure
+
+
+def write_whole(path: pathlib.Path, write: Callable[[BinaryIO], object]) -> None:
+    """Lets `write(stream)` fill a file beside `path` that then takes its place: readers see the old or the new one."""
+    mask = os.umask(0)
+    os.umask(mask)
+    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=path.name + ".", suffix=".partial",
+                                     delete=False) as stream:
+        try:
+            write(stream)
+            stream.flush()
+            os.chmod(stream.name, 0o666 & ~mask)
+            os.replace(stream.name, path)
+        except BaseException:
+            os.unlink(stream.name)
+            raise
+
+
+def save_figure(figure: Figure, path: str | pathlib.Path, **options) -> None:
+    """Writes a figure in the format of its ending."""
+    path = pathlib.Path(path)
+    write_whole(path, lambda stream: figure.savefig(stream, format=path.suffix[1:], **options))

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Histories, the frame of the impact, and the folder of a run."""
+import math
+import pathlib
+import tempfile
+import types
+import unittest
+
+import numpy as np
+
+from report import curves, pictures, sensitivity
+from report.analysis import Geometry
+from report.errors import NotARun
+from report.history import History
+from report.page import Page
+from report.run import Run
+
+
+def geometry(**more):
+    return Geometry(axis=2, sign=-1.0, up=0, depth=1, centre=np.zeros(3), impact_speed=5000.0, projectile="ball",
+                    **more)
+
+
+class Histories(unittest.TestCase):
+    def history(self, text):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "history.csv"
+            path.write_text(text)
+            return History(path)
+
+    def test_columns_by_name_without_a_row_in_the_making(self):
+        history = self.history("step,time [s]\n0,0\n1,1e-6\n2")
+        self.assertEqual(history.last("time"), 1e-6)
+        self.assertEqual(history.units["time"], "s")
+        self.assertIsNone(history.last("mass"))
+
+    def test_what_is_no_number_is_refused(self):
+        with self.assertRaisesRegex(NotARun, "history.csv"):
+            self.history("step\nzero\n")
+
+    def test_bodies_of_the_phases_are_those_of_the_columns(self):
+        phases = [f"mass_{phase}.{body} [kg]" for body in ("ball", "wall 2")
+                  for phase in ("solid", "melting", "liquid", "vapour")]
+        history = self.history("time [s]," + ",".join(phases) + "\n0,1,0,0,0,2,0,0,0\n1,1,0,0,0,1,1,0,0\n")
+        figure = curves.phase_figure(types.SimpleNamespace(history=history, multiplicity=4))
+        self.assertEqual([ax.get_title(loc="left") for ax in figure.axes], ["ball: 4000 g", "wall 2: 8000 g"])
+
+
+class Frames(unittest.TestCase):
+    def labels(self, geo):
+        return pictures.View(geo, [], 50).labels
+
+    def test_an_oblique_impact_has_no_direction_of_flight(self):
+        self.assertEqual(self.labels(geometry()), ("along the flight, -z (mm)", "across, x (mm)"))
+        self.assertEqual(self.labels(geometry(impact_angle=math.radians(30))), ("-z (mm)", "x (mm)"))
+
+    def test_a_picture_is_completed_at_the_planes_of_the_analysis(self):
+        view = pictures.View(geometry(copies=2, planes={1: 0.0}), [], 50)
+        self.assertEqual((view.mirrored, view.depth_copies), (False, 2))
+
+
+class Sensitivity(unittest.TestCase):
+    def page(self, analysis):
+        page = Page("t", "s")
+        sensitivity.add_to(page, analysis, pathlib.Path("/none"))
+        return page.text()
+
+    def test_cells_across_the_projectile_are_those_of_the_analysis(self):
+        def measured(size):
+            return types.SimpleNamespace(cell_size=0.5e-3, quantity=lambda name: size)
+
+        self.assertIn("This run: 8 cells across the projectile.", self.page(measured(4e-3)))
+        self.assertNotIn("This run", self.page(measured(math.nan)))
+        self.assertNotIn("This run", self.page(None))
+
+
+class Runs(unittest.TestCase):
+    def test_other_folders_are_refused(self):
+        with self.assertRaisesRegex(NotARun, "no such folder"):
+            Run("/none")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)
+            with self.assertRaisesRegex(NotARun, "holds no run.toml"):
+                Run(folder)
+            (path / "run.toml").write_text('title = "made up"\n')
+            with self.assertRaisesRegex(NotARun, "neither snapshots nor a history.csv"):
+                Run(folder)
+            (path / "history.csv").write_text("time [s]\n0\n")
+            run = Run(folder)
+            self.assertEqual((run.title, run.multiplicity, run.spread(6)), ("made up", 1, []))
+            (path / "x.particles.hdf.series").write_text('{"files": [{"name": "x.hdf", "time": 0}]}')
+            with self.assertRaisesRegex(NotARun, "analysis.h5.*whipple analyse"):
+                Run(folder)

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From measured runs to numbers with bands: what docs/results.json holds of a run."""
+import math
+import re
+
+from studies.validation import bands, execution, provenance
+from studies.validation.variants import variants_of
+
+# Kinds of quantities whose dependence on the grid reports of single runs quote.
+KINDS_OF_MEASURE = (("molten mass", r"melted"), ("vaporised mass", r"vaporised"), ("solid fraction", r"solid_fraction"),
+                    ("speed of the front", r"front_speed|front_velocity|^front$"), ("fastest particle", r"maximum_speed"),
+                    ("diameter of a hole", r"hole_diameter"), ("depth of a crater", r"crater_depth$"),
+                    ("width of a crater", r"crater_radius|crater_diameter"),
+                    ("largest fragment", r"fragment"), ("residual velocity", r"mean_velocity|residual_speed"),
+                    ("final length", r"^length\.|residual_length"), ("diameter of a bar", r"foot_diameter|diameter_at"),
+                    ("peak pressure", r"peak_pressure"), ("spall: pull-back and layer", r"pullback|spall_thickness"))
+
+
+def clean(value):
+    """JSON knows no NaN."""
+    return value if value is not None and math.isfinite(value) else None
+
+
+def known(value):
+    return math.nan if value is None else value
+
+
+def quantity_study(expectation, grids, samples, of_input):
+    """Bands and mark of one quantity.
+
+    grids: (cell size, value), samples: values at the normal grid over lattice positions and frames,
+    of_input: largest change by the runs that bracket the input.
+    """
+    scatter = bands.scatter_band(samples) if len(samples) > 1 else math.nan
+    study = bands.grid_study(grids, scatter)
+    numerical = bands.together(study.band, scatter) if math.isfinite(study.band) else math.nan
+    if expectation.kind == "record":
+        mark, error, combined = bands.RECORDED, math.nan, math.nan
+    elif expectation.kind == "within":
+        mark, error, combined = bands.compare_within(study.value, expectation.value, expectation.tolerance, numerical,
+                                                     of_input)
+    else:
+        mark, error, combined = bands.compare_bound(study.value, expectation.value, expectation.kind, numerical, of_input)
+    return {"value": clean(study.value), "order": clean(study.order), "limit": clean(study.limit), "grid": study.state,
+            "u_grid": clean(study.band), "u_lattice": clean(scatter), "u_num": clean(numerical), "u_input": clean(of_input),
+            "error": clean(error), "u_val": clean(combined), "mark": mark}
+
+
+def identity_study(expectation, values):
+    """An identity holds if it holds in every run; there is nothing to converge."""
+    found = [v for v in values if math.isfinite(v)]
+    worst = max(found, key=abs) if found else math.nan
+    mark = bands.NOT_FOUND if not found else (bands.HOLDS if all(expectation.holds(v) for v in found) else bands.BROKEN)
+    return {"value": clean(worst), "mark": mark}
+
+
+def input_change(case, run, values, measured):
+    """Largest change of each quantity by the runs that bracket the input, at the finest grid that both have."""
+    changes = []
+    for expectation in run.expectations:
+        found = [math.nan]
+        for other in run.input:
+            theirs = measured.get(other, {})
+            both = [r for r in ("fine", "normal", "coarse") if r in values and r in theirs]
+            if both:
+                found.append(abs(theirs[both[0]].value(expectation) - values[both[0]].value(expectation)))
+        finite = [v for v in found if math.isfinite(v)]
+        changes.append(max(finite) if finite else math.nan)
+    return changes
+
+
+def collect(case, run):
+    """Measures and records of the variants of a run that are there and not stale."""
+    measures, records = {}, {}
+    for variant in variants_of(run, band=True) + extra_grids(run):
+        folder = execution.folder_of(case, run, variant)
+        record, state = execution.state_of(case, run, variant, folder)
+        if state in (provenance.CURRENT, provenance.OLDER_SOURCE):
+            measures[variant.name] = execution.measures_of(folder, variant)
+            records[variant.name] = record
+    return measures, records
+
+
+def extra_grids(run):
+    """Grids that were not asked for, but may have been run: the finest of a run that is no headline."""
+    asked = {variant.name for variant in variants_of(run, band=False)}
+    return [execution.variant_named(run, r) for r in run.cell_size if r not in asked and
+            run.cells(r) not in {run.cells(a) for a in asked}]
+
+
+RECORDED_KEYS = ("revision", "dirty", "program", "executable", "source", "parameters", "frozen_set", "processor",
+                 "machine", "threads", "wall_time", "cell_size", "variant")
+
+
+def run_study(case, run, collected):
+    """What docs/results.json says of a run; None if nothing was run. `collected`: by the name of a run, as of collect()."""
+    measures, records = collected[run.name]
+    if not measures:
+        return None
+    grids = [name for name in ("coarse", "normal", "fine") if name in measures]
+    moved = [name for name in measures if name not in grids]
+    changes = input_change(case, run, measures, {name: found for name, (found, _) in collected.items()})
+    rows = []
+    for expectation, change in zip(run.expectations, changes):
+        values = {name: of_run.value(expectation) for name, of_run in measures.items()}
+        if expectation.origin == "identity":
+            study = identity_study(expectation, values.values())
+        else:
+            samples = [values[name] for name in (["normal"] if "normal" in values else []) + moved]
+            study = quantity_study(expectation, [(run.cells(name), values[name]) for name in grids],
+                                   samples if moved else [], change)
+        rows.append({"name": expectation.name, "measure": expectation.measure, "class": expectation.origin,
+                     "kind": expectation.kind, "unit": expectation.unit, "expected": clean(expectation.value),
+                     "tolerance": clean(expectation.tolerance), "source": expectation.source, "known": expectation.known,
+                     "values": {name: clean(value) for name, value in values.items()}, **study})
+    size = measures[grids[-1]].projectile_size if grids else math.nan
+    return {"name": run.name, "title": run.title, "sensitivity": run.sensitivity, "headline": run.headline, "input": run.input,
+            "cells": {name: run.cell_size[name] for name in grids},
+            "across": {name: round(size / run.cells(name), 1) for name in grids} if math.isfinite(size) else {},
+            "inputs": provenance.inputs_of(run), "quantities": rows,
+            "records": {name: {key: record[key] for key in RECORDED_KEYS} for name, record in records.items()}}
+
+
+def case_study(case, runs):
+    """What docs/results.json says of a case: the runs that are there."""
+    collected = {run.name: collect(case, run) for run in case.runs}
+    studies = [run_study(case, run, collected) for run in runs]
+    return {"title": case.title, "expected": provenance.digest_of_file(case.path), "overrides": case.overrides,
+            "no_offsets": case.band.no_offsets if case.band else "not declared",
+            "no_frame": case.band.no_frame if case.band else "not declared",
+            "runs": [study for study in studies if study]}
+
+
+def sensitivities(results):
+    """Typical dependence on the grid by kind of quantity: for reports of single runs.
+
+    Per kind the relative band of every converged or unconverged study, the change from the normal to the finest grid and
+    the cells across the projectile of both.
+    """
+    rows = {}
+    for name, case in results["cases"].items():
+        for run in case["runs"]:
+            grids = list(run["cells"])
+            if run["sensitivity"] or len(grids) < 2 or not run["across"]:
+                continue
+            for q in run["quantities"]:
+                kind = next((kind for kind, pattern in KINDS_OF_MEASURE if re.search(pattern, q["measure"])), None)
+                fine, before, band = (q["values"][grids[-1]], q["values"][grids[-2]], q.get("u_num"))
+                if kind is None or not fine or before is None or band is None:
+                    continue
+                rows.setdefault(kind, []).append(
+                    {"case": f"{name}:{run['name']}", "quantity": q["name"],
+                     "cells": [run["across"][g] for g in grids[-2:]], "change": abs(fine - before) / abs(fine), "band": band / abs(fine),
+                     "converged": q["grid"] in bands.CONVERGED})
+    return rows

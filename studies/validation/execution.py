@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs of the cases: their folders, command lines, execution and analysis."""
+import os
+import pathlib
+import re
+import subprocess
+import time
+
+from studies.validation import provenance
+from studies.validation.cases import ROOT, BadExpectation, Measures, all_cases
+from studies.validation.variants import FRAME_DEPENDENT, Variant, back_to_rest, vector
+
+RESULTS = ROOT / "run" / "results"
+
+
+def environment(threads):
+    """Idle threads sleep: the machine may be shared."""
+    return os.environ | {"OMP_NUM_THREADS": str(threads), "OMP_WAIT_POLICY": "passive"}
+
+
+def folder_of(case, run, variant):
+    return RESULTS / case.name / f"{run.name}.{variant.name}"
+
+
+def command_of(case, run, resolution, folder, more=()):
+    """Command line of a run in a folder, with more assignments."""
+    command = ["whipple", "run", str(case.file.relative_to(ROOT)), "-o", str(folder.relative_to(ROOT)), "--force"]
+    for assignment in [*run.assignments(resolution), *more]:
+        command += ["--set", assignment]
+    return command
+
+
+def state_of(case, run, variant, folder, more=()):
+    """Record of a run and its state: current, older source, stale or missing."""
+    record = provenance.read(folder)
+    command = command_of(case, run, variant.resolution, folder, [*variant.assignments, *more])
+    return record, provenance.state(record, command, provenance.inputs_of(run), provenance.digest_of_sources())
+
+
+def execute(whipple, case, run, variant, threads, folder=None, more=(), any_source=False):
+    """Runs the case unless a current run is there; returns whether it is there now."""
+    folder = folder or folder_of(case, run, variant)
+    _, state = state_of(case, run, variant, folder, more)
+    if state == provenance.CURRENT or (any_source and state == provenance.OLDER_SOURCE):
+        return True
+    (folder / "finished.json").unlink(missing_ok=True)
+    command = command_of(case, run, variant.resolution, folder, [*variant.assignments, *more])
+    print(f"{time.strftime('%H:%M:%S')} {' '.join(command)}", flush=True)
+    begin = time.monotonic()
+    done = subprocess.run([whipple, *command[1:], "--quiet", "--threads", str(threads)], cwd=ROOT,
+                          env=environment(threads))
+    if done.returncode != 0:
+        print(f"  failed with exit code {done.returncode}", flush=True)
+        return False
+    if any(variant.frame):
+        bodies = run.resolved(variant.resolution)["body"]
+        back_to_rest(folder, variant.frame, [vector(body.get("velocity", [0, 0, 0]), run.name) for body in bodies])
+    provenance.write(folder, run, variant, command, whipple, threads, time.monotonic() - begin)
+    return True
+
+
+def analyse(whipple, folder, run, threads):
+    """Measures a run; repeated if the run or the program is newer. Returns whether they are there."""
+    product = folder / "report" / "quantities.csv"
+    newest = max((folder / "finished.json").stat().st_mtime, pathlib.Path(whipple).stat().st_mtime)
+    if product.is_file() and product.stat().st_mtime > newest:
+        return True
+    done = subprocess.run([whipple, "analyse", str(folder), "--quiet", *run.analyse], env=environment(threads))
+    return done.returncode == 0
+
+
+def folders_there(case, run):
+    """Folders of the runs that are finished; an input that brackets another one counts with it."""
+    for name in (run.name, *run.input):
+        yield from (path.parent for path in sorted((RESULTS / case.name).glob(f"{name}.*/finished.json")))
+
+
+def measures_of(folder, variant):
+    measures = Measures(folder)
+    if any(variant.frame):
+        for name in FRAME_DEPENDENT:
+            measures.single.pop(name, None)
+    return measures
+
+
+def select(words):
+    """The cases and runs that the words name, all without words."""
+    cases = {case.name: case for case in all_cases()}
+    if not words:
+        return [(case, run) for case in cases.values() for run in case.runs]
+    chosen = []
+    for word in words:
+        name, _, run_name = word.partition(":")
+        if name not in cases:
+            raise BadExpectation(f"no case {name!r} with an expected.toml; there are {', '.join(cases)}")
+        runs = [run for run in cases[name].runs if not run_name or run.name == run_name]
+        if not runs:
+            raise BadExpectation(f"{name} has no run {run_name!r}: {', '.join(r.name for r in cases[name].runs)}")
+        chosen += [(cases[name], run) for run in runs]
+    return chosen
+
+
+def variant_named(run, resolution):
+    return Variant(resolution, resolution)
+
+
+DURATIONS = {"h": 3600.0, "min": 60.0, "s": 1.0, "ms": 1e-3}
+
+
+def cost(whipple, case, run, variant):
+    """Particles or elements, most steps and seconds of a run by `whipple check`, and its wall time if it was run."""
+    command = command_of(case, run, variant.resolution, folder_of(case, run, variant), variant.assignments)
+    words = [word for word in command[3:] if word != "--force"]
+    done = subprocess.run([whipple, "check", command[2], *words[2:]], cwd=ROOT, capture_output=True, text=True,
+                          env=environment(2))
+    if done.returncode != 0:
+        return {"error": (done.stderr or done.stdout).strip().split("\n")[-1]}
+    text = done.stdout + done.stderr
+    points = sum(int(n) for n in re.findall(r": (\d+) (?:particles|elements)", text))
+    steps = re.search(r"steps: (\d+) to (\d+)", text)
+    estimate = re.search(r"estimated time: .* to (.*?) on", text)
+    words = re.findall(r"([\d.]+) (\w+)", estimate[1] if estimate else "")
+    seconds = sum(float(n) * DURATIONS.get(unit, 0.0) for n, unit in words)
+    record, state = state_of(case, run, variant, folder_of(case, run, variant))
+    return {"points": points, "steps": int(steps[2]) if steps else 0, "seconds": seconds,
+            "wall_time": record["wall_time"] if record else None, "state": state}

@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Record of a finished run: what it was computed with, and whether that is what the repository holds now.
+
+A run folder gets finished.json when the run has ended well. Digests are the first 16 digits of SHA-256.
+"""
+import functools
+import hashlib
+import json
+import pathlib
+import platform
+import re
+import subprocess
+import tomllib
+
+from studies.validation import frozen_parameters
+from studies.validation.cases import ROOT, BadExpectation, quantity, value_of
+
+CODE = (".cpp", ".hpp", ".inl", ".h")
+SOURCES = ("src", "eos")  # what a run of a case is computed by
+LIBRARY = ROOT / "eos" / "materials"
+
+CURRENT, OLDER_SOURCE, STALE, MISSING = "current", "older source", "stale", "missing"
+
+
+def digest_of(*texts):
+    total = hashlib.sha256()
+    for text in texts:
+        total.update(text if isinstance(text, bytes) else text.encode())
+    return total.hexdigest()[:16]
+
+
+@functools.cache
+def digest_of_sources(root=ROOT):
+    """Of all C++ under src/ and eos/, as it stands in the working tree."""
+    files = sorted(path for folder in SOURCES for path in (root / folder).rglob("*") if path.suffix in CODE)
+    return digest_of(*(part for path in files for part in (str(path.relative_to(root)), path.read_bytes())))
+
+
+@functools.cache
+def digest_of_file(path):
+    return digest_of(pathlib.Path(path).read_bytes())
+
+
+@functools.cache
+def digest_of_toml(path):
+    """Of what the file says: comments and layout do not count."""
+    table = tomllib.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+    return digest_of(json.dumps(table, sort_keys=True, default=str))
+
+
+def material_files(run):
+    """Material files that a run reads, by the names in the case: beside it or from the library."""
+    found = {}
+    for body in run.resolved(next(iter(run.cell_size)))["body"]:
+        name = body["material"]
+        own = run.case.file.parent / name
+        path = own if own.is_file() else LIBRARY / (name if name.endswith(".toml") else f"{name}.toml")
+        found[name] = path.resolve()
+    return found
+
+
+def inputs_of(run):
+    """Digests of the case and its materials."""
+    return {"case": digest_of_toml(run.case.file),
+            "materials": {name: digest_of_toml(path) if path.is_file() else ""
+                          for name, path in material_files(run).items()}}
+
+
+def git(*words):
+    done = subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True)
+    return done.stdout.strip() if done.returncode == 0 else ""
+
+
+@functools.cache
+def processor():
+    try:
+        text = pathlib.Path("/proc/cpuinfo").read_text()
+    except OSError:
+        return platform.machine()
+    match = re.search(r"model name\s*: (.*)", text)
+    return match[1] if match else platform.machine()
+
+
+@functools.cache
+def program(whipple):
+    """Lines of `whipple version`, digest of the executable, and that of the sources it was built from if that is known.
+
+    The executable names its revision; where src/ and eos/ have changed since, it is not that of these sources.
+    """
+    done = subprocess.run([whipple, "version"], capture_output=True, text=True)
+    lines = [re.sub(r"\s+", " ", line) for line in done.stdout.splitlines()]
+    match = re.search(r"revision ([0-9a-f]+)", lines[0] if lines else "")
+    code = [f":(glob){folder}/**/*{suffix}" for folder in SOURCES for suffix in CODE]
+    same = bool(match) and subprocess.run(["git", "diff", "--quiet", match[1], "--", *code], cwd=ROOT,
+                                          stderr=subprocess.DEVNULL).returncode == 0
+    dirty = bool(match) and "+" in lines[0]
+    return {"program": lines[0] if lines else "", "build": [line for line in lines[1:3]],
+            "executable": digest_of_file(whipple),
+            "source": digest_of_sources() if same or dirty else f"built from {match[1] if match else 'unknown'}"}
+
+
+def numerical_parameters(folder):
+    """Those that the run used, from the complete input in run.toml."""
+    known = frozen_parameters.defaults()
+    used = tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))
+    return {key: value for key, value in frozen_parameters.flat(used) if frozen_parameters.general(key) in known}
+
+
+def write(folder, run, variant, command, whipple, threads, wall_time):
+    record = {"command": command, "variant": variant.name, "resolution": variant.resolution,
+              "cell_size": run.cell_size[variant.resolution],
+              "revision": git("rev-parse", "--short=12", "HEAD"),
+              "dirty": bool(git("status", "--porcelain", "--", *SOURCES, "cases")),
+              **program(whipple), **inputs_of(run),
+              "parameters": frozen_parameters.digest(numerical_parameters(folder)),
+              "frozen_set": frozen_parameters.digest(frozen_parameters.defaults()),
+              "processor": processor(), "machine": platform.node(), "threads": threads,
+              "wall_time": round(wall_time, 1)}
+    partial = folder / "finished.json.partial"
+    partial.write_text(json.dumps(record, indent=1) + "\n")
+    partial.rename(folder / "finished.json")
+    return record
+
+
+def read(folder):
+    """The record of a finished run, None if it has none."""
+    path = folder / "finished.json"
+    return json.loads(path.read_text()) if path.is_file() else None
+
+
+def meaning(command):
+    """A command with the quantities of its assignments in SI: written in another way it is no other run."""
+    def in_si(value):
+        if isinstance(value, list):
+            return [in_si(entry) for entry in value]
+        try:
+            return quantity(value, "")[0]
+        except BadExpectation:
+            return value
+
+    words = (word.partition("=") for word in command)
+    return [(key, in_si(value_of(text))) if separator else key for key, separator, text in words]
+
+
+def state(record, command, inputs, source):
+    """Whether a record is that of this command, case, materials and source."""
+    if record is None:
+        return MISSING
+    if meaning(record["command"]) != meaning(command) or any(record[key] != inputs[key] for key in ("case", "materials")):
+        return STALE
+    return CURRENT if record["source"] == source else OLDER_SOURCE
