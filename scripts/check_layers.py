@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Who may know whom: enforces the layers of docs/architecture.md from #include lines and from CMake dependencies.
+"""Check the layers of docs/manual/architecture.md: which module may depend on which, from #include lines and CMake.
 
 Usage: check_layers.py [ROOT]      check the tree (default: the one that this script belongs to)
        check_layers.py --self-test  check that every rule finds its violation in a tree made for it
@@ -108,7 +108,7 @@ def check_sources(root):
     for path in sources(root):
         module = module_of(path)
         if module is None:
-            faults.append(f"{path}: this folder is in no layer: add it to MAY_USE and to docs/architecture.md")
+            faults.append(f"{path}: this folder is in no layer: add it to MAY_USE and to docs/manual/architecture.md")
             continue
         includes[path] = []
         for number, line in code_lines((root / path).read_text(encoding="utf-8")):

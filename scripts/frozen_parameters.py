@@ -4,7 +4,7 @@
 
 usage: frozen_parameters.py [--defaults] [--digest]
 
-The set is that of the defaults of the program, as docs/input_reference.md has them (a test keeps that page equal to
+The set is that of the defaults of the program, as docs/manual/input_reference.md has them (a test keeps that page equal to
 `whipple describe --markdown`). A case may depart from it only with a reason in [overrides] of its expected.toml; a run
 marked `sensitivity = true` may depart freely, for it counts in no summary. Lists all departures; exit code 1 if one has
 no reason, or a reason has no departure.
@@ -26,7 +26,7 @@ PHYSICAL = {"time.end", "body.discretization.mesh", "body.discretization.mesh_un
 MORE = {"output.maximum_energy_error", "body.equation_of_state", "body.table_error"}
 
 
-def defaults(reference=ROOT / "docs" / "input_reference.md"):
+def defaults(reference=ROOT / "docs" / "manual" / "input_reference.md"):
     """Default of every numerical parameter by its key ("time.courant"), as the page writes it."""
     text = reference.read_text(encoding="utf-8")
     page = text[text.index("## Case files"):]

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Constants of all metals and potentials from molecular dynamics: runs what is missing of the short plans, fits every store,
-compares with experiments, and writes the tables of docs/results_md.md.
+compares with experiments, and writes the tables of docs/generated/results_md.md.
 
 Usage: scripts/md_results.py [--bin build/release/bin] [--stores run/md] [--ranks N] [--metal NAME ...]
-                             [-o docs/results_md.md]
+                             [-o docs/generated/results_md.md]
 
 Models of OpenKIM need scripts/install_deps.sh --kim. With --metal only the sections of these metals are written anew.
 """
@@ -189,7 +189,7 @@ def main():
     parser.add_argument("--ranks", type=int, default=0)
     parser.add_argument("--metal", nargs="+", choices=METALS, default=list(METALS))
     parser.add_argument("--no-md", action="store_true", help="take the stores as they are")
-    parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "docs/results_md.md")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "docs/generated/results_md.md")
     options = parser.parse_args()
     binaries, stores = options.bin.resolve(), options.stores.resolve()
     stores.mkdir(parents=True, exist_ok=True)

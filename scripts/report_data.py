@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What `report.py` reads: the folder of a run (docs/output.md). SI throughout."""
+"""What `report.py` reads: the folder of a run (docs/manual/output.md). SI throughout."""
 import csv
 import json
 import pathlib

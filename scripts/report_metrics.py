@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What `whipple analyse` measured of a run (analysis.h5, docs/output.md), as `report.py` shows it. SI."""
+"""What `whipple analyse` measured of a run (analysis.h5, docs/manual/output.md), as `report.py` shows it. SI."""
 from dataclasses import dataclass
 
 import h5py

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/results.json as text and as the generated part of docs/results.md: the page is a function of that file alone."""
+"""Write docs/generated/results.json as text and as the generated part of results.md, a function of that file alone."""
 import json
 import math
 
@@ -7,8 +7,8 @@ import results_bands as bands
 import results_record
 from results_data import ROOT, UNITS
 
-STORE = ROOT / "docs" / "results.json"
-PAGE = ROOT / "docs" / "results.md"
+STORE = ROOT / "docs" / "generated" / "results.json"
+PAGE = ROOT / "docs" / "generated" / "results.md"
 SENSITIVITIES = ROOT / "scripts" / "grid_sensitivity.json"
 MARKERS = ("<!-- begin of the part that scripts/results.py writes -->", "<!-- end of that part -->")
 CLASSES_OF_PHYSICS = ("experiment", "exact", "other code")
@@ -140,7 +140,7 @@ def notes(run):
 
 def section(name, case, source, stale):
     """The part of a case. `stale`: names of its runs whose case or material has changed since."""
-    lines = [f"### {case['title']}", "", f"[cases/{name}](../cases/{name})", ""]
+    lines = [f"### {case['title']}", "", f"[cases/{name}](../../cases/{name})", ""]
     if case["overrides"]:
         lines += ["Departs from the one set of numerical parameters: "
                   + "; ".join(f"`{key}` ({reason})" for key, reason in case["overrides"].items()) + ".", ""]

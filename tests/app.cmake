@@ -6,7 +6,7 @@ whipple_test(app_planar_impact_test SOURCES unit/app_planar_impact_test.cpp DEPE
 whipple_test(foreign_files_test SOURCES fuzz/foreign_files.cpp DEPENDS whipple_app GTest::gmock LABELS fast)
 add_dependencies(app_command_line_test whipple whipple-md whipple-fit)
 
-# Who may know whom (docs/architecture.md), and that the checker finds violations.
+# Who may know whom (docs/manual/architecture.md), and that the checker finds violations.
 add_test(NAME layers COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_layers.py)
 add_test(NAME layers_self_test COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_layers.py --self-test)
 set_tests_properties(layers layers_self_test PROPERTIES LABELS fast)

@@ -21,7 +21,7 @@ std::string read_text(const std::filesystem::path& path);
 /// @throws InputError if there is no such folder, or another run holds it
 std::shared_ptr<const FileLock> lock_run(const std::filesystem::path& path);
 
-/// The folder that holds all output of one run (docs/output.md). One process makes it.
+/// The folder that holds all output of one run (docs/manual/output.md). One process makes it.
 class RunDirectory {
  public:
   /// Makes the folder and locks it while this object or a copy of it lives. One that exists must be empty,

@@ -16,7 +16,7 @@
 
 namespace whipple {
 
-/// Measured values that the models do not use, to be compared with (docs/materials.md); NaN: not known.
+/// Measured values that the models do not use, to be compared with (docs/manual/materials.md); NaN: not known.
 struct Measured {
   double melting_point = std::numeric_limits<double>::quiet_NaN();  ///< K, at 1 atm; of an alloy: solidus
   double liquidus = std::numeric_limits<double>::quiet_NaN();       ///< K, at 1 atm, of an alloy
