@@ -5,8 +5,8 @@
 usage: report.py RUN_DIR [--output DIR] [--figure TITLE=FILE.png]... [--times N] [--dpi N]
 
 Reads run.toml, history.csv, the snapshots of RUN.particles.hdf.series and analysis.h5 in the folder of the report, which
-`whipple analyse` makes (`whipple report` calls both; docs/manual/output.md). Columns and fields that the run did not write are
-left out. A quarter or half model is reported as the full problem (masses, momentum and
+`whipple analyse` makes (`whipple report` calls both; docs/manual/output.md). Columns and fields that the run did not
+write are left out. A quarter or half model is reported as the full problem (masses, momentum and
 energies times 4 or 2), with the figures of the model beside it where both matter.
 Exit code 2 if the folder is not that of a run.
 """

@@ -8,8 +8,8 @@ usage: results.py [CASE[:RUN]]... [--resolution coarse|normal|fine | --band] [--
 Without --run, runs that are there are compared. A run lies in run/results/CASE/RUN.VARIANT; a variant is a resolution,
 a position of the lattice or a moving frame. --band takes all variants of a run: three grids and what [band] of
 expected.toml declares of a headline, two grids of others. A run is repeated if its command, case, a material or the C++
-under src/ or eos/ has changed since; --any-source lets the last pass. --write renews docs/generated/results.json with the runs that
-are there, and from it the page and scripts/grid_sensitivity.json; runs that are not here keep their tables, marked where
+under src/ or eos/ has changed since; --any-source lets the last pass. --write renews docs/generated/results.json with the
+runs that are there, and from it the page and scripts/grid_sensitivity.json; runs that are not here keep their tables, marked where
 they are out of date. --check-fresh runs nothing: exit code 1 if a table belongs to another case or material, or the page
 to other data.
 Format of expected.toml: docs/manual/expected_results.md; bands and marks: docs/theory/uncertainty.md.
@@ -111,7 +111,7 @@ def main():
     parser.add_argument("--run", action="store_true", help="run what is missing or out of date")
     parser.add_argument("--any-source", action="store_true", help="keep runs of an older source")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
-    parser.add_argument("--write", action="store_true", help="renew docs/generated/results.json and docs/generated/results.md")
+    parser.add_argument("--write", action="store_true", help="renew results.json and results.md in docs/generated")
     parser.add_argument("--list", action="store_true", help="list cases and runs")
     parser.add_argument("--cost", action="store_true", help="with --list: particles and steps by `whipple check`")
     parser.add_argument("--check-fresh", action="store_true", help="whether the written tables belong to the cases")
