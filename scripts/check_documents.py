@@ -31,6 +31,7 @@ INLINE = re.compile(r"`[^`]*`|https?://\S+|\]\([^)\s]*\)")
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 MENTION = re.compile(r"(?<![\w/.])docs/[\w/]+\.(?:md|json)\b")
 ITEM = re.compile(r"(\s*)([-*+]|\d+[.)])\s+")
+ITEM_IN_PARAGRAPH = re.compile(r"\s*([-*+]|1[.)])\s+")  # other numbers go on with the paragraph
 STARTS_BLOCK = re.compile(r"([-*+]|\d+[.)])$|#|>|\|")
 
 
@@ -74,8 +75,10 @@ def blocks(lines):
                 i += 1
         else:
             kind = "prose"
+            numbered = re.match(r"\s*\d", lines[i]) and ITEM.match(lines[i])
+            ends = ITEM if numbered else ITEM_IN_PARAGRAPH
             i += 1
-            while i < len(lines) and lines[i].strip() and not ITEM.match(lines[i]) and \
+            while i < len(lines) and lines[i].strip() and not ends.match(lines[i]) and \
                     not re.match(r"\s*(```|\||#+ |<!--|\$\$)", lines[i]) and not lines[i - 1].endswith("  "):
                 i += 1
             in_list = bool(ITEM.match(lines[begin])) or (in_list and lines[begin].startswith("  "))
@@ -202,7 +205,7 @@ def self_test():
     wrong = [f"expected '{what}', found '{fault}'" for what, fault in zip(expected, found) if what not in fault]
     if len(found) != len(expected):
         wrong.append(f"{len(found)} faults instead of {len(expected)}: {found}")
-    text = f"- {'a ' * 58}- b `code of words`\n  tail\n\n| t |\n| - |\n\nline one  \nline two\n"
+    text = f"See (1959)\n55) and {'b ' * 60}\n\n- {'a ' * 58}- b `code of words`\n  tail\n\n| t |\n| - |\n\nline one  \nline two\n"
     filled = wrap(text)
     if wrap(filled) != filled or any(len(line) > WIDTH for line in filled.split("\n")):
         wrong.append("filling is not idempotent, or too wide")
