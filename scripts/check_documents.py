@@ -15,7 +15,8 @@ import sys
 import tempfile
 
 WIDTH = 120
-DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/**/*.md", "cases/**/README.md")
+DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/**/*.md", "cases/**/README.md",
+             "studies/**/README.md")
 WRITTEN_BY_PROGRAMS = re.compile(r"docs/generated/(?!results\.md)|docs/manual/input_reference\.md")
 PART_OF_A_PROGRAM = ("<!-- begin of the part", "<!-- end of that part")  # in pages that are written by hand otherwise
 TIMELESS = re.compile(r"((cases/.*/)?README\.md|CONTRIBUTING\.md|docs/(manual|theory)/.*|docs/generated/results\.md)$")
@@ -171,7 +172,7 @@ def faults_of(root, path):
 
 def faults_of_mentions(root):
     """Yield the pages that comments of sources and documents name and that do not exist."""
-    folders = ("src", "eos", "md_fitting", "tests", "scripts", "docs", "cases", "cmake")
+    folders = ("src", "eos", "md_fitting", "tests", "scripts", "report", "studies", "docs", "cases", "cmake")
     for folder in folders:
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in (*SOURCES, ".md") and path.is_file() and path.name != pathlib.Path(__file__).name:
