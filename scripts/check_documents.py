@@ -91,8 +91,8 @@ def blocks(lines):
 
 
 def words(text):
-    """Split prose at spaces outside of code and formulas: these are not broken over lines."""
-    hidden = re.sub(r"`[^`]*`|\$[^$\n]+\$", lambda match: match.group(0).replace(" ", "\0"), text)
+    """Split prose at spaces outside of code and formulas: these are not broken over lines, unless they are long."""
+    hidden = re.sub(r"`[^`]{,60}`|\$[^$\n]+\$", lambda match: match.group(0).replace(" ", "\0"), text)
     return [word.replace("\0", " ") for word in hidden.split()]
 
 
