@@ -33,15 +33,17 @@ cmake --build --preset release --target exact_suite
 OMP_NUM_THREADS=1 build/release/tests/bin/exact_suite docs/generated/exact_suite.md
 ```
 
-The default scheme against exact solutions: every figure of each problem, good or bad. `test_exact` holds the coarser ones within
-bounds. "L1" is the mean of the absolute deviation from the exact solution at the place of the particle, over the volume of the matter (in octants over
-its mass); "orders" are those of the deviation between neighbouring columns. Problems and sources: `tests/verification/exact/`.
+The default scheme compared with exact solutions: all values of each problem. `test_exact` keeps the coarser ones within
+bounds. "L1" is the mean absolute deviation from the exact solution at the particle positions, averaged over the volume
+of the material (in octants over its mass); "orders" are those of the deviation between neighbouring columns. Problems
+and sources: `tests/verification/exact/`.
 
-Planar impacts with release: column of two cells by two between mirror planes, free ends, no strength. Figures in units of
-the exact value: specific internal energy e above that at the start, entropy above that at the start. "Plateau": beyond four cells from the contact and
-three from the free surface; "behind the shock": from three cells from the contact to six behind the front, late on its way; "first release": when the
-pressure of a particle first falls to 2 %: the heat of what follows (spall, gaps that close) is only in the other figures. Lead is released to where
-its isentrope first has no pressure on the model's own surface, not to the equilibrium of liquid and vapour.
+Planar impacts with release: column of two cells by two between mirror planes, free ends, no strength. Values are
+normalised by the exact ones; e is the gain of specific internal energy, entropy the gain of entropy. "Plateau": beyond
+four cells from the contact and three from the free surface; "behind the shock": from three cells from the contact to six
+behind the front, late in its propagation; "first release": when the pressure of a particle first falls to 2 %, before
+subsequent heating (spall, closing gaps), which is included in the other values only. Lead is released to the first zero
+of pressure on its isentrope on the surface of the model, not to the equilibrium of liquid and vapour.
 )";
 
 class Suite {
@@ -71,10 +73,10 @@ void write_table(const std::string& path, const std::string& only) {
   suite.add(
       "Sod's shock tube", "Ideal gas, gamma 1.4; errors per metre of the tube.",
       {[] { return sod(50); }, [] { return sod(100); }, [] { return sod(200); }, [] { return sod(400); }});
-  suite.add("Noh, planar", "Cold gas, gamma 5/3, stops at a wall. Errors over the values behind the shock.",
+  suite.add("Noh, planar", "Cold gas, gamma 5/3, stopped by a wall; errors relative to the state behind.",
             {[] { return noh_planar(100); }, [] { return noh_planar(200); }, [] { return noh_planar(400); }});
   suite.add(
-      "Noh, spherical", "The same to a centre, an octant between mirror planes.",
+      "Noh, spherical", "Cold gas converging to a centre, an octant between mirror planes.",
       {[] { return noh_spherical(12); }, [] { return noh_spherical(16); }, [] { return noh_spherical(24); }});
   suite.add("Sedov", "Blast in gas, gamma 1.4, an octant between mirror planes.",
             {[] { return sedov(12); }, [] { return sedov(16); }, [] { return sedov(24); }});
@@ -101,7 +103,7 @@ void write_table(const std::string& path, const std::string& only) {
       }
     }
     suite.add("Oblique impact: " + impact.name,
-              "Two bodies in free space, half overlapping; affine fields deformed (default) or turned.",
+              "Two bodies in free space, offset by half their width; affine fields deformed or turned.",
               runs);
   }
   io::write_text_atomically(path, suite.text());

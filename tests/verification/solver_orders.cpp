@@ -80,8 +80,8 @@ std::string cell(const ExactMotion& motion, const Method& method) {
 /// Of finite elements and of those that become particles.
 std::string elements() {
   std::string text = R"(
-Finite elements as wide as a cell. In the last row the left half of the elements become particles in the middle of the run, so that both
-meet in the middle of the body (docs/theory/afemp.md).
+Finite elements as wide as a cell. In the last row the left half of the elements become particles halfway through the
+run, so that the interface is in the middle of the body (docs/theory/afemp.md).
 
 | elements | vibrating bar | simple wave |
 | --- | --- | --- |
@@ -114,10 +114,10 @@ cmake --build --preset release --target orders_of_convergence
 build/release/tests/bin/orders_of_convergence docs/generated/orders_of_convergence.md
 ```
 
-Relative error of velocity and displacement (rms over the mass) on the finest grid, in brackets the orders log2 of the
+Relative error of velocity and displacement (rms over the mass) on the finest grid, in parentheses the orders log2 of the
 ratio of errors between 16, 32, 64 and 128 cells per side (manufactured waves: 8, 16, 32 and 64), time step 0.4 dx over
-the largest wave speed, 8 particles per cell, no artificial viscosity. Velocities start and are compared half a step
-before the positions (leapfrog), with `usf` stresses start a step before. Problems: docs/theory/mpm.md, section 7.5.
+the largest wave speed, 8 particles per cell, no artificial viscosity. Velocities are initialised and compared half a step
+before the positions (leapfrog); with `usf` stresses are initialised a step before. Problems: docs/theory/mpm.md, section 7.5.
 
 - **vibrating bar**: vanishing amplitude, no particle leaves its cell;
 - **manufactured waves**: two-dimensional standing waves of 3 % of the length, strains of 9 %, external acceleration;
