@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures of a run, as `whipple analyse` wrote them into analysis.h5 (docs/output.md). SI."""
+"""Measures of a run, as `whipple analyse` wrote them into analysis.h5 (docs/manual/output.md). SI."""
 import math
 import pathlib
 from dataclasses import dataclass, field

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Curves of the gauges and tracers of a run over time (gauges.csv, docs/output.md)."""
+"""Curves of the gauges and tracers of a run over time (gauges.csv, docs/manual/output.md)."""
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Folder of a run (docs/output.md): its text, history, index of snapshots and analysis."""
+"""Folder of a run (docs/manual/output.md): its text, history, index of snapshots and analysis."""
 import json
 import pathlib
 import tomllib

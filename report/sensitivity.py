@@ -42,7 +42,7 @@ def add_to(page: Page, analysis: Analysis | None, table: pathlib.Path = TABLE) -
         page.paragraph(f"This run: {size / analysis.cell_size:.3g} cells across the projectile.")
     studies = json.loads(table.read_text()) if table.is_file() else {}
     if studies:
-        page.paragraph("What the grid studies of the cases found (docs/results.md): half-width of the band of 95 % "
+        page.paragraph("What the grid studies of the cases found (docs/generated/results.md): half-width of the band of 95 % "
                        "over the value on the finest grid, and the change by the last refinement.")
         page.table(["quantity", "band, typical", "band, largest", "change, typical", "cells across the projectile",
                     "converged studies"], rows(studies), text_columns=(0,))

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Who may know whom: enforces the layers of docs/architecture.md from #include lines, CMake dependencies and
+"""Who may know whom: enforces the layers of docs/manual/architecture.md from #include lines, CMake dependencies and
 imports of Python.
 
 Usage: check_layers.py [ROOT]      check the tree (default: the one that this script belongs to)
@@ -123,7 +123,7 @@ def check_sources(root):
     for path in sources(root):
         module = module_of(path)
         if module is None:
-            faults.append(f"{path}: this folder is in no layer: add it to MAY_USE and to docs/architecture.md")
+            faults.append(f"{path}: this folder is in no layer: add it to MAY_USE and to docs/manual/architecture.md")
             continue
         includes[path] = []
         for number, line in code_lines((root / path).read_text(encoding="utf-8")):

@@ -4,7 +4,7 @@
 
 usage: frozen_parameters.py [--defaults] [--digest]
 
-The set is that of the defaults of the program, as docs/input_reference.md has them (a test keeps that page equal to
+The set is that of the defaults of the program, as docs/manual/input_reference.md has them (a test keeps that page equal to
 `whipple describe --markdown`). A case may depart from it only with a reason in [overrides] of its expected.toml; a run
 marked `sensitivity = true` may depart freely, for it counts in no summary. Lists all departures; exit code 1 if one has
 no reason, or a reason has no departure.

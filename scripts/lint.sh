@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Format and static checks. usage: scripts/lint.sh [--format-only] [--fix] [FILE.cpp...]
-# Without files all are checked; clang-tidy takes minutes then, and needs a configured build/release.
+# Format, documents and static checks. usage: scripts/lint.sh [--format-only] [--fix] [FILE.cpp...]
+# Without files all are checked, documents too; clang-tidy takes minutes then, and needs a configured build/release.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -18,6 +18,7 @@ for argument in "$@"; do
   esac
 done
 if ((${#files[@]} == 0)); then
+  scripts/check_documents.py
   mapfile -t files < <(git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp' '*.inl')
 fi
 if ! command -v clang-format-19 >/dev/null; then

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the cases, gives every number a band, compares with expected.toml, and writes the tables of docs/results.md.
+"""Runs the cases, gives every number a band, compares with expected.toml, and writes the tables of docs/generated/results.md.
 
 usage: results.py [CASE[:RUN]]... [--resolution coarse|normal|fine | --band] [--run] [--any-source] [--threads N]
                   [--write] [--list] [--cost] [--check-fresh]
@@ -8,11 +8,11 @@ usage: results.py [CASE[:RUN]]... [--resolution coarse|normal|fine | --band] [--
 Without --run, runs that are there are compared. A run lies in run/results/CASE/RUN.VARIANT; a variant is a resolution,
 a position of the lattice or a moving frame. --band takes all variants of a run: three grids and what [band] of
 expected.toml declares of a headline, two grids of others. A run is repeated if its command, case, a material or the C++
-under src/ or eos/ has changed since; --any-source lets the last pass. --write renews docs/results.json with the runs that
+under src/ or eos/ has changed since; --any-source lets the last pass. --write renews docs/generated/results.json with the runs that
 are there, and from it the page and report/grid_sensitivity.json; runs that are not here keep their tables, marked where
 they are out of date. --check-fresh runs nothing: exit code 1 if a table belongs to another case or material, or the page
 to other data.
-Format of expected.toml: docs/how_to/expected_results.md; bands and marks: docs/theory/uncertainty.md.
+Format of expected.toml: docs/manual/expected_results.md; bands and marks: docs/theory/uncertainty.md.
 Exit code 1 if a run failed, 2 for bad input; a difference from an experiment is a result, not an error.
 """
 import argparse
@@ -111,7 +111,7 @@ def main():
     parser.add_argument("--run", action="store_true", help="run what is missing or out of date")
     parser.add_argument("--any-source", action="store_true", help="keep runs of an older source")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
-    parser.add_argument("--write", action="store_true", help="renew docs/results.json and docs/results.md")
+    parser.add_argument("--write", action="store_true", help="renew docs/generated/results.json and docs/generated/results.md")
     parser.add_argument("--list", action="store_true", help="list cases and runs")
     parser.add_argument("--cost", action="store_true", help="with --list: particles and steps by `whipple check`")
     parser.add_argument("--check-fresh", action="store_true", help="whether the written tables belong to the cases")

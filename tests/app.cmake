@@ -6,10 +6,13 @@ whipple_test(app_planar_impact_test SOURCES unit/app_planar_impact_test.cpp DEPE
 whipple_test(foreign_files_test SOURCES fuzz/foreign_files.cpp DEPENDS whipple_app GTest::gmock LABELS fast)
 add_dependencies(app_command_line_test whipple whipple-md whipple-fit)
 
-# Who may know whom (docs/architecture.md), and that the checker finds violations.
+# Which module may depend on which (docs/manual/architecture.md), and that the checker finds violations.
 add_test(NAME layers COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_layers.py)
 add_test(NAME layers_self_test COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_layers.py --self-test)
-set_tests_properties(layers layers_self_test PROPERTIES LABELS fast)
+# Links, widths and no diary in the documents, and that the checker finds violations.
+add_test(NAME documents COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_documents.py)
+add_test(NAME documents_self_test COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/scripts/check_documents.py --self-test)
+set_tests_properties(layers layers_self_test documents documents_self_test PROPERTIES LABELS fast)
 
 if(WHIPPLE_PYTHON)
   add_test(NAME studies COMMAND ${WHIPPLE_PYTHON} -m unittest discover -s studies/tests -t .

@@ -17,12 +17,12 @@ whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp 
              DEPENDS whipple_run LABELS fast)
 whipple_test(test_contact_sweep STARTS_MPI SOURCES verification/solver_gap_sweep_test.cpp
              DEPENDS whipple_solver LABELS long)
-# Files alone, for many trials with sanitizers (docs/testing.md); the tests above hold the same.
+# Files alone, for many trials with sanitizers (docs/manual/testing.md); the tests above hold the same.
 add_executable(fuzz EXCLUDE_FROM_ALL fuzz/case_fuzz.cpp fuzz/input_fuzz.cpp fuzz/io_checkpoint_damage.cpp fuzz/foreign_files.cpp)
 target_link_libraries(fuzz PRIVATE whipple_flags whipple_app GTest::gmock GTest::gtest_main)
 target_compile_definitions(fuzz PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.cpp verification/solver_finest_orders_test.cpp DEPENDS whipple_solver LABELS long)
-# Writes docs/orders_of_convergence.md; a program of its own, as it takes minutes.
+# Writes docs/generated/orders_of_convergence.md; a program of its own, as it takes minutes.
 add_executable(orders_of_convergence EXCLUDE_FROM_ALL verification/solver_orders.cpp)
 target_link_libraries(orders_of_convergence PRIVATE whipple_flags whipple_solver)
 whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_case_test.cpp unit/case_check_test.cpp unit/case_shape_test.cpp unit/case_remarks_test.cpp
@@ -58,7 +58,7 @@ if(WHIPPLE_PYTHON)
   endforeach()
 endif()
 
-# Problems with exact solutions: sources shared by the tests and by the program that writes docs/exact_suite.md.
+# Problems with exact solutions: sources shared by the tests and the program that writes docs/generated/exact_suite.md.
 add_library(whipple_exact STATIC EXCLUDE_FROM_ALL
   verification/exact/result.cpp verification/exact/gas_solutions.cpp verification/exact/gas_problems.cpp
   verification/exact/planar_impact.cpp verification/exact/piston.cpp verification/exact/oblique_impact.cpp)

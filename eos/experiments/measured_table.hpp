@@ -29,7 +29,7 @@ enum class Quantity {
   hugoniot_cubic,       ///< S3
 };
 
-/// A text table of measurements, as people and programs write them (docs/how_to/equations_of_state.md,
+/// A text table of measurements, as people and programs write them (docs/manual/equations_of_state.md,
 /// "Measured data"). Cells are separated by semicolons, tabs, commas or blanks, whichever of them the line of
 /// headings holds first in this order; blanks around cells, quotes, a byte order mark, CRLF, empty lines and
 /// comments (#, %) are taken off. A heading names a quantity and its unit: "up [km/s]", "up (km/s)",

@@ -7,7 +7,7 @@
 
 #include "eos/table/sesame_data.hpp"
 
-/// Files of the SESAME library in their ASCII layout of 80 columns (docs/output.md, section "SESAME files").
+/// Files of the SESAME library in their ASCII layout of 80 columns (docs/manual/output.md, section "SESAME files").
 namespace whipple::eos {
 
 /// One material of a file; its tables 101, 201, 301 and 401, others are passed over.

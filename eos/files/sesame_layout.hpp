@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-/// The layout of SESAME files (docs/output.md), for reading and writing.
+/// The layout of SESAME files (docs/manual/output.md), for reading and writing.
 namespace whipple::eos::sesame_layout {
 
 // Units of the files (Lyon and Johnson, LA-UR-92-3407).

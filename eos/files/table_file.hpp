@@ -7,7 +7,7 @@
 
 #include "eos/table/builder.hpp"
 
-/// Tables of equations of state as files (schema: docs/output.md).
+/// Tables of equations of state as files (schema: docs/manual/output.md).
 namespace whipple::eos {
 
 struct TableFile {

@@ -8,8 +8,8 @@ namespace whipple::eos {
 /// The coldest state that the model describes at a density: a point of the cold curve.
 State cold_state(const EquationOfState& eos, double density);
 
-/// What the cold curve of condensed matter says: where it is at rest, how far it may be compressed and
-/// stretched.
+/// Characteristic states of the cold curve of condensed material: zero pressure, compression limit and limit
+/// in tension.
 struct ColdCurve {
   State at_rest;            ///< p = 0
   State tension_limit;      ///< least pressure: the ideal strength in tension; without phase if there is none

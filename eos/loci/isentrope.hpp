@@ -18,7 +18,8 @@ struct IsentropeState {
 std::vector<IsentropeState> isentrope(const EquationOfState& eos, const State& start,
                                       const std::vector<double>& densities);
 
-/// The same up or down to a pressure, on the model's own surface (a liquid may bear tension).
+/// Follows the isentrope up or down to a pressure, on the surface of the model itself (a liquid may carry
+/// tension).
 /// @throws StateError if the isentrope turns around before it reaches the pressure; the message says where
 IsentropeState isentrope_at_pressure(const EquationOfState& eos, const State& start, double pressure);
 

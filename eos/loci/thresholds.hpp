@@ -7,7 +7,7 @@
 
 namespace whipple::eos {
 
-/// Where the principal Hugoniot enters and leaves the melting region.
+/// Onset and completion of melting on the principal Hugoniot.
 struct ShockMelting {
   ShockState onset;
   ShockState completion;

@@ -57,7 +57,7 @@ ParameterTable<DebyeGruneisenConstants> DebyeGruneisen::parameters() {
   };
 }
 
-/// What depends on the volume alone.
+/// Quantities that depend on the volume alone.
 struct DebyeGruneisen::Isochore {
   double volume = 0;                          ///< m^3/kg
   double log_ratio = 0;                       ///< ln(V/V0)

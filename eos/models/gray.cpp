@@ -16,7 +16,7 @@
 namespace whipple::eos {
 namespace {
 
-/// What a batch needs, of one point or of four.
+/// Results of one point or of four, as a batch requires them.
 template <class Number>
 struct Evaluated {
   Number V{}, E{}, T{}, P{};
@@ -262,7 +262,7 @@ Gray::FourPoints Gray::four_points(Lanes V, Lanes E) const {
 
 namespace {
 
-/// Which bound a state broke that four_points() did not compute.
+/// Returns the bound violated by a state that four_points() did not compute.
 std::string_view broken_bound(double V, double E, double least_volume) {
   if (!(V > 0) || !std::isfinite(V)) return "density must be positive and finite";
   if (!std::isfinite(E)) return "specific internal energy must be finite";

@@ -42,8 +42,8 @@ struct GrayConstants {
   double join_volume_ratio = 1.3;  ///< V_J/V0
   double covolume_ratio = 0.5;     ///< V_b/V0
   double join_shape = 1.0;         ///< theta
-  /// Where a_y comes from: "attraction" (as given), "critical" (the complete model has its critical point at
-  /// `critical_temperature`) or "boiling" (it boils at `boiling_temperature` under 101325 Pa).
+  /// Condition that determines a_y: "attraction" (as given), "critical" (the complete model has its critical
+  /// point at `critical_temperature`) or "boiling" (it boils at `boiling_temperature` under 101325 Pa).
   std::string vapour = "attraction";
   double vapour_attraction = not_given;     ///< a_y, J m^3/kg^2
   double critical_temperature = not_given;  ///< K

@@ -66,7 +66,7 @@ template <class Number>
 BasicGrayBranch<Number> gray_vapour_branch(const GrayConstants& constants, const GrayBranch& liquid_at_join,
                                            Number V);
 
-/// What the condensed phases share on the isochore V <= V_J.
+/// Common quantities of the condensed phases on the isochore V <= V_J.
 template <class Number>
 struct BasicGrayIsochore {
   Number V{};

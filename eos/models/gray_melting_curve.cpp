@@ -16,7 +16,7 @@ namespace whipple::eos {
 namespace {
 
 constexpr int intervals = 512;
-/// Of the melting temperature: a curve must reach further.
+/// Least extent of a curve relative to the melting temperature.
 constexpr double least_reach = 1.05;
 
 /// Common tangent at one temperature, with its derivatives along the curve.

@@ -30,7 +30,7 @@ struct PowerIsentrope {
   [[nodiscard]] double maximum_density() const { return greatest_compression_ratio * density; }
 };
 
-/// What models on such an isentrope share.
+/// Common part of the models on such an isentrope.
 template <class ConstantsOfModel>
 class PowerIsentropeCurve {
  public:

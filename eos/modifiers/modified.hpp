@@ -49,7 +49,7 @@ class Modified : public EquationOfState {
     return base_->constants() + "\n[[eos.modifier]]\nmodel = \"" + std::string(M::name) + "\"\n" +
            to_toml(whipple::bind(M::parameters(), values));
   }
-  /// What `base()` unloads on, in a modifier of the same kind.
+  /// Returns the surface on which `base()` unloads, wrapped in a modifier of the same kind.
   template <class M>
   [[nodiscard]] std::unique_ptr<EquationOfState> unloading_with(const State& from,
                                                                 const typename M::Constants& values) const {

@@ -65,7 +65,7 @@ class PAlpha final : public Modified {
   /// The crush curve and its inverse (Pa).
   [[nodiscard]] double distension_at(double pressure) const;
   [[nodiscard]] double crush_pressure(double distension) const;
-  /// Where the pores are closed (Pa).
+  /// Returns the pressure at which the pores are closed (Pa).
   [[nodiscard]] double closing_pressure() const { return closing_pressure_; }
 
  private:

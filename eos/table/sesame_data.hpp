@@ -7,7 +7,7 @@
 #include "eos/equation_of_state.hpp"
 
 /// Tables of the SESAME library (Lyon and Johnson, LA-UR-92-3407, 1992): pressure, energy and Helmholtz
-/// energy on a grid of density and temperature. SI here; Mg/m^3, K, GPa and MJ/kg in files (docs/output.md).
+/// energy on a grid of density and temperature. SI here; Mg/m^3, K, GPa and MJ/kg in files (docs/manual/output.md).
 namespace whipple::eos {
 
 /// Table 301. Both axes rise strictly; values of the density i and the temperature j at [j * nr + i].

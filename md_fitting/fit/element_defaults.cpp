@@ -19,7 +19,7 @@ constexpr std::string_view sommerfeld =
     "calorimetry at low temperature: Kittel, Introduction to Solid State Physics, 8th ed. (2005), chapter 6, "
     "table 2";
 constexpr std::string_view not_when_hot =
-    "the coefficient of low temperature does not hold at thousands of kelvin (docs/materials.md, section 2)";
+    "the coefficient of low temperature does not hold at thousands of kelvin (docs/manual/materials.md, section 2)";
 constexpr std::string_view boiling = "CRC Handbook of Chemistry and Physics, 95th ed. (2014)";
 constexpr std::string_view debye =
     "Kittel, Introduction to Solid State Physics, 8th ed. (2005), chapter 5, table 1";

@@ -33,7 +33,7 @@ ShapeFunctions shape_functions(const Vector3& xi) {
   return n;
 }
 
-/// Of the eight places of particles, in the order of the corners.
+/// Returns the shape functions at the eight particle positions, in the order of the corners.
 const std::array<ShapeFunctions, corner_count>& at_particles() {
   static const auto all = [] {
     std::array<ShapeFunctions, corner_count> functions;
@@ -46,7 +46,7 @@ const std::array<ShapeFunctions, corner_count>& at_particles() {
   return all;
 }
 
-/// What the corners bring: their shares of the nodes' mass with the nodes' motion.
+/// Contribution of a corner: its part of the nodal mass with the motion of the node.
 struct Corner {
   double mass;
   Vector3 position, velocity;

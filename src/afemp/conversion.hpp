@@ -23,13 +23,13 @@ struct Thresholds {
   bool failed = false;           ///< a Gauss point has failed
 };
 
-/// Which elements pass a threshold: one entry per element, != 0 if so.
+/// Returns which elements exceed a threshold: one entry per element, nonzero if so.
 /// @param grid_time_step s, stable on the grid; infinite if there is nothing on it
 std::vector<std::uint8_t> distorted_elements(const fem::Mesh& mesh, const Thresholds& thresholds,
                                              const fem::ViscosityCoefficients& viscosity,
                                              double grid_time_step);
 
-/// What conversions did.
+/// Balance of the conversions.
 struct ConversionBalance {
   std::size_t elements = 0;
   double mass = 0.0;              ///< kg, of the converted elements

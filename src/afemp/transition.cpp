@@ -118,7 +118,8 @@ bool inside(const grid::Geometry& geometry, const Vector3& position) {
   return true;
 }
 
-/// Is every prescribed component that of a mirror plane on which the node lies, which the grid keeps as well?
+/// Returns whether every prescribed component is that of a mirror plane containing the node, which the grid
+/// enforces as well.
 bool keeps_to_planes_only(const fem::Nodes& nodes, std::size_t a, const grid::Geometry& geometry) {
   for (int axis = 0; axis < 3; ++axis) {
     if ((nodes.constrained[a] & fem::constraint::axis(axis)) == 0) continue;

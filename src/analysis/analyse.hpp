@@ -26,7 +26,7 @@ struct Options {
 
 /// Measures a run and writes into `folder`: quantities.csv (final values), series.csv (a row per snapshot),
 /// bodies.csv, fragments.csv, fragment_distribution.csv, profile.csv, peak_pressure.csv and witness_*.csv
-/// where asked for, and analysis.h5 with all of them and the radiographs (docs/output.md).
+/// where asked for, and analysis.h5 with all of them and the radiographs (docs/manual/output.md).
 /// @throws InputError if the run has no snapshots, a body of the options is not in it, or the output cannot
 /// be written
 void analyse(const Run& run, const Options& options, const std::filesystem::path& folder);

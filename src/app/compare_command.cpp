@@ -263,7 +263,7 @@ void add_compare_command(CLI::App& app) {
   command->add_option("materials", options->materials, "Material files, or names of the library")->required();
   command
       ->add_option("--with", options->experiments,
-                   "Tables of measurements (docs/how_to/equations_of_state.md), or names of those that come "
+                   "Tables of measurements (docs/manual/equations_of_state.md), or names of those that come "
                    "with the program (eos/data); a "
                    "material that some of them were measured on is compared with those only")
       ->required();

@@ -85,7 +85,7 @@ std::string block(const std::string& text) {
   return fmt::format("```text\n{}{}```\n\n", text, text.ends_with('\n') ? "" : "\n");
 }
 
-/// docs/input_reference.md
+/// docs/manual/input_reference.md
 std::string manual() {
   std::string page =
       "# Input reference\n\n"
@@ -129,7 +129,7 @@ void add_describe_command(CLI::App& app) {
       app.add_subcommand("describe", "Every key of the inputs: unit, range, default, meaning");
   command->add_option("topic", options->topic, "One of case, shape, eos, modifier, strength, failure, md");
   command->add_option("name", options->name, "A model, criterion or shape");
-  command->add_flag("--markdown", options->markdown, "Everything, as the page docs/input_reference.md");
+  command->add_flag("--markdown", options->markdown, "Everything, as the page docs/manual/input_reference.md");
   command->footer("Example:\n  whipple describe eos gray");
   command->callback([options] { describe_inputs(*options); });
 }

@@ -43,7 +43,7 @@ void add_materials_command(CLI::App& app) {
   command->footer("Example:\n  whipple materials\n  whipple materials --markdown");
   const auto markdown = std::make_shared<bool>(false);
   command->add_flag("--markdown", *markdown,
-                    "Tables of what the equations of state say (docs/materials.md), in Markdown");
+                    "Tables of what the equations of state say (docs/manual/materials.md), in Markdown");
   command->callback([markdown] {
     if (*markdown) {
       fmt::print("{}", library_as_markdown());

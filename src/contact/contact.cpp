@@ -87,8 +87,9 @@ struct Meeting {
   double share;  // of the step in which they touch
 };
 
-/// Which fields are stopped by impulses: those without relaxation, such as of elements, those whose matter is
-/// loose, and what touches them. Mixed, they would keep what they are apart by (docs/theory/contact.md, 5).
+/// Selects the fields that are stopped by impulses: those without relaxation, such as those of elements,
+/// those of fragmented material, and whatever touches them. Mixed, they would retain their velocity
+/// difference (docs/theory/contact.md, 5).
 /// @param least  relaxation of each side below which it is loose
 void choose(Response response, const std::vector<Side>& sides, const std::vector<double>& least,
             const std::vector<Meeting>& meetings, std::vector<std::uint8_t>& by_impulses) {

@@ -15,7 +15,7 @@
 /// Contact of bodies with velocity fields of their own (docs/theory/contact.md).
 namespace whipple::contact {
 
-/// What bodies do at a node where their surfaces touch.
+/// Response of bodies at a node where their surfaces touch.
 enum class Response : std::uint8_t {
   common_field,  ///< while they press they have one velocity along the normal
   impulses,      ///< each has its own, and impulses stop them
@@ -44,7 +44,7 @@ class Contact {
     surfaces_.find(settings_.normal, shape, particles, elements, grid, dt);
   }
 
-  /// Do the surfaces of two fields, by their numbers in a contact slot, touch at a node?
+  /// Returns whether the surfaces of two fields, by their numbers in a contact slot, touch at a node.
   [[nodiscard]] bool touch(const grid::BlockGrid& grid, std::size_t contact_slot, std::size_t node,
                            std::size_t first, std::size_t second) const;
 

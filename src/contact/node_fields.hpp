@@ -11,7 +11,7 @@ constexpr double no_mass = 1e-300;  // kg
 
 inline Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
 
-/// What contact did in a step on this rank.
+/// Balance of contact in a step on this rank.
 struct Balance {
   double contact_heat = 0.0;      ///< J, lost by the normal impulses
   double friction_heat = 0.0;     ///< J, lost by the tangential impulses

@@ -9,11 +9,12 @@
 
 namespace whipple::contact {
 
-/// Do particles reach nodes of a slot from both sides of a mirror plane? Their sums are folded later.
+/// Returns whether particles reach nodes of a slot from both sides of a mirror plane, so that their sums are
+/// folded later.
 bool near_planes(const grid::BlockGrid& grid, std::uint32_t slot);
 
-/// Do two fields, the only ones at a node, part along all normals that are tried, and do the forces not press
-/// them? Then there is no impulse, whatever the gap (docs/theory/contact.md, 4).
+/// Returns whether two fields, the only ones at a node, separate along all candidate normals without being
+/// compressed by the forces; then there is no impulse, whatever the gap (docs/theory/contact.md, 4).
 /// @param a, b  numbers of the fields among those of the slot
 bool parts(const grid::BlockGrid& grid, std::uint32_t slot, std::size_t node, std::size_t a, std::size_t b,
            std::span<const Vector3> normals, double dt);

@@ -240,7 +240,7 @@ void for_each_place(const Particles& particles, const grid::BlockGrid& grid, con
   });
 }
 
-/// The same for points on surfaces of elements, which work with B-splines only.
+/// Visits the points on surfaces of elements, which use B-splines only.
 template <class Shape, class AtPoint>
 void for_each_place(const PlacedPoints& placed, const grid::BlockGrid& grid, const NodesThatMatter& matter,
                     AtPoint&& at_point) {

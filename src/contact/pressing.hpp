@@ -30,7 +30,7 @@ class Pressing {
   void add(std::size_t a, std::size_t b, const Vector3& normal, double share);
   /// Changes velocities, increments and relaxations of the fields that press, and books what that takes.
   void apply(Balance& balance);
-  /// Do fields press, after `apply`?
+  /// Returns whether fields are under compression, after `apply`.
   [[nodiscard]] bool presses() const { return !pairs_.empty(); }
   /// J: what all changes of the fields since `begin`, of `apply` and after it, lose (4.7). If fields press.
   [[nodiscard]] double lost() const;

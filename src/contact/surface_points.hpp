@@ -18,7 +18,7 @@ namespace whipple::contact {
 class BlocksAtContact {
  public:
   explicit BlocksAtContact(const grid::BlockGrid& grid);
-  /// Do they meet a box (m)?
+  /// Returns whether the points intersect a box (m).
   [[nodiscard]] bool meet(const Vector3& lower, const Vector3& upper) const;
 
  private:

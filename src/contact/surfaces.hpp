@@ -14,7 +14,7 @@
 
 namespace whipple::contact {
 
-/// How the normal between two bodies at a node is found (docs/theory/contact.md, 3).
+/// Method to determine the normal between two bodies at a node (docs/theory/contact.md, 3).
 enum class Normal : std::uint8_t {
   collinear,            ///< mean of the unit normals of both
   separating,           ///< of one body, the other, or their mean: along which they are farthest apart
@@ -26,10 +26,10 @@ constexpr std::array<Word<Normal>, 3> words(Normal) {
            {Normal::logistic_regression, "logistic_regression"}}};
 }
 
-/// Where the surfaces of the velocity fields are, at the nodes of the contact slots.
+/// Surfaces of the velocity fields at the nodes of the contact slots.
 class Surfaces {
  public:
-  /// What is known of two fields, a before b, at a node.
+  /// Geometry of two fields, a before b, at a node.
   struct Gap {
     Vector3 normal = Vector3::Zero();  ///< unit, from a to b; zero where it is not defined
     double width = 0.0;                ///< m, between their surfaces along it; negative where they overlap

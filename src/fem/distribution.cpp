@@ -198,7 +198,7 @@ void SharedNodes::drop_inner_facets(std::span<const Mesh> meshes,
   }
 }
 
-/// Of each place: is this rank the lowest with a copy?
+/// Returns for each shared node whether this rank is the lowest with a copy.
 std::vector<std::uint8_t> SharedNodes::kept_here() const {
   std::vector<std::uint8_t> kept(places_.size(), 1);
   for (const Peer& peer : peers_) {

@@ -106,7 +106,7 @@ void keep_share(Bars& bars, int rank, int ranks);
 /// Sends every element to the rank that is named for it, with copies of its nodes; brings those of each rank
 /// into an order that keeps neighbours together. Collective.
 void migrate(Mesh& mesh, std::span<const int> destination, MPI_Comm communicator);
-/// The same for bars, in the order of their ids.
+/// Migrates bars, in the order of their ids. Collective.
 void migrate(Bars& bars, std::span<const int> destination, MPI_Comm communicator);
 
 /// The inverse of `numbered_together`, of a mesh of which every rank has read any consecutive nodes and any

@@ -23,7 +23,7 @@ namespace whipple::fem {
 
 inline constexpr double root8 = 2.8284271247461900976;  ///< norm of a mode's corner values
 
-/// What does not change from one group of elements to the next.
+/// Quantities that are the same for all groups of elements.
 struct DeformationStep {
   Mesh& mesh;
   double dt;

@@ -91,7 +91,7 @@ class BlockField {
     for (; s < values.size(); ++s) values[s] = Vector3(at_[0][s], at_[1][s], at_[2][s]);
   }
 
-  /// What was copied, by the modes of a group.
+  /// Copied values of a group, as modes.
   class OfGroup {
    public:
     OfGroup(BlockField& field, const Group& group) : field_(field), group_(group) {
@@ -103,7 +103,7 @@ class BlockField {
         }
       }
     }
-    /// Of one component of the field: few numbers, which stay in registers.
+    /// Returns one component of the field as modes: few numbers, which stay in registers.
     [[nodiscard]] WHIPPLE_INLINE std::array<Vector, 7> component(std::size_t i) const {
       std::array<Vector, 8> u;
       for (std::size_t a = 0; a < 8; ++a) {
@@ -307,7 +307,8 @@ struct Tally {
   }
 };
 
-/// What the plastic strain since the last step leaves of the hourglass forces (eq. 3.7); marks it as done.
+/// Returns the factor by which the plastic strain since the last step reduces the hourglass forces (eq. 3.7),
+/// and marks it as applied.
 /// @param modulus  rho c^2
 WHIPPLE_INLINE inline Vector return_factor(const Group& group, Elements& elements, const GaussPoints& points,
                                            const Columns<Vector>& deviator, const Vector& modulus) {
@@ -319,7 +320,7 @@ WHIPPLE_INLINE inline Vector return_factor(const Group& group, Elements& element
   return overshoot > 0.0 ? equivalent / (equivalent + overshoot) : in_all(1.0);
 }
 
-/// What moves the corners of a group.
+/// Fields at the corners of a group that determine its motion.
 struct Fields {
   BlockField::OfGroup position, mean_velocity, end_velocity;
 };
@@ -533,7 +534,7 @@ struct ForcesOfBBar {
   }
 };
 
-/// Has a part of what the next block copies of its nodes fetched: group g's share of it.
+/// Prefetches part g of the node data that the next block copies.
 template <class... Fields>
 WHIPPLE_INLINE inline void prefetch_next_block(const Mesh& mesh, std::size_t block, std::size_t g,
                                                const Fields&... fields) {

@@ -220,7 +220,7 @@ template <class T>
   return g.volume / root((2.0 / 3.0) * g.squared_norm());
 }
 
-/// What eight Gauss points say about the size of an element.
+/// Measures of the size of an element from eight Gauss points.
 template <class T>
 struct EightPointSize {
   T length;          ///< m (eq. 5.4); the edge of a cube

@@ -64,7 +64,8 @@ std::string inversion(const Modes<double>& x) {
   return {};
 }
 
-/// Of each element, how many from it on are a row: each corner of the next one is the next slot.
+/// Returns for each element the number of elements from it on that form a row, in which each corner of the
+/// next one is the next slot.
 std::vector<std::uint32_t> row_lengths(std::span<const Corners> slots) {
   std::vector<std::uint32_t> length(slots.size(), 1);
   for (std::size_t e = slots.size() - 1; e-- > 0;) {

@@ -28,7 +28,7 @@ struct Hexahedra {
   std::vector<Corners> elements;
 };
 
-/// How the integrals over an element are taken.
+/// Quadrature of the integrals over an element.
 enum class Quadrature : std::uint8_t {
   one_point,  ///< mean gradient of Flanagan & Belytschko, with hourglass control
   b_bar,      ///< 2 x 2 x 2 Gauss points, volumetric strain of the element's mean (Hughes' B-bar)
@@ -128,10 +128,10 @@ struct ElementGroup {
   std::uint16_t count;  ///< of elements
   std::uint8_t is_row;  ///< corner a of its elements: consecutive slots
   std::uint8_t along;   ///< 1 xi, 2 eta, 3 zeta: of rows in which each shares a face with the next; else 0
-  /// Of each corner of each element, counted in the block; of lanes without an element, 0.
+  /// Slot of each corner of each element, counted within the block; 0 for lanes without an element.
   std::array<std::array<std::uint16_t, size>, 8> slot;
-  /// Of each corner, where kernels find what all elements have there, one after the other: their slots if
-  /// they are a row, else `gathered_place`.
+  /// Location, for each corner, of the contiguous values of all elements: their slots if they are a row,
+  /// otherwise `gathered_place`.
   std::array<std::uint16_t, 8> place;
 
   static constexpr std::size_t gathered_place(std::size_t corner);
@@ -208,8 +208,8 @@ Mesh make_mesh(const Hexahedra& hexahedra, Quadrature quadrature, std::uint32_t 
 /// Masses of Gauss points (density times volume, kg/m^3) and lumped masses of the nodes.
 void set_density(Mesh& mesh, double density);
 
-/// What belongs to an element of a corner's node: its share of the lumped mass (kg), by row sums with the
-/// element's own quadrature: m/8 with one point, sum of N_a m_q over the Gauss points with eight.
+/// Returns the contribution of an element to the lumped mass (kg) of a corner's node, by row sums with the
+/// element's own quadrature: m/8 with one point, the sum of N_a m_q over the Gauss points with eight.
 double corner_mass(const Mesh& mesh, std::size_t element, std::size_t corner);
 
 /// Rebuilds what is derived from the corners; needed after the corners were set or read.

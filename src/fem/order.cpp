@@ -20,7 +20,7 @@ struct Faces {
 constexpr std::array<Faces, 3> faces = {
     {{{0, 3, 7, 4}, {1, 2, 6, 5}}, {{0, 1, 5, 4}, {3, 2, 6, 7}}, {{0, 1, 2, 3}, {4, 5, 6, 7}}}};
 
-/// What follows each item, and what comes before it, or `none`.
+/// Successor and predecessor of each item, or `none`.
 struct Links {
   std::vector<std::uint32_t> next, previous;
 

@@ -41,7 +41,7 @@ struct ViscosityCoefficients {
 /// the longitudinal sound speed and the element's length, xi of the artificial viscosity (eq. 5.1 to 5.4).
 /// Needs lengths (`make_mesh`, `deform`) and states. Infinite without elements.
 double critical_time_step(const Mesh& mesh, const ViscosityCoefficients& viscosity);
-/// The same for one element.
+/// Returns the critical time step of one element.
 double critical_time_step(const Mesh& mesh, std::size_t element, const ViscosityCoefficients& viscosity);
 
 /// Forces of stresses and hourglass control on the nodes, into `nodes.force` (eq. 2.6, 3.5, 4.2).
@@ -53,7 +53,7 @@ struct Motion {
   std::vector<Vector3> end;   ///< m/s, after the forces: displacement and strain of the step
 };
 
-/// What boundary conditions did in a step.
+/// Balance of the boundary conditions in a step.
 struct ConstraintBalance {
   Vector3 impulse = Vector3::Zero();  ///< N s, on the body
   double work = 0.0;                  ///< J, on the body
@@ -72,7 +72,7 @@ inline ConstraintBalance advance_velocities(Mesh& mesh, double dt, Motion& motio
   return advance_velocities(mesh.nodes, dt, motion, elsewhere);
 }
 
-/// The same for one node, by its acceleration (m/s^2): of a node whose force is shared among ranks.
+/// Advances one node by its acceleration (m/s^2), for a node whose force is shared among ranks.
 ConstraintBalance advance_velocity(Nodes& nodes, std::size_t node, const Vector3& acceleration, double dt,
                                    Motion& motion);
 
@@ -89,7 +89,7 @@ struct VelocityGradients {
   [[nodiscard]] std::array<const double*, 9> from(std::size_t first) const;
 };
 
-/// What the deformation of a step did to the elements.
+/// Effects of the deformation of a step on the elements.
 struct DeformationReport {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   double work = 0.0;  ///< J, of the stresses, into internal energy

@@ -98,7 +98,7 @@ struct Section {
         ring(divisions((1.0 - core_middle) * outer_radius, size)),
         radius(outer_radius) {}
 
-  /// Of the square core with bulged edges, u and v from 0 on the axis to 1 on the edge.
+  /// Returns a point of the square core with curved edges, with u and v from 0 on the axis to 1 at the edge.
   [[nodiscard]] Vector3 core_point(double u, double v) const {
     const double corner = core_corner * radius * std::sqrt(0.5), bulge = core_middle * radius - corner;
     return {u * (corner + bulge * (1.0 - v * v)), v * (corner + bulge * (1.0 - u * u)), 0.0};

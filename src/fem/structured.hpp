@@ -12,8 +12,7 @@
 /// that the volume is that of the body.
 namespace whipple::fem {
 
-/// Which half of a body along each axis is made: all, or what lies at positive coordinates (models with
-/// symmetry planes).
+/// Axes along which only the half at positive coordinates is meshed (models with symmetry planes).
 using Halved = std::array<bool, 3>;
 
 /// @throws InputError if the box is empty or a count is 0

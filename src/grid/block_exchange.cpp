@@ -14,7 +14,7 @@ namespace {
 
 constexpr int tag_of_nodes = 11, tag_of_values = 12;
 
-/// Where the values of each shared slot begin, and the end.
+/// Returns where the values of each shared slot begin in a buffer, and the end of the last.
 template <class Size>
 std::vector<std::size_t> begins(const std::vector<std::uint32_t>& shared, Size&& size) {
   std::vector<std::size_t> begin(shared.size() + 1, 0);

@@ -171,9 +171,9 @@ void BlockGrid::find_mirror_nodes() {
   }
 }
 
-/// What other ranks wait for is complete when the slots around it have brought their part, and what mirror
-/// planes fold onto it. (While all fields share the nodes, the planes connect at least as many slots as
-/// later.)
+/// Determines the border slots: values that other ranks await are complete once the slots around them have
+/// contributed, and mirror planes have been folded onto them. (While all fields share the nodes, the planes
+/// connect at least as many slots as later.)
 void BlockGrid::find_border() {
   awaited_.clear();
   border_.clear();

@@ -119,8 +119,8 @@ class BlockGrid {
 
   /// Counts the particles and guests of this rank in every cell, after `bin`.
   void count_cells(std::span<const Vector3> position, std::span<const Vector3> guests = {});
-  /// Is a particle of this rank farther than two cells from every other one, guests, mirror planes, and
-  /// blocks that other ranks share? After `count_cells`.
+  /// Returns whether a particle of this rank is farther than two cells from all other particles, off-grid
+  /// points, mirror planes, and blocks shared with other ranks. Call `count_cells` before.
   [[nodiscard]] bool is_alone(std::uint32_t particle, const Vector3& position) const;
   /// Takes particles (ascending) off the lists of their blocks until the next `bin`: the transfers do not see
   /// them.
@@ -133,7 +133,8 @@ class BlockGrid {
   std::size_t let_rest(int layers, const std::function<bool(std::size_t)>& is_restless);
   /// No block rests any longer.
   void wake();
-  /// Do the particles from `chunk` times parallel::chunk_size on all rest?
+  /// Returns whether all particles of a chunk (from `chunk` times parallel::chunk_size on) are in inactive
+  /// blocks.
   [[nodiscard]] bool chunk_rests(std::size_t chunk) const;
   /// Changes whenever particles may have come, gone or changed their order.
   [[nodiscard]] std::size_t arrangement() const { return arrangement_; }
@@ -152,7 +153,8 @@ class BlockGrid {
 
   /// Particles changed their order or number: the next `bin` looks every block up anew.
   void particles_reordered();
-  /// The same when every particle is still there: new[i] = old[order[i]]. On one rank the blocks stay known.
+  /// Records a new order of the particles, none of which has left: new[i] = old[order[i]]. On one rank the
+  /// blocks remain known.
   void particles_reordered(std::span<const std::uint32_t> order);
   /// Particles left and others took their places: the blocks stay known.
   /// @param size  number of particles that stay
@@ -180,7 +182,8 @@ class BlockGrid {
   /// All particles that do not rest, block by block: an order that keeps neighbours in memory near one
   /// another.
   [[nodiscard]] std::span<const std::uint32_t> particles_by_block() const { return particles_.points; }
-  /// The same, those of a block by the first node of their stencils; all particles only after `wake`.
+  /// Lists particles like `list`, those of a block ordered by the first node of their stencils; all particles
+  /// only after `wake`.
   void list_by_stencil(std::vector<std::uint32_t>& order) const;
   /// The border are the slots whose points may reach nodes that other ranks wait for or send: worked on first
   /// when points bring something to the nodes, and last when they take something, so that the exchange goes
@@ -214,8 +217,8 @@ class BlockGrid {
   }
   /// The stencil of the last `bin`.
   [[nodiscard]] Stencil stencil() const { return stencil_; }
-  /// Where each of them stood in that stencil: the transfers of a step see them there, wherever their
-  /// positions have gone since.
+  /// Returns the position of each point in its stencil as binned: the transfers of a step use it, wherever
+  /// the positions have moved since.
   [[nodiscard]] std::span<const PlaceInStencil> places(Points points) const {
     return points == Points::particles ? place_of_particle_ : place_of_guest_;
   }
@@ -236,7 +239,7 @@ class BlockGrid {
       f(all.subspan(i, end - i), static_cast<unsigned>(field));
     }
   }
-  /// Do particles of a slot reach contact slots?
+  /// Returns whether particles of a slot reach contact slots.
   [[nodiscard]] bool meets_contact(std::size_t slot) const {
     return !contact_slots_.empty() && meets_contact_[slot] != 0;
   }
@@ -279,9 +282,9 @@ class BlockGrid {
   /// Sets every node to zero.
   void clear();
 
-  /// Are there blocks that several ranks work with?
+  /// Returns whether several ranks work on some block.
   [[nodiscard]] bool is_shared() const;
-  /// Which registers of the nodes travel.
+  /// Registers of the nodes that are communicated.
   enum class Part { first, both };
   /// Adds what this rank's particles brought to borrowed nodes to the nodes of their owners. Collective.
   void sum_to_owners(Part part) {
@@ -293,8 +296,8 @@ class BlockGrid {
     begin_borrow_from_owners(part);
     finish_borrow_from_owners(part);
   }
-  /// The same in halves, one at a time. Between them: borrowed nodes must not be read after
-  /// `begin_borrow_from_owners`; what is sent is copied before.
+  /// Performs these exchanges in two halves, one exchange at a time. Between the halves ghost nodes must not
+  /// be read after `begin_borrow_from_owners`; sent data are copied at the start.
   void begin_sum_to_owners(Part part);
   void finish_sum_to_owners(Part part);
   void begin_borrow_from_owners(Part part);
@@ -302,7 +305,7 @@ class BlockGrid {
   /// Lets messages under way go on, where work on nodes would leave them alone for long. On the thread that
   /// called MPI's initialization; others return at once.
   void progress();
-  /// The same for values at contact slots. Collective.
+  /// Exchanges values at contact slots in the same way. Collective.
   void sum_to_owners(ContactValues& values);
   void borrow_from_owners(ContactValues& values);
   /// Replaces the owners' values by the largest of all ranks. Collective.
@@ -322,38 +325,39 @@ class BlockGrid {
     int face = 0;  ///< in the order of Geometry::boundary
     int axis = 0;
     Boundary kind = Boundary::symmetry;
-    /// Of fields that are one with their images (`bond_at_planes`).
+    /// Pairs of fields that are continuous with their mirror images (`bond_at_planes`).
     std::vector<MirrorPair> pairs;
     std::vector<std::uint32_t> on_plane;
-    /// Of fields that meet their images as other bodies.
+    /// Pairs of fields that are in contact with their mirror images.
     std::vector<MirrorPair> pairs_apart;
     std::vector<std::uint32_t> on_plane_apart;
     /// Inner nodes that particles may reach from beyond the plane: the images of some rank's `outside` nodes.
     std::vector<std::uint32_t> near;
     [[nodiscard]] double outward() const { return face % 2 == 0 ? -1.0 : 1.0; }
   };
-  /// Which fields are one with their images at the mirror planes: a bit per field for each face. Without a
-  /// call all are, but at separating walls none. Before `bin`.
+  /// Sets the fields that are continuous with their images at the mirror planes: one bit per field for each
+  /// face. By default all are, except at separating walls. Call before `bin`.
   void bond_at_planes(const std::array<std::uint64_t, 6>& fields);
-  /// Is a field one with its image at a face?
+  /// Returns whether a field is continuous with its image at a face.
   [[nodiscard]] bool is_bonded_at(std::size_t face, unsigned field) const {
     return geometry_.boundary[face] != Boundary::outflow && (bonded_[face] >> field & 1U) != 0;
   }
-  /// May some field meet its image at a face as another body?
+  /// Returns whether some field may be in contact with its image at a face.
   [[nodiscard]] bool is_apart_at(std::size_t face) const {
     return geometry_.boundary[face] != Boundary::outflow && ~bonded_[face] != 0;
   }
   /// Planes with the active nodes that they concern, in the order in which they are folded.
   [[nodiscard]] std::span<const MirrorPlane> mirror_planes() const { return planes_; }
-  /// Does a node belong to a block that is borrowed, or to one that mirror planes connect with such a block?
+  /// Returns whether a node belongs to a ghost block, or to one that mirror planes connect with a ghost
+  /// block.
   [[nodiscard]] bool is_awaited(std::size_t node) const {
     if (awaited_.empty()) return false;
     const std::size_t block = node / nodes_per_block;
     return awaited_[block < slots() ? block : slot_of_further_[block - slots()]] != 0;
   }
-  /// Are there nodes of which `is_awaited` holds?
+  /// Returns whether `is_awaited` holds for any node.
   [[nodiscard]] bool awaits() const { return !awaited_.empty(); }
-  /// Is a node an image: beyond a plane with which its field is one?
+  /// Returns whether a node is an image: beyond a plane across which its field is continuous.
   [[nodiscard]] bool is_image(std::size_t node) const { return !outside_.empty() && outside_[node] != 0; }
 
   /// Slot of the block around a position, `no_slot` if there is none.

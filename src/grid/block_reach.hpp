@@ -7,7 +7,7 @@
 #include "src/core/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"
 
-/// Which blocks around its own a particle's stencil touches.
+/// Neighbour blocks touched by the stencil of a particle.
 namespace whipple::grid {
 
 /// Along one direction: does something reach the block before (bit 0), after (bit 1)?
@@ -34,8 +34,8 @@ constexpr std::array<std::uint32_t, 64> neighbour_masks() {
 }
 constexpr std::array<std::uint32_t, 64> reach_masks = neighbour_masks();
 
-/// The same by direction: bits 0 to 2 for the directions in which something reaches the block before, bits 3
-/// to 5 for those in which it reaches the block after.
+/// Converts masks of neighbour blocks to masks by direction: bits 0 to 2 for the directions in which the
+/// block before is reached, bits 3 to 5 for those in which the block after is reached.
 constexpr std::array<std::uint32_t, 64> masks_by_direction() {
   std::array<std::uint32_t, 64> by_direction{};
   for (unsigned bits = 0; bits < 64; ++bits) {
@@ -62,7 +62,7 @@ inline std::uint32_t touched_neighbours(Lanes local, Lanes ahead, Stencil stenci
   return touched_neighbours_of_box(first_node(local + minimum(ahead, broadcast(-around))),
                                    first_node(local + maximum(ahead, broadcast(around))), stencil);
 }
-/// The same without motion.
+/// Returns the neighbour blocks touched by a particle that does not move.
 inline std::uint32_t touched_neighbours(Lanes local, Stencil stencil) {
   return touched_neighbours(local, Lanes{}, stencil);
 }

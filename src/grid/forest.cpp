@@ -68,7 +68,7 @@ struct Forest::State {
   /// Weight of the wanted block that a leaf is; 0 for empty leaves.
   [[nodiscard]] double weight_of(p4est_topidx_t tree, const p8est_quadrant_t& quadrant) const;
 
-  /// Is one of the wanted blocks inside the quadrant?
+  /// Returns whether one of the requested blocks is inside the quadrant.
   [[nodiscard]] bool holds_wanted(p4est_topidx_t tree, const p8est_quadrant_t& quadrant) const {
     const int below = 3 * (level - quadrant.level);
     const std::uint64_t first = p8est_quadrant_linear_id(&quadrant, quadrant.level) << below;

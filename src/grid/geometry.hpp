@@ -23,7 +23,7 @@ constexpr unsigned maximum_fields = 64;
 /// them).
 using BlockCoordinate = std::array<std::int32_t, 3>;
 
-/// What happens at a face of the domain.
+/// Boundary condition at a face of the domain.
 enum class Boundary : std::uint8_t {
   outflow,     ///< matter leaves: counted with its mass, momentum and energy
   symmetry,    ///< mirror plane: frictionless, matter does not pass and does not separate
@@ -52,19 +52,19 @@ struct Geometry {
     return (load_vector(position.data()) - load_vector(lower.data())) / cell_size;
   }
   [[nodiscard]] double upper(int axis) const { return lower[axis] + cells[axis] * cell_size; }
-  /// Does matter go on beyond a face as its own image?
+  /// Returns whether material continues beyond a face as its mirror image.
   [[nodiscard]] bool mirrors(std::size_t face) const {
     return boundary[face] == Boundary::symmetry || boundary[face] == Boundary::no_slip;
   }
   /// Lengths that are round-off (m).
   [[nodiscard]] double tolerance() const { return 1e-6 * cell_size; }
-  /// Is a position in the plane of a face?
+  /// Returns whether a position is in the plane of a face.
   [[nodiscard]] bool is_in_plane(std::size_t face, const Vector3& position) const {
     const int axis = static_cast<int>(face / 2);
     const double plane = face % 2 == 0 ? lower[axis] : upper(axis);
     return std::abs(position[axis] - plane) < tolerance();
   }
-  /// Is a position beyond a face through which matter leaves?
+  /// Returns whether a position is beyond an outflow face.
   [[nodiscard]] bool has_left(const Vector3& position) const {
     for (int axis = 0; axis < 3; ++axis) {
       const bool low = position[axis] < lower[axis], beyond = low || position[axis] > upper(axis);
@@ -73,7 +73,7 @@ struct Geometry {
     }
     return false;
   }
-  /// Are four positions within the faces? Their twelve components follow one another.
+  /// Returns whether four positions are within the faces. Their twelve components are contiguous.
   [[nodiscard]] bool contains_four(const std::array<Lanes, 3>& positions) const {
     unsigned within = all_lanes;
     for (int j = 0; j < 3; ++j) {

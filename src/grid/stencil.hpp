@@ -60,12 +60,12 @@ constexpr ReachMap reach_map() {
   return map;
 }
 
-/// Where a point stands among the nodes of its stencil.
+/// Position of a point relative to the nodes of its stencil.
 class PlaceInStencil {
  public:
   /// Position in cells from the first node; lane 3 is some number.
   [[nodiscard]] Lanes from_first() const { return lanes_; }
-  /// The same along one direction.
+  /// Returns the distance from the first node along one direction.
   [[nodiscard]] double from_first(std::size_t direction) const {
     return reinterpret_cast<const double*>(&lanes_)[direction];
   }
@@ -76,7 +76,7 @@ class PlaceInStencil {
     __builtin_memcpy(&low, reinterpret_cast<const double*>(&lanes_) + 3, sizeof(low));
     return low;
   }
-  /// The same from the block's lower corner, by direction.
+  /// Returns the first node counted from the lower corner of the block, by direction.
   [[nodiscard]] std::array<int, 3> first_node(Stencil stencil) const {
     const int edge = stencil.edge(), before = stencil.before(), first = first_node();
     return {first / (edge * edge) - before, first / edge % edge - before, first % edge - before};

@@ -30,7 +30,7 @@ struct SeriesOptions {
 
 /// Snapshots of the particles for ParaView: one file RUN.particles.NNNNNN.hdf per snapshot (VTKHDF 1.0
 /// UnstructuredGrid, one vertex cell per particle, point data in single precision) and their index
-/// (`Series`). docs/output.md has the layout.
+/// (`Series`). docs/manual/output.md has the layout.
 class ParticleSeries {
  public:
   /// @throws InputError if a field is unknown

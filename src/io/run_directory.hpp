@@ -24,7 +24,7 @@ std::shared_ptr<const FileLock> lock_run(const std::filesystem::path& path);
 /// Returns whether a process holds the lock of a run directory.
 bool is_running(const std::filesystem::path& path);
 
-/// The folder that holds all output of one run (docs/output.md). One process makes it.
+/// The folder that holds all output of one run (docs/manual/output.md). One process makes it.
 class RunDirectory {
  public:
   /// Makes the folder and locks it while this object or a copy of it lives. One that exists must be empty,

@@ -84,7 +84,7 @@ struct Chunk {
   }
 
   void find_runs();
-  /// What follows from the codes in `failed`.
+  /// Sets the quantities that follow from the codes in `failed`.
   void find_failed();
 
  private:
@@ -115,7 +115,7 @@ struct Chunk {
   }
 };
 
-/// Is any of the first `size` values positive? Whole vectors at a time, unlike the largest of them.
+/// Returns whether any of the first `size` values is positive, whole vectors at a time.
 inline bool any_positive(const Lanes& values, std::size_t size) {
   std::uint64_t positive = 0;
   for (std::size_t k = 0; k < size; ++k) positive |= values[k] > 0.0 ? 1U : 0U;
@@ -131,7 +131,7 @@ struct Step {
   const UpdateSettings& settings;
   MaterialReport& report;
 
-  /// Do the points distinguish the viscosity that heats?
+  /// Returns whether the points distinguish the viscosity that heats.
   [[nodiscard]] bool keeps_losses() const { return !points.heating_viscosity.empty(); }
 };
 

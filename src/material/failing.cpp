@@ -140,8 +140,8 @@ void apply_failure(Step& step, Chunk& chunk) {
 
 namespace {
 
-/// What points lose that have failed or melt, or cracks or gaps open in; `kept` is the share of the deviator
-/// that they keep.
+/// Reduces stress and energy of points that have failed, melt, or contain opening cracks or gaps; `kept` is
+/// the fraction of the deviator that they keep.
 /// @param squared  of the sound speed
 void lose_strength(const Step& step, Chunk& chunk, const Lanes& bulk, double least_sound_speed,
                    Lanes& squared, Lanes& kept) {
@@ -180,7 +180,7 @@ void lose_strength(const Step& step, Chunk& chunk, const Lanes& bulk, double lea
   }
 }
 
-/// What melts gives back as heat what its dislocations held.
+/// Converts the stored cold work of melting points to heat.
 void release_cold_work(Step& step, Chunk& chunk) {
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const double solid_before = 1.0 - step.points.melted_fraction[chunk.index[k]],

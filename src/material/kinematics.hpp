@@ -22,7 +22,8 @@ using SymmetricLanes = std::array<Lanes, 6>;  ///< xx, yy, zz, xy, yz, zx
 
 constexpr std::size_t padded(std::size_t size) { return (size + lane_count - 1) / lane_count * lane_count; }
 
-/// How strain increment and rotation of a step follow from its gradient (docs/theory/material.md, section 2).
+/// Method to determine strain increment and rotation of a step from its gradient (docs/theory/material.md,
+/// section 2).
 enum class StressRotation : std::uint8_t {
   hughes_winget,  ///< both of the configuration in the middle of the step
   polar,          ///< of the polar decomposition I + dt L = V R

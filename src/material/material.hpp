@@ -16,7 +16,7 @@
 
 namespace whipple {
 
-/// Measured values that the models do not use, to be compared with (docs/materials.md); NaN: not known.
+/// Measured values that the models do not use, to be compared with (docs/manual/materials.md); NaN: not known.
 struct Measured {
   double melting_point = std::numeric_limits<double>::quiet_NaN();  ///< K, at 1 atm; of an alloy: solidus
   double liquidus = std::numeric_limits<double>::quiet_NaN();       ///< K, at 1 atm, of an alloy
@@ -48,7 +48,7 @@ struct Material {
   const failure::Criterion* void_growth = nullptr;  ///< the one of `failure` that grows voids; null: none
   eos::State reference;  ///< the state that bodies start from: p = 0 at the reference temperature
 
-  /// Whether some plastic work does not become heat.
+  /// Returns whether some plastic work is stored instead of converted to heat.
   [[nodiscard]] bool stores_cold_work() const { return taylor_quinney < 1.0; }
   /// The material as a material file with every default written out (provenance in output files).
   [[nodiscard]] std::string constants() const;
@@ -88,7 +88,7 @@ void use_fields(const Material& material, MaterialPoints& points);
 /// longitudinal; brings the optional fields that the material needs into use.
 void initialise(const Material& material, MaterialPoints& points, std::size_t begin, std::size_t end,
                 const eos::State& state);
-/// The same with the reference state.
+/// Initialises points with the reference state.
 void initialise(const Material& material, MaterialPoints& points, std::size_t begin, std::size_t end);
 
 }  // namespace whipple

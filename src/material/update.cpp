@@ -16,8 +16,9 @@ namespace {
 
 constexpr double least_volume_ratio = 0.5;  ///< limits of J in one step; named in the report
 constexpr double greatest_volume_ratio = 2.0;
-/// Of the reference density. Thinner matter expands no further: long before, it fills more than the nodes
-/// that its pressure acts on, and without a bound lone vapour would grow by the same factor in every step.
+/// Least density as a fraction of the reference density. Thinner material does not expand further: long
+/// before, it fills more than the nodes on which its pressure acts, and without a bound isolated vapour would
+/// grow by the same factor in every step.
 constexpr double least_density_ratio = 1e-9;
 
 using material::Chunk;
@@ -390,7 +391,8 @@ WHIPPLE_KERNEL void prepare_energy(const Step& step, Chunk& chunk) {
   for (std::size_t k = 0; k < chunk.size; ++k) chunk.energy[k] -= chunk.stored_cold_work[k];
 }
 
-/// What the equation of state is asked of the chunk; pressure and temperature become the new ones.
+/// Collects the inputs of the equation of state for a chunk; pressure and temperature are overwritten with
+/// the new ones.
 eos::Batch ask(Step& step, Chunk& chunk) {
   eos::Batch batch{chunk.view(chunk.density),
                    chunk.view(chunk.energy),
@@ -446,7 +448,7 @@ void integrate_energy(Step& step, Chunk& chunk) {
   }
 }
 
-/// What bounds the next time step: how fast matter is compressed, unless it only closes a void.
+/// Determines the compression rate, which bounds the next time step, except where only a void closes.
 WHIPPLE_KERNEL void find_compression_rate(Step& step, const Chunk& chunk) {
   const Lanes& divergence = chunk.motion.divergence;
   double rate = step.report.compression_rate;

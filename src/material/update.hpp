@@ -38,7 +38,7 @@ struct UpdateSettings {
 /// is [3 i + j][k].
 using GradientComponents = std::array<const double*, 9>;
 
-/// What an update met. Indices are those of the points (not of the range or list).
+/// Events of an update. Indices are those of the points (not of the range or list).
 struct MaterialReport {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   eos::RangeReport equation_of_state;  ///< `first` is the index of the point
@@ -68,11 +68,12 @@ struct MaterialReport {
 MaterialReport update_material(const Material& material, MaterialPoints& points, std::size_t begin,
                                std::size_t end, std::span<const Matrix3> velocity_gradient,
                                const UpdateSettings& settings);
-/// The same with the gradients component by component.
+/// Updates the points of a range with the gradients given by component.
 MaterialReport update_material(const Material& material, MaterialPoints& points, std::size_t begin,
                                std::size_t end, const GradientComponents& velocity_gradient,
                                const UpdateSettings& settings);
-/// The same for a list of points (sorted or not, without repetition); entry k belongs to point indices[k].
+/// Updates a list of points (sorted or not, without repetition); entry k of the gradients belongs to point
+/// indices[k].
 MaterialReport update_material(const Material& material, MaterialPoints& points,
                                std::span<const std::uint32_t> indices,
                                std::span<const Matrix3> velocity_gradient, const UpdateSettings& settings);

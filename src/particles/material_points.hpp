@@ -104,7 +104,7 @@ void for_each_field(Function&& f) {
   std::apply([&](const auto&... field) { (f(field), ...); }, Points::fields());
 }
 
-/// Has the state of some points from `first` on fetched into the second-level cache.
+/// Prefetches the state of some points from `first` on into the second-level cache.
 WHIPPLE_INLINE inline void prefetch_state(const MaterialPoints& points, std::size_t first) {
   for_each_field<MaterialPoints>([&](const auto& field) WHIPPLE_INLINE {
     const auto& values = points.*(field.values);

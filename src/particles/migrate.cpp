@@ -12,8 +12,8 @@
 namespace whipple {
 namespace {
 
-/// How the arrays close around those that leave and open for those that come: what has its place in the range
-/// of its body keeps it, so that the cost is that of what moves, not of what stays.
+/// Plan of how the arrays close around departing particles and open for arriving ones: particles that remain
+/// within the range of their body keep their place, so that the cost is proportional to what moves.
 struct Rearrangement {
   std::vector<std::uint32_t> from, to;  // of those that stay but change places
   std::vector<std::uint32_t> places;    // of the newcomers

@@ -23,7 +23,7 @@ struct RunOptions {
   std::vector<std::pair<std::string, std::string>> overrides;  ///< --set
 };
 
-/// Runs a case from its file to its last snapshot; docs/output.md lists the files that it writes. Collective.
+/// Runs a case from its file to its last snapshot; docs/manual/output.md lists the files that it writes. Collective.
 /// Signals (`SignalControl`) and files in the run directory (`DirectoryControl`) steer it.
 /// @returns 0; 128 + number of the signal that ended the run; 124 at the limit of wall time
 /// @throws InputError before any work and before anything is written if the input is wrong;

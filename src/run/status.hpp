@@ -8,7 +8,7 @@
 
 namespace whipple::run {
 
-/// What status.json of a run directory says (SI; docs/output.md).
+/// What status.json of a run directory says (SI; docs/manual/output.md).
 struct RunStatus {
   std::string state;  ///< running, paused, done, stopped, failed
   double time = 0.0;  ///< s, simulated

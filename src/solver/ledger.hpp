@@ -169,7 +169,7 @@ struct Limiter {
   double Ledger::* count;
   const char* meaning;
 };
-/// All of them (docs/output.md).
+/// All of them (docs/manual/output.md).
 inline constexpr auto limiters = std::to_array<Limiter>({
     {"below_cold_curve", &Ledger::clamped_to_cold_curve, "temperature held at the cold curve, energy kept"},
     {"at_pressure_floor", &Ledger::held_at_pressure_floor, "pressure held at its floor"},

@@ -9,7 +9,7 @@
 #include "src/case/build/seeding.hpp"
 
 /// Work of a step, by which the blocks are shared out among the ranks: counted, not timed, so that a run on
-/// so many ranks gives the same bits every time (docs/architecture.md). Unit: the transfers of one particle.
+/// so many ranks gives the same bits every time (docs/manual/architecture.md). Unit: the transfers of one particle.
 namespace whipple::solver {
 
 /// Of the nodes of a block that holds particles.

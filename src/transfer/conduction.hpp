@@ -16,7 +16,8 @@ struct ThermalConstants {
   double heat_capacity = 0.0;  ///< J/(kg K), weights the share of a particle in the heat of a node
 };
 
-/// Do two fields of a contact slot, by their numbers there, touch at a node? Empty: wherever both are.
+/// Predicate: two fields of a contact slot, by their numbers there, touch at a node. Empty: wherever both are
+/// present.
 using TouchAtNode =
     std::function<bool(std::size_t contact_slot, std::size_t node, std::size_t first, std::size_t second)>;
 

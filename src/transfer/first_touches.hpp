@@ -10,8 +10,9 @@
 
 namespace whipple::transfer {
 
-/// Which velocity fields have touched one another or a face of the domain, and when the next will: what the
-/// time step lands on (docs/theory/mpm.md, section 6). What has touched once is of no further interest.
+/// Record of which velocity fields have touched one another or a face of the domain, and forecast of the next
+/// first contact, at which the time step ends (docs/theory/mpm.md, section 6). Later contacts of the same
+/// pair are ignored.
 class FirstTouches {
  public:
   explicit FirstTouches(unsigned fields);
@@ -30,12 +31,12 @@ class FirstTouches {
   void see(unsigned field, unsigned other, double open, double closing) {
     if (closing > 0.0 && (touched_[field] >> other & 1U) == 0) look(field, other, open, closing);
   }
-  /// The same of any field and a face of the domain.
+  /// Records gap and closing speed of any field and a face of the domain.
   void see_face(std::size_t face, double open, double closing) {
     see(fields_, static_cast<unsigned>(face), open, closing);
   }
 
-  /// What the step has shown.
+  /// Contacts found in the step.
   struct Outcome {
     bool hard = false;    ///< what closes with at least that speed has touched
     double next = 1e300;  ///< s from the beginning of the step, until the next does; 1e300: none in sight

@@ -117,7 +117,7 @@ struct Stretch {
 };
 constexpr std::size_t points_of_stretch = 512;
 
-/// Of the interior, and those with slots of the border.
+/// Returns the stretches of the interior, and those that contain border slots.
 std::array<std::vector<Stretch>, 2> stretches(const BlockGrid& grid) {
   std::array<std::vector<Stretch>, 2> all;
   Stretch stretch{0, 0};

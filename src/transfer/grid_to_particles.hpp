@@ -36,7 +36,7 @@ struct TransferBalance {
   }
 };
 
-/// What becomes of the particles' affine fields.
+/// Update of the affine fields of the particles.
 enum class AffineField : std::uint8_t {
   none,      ///< there is none: FLIP, PIC and their blends
   deformed,  ///< carried to the new positions with the deformation of the step, never growing

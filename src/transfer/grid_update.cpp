@@ -42,7 +42,7 @@ void restrict_to_plane(Node& node, Lanes sign, bool with_forces) {
   if (with_forces) node.second *= keep;
 }
 
-/// Is the step of a node exactly that of what this rank's particles brought, as if they were alone there?
+/// Returns whether the step of a node is exactly that of the contributions of this rank's particles alone.
 bool is_result_of(const Node& node, const Node& brought, double dt) {
   const double mass = brought.first[0];
   const Lanes velocity = brought.first / mass, increment = brought.second * (dt / mass);
@@ -166,7 +166,7 @@ void GridUpdate::meet_images(BlockGrid& grid, Nodes which) {
   }
 }
 
-/// The same of velocities that momenta gave.
+/// Applies contact with mirror images again, to velocities computed from momenta.
 void GridUpdate::meet_images_again(BlockGrid& grid, Nodes which) {
   mirror_contact_.apply_to_velocities(grid, [&](std::uint32_t node) { return among(grid, node, which); });
   copy_back(grid, which);

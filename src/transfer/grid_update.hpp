@@ -11,8 +11,8 @@
 
 namespace whipple::transfer {
 
-/// How strongly a step relaxes the particles' affine fields towards the grid's velocity (docs/theory/mpm.md,
-/// 4).
+/// Rate at which a step relaxes the affine fields of the particles towards the grid velocity
+/// (docs/theory/mpm.md, 4).
 struct Relaxation {
   /// beta = 1 - exp(-kappa c dt / dx) with the node's sound speed c; the same answer for every time step.
   double kappa = 0.2;
@@ -20,7 +20,7 @@ struct Relaxation {
   double fixed = -1.0;
 };
 
-/// What a grid update knows of its own balance: the part of this rank.
+/// Balance of a grid update: the contribution of this rank.
 struct GridBalance {
   double kinetic_energy_before = 0.0;  ///< J, of the nodes
   double kinetic_energy_after = 0.0;   ///< J, before contact

@@ -20,8 +20,8 @@
 /// compute the same in the same order, so their results are the same bits.
 namespace whipple::transfer {
 
-/// What one point brings to a node: first += N (a0 + a_x r_x + a_y r_y + a_z r_z),
-/// second += N b0 + sum over directions of dN/dx_a b_a.
+/// Contribution of one point to a node: first += N (a0 + a_x r_x + a_y r_y + a_z r_z), second += N b0 + sum
+/// over directions of dN/dx_a b_a.
 struct Payload {
   Lanes a0, ax, ay, az;
   Lanes b0, bx, by, bz;
@@ -44,7 +44,7 @@ struct Moments {
   Vector loss;                         ///< (d - beta D)^2 + beta D (2 D - beta D), per component
 };
 
-/// What the grid makes of a point in the step.
+/// Result of the step for one point.
 template <class Vector = Lanes>
 struct Advance {
   ValueAndGradient<Vector> grid_velocity;  ///< after the forces

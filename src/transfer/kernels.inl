@@ -6,7 +6,7 @@
 template <class Shape>
 constexpr std::size_t direct_access_below = Shape::count == 2 ? 16 : 6;
 
-/// What a copy holds of a node: all of it, or only the first register.
+/// Copies the part of a node that a local copy holds: all of it, or only the first register.
 WHIPPLE_INLINE inline void copy_node(const grid::Node& from, grid::Node& to) {
   store_node(to, load_node(from));
 }
@@ -154,7 +154,7 @@ void read_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::size
     }
   });
 }
-/// The same to add to them.
+/// Calls `f` for the stencils of the points of a slot, to add to their nodes.
 template <class Shape, class Content, class Function>
 void add_to_nodes(grid::BlockGrid& grid, grid::BlockGrid::Points points, std::size_t slot, Function&& f) {
   grid.for_each_field(points, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
@@ -435,8 +435,8 @@ WHIPPLE_INLINE inline Vector advect_affine_field(std::array<Vector, 3>& c,
   return too_large ? Vector{} : before - scale * scale * after;
 }
 
-/// What points take from their nodes: `of` sums over the nodes of a group, of which it reads `Content`; where
-/// there is an `advance`, it makes of the sums what the points get.
+/// Gathers from the nodes: `of` sums over the nodes of a group, of which it reads `Content`; `advance`, if
+/// present, computes the new values of the points from the sums.
 ///
 /// Velocity and affine field (4.3), heat of the transfer (4.5).
 template <AffineField field>
@@ -604,8 +604,9 @@ WHIPPLE_INLINE inline void for_some(const Points& points, std::span<const grid::
   }
 }
 
-/// What the nodes of one direction get of what is shared out with N, and of what is with slopes, whose sum
-/// over the nodes vanishes: of three nodes the middle one, whose N is the greatest, gets the rest.
+/// Distributes contributions weighted with N, and contributions weighted with slopes, whose sum over the
+/// nodes vanishes, to the nodes of one direction: of three nodes the middle one, with the largest N, receives
+/// the remainder.
 template <std::size_t n>
 WHIPPLE_INLINE inline std::array<Both, n> shares(const std::array<Both, n>& weight,
                                                  const std::array<Both, n>& slope, const Both& whole,
@@ -666,7 +667,7 @@ WHIPPLE_INLINE inline void add_payload(const Payload& load, const Weights<Shape:
     }
   }
 }
-/// The same of mass and momentum alone.
+/// Adds mass and momentum only.
 template <class Shape, class Stencil>
 WHIPPLE_INLINE inline void add_payload(Lanes load, const Weights<Shape::count>& w, const Stencil& nodes) {
   constexpr std::size_t n = Shape::count;
@@ -683,8 +684,8 @@ WHIPPLE_INLINE inline void add_payload(Lanes load, const Weights<Shape::count>& 
   }
 }
 
-/// What the points of one cell bring to its eight nodes by linear functions, as long as they follow one
-/// another: the nodes themselves are touched once for all of them.
+/// Scatters the points of one cell to its eight nodes with linear functions, as long as they are contiguous:
+/// the nodes themselves are accessed once for all of them.
 /// @tparam Content  of the nodes: grid::Node takes everything, Lanes mass and momentum
 template <class Content>
 class NodesOfCell {

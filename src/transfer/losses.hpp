@@ -9,7 +9,7 @@
 
 namespace whipple::transfer {
 
-/// What becomes of the kinetic energy that the transfers of a step take from a particle
+/// Destination of the kinetic energy that the transfers of a step remove from a particle
 /// (docs/theory/dissipation.md, 2).
 struct Losses {
   bool kept = false;            ///< false: it is heat at once
@@ -18,7 +18,7 @@ struct Losses {
   std::span<const double> initial_density;  ///< kg/m^3, of each body
 };
 
-/// Where the losses of a step went, J/kg.
+/// Destination of the losses of a step, J/kg.
 struct Booking {
   double heat = 0.0;        ///< of the transfers: internal energy
   double kept = 0.0;        ///< of the transfers and the viscosity: unresolved energy

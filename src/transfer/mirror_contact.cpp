@@ -184,8 +184,8 @@ bool MirrorContact::sticks(const Plane& plane, double gap) const {
   return plane.of.kind == grid::Boundary::no_slip && gap < sticking_gap * cell_size_;
 }
 
-/// Where planes meet, all images of a node must have one beta: what one plane has mixed would otherwise
-/// change with the next one. (beta does nothing at nodes that take their own step.)
+/// Assigns one beta to all images of a node where planes intersect: otherwise the coupling at one plane would
+/// change with the next one. (beta has no effect at nodes with an independent step.)
 void MirrorContact::join_relaxation_at_corners(std::span<Node> nodes, const Among& among) {
   joint_mass_.resize(heat_.size());
   const auto mass_of = [&](std::uint32_t node) -> double& {

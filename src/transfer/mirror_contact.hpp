@@ -22,12 +22,12 @@ namespace whipple::transfer {
 /// active, and computes the contact of the two as the others do, from what their owners tell it.
 class MirrorContact {
  public:
-  /// Which nodes a call concerns; a node and its mirror node alike.
+  /// Predicate: a call concerns this node; equal for a node and its mirror node.
   using Among = std::function<bool(std::uint32_t node)>;
 
-  /// How far matter reaches, at the nodes near the planes: from particles, and from guests of the grid, which
-  /// have no thickness. After `bin` and `separate_fields`; nothing where all matter is one with its images.
-  /// Collective.
+  /// Computes the extent of the material at the nodes near the planes, from particles and from off-grid
+  /// points, which have no thickness. Call after `bin` and `separate_fields`; does nothing where all material
+  /// is continuous with its images. Collective.
   void find_surfaces(ShapeFunction shape, const Particles& particles, std::span<const Vector3> guests,
                      grid::BlockGrid& grid, double dt);
 
@@ -36,7 +36,7 @@ class MirrorContact {
 
   /// Numbers the nodes near the planes; only what changed since the last call is done.
   void lay_out(const grid::BlockGrid& grid);
-  /// Do nodes near the planes lie in a block of nodes?
+  /// Returns whether a block of nodes contains nodes near the planes.
   [[nodiscard]] bool concerns_block(std::size_t block) const {
     return !first_of_block_.empty() && first_of_block_[block] != nowhere;
   }
@@ -48,8 +48,9 @@ class MirrorContact {
   /// Changes velocities, increments and relaxation of the nodes that touch their images, and adds the heat of
   /// that to the last lane of Node::second (J/kg).
   void apply(grid::BlockGrid& grid, double dt, const Among& among);
-  /// The same for velocities in Node::first, with the mass in its last lane: matter and image touch by the
-  /// shares that `apply` has found in this step, or, before it, by those that their approach gives.
+  /// Applies contact to velocities in Node::first, with the mass in its last lane: material and image are in
+  /// contact for the fractions that `apply` found in this step, or, before it, for those that follow from
+  /// their approach.
   void apply_to_velocities(grid::BlockGrid& grid, const Among& among);
 
   [[nodiscard]] bool made_heat() const { return made_heat_; }
@@ -90,10 +91,10 @@ class MirrorContact {
   std::vector<std::uint8_t> near_;             // of each slot: may its points reach such blocks?
   std::vector<Couple> folded_;                 // nodes that other planes fold, and their images: in the order
                                                // in which they are copied back
-  /// Of each node: m, how far matter that reaches it goes beyond the planes along x, y, z (negative: stays
-  /// before them), first those of lower faces, then those of upper ones.
+  /// Extent (m) of the material that reaches each node beyond the planes along x, y, z (negative: in front of
+  /// them), first of the lower faces, then of the upper ones.
   grid::SlotValues extent_;
-  /// Of each node: the step that it takes by itself, as Node; lane 3 of `first` is its mass.
+  /// Step that each node takes without contact, as Node; lane 3 of `first` is its mass.
   grid::SlotValues own_;
   std::vector<double> heat_;        // J/kg, of each node
   std::vector<double> joint_mass_;  // kg, scratch

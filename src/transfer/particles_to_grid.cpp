@@ -41,8 +41,9 @@ template <bool affine, class Points>
   return out;
 }
 
-/// What the points bring, as the kernel asks for it, with what it is made of fetched ahead: everything of
-/// particles, mass and momentum of particles with given velocities, or everything of nodes of elements.
+/// Contributions of the points in the form that the kernel requires, with their inputs prefetched: all
+/// quantities of particles, mass and momentum of particles with given velocities, or all quantities of
+/// element nodes.
 struct OfParticles {
   const Particles& points;
   static constexpr auto kind = grid::BlockGrid::Points::particles;

@@ -102,7 +102,7 @@ inline void fold(BlockGrid& grid, bool apart_too = true) {
     }
   }
 }
-/// The same, and the parts of all ranks.
+/// Folds the values at mirror planes and adds the contributions of all ranks.
 inline void fold_and_sum(BlockGrid& grid, bool apart_too = true) {
   fold(grid, apart_too);
   grid.sum_to_owners(BlockGrid::Part::first);

@@ -149,11 +149,11 @@ struct ConvectedGimp {
   }
 };
 
-/// Do the weights depend on the size of the particle?
+/// True if the weights depend on the size of the particle.
 template <class Shape>
 concept Sized = requires { Shape::largest_half_size; };
 
-/// Is the sum of N r r^T the same everywhere, as the affine transfer needs it?
+/// True if the sum of N r r^T is uniform, as the affine transfer requires.
 template <class Shape>
 concept CarriesAffineField = requires { Shape::second_moment; };
 

@@ -18,8 +18,8 @@ using grid::BlockGrid;
 using grid::Node;
 
 constexpr double no_capacity = 1e-300;  // J/K; below it the temperature of a node has no meaning
-/// Of the difference to the nodes around that a particle may lose in a step: temperatures stay in their
-/// range.
+/// Largest fraction of the difference to the surrounding nodes that a particle may lose in a step, so that
+/// temperatures remain in their range.
 constexpr double largest_share = 0.9;
 
 /// Exchange of a particle with its nodes.
@@ -56,7 +56,7 @@ class Exchange {
   double per_rate_;  // s/m
 };
 
-/// What a particle brings to its nodes: heat capacity C, C T, C chi.
+/// Contribution of a particle to its nodes: heat capacity C, C T, C chi.
 struct Capacity {
   using Content = Lanes;
   static constexpr auto kind = BlockGrid::Points::particles;

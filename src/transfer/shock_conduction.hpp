@@ -9,14 +9,14 @@
 
 namespace whipple::transfer {
 
-/// How a body conducts heat inside shocks.
+/// Coefficients of the heat conduction of a body within shocks.
 struct ShockConductivity {
   double heat_capacity = 0.0;        ///< J/(kg K); 0: it does not conduct
   double linear_viscosity = 0.0;     ///< c1 of the artificial viscosity
   double quadratic_viscosity = 0.0;  ///< c2
 };
 
-/// How much of it, for all bodies (docs/theory/dissipation.md, eq. 8).
+/// Amount of conduction within shocks, for all bodies (docs/theory/dissipation.md, eq. 8).
 struct ShockConduction {
   double scale = 1.0;  ///< diffusivity of heat over that of the artificial viscosity
   double onset = 0.0;  ///< closing speed over a cell, per speed of sound, where it begins

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Constants of all metals and potentials from molecular dynamics: runs what is missing of the short plans, fits every store,
-compares with experiments, and writes the tables of docs/results_md.md.
+compares with experiments, and writes the tables of docs/generated/results_md.md.
 
 Usage: studies/md_results/md_results.py [--bin build/release/bin] [--stores run/md] [--ranks N] [--metal NAME ...]
-                                        [-o docs/results_md.md]
+                                        [-o docs/generated/results_md.md]
 
 Models of OpenKIM need scripts/install_deps.sh --kim. With --metal only the sections of these metals are written anew.
 """
@@ -17,7 +17,7 @@ import sys
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = ROOT / "docs/results_md.md"
+PAGE = ROOT / "docs/generated/results_md.md"
 
 # Metal, its plans (cases/md/NAME_short.toml; _melting.toml too where there is one) with the potentials, and the
 # measurements of eos/data.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""expected.toml of a case: its runs and what they must show (docs/how_to/expected_results.md)."""
+"""expected.toml of a case: its runs and what they must show (docs/manual/expected_results.md)."""
 import csv
 import math
 import pathlib

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From measured runs to numbers with bands: what docs/results.json holds of a run."""
+"""From measured runs to numbers with bands: what docs/generated/results.json holds of a run."""
 import math
 import re
 
@@ -93,7 +93,7 @@ RECORDED_KEYS = ("revision", "dirty", "program", "executable", "source", "parame
 
 
 def run_study(case, run, collected):
-    """What docs/results.json says of a run; None if nothing was run. `collected`: by the name of a run, as of collect()."""
+    """Return the entry of a run in results.json; None if nothing was run. `collected`: by name of run, from collect()."""
     measures, records = collected[run.name]
     if not measures:
         return None
@@ -122,7 +122,7 @@ def run_study(case, run, collected):
 
 
 def case_study(case, runs):
-    """What docs/results.json says of a case: the runs that are there."""
+    """What docs/generated/results.json says of a case: the runs that are there."""
     collected = {run.name: collect(case, run) for run in case.runs}
     studies = [run_study(case, run, collected) for run in runs]
     return {"title": case.title, "expected": provenance.digest_of_file(case.path), "overrides": case.overrides,

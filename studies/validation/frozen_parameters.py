@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The one set of numerical parameters, and every case that departs from it (docs/how_to/expected_results.md)."""
+"""The one set of numerical parameters, and every case that departs from it (docs/manual/expected_results.md)."""
 import hashlib
 import json
 import re
@@ -15,7 +15,7 @@ PHYSICAL = {"time.end", "body.discretization.mesh", "body.discretization.mesh_un
 MORE = {"output.maximum_energy_error", "body.equation_of_state", "body.table_error"}
 
 
-def defaults(reference=ROOT / "docs" / "input_reference.md"):
+def defaults(reference=ROOT / "docs" / "manual" / "input_reference.md"):
     """Default of every numerical parameter by its key ("time.courant"), as the page writes it."""
     text = reference.read_text(encoding="utf-8")
     page = text[text.index("## Case files"):]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/results.json as text and as the generated part of docs/results.md: the page is a function of that file alone."""
+"""docs/generated/results.json as text and as the generated part of docs/generated/results.md: the page is a function of that file alone."""
 import json
 import math
 
@@ -7,8 +7,8 @@ from studies.validation import bands
 from studies.validation.cases import ROOT, UNITS
 from studies.validation.provenance import digest_of_file, digest_of_sources, inputs_of
 
-STORE = ROOT / "docs" / "results.json"
-PAGE = ROOT / "docs" / "results.md"
+STORE = ROOT / "docs" / "generated" / "results.json"
+PAGE = ROOT / "docs" / "generated" / "results.md"
 SENSITIVITIES = ROOT / "report" / "grid_sensitivity.json"
 MARKERS = ("<!-- begin of the part that scripts/results.py writes -->", "<!-- end of that part -->")
 CLASSES_OF_PHYSICS = ("experiment", "exact", "other code")

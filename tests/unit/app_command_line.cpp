@@ -203,8 +203,8 @@ TEST_F(CommandLine, DescribeKnowsModelsAndSuggestsThem) {
 TEST_F(CommandLine, TheInputReferenceIsUpToDate) {
   const Result result = whipple("describe --markdown");
   EXPECT_EQ(result.code, 0);
-  EXPECT_TRUE(result.out == text_of(WHIPPLE_SOURCE_DIR "/docs/input_reference.md"))
-      << "run: build/release/bin/whipple describe --markdown > docs/input_reference.md";
+  EXPECT_TRUE(result.out == text_of(WHIPPLE_SOURCE_DIR "/docs/manual/input_reference.md"))
+      << "run: build/release/bin/whipple describe --markdown > docs/manual/input_reference.md";
 }
 
 TEST_F(CommandLine, MaterialsListsTheLibrary) {
@@ -219,9 +219,9 @@ TEST_F(CommandLine, MaterialsListsTheLibrary) {
 TEST_F(CommandLine, TheTablesOfTheLibraryAreUpToDate) {
   const Result result = whipple("materials --markdown --quiet");
   EXPECT_EQ(result.code, 0);
-  EXPECT_TRUE(text_of(WHIPPLE_SOURCE_DIR "/docs/materials.md").ends_with(result.out))
+  EXPECT_TRUE(text_of(WHIPPLE_SOURCE_DIR "/docs/manual/materials.md").ends_with(result.out))
       << "run: build/release/bin/whipple materials --markdown, and put its tables at the end of "
-         "docs/materials.md";
+         "docs/manual/materials.md";
 }
 
 TEST_F(CommandLine, VersionNamesRevisionAndLibraries) {

@@ -76,7 +76,7 @@ TEST_F(SimulatedMaterial, UnknownPotentialIsAnInputError) {
 }
 
 // What `whipple md` stores, `whipple fit` reads: a plan as small as a fit can bear (108 atoms, half a
-// picosecond or two per point), its constants near those of long runs (docs/results_md.md: V0 = 0.1135
+// picosecond or two per point), its constants near those of long runs (docs/generated/results_md.md: V0 = 0.1135
 // cm^3/g, C = 3.90 km/s, S = 1.32, gamma0 = 1.86), and the same bytes from a second fit.
 TEST(PlanToMaterial, SmallestPlanIsSimulatedAndFitted) {
   const TemporaryFolder folder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Snapshots: every rule of the VTKHDF layout (docs/output.md), and a series that opens whenever the run was
+// Snapshots: every rule of the VTKHDF layout (docs/manual/output.md), and a series that opens whenever the run was
 // killed.
 #include <gmock/gmock.h>
 

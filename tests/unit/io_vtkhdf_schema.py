@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files of a series against the rules of docs/output.md, read by a program that is not ours (h5py).
+"""The files of a series against the rules of docs/manual/output.md, read by a program that is not ours (h5py).
 
 usage: io_vtkhdf_schema.py RUN_DIR [ranks]
 """

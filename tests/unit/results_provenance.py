@@ -142,7 +142,7 @@ def the_repository_is_in_order():
     require(not wrong, "\n".join(wrong))
     done = subprocess.run([sys.executable, str(ROOT / "scripts" / "results.py"), "--check-fresh"], capture_output=True,
                           text=True)
-    require(done.returncode == 0, f"docs/results.md:\n{done.stdout}{done.stderr}")
+    require(done.returncode == 0, f"docs/generated/results.md:\n{done.stdout}{done.stderr}")
 
 
 with tempfile.TemporaryDirectory() as name:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Materials of the library, as their files are, against measurements; docs/materials.md has the figures.
+// Materials of the library, as their files are, against measurements; docs/manual/materials.md has the figures.
 #include <gtest/gtest.h>
 
 #include <cmath>

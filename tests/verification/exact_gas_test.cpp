@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sod, Noh and Sedov with the default scheme: errors in L1, orders, wall heating, shock radius. Bounds say
-// how good the scheme is today, not how good it should be; docs/exact_suite.md has all figures.
+// how good the scheme is today, not how good it should be; docs/generated/exact_suite.md has all figures.
 #include "tests/verification/exact/expect.hpp"
 #include "tests/verification/exact/gas_problems.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Planar impacts with release with the default scheme: heat at the contact, in the plateau and at the free
 // surfaces, against Hugoniot and isentrope of the same equation of state. Bounds say how good the scheme is
-// today, not how good it should be; docs/exact_suite.md has all figures.
+// today, not how good it should be; docs/generated/exact_suite.md has all figures.
 #include <cctype>
 
 #include "tests/verification/exact/expect.hpp"
@@ -10,7 +10,7 @@
 namespace whipple::verification::exact {
 namespace {
 
-// Cells of 0.4, 0.2 and 0.1 mm; what the figures are: docs/exact_suite.md.
+// Cells of 0.4, 0.2 and 0.1 mm; what the figures are: docs/generated/exact_suite.md.
 // clang-format off
 constexpr Bound impact_bounds[] = {
     {"Al-Al 1 km/s", "flyer: released e", 1, {0.31, 0.28, 0.32}},
@@ -198,7 +198,7 @@ TEST_P(ExactImpact, HeatsAndReleases) { expect_impact(GetParam(), false); }
 TEST_P(ExactImpactFine, HeatsAndReleases) { expect_impact(GetParam(), true); }
 
 // Mass-weighted, against the release of the same equation of state. Copper is short of it by what its plateau
-// lacks of entropy, 1.2 % (docs/exact_suite.md): 0.054 with cells of 0.05 mm.
+// lacks of entropy, 1.2 % (docs/generated/exact_suite.md): 0.054 with cells of 0.05 mm.
 class ExactMelting : public testing::TestWithParam<PlanarImpact> {};
 TEST_P(ExactMelting, MeltsTheShareThatTheReleaseMelts) {
   const Result result = run(GetParam(), 0.1e-3);

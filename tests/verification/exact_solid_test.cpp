@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Elastic-plastic piston (two waves of uniaxial strain) and angular momentum in oblique impacts, with the
-// default scheme. Bounds say how good the scheme is today, not how good it should be; docs/exact_suite.md has
+// default scheme. Bounds say how good the scheme is today, not how good it should be; docs/generated/exact_suite.md has
 // all figures.
 #include "tests/verification/exact/expect.hpp"
 #include "tests/verification/exact/oblique_impact.hpp"

@@ -364,13 +364,13 @@ TEST_F(Steering, ObserversSeeTheFailureOfARun) {
 
 TEST(HistoryColumns, StandInTheManual) {
   const std::string table = history_columns_as_markdown();
-  EXPECT_THAT(text_of(WHIPPLE_SOURCE_DIR "/docs/output.md"), HasSubstr(table))
-      << "docs/output.md must hold:\n"
+  EXPECT_THAT(text_of(WHIPPLE_SOURCE_DIR "/docs/manual/output.md"), HasSubstr(table))
+      << "docs/manual/output.md must hold:\n"
       << table;
 }
 
 TEST(Requests, StandInTheManual) {
-  const std::string manual = text_of(WHIPPLE_SOURCE_DIR "/docs/output.md");
+  const std::string manual = text_of(WHIPPLE_SOURCE_DIR "/docs/manual/output.md");
   for (const ActEntry& entry : acts())
     EXPECT_THAT(manual, HasSubstr("| `" + std::string(entry.word) + "` | " + std::string(entry.meaning) + " |"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The orders of convergence of docs/orders_of_convergence.md on two grids each: the schemes are of second
+// The orders of convergence of docs/generated/orders_of_convergence.md on two grids each: the schemes are of second
 // order where particles stay in their cells, whatever the functions; where they cross cells, functions with
 // continuous gradients keep converging and linear ones do not; PIC is of first order.
 #include "tests/verification/solver_orders.hpp"

@@ -293,7 +293,7 @@ std::vector<std::uint8_t> faces_touched(const Case& setup) {
 }
 
 double expected_memory(const Case& setup) {
-  constexpr double bytes_per_particle = 500.0;  // in full blocks: docs/performance.md
+  constexpr double bytes_per_particle = 500.0;  // in full blocks: docs/manual/performance.md
   double particles = 0.0;
   for (const Body& body : setup.bodies) {
     if (!body.discretization.is_bars()) particles += lattice_size(setup, body);

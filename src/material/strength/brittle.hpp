@@ -41,13 +41,13 @@ class Brittle {
   virtual ~Brittle() = default;
   /// Returns the deviator to the strength, lets damage grow, says at which tension gaps open.
   virtual void relax(const BrittleState& state) const = 0;
-  /// Does lost shear energy become pressure?
+  /// Returns whether lost shear energy is converted to pressure (bulking).
   [[nodiscard]] virtual bool bulks() const { return false; }
-  /// Does the strength depend on the Lode angle?
+  /// Returns whether the strength depends on the Lode angle.
   [[nodiscard]] virtual bool needs_lode_angle() const { return false; }
 };
 
-/// What a point meets in a step.
+/// State of a point in a step.
 struct BrittlePoint {
   double pressure;  ///< Pa, tension at most that at which gaps open
   double rate;      ///< 1/s
@@ -116,7 +116,7 @@ class BrittleModel final : public Strength, public Brittle {
                          std::span<const double>, double, std::span<double> increment) const override {
     std::ranges::fill(increment, 0.0);
   }
-  /// Of undamaged matter.
+  /// Computes the flow stress of undamaged material.
   void flow_stress(const State& state, std::span<const double> rate,
                    std::span<double> stress) const override {
     for (std::size_t i = 0; i < stress.size(); ++i) {
@@ -183,8 +183,8 @@ class BrittleModel final : public Strength, public Brittle {
       return brittle_return(trial, stiffness, y, point.damage);
     }
   }
-  /// What the share `bulking` of the shear energy that is lost with the strength adds to a pressure
-  /// (docs/theory/concrete_and_ceramics.md, eq. 12).
+  /// Returns the pressure increment from the fraction `bulking` of the shear energy that is lost with the
+  /// strength (docs/theory/concrete_and_ceramics.md, eq. 12).
   double bulking_pressure(const BrittleState& state, std::size_t i, const BrittlePoint& point, double before,
                           const BrittleSurface& y) const {
     if constexpr (requires { law_.bulking; }) {

@@ -7,7 +7,7 @@
 
 namespace whipple::strength {
 
-/// What the von Mises models share whose isotropic hardening follows the plastic strain alone: elastic
+/// Common part of the von Mises models whose isotropic hardening depends on the plastic strain alone: elastic
 /// constants, initial yield stress and linear kinematic hardening. The yield surface moves with the back
 /// stress,
 ///   sqrt(3/2 (s - a):(s - a)) = Y(ep),  da = 2/3 H d(plastic strain),

@@ -33,7 +33,7 @@ class Binomial {
   std::array<double, 8> c_;
 };
 
-/// What the solution works with, of points that are not done.
+/// Work arrays of the solution, for points that are not finished.
 struct Work {
   std::size_t size = 0;
   std::array<std::size_t, batch_size> point;
@@ -57,7 +57,8 @@ void raise(BatchValues& values, std::size_t size, double n) {
   for (std::size_t k = 0; k < size; ++k) values[k] = base[k] > least_strain ? values[k] : 0.0;
 }
 
-/// Where the increment is small beside the strain by the binomial series, else from scratch.
+/// Raises the strains to the power n, by the binomial series where the increment is small compared with the
+/// strain, otherwise directly.
 void raise_strains(Work& w, double n, const Binomial& binomial) {
   std::array<std::size_t, batch_size> large;
   std::size_t count = 0;

@@ -30,7 +30,8 @@ concept BatchLaw = requires(const Law& law, YieldingPoints& points, double numbe
   { law.may_yield(number, number, number, number) } -> std::same_as<bool>;
 };
 
-/// What `plastic_increment` of Strength promises. The increments of points that cannot yield are 0.
+/// Solves the return for a batch, as specified by Strength::plastic_increment. The increments of points that
+/// cannot yield are 0.
 template <BatchLaw Law>
 void return_in_batch(const Law& law, const State& state, std::span<const double> trial,
                      std::span<const double> modulus, std::span<const double> solid_fraction, double dt,

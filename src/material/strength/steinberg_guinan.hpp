@@ -63,7 +63,7 @@ struct SteinbergGuinan {
     const double thermal = std::isnan(temperature) ? 0.0 : temperature_coefficient * (temperature - 300.0);
     return std::max(1e-3, 1.0 + pressure_coefficient * pressure / compression - thermal);
   }
-  /// The same of four points.
+  /// Returns the stiffness ratio of four points.
   [[nodiscard]] Lanes stiffness_ratio(Lanes density, Lanes pressure, Lanes temperature) const {
     const Lanes compression = exp(natural_log(density / reference_density) / 3.0);
     const Lanes thermal =

@@ -7,8 +7,8 @@
 
 namespace whipple::strength {
 
-/// What a strength model may depend on, one entry per point of a chunk (SI), all at the beginning of the
-/// step.
+/// Variables on which a strength model may depend, one entry per point of a chunk (SI), at the beginning of
+/// the step.
 struct State {
   std::span<const double> density;         ///< kg/m^3
   std::span<const double> pressure;        ///< Pa, positive in compression
@@ -40,8 +40,8 @@ class Strength {
   /// Viscosity of a fluid without deviatoric strength (Pa s): s = 2 eta dev D; 0: none.
   [[nodiscard]] virtual double viscosity() const { return 0.0; }
 
-  /// What acts once the pressure of the step is known, of brittle matter (strength/brittle.hpp); null:
-  /// nothing.
+  /// Returns the part of a brittle model that acts after the pressure of the step is known
+  /// (strength/brittle.hpp); null if there is none.
   [[nodiscard]] virtual const Brittle* brittle() const { return nullptr; }
 
   /// Shear modulus of the solid (Pa); the loss by melting is applied by the caller.

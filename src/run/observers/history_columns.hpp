@@ -40,7 +40,7 @@ struct HistoryColumn {
 /// Lists the columns that a case has, in the order of the file.
 std::vector<HistoryColumn> history_columns(const cases::Case& setup);
 
-/// Lists all columns that there are as rows `| name | unit | meaning |` of docs/output.md.
+/// Lists all columns that there are as rows `| name | unit | meaning |` of docs/manual/output.md.
 std::string history_columns_as_markdown();
 
 /// Computes the row of now. Collective.

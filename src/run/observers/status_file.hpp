@@ -10,7 +10,7 @@
 
 namespace whipple::run {
 
-/// Keeps status.json: how far a run is and whether it goes on (docs/output.md). Written once a second at most,
+/// Keeps status.json: how far a run is and whether it goes on (docs/manual/output.md). Written once a second at most,
 /// and where the state changes.
 class StatusFile : public RunObserver {
  public:

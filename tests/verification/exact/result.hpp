@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-/// Figures of the problems with exact solutions, for tests and for docs/exact_suite.md.
+/// Figures of the problems with exact solutions, for tests and for docs/generated/exact_suite.md.
 namespace whipple::verification::exact {
 
 /// One measured number beside the one of the exact solution.
