@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "md_fitting/fit/solid_models.hpp"
+#include "md_fitting/fit/solid_problem.hpp"
 #include "md_fitting/fit/vapour_fit.hpp"
 #include "src/core/base/error.hpp"
 #include "tests/property/fit_recovery.hpp"
@@ -50,6 +51,74 @@ void expect_honest(const FitOf& fit_of, const Truth& truth, int seeds) {
   const double expected = static_cast<double>(constants) * seeds;
   EXPECT_NEAR(sum, expected, 4.0 * std::sqrt(2.0 * expected));
   EXPECT_NEAR(data_sum, degrees_of_freedom, 4.0 * std::sqrt(2.0 * degrees_of_freedom));
+}
+
+// The statistical weights are the errors of the data carried through the residuals: C = J Sigma J^T, J by
+// differences. GRAY's whole surface, and Lindemann's law alone, whose volumes have errors.
+TEST(FitModels, WeightsAreTheErrorsOfTheDataCarriedThroughTheResiduals) {
+  for (const bool surface : {true, false}) {
+    SCOPED_TRACE(surface);
+    const FitSettings settings;
+    const SyntheticStore store(true_constants(), Noise{}, 5);
+    Observations data = observe(store.points, settings, {}, "synthetic");
+    data.isotherm = {{1.10e-4, {4.5e9, 2e7}}, {1.05e-4, {12e9, 3e7}}};
+    SolidModel model;
+    model.free = {Place::volume,          Place::intercept,  Place::slope,  Place::gruneisen,
+                  Place::gruneisen_slope, Place::anharmonic, Place::melting};
+    model.hugoniot = model.isotherm = true;
+    model.surface = surface;
+    if (surface) model.free.push_back(Place::entropy);
+    for (MeltingPoint& point : data.melting) {
+      if (!surface) point.solid_volume.error = 3e-4 * point.solid_volume.value;
+    }
+    SolidConstants start{true_constants()};
+    start.heat_capacity = 3.0 * 8.314462618 / start.gray.molar_mass;
+    start.bulk_modulus = 135e9;
+    start.bulk_modulus_slope = 5.0;
+    const SolidProblem problem(data, settings, model, start);
+    const LeastSquaresProblem least_squares = problem.least_squares();
+    const Eigen::VectorXd& p = least_squares.start;
+    Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(problem.size(), problem.size());
+
+    // Change of the residuals by one error of a value. `anew`: what a problem makes of the data when it is
+    // built (its window of shock states, its melting curve) is made again.
+    const auto carried = [&](md::Estimate& value, bool anew) -> Eigen::VectorXd {
+      if (value.error == 0.0) return Eigen::VectorXd::Zero(problem.size());
+      const double before = value.value, step = 1e-2 * value.error;
+      const auto at = [&](double there) -> Eigen::VectorXd {
+        value.value = there;
+        return anew ? SolidProblem(data, settings, model, start).residuals(p) : problem.residuals(p);
+      };
+      const Eigen::VectorXd above = at(before + step), below = at(before - step);
+      value.value = before;
+      return (above - below) / (2e-2);
+    };
+    const auto add = [&](const Eigen::VectorXd& r) { expected += r * r.transpose(); };
+    add(carried(data.reference_volume, false));
+    for (HugoniotState& state : data.hugoniot) add(carried(state.pressure, true));
+    for (IsothermState& state : data.isotherm) add(carried(state.pressure, false));
+    for (Isochore& isochore : data.isochores) {
+      for (ThermalState& state : isochore.states) {
+        const Eigen::VectorXd pressure = carried(state.pressure, false), energy = carried(state.energy, false);
+        add(pressure);
+        add(energy);
+        expected += state.correlation * (pressure * energy.transpose() + energy * pressure.transpose());
+      }
+    }
+    for (MeltingPoint& point : data.melting) {
+      add(carried(point.temperature, false));
+      add(carried(point.solid_volume, true));
+      if (surface) add(carried(*point.latent_heat, false));
+    }
+    ASSERT_GT(problem.window().size(), 3U);
+    ASSERT_EQ(expected.rows(), least_squares.statistical.rows());
+    const Eigen::VectorXd scale = least_squares.statistical.diagonal().cwiseSqrt();
+    ASSERT_GT(scale.minCoeff(), 0.0);
+    const Eigen::MatrixXd deviation = scale.cwiseInverse().asDiagonal() *
+                                      (expected - least_squares.statistical) *
+                                      scale.cwiseInverse().asDiagonal();
+    EXPECT_LT(deviation.cwiseAbs().maxCoeff(), 1e-3);
+  }
 }
 
 // GRAY: eight constants over eight seeds, within the stated covariance, and chi^2 of the data within its

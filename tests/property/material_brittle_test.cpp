@@ -60,6 +60,35 @@ TEST(JohnsonHolmquist2, PublishedConstantsAgreeWithTheirOwnElasticLimit) {
   }
 }
 
+TEST(Brittle, ClosingBesideAnOpenVoidMeetsNoArtificialViscosity) {
+  // Two points of one ceramic close at the same rate: where a crack is open, its faces approach one another
+  // without resistance; the whole one has q = rho l |D| (b l |D| + g c).
+  const Material material = ceramic(alumina());
+  UpdateSettings viscous = settings;
+  viscous.linear_viscosity = 0.1;
+  viscous.quadratic_viscosity = 1.5;
+  MaterialPoints points = points_of(material, 2);
+  points.void_volume[0] = 0.05 * points.volume[0];
+  const double rate = 3e3;  // 1/s
+  const std::vector<Matrix3> closing(2, -rate / 3.0 * Matrix3::Identity());
+  update_material(material, points, 0, 2, closing, viscous);
+  ASSERT_GT(points.void_volume[0], 0.0);
+  EXPECT_EQ(points.artificial_viscosity[0], 0.0);
+  const double velocity = rate * viscous.cell_size, sound = std::sqrt((K1 + 4.0 / 3.0 * 90.16e9) / 3700.0);
+  EXPECT_NEAR(points.artificial_viscosity[1], 3700.0 * velocity * (1.5 * velocity + 0.1 * sound),
+              2e-3 * points.artificial_viscosity[1]);
+
+  // Nor does it heat where the model itself takes the work: the same energy with and without viscosity.
+  const auto energy = [&](const UpdateSettings& chosen, std::size_t point) {
+    MaterialPoints own = points_of(material, 2);
+    own.void_volume[0] = 0.05 * own.volume[0];
+    for (int n = 0; n < 5; ++n) update_material_and_energy(material, own, 0, 2, closing, chosen);
+    return own.specific_internal_energy[point];
+  };
+  EXPECT_EQ(energy(viscous, 0), energy(settings, 0));
+  EXPECT_GT(energy(viscous, 1), 1.01 * energy(settings, 1));
+}
+
 /// The published rate equations on a path of uniaxial strain, integrated with very small steps: equivalent
 /// deviator (positive in axial compression), pressure, damage.
 struct Published {

@@ -48,7 +48,7 @@ int mpirun(int ranks, const std::vector<std::string>& program, const Environment
     all.emplace_back("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   }
   log::detail("{}", fmt::join(arguments, " "));
-  const int code = run_process(arguments, all, {.end_signal = SIGUSR2, .may_be_killed = true});
+  const int code = run_process(arguments, all, {.end_signal = SIGUSR2, .may_be_killed = true, .patience = 10.0});
   if (const int signal = last_signal(); code > 128 && (signal == SIGINT || signal == SIGTERM))
     return 128 + signal;
   // A rank that was killed cannot say so, and mpirun --quiet does not.

@@ -9,10 +9,13 @@
 #include <unistd.h>
 
 #include <array>
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <string_view>
@@ -135,6 +138,48 @@ pid_t start(std::vector<std::string> arguments, const Environment& environment, 
   return pid;
 }
 
+/// Tells whether a program has a child that has ended and that it has not taken notice of.
+bool has_dead_child(pid_t pid) {
+  std::error_code gone;
+  for (const auto& task : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", pid), gone)) {
+    std::ifstream children(task.path() / "children");
+    for (pid_t child_of_task = 0; children >> child_of_task;) {
+      std::ifstream file(fmt::format("/proc/{}/stat", child_of_task));
+      std::string stat;
+      std::getline(file, stat);
+      const std::size_t name_end = stat.rfind(')');  // "pid (name) state ..."
+      if (name_end == std::string::npos || name_end + 2 >= stat.size()) continue;
+      if (stat[name_end + 2] == 'Z') return true;
+    }
+  }
+  return false;
+}
+
+/// Waits for the end of a program. @returns its status, as of waitpid
+int wait_for(pid_t pid, const std::string& name, double patience) {
+  using clock = std::chrono::steady_clock;
+  constexpr auto pause = std::chrono::milliseconds(20);
+  auto attentive = clock::now(), looked = attentive;
+  for (;;) {
+    int status = 0;
+    const pid_t ended = waitpid(pid, &status, patience > 0.0 ? WNOHANG : 0);
+    if (ended == pid) return status;
+    if (ended < 0 && errno != EINTR) {
+      throw InternalError(fmt::format("waiting for '{}': {}", name, std::strerror(errno)));
+    }
+    if (ended != 0) continue;
+    std::this_thread::sleep_for(pause);
+    const auto now = clock::now();
+    if (now - looked < std::chrono::milliseconds(200)) continue;
+    looked = now;
+    if (!has_dead_child(pid)) {
+      attentive = now;
+    } else if (std::chrono::duration<double>(now - attentive).count() > patience) {
+      kill(pid, SIGKILL);
+    }
+  }
+}
+
 }  // namespace
 
 int run_process(const std::vector<std::string>& arguments, const Environment& environment,
@@ -146,12 +191,7 @@ int run_process(const std::vector<std::string>& arguments, const Environment& en
   send_pending();
   forwarding.release();
 
-  int status = 0;
-  while (waitpid(pid, &status, 0) < 0) {
-    if (errno != EINTR) {
-      throw InternalError(fmt::format("waiting for '{}': {}", arguments.front(), std::strerror(errno)));
-    }
-  }
+  const int status = wait_for(pid, arguments.front(), supervision.patience);
   if (WIFEXITED(status)) return WEXITSTATUS(status);
   const int signal = WTERMSIG(status);
   if (signal == last_forwarded || supervision.may_be_killed) return 128 + signal;

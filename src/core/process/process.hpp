@@ -16,6 +16,9 @@ struct Supervision {
   int end_signal = 0;
   /// A signal that ends the program is its exit code, 128 + n, and not a defect.
   bool may_be_killed = false;
+  /// s: a program that does not notice for so long that a child of it has ended is killed. (mpirun of Open MPI 4.1
+  /// may wait for ever after a rank was killed.) 0: it is waited for.
+  double patience = 0.0;
 };
 
 /// Starts a program (looked up in PATH unless its name holds a slash), waits for its end and returns its exit
