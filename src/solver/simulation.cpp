@@ -451,11 +451,12 @@ void Simulation::end_step() {
     foresee_touches();
     const double error = state_.ledger.energy_error(totals_);
     // The negation also catches NaN.
-    if (!(std::abs(error) <= setup_.output.maximum_energy_error)) {
+    const double limit = setup_.output.energy_error_limit(setup_.time.scheme);
+    if (!(std::abs(error) <= limit)) {
       throw StateError(
           fmt::format("step {}, t = {} s: the relative error of the total energy is {:.3e}, beyond "
                       "output.maximum_energy_error = {}",
-                      state_.step, state_.time, error, setup_.output.maximum_energy_error));
+                      state_.step, state_.time, error, limit));
     }
   });
 }

@@ -40,6 +40,24 @@ solver::Simulation simulation_of(const cases::Case& setup, Particles particles) 
   return {setup, std::move(particles), state, parallel::world()};
 }
 
+TEST(ComparisonSchemes, RunASmallImpactWithoutFurtherKeysAndObeyALimitOfTheEnergyErrorThatIsGiven) {
+  const std::string file = WHIPPLE_SOURCE_DIR "/tests/data/small_impact.toml";
+  for (const char* scheme : {"musl", "usl", "usf"}) {
+    SCOPED_TRACE(scheme);
+    const std::pair<std::string, std::string> choice{"time.scheme", scheme};
+    solver::Simulation simulation(cases::read_case(file, {choice}), parallel::world());
+    while (simulation.state().time < 0.2e-6) simulation.advance(0.2e-6);
+    const double error = std::abs(simulation.state().ledger.energy_error(simulation.totals()));
+    EXPECT_GT(error, 1e-3);  // these schemes are not exact: more than the limit of the exact one is no defect
+    EXPECT_LT(error, 0.05);
+    solver::Simulation limited(cases::read_case(file, {choice, {"output.maximum_energy_error", "1e-3"}}),
+                               parallel::world());
+    EXPECT_THROW(while (limited.state().time < 0.2e-6) limited.advance(0.2e-6), StateError);
+  }
+  const cases::OutputControl defaults;
+  EXPECT_EQ(defaults.energy_error_limit(cases::Scheme::symplectic), 0.01);
+}
+
 std::vector<Method> all_methods() {
   std::vector<Method> methods;
   for (const char* scheme : {"symplectic", "usf", "usl", "musl"}) {
