@@ -18,12 +18,12 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::vector<std::string> words = {"cell_size", "courant", "scheme", "end"};
+const std::vector<std::string> known_words = {"cell_size", "courant", "scheme", "end"};
 
 TEST(DidYouMean, FindsTheNearestWordWithoutRegardToCase) {
-  EXPECT_EQ(did_you_mean("cell_sze", words), ", did you mean \"cell_size\"?");
-  EXPECT_EQ(did_you_mean("COURANT", words), ", did you mean \"courant\"?");
-  EXPECT_EQ(did_you_mean("schema", words), ", did you mean \"scheme\"?");
+  EXPECT_EQ(did_you_mean("cell_sze", known_words), ", did you mean \"cell_size\"?");
+  EXPECT_EQ(did_you_mean("COURANT", known_words), ", did you mean \"courant\"?");
+  EXPECT_EQ(did_you_mean("schema", known_words), ", did you mean \"scheme\"?");
 }
 
 TEST(TextTable, AlignsColumnsByCharactersAndEndsLinesWithoutBlanks) {
@@ -35,7 +35,7 @@ TEST(TextTable, AlignsColumnsByCharactersAndEndsLinesWithoutBlanks) {
 }
 
 TEST(DidYouMean, IsSilentWhenNothingIsNear) {
-  EXPECT_EQ(did_you_mean("velocity", words), "");
+  EXPECT_EQ(did_you_mean("velocity", known_words), "");
   EXPECT_EQ(did_you_mean("courant", {}), "");
 }
 
