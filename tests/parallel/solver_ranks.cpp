@@ -239,10 +239,10 @@ TEST_F(SolverRanks, GoOnFromACheckpointInContact) {
 }
 
 TEST_F(SolverRanks, GaugesAgreeWithOneRankAndFollowTheSameParticles) {
-  const std::vector<cases::Gauge> gauges = {{"fixed", "fixed", {1e-3, 1e-3, 1e-3}},
-                                            {"moving", "moving", {2e-3, 2e-3, 2.8e-3}},
-                                            {"disk", "moving", {0.0, 0.0, -3e-3}},
-                                            {"empty", "fixed", {11e-3, 11e-3, 7e-3}}};
+  const std::vector<cases::Gauge> gauges = {{"fixed", cases::GaugeKind::fixed, {1e-3, 1e-3, 1e-3}},
+                                            {"moving", cases::GaugeKind::moving, {2e-3, 2e-3, 2.8e-3}},
+                                            {"disk", cases::GaugeKind::moving, {0.0, 0.0, -3e-3}},
+                                            {"empty", cases::GaugeKind::fixed, {11e-3, 11e-3, 7e-3}}};
   Simulation together(read(), MPI_COMM_WORLD), alone(read(), MPI_COMM_SELF);
   const run::GaugeRecorder all(gauges, together);
   const run::GaugeRecorder one(gauges, alone);
