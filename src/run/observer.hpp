@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -59,6 +60,8 @@ class RunObserver {
   virtual void resume(const Moment&, const io::CheckpointValues&) {}
   /// Follows a step. While a run is paused it is called again and again at the same step.
   virtual void after_step(const Moment&) {}
+  /// Returns the next time (s) at which a step is to end, after that of now; infinite: any. The same on all ranks.
+  [[nodiscard]] virtual double next_time() const { return std::numeric_limits<double>::infinity(); }
   /// Adds to a checkpoint what `resume` needs, and makes sure that what this counts is on disk.
   virtual void remember(io::CheckpointValues&) {}
   /// Ends with the run. Of runs out of resources ranks must not communicate here.

@@ -103,6 +103,7 @@ constexpr std::array admissible = {
     Admissible{"broken", {.lower = 0.0, .upper = 1.0}},
     Admissible{"time", {.lower = 0.0}},
     Admissible{"time_step", {.lower = 0.0}},
+    Admissible{"unclipped_step", {.lower = 0.0}},
     Admissible{"initial_mass", {.lower = 0.0}},
     Admissible{"touched", {.lower = 0.0, .upper = 4294967295.0}},  // halves of words
 };

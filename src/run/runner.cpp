@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <new>
 #include <thread>
@@ -70,7 +71,7 @@ int Runner::run(std::span<RunControl* const> controls) {
 
 void Runner::steps() {
   while (!has_ended()) {
-    simulation_.advance(schedule_.end);
+    simulation_.advance(next_stop());
     at_border();
     while (paused_ && !has_ended()) {
       std::this_thread::sleep_for(look_of_pause);
@@ -107,6 +108,13 @@ void Runner::follow(const Request& request) {
 
 Moment Runner::now() const {
   return {simulation_, schedule_, requests_, observers_, seconds_since(begin_), paused_};
+}
+
+/// Returns the time (s) that the step under way must not pass.
+double Runner::next_stop() const {
+  double stop = schedule_.end;
+  for (const auto& observer : observers_) stop = std::min(stop, observer->next_time());
+  return stop;
 }
 
 bool Runner::has_ended() const { return now().is_last() || requests_.stop(); }

@@ -34,6 +34,7 @@ class Runner {
   [[nodiscard]] Requests asked();
   void follow(const Request& request);
   [[nodiscard]] Moment now() const;
+  [[nodiscard]] double next_stop() const;
   [[nodiscard]] bool has_ended() const;
   [[nodiscard]] Outcome outcome() const;
   [[nodiscard]] std::string failed(Outcome outcome);

@@ -43,7 +43,7 @@ constexpr double parts_of_mass =
 /// @param largest  1/s, of all particles of all ranks
 double Simulation::compression_rate_of_most(double largest) const {
   if (!losses_.kept) return largest;
-  const double harmless = setup_.time.compression_limit / (setup_.time.maximum_growth * state_.time_step);
+  const double harmless = setup_.time.compression_limit / (setup_.time.maximum_growth * state_.unclipped_step);
   if (largest <= harmless) return largest;
   const auto mass = std::make_unique<std::array<std::atomic<std::int64_t>, Bins::count>>();
   for (auto& bin : *mass) bin.store(0, std::memory_order_relaxed);

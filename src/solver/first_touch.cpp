@@ -16,7 +16,7 @@ double Simulation::stable_time_step() {
   accurate_step_ = accurate_time_step();
   // The first step does not know yet how hard bodies that touch will meet.
   if (state_.time_step == 0.0) return setup_.time.first_step * accurate_step_;
-  return landing_on_touch(std::min(accurate_step_, setup_.time.maximum_growth * state_.time_step));
+  return landing_on_touch(std::min(accurate_step_, setup_.time.maximum_growth * state_.unclipped_step));
 }
 
 /// The step ends when they touch, and the next is as small as the first of a run.

@@ -263,6 +263,7 @@ void Simulation::begin_step(double until) {
       throw StateError(fmt::format("step {}, t = {} s: {}", state_.step, state_.time, reason));
     }
     if (!compression_is_followed_ && parallel::rank(communicator_) == 0) step_.held_time_steps += 1.0;
+    state_.unclipped_step = dt;
     const double left = until - state_.time;
     if (!(left > 0.0)) throw InternalError(fmt::format("t = {} s has been reached already", until));
     // The last step before `until` lands on it; the one before is halved rather than leaving a sliver.

@@ -37,6 +37,7 @@ namespace whipple::solver {
 struct RunState {
   double time = 0.0;                  ///< s
   double time_step = 0.0;             ///< s, of the last step; 0 before the first
+  double unclipped_step = 0.0;        ///< s, the same if it had not been shortened to meet a time
   double maximum_acceleration = 0.0;  ///< m/s^2, in the last step
   double compression_rate = 0.0;  ///< 1/s, that all but a thousandth of the matter under pressure kept below
   double squeezed_beside_voids = 0.0;  ///< kg, intact, under pressure in cells that it does not fill

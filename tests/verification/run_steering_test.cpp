@@ -189,10 +189,12 @@ TEST_F(Steering, OutputsAndPausesChangeNothingOfTheParticles) {
   EXPECT_THAT(steered.paused, ElementsAre(5, 5, 5)) << "resumed at the fourth look";
 }
 
-TEST_F(Steering, ASnapshotIntervalBeginsAtItsNextMultiple) {
+TEST_F(Steering, SnapshotsLieAtTheMultiplesOfTheirIntervalAndCostAStepEach) {
+  const Result free = run({});
   const Result result = run({{4, {Act::snapshot_every, 0.1e-6}}});
   ASSERT_EQ(result.snapshots.size(), 5U);
-  for (std::size_t i = 1; i < 5; ++i) EXPECT_NEAR(result.snapshots[i], 0.1 * static_cast<double>(i), 0.03);
+  for (std::size_t i = 1; i < 5; ++i) EXPECT_NEAR(result.snapshots[i], 0.1 * static_cast<double>(i), 1e-12);
+  EXPECT_LE(result.steps, free.steps + 4);
 }
 
 TEST_F(Steering, EndNowEndsAsAWholeRunDoes) {

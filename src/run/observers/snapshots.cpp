@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -44,9 +45,11 @@ io::SeriesOptions series_options(const cases::Case& setup, const io::RunDirector
   return options;
 }
 
-/// Returns the first multiple of an interval after a time, also when a step was longer than the interval.
+constexpr double tolerance = 1e-6;  // of the interval: closer to its end is at its end
+
+/// Returns the first multiple of an interval after a time.
 std::int64_t next_multiple(double time, double every) {
-  return every > 0.0 ? static_cast<std::int64_t>(std::floor(time / every)) + 1 : 1;
+  return every > 0.0 ? static_cast<std::int64_t>(std::floor(time / every + tolerance)) + 1 : 1;
 }
 
 }  // namespace
@@ -94,7 +97,7 @@ void Snapshots::after_step(const Moment& moment) {
     every_ = every;
     next_ = next_multiple(moment.time(), every);
   }
-  const bool due = every_ > 0.0 && moment.time() >= every_ * static_cast<double>(next_);
+  const bool due = every_ > 0.0 && moment.time() >= every_ * (static_cast<double>(next_) - tolerance);
   if (moment.is_last() || due || moment.asks_for(Act::snapshot)) write(moment);
 }
 
@@ -110,6 +113,10 @@ void Snapshots::write(const Moment& moment) {
   }
   next_ = next_multiple(moment.time(), every_);
   last_step_ = moment.step();
+}
+
+double Snapshots::next_time() const {
+  return every_ > 0.0 ? every_ * static_cast<double>(next_) : std::numeric_limits<double>::infinity();
 }
 
 void Snapshots::remember(io::CheckpointValues& values) {

@@ -35,7 +35,7 @@ class SnapshotFiles {
   std::optional<io::ElementSeries> elements_;
 };
 
-/// Writes snapshots: at the start, after the steps that pass a multiple of the interval, on request, at the end;
+/// Writes snapshots: at the start, at the multiples of the interval, on which steps end, on request, at the end;
 /// and of a state that left the range of the physics into the folder failed/.
 class Snapshots : public RunObserver {
  public:
@@ -45,6 +45,7 @@ class Snapshots : public RunObserver {
   void begin(const Moment& moment) override;
   void resume(const Moment& moment, const io::CheckpointValues& values) override;
   void after_step(const Moment& moment) override;
+  [[nodiscard]] double next_time() const override;
   void remember(io::CheckpointValues& values) override;
   void end(const Moment& moment, Outcome& outcome) override;
 
