@@ -10,6 +10,8 @@
 #include <thread>
 
 #include "src/core/base/error.hpp"
+#include "src/core/base/machine.hpp"
+#include "src/core/process/mpirun.hpp"
 #include "src/core/process/process.hpp"
 
 namespace whipple::process {
@@ -102,6 +104,16 @@ TEST(RunProcess, ASupervisorThatDoesNotNoticeTheEndOfItsChildIsKilled) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
   // One that waits for its children is left alone.
   EXPECT_EQ(run_process({"sh", "-c", "sleep 0.8 & wait; exit 3"}, {}, {.may_be_killed = true, .patience = 0.5}), 3);
+}
+
+TEST(Mpirun, FarMoreRanksThanProcessorsAreRefused) {
+  const int most = std::max(16, 4 * usable_processors());
+  try {
+    mpirun(most + 1, {"whipple", "run"});
+    ADD_FAILURE() << "started";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("at most " + std::to_string(most)), std::string::npos);
+  }
 }
 
 TEST(RunProcess, HandlersAreRestored) {

@@ -10,7 +10,9 @@
 #include <cstring>
 #include <string_view>
 
+#include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
+#include "src/core/base/machine.hpp"
 #include "src/core/process/paths.hpp"
 
 namespace whipple::process {
@@ -29,6 +31,14 @@ void append(std::vector<std::string>& list, const std::vector<std::string>& more
 }  // namespace
 
 int mpirun(int ranks, const std::vector<std::string>& program, const Environment& environment) {
+  // Thousands of processes bring a machine to a standstill before any of them has begun.
+  constexpr int always_allowed = 16;
+  const int processors = usable_processors(), most = std::max(always_allowed, 4 * processors);
+  if (ranks > most) {
+    throw InputError(fmt::format("{} ranks on a machine whose {} processors this process may use: at most {}; "
+                                 "on several machines start them by mpirun {} ...",
+                                 ranks, processors, most, program.front()));
+  }
   // mpirun passes SIGUSR2 on and waits, upon which a run saves its state; after SIGTERM and SIGINT it kills
   // its ranks within a second. Ranks without mpirun are lost.
   std::vector<std::string> arguments = ends_with_its_parent("USR2");

@@ -13,6 +13,7 @@ namespace whipple::process {
 /// @param environment  variables for the ranks, besides those that let Open MPI run with more ranks than
 /// cores and as root
 /// The ranks end with this process, however it ends.
+/// @throws InputError if there are far more ranks than processors
 /// @returns the exit code of mpirun, or 128 + the signal that was passed on to end it
 int mpirun(int ranks, const std::vector<std::string>& program, const Environment& environment = {});
 
