@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -60,9 +61,16 @@ void add_steer_command(CLI::App& app) {
   command->add_option("request", arguments->request, "What is asked")->required();
   command->add_option("value", arguments->value, "The new value, with its unit");
   command->footer("Requests:\n" + run::describe_acts() +
-                  "The answer stands in steering.csv of the run directory.\n"
+                  "The answer is printed, and kept in steering.csv of the run directory.\n"
                   "Example:\n  whipple steer run/disk snapshot\n  whipple steer run/disk end '5 us'");
-  command->callback([arguments] { run::steer(arguments->run, arguments->request, arguments->value); });
+  command->callback([arguments] {
+    constexpr std::chrono::seconds patience(20);
+    const std::string answer = run::steer(arguments->run, arguments->request, arguments->value, patience);
+    if (answer.starts_with("refused") || answer.starts_with("\"refused")) {
+      throw InputError(fmt::format("{}: {}", arguments->run, answer));
+    }
+    fmt::print("{}\n", answer.empty() ? "no answer yet: a step may last long; it will be in steering.csv" : answer);
+  });
 }
 
 void add_status_command(CLI::App& app) {

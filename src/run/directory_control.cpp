@@ -8,6 +8,7 @@
 #include <fstream>
 #include <optional>
 #include <system_error>
+#include <thread>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
@@ -99,7 +100,8 @@ void DirectoryControl::answer(const Moment& moment, const RequestWords& words, c
   log::info("request {}{}{}: {}", words.request, words.value.empty() ? "" : " ", words.value, result);
 }
 
-void steer(const fs::path& run, const std::string& word, const std::string& value) {
+std::string steer(const fs::path& run, const std::string& word, const std::string& value,
+                  std::chrono::duration<double> patience) {
   (void)parse_request(word, value);
   const fs::path folder = run / "control";
   if (!fs::is_regular_file(run / "run.toml"))
@@ -108,8 +110,25 @@ void steer(const fs::path& run, const std::string& word, const std::string& valu
     throw InputError(fmt::format("{}: no run goes on there that could follow a request", run.string()));
   // Names in the order of time.
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  io::write_text_atomically(folder / fmt::format("{}.toml", std::chrono::nanoseconds(now).count()),
-                            request_toml(word, value));
+  const fs::path file = folder / fmt::format("{}.toml", std::chrono::nanoseconds(now).count()),
+                 table = run / "steering.csv";
+  std::error_code missing;
+  const std::uintmax_t former = fs::exists(table) ? fs::file_size(table, missing) : 0;
+  io::write_text_atomically(file, request_toml(word, value));
+
+  const auto is_waiting = [&] { return fs::exists(file, missing) || fs::exists(file.string() + ".taken", missing); };
+  constexpr auto pause = std::chrono::milliseconds(50);
+  for (const auto begin = std::chrono::steady_clock::now(); is_waiting();) {
+    if (std::chrono::steady_clock::now() - begin >= patience) return "";
+    std::this_thread::sleep_for(pause);
+  }
+  std::ifstream answers(table, std::ios::binary);
+  answers.seekg(static_cast<std::streamoff>(former));
+  const std::string own = fmt::format(",{},{},", io::csv_cell(word), io::csv_cell(value));
+  for (std::string line; std::getline(answers, line);) {
+    if (const std::size_t at = line.find(own); at != std::string::npos) return line.substr(at + own.size());
+  }
+  return "";
 }
 
 }  // namespace whipple::run

@@ -35,8 +35,11 @@ class DirectoryControl : public RunControl {
   Clock::time_point next_look_;
 };
 
-/// Puts a request into the folder control/ of a run.
+/// Puts a request into the folder control/ of a run and waits for its answer.
+/// @param patience  s to wait; a run answers at the end of the step under way
+/// @returns the answer, "accepted ..." or "refused: ..."; empty if none came in that time
 /// @throws InputError if the request is wrong or the run does not go on
-void steer(const std::filesystem::path& run, const std::string& word, const std::string& value);
+std::string steer(const std::filesystem::path& run, const std::string& word, const std::string& value,
+                  std::chrono::duration<double> patience = {});
 
 }  // namespace whipple::run

@@ -233,8 +233,13 @@ solver::Simulation resume(const cases::Case& setup, io::Checkpoint& checkpoint, 
   const std::string changed = require_same_input(setup, checkpoint.values);
   require_admissible(setup, checkpoint, communicator);
   if (!changed.empty()) log::info("changed since the checkpoint: {}", changed);
+  const solver::RunState state = from_checkpoint(checkpoint.values);
+  if (setup.time.end < state.time) {
+    throw InputError(fmt::format("'time.end' is {} s, and the run is at t = {} s already: expected at least that",
+                                 setup.time.end, state.time));
+  }
   try {
-    return {setup,        std::move(checkpoint.particles), from_checkpoint(checkpoint.values),
+    return {setup,        std::move(checkpoint.particles), state,
             communicator, std::move(checkpoint.meshes),    std::move(checkpoint.bars)};
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}; changed since then: {}", checkpoint.path.string(), error.what(),

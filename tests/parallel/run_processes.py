@@ -154,7 +154,8 @@ def steered():
     wait_for(lambda: (run / "history.csv").exists(), "the history")
     goes_on(run, launcher)
     require(status()["state"] == "running", f"status of a run that goes on: {status()}")
-    require(steer("pause").returncode == 0, "a request is refused")
+    asked = steer("pause")
+    require(asked.returncode == 0 and "accepted" in asked.stdout, f"a request is refused: {asked}")
     wait_for(lambda: status()["state"] == "paused", "the pause")
     step = status()["step"]
     time.sleep(1.2)
@@ -162,6 +163,8 @@ def steered():
     require(steer("snapshots").returncode == 2 and not list(run.glob("control/*")), "a bad request is not refused")
     (run / "control" / "bad.toml").write_text("request = 'nothing'")
     wait_for(lambda: len(answers()) == 2, "the answer to a bad request")
+    asked = steer("end", "1e-15 s")  # long past
+    require(asked.returncode == 2 and "already" in asked.stderr, f"what a run refuses is not told: {asked}")
     require(steer("resume").returncode == 0, "a request is refused")
     goes_on(run, launcher)
     listed = subprocess.run([WHIPPLE, "status", FOLDER], capture_output=True, text=True).stdout
@@ -170,10 +173,12 @@ def steered():
     code, message = finish(launcher)
     require(code == 0 and status()["state"] == "done", f"ended by request: {code}, {message}, {status()}")
     results = [row["result"].split()[0].rstrip(":,") for row in answers()]
-    require(results == ["accepted", "refused", "accepted", "accepted"], f"answers: {answers()}")
+    require(results == ["accepted", "refused", "refused", "accepted", "accepted"], f"answers: {answers()}")
     require(steer("snapshot").returncode == 2, "a run that has ended takes requests")
     before = last_step(run)
     require(finish(start("--restart", run))[0] == 0 and last_step(run) == before, "the end is not that of the restart")
+    code, message = finish(start("--restart", run, "--set", "time.end='1e-15 s'"))
+    require(code == 2 and "already" in message, f"an end before the present time is accepted: {code}, {message}")
 
 
 def molecular_dynamics():
