@@ -334,8 +334,9 @@ const GmshFile::Group& GmshFile::find(const std::string& name, int dimension, in
     const Element& element = elements_[e];
     if (element.kind == kind) continue;
     throw InputError(fmt::format(
-        "{}:{}: error: element {} of group \"{}\" is one of the {}; supported are {}", path_.string(),
-        element.line, element.tag, name, kind_of(element.kind)->name, kind_of(kind)->name));
+        "{}:{}: error: element {} of group \"{}\" is one of the {}; supported are {} (gmsh: transfinite volumes with "
+        "Recombine Surface, or Mesh.SubdivisionAlgorithm = 2)",
+        path_.string(), element.line, element.tag, name, kind_of(element.kind)->name, kind_of(kind)->name));
   }
   return *found;
 }

@@ -39,6 +39,8 @@ TEST(Remarks, NameABodyThatMeetsNothing) {
   const std::string away = replaced(sphere, "\"5.55 km/s\"", "\"-1 km/s\"");
   EXPECT_NE(remarks_of(free_domain + away + plate("5 mm")).find("'sphere' meets no other body until t = 4 us"),
             std::string::npos);
+  EXPECT_NE(remarks_of(domain + away + plate("5 mm")).find("'sphere' meets no other body until t = 4 us"),
+            std::string::npos);  // a quarter model: its mirror planes lie along the flight
   const std::string late = replaced(sphere, "\"5.55 km/s\"", "\"1 km/s\"");  // 6 mm in 4 us
   EXPECT_NE(remarks_of(free_domain + late + plate("5 mm")).find("long enough"), std::string::npos);
 }

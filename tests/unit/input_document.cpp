@@ -380,7 +380,7 @@ TEST(Document, FileErrorsNameTheFile) {
     Document::from_file("/nonexistent/case.toml");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "/nonexistent/case.toml: error: cannot open the file");
+    EXPECT_STREQ(error.what(), "/nonexistent/case.toml: error: there is no such file");
   }
   for (const char* endless : {"/dev/zero", "/dev/null"}) {
     try {

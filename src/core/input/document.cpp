@@ -85,7 +85,7 @@ Value read_exact(const toml::node& node, const char* expected) {
 
 const toml::array& read_array(const toml::node& node, const char* expected) {
   if (const toml::array* array = node.as_array()) return *array;
-  throw InputError(fmt::format("is {}, expected {}", type_name(node), expected));
+  throw InputError(fmt::format("is {}, expected {}, as [\"...\", \"...\"]", type_name(node), expected));
 }
 
 void read_into(double* target, const toml::node& node, const ParameterInfo& info) {
@@ -247,7 +247,12 @@ Document::~Document() = default;
 Document Document::from_file(const std::filesystem::path& path) {
   constexpr std::uintmax_t most_bytes = 16'000'000;  // of text: minutes of reading, and no case is so long
   std::ifstream file(regular_file(path, most_bytes));
-  if (!file) throw InputError(fmt::format("{}: error: cannot open the file", path.string()));
+  if (!file) {
+    std::error_code fault;
+    const bool missing = !std::filesystem::exists(path, fault);
+    throw InputError(fmt::format("{}: error: {}", path.string(),
+                                 missing ? "there is no such file" : "cannot open the file"));
+  }
   std::ostringstream text;
   text << file.rdbuf();
   std::unique_ptr<State> state = parse(text.str(), path);

@@ -44,7 +44,7 @@ void tell(const Moment& moment) {
     if (count > 0.0) log::info("{}: {:.0f} times", limiter.meaning, count);
   }
   if (totals.unresolved_share() > much_unresolved) {
-    log::info("{:.2g} % of the kinetic energy is motion that the cells do not resolve: finer cells would change "
+    log::info("{:.3g} % of the kinetic energy is motion that the cells do not resolve: finer cells would change "
               "the result",
               100.0 * totals.unresolved_share());
   }
