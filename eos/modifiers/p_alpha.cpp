@@ -70,9 +70,7 @@ ParameterTable<PAlphaConstants> PAlpha::parameters() {
            "alpha0, density of the matrix over that of the porous body at rest"),
       real("elastic_pressure", &C::elastic_pressure, "Pa", range::non_negative(),
            "p_e, up to which the pores resist"),
-      choice("compaction", &C::compaction, {"quadratic", "power", "exponential"},
-             "crush curve alpha(p) above p_e")
-          .optional(),
+      choice("compaction", &C::compaction, "crush curve alpha(p) above p_e").optional(),
       real("solid_pressure", &C::solid_pressure, "Pa", range::non_negative(),
            "p_s of the quadratic curve and of the power, at which the pores are closed")
           .optional("none; these curves ask for it"),
@@ -91,12 +89,13 @@ PAlpha::PAlpha(std::shared_ptr<const EquationOfState> base, const Constants& con
     throw InputError("p_alpha: the equation of state has pores already");
   }
   if (!(k.distension > 1)) throw InputError("p_alpha: distension must be above 1");
-  const bool exponential = k.compaction == "exponential", power = k.compaction == "power";
+  const bool exponential = k.compaction == CompactionCurve::exponential;
+  const bool power = k.compaction == CompactionCurve::power;
   exponent_ = exponential ? 0.0 : power ? k.compaction_exponent : 2.0;
   const auto refuse = [&](bool given, const char* constant) {
     if (!given) return;
     throw InputError(
-        fmt::format("p_alpha: {} does not belong to compaction = \"{}\"", constant, k.compaction));
+        fmt::format("p_alpha: {} does not belong to compaction = \"{}\"", constant, word_of(k.compaction)));
   };
   refuse(!exponential && k.compaction_rate != 0, "compaction_rate");
   refuse(exponential && k.solid_pressure != 0, "solid_pressure");

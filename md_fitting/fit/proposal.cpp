@@ -43,11 +43,13 @@ MatrixXd jacobian_of(const LeastSquaresProblem& problem, Index rows) {
 }
 
 std::string point_text(const PlannedPoint& point) {
-  if (point.protocol == Protocol::hugoniot) return fmt::format("hugoniot at V/Vs = {:.4g}", point.volume_ratio);
-  if (point.protocol == Protocol::isochore) {
+  if (point.protocol == md::PointKind::hugoniot) return fmt::format("hugoniot at V/Vs = {:.4g}", point.volume_ratio);
+  if (point.protocol == md::PointKind::isochore) {
     return fmt::format("isochore V/Vs = {:.4g} at {:.0f} K", point.volume_ratio, point.temperature);
   }
-  if (point.protocol == Protocol::coexistence) return fmt::format("coexistence at {:.3g} GPa", 1e-9 * point.pressure);
+  if (point.protocol == md::PointKind::coexistence) {
+    return fmt::format("coexistence at {:.3g} GPa", 1e-9 * point.pressure);
+  }
   return fmt::format("zero_pressure_volume at {:.0f} K", point.temperature);
 }
 
@@ -62,7 +64,7 @@ void propose_points(Proposal& proposal, const Ranges& ranges, const std::vector<
 bool bears_fit(const md::Plan& plan, std::span<const md::PointRecord> points, const FitSettings& settings,
                const std::string& store_name) {
   const bool melting = std::any_of(points.begin(), points.end(),
-                                   [](const auto& point) { return protocol_of(point) == Protocol::coexistence; });
+                                   [](const auto& point) { return point.kind() == md::PointKind::coexistence; });
   if (plan.coexistence && !melting) return false;
   try {
     observe(points, settings, {}, store_name);

@@ -32,7 +32,7 @@ template <class Visit>
 void for_each_neighbour(const EamTables& tables, double a, const Visit& visit) {
   // Cubic lattices in units of a/2: fcc has all sites with an even sum of the coordinates, bcc all sites
   // whose coordinates are all even or all odd.
-  const bool fcc = tables.structure == "fcc";
+  const bool fcc = tables.structure == CrystalStructure::fcc;
   const int reach = static_cast<int>(std::ceil(2.0 * tables.cutoff / a));
   for (int x = -reach; x <= reach; ++x) {
     for (int y = -reach; y <= reach; ++y) {
@@ -103,7 +103,7 @@ double EamTables::static_lattice_constant() const {
   if (best == 0 || best == samples) {
     throw InputError(
         fmt::format("the static {} crystal of {} has no energy minimum for lattice constants {} ... {} A",
-                    structure, element, lower, upper));
+                    word_of(structure), element, lower, upper));
   }
   upper = lower + (best + 1) * step;
   lower = lower + (best - 1) * step;

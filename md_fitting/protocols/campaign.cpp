@@ -132,19 +132,19 @@ PointRecord compute_point(const Task& task, const PointRecord* dependency, int s
         throw StateError(fmt::format("{} is not finite", name));
       }
     }
-    point.status = "done";
+    point.status = PointStatus::done;
     point.message = std::move(result.message);
     point.results = std::move(result.results);
     point.blocks = std::move(result.blocks);
     point.provenance["lammps_commands"] = std::move(result.transcript);
   } catch (const LammpsError& error) {
-    point.status = "failed";
+    point.status = PointStatus::failed;
     point.message = error.what();
   } catch (const StateError& error) {
-    point.status = "failed";
+    point.status = PointStatus::failed;
     point.message = error.what();
   } catch (const InputError& error) {  // a range or a style that only this point asks for
-    point.status = "failed";
+    point.status = PointStatus::failed;
     point.message = error.what();
   }
   point.wall_seconds = seconds_since(begin);
@@ -401,7 +401,8 @@ int count_molten(std::span<const Task> tasks, const std::filesystem::path& store
   if (rank == 0 && std::filesystem::exists(store)) {
     std::set<std::string> solids;
     for (const Task& task : tasks) {
-      if (task.protocol == "isotherm" || task.protocol == "isochore") solids.insert(task.key);
+      const std::optional<PointKind> kind = value_of<PointKind>(task.protocol);
+      if (kind == PointKind::isotherm || kind == PointKind::isochore) solids.insert(task.key);
     }
     try {
       for (const PointRecord& point : read_store(store)) {

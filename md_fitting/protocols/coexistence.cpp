@@ -278,9 +278,9 @@ std::string refusal(const CoexistenceRun& run) {
 
 ReplicaSet measure_coexistence(const Potential& potential, double pressure, double first_guess,
                                const CoexistencePlan& section, std::int64_t seed) {
-  if (potential.structure() != "fcc") {
+  if (potential.structure() != CrystalStructure::fcc) {
     throw InputError(fmt::format("coexistence is measured for fcc crystals, {} of {} is {}",
-                                 potential.element(), potential.name(), potential.structure()));
+                                 potential.element(), potential.name(), word_of(potential.structure())));
   }
   // The melting line that is meant here lies below a few 10 GPa: the temperature of the crystal decides, not
   // the guess.
