@@ -111,6 +111,11 @@ class Dataset : public Object {
   /// @throws InputError naming both shapes, as `stored_shape`
   void require_shape(const Shape& expected) const;
 
+  /// Returns whether the numbers in the file are of the class and width of T, so that they can be read as such.
+  template <class T>
+  [[nodiscard]] bool stores() const {
+    return has_type(NumberType<T>::memory());
+  }
   /// Reads rows [slab.first, slab.first + slab.count), all columns, row by row.
   /// @throws InputError also if the type is of another class or width than T, or the array has other columns.
   template <class T>
@@ -135,6 +140,7 @@ class Dataset : public Object {
  private:
   friend class Group;
   using Object::Object;
+  [[nodiscard]] bool has_type(hid_t memory_type) const;
   void read_bytes(void* values, hid_t memory_type, std::uint64_t size, const Slab& slab,
                   std::uint64_t columns, bool collective) const;
 };
