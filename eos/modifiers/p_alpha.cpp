@@ -12,7 +12,7 @@ namespace {
 constexpr double open_at_the_end = 1e-6;  ///< of alpha0 - 1, where the exponential curve ends
 constexpr int greatest_iterations = 100;
 
-/// State of matter with pores from that of its matrix.
+/// State of material with pores from that of its matrix.
 State with_pores(State s, double distension) {
   s.density /= distension;
   s.pressure /= distension;
@@ -22,7 +22,7 @@ State with_pores(State s, double distension) {
   return s;
 }
 
-/// Pores of constant share: what crushed matter expands on (A1).
+/// Pores of constant fraction: what crushed material expands on (A1).
 class FixedDistension final : public Modified {
  public:
   FixedDistension(std::shared_ptr<const EquationOfState> base, double distension)

@@ -18,7 +18,7 @@ constexpr std::array<Word<CompactionCurve>, 3> words(CompactionCurve) {
 }
 
 struct PAlphaConstants {
-  double distension = 0;        ///< alpha0 = rho_s/rho of the matter at rest, > 1
+  double distension = 0;        ///< alpha0 = rho_s/rho of the material at rest, > 1
   double elastic_pressure = 0;  ///< p_e, Pa
   CompactionCurve compaction = CompactionCurve::quadratic;
   double solid_pressure = 0;       ///< p_s, Pa (quadratic, power)
@@ -26,7 +26,7 @@ struct PAlphaConstants {
   double compaction_rate = 0;      ///< 1/Pa (exponential)
 };
 
-/// Porous matter after Herrmann, J. Appl. Phys. 40, 2490 (1969), with the pressure of the matrix divided by
+/// Porous material after Herrmann, J. Appl. Phys. 40, 2490 (1969), with the pressure of the matrix divided by
 /// the distension (Carroll and Holt, J. Appl. Phys. 43, 759, 1972): alpha = V/V_s,
 ///   p(rho, e, alpha) = p_s(alpha rho, e)/alpha.
 /// The distension stays while p is below the crush curve and follows it in further loading, for good:

@@ -268,7 +268,8 @@ std::vector<PointRecord> select(std::span<const PointRecord> points, std::string
 
 namespace {
 
-/// What keeps a file of a size from being written into a folder, in the words of the system; empty: nothing.
+/// Returns what keeps a file of a size (bytes) from being written into a folder, as the system says it; empty if
+/// nothing does.
 std::string obstacle(const std::filesystem::path& probe, std::uintmax_t size) {
   ::unlink(probe.c_str());  // what a killed writer left, or a link that somebody planted
   const int descriptor = ::open(probe.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0644);

@@ -80,7 +80,8 @@ struct PointRecord {
   /// A provenance entry that must be there.
   /// @throws InputError naming the point and the entry.
   [[nodiscard]] std::string origin(std::string_view name) const;
-  /// The same as a number, e.g. origin_number("molar_mass") in kg/mol.
+  /// Returns a provenance entry as a number, e.g. origin_number("molar_mass") in kg/mol.
+  /// @throws InputError naming the point and the entry.
   [[nodiscard]] double origin_number(std::string_view name) const;
   /// "isotherm at specific_volume = 0.0001 m^3/kg, temperature = 293 K"
   [[nodiscard]] std::string label() const;

@@ -14,7 +14,7 @@ namespace {
 using Eigen::VectorXd;
 using md::PointRecord;
 
-/// What the fit reads of each protocol and the simulation measured.
+/// Returns the results of a protocol that the fit reads.
 const std::vector<std::string>& measured(const std::string& protocol) {
   static const std::map<std::string, std::vector<std::string>, std::less<>> quantities = {
       {"zero_pressure_volume", {"specific_volume"}},

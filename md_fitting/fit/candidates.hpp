@@ -48,7 +48,7 @@ class Ranges {
 
   /// Atoms times steps (docs/theory/fit.md, section 8).
   [[nodiscard]] double cost(const PlannedPoint& point) const;
-  /// Of all points of the store, failed ones included.
+  /// Returns the cost of all points of the store, failed ones included.
   [[nodiscard]] double spent() const;
   /// V of the static crystal at zero pressure, as the store has it, m^3/kg.
   [[nodiscard]] double static_volume() const { return static_volume_; }

@@ -7,8 +7,8 @@
 
 #include "eos/models/gray_constants.hpp"
 
-/// What molecular dynamics does not bear, per element, each value with its name and source. This is the only
-/// place where the fit takes a number from that is not in the store.
+/// Lists constants that molecular dynamics does not determine, per element, each with its name and source: the only
+/// place from which the fit takes a number that is not in the store.
 namespace whipple::fit {
 
 struct NamedDefault {

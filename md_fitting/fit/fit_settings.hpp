@@ -8,7 +8,7 @@
 
 namespace whipple::fit {
 
-/// What the laws of GRAY leave out even if the data had no noise: part of the weights
+/// Holds the errors of the laws of GRAY on data without noise: part of the weights
 /// (docs/theory/fit.md, section 3). All are one standard deviation.
 struct ModelErrors {
   double zero_pressure_volume = 1e-4;  ///< relative

@@ -24,7 +24,7 @@ using Eigen::VectorXd;
 
 /// A parameter without data: 100 GPa and 1 MJ/kg for the intercepts of an isochore, e^100 for a constant.
 constexpr double weak = 100.0;
-/// Points that lower the variance by less than this share are not worth their time.
+/// Points that lower the variance by less than this fraction are not worth their time.
 constexpr double least_gain = 1e-3;
 
 /// Central differences, as `solve` takes them.
@@ -60,7 +60,7 @@ void propose_points(Proposal& proposal, const Ranges& ranges, const std::vector<
   }
 }
 
-/// Whether the store bears a fit, and one with melting if the plan has any.
+/// Returns whether the store bears a fit, and one with melting if the plan has any.
 bool bears_fit(const md::Plan& plan, std::span<const md::PointRecord> points, const FitSettings& settings,
                const std::string& store_name) {
   const bool melting = std::any_of(points.begin(), points.end(),

@@ -45,7 +45,8 @@ void for_each_neighbour(const EamTables& tables, double a, const Visit& visit) {
   }
 }
 
-/// The same of hcp with the ideal axial ratio: layers ABAB, a triangular lattice of distance d in each.
+/// Calls visit(r) for every neighbour within the cutoff (A) of an atom of hcp with the ideal axial ratio: layers ABAB,
+/// a triangular lattice of distance d (A) in each.
 template <class Visit>
 void for_each_hexagonal_neighbour(double cutoff, double d, const Visit& visit) {
   const int reach = static_cast<int>(std::ceil(1.3 * cutoff / d)) + 1;

@@ -79,7 +79,7 @@ std::vector<std::string> installed_models(const std::string& element) {
   return names;
 }
 
-/// What to name instead: the installed models nearest in name, or where to get models.
+/// Tells which models to name instead: the installed ones nearest in name, or where to get some.
 std::string advice(const std::string& identifier, const std::string& element) {
   std::vector<std::string> models = installed_models(element);
   if (models.empty())

@@ -16,7 +16,7 @@ namespace whipple::md {
 /// the static crystal when the model is loaded (docs/theory/molecular_dynamics.md, "Models of OpenKIM").
 class KimModel {
  public:
-  /// Whether a name is an extended KIM identifier: NAME__MO_123456789012_000, or SM for simulator models. The
+  /// Returns whether a name is an extended KIM identifier: NAME__MO_123456789012_000, or SM for simulator models. The
   /// last number is the version; the identifier stands for one content for ever.
   static bool is_identifier(const std::string& name);
 

@@ -48,7 +48,7 @@ class Potential {
   [[nodiscard]] const std::string& source() const { return source_; }
   /// SHA-256 of the tables as LAMMPS reads them.
   [[nodiscard]] const std::string& hash() const { return hash_; }
-  /// Whether its functions are those of tables that the program read.
+  /// Returns whether its functions are those of tables that the program read.
   [[nodiscard]] bool has_tables() const { return kim_ == nullptr; }
   /// @throws InternalError for a KIM model.
   [[nodiscard]] const EamTables& tables() const;
@@ -77,7 +77,8 @@ class Potential {
 
   /// Thermal motion raises the density of single atoms above that of the static crystal at the same volume.
   static constexpr double density_margin = 0.10;
-  /// The same for models whose density is not known: electron densities of metals grow about as 1/V^2.
+  /// Leaves this part of the volume for thermal motion in models whose electron density is not known; that of metals
+  /// grows about as 1/V^2.
   static constexpr double volume_margin = 0.05;
 
  private:

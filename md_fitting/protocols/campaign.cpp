@@ -78,7 +78,7 @@ std::optional<PointRecord> find_point(const std::filesystem::path& store, const 
   return std::nullopt;
 }
 
-/// What rank 0 finds in the store, told to all: 'd' done, 'c' done but to be continued, 'f' failed, ' '
+/// Reads the state of the tasks on rank 0 and tells it to all: 'd' done, 'c' done but to be continued, 'f' failed, ' '
 /// missing, one letter per task.
 std::string read_status(std::span<const Task> tasks, const std::filesystem::path& store,
                         MPI_Comm communicator, int rank) {
@@ -392,8 +392,8 @@ void put_in_order(const std::filesystem::path& store, MPI_Comm communicator) {
   }
 }
 
-/// What the store holds of the isotherms and isochores of a plan without being a crystal; the same on all
-/// ranks. A shock may melt, so points of the Hugoniot do not count.
+/// Counts the points on isotherms and isochores of a plan that have melted, on all ranks. A shock may melt, so points
+/// of the Hugoniot do not count.
 int count_molten(std::span<const Task> tasks, const std::filesystem::path& store, MPI_Comm communicator) {
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);

@@ -19,7 +19,7 @@ namespace whipple::md {
 namespace {
 
 constexpr int most_parts = 10;
-/// Residual, as a share of the shock's heating, up to which a point counts as converged.
+/// Residual, as a fraction of the shock's heating, up to which a point counts as converged.
 constexpr double accepted_residual = 0.02;
 
 }  // namespace

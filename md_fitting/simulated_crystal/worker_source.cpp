@@ -108,7 +108,7 @@ bool WorkerSource::find(const std::vector<PointRecord>& points, double volume_ra
         cold = true;
         continue;
       }
-      constexpr double whole = 0.9;  // share of crystal: a cavity or a fault takes more than a tenth
+      constexpr double whole = 0.9;  // fraction of crystal: a cavity or a fault takes more than a tenth
       if (point.result("solid").value < 0.5 || point.result("crystal_share").value < whole) {
         throw StateError(fmt::format("{}: {}", point.label(), point.message));
       }

@@ -154,7 +154,8 @@ std::vector<double> as_reals(const hdf5::Group& data, const std::string& name,
   return widen(set.read_all<float>(list));
 }
 
-/// What every measurement relies on.
+/// Checks what every measurement relies on: known bodies, finite positions and velocities, positive masses.
+/// @throws InputError naming the file and the particle
 void require_sound(const Snapshot& snapshot, const SnapshotEntry& entry) {
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     if (snapshot.body[i] >= entry.bodies) {

@@ -365,7 +365,7 @@ std::vector<Bytef> deflated(const Rows& rows, std::size_t first, std::size_t chu
   return chunk;
 }
 
-/// What H5Dwrite does with an array in chunks with shuffle and deflate, on all threads: HDF5 has one.
+/// Writes an array in chunks with shuffle and deflate on all threads, as H5Dwrite does on one.
 void write_deflated(const Dataset& dataset, const Rows& rows, std::size_t chunk_rows, int level) {
   constexpr std::size_t together = 32;  // chunks in memory
   const std::size_t chunks = (rows.count + chunk_rows - 1) / chunk_rows;

@@ -127,7 +127,8 @@ class Dataset : public Object {
   [[nodiscard]] std::vector<T> read_all() const {
     return read_all<T>(stored_shape());
   }
-  /// The same, of a known shape.
+  /// Reads the whole array of a known shape, by this process alone.
+  /// @throws InputError if the array has another shape or type
   template <class T>
   [[nodiscard]] std::vector<T> read_all(const Shape& expected) const {
     require_shape(expected);
@@ -150,7 +151,7 @@ class Group : public Object {
   Group create_group(const std::string& name, Order order = Order::name) const;
   [[nodiscard]] Group open_group(const std::string& name) const;
   [[nodiscard]] Dataset open_dataset(const std::string& name) const;
-  /// Is there a link of this name (one level)?
+  /// Returns whether there is a link of this name (one level).
   [[nodiscard]] bool has(const std::string& name) const;
   /// Names of the links of this group.
   [[nodiscard]] std::vector<std::string> names(Order order = Order::name) const;
