@@ -47,8 +47,8 @@ double squared_sound_speed(const State& s) {
   return s.isothermal_bulk_modulus / s.density + s.gruneisen * s.gruneisen * s.heat_capacity * s.temperature;
 }
 
-/// What is wrong with a state of condensed matter or of a gas; empty: nothing. Unknown quantities (NaN) are
-/// not held against it.
+/// Returns what is wrong with a state of a condensed material or of a gas; empty if nothing is. Unknown quantities
+/// (NaN) are no fault.
 std::string instability(const State& s) {
   if (!std::isfinite(s.pressure)) return "the pressure is not finite";
   if (!(s.sound_speed > 0) || !std::isfinite(s.sound_speed)) {
@@ -342,7 +342,7 @@ class Auditor {
     }
   }
 
-  /// Convexity over density and temperature. In expansion K_T < 0 is no fault: cold matter breaks, hot matter
+  /// Convexity over density and temperature. In expansion K_T < 0 is no fault: cold material breaks, hot material
   /// boils there. Instability next to the compression limit narrows the range; elsewhere it is a finding.
   void check_stability() {
     const double rho0 = eos_.reference_density();

@@ -9,7 +9,7 @@
 #include "eos/identities.hpp"
 #include "eos/loci.hpp"
 
-/// Whether an equation of state, with the constants that it was given, describes matter, and where
+/// Examines whether an equation of state, with the constants that it was given, describes a material, and where
 /// (docs/theory/equations_of_state.md, section 5). SI.
 namespace whipple::eos {
 
@@ -23,7 +23,7 @@ struct Finding {
 
 /// Where the model may be used.
 struct ValidRange {
-  double least_density = 0;     ///< of cold matter in tension, or of the thinnest state asked
+  double least_density = 0;     ///< of cold material in tension, or of the thinnest state asked
   double greatest_density = 0;  ///< compression limit
   double least_temperature = 0;
   double greatest_temperature = 0;  ///< on the isochore of the reference state
@@ -64,7 +64,7 @@ enum class AuditDepth {
   full,   ///< and stability and identities over density and temperature, melting line
 };
 
-/// Does not throw: what the model refuses is a finding.
+/// Audits an equation of state over its range. Throws nothing: a state that the model refuses is a finding.
 Audit audit(const EquationOfState& eos, AuditDepth depth = AuditDepth::full);
 
 }  // namespace whipple::eos

@@ -63,7 +63,7 @@ const Catalogue<ModelEntry>& catalogue() {
       entry<MieGruneisen>(),
       entry<Polynomial>(),
       entry<Murnaghan>(),
-      // Porous matter with a crush curve of its own.
+      // Porous material with a crush curve of its own.
       entry<HolmquistJohnsonCook>(),
       // Liquids, gases, detonation products.
       entry<Tait>(),

@@ -12,8 +12,8 @@ namespace whipple::eos {
 using ModelEntry = CatalogueEntry<EquationOfState>;
 const Catalogue<ModelEntry>& catalogue();
 
-/// What can be put around an equation of state (`[[eos.modifier]]` of a material file, applied in order); the builder
-/// takes the equation of state inside.
+/// Describes a modifier around an equation of state (`[[eos.modifier]]` of a material file, applied in order); its
+/// builder takes the equation of state inside.
 using ModifierEntry = CatalogueEntry<EquationOfState, std::shared_ptr<const EquationOfState>>;
 const Catalogue<ModifierEntry>& modifier_catalogue();
 

@@ -16,7 +16,7 @@ struct Component {
 };
 
 struct Mixture {
-  /// Of the whole: V = sum x_i V_i, e = sum x_i e_i, s = sum x_i s_i; sound speed, C_v, Gamma and K_T are
+  /// State of the whole: V = sum x_i V_i, e = sum x_i e_i, s = sum x_i s_i; sound speed, C_v, Gamma and K_T are
   /// those at equilibrium (masses fixed, p and T common at every instant). The sound speed is unknown (NaN)
   /// where the equilibrium is not stable.
   State state;

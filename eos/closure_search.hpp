@@ -47,7 +47,7 @@ class ClosureSearch {
   [[nodiscard]] std::optional<std::vector<double>> softest_fills() const;
   /// Energies of equal temperature at given volumes.
   [[nodiscard]] std::optional<Trial> equal_temperature(const std::vector<double>& volume) const;
-  /// Bracketed search over the share of the volume of the first component.
+  /// Bracketed search over the fraction of the volume of the first component.
   [[nodiscard]] std::optional<std::vector<State>> split();
 
   /// Newton's method, if it ends in a stable equilibrium.

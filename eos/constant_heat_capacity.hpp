@@ -60,7 +60,7 @@ struct LinearIsochore {
   }
 };
 
-/// What a model gives to the core: its pressure and the energy e_c(rho) of its coldest state, T = 0.
+/// Requires of a model its pressure (Pa) and the energy e_c(rho) (J/kg) of its coldest state, T = 0.
 template <class C>
 concept Curve = requires(const C& curve, Lanes lanes, double number) {
   typename C::Constants;

@@ -32,7 +32,7 @@ using Products = std::function<State(double density, double specific_internal_en
 ///         compression limit
 ChapmanJouguet chapman_jouguet(const Products& products, const Explosive& explosive, double maximum_density);
 
-/// The same for a model whose reference state is the explosive (jwl).
+/// Finds the Chapman-Jouguet state of products whose reference state is the unreacted explosive (jwl).
 ChapmanJouguet chapman_jouguet(const EquationOfState& products);
 
 }  // namespace whipple::eos

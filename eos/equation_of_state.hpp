@@ -25,12 +25,12 @@ struct Batch {
   std::span<double> sound_speed;                     ///< m/s, isentropic (bulk)
   std::span<double> melted_fraction;                 ///< mass fraction of liquid and vapour
   std::span<double> vaporised_fraction;              ///< mass fraction of vapour
-  /// Volume over that of the matter without its pores: the past of porous matter, in and out. Empty: never
+  /// Volume over that of the material without its pores: the past of porous material, in and out. Empty: never
   /// compacted so far. Models without pores leave it alone.
   std::span<double> distension = {};
 };
 
-/// What a batch met outside the model's range. Kernels count and keep the first; the caller throws.
+/// Counts the points of a batch outside the model's range. Kernels count and keep the first; the caller throws.
 struct RangeReport {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   std::size_t out_of_range = 0;  ///< points whose state is not defined (NaN, beyond the compression limit)
@@ -65,10 +65,10 @@ class EquationOfState {
   [[nodiscard]] virtual double reference_density() const = 0;
   [[nodiscard]] virtual double reference_temperature() const = 0;
   [[nodiscard]] virtual double reference_energy() const = 0;
-  /// Whether the model describes condensed matter, which has a state of zero pressure: bodies start there. A
+  /// Returns whether the model describes condensed matter, which has a state of zero pressure: bodies start there. A
   /// gas has none: bodies start in its reference state.
   [[nodiscard]] virtual bool condensed() const { return true; }
-  /// Whether points may melt or vaporise: else both fractions are always 0.
+  /// Returns whether points may melt or vaporise: else both fractions are always 0.
   [[nodiscard]] virtual bool has_phases() const { return true; }
   /// Time of the constitutive update with this model over that with an explicit one (some 50 ns a point), as
   /// measured: ranks share the particles out by it.
@@ -83,7 +83,7 @@ class EquationOfState {
   /// p, T, c (and phase fractions) from density and specific internal energy. Does not throw, does not
   /// allocate.
   virtual RangeReport evaluate(const Batch& batch) const = 0;
-  /// The same at the energy that the work of the pressure itself leaves: e = e_0 - h p(rho, e), the
+  /// Evaluates a batch at the energy that the work of the pressure itself leaves: e = e_0 - h p(rho, e), the
   /// trapezoidal rule of docs/theory/material.md, eq. 14. Two evaluations and the secant through them, exact
   /// where p is linear in e; models that know its slope need one.
   /// @param batch        its energies are those of `energy`; pressure on entry: before the step
@@ -105,9 +105,9 @@ class EquationOfState {
   /// appears or ends (kg/m^3): a table begins anew there.
   [[nodiscard]] virtual std::vector<double> kinks() const { return {}; }
 
-  /// Distension of the matter that bodies start from; 1: no pores.
+  /// Distension of the material that bodies start from; 1: no pores.
   [[nodiscard]] virtual double initial_distension() const { return 1.0; }
-  /// Pressure at which matter of a distension is crushed further (Pa); infinite: never, or no pores left.
+  /// Pressure at which material of a distension is crushed further (Pa); infinite: never, or no pores left.
   virtual void crush_pressure(std::span<const double> distension, std::span<double> pressure) const {
     for (std::size_t i = 0; i < distension.size(); ++i) pressure[i] = std::numeric_limits<double>::infinity();
   }

@@ -35,7 +35,7 @@ double derivative(const std::array<State, 2 * reach + 1>& s, double State::* qua
   return sum / h;
 }
 
-/// Whether more points of the stencil than the middle have exactly this sound speed.
+/// Returns whether more points of the stencil than the middle have exactly this sound speed.
 bool repeated(const std::array<State, 2 * reach + 1>& states, double sound_speed) {
   return std::ranges::count(states, sound_speed, &State::sound_speed) > 1;
 }

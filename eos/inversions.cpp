@@ -86,7 +86,7 @@ State state_at_pressure_and_temperature(const EquationOfState& eos, double press
           fmt::format("{:.6g} Pa at {:.6g} K: beyond the greatest density of model {} ({:.6g} kg/m^3)",
                       pressure, temperature, eos.model(), eos.maximum_density()));
     }
-    // Within one phase the pressure follows the density up to a spinodal. Partly molten matter may have a
+    // Within one phase the pressure follows the density up to a spinodal. Partly molten material may have a
     // plateau.
     const bool mixture = next.melted_fraction > 0 && next.melted_fraction < 1;
     const bool turns = (next.pressure - here.pressure) * direction < 0 || next.isothermal_bulk_modulus < 0;

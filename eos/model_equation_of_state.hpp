@@ -13,7 +13,7 @@
 
 namespace whipple::eos {
 
-/// What a model offers: a plain struct of constants with a parameter table, and functions on points and
+/// Requires of a model a plain struct of constants with a parameter table, and functions on points and
 /// batches.
 template <class M>
 concept Model = requires(const M& model, const Batch& batch, double number) {

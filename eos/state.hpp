@@ -21,7 +21,7 @@ struct State {
   double isothermal_bulk_modulus = unknown;   ///< Pa
   double melted_fraction = 0.0;               ///< mass fraction of liquid and vapour
   double vaporised_fraction = 0.0;            ///< mass fraction of vapour
-  double distension = 1.0;                    ///< volume over that of the matter without its pores
+  double distension = 1.0;                    ///< volume over that of the material without its pores
   std::string_view phase = "";                ///< "solid", "melting", "liquid", "hot liquid", "vapour", …
 
   // What follows from the above: filled by `derive`.

@@ -78,7 +78,7 @@ class VapourDome {
   Search search_;
   CriticalPoint critical_;
   std::vector<Saturation> rows_;
-  /// What the lever rule needs of a row.
+  /// Holds the volumes and energies of a row for the lever rule (SI, per mass).
   struct TieLine {
     double liquid_volume, inverse_width, liquid_energy, energy_width;
     [[nodiscard]] double fraction(double V) const { return (V - liquid_volume) * inverse_width; }

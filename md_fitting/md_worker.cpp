@@ -98,7 +98,10 @@ int run_plan(const Options& options) {
     }
   };
   const Potential potential =
-      of_plan([&] { return Potential::load(plan.potential, plan.element, plan.folder, plan.structure); });
+      of_plan([&] {
+        // The remaining word, least_energy, states none.
+        return Potential::load(plan.potential, plan.element, plan.folder, value_of<CrystalStructure>(plan.structure));
+      });
   const std::vector<Task> tasks = of_plan([&] { return make_tasks(plan, potential); });
   require_writable_on_all(options.store, rank);
   if (rank == 0) {
@@ -109,7 +112,7 @@ int run_plan(const Options& options) {
         "{} of {} ends at V/V0 = {:.3f}, usable down to {:.3f}; static {} with a0 = {:.4f} angstrom, cutoff "
         "{:.2f} angstrom",
         potential.has_tables() ? "density table" : "range", potential.name(), potential.table_end(),
-        potential.least_volume_ratio(), potential.structure(), potential.lattice_constant(),
+        potential.least_volume_ratio(), word_of(potential.structure()), potential.lattice_constant(),
         potential.cutoff());
     if (!potential.remark().empty()) log::warning("{}", potential.remark());
     if (!potential.has_tables() && potential.table_end() == 0.0) {

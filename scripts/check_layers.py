@@ -86,6 +86,29 @@ CONFINED = [
     ("UDUNITS2", re.compile(r"^\s*#\s*include\s*[<\"]udunits2\.h"), ["src/core/base"]),
 ]
 
+# Words end at the border: code decides by enumerations, whose words stand beside them (src/core/base/words.hpp), not
+# by comparing with a text. Where texts of others are read or written, they are compared:
+WORD_COMPARISON = re.compile(r'[=!]=\s*"|"\s*[=!]=')
+WORDS_ALLOWED = {
+    "src/case": "keys and words of case files",
+    "src/core": "reads and checks words",
+    "eos/experiments/measured_table.cpp": "heads and empty cells of tables of measurements",
+    "md_fitting/fit/bootstrap.cpp": "names of results in the store",
+    "md_fitting/fit/constant_list.cpp": "the unit 1",
+    "md_fitting/fit/gray_fit.cpp": "names of fitted constants",
+    "md_fitting/fit/material_writer.cpp": "writes and copies TOML",
+    "md_fitting/lammps/potential.cpp": "pair styles of LAMMPS",
+    "md_fitting/protocols/campaign.cpp": "names of results in the store",
+    "src/analysis/run.cpp": "names of fields in a snapshot",
+    "src/app/materials_table.cpp": "groups of the material library, which are folders",
+    "src/app/run_command.cpp": "sections of a case in --set",
+    "src/fem/gmsh.cpp": "grammar of Gmsh",
+    "src/material/material_file.cpp": "endings of file names",
+    "src/run/directory_control.cpp": "endings of file names",
+    "src/run/restart.cpp": "keys of a case",
+    "src/run/run.cpp": "the file name case.toml",
+}
+
 PYTHON_IMPORT = re.compile(rf"^\s*(?:from|import)\s+({'|'.join(PYTHON_MAY_USE)})\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 SOURCE_ENDINGS = {".hpp", ".cpp", ".h", ".in"}
@@ -130,6 +153,8 @@ def check_sources(root):
             for name, pattern, places in CONFINED:
                 if pattern.search(line) and not confined_to(path, places):
                     faults.append(f"{path}:{number}: {name} outside of {', '.join(places)}")
+            if WORD_COMPARISON.search(line) and path.stem != "catalogue" and not confined_to(path, WORDS_ALLOWED):
+                faults.append(f"{path}:{number}: compares with a text; an enumeration decides (src/core/base/words.hpp)")
             found = INCLUDE.match(line)
             if not found:
                 continue
@@ -161,6 +186,17 @@ def cycles(includes):
 
     for node in graph:
         visit(node, [])
+    return faults
+
+
+def check_allowed_words(root):
+    """Each file that may compare with texts does so: the list grows no stale entries."""
+    faults = []
+    for name in WORDS_ALLOWED:
+        path = root / name
+        if path.is_file() and not any(WORD_COMPARISON.search(line)
+                                      for _, line in code_lines(path.read_text(encoding="utf-8"))):
+            faults.append(f"WORDS_ALLOWED: {name} compares with no text any more")
     return faults
 
 
@@ -204,7 +240,7 @@ def check_table():
 
 
 def check(root):
-    return check_table() + check_sources(root) + check_cmake(root) + check_python(root)
+    return check_table() + check_sources(root) + check_allowed_words(root) + check_cmake(root) + check_python(root)
 
 
 def self_test():
@@ -232,6 +268,9 @@ def self_test():
         "src/solver/hdf5.cpp": ("#include <hdf5.h>\n", "HDF5 outside of"),
         "src/solver/forest.cpp": ("#include <p8est_bits.h>\n", "p4est outside of"),
         "src/core/base/relative.cpp": ('#include "upward.hpp"\n', '"upward.hpp" is no file of a layer'),
+        "src/solver/words.cpp": ('bool f(S s) { return s == "musl"; }\n', "compares with a text"),
+        "eos/models/words.cpp": ('bool f(S s) { return "band" != s; }\n', "compares with a text"),
+        "src/run/restart.cpp": ("", "src/run/restart.cpp compares with no text any more"),
         "src/nowhere/file.cpp": ("", "this folder is in no layer"),
         "src/io/a.hpp": ('#include "src/io/b.hpp"\n', "include cycle: src/io/a.hpp -> src/io/b.hpp -> src/io/a.hpp"),
         "src/transfer/CMakeLists.txt": ("whipple_library(transfer SOURCES a.cpp DEPENDS whipple_material)\n",
@@ -240,6 +279,10 @@ def self_test():
     }
     good = {
         "src/solver/simulation.hpp": '#include "src/particles/p.hpp"\n// MPI_Barrier(c) in a comment\nMPI_Comm comm;\n',
+        "src/case/case.cpp": 'bool f(S s) { return s == "musl"; }\n',
+        "src/fem/gmsh.cpp": 'bool f(S s) { return s == "$Nodes"; }\n',
+        "eos/catalogue.cpp": 'bool f(S s) { return s == "gray"; }\n',
+        "src/solver/texts.cpp": 'S a = "b == c"; // s == "musl"\n',
         "src/run/run.hpp": '#include "src/solver/simulation.hpp"\n',
         "src/core/input/document.hpp": "/* #include <hdf5.h>\n*/\n",
         "src/particles/p.hpp": "", "src/grid/g.hpp": "", "md_fitting/plan/plan.hpp": "", "md_fitting/lammps/l.hpp": "",

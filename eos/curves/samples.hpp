@@ -32,7 +32,7 @@ struct Threshold {
   Scatter pressure;
 };
 
-/// What the scatter of the constants of an equation of state leaves uncertain of its Hugoniot.
+/// Holds the uncertainty of a Hugoniot that follows from the scatter of the constants of its equation of state.
 struct SampledHugoniot {
   /// Mean and standard deviation over the samples at equal particle velocities: shock velocity, pressure, density,
   /// temperature, melted fraction behind the shock, melted and vaporised fraction after release. At each velocity

@@ -10,7 +10,7 @@
 
 namespace whipple::eos::experiments {
 
-/// What was measured over what.
+/// Names the two measured quantities of an experiment.
 enum class ExperimentKind {
   shock_velocity,  ///< Us over up along the principal Hugoniot
   shock_pressure,  ///< P over V/V0 along the principal Hugoniot

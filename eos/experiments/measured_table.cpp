@@ -85,7 +85,7 @@ bool fits(std::string_view unit, std::string_view si_unit) {
   }
 }
 
-/// Whether a cell is a number, and which; empty cells and "nan" are NaN.
+/// Returns whether a cell is a number, and which; empty cells and "nan" are NaN.
 bool read_number(std::string_view cell, double& value) {
   value = std::numeric_limits<double>::quiet_NaN();
   if (cell.empty() || cell == "-") return true;

@@ -11,7 +11,7 @@
 /// section 6).
 namespace whipple::eos::experiments {
 
-/// What a column of measurements holds; SI in memory.
+/// Names the quantity in a column of measurements; SI in memory.
 enum class Quantity {
   shock_velocity,       ///< Us, m/s
   particle_velocity,    ///< up, m/s

@@ -78,7 +78,7 @@ ShockState Hugoniot::shock(double density, double energy) const {
 ShockState Hugoniot::at_rest() const {
   ShockState s;
   s.state = initial_;
-  // A weak shock in porous matter closes the voids at no pressure and at no speed.
+  // A weak shock in porous material closes the voids at no pressure and at no speed.
   s.shock_velocity = std::isnan(initial_.sound_speed) ? 0.0 : initial_.sound_speed;
   return s;
 }
@@ -132,9 +132,9 @@ ShockState Hugoniot::at_density(double density) const {
   const auto residual = [&](double e) {
     return e - e0 - 0.5 * (eos_->state(density, e).pressure + initial_.pressure) * change;
   };
-  // At e0 the residual is negative if the matter is compressed there (the cold pressure does work), and rises
+  // At e0 the residual is negative if the material is compressed there (the cold pressure does work), and rises
   // with e until Gamma rho change/2 = 1, the greatest compression of any shock. Expanded, closed-up porous
-  // matter is in tension at e0: the residual begins positive and falls.
+  // material is in tension at e0: the residual begins positive and falls.
   const double sign = residual(e0) < 0 ? 1 : -1;
   const double scale = stiffness_ / initial_.density;
   double before = e0, step = 1e-6 * scale;

@@ -18,20 +18,20 @@ class Hugoniot {
  public:
   /// Principal Hugoniot: from the reference density and temperature.
   explicit Hugoniot(const EquationOfState& eos);
-  /// From any other state: preheated matter, or the second shock through a shocked state (reshock).
+  /// From any other state: preheated material, or the second shock through a shocked state (reshock).
   Hugoniot(const EquationOfState& eos, double density, double specific_internal_energy);
 
-  /// Porous matter of a density below the reference density: grains in the reference state with voids
+  /// Porous material of a density below the reference density: grains in the reference state with voids
   /// between, which resist with no pressure until they are closed (p, e and T ahead are those of the grains).
   /// @throws StateError if the density is not below the reference density, or not positive
   static Hugoniot porous(const EquationOfState& eos, double density);
 
   [[nodiscard]] ShockState at_particle_velocity(double particle_velocity) const;
   [[nodiscard]] ShockState at_pressure(double pressure) const;
-  /// The weakest shock that compresses to a density. The Hugoniot of very porous matter, and that of a gas,
+  /// The weakest shock that compresses to a density. The Hugoniot of very porous material, and that of a gas,
   /// reaches a density not at all or twice.
   [[nodiscard]] ShockState at_density(double density) const;
-  /// The state ahead of the shock. That of porous matter has no sound speed (NaN).
+  /// The state ahead of the shock. That of porous material has no sound speed (NaN).
   [[nodiscard]] const State& initial() const { return initial_; }
   [[nodiscard]] const EquationOfState& equation_of_state() const { return *eos_; }
 
@@ -42,11 +42,11 @@ class Hugoniot {
 
   const EquationOfState* eos_;
   State initial_;
-  double stiffness_;  ///< rho0 c0^2 of the matter (of the grains) ahead: the scale of pressures
+  double stiffness_;  ///< rho0 c0^2 of the material (of the grains) ahead: the scale of pressures
 };
 
-/// The shock that goes back through shocked matter when it meets a rigid wall: brings it to rest again. All
-/// velocities against the matter that the first shock has passed.
+/// The shock that goes back through shocked material when it meets a rigid wall: brings it to rest again. All
+/// velocities against the material that the first shock has passed.
 ShockState reflected_at_wall(const EquationOfState& eos, const ShockState& shocked);
 
 }  // namespace whipple::eos

@@ -11,7 +11,7 @@ struct ImpedanceMatch {
   double velocity = 0;              ///< of the interface, m/s
   State left;                       ///< the impactor, or the material that the shock comes from
   State right;                      ///< the target, or the material that the shock enters
-  double right_shock_velocity = 0;  ///< m/s, against the matter ahead
+  double right_shock_velocity = 0;  ///< m/s, against the material ahead
   /// m/s, of the shock that goes back into the left material, against that material; NaN if a release or
   /// nothing goes back
   double left_shock_velocity = 0;

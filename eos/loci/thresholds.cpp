@@ -21,7 +21,7 @@ class ShockScan {
   explicit ShockScan(const EquationOfState& eos, double highest_pressure)
       : hugoniot_(eos), highest_(highest_pressure) {}
 
-  /// The weakest shock with the property; nothing if matter at rest has it, or no shock within the range.
+  /// The weakest shock with the property; nothing if material at rest has it, or no shock within the range.
   [[nodiscard]] std::optional<ShockState> weakest(const std::function<bool(const State&)>& holds) const {
     double lower = std::max(hugoniot_.initial().pressure, 0.0);
     double upper = std::min(std::max(first_pressure, 2 * lower), highest_);

@@ -27,7 +27,7 @@ class CrystalSurface {
     double tolerance = 0.0;  ///< Pa: estimated error of the pressure that is not exceeded
     int divisions = 0;       ///< largest number of halvings of an interval
   };
-  /// What is known at one volume.
+  /// Holds the functions of volume at one volume (per mass, SI).
   struct Point {
     double cold_energy = 0.0;                       ///< phi
     double first = 0.0, second = 0.0;               ///< phi', phi''

@@ -26,7 +26,7 @@ ParameterTable<DebyeGruneisenConstants> DebyeGruneisen::parameters() {
            "mass of a mole of atoms (compounds: the mean over the atoms)"),
       real("reference_density", &C::reference_density, "kg/m^3", range::positive(),
            "rho0, density at the reference temperature and zero pressure"),
-      choice("isotherm", &C::isotherm, {"vinet", "birch_murnaghan"},
+      choice("isotherm", &C::isotherm,
              "form of the isotherm of the reference temperature (Birch-Murnaghan: third order)")
           .optional(),
       real("bulk_modulus", &C::bulk_modulus, "Pa", range::positive(),
@@ -35,8 +35,7 @@ ParameterTable<DebyeGruneisenConstants> DebyeGruneisen::parameters() {
            "K0' = dK_T/dp of that isotherm at rho0"),
       real("debye_temperature", &C::debye_temperature, "K", range::positive(), "theta0 at rho0"),
       real("gruneisen", &C::gruneisen, "", range::positive(), "gamma0 of the lattice at rho0"),
-      choice("gruneisen_law", &C::gruneisen_law, {"power", "linear"},
-             "gamma0 (V/V0)^q, or gamma0 - a (1 - V/V0)")
+      choice("gruneisen_law", &C::gruneisen_law, "gamma0 (V/V0)^q, or gamma0 - a (1 - V/V0)")
           .optional(),
       real("gruneisen_exponent", &C::gruneisen_exponent, "", range::between(-3.0, 5.0),
            "q of the law \"power\"")
@@ -99,15 +98,15 @@ struct DebyeGruneisen::Point {
 
 DebyeGruneisen::DebyeGruneisen(const Constants& constants)
     : constants_(constants),
-      vinet_(constants.isotherm == "vinet"),
-      power_law_(constants.gruneisen_law == "power"),
+      vinet_(constants.isotherm == IsothermForm::vinet),
+      power_law_(constants.gruneisen_law == LatticeGruneisenLaw::power),
       gas_constant_(molar_gas_constant / constants.molar_mass),
       least_squared_sound_speed_(least_sound_speed_ratio * least_sound_speed_ratio * constants.bulk_modulus /
                                  constants.reference_density) {
   if (power_law_ ? constants.gruneisen_slope != 0 : constants.gruneisen_exponent != 1) {
     throw InputError(fmt::format("debye_gruneisen: {} does not belong to gruneisen_law = \"{}\"",
                                  power_law_ ? "gruneisen_slope" : "gruneisen_exponent",
-                                 constants.gruneisen_law));
+                                 word_of(constants.gruneisen_law)));
   }
   // The energy of (V0, T0) is F_0(V0) + T0 S(V0, T0).
   const double T0 = constants.reference_temperature;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <limits>
-#include <string>
 #include <string_view>
 
 #include "eos/equation_of_state.hpp"
@@ -10,15 +11,30 @@
 
 namespace whipple::eos {
 
+/// Form of the isotherm of the reference temperature.
+enum class IsothermForm : std::uint8_t { vinet, birch_murnaghan };
+constexpr std::array<Word<IsothermForm>, 2> words(IsothermForm) {
+  return {{{IsothermForm::vinet, "vinet"}, {IsothermForm::birch_murnaghan, "birch_murnaghan"}}};
+}
+
+/// Grueneisen parameter of the lattice over volume.
+enum class LatticeGruneisenLaw : std::uint8_t {
+  power,   ///< gamma0 (V/V0)^q
+  linear,  ///< gamma0 - a (1 - V/V0)
+};
+constexpr std::array<Word<LatticeGruneisenLaw>, 2> words(LatticeGruneisenLaw) {
+  return {{{LatticeGruneisenLaw::power, "power"}, {LatticeGruneisenLaw::linear, "linear"}}};
+}
+
 struct DebyeGruneisenConstants {
   double molar_mass = 0;                     ///< kg per mole of atoms
   double reference_density = 0;              ///< rho0 = 1/V0 at T0 and zero pressure, kg/m^3
-  std::string isotherm = "vinet";            ///< or "birch_murnaghan"
+  IsothermForm isotherm = IsothermForm::vinet;
   double bulk_modulus = 0;                   ///< K0, isothermal, at T0 and V0, Pa
   double bulk_modulus_slope = 0;             ///< K0' = dK_T/dp at T0 and V0
   double debye_temperature = 0;              ///< theta0, at V0, K
   double gruneisen = 0;                      ///< gamma0, of the lattice, at V0
-  std::string gruneisen_law = "power";       ///< gamma0 (V/V0)^q, or "linear": gamma0 - a (1 - V/V0)
+  LatticeGruneisenLaw gruneisen_law = LatticeGruneisenLaw::power;
   double gruneisen_exponent = 1.0;           ///< q
   double gruneisen_slope = 0.0;              ///< a
   double electronic_heat_coefficient = 0.0;  ///< g_e at V0, J/(mol K^2)

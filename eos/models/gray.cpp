@@ -46,7 +46,7 @@ Gray::Gray(const Constants& constants)
       dome_(surface_.dome_search()),
       least_volume_(surface_.least_volume()),
       least_squared_sound_speed_(std::pow(least_sound_speed_ratio * constants.hugoniot_intercept, 2)) {
-  if (constants.melting == "equilibrium") {
+  if (constants.melting == MeltingTransition::equilibrium) {
     melting_curve_.emplace(surface_);
     // At the limit of the solid the liquid in equilibrium with it is the densest one that the curve knows.
     least_volume_ = melting_curve_->hottest().liquid_volume;

@@ -49,7 +49,7 @@ ParameterTable<GrayConstants> gray_parameters() {
       real("hot_liquid_ratio", &C::hot_liquid_ratio, "", {.lower = 2.0, .lower_open = true},
            "T_G/T_m: above T_G the heat capacity stays at 3R - alpha T_G/T_m")
           .optional(),
-      choice("melting", &C::melting, {"band", "isochoric", "equilibrium"},
+      choice("melting", &C::melting,
              "band of temperatures on an isochore, in closed form; one temperature; phases in equilibrium")
           .optional(),
       real("join_volume_ratio", &C::join_volume_ratio, "", range::open_between(1.0, 2.0),
@@ -60,7 +60,7 @@ ParameterTable<GrayConstants> gray_parameters() {
           .optional(),
       real("join_shape", &C::join_shape, "", range::positive(), "theta of the join function of the vapour")
           .optional(),
-      choice("vapour", &C::vapour, {"attraction", "critical", "boiling"},
+      choice("vapour", &C::vapour,
              "a_y: vapour_attraction as given, or solved for critical_temperature or boiling_temperature")
           .optional(),
       real("vapour_attraction", &C::vapour_attraction, "J m^3/kg^2", range::positive(),
@@ -94,14 +94,14 @@ GrayConstants resolved(GrayConstants c) {
     throw InputError(fmt::format("gray: join_shape ({}) must exceed covolume_ratio/join_volume_ratio ({})",
                                  c.join_shape, c.covolume_ratio / c.join_volume_ratio));
   }
-  const auto require = [&](const char* vapour, const char* name, double value) {
+  const auto require = [&](VapourCondition vapour, const char* name, double value) {
     if (c.vapour == vapour && !std::isfinite(value)) {
-      throw InputError(fmt::format("gray: vapour = \"{}\" needs {}, which is missing", vapour, name));
+      throw InputError(fmt::format("gray: vapour = \"{}\" needs {}, which is missing", word_of(vapour), name));
     }
   };
-  require("attraction", "vapour_attraction", c.vapour_attraction);
-  require("critical", "critical_temperature", c.critical_temperature);
-  require("boiling", "boiling_temperature", c.boiling_temperature);
+  require(VapourCondition::attraction, "vapour_attraction", c.vapour_attraction);
+  require(VapourCondition::critical, "critical_temperature", c.critical_temperature);
+  require(VapourCondition::boiling, "boiling_temperature", c.boiling_temperature);
   return c;
 }
 

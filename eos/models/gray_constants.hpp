@@ -1,12 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <limits>
-#include <string>
 
 #include "src/core/base/parameter_table.hpp"
 
 namespace whipple::eos {
+
+/// Melting transition of GRAY.
+enum class MeltingTransition : std::uint8_t {
+  band,         ///< over a band of temperatures on an isochore, in closed form (G31)
+  isochoric,    ///< at one temperature on an isochore (G26)
+  equilibrium,  ///< solid and liquid in equilibrium, by their common tangent (G27)
+};
+constexpr std::array<Word<MeltingTransition>, 3> words(MeltingTransition) {
+  return {{{MeltingTransition::band, "band"},
+           {MeltingTransition::isochoric, "isochoric"},
+           {MeltingTransition::equilibrium, "equilibrium"}}};
+}
+
+/// Condition that determines the attraction a_y of GRAY's vapour.
+enum class VapourCondition : std::uint8_t {
+  attraction,  ///< a_y as given
+  critical,    ///< the complete model has its critical point at `critical_temperature`
+  boiling,     ///< the complete model boils at `boiling_temperature` under 101325 Pa
+};
+constexpr std::array<Word<VapourCondition>, 3> words(VapourCondition) {
+  return {{{VapourCondition::attraction, "attraction"},
+           {VapourCondition::critical, "critical"},
+           {VapourCondition::boiling, "boiling"}}};
+}
 
 /// Constants of the GRAY equation of state (docs/theory/gray.md, section 1), SI, molar quantities per mole of
 /// atoms. Sources of the form: Royce, UCRL-51121 (1971); Grover, J. Chem. Phys. 55, 3435 (1971); Young and
@@ -37,14 +62,12 @@ struct GrayConstants {
   double melting_entropy = 9.637;                  ///< Delta S, J/(mol K)
   double liquid_heat_coefficient = 1.3;            ///< alpha, J/(mol K)
   double hot_liquid_ratio = 9.38;                  ///< tau_G = T_G/T_m
-  std::string melting = "equilibrium";             ///< "band" (G31), "isochoric" (G26), "equilibrium" (G27)
+  MeltingTransition melting = MeltingTransition::equilibrium;
   // Vapour
   double join_volume_ratio = 1.3;  ///< V_J/V0
   double covolume_ratio = 0.5;     ///< V_b/V0
   double join_shape = 1.0;         ///< theta
-  /// Condition that determines a_y: "attraction" (as given), "critical" (the complete model has its critical
-  /// point at `critical_temperature`) or "boiling" (it boils at `boiling_temperature` under 101325 Pa).
-  std::string vapour = "attraction";
+  VapourCondition vapour = VapourCondition::attraction;
   double vapour_attraction = not_given;     ///< a_y, J m^3/kg^2
   double critical_temperature = not_given;  ///< K
   double boiling_temperature = not_given;   ///< K

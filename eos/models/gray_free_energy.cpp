@@ -33,7 +33,7 @@ GrayFreeEnergy::GrayFreeEnergy(const GrayConstants& constants) : constants_(reso
   shock_curve_ = {c.hugoniot_slope, c.hugoniot_quadratic, c.hugoniot_cubic};
   cold_energy_at_reference_ = -T0 * (lattice_ + heat_coefficient_ * T0 / 2);                       // (G4)
   cold_offset_ = T0 * T0 * heat_coefficient_ * (c.gruneisen - c.electronic_gruneisen) / (2 * V0);  // (G6)
-  isochoric_ = c.melting != "band";
+  isochoric_ = c.melting != MeltingTransition::band;
   entropy_offset_ = -heat_coefficient_ * T0;  // zero entropy at (V0, T0)
   join_volume_ = c.join_volume_ratio * V0;
   covolume_ = c.covolume_ratio * V0;

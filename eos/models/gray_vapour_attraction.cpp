@@ -43,8 +43,8 @@ VapourDome::Search GrayFreeEnergy::dome_search() const {
 
 void GrayFreeEnergy::solve_vapour_attraction() {
   GrayConstants& c = constants_;
-  if (c.vapour == "attraction") return;
-  const bool critical = c.vapour == "critical";
+  if (c.vapour == VapourCondition::attraction) return;
+  const bool critical = c.vapour == VapourCondition::critical;
   const double T = critical ? c.critical_temperature : c.boiling_temperature;
   const char* const wanted = critical ? "critical_temperature" : "boiling_temperature";
   // More attraction makes a loop where there was none, and lowers the pressure of saturation: the excess

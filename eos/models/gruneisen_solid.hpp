@@ -41,7 +41,7 @@ struct TabulatedIsochore {
 /// (docs/theory/equations_of_state.md, section 2.2):
 ///   compression: A(rho) of `Reference`, rho Gamma by the law;
 ///   expansion:   A = p0 + K mu, Gamma = its value at rho0.
-/// A batch reads A, C, D of c^2 = C + D e, and e_c from one table; matter thinner than that is computed from
+/// A batch reads A, C, D of c^2 = C + D e, and e_c from one table; material thinner than that is computed from
 /// closed forms.
 /// @tparam Reference  ReferencePressure operator()(double mu) const, mu = rho/rho0 - 1
 template <class Reference>
@@ -49,7 +49,7 @@ class GruneisenSolid {
  public:
   /// @param pressure, bulk_modulus  p0 and K of the expansion: those of A at rho0
   /// @param greatest_x              where the reference pressure ends at the latest
-  /// @throws InputError if cold matter softens at no compression to speak of
+  /// @throws InputError if cold material softens at no compression to speak of
   GruneisenSolid(std::string_view name, const Reference& reference, const GruneisenLaw& law,
                  const CondensedReference& state, double pressure, double bulk_modulus, double greatest_x)
       : reference_(reference), law_(law), state_(state) {
@@ -131,7 +131,7 @@ class GruneisenSolid {
   }
 
   /// e_c = e_s - c_v T_s on the isentrope through the reference state: de_s/dx = (A + B e_s)/rho0 with the
-  /// integrating factor T_s/T0  (E3). The model ends where the coldest matter softens, c^2 = 0.
+  /// integrating factor T_s/T0  (E3). The model ends where the coldest material softens, c^2 = 0.
   void tabulate(std::string_view name, double greatest_x) {
     const double rho0 = state_.density, heat = state_.heat_capacity;
     const auto mu = [](double x) { return x / (1 - x); };

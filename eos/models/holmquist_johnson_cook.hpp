@@ -15,17 +15,17 @@ struct HolmquistJohnsonCookConstants {
   double crush_compression = 0;          ///< mu_crush
   double lock_pressure = 0;              ///< p_lock, Pa
   double lock_compression = 0;           ///< mu_lock = rho_grain/rho0 - 1
-  double K1 = 0, K2 = 0, K3 = 0;         ///< of the matter without pores, Pa
+  double K1 = 0, K2 = 0, K3 = 0;         ///< of the material without pores, Pa
   double heat_capacity = 0;              ///< c_v, J/(kg K)
   double reference_temperature = 300.0;  ///< K
 };
 
 /// Pressure of concrete after Holmquist, Johnson and Cook (14th Int. Symp. Ballistics, 1993), mu = rho/rho0 -
 /// 1 (docs/theory/concrete_and_ceramics.md, section 1): linear up to the crush pressure; then the pores are
-/// crushed for good along a straight line up to the lock pressure; then the curve of the matter without
-/// pores, K1 m + K2 m^2 + K3 m^3, m = (mu - mu_lock)/(1 + mu_lock). Half-crushed matter unloads along a
-/// straight line whose slope is interpolated between that of the intact and that of the locked matter. The
-/// past is the distension, the density of the grains over that of the unloaded matter: 1 + mu_lock at the
+/// crushed for good along a straight line up to the lock pressure; then the curve of the material without
+/// pores, K1 m + K2 m^2 + K3 m^3, m = (mu - mu_lock)/(1 + mu_lock). Half-crushed material unloads along a
+/// straight line whose slope is interpolated between that of the intact and that of the locked material. The
+/// past is the distension, the density of the grains over that of the unloaded material: 1 + mu_lock at the
 /// start, 1 when all pores are closed. The pressure does not depend on the energy; T = T0 + (e - e_r)/c_v,
 /// where e_r is the energy that unloading would return: crushing heats. States without a past are on the
 /// virgin path.
@@ -55,11 +55,11 @@ class HolmquistJohnsonCook {
   [[nodiscard]] double initial_distension() const { return distension_; }
   [[nodiscard]] std::unique_ptr<EquationOfState> unloading(const State& from) const;
 
-  /// mu at which the line of crushing ends on the curve of the matter without pores.
+  /// mu at which the line of crushing ends on the curve of the material without pores.
   [[nodiscard]] double locked_compression() const { return locked_compression_; }
 
  private:
-  /// The line on which matter unloads that was crushed as far as the share F of the line of crushing.
+  /// The line on which material unloads that was crushed as far as the fraction F of the line of crushing.
   struct Path {
     double greatest_compression;  ///< mu where it leaves the line of crushing
     double greatest_pressure;     ///< Pa, there

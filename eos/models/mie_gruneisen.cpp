@@ -25,7 +25,7 @@ ParameterTable<MieGruneisenConstants> MieGruneisenCurve::parameters() {
           .optional(),
       real("hugoniot_cubic", &C::hugoniot_cubic, "", range::any(), "S3 of the shock Hugoniot").optional(),
       real("gruneisen", &C::gruneisen, "", range::positive(), "Gamma0, Grueneisen parameter at rho0"),
-      choice("gruneisen_law", &C::gruneisen_law, {"constant_product", "constant", "linear"},
+      choice("gruneisen_law", &C::gruneisen_law,
              "in compression: rho Gamma constant, Gamma constant, or rho Gamma = rho0 (Gamma0 + b mu)")
           .optional(),
       real("gruneisen_slope", &C::gruneisen_slope, "", range::any(), "b of the linear law").optional(),
@@ -35,11 +35,12 @@ ParameterTable<MieGruneisenConstants> MieGruneisenCurve::parameters() {
 }
 
 GruneisenLaw MieGruneisenCurve::law(const Constants& k) {
-  if (k.gruneisen_law != "linear" && k.gruneisen_slope != 0) {
+  if (k.gruneisen_law != CompressedGruneisenLaw::linear && k.gruneisen_slope != 0) {
     throw InputError("mie_gruneisen: gruneisen_slope needs gruneisen_law = \"linear\"");
   }
   // Gamma constant: rho Gamma = rho0 Gamma0 (1 + mu).
-  return {k.gruneisen, k.gruneisen_law == "constant" ? k.gruneisen : k.gruneisen_slope, 0.0};
+  const bool constant = k.gruneisen_law == CompressedGruneisenLaw::constant;
+  return {k.gruneisen, constant ? k.gruneisen : k.gruneisen_slope, 0.0};
 }
 
 GruneisenSolid<MieGruneisenCurve::Hugoniot> MieGruneisenCurve::solid(const Constants& k) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
+#include <array>
+#include <cstdint>
 #include <string_view>
 
 #include "eos/constant_heat_capacity.hpp"
@@ -10,6 +11,18 @@
 
 namespace whipple::eos {
 
+/// Grueneisen parameter in compression.
+enum class CompressedGruneisenLaw : std::uint8_t {
+  constant_product,  ///< rho Gamma = rho0 Gamma0
+  constant,          ///< Gamma = Gamma0
+  linear,            ///< rho Gamma = rho0 (Gamma0 + b mu)
+};
+constexpr std::array<Word<CompressedGruneisenLaw>, 3> words(CompressedGruneisenLaw) {
+  return {{{CompressedGruneisenLaw::constant_product, "constant_product"},
+           {CompressedGruneisenLaw::constant, "constant"},
+           {CompressedGruneisenLaw::linear, "linear"}}};
+}
+
 struct MieGruneisenConstants {
   double reference_density = 0;                    ///< rho0, kg/m^3
   double hugoniot_intercept = 0;                   ///< c0 of the shock Hugoniot, m/s
@@ -17,7 +30,7 @@ struct MieGruneisenConstants {
   double hugoniot_quadratic = 0;                   ///< S2
   double hugoniot_cubic = 0;                       ///< S3
   double gruneisen = 0;                            ///< Gamma0, at rho0
-  std::string gruneisen_law = "constant_product";  ///< rho Gamma = rho0 Gamma0, "constant" or "linear"
+  CompressedGruneisenLaw gruneisen_law = CompressedGruneisenLaw::constant_product;
   double gruneisen_slope = 0;                      ///< b of rho Gamma = rho0 (Gamma0 + b mu)
   double heat_capacity = 0;                        ///< c_v, J/(kg K)
   double reference_temperature = 300.0;            ///< K

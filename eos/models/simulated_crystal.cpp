@@ -33,7 +33,7 @@ CrystalSurface::Settings settings_of(const SimulatedConstants& c) {
           static_cast<int>(c.divisions)};
 }
 
-/// What simulates crystals in this process.
+/// Returns the maker of sources that simulate crystals in this process; empty until one is registered.
 IsochoreSourceMaker& registered() {
   static IsochoreSourceMaker maker;
   return maker;

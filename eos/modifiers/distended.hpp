@@ -5,8 +5,8 @@
 
 namespace whipple::eos {
 
-/// Matter whose strength model holds fragments apart (bulking): p = p_s(alpha rho, e)/alpha with the
-/// distension alpha of the batch, which stays as it is; without one, the matter itself. Put around the
+/// Material whose strength model holds fragments apart (bulking): p = p_s(alpha rho, e)/alpha with the
+/// distension alpha of the batch, which stays as it is; without one, the material itself. Put around the
 /// equation of state of such a material by `make_material` (docs/theory/concrete_and_ceramics.md, section 4).
 class Distended final : public Modified {
  public:

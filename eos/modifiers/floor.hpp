@@ -12,7 +12,7 @@ struct FloorConstants {
 };
 
 /// Least pressure of a fluid that cannot bear tension: p = max(p_b, pressure), the energy is kept. Below the
-/// floor the fluid is a mixture of matter and void: no stiffness (K_T = 0, Gamma = 0), and the sound speed is
+/// floor the fluid is a mixture of material and void: no stiffness (K_T = 0, Gamma = 0), and the sound speed is
 /// `sound_speed_ratio` of that of the reference state. The points there are counted
 /// (`RangeReport::at_pressure_floor`); the work p dV of the floor is no thermodynamic work of the model
 /// inside.

@@ -12,7 +12,7 @@ namespace {
 constexpr double open_at_the_end = 1e-6;  ///< of alpha0 - 1, where the exponential curve ends
 constexpr int greatest_iterations = 100;
 
-/// State of matter with pores from that of its matrix.
+/// State of material with pores from that of its matrix.
 State with_pores(State s, double distension) {
   s.density /= distension;
   s.pressure /= distension;
@@ -22,7 +22,7 @@ State with_pores(State s, double distension) {
   return s;
 }
 
-/// Pores of constant share: what crushed matter expands on (A1).
+/// Pores of constant fraction: what crushed material expands on (A1).
 class FixedDistension final : public Modified {
  public:
   FixedDistension(std::shared_ptr<const EquationOfState> base, double distension)
@@ -70,9 +70,7 @@ ParameterTable<PAlphaConstants> PAlpha::parameters() {
            "alpha0, density of the matrix over that of the porous body at rest"),
       real("elastic_pressure", &C::elastic_pressure, "Pa", range::non_negative(),
            "p_e, up to which the pores resist"),
-      choice("compaction", &C::compaction, {"quadratic", "power", "exponential"},
-             "crush curve alpha(p) above p_e")
-          .optional(),
+      choice("compaction", &C::compaction, "crush curve alpha(p) above p_e").optional(),
       real("solid_pressure", &C::solid_pressure, "Pa", range::non_negative(),
            "p_s of the quadratic curve and of the power, at which the pores are closed")
           .optional("none; these curves ask for it"),
@@ -91,12 +89,13 @@ PAlpha::PAlpha(std::shared_ptr<const EquationOfState> base, const Constants& con
     throw InputError("p_alpha: the equation of state has pores already");
   }
   if (!(k.distension > 1)) throw InputError("p_alpha: distension must be above 1");
-  const bool exponential = k.compaction == "exponential", power = k.compaction == "power";
+  const bool exponential = k.compaction == CompactionCurve::exponential;
+  const bool power = k.compaction == CompactionCurve::power;
   exponent_ = exponential ? 0.0 : power ? k.compaction_exponent : 2.0;
   const auto refuse = [&](bool given, const char* constant) {
     if (!given) return;
     throw InputError(
-        fmt::format("p_alpha: {} does not belong to compaction = \"{}\"", constant, k.compaction));
+        fmt::format("p_alpha: {} does not belong to compaction = \"{}\"", constant, word_of(k.compaction)));
   };
   refuse(!exponential && k.compaction_rate != 0, "compaction_rate");
   refuse(exponential && k.solid_pressure != 0, "solid_pressure");

@@ -1,30 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 #include "eos/modifiers/modified.hpp"
 
 namespace whipple::eos {
 
+/// Crush curve alpha(p) above p_e.
+enum class CompactionCurve : std::uint8_t { quadratic, power, exponential };
+constexpr std::array<Word<CompactionCurve>, 3> words(CompactionCurve) {
+  return {{{CompactionCurve::quadratic, "quadratic"},
+           {CompactionCurve::power, "power"},
+           {CompactionCurve::exponential, "exponential"}}};
+}
+
 struct PAlphaConstants {
-  double distension = 0;                 ///< alpha0 = rho_s/rho of the matter at rest, > 1
-  double elastic_pressure = 0;           ///< p_e, Pa
-  std::string compaction = "quadratic";  ///< or "power", "exponential"
-  double solid_pressure = 0;             ///< p_s, Pa (quadratic, power)
-  double compaction_exponent = 0;        ///< n (power)
-  double compaction_rate = 0;            ///< 1/Pa (exponential)
+  double distension = 0;        ///< alpha0 = rho_s/rho of the material at rest, > 1
+  double elastic_pressure = 0;  ///< p_e, Pa
+  CompactionCurve compaction = CompactionCurve::quadratic;
+  double solid_pressure = 0;       ///< p_s, Pa (quadratic, power)
+  double compaction_exponent = 0;  ///< n (power)
+  double compaction_rate = 0;      ///< 1/Pa (exponential)
 };
 
-/// Porous matter after Herrmann, J. Appl. Phys. 40, 2490 (1969), with the pressure of the matrix divided by
+/// Porous material after Herrmann, J. Appl. Phys. 40, 2490 (1969), with the pressure of the matrix divided by
 /// the distension (Carroll and Holt, J. Appl. Phys. 43, 759, 1972): alpha = V/V_s,
 ///   p(rho, e, alpha) = p_s(alpha rho, e)/alpha.
 /// The distension stays while p is below the crush curve and follows it in further loading, for good:
-///   "quadratic":    alpha = 1 + (alpha0 - 1) [(p_s - p)/(p_s - p_e)]^2,  p_e < p < p_s;
-///   "power":        the same with an exponent n for 2 (Borrvall and Riedel, 8th European LS-DYNA Conf.,
-///   2011); "exponential":  alpha = 1 + (alpha0 - 1) exp[-rate (p - p_e)] (Boade, J. Appl. Phys. 39, 5693,
-///   1968), ended at
-///                   1e-6 (alpha0 - 1).
+///   quadratic:    alpha = 1 + (alpha0 - 1) [(p_s - p)/(p_s - p_e)]^2,  p_e < p < p_s;
+///   power:        the same with an exponent n for 2 (Borrvall and Riedel, 8th European LS-DYNA Conf., 2011);
+///   exponential:  alpha = 1 + (alpha0 - 1) exp[-rate (p - p_e)] (Boade, J. Appl. Phys. 39, 5693, 1968), ended
+///                 at 1e-6 (alpha0 - 1).
 /// The energy is that of the matrix (pores have none). States without a past are on the virgin path: loaded
 /// once, from alpha0. Sound speed, Gamma, K_T and heat capacities are those of unloading (constant alpha);
 /// loading that crushes is slower. No vapour dome: it belongs to the matrix.

@@ -13,7 +13,7 @@ struct ScaleConstants {
   double density = 1;  ///< density over that of the model inside, at equal volume per atom
 };
 
-/// Matter with the same energy and entropy per volume at another density (isotopes, dilute alloys of another
+/// Material with the same energy and entropy per volume at another density (isotopes, dilute alloys of another
 /// atomic mass): with f = density, p(rho, e) = p_b(rho/f, f e), s = s_b/f, c^2 = c_b^2/f; thermodynamically
 /// consistent, since V, e and s all scale with 1/f.
 class Scale final : public Modified {

@@ -12,7 +12,7 @@ struct ShiftConstants {
 };
 
 /// Another origin of the energy: p(rho, e) = p_b(rho, e - energy). Tables and databases choose theirs; the
-/// difference matters where matter changes its equation of state.
+/// difference matters where material changes its equation of state.
 class Shift final : public Modified {
  public:
   using Constants = ShiftConstants;

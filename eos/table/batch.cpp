@@ -125,7 +125,7 @@ class Block {
     edges.half_curvature[slab->region_count] = 0;
   }
 
-  /// The same number of four points.
+  /// Gathers one number of the four points from i on.
   template <class Number>
   Lanes gathered(std::size_t i, Number&& number) const {
     return Lanes{number(i), number(i + 1), number(i + 2), number(i + 3)};

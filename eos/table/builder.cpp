@@ -18,7 +18,7 @@ constexpr int scan_energy = 256;
 constexpr std::size_t greatest_segments = 64;
 constexpr std::size_t greatest_strips = 256;
 constexpr std::size_t consistency_states = 4096;
-/// Of p on the scale of TableError: GRAY's melting band has 0.1.
+/// Limits the contradiction in p on the scale of TableError: GRAY's melting band has 0.1.
 constexpr double greatest_contradiction = 0.5;
 constexpr double default_thinness = 1e-5;  ///< least density over the reference density
 /// Greatest density over the compression limit, where the bulk modulus of the cold solid vanishes and the

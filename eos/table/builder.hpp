@@ -10,7 +10,7 @@
 
 namespace whipple::eos {
 
-/// What a table shall hold. Zero: the default of the model.
+/// Describes the range and the error of a table to be built. Zero: the default of the model.
 struct TableRequest {
   double error = 1e-4;                ///< see TableError
   double minimum_density = 0;         ///< kg/m^3; default 1e-5 of the reference density
@@ -21,7 +21,7 @@ struct TableRequest {
 
 /// Runs body(i) for i in [0, n), in any order, on as many threads as the caller likes.
 using ForEach = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
-/// Told the share of the work that is done, from 0 to 1.
+/// Told the fraction of the work that is done, from 0 to 1.
 using Report = std::function<void(double share)>;
 
 ForEach serial();

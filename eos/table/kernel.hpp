@@ -101,7 +101,8 @@ inline Polynomial<double> polynomial(const double* cell, double tx, double ty) {
   return s;
 }
 
-/// The same for four points at once, in two steps. First, point by point: the sums over the powers of x,
+/// Holds the result of the first of two steps that evaluate four points at once: point by point, the sums over the
+/// powers of x,
 /// their first and half of their second derivatives, for each power of y.
 using AlongX =
     std::array<double, 20>;  ///< powers 0 to 3 of the value, slope, curvature; powers 4 and 5; two idle

@@ -8,7 +8,7 @@ namespace whipple::eos::table {
 namespace {
 
 constexpr double edge_tolerance = 4e-13;  ///< of z
-/// Within one phase, a jump of the heat capacity by more than this share is an edge as well.
+/// Within one phase, a jump of the heat capacity by more than this fraction is an edge as well.
 constexpr double least_jump = 2e-3;
 
 }  // namespace

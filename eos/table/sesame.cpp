@@ -15,7 +15,7 @@ constexpr std::string_view density_bound = "density outside the table";
 constexpr std::string_view energy_bound = "specific internal energy above the table";
 constexpr std::string_view number_bound = "density and specific internal energy must be finite";
 
-/// Of the pressure of the reference state over rho c^2: beyond, the matter is a gas.
+/// Limits the pressure of the reference state over rho c^2; beyond, the material is a gas.
 constexpr double greatest_condensed_pressure = 0.1;
 
 /// Slopes of a piecewise cubic: those of the parabola through three points.
@@ -33,7 +33,8 @@ std::vector<double> slopes_of(const std::vector<double>& x, const std::vector<do
   return slope;
 }
 
-/// The same, monotone wherever the points are: cut to three times the lesser difference quotient, zero where
+/// Returns slopes of a piecewise cubic that is monotone wherever the points are: those of the parabola through three
+/// points, cut to three times the lesser difference quotient, zero where
 /// these differ in sign (Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238; Hyman, SIAM J. Sci. Stat.
 /// Comput. 4 (1983) 645).
 std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vector<double>& y) {
@@ -48,7 +49,8 @@ std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vec
   return slope;
 }
 
-/// The same for positive values, cut so that the cubic stays positive: its Bernstein coefficients are y_i,
+/// Returns slopes of a piecewise cubic through positive values, cut so that it stays positive: its Bernstein
+/// coefficients are y_i,
 /// y_i + h m_i/3, y_(i+1) - h m_(i+1)/3 and y_(i+1).
 std::vector<double> positive_slopes(const std::vector<double>& x, const std::vector<double>& y) {
   std::vector<double> slope = slopes_of(x, y);

@@ -79,7 +79,7 @@ class Sesame final : public EquationOfState {
   }
   /// Row of temperatures that holds an energy; the first or last if it lies outside.
   [[nodiscard]] std::size_t row(const Cell& cell, double energy) const;
-  /// At the share of the way from one row to the next.
+  /// At the fraction of the way from one row to the next.
   [[nodiscard]] Result result(const Cell& cell, double density, std::size_t row, double share) const;
   [[nodiscard]] State full(const Cell& cell, double density, double energy, std::size_t row,
                            double share) const;

@@ -42,7 +42,7 @@ struct SesameMaterial {
   SesameVaporisation vaporisation;  ///< empty: the file has no table 401
 };
 
-/// What a SESAME table of a model shall cover. Zero: the default.
+/// Describes the range that a SESAME table of a model shall cover. Zero: the default.
 struct SesameRequest {
   double minimum_density = 0;         ///< kg/m^3; default 1e-4 of the reference density
   double maximum_density = 0;         ///< kg/m^3; default the model's, at most 10 times the reference density

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t greatest_curve_intervals = 32;
 constexpr std::uint32_t greatest_nx = 8, greatest_ny = 32;
 constexpr std::uint32_t greatest_fraction_nx = 64, greatest_fraction_ny = 128;
-/// Share of a region that a cut parts from it, where the resolution falls short.
+/// Fraction of a region that a cut parts from it, where the resolution falls short.
 constexpr double cut_share = 0.1;
 /// Cuts part no strip into more regions than a point finds by one comparison.
 constexpr std::size_t greatest_cut_regions = 6;

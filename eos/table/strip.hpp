@@ -13,7 +13,8 @@
 /// Construction of a table, strip by strip (docs/theory/equations_of_state.md, section "Tables").
 namespace whipple::eos::table {
 
-/// What errors are measured by: p passes through zero, c^2 through zero in the loop of a metastable fluid.
+/// Returns a floor of c^2 (m^2/s^2) for the scales by which errors are measured: p passes through zero, and c^2 does
+/// so in the loop of a metastable fluid.
 inline double soft_square(double reference_sound_speed) {
   return 0.01 * reference_sound_speed * reference_sound_speed;
 }
@@ -21,7 +22,7 @@ inline double pressure_scale(double pressure, double rho, double squared_sound_s
   return std::abs(pressure) + 0.01 * rho * (squared_sound_speed + soft);
 }
 
-/// Divides a region, counted after the cuts before it, at a share of its height in z: resolution where a
+/// Divides a region, counted after the cuts before it, at a fraction of its height in z: resolution where a
 /// phase needs more of it.
 struct Cut {
   std::size_t region;

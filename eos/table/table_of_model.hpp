@@ -7,7 +7,7 @@
 
 namespace whipple::eos {
 
-/// A table with its model behind it: what the table does not hold - vapour of less density, matter hotter
+/// A table with its model behind it: what the table does not hold - vapour of less density, material hotter
 /// than its greatest temperature, as the first contact of a fast impact may bring it - the model computes.
 /// For runs, which must not end at the edge of a table.
 class TableOfModel final : public EquationOfState {

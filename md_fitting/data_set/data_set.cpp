@@ -56,7 +56,11 @@ PointRecord read_point(const hdf5::Group& points, const std::string& key) {
   PointRecord point;
   point.key = key;
   point.protocol = group.text_attribute("protocol");
-  point.status = group.text_attribute("status");
+  const std::string status = group.text_attribute("status");
+  if (!value_of<PointStatus>(status)) {
+    throw InputError(fmt::format("{}: unknown status '{}' of a point", group.name(), status));
+  }
+  point.status = *value_of<PointStatus>(status);
   point.message = group.text_attribute("message");
   const hdf5::Group conditions = group.open_group("conditions");
   for (const std::string& name : conditions.names(hdf5::Order::creation))
@@ -79,7 +83,7 @@ PointRecord read_point(const hdf5::Group& points, const std::string& key) {
 void write_point(const hdf5::Group& points, const PointRecord& point) {
   const hdf5::Group group = points.create_group(point.key, hdf5::Order::creation);
   write_text(group, "protocol", point.protocol);
-  write_text(group, "status", point.status);
+  write_text(group, "status", std::string(word_of(point.status)));
   write_text(group, "message", point.message);
   const hdf5::Group conditions = group.create_group("conditions", hdf5::Order::creation);
   for (const auto& [name, value] : point.conditions) write_quantity(conditions, name, {&value, 1});
@@ -264,7 +268,8 @@ std::vector<PointRecord> select(std::span<const PointRecord> points, std::string
 
 namespace {
 
-/// What keeps a file of a size from being written into a folder, in the words of the system; empty: nothing.
+/// Returns what keeps a file of a size (bytes) from being written into a folder, as the system says it; empty if
+/// nothing does.
 std::string obstacle(const std::filesystem::path& probe, std::uintmax_t size) {
   ::unlink(probe.c_str());  // what a killed writer left, or a link that somebody planted
   const int descriptor = ::open(probe.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0644);
@@ -355,7 +360,7 @@ void normalise_store(const std::filesystem::path& path) {
 }
 
 bool append_point(const std::filesystem::path& path, const PointRecord& point) {
-  if (point.key.empty() || point.protocol.empty() || (point.status != "done" && point.status != "failed")) {
+  if (point.key.empty() || point.protocol.empty() || word_of(point.status).empty()) {
     throw InternalError("a point needs a key, a protocol and a status 'done' or 'failed' to be stored");
   }
   std::filesystem::create_directories(std::filesystem::absolute(path).parent_path());

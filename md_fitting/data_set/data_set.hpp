@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "src/core/base/word_list.hpp"
 
 /// The store NAME.md.h5 of finished molecular-dynamics points: the only link between whipple-md, which writes
 /// it, and whipple-fit, which reads it. SI units, energies and volumes per mass
@@ -19,12 +24,38 @@ struct Estimate {
   double error = 0.0;
 };
 
+/// Protocols whose points a reader of the store tells apart; the words are those of the store.
+enum class PointKind : std::uint8_t {
+  lattice,
+  zero_pressure_volume,
+  isotherm,
+  isochore,
+  hugoniot,
+  coexistence,
+  cold_curve,
+};
+constexpr std::array<Word<PointKind>, 7> words(PointKind) {
+  return {{{PointKind::lattice, "lattice"},
+           {PointKind::zero_pressure_volume, "zero_pressure_volume"},
+           {PointKind::isotherm, "isotherm"},
+           {PointKind::isochore, "isochore"},
+           {PointKind::hugoniot, "hugoniot"},
+           {PointKind::coexistence, "coexistence"},
+           {PointKind::cold_curve, "cold_curve"}}};
+}
+
+/// State of a point; only one that was tried can be stored.
+enum class PointStatus : std::uint8_t { not_tried, done, failed };
+constexpr std::array<Word<PointStatus>, 2> words(PointStatus) {
+  return {{{PointStatus::done, "done"}, {PointStatus::failed, "failed"}}};
+}
+
 /// One computed point. Which conditions and results belong to which protocol:
 /// docs/theory/molecular_dynamics.md.
 struct PointRecord {
   std::string key;  ///< SHA-256 (hexadecimal) of everything the point depends on; its identity in the store
   std::string protocol;                      ///< "lattice", "isotherm", "hugoniot", ...
-  std::string status;                        ///< "done" or "failed"
+  PointStatus status = PointStatus::not_tried;
   std::string message;                       ///< why it failed; remarks of a point that is done
   std::map<std::string, double> conditions;  ///< SI
   std::map<std::string, Estimate> results;   ///< SI; empty if the point failed
@@ -35,7 +66,9 @@ struct PointRecord {
                                                   ///< sizes, steps, seed, LAMMPS version, ...
   double wall_seconds = 0.0;
 
-  [[nodiscard]] bool done() const { return status == "done"; }
+  [[nodiscard]] bool done() const { return status == PointStatus::done; }
+  /// Returns what the point is of; none for a protocol that no reader tells apart.
+  [[nodiscard]] std::optional<PointKind> kind() const { return value_of<PointKind>(protocol); }
   /// Independent runs that were averaged into this point (provenance "segments"; 1 without it).
   [[nodiscard]] int segments() const;
   /// A condition that the protocol must have.
@@ -47,7 +80,8 @@ struct PointRecord {
   /// A provenance entry that must be there.
   /// @throws InputError naming the point and the entry.
   [[nodiscard]] std::string origin(std::string_view name) const;
-  /// The same as a number, e.g. origin_number("molar_mass") in kg/mol.
+  /// Returns a provenance entry as a number, e.g. origin_number("molar_mass") in kg/mol.
+  /// @throws InputError naming the point and the entry.
   [[nodiscard]] double origin_number(std::string_view name) const;
   /// "isotherm at specific_volume = 0.0001 m^3/kg, temperature = 293 K"
   [[nodiscard]] std::string label() const;

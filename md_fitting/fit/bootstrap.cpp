@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "md_fitting/fit/protocol.hpp"
+#include "md_fitting/data_set/data_set.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::fit {
@@ -14,7 +14,7 @@ namespace {
 using Eigen::VectorXd;
 using md::PointRecord;
 
-/// What the fit reads of each protocol and the simulation measured.
+/// Returns the results of a protocol that the fit reads.
 const std::vector<std::string>& measured(const std::string& protocol) {
   static const std::map<std::string, std::vector<std::string>, std::less<>> quantities = {
       {"zero_pressure_volume", {"specific_volume"}},
@@ -86,13 +86,13 @@ std::vector<PointRecord> resampled(std::span<const PointRecord> points, std::mt1
   std::vector<PointRecord> drawn(points.begin(), points.end());
   for (PointRecord& point : drawn) {
     if (!point.done()) continue;
-    const double before = protocol_of(point) == Protocol::hugoniot ? point.result("pressure").value : 0.0;
+    const double before = point.kind() == md::PointKind::hugoniot ? point.result("pressure").value : 0.0;
     if (has_blocks(point)) {
       draw_blocks(point, generator);
     } else {
       draw_normal(point, generator);
     }
-    if (protocol_of(point) == Protocol::hugoniot) {
+    if (point.kind() == md::PointKind::hugoniot) {
       // The jump conditions hold: Us and up go as the root of the pressure.
       const double factor = std::sqrt(std::fmax(0.0, point.result("pressure").value / before));
       point.results.at("shock_velocity").value *= factor;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "md_fitting/data_set/crystal_structure.hpp"
+
 namespace whipple::fit {
 namespace {
 
@@ -45,16 +47,16 @@ double sampling_of(const RunShape& shape) {
 }
 
 /// Atoms times steps of a point of a protocol.
-double cost_of(std::optional<Protocol> protocol, double atoms_per_cell, const RunShape& shape) {
+double cost_of(std::optional<md::PointKind> protocol, double atoms_per_cell, const RunShape& shape) {
   const auto cube = [&](double cells) { return atoms_per_cell * cells * cells * cells; };
   const auto cells = static_cast<double>(shape.size.cells);
   const auto equilibration = static_cast<double>(shape.size.equilibration_steps);
   const auto steps = static_cast<double>(shape.size.steps);
-  if (protocol == Protocol::hugoniot) {
+  if (protocol == md::PointKind::hugoniot) {
     constexpr double searches = 3.0;  // runs of half the equilibration and a quarter of the steps
     return cube(cells) * ((equilibration + steps) + searches * (0.5 * equilibration + 0.25 * steps));
   }
-  if (protocol == Protocol::coexistence) {
+  if (protocol == md::PointKind::coexistence) {
     constexpr double preparation = 1500.0 + 0.5 * (5000.0 + 1000.0) + 1000.0;  // half of the cell melts
     const double phase = std::fmax(4.0, 0.75 * cells);  // crystal and melt are averaged apart as well
     const double runs = shape.replicas + 1.0;           // the first one finds where the others start
@@ -81,7 +83,8 @@ RunShape shape_of(const PointRecord& point) {
 Ranges::Ranges(const md::Plan& plan, std::span<const PointRecord> points) : plan_(plan), points_(points) {
   if (points.empty()) return;
   static_volume_ = points.front().origin_number("static_specific_volume");
-  atoms_per_cell_ = points.front().origin("structure") == "bcc" ? 2.0 : 4.0;
+  const auto structure = value_of<md::CrystalStructure>(points.front().origin("structure"));
+  if (structure) atoms_per_cell_ = md::atoms_per_cell(*structure);
 }
 
 const md::IsochorePlan& Ranges::nearest_isochore(double volume_ratio) const {
@@ -94,9 +97,9 @@ RunShape Ranges::shape_of(const PlannedPoint& point) const {
   const auto cube = [](const md::RunSize& size) {
     return RunShape{size, static_cast<double>(size.cells), 1.0};
   };
-  if (point.protocol == Protocol::hugoniot) return cube(plan_.hugoniot->size);
-  if (point.protocol == Protocol::isochore) return cube(nearest_isochore(point.volume_ratio).size);
-  if (point.protocol != Protocol::coexistence) return cube(plan_.zero_pressure->size);
+  if (point.protocol == md::PointKind::hugoniot) return cube(plan_.hugoniot->size);
+  if (point.protocol == md::PointKind::isochore) return cube(nearest_isochore(point.volume_ratio).size);
+  if (point.protocol != md::PointKind::coexistence) return cube(plan_.zero_pressure->size);
   const md::CoexistencePlan& melting = *plan_.coexistence;
   return {melting.size, static_cast<double>(melting.length), static_cast<double>(melting.replicas)};
 }
@@ -119,7 +122,7 @@ std::vector<PlannedPoint> Ranges::isochore(double volume_ratio) const {
   std::vector<PlannedPoint> points;
   for (const double temperature : spaced(interpolated(coldest, volume_ratio),
                                          interpolated(hottest, volume_ratio), plan_.adaptive->candidates)) {
-    points.push_back({Protocol::isochore, volume_ratio, temperature, 0.0});
+    points.push_back({md::PointKind::isochore, volume_ratio, temperature, 0.0});
   }
   return points;
 }
@@ -128,7 +131,7 @@ std::vector<PlannedPoint> Ranges::hugoniot() const {
   const auto [least, most] = ends(plan_.hugoniot->volume_ratio);
   std::vector<PlannedPoint> points;
   for (const double ratio : spaced(least, most, plan_.adaptive->candidates)) {
-    points.push_back({Protocol::hugoniot, ratio, 0.0, 0.0});
+    points.push_back({md::PointKind::hugoniot, ratio, 0.0, 0.0});
   }
   return points;
 }
@@ -142,27 +145,27 @@ std::vector<PlannedPoint> Ranges::coexistence() const {
   std::vector<PlannedPoint> points;
   for (const double pressure :
        spaced(guesses.begin()->first, guesses.rbegin()->first, plan_.adaptive->candidates)) {
-    points.push_back({Protocol::coexistence, 0.0, interpolated(guesses, pressure), pressure});
+    points.push_back({md::PointKind::coexistence, 0.0, interpolated(guesses, pressure), pressure});
   }
   return points;
 }
 
 bool Ranges::present(const PlannedPoint& point) const {
   return std::any_of(points_.begin(), points_.end(), [&](const PointRecord& record) {
-    if (protocol_of(record) != point.protocol) return false;
-    if (point.protocol == Protocol::coexistence) return same(record.condition("pressure"), point.pressure);
-    if (point.protocol == Protocol::zero_pressure_volume) {
+    if (record.kind() != point.protocol) return false;
+    if (point.protocol == md::PointKind::coexistence) return same(record.condition("pressure"), point.pressure);
+    if (point.protocol == md::PointKind::zero_pressure_volume) {
       return same(record.condition("temperature"), point.temperature);
     }
     return same(record.condition("specific_volume"), point.volume_ratio * static_volume_) &&
-           (point.protocol == Protocol::hugoniot || same(record.condition("temperature"), point.temperature));
+           (point.protocol == md::PointKind::hugoniot || same(record.condition("temperature"), point.temperature));
   });
 }
 
 std::vector<PlannedPoint> Ranges::start() const {
   std::vector<PlannedPoint> wanted;
   for (const double temperature : plan_.zero_pressure->temperature) {
-    wanted.push_back({Protocol::zero_pressure_volume, 0.0, temperature, 0.0});
+    wanted.push_back({md::PointKind::zero_pressure_volume, 0.0, temperature, 0.0});
   }
   /// `count` of the points, spread over all of them.
   const auto spread = [&](const std::vector<PlannedPoint>& points, std::size_t count) {
@@ -214,7 +217,7 @@ double Ranges::cost(const PlannedPoint& point) const {
 double Ranges::spent() const {
   double sum = 0.0;
   for (const PointRecord& point : points_) {
-    sum += cost_of(protocol_of(point), atoms_per_cell_, fit::shape_of(point)) * point.segments();
+    sum += cost_of(point.kind(), atoms_per_cell_, fit::shape_of(point)) * point.segments();
   }
   return sum;
 }
@@ -235,13 +238,13 @@ md::Plan Ranges::plan_of(std::span<const PlannedPoint> points) const {
   plan.folder = plan_.folder;
   plan.zero_pressure = plan_.zero_pressure;  // Hugoniot points need it; what the store holds costs nothing
   for (const PlannedPoint& point : points) {
-    if (point.protocol == Protocol::hugoniot) {
+    if (point.protocol == md::PointKind::hugoniot) {
       if (!plan.hugoniot) plan.hugoniot = md::HugoniotPlan{{}, plan_.hugoniot->size, {}};
       plan.hugoniot->volume_ratio.push_back(point.volume_ratio);
-    } else if (point.protocol == Protocol::isochore) {
+    } else if (point.protocol == md::PointKind::isochore) {
       plan.isochores.push_back(
           {point.volume_ratio, {point.temperature}, nearest_isochore(point.volume_ratio).size, {}});
-    } else if (point.protocol == Protocol::coexistence) {
+    } else if (point.protocol == md::PointKind::coexistence) {
       if (!plan.coexistence) {
         plan.coexistence = *plan_.coexistence;
         plan.coexistence->pressure.clear();

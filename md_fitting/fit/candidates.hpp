@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "md_fitting/data_set/data_set.hpp"
-#include "md_fitting/fit/protocol.hpp"
+#include "md_fitting/data_set/data_set.hpp"
 #include "md_fitting/plan/plan.hpp"
 
 namespace whipple::fit {
 
 /// A point that a plan with [adaptive] may ask for.
 struct PlannedPoint {
-  Protocol protocol = Protocol::zero_pressure_volume;
+  md::PointKind protocol = md::PointKind::zero_pressure_volume;
   double volume_ratio = 0.0;  ///< V over that of the static crystal; of hugoniot and isochore
   double temperature = 0.0;   ///< K; of coexistence the first guess, of hugoniot none
   double pressure = 0.0;      ///< Pa; of coexistence
@@ -48,7 +48,7 @@ class Ranges {
 
   /// Atoms times steps (docs/theory/fit.md, section 8).
   [[nodiscard]] double cost(const PlannedPoint& point) const;
-  /// Of all points of the store, failed ones included.
+  /// Returns the cost of all points of the store, failed ones included.
   [[nodiscard]] double spent() const;
   /// V of the static crystal at zero pressure, as the store has it, m^3/kg.
   [[nodiscard]] double static_volume() const { return static_volume_; }

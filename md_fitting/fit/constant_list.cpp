@@ -63,8 +63,8 @@ double electronic_coefficient(const ElementDefaults& table, const std::string& c
 
 void list_constants(Fit& fit, const std::vector<BoundParameter>& table, const Sources& sources) {
   for (const BoundParameter& parameter : table) {
-    if (std::string* const* word = std::get_if<std::string*>(&parameter.target)) {
-      fit.words.emplace_back(parameter.info.name, **word);
+    if (const ChoiceTarget* choice = std::get_if<ChoiceTarget>(&parameter.target)) {
+      fit.words.emplace_back(parameter.info.name, choice->word(choice->value));
       continue;
     }
     double* value = number_behind(parameter);

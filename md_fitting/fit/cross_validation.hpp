@@ -10,7 +10,7 @@
 
 namespace whipple::fit {
 
-/// What happens to one kind of data if each of its data is left out in turn.
+/// Tells how well the rest predicts each datum of one kind that is left out in turn.
 struct LeaveOneOut {
   std::string quantity;
   int data = 0;              ///< that the rest predicts; a datum that alone bears a constant is none

@@ -8,7 +8,7 @@
 
 namespace whipple::fit {
 
-/// What further data would do to the covariance of fitted parameters, in the linear approximation
+/// Predicts the covariance of fitted parameters with further data, in the linear approximation
 /// (docs/theory/fit.md, section 8). All rows that there are or might be have one Jacobian and one covariance
 /// Sigma; some are present. No value of a datum is needed, so a row counts before it is measured.
 class Design {
@@ -20,7 +20,7 @@ class Design {
   Design(Eigen::MatrixXd jacobian, Eigen::MatrixXd sigma, Eigen::VectorXd weak,
          std::vector<Eigen::Index> present);
 
-  /// Of the parameters, from the present rows.
+  /// Returns the covariance of the parameters that follows from the present rows.
   [[nodiscard]] const Eigen::MatrixXd& covariance() const { return covariance_; }
   [[nodiscard]] double variance(const Eigen::VectorXd& gradient) const {
     return gradient.dot(covariance_ * gradient);

@@ -92,22 +92,23 @@ constexpr auto nickel_constants = boiling_metal(1.15, 3186.0);
 constexpr auto tantalum_constants = boiling_metal(1.25, 5728.0);
 constexpr auto tungsten_constants = boiling_metal(1.3, 5828.0);
 
+using eos::VapourCondition;
 constexpr std::array elements = {
     ElementDefaults{
         "Cu", "copper", 1357.77, copper_electronic,
         NamedDefault{"melting_temperature", "Steinberg 1996", 1790.0,
                      "OFHC copper of Steinberg, UCRL-MA-106439 (1996); not from molecular dynamics"},
-        copper_constants, "attraction", kittel(343.0)},
+        copper_constants, VapourCondition::attraction, kittel(343.0)},
     ElementDefaults{"Al", "aluminium", 933.47, aluminium_electronic, steinberg(1220.0), aluminium_constants,
-                    "attraction", kittel(428.0)},
-    ElementDefaults{"Pb", "lead", 600.61, lead_electronic, steinberg(760.0), lead_constants, "boiling",
-                    kittel(105.0)},
-    ElementDefaults{"Ni", "nickel", 1728.0, nickel_electronic, steinberg(2330.0), nickel_constants, "boiling",
-                    kittel(450.0)},
+                    VapourCondition::attraction, kittel(428.0)},
+    ElementDefaults{"Pb", "lead", 600.61, lead_electronic, steinberg(760.0), lead_constants,
+                    VapourCondition::boiling, kittel(105.0)},
+    ElementDefaults{"Ni", "nickel", 1728.0, nickel_electronic, steinberg(2330.0), nickel_constants,
+                    VapourCondition::boiling, kittel(450.0)},
     ElementDefaults{"Ta", "tantalum", 3290.0, tantalum_electronic, steinberg(4340.0), tantalum_constants,
-                    "boiling", kittel(240.0)},
+                    VapourCondition::boiling, kittel(240.0)},
     ElementDefaults{"W", "tungsten", 3687.0, tungsten_electronic, steinberg(4520.0), tungsten_constants,
-                    "boiling", kittel(400.0)},
+                    VapourCondition::boiling, kittel(400.0)},
 };
 
 constexpr std::string_view liu2013 = "Liu, Wang & Zhang, Int. J. Mech. Mater. Des. 9 (2013) 127";

@@ -5,8 +5,10 @@
 #include <string>
 #include <string_view>
 
-/// What molecular dynamics does not bear, per element, each value with its name and source. This is the only
-/// place where the fit takes a number from that is not in the store.
+#include "eos/models/gray_constants.hpp"
+
+/// Lists constants that molecular dynamics does not determine, per element, each with its name and source: the only
+/// place from which the fit takes a number that is not in the store.
 namespace whipple::fit {
 
 struct NamedDefault {
@@ -24,7 +26,7 @@ struct ElementDefaults {
       electronic;                    ///< choices of electronic_heat_coefficient; the first is the default
   NamedDefault melting_temperature;  ///< taken only if the store holds no coexistence point
   std::span<const NamedDefault> constants;  ///< the remaining constants of GRAY
-  const char* vapour;                       ///< where GRAY takes a_y from: "attraction", "boiling"
+  eos::VapourCondition vapour;              ///< where GRAY takes a_y from
   NamedDefault debye_temperature;           ///< taken only if the store holds no elastic constants
 };
 

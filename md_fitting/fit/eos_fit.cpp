@@ -21,6 +21,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/units.hpp"
+#include "src/core/base/word_list.hpp"
 #include "src/core/process/scripts.hpp"
 
 namespace whipple::fit {
@@ -35,7 +36,7 @@ struct Options {
   int bootstrap = 0;
   int samples = 0;
   std::uint64_t seed = 1;
-  std::string melting = "equilibrium";
+  std::string melting{word_of(FitSettings{}.melting)};
   std::string reference_temperature = "293 K";
   std::vector<std::string> up_range = {"0.3 km/s", "2.5 km/s"};
   std::string template_file;
@@ -66,7 +67,7 @@ FitSettings settings(const Options& options) {
     throw InputError(fmt::format("--up-range {} {}: expected two rising velocities, the first >= 0",
                                  options.up_range[0], options.up_range[1]));
   }
-  settings.melting = options.melting;
+  settings.melting = value_of<eos::MeltingTransition>(options.melting).value();
   settings.electrons = options.electrons;
   settings.bootstrap = options.bootstrap;
   if (options.statistical_only) settings.model_errors = ModelErrors::none();
@@ -258,7 +259,7 @@ int main_program(int argc, char** argv) {
       ->check(CLI::Range(1, 100000));
   app.add_option("--seed", options.seed, "Of the samples")->capture_default_str();
   app.add_option("--melting", options.melting, "Melting transition of the material, and of the fit of T_m0")
-      ->check(CLI::IsMember({"band", "isochoric", "equilibrium"}))
+      ->check(CLI::IsMember(word_list<eos::MeltingTransition>()))
       ->capture_default_str();
   app.add_option("--reference-temperature", options.reference_temperature,
                  "Temperature of the reference volume and ahead of the simulated shocks")

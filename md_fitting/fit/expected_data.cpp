@@ -19,11 +19,11 @@ using md::PointRecord;
 /// Geometric mean of sigma/scale (cells x steps)^1/2 over the points of a protocol that state an error; 0 if
 /// none does.
 template <class Scale>
-double coefficient(std::span<const PointRecord> points, Protocol protocol, const char* quantity, Scale scale) {
+double coefficient(std::span<const PointRecord> points, md::PointKind protocol, const char* quantity, Scale scale) {
   double sum = 0.0;
   int count = 0;
   for (const PointRecord& point : points) {
-    if (!point.done() || protocol_of(point) != protocol) continue;
+    if (!point.done() || point.kind() != protocol) continue;
     const auto found = point.results.find(quantity);
     if (found == point.results.end() || !(found->second.error > 0.0)) continue;
     sum += std::log(found->second.error / scale(point)) + 0.5 * std::log(Ranges::sampling(point));
@@ -45,12 +45,12 @@ ExpectedData::ExpectedData(const GrayFit& fit, std::span<const PointRecord> poin
   const auto pressure = [](const PointRecord& point) { return point.result("pressure").value; };
   const auto thermal = [](const PointRecord& point) { return std::sqrt(point.condition("temperature")); };
   const auto one = [](const PointRecord&) { return 1.0; };
-  shock_pressure_ = coefficient(points, Protocol::hugoniot, "pressure", pressure);
-  pressure_ = coefficient(points, Protocol::isochore, "pressure", thermal);
-  energy_ = coefficient(points, Protocol::isochore, "specific_internal_energy", thermal);
-  melting_ = coefficient(points, Protocol::coexistence, "melting_temperature", one);
-  solid_volume_ = coefficient(points, Protocol::coexistence, "solid_specific_volume", one);
-  latent_heat_ = coefficient(points, Protocol::coexistence, "latent_heat", one);
+  shock_pressure_ = coefficient(points, md::PointKind::hugoniot, "pressure", pressure);
+  pressure_ = coefficient(points, md::PointKind::isochore, "pressure", thermal);
+  energy_ = coefficient(points, md::PointKind::isochore, "specific_internal_energy", thermal);
+  melting_ = coefficient(points, md::PointKind::coexistence, "melting_temperature", one);
+  solid_volume_ = coefficient(points, md::PointKind::coexistence, "solid_specific_volume", one);
+  latent_heat_ = coefficient(points, md::PointKind::coexistence, "latent_heat", one);
   double sum = 0.0;
   double states = 0.0;
   for (const Isochore& isochore : data_.isochores) {
@@ -69,9 +69,9 @@ double ExpectedData::error(double coefficient, const PlannedPoint& point) const 
 }
 
 void ExpectedData::add(const PlannedPoint& point, int owner, const GrayFit& fit) {
-  if (point.protocol == Protocol::hugoniot) add_hugoniot(point, owner);
-  if (point.protocol == Protocol::isochore) add_isochore(point, owner);
-  if (point.protocol == Protocol::coexistence) add_coexistence(point, owner, fit);
+  if (point.protocol == md::PointKind::hugoniot) add_hugoniot(point, owner);
+  if (point.protocol == md::PointKind::isochore) add_isochore(point, owner);
+  if (point.protocol == md::PointKind::coexistence) add_coexistence(point, owner, fit);
 }
 
 void ExpectedData::add_hugoniot(const PlannedPoint& point, int owner) {

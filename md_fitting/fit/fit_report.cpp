@@ -236,7 +236,7 @@ std::string fit_details(const Fit& fit) {
     text += fmt::format(
         "\nmelting: the solid of volume V0 coexists with liquid at {:.0f} K; T_m0 of melting = \"{}\" is "
         "{:.0f} K\n",
-        *fit.isochoric_melting_temperature, fit.settings.melting, fit.value("melting_temperature"));
+        *fit.isochoric_melting_temperature, word_of(fit.settings.melting), fit.value("melting_temperature"));
   }
 
   text += unknown_to_classical_nuclei(fit);

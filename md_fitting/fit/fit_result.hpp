@@ -14,7 +14,7 @@
 #include "md_fitting/fit/cross_validation.hpp"
 #include "md_fitting/fit/fit_settings.hpp"
 
-/// What a fit yields, whatever the model.
+/// Holds the result of a fit, whatever the model.
 namespace whipple::fit {
 
 enum class Origin { fitted, given, by_default };

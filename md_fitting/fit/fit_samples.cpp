@@ -25,10 +25,10 @@ void require_material(const Fit& fit) {
         const auto found = std::find_if(fit.constants.begin(), fit.constants.end(),
                                         [&](const Constant& constant) { return constant.name == name; });
         if (found != fit.constants.end()) **number = found->value;
-      } else if (std::string* const* word = std::get_if<std::string*>(&parameter.target)) {
+      } else if (const ChoiceTarget* choice = std::get_if<ChoiceTarget>(&parameter.target)) {
         const auto found = std::find_if(fit.words.begin(), fit.words.end(),
                                         [&](const auto& one) { return one.first == name; });
-        if (found != fit.words.end()) **word = found->second;
+        if (found != fit.words.end()) choice->set(choice->value, found->second);
       }
     }
   });

@@ -4,9 +4,11 @@
 #include <optional>
 #include <string>
 
+#include "eos/models/gray_constants.hpp"
+
 namespace whipple::fit {
 
-/// What the laws of GRAY leave out even if the data had no noise: part of the weights
+/// Holds the errors of the laws of GRAY on data without noise: part of the weights
 /// (docs/theory/fit.md, section 3). All are one standard deviation.
 struct ModelErrors {
   double zero_pressure_volume = 1e-4;  ///< relative
@@ -30,10 +32,9 @@ struct FitSettings {
   double reference_temperature = 293.0;    ///< K: V0 is the volume at zero pressure and this temperature
   double least_particle_velocity = 300.0;  ///< m/s, window of the Hugoniot states
   double most_particle_velocity = 2500.0;  ///< m/s
-  /// "band": the lower edge of the model's melting band runs through the coexistence points; "isochoric":
-  /// T_m(V) itself does; "equilibrium": the common tangent of solid and liquid. It is also the melting
-  /// transition of the material.
-  std::string melting = "equilibrium";
+  /// Curve of the model through the coexistence points: the lower edge of its melting band, T_m(V) itself, or
+  /// the common tangent of solid and liquid. It is also the melting transition of the material.
+  eos::MeltingTransition melting = eos::MeltingTransition::equilibrium;
   ModelErrors model_errors;
   std::string electrons;  ///< name of a choice of the element's table, or a quantity; empty: the first choice
   int bootstrap = 0;      ///< replicates; 0: none

@@ -83,7 +83,7 @@ void append(GrayFit& fit, const VapourFit& vapour) {
   };
   fit.covariance = joined(fit.covariance, vapour.covariance);
   fit.statistical_covariance = joined(fit.statistical_covariance, vapour.statistical_covariance);
-  fit.gray.vapour = "attraction";
+  fit.gray.vapour = eos::VapourCondition::attraction;
   fit.gray.boiling_temperature = GrayConstants::not_given;
   for (std::size_t k = 0; k < vapour.names.size(); ++k) {
     number_of(fit.gray, vapour.names[k]) = vapour.values[static_cast<Index>(k)];

@@ -53,11 +53,11 @@ namespace {
 /// of which is some 1.15: there the square counts, and alpha stays. The attraction of the vapour does not
 /// matter: one is as good as another.
 eos::GrayConstants for_melting(eos::GrayConstants constants) {
-  if (constants.melting != "equilibrium") {
+  if (constants.melting != eos::MeltingTransition::equilibrium) {
     constants.melting_entropy -= constants.liquid_heat_coefficient;
     constants.liquid_heat_coefficient = 0.0;
   }
-  constants.vapour = "attraction";
+  constants.vapour = eos::VapourCondition::attraction;
   if (!std::isfinite(constants.vapour_attraction)) {
     constants.vapour_attraction =
         std::pow(constants.hugoniot_intercept, 2) * constants.reference_specific_volume;
@@ -70,7 +70,9 @@ Melting::Melting(eos::GrayConstants constants) : surface_(for_melting(std::move(
 
 double Melting::solidus(double V) const {
   const double T_m = surface_.melting_temperature(V);
-  if (surface_.constants().melting != "equilibrium") return surface_.band(surface_.isochore(V)).T1;
+  if (surface_.constants().melting != eos::MeltingTransition::equilibrium) {
+    return surface_.band(surface_.isochore(V)).T1;
+  }
   // Equal pressure and Gibbs energy of the solid of this volume and a liquid of another one (G27).
   const auto excess = [&](double T) {
     const eos::GrayPoint solid = surface_.solid(V, T);

@@ -15,7 +15,7 @@ double gamma(const eos::GrayConstants& constants, double V);
 /// c T + g_anh (V/V0)^gamma_e T^2/2 per mass, J/kg
 double thermal_energy(const SolidConstants& constants, double V, double T);
 
-/// What the anharmonic energy adds to P - gamma E/V: (gamma_e - gamma) g_anh (V/V0)^gamma_e T^2/(2 V), Pa
+/// Returns the anharmonic part (Pa) of P - gamma E/V: (gamma_e - gamma) g_anh (V/V0)^gamma_e T^2/(2 V).
 double anharmonic_pressure(const eos::GrayConstants& constants, double V, double T);
 
 /// Pressure of the reference temperature (Vinet et al., Phys. Rev. B 35 (1987) 1945), Pa: with X =

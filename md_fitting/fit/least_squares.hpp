@@ -19,7 +19,7 @@ struct LeastSquaresProblem {
 struct LeastSquaresSolution {
   Eigen::VectorXd parameters;
   Eigen::MatrixXd covariance;              ///< from both parts of Sigma
-  Eigen::MatrixXd statistical_covariance;  ///< share of the noise of the data alone
+  Eigen::MatrixXd statistical_covariance;  ///< part that stems from the noise of the data alone
   Eigen::VectorXd residuals;               ///< as the problem defines them
   Eigen::VectorXd whitened;                ///< L^-1 r with L L^T = Sigma: unit variance, uncorrelated
   Eigen::MatrixXd jacobian;                ///< of the whitened residuals
@@ -30,7 +30,7 @@ struct LeastSquaresSolution {
 };
 
 /// Levenberg-Marquardt of GSL (gsl_multifit_nlinear, central differences) on the whitened residuals. The
-/// covariance is (J^T J)^-1 of the whitened Jacobian; the statistical share propagates the statistical part
+/// covariance is (J^T J)^-1 of the whitened Jacobian; the statistical part propagates the statistical part
 /// of Sigma through the same estimator, (J^T J)^-1 J^T (L^-1 Sigma_stat L^-T) J (J^T J)^-1.
 /// @throws StateError if there are fewer residuals than parameters, Sigma is not positive definite, the
 /// iteration does not converge, or the data leave a combination of the parameters undetermined.

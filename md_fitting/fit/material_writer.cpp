@@ -127,7 +127,7 @@ std::string settings_table(const FitSettings& settings) {
   text += fmt::format("reference_temperature = \"{} K\"\n", settings.reference_temperature);
   text += fmt::format("particle_velocities = [\"{} km/s\", \"{} km/s\"]\n",
                       settings.least_particle_velocity / 1000.0, settings.most_particle_velocity / 1000.0);
-  text += fmt::format("melting = {}\n", toml_string(settings.melting));
+  text += fmt::format("melting = {}\n", toml_string(word_of(settings.melting)));
   text += "# Model errors, one standard deviation (docs/theory/fit.md)\n";
   text += fmt::format("model_error_volume = {}\nmodel_error_shock_velocity = {}\n",
                       errors.zero_pressure_volume, errors.shock_velocity);

@@ -134,7 +134,7 @@ std::vector<IsothermState> isotherm_states(std::span<const PointRecord> points, 
   return found;
 }
 
-/// What bears on liquid, vapour and the Debye temperature.
+/// Adds the observations of liquid, vapour and Debye temperature.
 void add_other_phases(std::span<const PointRecord> points, Observations& data) {
   for (const PointRecord& point : md::select(points, "liquid")) {
     if (point.result("liquid").value < 0.5) continue;

@@ -85,7 +85,8 @@ struct Needs {
   bool isotherm = false;
 };
 
-/// Has the crystal of a point not melted? Protocols without that flag simulate solids only.
+/// Returns whether the crystal of a point has not melted; true for protocols without that flag, which simulate solids
+/// only.
 bool is_solid(const md::PointRecord& point);
 
 /// Sorts the finished points of a store into data.

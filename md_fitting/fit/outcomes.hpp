@@ -10,7 +10,7 @@
 
 namespace whipple::fit {
 
-/// What [adaptive] of a plan asks for, SI.
+/// Holds the quantity that [adaptive] of a plan asks for, SI.
 struct Outcome {
   double value = 0.0;
   std::string unit;

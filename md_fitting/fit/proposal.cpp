@@ -24,7 +24,7 @@ using Eigen::VectorXd;
 
 /// A parameter without data: 100 GPa and 1 MJ/kg for the intercepts of an isochore, e^100 for a constant.
 constexpr double weak = 100.0;
-/// Points that lower the variance by less than this share are not worth their time.
+/// Points that lower the variance by less than this fraction are not worth their time.
 constexpr double least_gain = 1e-3;
 
 /// Central differences, as `solve` takes them.
@@ -43,11 +43,13 @@ MatrixXd jacobian_of(const LeastSquaresProblem& problem, Index rows) {
 }
 
 std::string point_text(const PlannedPoint& point) {
-  if (point.protocol == Protocol::hugoniot) return fmt::format("hugoniot at V/Vs = {:.4g}", point.volume_ratio);
-  if (point.protocol == Protocol::isochore) {
+  if (point.protocol == md::PointKind::hugoniot) return fmt::format("hugoniot at V/Vs = {:.4g}", point.volume_ratio);
+  if (point.protocol == md::PointKind::isochore) {
     return fmt::format("isochore V/Vs = {:.4g} at {:.0f} K", point.volume_ratio, point.temperature);
   }
-  if (point.protocol == Protocol::coexistence) return fmt::format("coexistence at {:.3g} GPa", 1e-9 * point.pressure);
+  if (point.protocol == md::PointKind::coexistence) {
+    return fmt::format("coexistence at {:.3g} GPa", 1e-9 * point.pressure);
+  }
   return fmt::format("zero_pressure_volume at {:.0f} K", point.temperature);
 }
 
@@ -58,11 +60,11 @@ void propose_points(Proposal& proposal, const Ranges& ranges, const std::vector<
   }
 }
 
-/// Whether the store bears a fit, and one with melting if the plan has any.
+/// Returns whether the store bears a fit, and one with melting if the plan has any.
 bool bears_fit(const md::Plan& plan, std::span<const md::PointRecord> points, const FitSettings& settings,
                const std::string& store_name) {
   const bool melting = std::any_of(points.begin(), points.end(),
-                                   [](const auto& point) { return protocol_of(point) == Protocol::coexistence; });
+                                   [](const auto& point) { return point.kind() == md::PointKind::coexistence; });
   if (plan.coexistence && !melting) return false;
   try {
     observe(points, settings, {}, store_name);

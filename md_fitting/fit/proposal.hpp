@@ -11,7 +11,7 @@
 
 namespace whipple::fit {
 
-/// What a plan with [adaptive] should measure next.
+/// Holds the points that a plan with [adaptive] should measure next.
 struct Proposal {
   std::optional<md::Plan> next;    ///< nothing: the work is at its end
   std::string end;                 ///< why

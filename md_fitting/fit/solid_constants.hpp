@@ -9,7 +9,7 @@
 
 namespace whipple::fit {
 
-/// What the laws of laws.hpp are made of: the constants of GRAY and those of the other models of a solid.
+/// Holds the constants of the laws in laws.hpp: those of GRAY and of the other models of a solid.
 struct SolidConstants {
   eos::GrayConstants gray;
   double heat_capacity = 0.0;       ///< J/(kg K): of E = e + c T + ..., 3R/M if it is not fitted
@@ -37,7 +37,7 @@ double at(const SolidConstants& constants, Place place);
 
 /// Open interval of a fitted constant: the range of its parameter table, and what the others demand.
 Bounds bounds_of(Place place, const SolidConstants& start);
-/// Of a constant without bounds, such that its parameter is of order one.
+/// Returns the scale of a constant without bounds, such that its parameter is of order one.
 double scale_of(Place place);
 /// Key in GRAY's parameter table, or in that of the model that owns the constant.
 std::string_view name_of(Place place);

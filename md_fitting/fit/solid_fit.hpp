@@ -32,7 +32,7 @@ SolidConstants fixed_solid(const Observations& data);
 SolidFit fit_solid(Observations data, const SolidModel& model, const SolidConstants& start,
                    const FitSettings& settings, const std::string& store_name);
 
-/// The same from start values close to the solution, and nothing but the constants: for replicates.
+/// Fits a model of the solid from start values close to the solution, and returns its constants alone: for replicates.
 SolidConstants refit_solid(const Observations& data, const SolidModel& model, const SolidConstants& start,
                            const FitSettings& settings);
 

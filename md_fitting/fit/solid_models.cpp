@@ -108,7 +108,7 @@ Fit fit_mie_gruneisen(std::span<const md::PointRecord> points, const FitSettings
   constants.hugoniot_intercept = solid.constants.gray.hugoniot_intercept;
   constants.hugoniot_slope = solid.constants.gray.hugoniot_slope;
   constants.gruneisen = fit.gruneisen;
-  constants.gruneisen_law = "linear";
+  constants.gruneisen_law = eos::CompressedGruneisenLaw::linear;
   constants.gruneisen_slope = fit.gruneisen - fit.gruneisen_slope;
   constants.heat_capacity = solid.constants.heat_capacity;
   constants.reference_temperature = settings.reference_temperature;
@@ -174,7 +174,7 @@ Fit fit_debye_gruneisen(std::span<const md::PointRecord> points, const FitSettin
   constants.bulk_modulus = solid.constants.bulk_modulus;
   constants.bulk_modulus_slope = solid.constants.bulk_modulus_slope;
   constants.gruneisen = fit.gruneisen;
-  constants.gruneisen_law = "linear";
+  constants.gruneisen_law = eos::LatticeGruneisenLaw::linear;
   constants.gruneisen_slope = fit.gruneisen_slope;
   sources.entries["gruneisen_exponent"] = {Origin::by_default, "\"none\": of no effect with the linear law"};
   constants.electronic_heat_coefficient = electronic_coefficient(table, settings.electrons, sources);

@@ -224,7 +224,7 @@ void SolidProblem::weigh_isochore(const Isochore& isochore, Index begin, MatrixX
   const double k = gamma(start_.gray, isochore.volume) / isochore.volume;
   const ThermalState& cold = isochore.states.front();
   const auto rows = static_cast<Index>(2 * isochore.states.size());
-  // Deviations common to the isochore: gamma by a fixed share, the anharmonic coefficient by a fixed amount.
+  // Deviations common to the isochore: gamma by a fixed fraction, the anharmonic coefficient by a fixed amount.
   VectorXd pressure = VectorXd::Zero(rows);
   VectorXd energy = VectorXd::Zero(rows);
   for (Index i = 0; i < rows; i += 2) {

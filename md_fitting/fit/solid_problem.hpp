@@ -44,7 +44,7 @@ class SolidProblem {
 
   [[nodiscard]] Eigen::Index constants() const { return static_cast<Eigen::Index>(bounded_.size()); }
   [[nodiscard]] const std::vector<HugoniotState>& window() const { return window_; }
-  /// Whether a state of the data has a row: its particle velocity lies in the window of the settings.
+  /// Returns whether a state of the data has a row: its particle velocity lies in the window of the settings.
   [[nodiscard]] bool in_window(const HugoniotState& state) const;
   /// All data, in the order of the rows.
   [[nodiscard]] const std::vector<Datum>& data() const { return rows_; }

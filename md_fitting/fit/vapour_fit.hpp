@@ -17,7 +17,7 @@ struct VapourFit {
   std::vector<std::string> names;          ///< keys of GRAY's parameter table
   Eigen::VectorXd values;                  ///< SI
   Eigen::MatrixXd covariance;              ///< with what the other constants leave uncertain
-  Eigen::MatrixXd statistical_covariance;  ///< share of the noise of all data
+  Eigen::MatrixXd statistical_covariance;  ///< part that stems from the noise of all data
   Eigen::MatrixXd sensitivity;             ///< d(value)/d(constant), of the constants fitted before
   double chi_squared = 0.0;
   int degrees_of_freedom = 0;

@@ -157,7 +157,8 @@ int read_element_line(Reader& reader, EamTables& tables) {
          tables.header_lattice_constant < longest_lattice_constant))) {
     reader.fail("has no valid line 'atomic number, mass, lattice constant, structure'");
   }
-  tables.structure = lower_case(words[3]);
+  tables.header_structure = lower_case(words[3]);
+  tables.structure = value_of<CrystalStructure>(tables.header_structure).value_or(CrystalStructure::bcc);
   return atomic_number;
 }
 
@@ -300,7 +301,7 @@ std::string to_setfl(const EamTables& tables, const std::string& comment) {
   // An unknown symbol has the number after the last: LAMMPS does not use it.
   const int number = atomic_number(tables.element).value_or(104);
   text += fmt::format("{} {:.17g} {:.17g} {}\n", number, tables.mass, tables.header_lattice_constant,
-                      tables.structure);
+                      word_of(tables.structure));
   for (const auto* table : {&tables.embedding, &tables.density, &tables.radius_times_pair}) {
     for (const double value : *table) text += fmt::format("{:.17g}\n", value);
   }

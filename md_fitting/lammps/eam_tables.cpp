@@ -32,7 +32,7 @@ template <class Visit>
 void for_each_neighbour(const EamTables& tables, double a, const Visit& visit) {
   // Cubic lattices in units of a/2: fcc has all sites with an even sum of the coordinates, bcc all sites
   // whose coordinates are all even or all odd.
-  const bool fcc = tables.structure == "fcc";
+  const bool fcc = tables.structure == CrystalStructure::fcc;
   const int reach = static_cast<int>(std::ceil(2.0 * tables.cutoff / a));
   for (int x = -reach; x <= reach; ++x) {
     for (int y = -reach; y <= reach; ++y) {
@@ -45,7 +45,8 @@ void for_each_neighbour(const EamTables& tables, double a, const Visit& visit) {
   }
 }
 
-/// The same of hcp with the ideal axial ratio: layers ABAB, a triangular lattice of distance d in each.
+/// Calls visit(r) for every neighbour within the cutoff (A) of an atom of hcp with the ideal axial ratio: layers ABAB,
+/// a triangular lattice of distance d (A) in each.
 template <class Visit>
 void for_each_hexagonal_neighbour(double cutoff, double d, const Visit& visit) {
   const int reach = static_cast<int>(std::ceil(1.3 * cutoff / d)) + 1;
@@ -103,7 +104,7 @@ double EamTables::static_lattice_constant() const {
   if (best == 0 || best == samples) {
     throw InputError(
         fmt::format("the static {} crystal of {} has no energy minimum for lattice constants {} ... {} A",
-                    structure, element, lower, upper));
+                    word_of(structure), element, lower, upper));
   }
   upper = lower + (best + 1) * step;
   lower = lower + (best - 1) * step;

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "md_fitting/data_set/crystal_structure.hpp"
+
 namespace whipple::md {
 
 /// The three functions of an embedded-atom potential of one element (Daw and Baskes, Phys. Rev. B 29 (1984)
@@ -14,7 +16,8 @@ struct EamTables {
   std::string element;
   double mass = 0.0;                     ///< g/mol
   double header_lattice_constant = 0.0;  ///< A, as the file says; some files leave it 0
-  std::string structure;                 ///< "fcc" or "bcc"
+  std::string header_structure;          ///< word of the file, which need not be the structure
+  CrystalStructure structure = CrystalStructure::fcc;  ///< fcc or bcc
   double density_step = 0.0;
   std::vector<double> embedding;          ///< F at i * density_step, eV
   double radius_step = 0.0;               ///< A
@@ -36,7 +39,7 @@ struct EamTables {
   /// V/V0 of the static crystal, V0 at its least energy, at which its density reaches `density`; 0 if it does
   /// not down to V/V0 = 0.1.
   [[nodiscard]] double volume_ratio_at(double density) const;
-  [[nodiscard]] int atoms_per_cell() const { return structure == "fcc" ? 4 : 2; }
+  [[nodiscard]] int atoms_per_cell() const { return md::atoms_per_cell(structure); }
 };
 
 }  // namespace whipple::md

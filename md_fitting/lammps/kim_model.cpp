@@ -79,7 +79,7 @@ std::vector<std::string> installed_models(const std::string& element) {
   return names;
 }
 
-/// What to name instead: the installed models nearest in name, or where to get models.
+/// Tells which models to name instead: the installed ones nearest in name, or where to get some.
 std::string advice(const std::string& identifier, const std::string& element) {
   std::vector<std::string> models = installed_models(element);
   if (models.empty())
@@ -97,16 +97,14 @@ struct StaticState {
   double pressure = 0.0;  ///< eV/A^3
 };
 
-int atoms_per_cell(const std::string& structure) { return structure == "bcc" ? 2 : 4; }
-
 /// Static crystals of one structure, all in one instance; two cells along each axis, as a lattice sum has no
 /// size effect.
 class StaticCrystal {
  public:
-  StaticCrystal(const KimModel& model, const std::string& structure, double lattice_constant) {
+  StaticCrystal(const KimModel& model, CrystalStructure structure, double lattice_constant) {
     model.begin(lammps_);
     lammps_.command("boundary p p p");
-    lammps_.command("lattice {} {:.17g}", structure, lattice_constant);
+    lammps_.command("lattice {} {:.17g}", word_of(structure), lattice_constant);
     lammps_.command("region box block 0 2 0 2 0 2");
     lammps_.command("create_box 1 box");
     lammps_.command("create_atoms 1 box");
@@ -133,7 +131,7 @@ class StaticCrystal {
   Lammps lammps_;
 };
 
-double lattice_constant_of(const std::string& structure, double volume_per_atom) {
+double lattice_constant_of(CrystalStructure structure, double volume_per_atom) {
   return std::cbrt(volume_per_atom * atoms_per_cell(structure));
 }
 
@@ -144,7 +142,8 @@ bool KimModel::is_identifier(const std::string& name) {
   return std::regex_match(name, pattern);
 }
 
-KimModel::KimModel(const std::string& identifier, const std::string& element, const std::string& structure)
+KimModel::KimModel(const std::string& identifier, const std::string& element,
+                   std::optional<CrystalStructure> structure)
     : identifier_(identifier), element_(element) {
   silence_kim();
   const std::optional<double> weight = standard_atomic_weight(element);
@@ -182,12 +181,13 @@ void KimModel::apply(Lammps& lammps) const {
 
 /// The structure stated, or that of least energy at rest among fcc and bcc. Distances of neighbours from 5.5
 /// A, longer than those of any metal, inwards to 1.9 A, or to where the model refuses.
-void KimModel::find_crystal(const std::string& stated) {
+void KimModel::find_crystal(std::optional<CrystalStructure> stated) {
+  bool found = false;
   double least = 0.0;
   double volume_at_rest = 0.0;
-  for (const std::string structure : {"fcc", "bcc"}) {
-    if (!stated.empty() && structure != stated) continue;
-    const double per_distance = structure == "fcc" ? std::sqrt(2.0) : std::sqrt(4.0 / 3.0);
+  for (const CrystalStructure structure : {CrystalStructure::fcc, CrystalStructure::bcc}) {
+    if (stated && structure != *stated) continue;
+    const double per_distance = structure == CrystalStructure::fcc ? std::sqrt(2.0) : std::sqrt(4.0 / 3.0);
     constexpr double longest = 5.5;
     constexpr double shortest = 1.9;
     constexpr double step = 0.985;
@@ -214,18 +214,19 @@ void KimModel::find_crystal(const std::string& stated) {
     }
     const double energy = fine.state(smaller).energy;
     if (energy < least) {
+      found = true;
       least = energy;
       structure_ = structure;
       lattice_constant_ = smaller;
       volume_at_rest = std::pow(smaller, 3) / atoms_per_cell(structure);
     }
   }
-  if (structure_.empty()) {
+  if (!found) {
     throw InputError(fmt::format("the KIM model {} binds no crystal of {}", identifier_, element_));
   }
-  if (!stated.empty()) return;
+  if (stated) return;
   // Lattice constant of hcp with the ideal axial ratio and the same volume per atom.
-  StaticCrystal hexagonal(*this, "hcp", std::cbrt(volume_at_rest * std::sqrt(2.0)));
+  StaticCrystal hexagonal(*this, CrystalStructure::hcp, std::cbrt(volume_at_rest * std::sqrt(2.0)));
   constexpr double clearly = 1e-3;  // eV per atom: a relaxed axial ratio and stacking faults stay below it
   if (hexagonal.present().energy < least - clearly) {
     throw InputError(fmt::format("with the KIM model {} the crystal of {} is hcp; fcc and bcc are supported",

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "md_fitting/data_set/crystal_structure.hpp"
 #include "md_fitting/lammps/lammps.hpp"
 
 namespace whipple::md {
@@ -14,7 +16,7 @@ namespace whipple::md {
 /// the static crystal when the model is loaded (docs/theory/molecular_dynamics.md, "Models of OpenKIM").
 class KimModel {
  public:
-  /// Whether a name is an extended KIM identifier: NAME__MO_123456789012_000, or SM for simulator models. The
+  /// Returns whether a name is an extended KIM identifier: NAME__MO_123456789012_000, or SM for simulator models. The
   /// last number is the version; the identifier stands for one content for ever.
   static bool is_identifier(const std::string& name);
 
@@ -22,7 +24,8 @@ class KimModel {
   /// it can be compressed.
   /// @throws InputError if LAMMPS has no KIM package, if the model is not installed (naming those for the
   /// element), if the element is not in it, or if the static crystal is neither fcc nor bcc.
-  KimModel(const std::string& identifier, const std::string& element, const std::string& structure = {});
+  KimModel(const std::string& identifier, const std::string& element,
+           std::optional<CrystalStructure> structure = {});
 
   /// Units and atom style of an instance that has no box yet.
   void begin(Lammps& lammps) const;
@@ -30,7 +33,7 @@ class KimModel {
   void apply(Lammps& lammps) const;
 
   [[nodiscard]] double mass() const { return mass_; }  ///< g/mol
-  [[nodiscard]] const std::string& structure() const { return structure_; }
+  [[nodiscard]] CrystalStructure structure() const { return structure_; }
   [[nodiscard]] double lattice_constant() const { return lattice_constant_; }  ///< A
   [[nodiscard]] double cutoff() const { return cutoff_; }                      ///< A
   /// V/V0 at which the model refuses the static crystal or the crystal ceases to resist compression; 0: not
@@ -47,14 +50,14 @@ class KimModel {
   static constexpr double largest_scanned_ratio = 1.60;
 
  private:
-  void find_crystal(const std::string& stated);
+  void find_crystal(std::optional<CrystalStructure> stated);
   void find_cutoff();
   void scan();
 
   std::string identifier_;
   std::string element_;
   double mass_ = 0.0;
-  std::string structure_;
+  CrystalStructure structure_ = CrystalStructure::fcc;
   double lattice_constant_ = 0.0;
   double cutoff_ = 0.0;
   double end_ = 0.0;

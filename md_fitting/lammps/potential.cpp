@@ -126,18 +126,18 @@ bool is_ascii(const std::string& text) {
 /// Takes the cubic structure of least energy, unless the plan states one: headers of potential files are
 /// written by hand, and some programs that fit alloys know fcc only.
 /// @return what differs from the header; empty: nothing
-std::string choose_structure(EamTables& tables, const std::string& stated, const std::string& name) {
+std::string choose_structure(EamTables& tables, std::optional<CrystalStructure> stated, const std::string& name) {
   constexpr double clearly = 5e-3;  // eV per atom: what fcc and hcp differ by in potentials of fcc metals
-  const std::string header = tables.structure;
-  const bool cubic = header == "fcc" || header == "bcc";
+  const std::optional<CrystalStructure> header = value_of<CrystalStructure>(tables.header_structure);
+  const bool cubic = header == CrystalStructure::fcc || header == CrystalStructure::bcc;
   const double header_volume = std::pow(tables.header_lattice_constant, 3) / tables.atoms_per_cell();
   struct Candidate {
     EamTables tables;
     double volume, energy;
   };
   std::vector<Candidate> candidates;
-  for (const std::string structure : {"fcc", "bcc"}) {
-    if (!stated.empty() && structure != stated) continue;
+  for (const CrystalStructure structure : {CrystalStructure::fcc, CrystalStructure::bcc}) {
+    if (stated && structure != *stated) continue;
     EamTables own = tables;
     own.structure = structure;
     // The bracket of the search is the header's, at its volume per atom.
@@ -149,7 +149,7 @@ std::string choose_structure(EamTables& tables, const std::string& stated, const
       candidates.push_back({own, a * a * a / own.atoms_per_cell(), own.crystal_energy(a)});
     } catch (const InputError&) {
       // A structure for comparison need not exist.
-      if (structure == (stated.empty() ? header : stated)) throw;
+      if (structure == (stated ? stated : header)) throw;
     }
   }
   if (candidates.empty()) {
@@ -162,23 +162,23 @@ std::string choose_structure(EamTables& tables, const std::string& stated, const
   const Candidate& best = *std::ranges::min_element(candidates, {}, rank);
   tables.structure = best.tables.structure;
   tables.header_lattice_constant = best.tables.header_lattice_constant;
-  if (!stated.empty()) return "";
+  if (stated) return "";
   const double hexagonal = tables.hexagonal_energy(best.volume);
   if (hexagonal < best.energy - clearly) {
     throw InputError(fmt::format(
         "with the potential {} hcp {} has {:.4f} eV per atom, {} {:.4f}: the crystal is hcp; fcc and bcc are "
         "supported (structure = \"{}\" in the plan takes that one all the same)",
-        name, tables.element, hexagonal, tables.structure, best.energy, tables.structure));
+        name, tables.element, hexagonal, word_of(tables.structure), best.energy, word_of(tables.structure)));
   }
   if (tables.structure == header) return "";
   std::string energies;
   for (const Candidate& c : candidates) {
-    energies += fmt::format("{}{} {:.4f}", energies.empty() ? "" : ", ", c.tables.structure, c.energy);
+    energies += fmt::format("{}{} {:.4f}", energies.empty() ? "" : ", ", word_of(c.tables.structure), c.energy);
   }
   return fmt::format(
       "potential {}: the header gives {} the structure '{}', but {} has the least energy ({} eV "
       "per atom) and is taken; `structure` in the plan states another",
-      name, tables.element, header, tables.structure, energies);
+      name, tables.element, tables.header_structure, word_of(tables.structure), energies);
 }
 
 }  // namespace
@@ -216,23 +216,22 @@ std::filesystem::path potential_folder() {
 }
 
 Potential Potential::load(const std::string& name, const std::string& element,
-                          const std::filesystem::path& folder, const std::string& structure) {
+                          const std::filesystem::path& folder, std::optional<CrystalStructure> structure) {
   Potential potential;
   potential.name_ = name;
   potential.element_ = element;
-  if (structure != "least_energy") potential.structure_ = structure;
   if (KimModel::is_identifier(name)) {
-    potential.read_kim();
+    potential.read_kim(structure);
     return potential;
   }
   if (name == zhou_2004_name) {
     potential.tables_ = zhou_2004(element);
-    potential.remark_ = choose_structure(potential.tables_, potential.structure_, name);
+    potential.remark_ = choose_structure(potential.tables_, structure, name);
     potential.file_ = name;
     potential.source_ = "Zhou, Johnson, Wadley, Phys. Rev. B 69 (2004) 144113";
     potential.write_tables(fmt::format("{} by the formulas of {}", element, potential.source_));
   } else {
-    potential.read_file(element, folder);
+    potential.read_file(element, folder, structure);
   }
   potential.structure_ = potential.tables_.structure;
   potential.mass_ = potential.tables_.mass;
@@ -244,8 +243,8 @@ Potential Potential::load(const std::string& name, const std::string& element,
   return potential;
 }
 
-void Potential::read_kim() {
-  kim_ = std::make_shared<const KimModel>(name_, element_, structure_);
+void Potential::read_kim(std::optional<CrystalStructure> stated) {
+  kim_ = std::make_shared<const KimModel>(name_, element_, stated);
   style_ = "kim";
   file_ = name_;
   source_ = "OpenKIM, https://openkim.org/id/" + name_;
@@ -260,7 +259,8 @@ void Potential::read_kim() {
       table_end_ > 0.0 ? (1.0 + volume_margin) * table_end_ : KimModel::least_scanned_ratio + 0.01;
 }
 
-void Potential::read_file(const std::string& element, const std::filesystem::path& folder) {
+void Potential::read_file(const std::string& element, const std::filesystem::path& folder,
+                          std::optional<CrystalStructure> stated) {
   const auto entry =
       std::find_if(known.begin(), known.end(), [&](const auto& one) { return name_ == one.name; });
   const bool by_name = entry != known.end();
@@ -269,7 +269,7 @@ void Potential::read_file(const std::string& element, const std::filesystem::pat
   }
   file_ = find_file(by_name ? entry->file : name_, element, folder);
   tables_ = read_eam(file_, element);
-  remark_ = choose_structure(tables_, structure_, name_);
+  remark_ = choose_structure(tables_, stated, name_);
   source_ = by_name ? entry->source : "the file " + file_.filename().string();
   const EamFormat format = eam_format(file_);
   if (format == EamFormat::angular_dependent) {
@@ -326,7 +326,7 @@ void Potential::require_range(double volume_ratio) const {
     throw InputError(fmt::format(
         "potential {}: at V/V0 = {:.3f} {} ({}); V/V0 = {:.3f} is refused, the least that leaves {:.0f} % of "
         "volume for thermal motion is {:.3f}",
-        name_, table_end_, kim_->reason_of_end(), structure_, volume_ratio, 100 * volume_margin,
+        name_, table_end_, kim_->reason_of_end(), word_of(structure_), volume_ratio, 100 * volume_margin,
         least_volume_ratio_));
   }
   if (kim_) {
@@ -339,7 +339,7 @@ void Potential::require_range(double volume_ratio) const {
       fmt::format("potential {}: density table ends at V/V0 = {:.3f} (static {} crystal of {}); V/V0 = "
                   "{:.3f} is refused, the least "
                   "that leaves {:.0f} % of density for thermal motion is {:.3f}",
-                  name_, table_end_, tables_.structure, file_.filename().string(), volume_ratio,
+                  name_, table_end_, word_of(tables_.structure), file_.filename().string(), volume_ratio,
                   100 * density_margin, least_volume_ratio_));
 }
 

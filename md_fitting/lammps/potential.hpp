@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "md_fitting/data_set/crystal_structure.hpp"
 #include "md_fitting/lammps/eam_tables.hpp"
 #include "md_fitting/lammps/kim_model.hpp"
 #include "md_fitting/lammps/lammps.hpp"
@@ -22,11 +24,12 @@ class Potential {
   /// Loads a potential by the name of a known one ("zhou_2004" for each of its elements), by the extended
   /// identifier of a KIM model, or by a file name: a path, a file beside the plan (`folder`), or a file in
   /// LAMMPS' folder.
-  /// @param structure "fcc", "bcc" or "least_energy"
+  /// @param structure fcc or bcc; none: that of least energy
   /// @throws InputError if there is no such file or model (listing the ones for the element), if the element
   /// is not in it, if the file is damaged, or if hcp has the least energy.
   static Potential load(const std::string& name, const std::string& element,
-                        const std::filesystem::path& folder = {}, const std::string& structure = "least_energy");
+                        const std::filesystem::path& folder = {},
+                        std::optional<CrystalStructure> structure = {});
 
   /// Units and atom style of an instance that has no box yet.
   void begin(Lammps& lammps) const;
@@ -45,16 +48,16 @@ class Potential {
   [[nodiscard]] const std::string& source() const { return source_; }
   /// SHA-256 of the tables as LAMMPS reads them.
   [[nodiscard]] const std::string& hash() const { return hash_; }
-  /// Whether its functions are those of tables that the program read.
+  /// Returns whether its functions are those of tables that the program read.
   [[nodiscard]] bool has_tables() const { return kim_ == nullptr; }
   /// @throws InternalError for a KIM model.
   [[nodiscard]] const EamTables& tables() const;
   [[nodiscard]] const std::string& element() const { return element_; }
-  [[nodiscard]] double mass() const { return mass_; }                        ///< g/mol
-  [[nodiscard]] const std::string& structure() const { return structure_; }  ///< "fcc" or "bcc"
+  [[nodiscard]] double mass() const { return mass_; }                      ///< g/mol
+  [[nodiscard]] CrystalStructure structure() const { return structure_; }  ///< fcc or bcc
   /// How the structure differs from what the file says; empty: it does not.
   [[nodiscard]] const std::string& remark() const { return remark_; }
-  [[nodiscard]] int atoms_per_cell() const { return structure_ == "fcc" ? 4 : 2; }
+  [[nodiscard]] int atoms_per_cell() const { return md::atoms_per_cell(structure_); }
   [[nodiscard]] double cutoff() const { return cutoff_; }  ///< A
   /// Energy per atom (eV) of the static crystal with lattice constant a (A).
   /// @throws StateError for a KIM model beyond the volumes that were scanned.
@@ -74,13 +77,15 @@ class Potential {
 
   /// Thermal motion raises the density of single atoms above that of the static crystal at the same volume.
   static constexpr double density_margin = 0.10;
-  /// The same for models whose density is not known: electron densities of metals grow about as 1/V^2.
+  /// Leaves this part of the volume for thermal motion in models whose electron density is not known; that of metals
+  /// grows about as 1/V^2.
   static constexpr double volume_margin = 0.05;
 
  private:
   class TemporaryFile;
-  void read_kim();
-  void read_file(const std::string& element, const std::filesystem::path& folder);
+  void read_kim(std::optional<CrystalStructure> stated);
+  void read_file(const std::string& element, const std::filesystem::path& folder,
+                 std::optional<CrystalStructure> stated);
   /// Tables that LAMMPS reads from a file made for it.
   void write_tables(const std::string& comment);
 
@@ -90,7 +95,7 @@ class Potential {
   std::string hash_;
   std::string style_;
   std::string element_;
-  std::string structure_;
+  CrystalStructure structure_ = CrystalStructure::fcc;
   std::string remark_;
   double mass_ = 0.0;
   double cutoff_ = 0.0;

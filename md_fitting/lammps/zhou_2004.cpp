@@ -16,7 +16,7 @@ namespace {
 /// Constants of one metal; lengths in A, energies in eV.
 struct Metal {
   const char* element;
-  const char* structure;
+  CrystalStructure structure;
   double mass;                    ///< g/mol
   double re, fe, density, scale;  ///< r_e, f_e, rho_e, rho_s
   double alpha, beta, A, B, kappa, lambda;
@@ -32,7 +32,7 @@ constexpr double middle_end = 1.15;  // of rho_e
 // Table III of the publication, as the authors' own program holds them (tools/eam_database of LAMMPS).
 constexpr std::array metals = {
     Metal{"Cu",
-          "fcc",
+          CrystalStructure::fcc,
           63.546,
           2.556162,
           1.554485,
@@ -51,7 +51,7 @@ constexpr std::array metals = {
           -2.186568,
           0.85},
     Metal{"Ag",
-          "fcc",
+          CrystalStructure::fcc,
           107.8682,
           2.891814,
           1.106232,
@@ -70,7 +70,7 @@ constexpr std::array metals = {
           -1.748423,
           0.85},
     Metal{"Au",
-          "fcc",
+          CrystalStructure::fcc,
           196.96654,
           2.885034,
           1.529021,
@@ -89,7 +89,7 @@ constexpr std::array metals = {
           -2.978815,
           0.85},
     Metal{"Ni",
-          "fcc",
+          CrystalStructure::fcc,
           58.6934,
           2.488746,
           2.007018,
@@ -108,7 +108,7 @@ constexpr std::array metals = {
           -2.7,
           0.85},
     Metal{"Pd",
-          "fcc",
+          CrystalStructure::fcc,
           106.42,
           2.750897,
           1.595417,
@@ -127,7 +127,7 @@ constexpr std::array metals = {
           -2.352753,
           0.85},
     Metal{"Pt",
-          "fcc",
+          CrystalStructure::fcc,
           195.08,
           2.771916,
           2.336509,
@@ -146,7 +146,7 @@ constexpr std::array metals = {
           -4.145597,
           0.25},
     Metal{"Al",
-          "fcc",
+          CrystalStructure::fcc,
           26.981539,
           2.863924,
           1.403115,
@@ -165,7 +165,7 @@ constexpr std::array metals = {
           -2.824528,
           0.85},
     Metal{"Pb",
-          "fcc",
+          CrystalStructure::fcc,
           207.2,
           3.499723,
           0.647872,
@@ -184,7 +184,7 @@ constexpr std::array metals = {
           -1.439436,
           0.85},
     Metal{"Fe",
-          "bcc",
+          CrystalStructure::bcc,
           55.847,
           2.481987,
           1.885957,
@@ -203,7 +203,7 @@ constexpr std::array metals = {
           -2.539945,
           0.85},
     Metal{"Mo",
-          "bcc",
+          CrystalStructure::bcc,
           95.94,
           2.728100,
           2.723710,
@@ -222,7 +222,7 @@ constexpr std::array metals = {
           -3.712093,
           0.85},
     Metal{"Ta",
-          "bcc",
+          CrystalStructure::bcc,
           180.9479,
           2.860082,
           3.086341,
@@ -241,7 +241,7 @@ constexpr std::array metals = {
           -5.141526,
           0.85},
     Metal{"W",
-          "bcc",
+          CrystalStructure::bcc,
           183.84,
           2.740840,
           3.487340,
@@ -303,8 +303,10 @@ EamTables zhou_2004(const std::string& element) {
   EamTables tables;
   tables.element = m.element;
   tables.mass = m.mass;
+  tables.header_structure = word_of(m.structure);
   tables.structure = m.structure;
-  tables.header_lattice_constant = m.re * (tables.structure == "fcc" ? std::sqrt(2.0) : 2.0 / std::sqrt(3.0));
+  const bool fcc = m.structure == CrystalStructure::fcc;
+  tables.header_lattice_constant = m.re * (fcc ? std::sqrt(2.0) : 2.0 / std::sqrt(3.0));
   tables.cutoff = std::sqrt(5.0) * m.re;
   tables.density_step = density_end * m.density / static_cast<double>(densities - 1);
   for (std::size_t i = 0; i < densities; ++i) {

@@ -13,7 +13,7 @@ namespace whipple::md {
 
 struct Plan;
 
-/// What a call with --adaptive shall learn, and at what price; the other sections are ranges to choose from
+/// Describes what a call with --adaptive shall learn, and at what price; the other sections are ranges to choose from
 /// (docs/theory/fit.md, section 8).
 struct AdaptivePlan {
   std::string outcome;

@@ -78,7 +78,7 @@ std::optional<PointRecord> find_point(const std::filesystem::path& store, const 
   return std::nullopt;
 }
 
-/// What rank 0 finds in the store, told to all: 'd' done, 'c' done but to be continued, 'f' failed, ' '
+/// Reads the state of the tasks on rank 0 and tells it to all: 'd' done, 'c' done but to be continued, 'f' failed, ' '
 /// missing, one letter per task.
 std::string read_status(std::span<const Task> tasks, const std::filesystem::path& store,
                         MPI_Comm communicator, int rank) {
@@ -132,19 +132,19 @@ PointRecord compute_point(const Task& task, const PointRecord* dependency, int s
         throw StateError(fmt::format("{} is not finite", name));
       }
     }
-    point.status = "done";
+    point.status = PointStatus::done;
     point.message = std::move(result.message);
     point.results = std::move(result.results);
     point.blocks = std::move(result.blocks);
     point.provenance["lammps_commands"] = std::move(result.transcript);
   } catch (const LammpsError& error) {
-    point.status = "failed";
+    point.status = PointStatus::failed;
     point.message = error.what();
   } catch (const StateError& error) {
-    point.status = "failed";
+    point.status = PointStatus::failed;
     point.message = error.what();
   } catch (const InputError& error) {  // a range or a style that only this point asks for
-    point.status = "failed";
+    point.status = PointStatus::failed;
     point.message = error.what();
   }
   point.wall_seconds = seconds_since(begin);
@@ -392,8 +392,8 @@ void put_in_order(const std::filesystem::path& store, MPI_Comm communicator) {
   }
 }
 
-/// What the store holds of the isotherms and isochores of a plan without being a crystal; the same on all
-/// ranks. A shock may melt, so points of the Hugoniot do not count.
+/// Counts the points on isotherms and isochores of a plan that have melted, on all ranks. A shock may melt, so points
+/// of the Hugoniot do not count.
 int count_molten(std::span<const Task> tasks, const std::filesystem::path& store, MPI_Comm communicator) {
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
@@ -401,7 +401,8 @@ int count_molten(std::span<const Task> tasks, const std::filesystem::path& store
   if (rank == 0 && std::filesystem::exists(store)) {
     std::set<std::string> solids;
     for (const Task& task : tasks) {
-      if (task.protocol == "isotherm" || task.protocol == "isochore") solids.insert(task.key);
+      const std::optional<PointKind> kind = value_of<PointKind>(task.protocol);
+      if (kind == PointKind::isotherm || kind == PointKind::isochore) solids.insert(task.key);
     }
     try {
       for (const PointRecord& point : read_store(store)) {

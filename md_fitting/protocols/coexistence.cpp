@@ -29,7 +29,7 @@ constexpr double least_order_of_crystal = 0.5;
 /// By which a start goes on from one that lost a phase, as long as nothing bounds it on the other side.
 constexpr double start_step = 0.04;
 constexpr int most_parts = 3;
-/// Of the volume; fcc metals expand by 3 to 7 % as they melt.
+/// Estimates the relative growth of the volume in melting; fcc metals expand by 3 to 7 %.
 constexpr double melting_expansion = 0.05;
 constexpr std::int64_t share_interval = 200;
 
@@ -154,7 +154,7 @@ class TwoPhaseCell {
  private:
   std::int64_t layers_;
   Crystal crystal_;
-  double crystal_reading_ = 1.0;  // share that the order parameter finds in the hot crystal (about 0.5)
+  double crystal_reading_ = 1.0;  // fraction that the order parameter finds in the hot crystal (about 0.5)
   double melt_reading_ = 0.0;     // and in the melt (about 0.05)
 };
 
@@ -165,7 +165,7 @@ bool melted(const CoexistenceRun& run) {
   return run.least_share < least_accepted_share || run.largest_order < least_order_of_crystal;
 }
 
-/// The temperature of crystal and melt in contact, and the share of crystal, from one cell, or from the next
+/// The temperature of crystal and melt in contact, and the fraction of crystal, from one cell, or from the next
 /// one where that lost a phase.
 std::pair<double, double> find_coexistence(const Potential& potential, double pressure, double first_guess,
                                            const CoexistencePlan& section, double dt, std::int64_t seed,
@@ -278,9 +278,9 @@ std::string refusal(const CoexistenceRun& run) {
 
 ReplicaSet measure_coexistence(const Potential& potential, double pressure, double first_guess,
                                const CoexistencePlan& section, std::int64_t seed) {
-  if (potential.structure() != "fcc") {
+  if (potential.structure() != CrystalStructure::fcc) {
     throw InputError(fmt::format("coexistence is measured for fcc crystals, {} of {} is {}",
-                                 potential.element(), potential.name(), potential.structure()));
+                                 potential.element(), potential.name(), word_of(potential.structure())));
   }
   // The melting line that is meant here lies below a few 10 GPa: the temperature of the crystal decides, not
   // the guess.

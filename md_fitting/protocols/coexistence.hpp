@@ -33,11 +33,11 @@ struct CoexistenceRun {
 /// clearly. docs/theory/molecular_dynamics.md, "Melting by coexistence".
 double coexistence_error(const SeriesMean& temperature, double atoms);
 
-/// Whether a run is two phases at rest with each other: both are there, the halves agree within three
-/// standard errors of their difference (twice that of the whole), and the share of crystal drifts by less
+/// Returns whether a run is two phases at rest with each other: both are there, the halves agree within three
+/// standard errors of their difference (twice that of the whole), and the fraction of crystal drifts by less
 /// than 0.12. A cell that has become all crystal or all melt looks just as steady in its temperature, and the
-/// share of a hot crystal with defects is no clear mark: a layer of melt and a layer of crystal must be there
-/// (crystal below 0.35 and above 0.5), with a share between 0.15 and 0.85. Returns the reason for a refusal,
+/// fraction of a hot crystal with defects is no clear mark: a layer of melt and a layer of crystal must be there
+/// (crystal below 0.35 and above 0.5), with a fraction between 0.15 and 0.85. Returns the reason for a refusal,
 /// or an empty text.
 std::string refusal(const CoexistenceRun& run);
 

@@ -50,16 +50,15 @@ double relax_axial_ratio(Crystal& crystal, double volume_per_cell) {
 
 }  // namespace
 
-ColdState measure_cold(const Potential& potential, const std::string& structure, double specific_volume,
+ColdState measure_cold(const Potential& potential, CrystalStructure structure, double specific_volume,
                        std::string& transcript) {
   const double mass = potential.mass();
   const double atomic = metal::volume_per_atom(specific_volume, mass);
-  const double a = structure == "fcc"   ? std::cbrt(4.0 * atomic)
-                   : structure == "bcc" ? std::cbrt(2.0 * atomic)
-                                        : std::cbrt(std::sqrt(2.0) * atomic);  // ideal hcp
+  const double a = structure == CrystalStructure::hcp ? std::cbrt(std::sqrt(2.0) * atomic)  // ideal
+                                                      : std::cbrt(atoms_per_cell(structure) * atomic);
   Crystal crystal(potential, a, cells, cells, cells, structure);
   ColdState state;
-  if (structure == "hcp") {
+  if (structure == CrystalStructure::hcp) {
     state.axial_ratio = relax_axial_ratio(crystal, 4.0 * atomic);
   } else {
     crystal.evaluate();
@@ -78,7 +77,7 @@ void add_cold_curve(const Plan& plan, TaskList& list) {
     list.add({{{"specific_volume", volume}, {"temperature", 0.0}}, {}, {}},
              [&potential = list.potential(), volume](std::int64_t, const PointRecord*) {
                TaskResult result;
-               for (const std::string structure : {"fcc", "bcc", "hcp"}) {
+               for (const auto& [structure, word] : words(CrystalStructure{})) {
                  const bool own = structure == potential.structure();
                  ColdState state;
                  try {
@@ -89,10 +88,10 @@ void add_cold_curve(const Plan& plan, TaskList& list) {
                    result.message = error.what();
                    continue;
                  }
-                 const std::string prefix = own ? "" : structure + "_";
+                 const std::string prefix = own ? "" : fmt::format("{}_", word);
                  result.results[prefix + "pressure"] = {state.pressure, 0.0};
                  result.results[prefix + "specific_internal_energy"] = {state.specific_internal_energy, 0.0};
-                 if (structure == "hcp") result.results["hcp_axial_ratio"] = {state.axial_ratio, 0.0};
+                 if (structure == CrystalStructure::hcp) result.results["hcp_axial_ratio"] = {state.axial_ratio, 0.0};
                }
                return result;
              });

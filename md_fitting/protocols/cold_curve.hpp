@@ -18,7 +18,7 @@ struct ColdState {
 /// @param structure fcc, bcc or hcp
 /// @param transcript the LAMMPS commands are added to it
 /// @throws StateError if an hcp crystal has no axial ratio of least energy near the ideal one.
-ColdState measure_cold(const Potential& potential, const std::string& structure, double specific_volume,
+ColdState measure_cold(const Potential& potential, CrystalStructure structure, double specific_volume,
                        std::string& transcript);
 
 }  // namespace whipple::md

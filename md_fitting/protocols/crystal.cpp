@@ -12,12 +12,11 @@
 namespace whipple::md {
 
 Crystal::Crystal(const Potential& potential, double lattice_constant, std::int64_t nx, std::int64_t ny,
-                 std::int64_t nz, const std::string& structure)
+                 std::int64_t nz, std::optional<CrystalStructure> structure)
     : nx_(nx), ny_(ny), nz_(nz), lammps_(point_communicator()) {
   potential.begin(lammps_);
   lammps_.command("boundary p p p");
-  lammps_.command("lattice {} {:.17g}", structure.empty() ? potential.structure() : structure,
-                  lattice_constant);
+  lammps_.command("lattice {} {:.17g}", word_of(structure.value_or(potential.structure())), lattice_constant);
   lammps_.command("region box block 0 {} 0 {} 0 {}", nx, ny, nz);
   lammps_.command("create_box 1 box");
   lammps_.command("create_atoms 1 box");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,9 @@ class Crystal {
  public:
   /// @param lattice_constant A
   /// @param nx,ny,nz         unit cells along the axes
-  /// @param structure        fcc, bcc or hcp (orthogonal cell of four atoms); empty: that of the potential
+  /// @param structure        fcc, bcc or hcp (orthogonal cell of four atoms); none: that of the potential
   Crystal(const Potential& potential, double lattice_constant, std::int64_t nx, std::int64_t ny,
-          std::int64_t nz, const std::string& structure = {});
+          std::int64_t nz, std::optional<CrystalStructure> structure = {});
 
   Lammps& lammps() { return lammps_; }
   [[nodiscard]] double atoms() const { return atoms_; }

@@ -19,7 +19,7 @@ namespace whipple::md {
 namespace {
 
 constexpr int most_parts = 10;
-/// Residual, as a share of the shock's heating, up to which a point counts as converged.
+/// Residual, as a fraction of the shock's heating, up to which a point counts as converged.
 constexpr double accepted_residual = 0.02;
 
 }  // namespace
@@ -30,7 +30,7 @@ HugoniostatResult run_hugoniostat(const Potential& potential, const ReferenceSta
   const double ratio = guess.specific_volume / potential.static_volume();
   potential.require_range(ratio);
   const double mass = potential.mass();
-  const std::string& structure = potential.structure();
+  const CrystalStructure structure = potential.structure();
   const double dt = time_step(potential, ratio, guess.temperature, size);
   HugoniostatResult result;
 

@@ -11,10 +11,10 @@
 namespace whipple::md {
 namespace {
 
-/// Two runs give a slope worth more than the model's only if their temperatures differ by this share.
+/// Two runs give a slope worth more than the model's only if their temperatures differ by this fraction.
 constexpr double secant_share = 0.1;
 
-/// What is not known of dP/dT, one standard deviation: a Grueneisen coefficient guessed, or the noise of a
+/// Estimates the relative error of dP/dT, one standard deviation: a guessed Grueneisen coefficient, or the noise of a
 /// secant.
 constexpr double slope_error = 0.15;
 

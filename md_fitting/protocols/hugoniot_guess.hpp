@@ -25,7 +25,7 @@ HugoniotGuess guess_hugoniot(const Potential& potential, const ReferenceState& r
 /// the static crystal is not known so far. m^3/kg
 double least_guess_volume(const Potential& potential, const ReferenceState& reference);
 
-/// The same for a pressure.
+/// Guesses the Hugoniot state at a pressure (Pa).
 /// @throws StateError if the pressure is not reached down to `least_guess_volume`.
 HugoniotGuess guess_hugoniot_at_pressure(const Potential& potential, const ReferenceState& reference,
                                          double pressure);

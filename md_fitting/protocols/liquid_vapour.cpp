@@ -23,7 +23,7 @@ constexpr std::int64_t frame_steps = 200;
 constexpr std::int64_t pressure_interval = 10;
 /// A film that is whole has its largest density in its middle, but for noise.
 constexpr double least_centre_share = 0.75;
-/// Temperature at which the film is prepared, as a share of the final one.
+/// Temperature at which the film is prepared, as a fraction of the final one.
 constexpr double prepared_share = 0.6;
 constexpr std::int64_t preparation_steps = 2000;
 constexpr double bin = 1.0;          // A

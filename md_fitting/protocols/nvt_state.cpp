@@ -60,7 +60,7 @@ State NvtStateSource::state(double specific_volume, double temperature, Effort e
   const auto tail = static_cast<std::ptrdiff_t>(displacement.size() / 10 + 1);
   const double last_displacement =
       std::accumulate(displacement.end() - tail, displacement.end(), 0.0) / static_cast<double>(tail);
-  const double neighbour = potential_.structure() == "fcc" ? a * std::sqrt(0.5) : a * std::sqrt(0.75);
+  const double neighbour = nearest_neighbour(potential_.structure(), a);
   state.solid = std::sqrt(last_displacement) < melting_displacement * neighbour &&
                 state.crystal_share > solid_share_limit;
 

@@ -16,10 +16,10 @@
 namespace whipple::md {
 namespace {
 
-/// Share of slipped atoms below which the compression is elastic.
+/// Fraction of slipped atoms below which the compression is elastic.
 constexpr double least_slipped_share = 0.05;
 constexpr int frames = 60;
-/// Length that the front runs through, as a share of the crystal: the surface behind must not matter.
+/// Length that the front runs through, as a fraction of the crystal: the surface behind must not matter.
 constexpr double run_share = 0.75;
 constexpr std::size_t parts = 5;
 constexpr double velocity_unit = metal::angstrom / metal::picosecond;  // m/s

@@ -22,7 +22,7 @@ struct PistonResult {
   double sample_density = 0.0;      ///< kg/m^3, behind the front, counted
   std::string transcript;
 
-  /// Whether the crystal has yielded without slip. Then the state is not hydrostatic and no datum for an
+  /// Returns whether the crystal has yielded without slip. Then the state is not hydrostatic and no datum for an
   /// equation of state.
   [[nodiscard]] bool elastic() const;
 };
@@ -33,7 +33,7 @@ PistonResult measure_piston(const Potential& potential, const ReferenceState& re
                             double reference_temperature, double particle_velocity, const PistonPlan& section,
                             std::int64_t seed);
 
-/// Share of the listed atoms that have left their sites across the shock by more than half the shortest slip
+/// Fraction of the listed atoms that have left their sites across the shock by more than half the shortest slip
 /// of an fcc crystal, a/sqrt(6). Uniaxial compression moves no atom across; slip moves whole regions.
 double slipped_share(std::span<const double> before, std::span<const double> after,
                      std::span<const std::size_t> atoms, double period, double lattice_constant);

@@ -22,7 +22,7 @@ class PointTeam {
   ~PointTeam();
 
   [[nodiscard]] bool leads() const { return rank_ == 0; }
-  /// Of all leaders; null on the others.
+  /// Returns the communicator of all leaders; null on the others.
   [[nodiscard]] MPI_Comm leaders() const { return leaders_; }
 
   /// One point, or a further segment of it, that the team computes.

@@ -13,11 +13,11 @@ namespace whipple::md {
 struct Precision {
   std::string quantity;       ///< the result that decides; empty: one segment, whatever its error
   double target_error = 0.0;  ///< of that result; 0: any
-  bool relative = false;      ///< the target is a share of the value
+  bool relative = false;      ///< the target is a fraction of the value
   std::int64_t segments = 1;  ///< at most so many
 };
 
-/// Whether another segment is to be added to a finished point. The error of n replicas counts with its own
+/// Returns whether another segment is to be added to a finished point. The error of n replicas counts with its own
 /// standard error added, 1/sqrt(2 (n - 1)) of it.
 bool wants_more(const PointRecord& point, const Precision& precision);
 

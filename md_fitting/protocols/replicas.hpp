@@ -14,7 +14,7 @@
 /// value and error come from independent runs. docs/theory/molecular_dynamics.md, "Replicas".
 namespace whipple::md {
 
-/// What one run of a state point brings, by the names of the results; SI.
+/// Holds the results of one run of a state point by their names; SI.
 using ReplicaValues = std::map<std::string, double>;
 
 struct ReplicaSet {

@@ -19,7 +19,7 @@
 namespace whipple::md {
 namespace {
 
-/// A run has failed when its tension has fallen below this share of the largest.
+/// A run has failed when its tension has fallen below this fraction of the largest.
 constexpr double failed_share = 0.5;
 /// The tension is averaged over this volume strain: far less than what the failure takes.
 constexpr double window_strain = 0.004;

@@ -7,7 +7,7 @@
 
 namespace whipple::md {
 
-/// What a run at constant volume and temperature yields; SI, per mass.
+/// Holds the results of a run at constant volume and temperature; SI, per mass.
 struct State {
   Estimate pressure;                  ///< Pa
   Estimate specific_internal_energy;  ///< J/kg

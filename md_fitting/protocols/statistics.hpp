@@ -20,7 +20,7 @@ double mean(std::span<const double> values);
 /// @throws InternalError for fewer than 16 samples; StateError if a sample is not finite.
 Estimate series_mean(std::span<const double> series);
 
-/// The same with what a judgement of the error needs.
+/// Holds the mean of a series with its error, and the numbers by which that error is judged.
 struct SeriesMean {
   Estimate estimate;
   double variance = 0.0;  ///< of the samples about their own mean

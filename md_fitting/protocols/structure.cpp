@@ -14,7 +14,7 @@ double crystal_share(Crystal& crystal, const Potential& potential) {
   Lammps& lammps = crystal.lammps();
   const double a = std::cbrt(lammps.variable("volume") * potential.atoms_per_cell());
   // Between the first and second shell of fcc (0.71 and 1 a), the second and third of bcc (1 and 1.41 a).
-  const bool fcc = potential.structure() == "fcc";
+  const bool fcc = potential.structure() == CrystalStructure::fcc;
   lammps.command("compute order all orientorder/atom degrees 1 6 nnn {} cutoff {:.17g}", fcc ? 12 : 14,
                  (fcc ? 0.85 : 1.2) * a);
   lammps.command("variable is_crystal atom c_order[1]>{}", crystal_order);
@@ -41,7 +41,7 @@ double inherent_crystal_share(Crystal& crystal, const Potential& potential) {
 double neighbour_distance(const Potential& potential, double specific_volume) {
   const double a =
       std::cbrt(metal::volume_per_atom(specific_volume, potential.mass()) * potential.atoms_per_cell());
-  return metal::angstrom * a * (potential.structure() == "fcc" ? std::sqrt(0.5) : std::sqrt(0.75));
+  return nearest_neighbour(potential.structure(), metal::angstrom * a);
 }
 
 void require_stable(bool solid, const Estimate& energy, double cold_energy, double temperature,
@@ -52,7 +52,7 @@ void require_stable(bool solid, const Estimate& energy, double cold_energy, doub
       fmt::format("the {} crystal of {} ({}) is unstable: its potential energy of {:.4f} eV per atom at {} K "
                   "lies below that of the "
                   "static crystal, {:.4f} eV",
-                  potential.structure(), potential.element(), potential.name(), potential_energy, temperature,
+                  word_of(potential.structure()), potential.element(), potential.name(), potential_energy, temperature,
                   cold_energy));
 }
 

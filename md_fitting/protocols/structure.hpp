@@ -12,12 +12,12 @@ namespace whipple::md {
 /// neighbours (12 in fcc, 14 in bcc) above which an atom counts as crystal: hot fcc has 0.5, its melt 0.35.
 inline constexpr double crystal_order = 0.45;
 
-/// Share of the atoms of the present positions that count as crystal; one more evaluation of the forces.
+/// Fraction of the atoms of the present positions that count as crystal; one more evaluation of the forces.
 /// About 0.5 in a crystal near its melting point, below 0.1 in a melt.
 double crystal_share(Crystal& crystal, const Potential& potential);
 
-/// The same after the atoms have moved to the nearest minimum of the energy at constant volume: what thermal
-/// motion hides. About 1 in a crystal of any temperature, 0.1 to 0.2 in a melt.
+/// Returns the fraction of crystalline atoms after all have moved to the nearest minimum of the energy at constant
+/// volume, without the disorder of thermal motion. About 1 in a crystal of any temperature, 0.1 to 0.2 in a melt.
 double inherent_crystal_share(Crystal& crystal, const Potential& potential);
 
 /// Distance of nearest neighbours in the crystal, m.

@@ -20,7 +20,7 @@ std::map<std::string, std::string> common_settings(const Plan& plan, const Poten
           {"potential_file", potential.file().filename().string()},
           {"potential_sha256", potential.hash()},
           {"potential_source", potential.source()},
-          {"structure", potential.structure()},
+          {"structure", std::string(word_of(potential.structure()))},
           {"static_specific_volume", fmt::format("{}", potential.static_volume())},
           {"density_table_end", fmt::format("{}", potential.table_end())},
           {"lammps_version", std::to_string(lammps_release())},

@@ -12,7 +12,7 @@
 
 namespace whipple::md {
 
-/// What a protocol wants measured, as far as it differs from the other points of the plan.
+/// Describes a point that a protocol wants measured, as far as it differs from the other points of the plan.
 struct PointRequest {
   std::map<std::string, double> conditions;     ///< SI; units by `unit_of`
   std::map<std::string, std::string> settings;  ///< sizes, steps and choices on which the numbers depend
@@ -62,7 +62,7 @@ class TaskList {
 /// The settings of a run as they enter the key of a point.
 std::map<std::string, std::string> size_settings(const RunSize& size);
 
-/// What a section's target means for points whose segments have the steps of `size`, `replicas` times.
+/// Translates a section's target to points whose segments have the steps of `size`, `replicas` times.
 Precision precision_of(const std::string& quantity, bool relative, const Target& target, const RunSize& size,
                        std::int64_t replicas = 1);
 

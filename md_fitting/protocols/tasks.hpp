@@ -14,7 +14,7 @@
 
 namespace whipple::md {
 
-/// What a task brings back.
+/// Holds the results of a task.
 struct TaskResult {
   std::map<std::string, Estimate> results;
   std::string message;     ///< remark, e.g. that the crystal melted

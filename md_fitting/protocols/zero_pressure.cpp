@@ -36,7 +36,7 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
   const std::int64_t interval = sampling_interval(size.steps);
   auto series =
       crystal.sample({"energy", "volume", "displacement", "kinetic_temperature"}, interval, size.steps);
-  const double neighbour = potential.structure() == "fcc" ? a * std::sqrt(0.5) : a * std::sqrt(0.75);
+  const double neighbour = nearest_neighbour(potential.structure(), a);
   if (std::sqrt(series[2].back()) > melting_displacement * neighbour) {
     throw StateError(
         fmt::format("the crystal melted at {} K and zero pressure: atoms moved {:.2f} A from their sites",

@@ -27,7 +27,7 @@ WorkerSource::WorkerSource(const eos::SimulatedConstants& constants, const std::
   compute({});
   std::set<std::string> tables;
   for (const PointRecord& point : read_store(store_)) {
-    if (point.protocol != "lattice" || !mine(point)) continue;
+    if (point.kind() != PointKind::lattice || !mine(point)) continue;
     tables.insert(point.origin("potential_sha256"));
     static_volume_ = point.origin_number("static_specific_volume");
     molar_mass_ = point.origin_number("molar_mass");
@@ -45,7 +45,7 @@ bool WorkerSource::mine(const PointRecord& point) const {
     return found != point.provenance.end() && found->second == value;
   };
   if (!is("element", constants_.element) || !is("potential", constants_.potential)) return false;
-  if (point.protocol == "lattice" || point.protocol == "cold_curve") return true;
+  if (point.kind() == PointKind::lattice || point.kind() == PointKind::cold_curve) return true;
   return is("cells", std::to_string(constants_.cells)) && is("steps", std::to_string(constants_.steps)) &&
          is("equilibration_steps", std::to_string(constants_.equilibration_steps)) &&
          is("plan_seed", std::to_string(constants_.seed)) && is("ranks", "1");
@@ -95,8 +95,8 @@ bool WorkerSource::find(const std::vector<PointRecord>& points, double volume_ra
   for (const double temperature : constants_.temperature) {
     bool found = false;
     for (const PointRecord& point : points) {
-      const bool crystal = point.protocol == "cold_curve";
-      if ((!crystal && point.protocol != "isochore") || !mine(point) ||
+      const bool crystal = point.kind() == PointKind::cold_curve;
+      if ((!crystal && point.kind() != PointKind::isochore) || !mine(point) ||
           !same(point.condition("specific_volume"), isochore.volume)) {
         continue;
       }
@@ -108,7 +108,7 @@ bool WorkerSource::find(const std::vector<PointRecord>& points, double volume_ra
         cold = true;
         continue;
       }
-      constexpr double whole = 0.9;  // share of crystal: a cavity or a fault takes more than a tenth
+      constexpr double whole = 0.9;  // fraction of crystal: a cavity or a fault takes more than a tenth
       if (point.result("solid").value < 0.5 || point.result("crystal_share").value < whole) {
         throw StateError(fmt::format("{}: {}", point.label(), point.message));
       }

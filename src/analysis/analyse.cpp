@@ -30,9 +30,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double open = 0.1;  ///< share of a plate's thickness: with less it is perforated
+constexpr double open = 0.1;  ///< fraction of a plate's thickness: with less it is perforated
 
-/// What the first snapshot says of the bodies.
+/// Holds what the first snapshot tells about the bodies.
 struct Start {
   Frame frame;
   std::vector<Extent> extents;        ///< of each body along the axis
@@ -81,7 +81,7 @@ Start start_of(const Run& run, const Snapshot& first, const Options& options) {
   return start;
 }
 
-/// Median melted share of the matter that began near the axis.
+/// Median melted fraction of the material that began near the axis.
 Quantities axis_measures(const Snapshot& snapshot, const Start& start, const std::vector<BodyInput>& bodies) {
   const std::vector<double>* melted = snapshot.scalar("melted_fraction");
   if (melted == nullptr) return {};

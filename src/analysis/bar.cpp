@@ -13,7 +13,7 @@
 namespace whipple::analysis {
 namespace {
 
-/// Share of a layer that matter fills within a radius.
+/// Fraction of a layer that material fills within a radius.
 double core_fraction(const RingField& field, std::size_t layer, double radius) {
   double filled = 0.0, area = 0.0;
   for (std::size_t ring = 0; ring < field.rings(); ++ring) {
@@ -25,7 +25,7 @@ double core_fraction(const RingField& field, std::size_t layer, double radius) {
 }
 
 /// Diameters of circles with the cross-sections of the layers of thickness `size` above `lower`.
-/// @param may_stand_off  look whether the matter ends before the wall, and begin there
+/// @param may_stand_off  look whether the material ends before the wall, and begin there
 std::vector<double> diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body, double size,
                               double lower, double upper, bool wall_at_upper, bool may_stand_off) {
   double radius = 0.0;
@@ -151,7 +151,7 @@ Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Fra
 
 Quantities rod_measures(const Snapshot& first, const Snapshot& last, std::size_t body, const BodyInput& input,
                         double cell_size) {
-  constexpr double follows = 0.9;  // of the initial speed: matter that still flies with the rod
+  constexpr double follows = 0.9;  // of the initial speed: material that still flies with the rod
   const double speed = input.velocity.norm();
   if (!(speed > 0.0)) return {};
   const Vector3 direction = input.velocity / speed;

@@ -10,7 +10,7 @@ namespace whipple::analysis {
 /// Diameter of the circle with the cross-section of the body, along the axis.
 Table diameter_profile(const Snapshot& snapshot, const Frame& frame, const Run& run);
 
-/// Of a body against a wall: length, diameter and state at the foot.
+/// Measures a body against a wall: its length, its diameter and the state at its end on the wall.
 /// @param diameter_at distance from the wall at which the diameter is asked for; 0: not
 /// @param held        it touched the wall from the start, so that no gap can be between them
 Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,
@@ -20,7 +20,7 @@ Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_
 Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Frame& frame, std::size_t body,
                           const BodyInput& input);
 
-/// What is left of a rod behind its target, along its direction of flight.
+/// Measures the rest of a rod behind its target, along its direction of flight.
 Quantities rod_measures(const Snapshot& first, const Snapshot& last, std::size_t body, const BodyInput& input,
                         double cell_size);
 

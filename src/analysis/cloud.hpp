@@ -10,24 +10,24 @@
 /// Where the debris cloud is, how fast it grows and what it carries. Definitions: docs/theory/analysis.md.
 namespace whipple::analysis {
 
-/// Share of the mass that may lie beyond "the front": single particles do not make a cloud.
+/// Fraction of the mass that may lie beyond "the front": single particles do not make a cloud.
 constexpr double beyond = 1e-3;
-/// A particle is debris (forward) or ejecta (backward) if its axial speed exceeds this share of the impact
+/// A particle is debris (forward) or ejecta (backward) if its axial speed exceeds this fraction of the impact
 /// speed.
 constexpr double moving = 0.05;
 
 /// Particles of the debris.
 std::vector<std::uint32_t> debris(const Snapshot& snapshot, const Frame& frame);
 
-/// Position, size and speeds of the debris; masses of the phases in all of the matter and in the debris.
+/// Position, size and speeds of the debris; masses of the phases in all of the material and in the debris.
 /// @param target initial extent of the first target: the length of the cloud begins at its rear face
 Quantities cloud_measures(const Snapshot& snapshot, const Frame& frame, const Extent& target);
 
-/// What the bodies carry: rows "BODY PART" with the parts whole, debris, ejecta and the four phases, then the
-/// same of all bodies. Full problem: sums are multiplied by `frame.copies()`.
+/// Tabulates mass, momentum and energy of the bodies: rows "BODY PART" with the parts whole, debris, ejecta and the
+/// four phases, then those of all bodies together. Full problem: sums are multiplied by `frame.copies()`.
 Table body_table(const Snapshot& snapshot, const Frame& frame, const std::vector<BodyInput>& bodies);
 
-/// Of one body: mean axial velocity, velocity of its forward surface, shares of the phases.
+/// Measures one body: mean axial velocity, velocity of its forward surface, fractions of the phases.
 Quantities body_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,
                          const BodyInput& input, const Outflow& outflow = {});
 

@@ -7,14 +7,14 @@
 
 namespace whipple::analysis {
 
-/// Thickness of the matter of a body along the axis, in columns of two cells over the face of the model: says
+/// Thickness of the material of a body along the axis, in columns of two cells over the face of the model: says
 /// whether a plate is open anywhere, wherever it was hit.
 class Columns {
  public:
   /// @param size  edge of the columns, m
   Columns(const Snapshot& first, const Frame& frame, std::size_t body, double size);
 
-  /// Least share of its initial thickness that is left in any column, of matter that is slower than debris;
+  /// Least fraction of its initial thickness that is left in any column, of material that is slower than debris;
   /// the rim of the body, thinner parts of it and columns cut by the domain do not count. 1 if the body has no
   /// column that counts.
   [[nodiscard]] double least_left(const Snapshot& snapshot) const;

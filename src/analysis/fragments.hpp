@@ -23,7 +23,7 @@ struct Fragment {
   double melted_fraction = 0.0;  ///< NaN if not written
   double internal_energy = 0.0;  ///< J/kg, NaN if not written
   double volume = 0.0;           ///< m^3 with its voids, 0 if the density was not written
-  std::uint16_t body = 0;        ///< of the largest share of the mass
+  std::uint16_t body = 0;        ///< of the largest fraction of the mass
   bool debris = false;           ///< faster than the threshold of debris
 };
 

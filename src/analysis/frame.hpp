@@ -27,7 +27,7 @@ struct Frame {
 
   /// How many models make the full problem: 4 for a quarter model.
   [[nodiscard]] double copies() const { return static_cast<double>(1U << planes.size()); }
-  /// The same frame about the point at which the line of flight meets an axial coordinate.
+  /// Returns this frame about the point at which the line of flight meets an axial coordinate (m).
   [[nodiscard]] Frame at_face(double coordinate) const;
   /// Component or coordinate along the flight.
   [[nodiscard]] double axial(const Vector3& v) const { return sign * v[axis]; }
@@ -35,7 +35,7 @@ struct Frame {
   [[nodiscard]] double radius(const Vector3& position) const;
   /// Component of the velocity away from the axis; its magnitude across the axis on the axis itself.
   [[nodiscard]] double radial_speed(const Vector3& position, const Vector3& velocity) const;
-  /// Whether the model ends at a mirror plane in this direction.
+  /// Returns whether the model ends at a mirror plane in this direction.
   [[nodiscard]] bool mirrored(int direction) const;
 };
 

@@ -8,18 +8,18 @@
 
 namespace whipple::analysis {
 
-/// What of a body has left the domain (SI, of the model).
+/// Holds the mass and momentum of a body that have left the domain (SI, of the model).
 struct Outflow {
   double mass = 0.0;
   Vector3 momentum = Vector3::Zero();
 };
 
-/// What has left over time, from history.csv.
+/// Holds the outflow of the bodies over time, from history.csv.
 class OutflowHistory {
  public:
   /// A run without a history, or one that does not tell the bodies apart, has lost nothing that is known.
   explicit OutflowHistory(const Run& run);
-  /// Of a body, until a time (s).
+  /// Returns the outflow of a body until a time (s).
   [[nodiscard]] Outflow at(std::size_t body, double time) const;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace whipple::analysis {
 
-/// Peak pressure of the matter below the point of impact, from a series of snapshots
+/// Peak pressure of the material below the point of impact, from a series of snapshots
 /// (docs/theory/analysis.md, section 6): from the field `maximum_pressure`, or where they lack it from
 /// `pressure`. Add the snapshots in order, the first of the run first.
 class PeakDecay {

@@ -149,12 +149,13 @@ std::vector<double> as_reals(const hdf5::Group& data, const std::string& name,
   };
   const hdf5::Dataset set = data.open_dataset(name);
   const hdf5::Dataset::Shape list{order.size(), 1};
-  if (name == "phase" || name == "failed") return widen(set.read_all<std::uint8_t>(list));
-  if (name == "material") return widen(set.read_all<std::uint16_t>(list));
+  if (set.stores<std::uint8_t>()) return widen(set.read_all<std::uint8_t>(list));
+  if (set.stores<std::uint16_t>()) return widen(set.read_all<std::uint16_t>(list));
   return widen(set.read_all<float>(list));
 }
 
-/// What every measurement relies on.
+/// Checks what every measurement relies on: known bodies, finite positions and velocities, positive masses.
+/// @throws InputError naming the file and the particle
 void require_sound(const Snapshot& snapshot, const SnapshotEntry& entry) {
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     if (snapshot.body[i] >= entry.bodies) {

@@ -15,7 +15,7 @@
 /// SI.
 namespace whipple::analysis {
 
-/// What the input says of a body.
+/// Holds what the input tells about a body.
 struct BodyInput {
   std::string name;
   Vector3 velocity = Vector3::Zero();  ///< initial, m/s

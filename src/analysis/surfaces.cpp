@@ -15,7 +15,7 @@ std::size_t bins(double length, double size) {
   return static_cast<std::size_t>(std::max(std::ceil(length / size - 1e-9), 1.0));
 }
 
-/// Index of the lower of the two bins that share a value at `x` (in bins), and the share of the upper one; -1
+/// Index of the lower of the two bins that share a value at `x` (in bins), and the fraction of the upper one; -1
 /// where the lower one lies outside.
 struct Split {
   std::ptrdiff_t lower;

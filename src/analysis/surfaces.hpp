@@ -6,10 +6,10 @@
 #include "src/analysis/frame.hpp"
 #include "src/analysis/table.hpp"
 
-/// Surfaces of dense matter from particles: craters, holes, profiles (docs/theory/analysis.md).
+/// Surfaces of dense material from particles: craters, holes, profiles (docs/theory/analysis.md).
 namespace whipple::analysis {
 
-/// Share of the volume that matter fills in rings about the axis: the particles' volumes spread linearly over
+/// Fraction of the volume that material fills in rings about the axis: the particles' volumes spread linearly over
 /// the two nearest bins in either direction. The centre of bin (ring, layer) is at radius (ring + 1/2) size
 /// and axial coordinate lower + (layer + 1/2) size.
 class RingField {
@@ -30,9 +30,9 @@ class RingField {
     return volume_[layer * rings_ + ring] / (ring_area(ring) * size_);
   }
   [[nodiscard]] double ring_area(std::size_t ring) const;
-  /// Cross-section of the matter in a layer, m^2.
+  /// Cross-section of the material in a layer, m^2.
   [[nodiscard]] double cross_section(std::size_t layer) const;
-  /// Thickness of the matter along the axis in a ring, m.
+  /// Thickness of the material along the axis in a ring, m.
   [[nodiscard]] double thickness(std::size_t ring) const;
 
  private:
@@ -42,7 +42,7 @@ class RingField {
 };
 
 /// First crossing of 1/2 upwards along a sequence at (k + 1/2) size, with at least two entries above it
-/// behind; linear between the centres. NaN if there is none, 0 if the sequence begins in matter.
+/// behind; linear between the centres. NaN if there is none, 0 if the sequence begins in material.
 double first_surface(const std::vector<double>& fractions, double size);
 
 struct Crater {
@@ -56,10 +56,10 @@ Crater measure_crater(const Snapshot& snapshot, const Frame& frame, double face,
 
 struct Hole {
   double diameter = 0.0;      ///< within which less than half of the plate is left in the line of flight, m
-  double left_on_axis = 1.0;  ///< share of the plate's thickness left on the axis
+  double left_on_axis = 1.0;  ///< fraction of the plate's thickness left on the axis
 };
 
-/// Hole in a plate: its matter slower than debris (see cloud.hpp), projected along the axis.
+/// Hole in a plate: its material slower than debris (see cloud.hpp), projected along the axis.
 Hole measure_hole(const Snapshot& snapshot, const Frame& frame, std::size_t body, double thickness,
                   double cell_size);
 

@@ -10,7 +10,7 @@
 
 namespace whipple::analysis {
 
-/// What is not there to be measured.
+/// Marks a quantity that is not there to be measured.
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// One measured number.

@@ -4,7 +4,7 @@
 #include "src/analysis/frame.hpp"
 #include "src/analysis/table.hpp"
 
-/// What hits a witness plate (docs/theory/analysis.md, section 5).
+/// Measures the impacts on a witness plate (docs/theory/analysis.md, section 5).
 namespace whipple::analysis {
 
 struct WitnessOptions {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <string_view>
 
 #include "src/core/base/error.hpp"
@@ -26,6 +27,15 @@ const char* unit_of(Variable variable) {
   throw InternalError("unknown variable of a curve");
 }
 
+/// Returns the range of a quantity by its unit: densities and temperatures are positive, velocities of shocks and
+/// particles are not negative, and energies, pressures and entropies have no bound.
+Range admissible(std::string_view unit) {
+  static const std::map<std::string_view, Range> ranges = {
+      {"kg/m^3", range::positive()}, {"K", range::positive()}, {"m/s", range::non_negative()}};
+  const auto found = ranges.find(unit);
+  return found == ranges.end() ? range::any() : found->second;
+}
+
 bool is_in(const std::string& text, const char* unit) {
   try {
     static_cast<void>(units::parse_quantity(text, unit));
@@ -45,10 +55,7 @@ std::optional<double> quantity(const char* option, const std::string& text, cons
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", option, error.what()));
   }
-  const std::string_view kind = unit;
-  const Range range = kind == "kg/m^3" || kind == "K" ? range::positive()
-                      : kind == "m/s"                 ? range::non_negative()
-                                                      : range::any();
+  const Range range = admissible(unit);
   if (!range.contains(value))
     throw InputError(fmt::format("{}: is {}, but must be {} {}", option, text, range.text(), unit));
   return value;

@@ -40,10 +40,9 @@ void print_status(const fs::path& folder) {
       {"run", "state", "done", "step", "t [us]", "end [us]", "left", "message"}};
   for (const fs::path& path : runs_in(folder)) {
     const run::RunStatus s = run::read_status(path);
-    const bool goes_on = s.state == "running" || s.state == "paused";
-    rows.push_back({path.string(), s.state, fmt::format("{:.1f} %", s.end > 0.0 ? 100.0 * s.time / s.end : 0.0),
+    rows.push_back({path.string(), std::string(word_of(s.state)), fmt::format("{:.1f} %", s.end > 0.0 ? 100.0 * s.time / s.end : 0.0),
                     fmt::format("{}", s.step), fmt::format("{:.4g}", 1e6 * s.time), fmt::format("{:.4g}", 1e6 * s.end),
-                    goes_on && s.time_left ? format_duration(*s.time_left) : "",
+                    run::goes_on(s.state) && s.time_left ? format_duration(*s.time_left) : "",
                     s.message.substr(0, s.message.find('\n'))});
   }
   fmt::print("{}", text_table(rows, "llrrrrrl"));

@@ -9,7 +9,7 @@ namespace whipple::cases {
 struct ArtificialViscosity {
   double linear = 0.25;    ///< c1
   double quadratic = 1.0;  ///< c2
-  double expansion = 0.0;  ///< c1 of expanding matter
+  double expansion = 0.0;  ///< c1 of expanding material
 
   static ParameterTable<ArtificialViscosity> parameters();
   /// Returns that of the case, whose values a body takes where it gives none.

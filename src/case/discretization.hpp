@@ -14,7 +14,7 @@
 
 namespace whipple::cases {
 
-/// What a body is made of.
+/// Selects the discretization of a body.
 enum class Representation : std::uint8_t {
   particles,
   finite_elements,

@@ -9,7 +9,7 @@
 
 namespace whipple::cases {
 
-/// What the kinetic energy that transfers lose is.
+/// Selects the energy that receives the kinetic energy lost in transfers.
 enum class Losses : std::uint8_t {
   unresolved,  ///< motion that the grid does not resolve
   heat,
@@ -23,7 +23,7 @@ constexpr Losses default_losses(Scheme scheme) {
   return scheme == Scheme::symplectic ? Losses::unresolved : Losses::heat;
 }
 
-/// What becomes of the kinetic energy that a step takes from the motion of the grid
+/// Distributes the kinetic energy that a step takes from the motion of the grid
 /// (docs/theory/dissipation.md): one set of numbers for all cases.
 struct Dissipation {
   Losses losses = Losses::by_scheme;

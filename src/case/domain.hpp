@@ -9,7 +9,7 @@
 
 namespace whipple::cases {
 
-/// What happens at each face of the domain.
+/// Holds the boundary condition at each face of the domain.
 struct Faces {
   grid::Boundary x_lower{}, x_upper{}, y_lower{}, y_upper{}, z_lower{}, z_upper{};
 

@@ -44,7 +44,7 @@ struct Tracers {
   [[nodiscard]] std::vector<Gauge> gauges() const;
 };
 
-/// Adds each gauge that cannot be: outside of the domain, or moving and where no matter is. For a case with
+/// Adds each gauge that cannot be: outside of the domain, or moving and where no material is. For a case with
 /// geometry and shapes.
 void check_places_of_gauges(const Case& setup, const Faults& faults);
 

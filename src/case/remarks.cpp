@@ -20,7 +20,7 @@ Vector3 gap(const Shape::Bounds& a, const Shape::Bounds& b) {
   return (b.lower - a.upper).cwiseMax(a.lower - b.upper).cwiseMax(Vector3::Zero());
 }
 
-/// Does a box that moves with a velocity (m/s) come to another one before the end (s)?
+/// Returns whether a box that moves with a velocity (m/s) reaches another one before the end (s).
 bool meet(const Shape::Bounds& a, const Shape::Bounds& b, const Vector3& velocity, double end) {
   double first = 0.0, last = end;
   for (int axis = 0; axis < 3; ++axis) {
@@ -77,7 +77,7 @@ void remark_on_directions(const Case& setup, std::vector<std::string>& remarks) 
   }
 }
 
-/// Matter behind the shock of bodies that are alike moves with half the speed at which they meet.
+/// Material behind the shock of bodies that are alike moves with half the speed at which they meet.
 void remark_on_speeds(const Case& setup, std::vector<std::string>& remarks) {
   double fastest = 0.0;
   for (const Body& a : setup.bodies) {

@@ -28,7 +28,7 @@ constexpr Phase phase(double melted_fraction, double vaporised_fraction) {
   return melted_fraction <= greatest_melting ? Phase::melting : Phase::liquid;
 }
 
-/// The same of four points: who is solid, melting, liquid, vapour.
+/// Returns which of four points are solid, melting, liquid, vapour.
 inline std::array<LanesMask, 4> phases(Lanes melted_fraction, Lanes vaporised_fraction) {
   const LanesMask vapour = vaporised_fraction >= least_vapour,
                   solid = ~vapour & (melted_fraction < least_melting),
@@ -36,7 +36,7 @@ inline std::array<LanesMask, 4> phases(Lanes melted_fraction, Lanes vaporised_fr
   return {solid, ~(vapour | solid | liquid), liquid, vapour};
 }
 
-/// What a field is computed from.
+/// Holds what a field is computed from.
 struct FieldSource {
   const Particles& particles;
   std::span<const std::uint16_t> material_of_body;  ///< index of the material of every body of the case
@@ -65,7 +65,7 @@ std::span<const OutputField> output_fields();
 /// Names of the table, in its order: the accepted words of `output.fields` in a case file.
 std::vector<std::string> output_field_names();
 
-/// What `output.fields` is if the case does not say.
+/// Returns the fields that are written if the case has no `output.fields`.
 std::vector<std::string> default_output_fields();
 
 /// The selected fields plus those written always, each once, in the order of the table.

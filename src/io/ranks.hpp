@@ -24,7 +24,7 @@ class Ranks {
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] bool is_root() const { return rank_ == 0; }
   [[nodiscard]] bool is_parallel() const { return count_ > 1; }
-  /// What files are opened with: the communicator if there are several processes.
+  /// Returns the communicator that files are opened with; none if there is one process.
   [[nodiscard]] std::optional<MPI_Comm> communicator() const {
     return is_parallel() ? std::optional(communicator_) : std::nullopt;
   }

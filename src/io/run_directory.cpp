@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
   throw InputError(fmt::format("{}: cannot {}: {}", path.string(), action, std::strerror(error)));
 }
 
-/// What a run writes into its folder; everything else there belongs to the user. Named by `PartialFile` while
-/// it is written.
+/// Returns the pattern of files that a run writes into its folder, also under the name that `PartialFile` gives them
+/// while they are written; everything else there belongs to the user.
 std::regex own(const std::string& names) {
   return std::regex("(" + names + R"()((\.[0-9a-f]{8})?\.partial)?)");
 }

@@ -19,7 +19,7 @@
 #include "src/io/ranks.hpp"
 #include "src/core/parallel/threads.hpp"
 
-/// What the VTKHDF files of particles and of elements have in common (docs/manual/output.md).
+/// Writes the common parts of the VTKHDF files of particles and of elements (docs/manual/output.md).
 namespace whipple::io {
 
 /// How a value of a field stands in the file.

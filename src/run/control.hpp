@@ -14,7 +14,7 @@ struct Requests {
   bool checkpoint = false;
   Request steering;
 
-  /// Whether the run ends before its time.
+  /// Returns whether the run ends before its time.
   [[nodiscard]] bool stop() const { return signal != 0 || out_of_time; }
 };
 

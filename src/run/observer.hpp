@@ -27,11 +27,11 @@ struct Moment {
 
   [[nodiscard]] double time() const { return simulation.state().time; }
   [[nodiscard]] std::int64_t step() const { return simulation.state().step; }
-  /// Whether the run has come to its end.
+  /// Returns whether the run has come to its end.
   [[nodiscard]] bool is_last() const { return time() >= schedule.end; }
-  /// Whether steps have been made that are a multiple of `every`.
+  /// Returns whether steps have been made that are a multiple of `every`.
   [[nodiscard]] bool is_due(double every) const { return step() % static_cast<std::int64_t>(every) == 0; }
-  /// Whether something is asked that the schedule or the outputs follow.
+  /// Returns whether something is asked that the schedule or the outputs follow.
   [[nodiscard]] bool asks_for(Act act) const { return requests.steering.act == act; }
 };
 

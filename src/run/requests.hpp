@@ -24,7 +24,7 @@ struct Schedule {
   void write_to(cases::Case& setup) const;
 };
 
-/// What may be asked of a run at the border between two steps.
+/// Lists the requests that a run accepts between two steps.
 enum class Act : std::uint8_t {
   none,
   pause,

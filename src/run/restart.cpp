@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -123,9 +124,10 @@ class Checker {
     for (std::size_t i = 0; i < std::size(numbers); ++i) {
       const auto value = static_cast<double>(numbers[i]);
       if (std::isfinite(value) && range.contains(value)) continue;
-      const std::string bounds = range.text();
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      const bool any = range.contains(-infinity) && range.contains(infinity);
       throw InputError(fmt::format("{}: {}: number {} is {}, but must be {}; is the file another program's?",
-                                   file_, name, i, value, bounds == "any" ? "finite" : bounds));
+                                   file_, name, i, value, any ? "finite" : range.text()));
     }
   }
 

@@ -87,7 +87,7 @@ void Runner::at_border() {
   if (requests_.checkpoint) last_checkpoint_ = Clock::now();
 }
 
-/// What the controls and the clock of this rank ask for.
+/// Collects the requests of the controls and of the clock of this rank.
 Requests Runner::asked() {
   Requests own;
   for (RunControl* control : controls_) control->ask(now(), own);

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 }  // namespace
 
 void write_status(const std::filesystem::path& file, const RunStatus& status) {
-  const Json json = {{"state", status.state},
+  const Json json = {{"state", word_of(status.state)},
                      {"time", status.time},
                      {"step", status.step},
                      {"time_step", status.time_step},
@@ -35,7 +35,10 @@ RunStatus read_status(const std::filesystem::path& run) {
   RunStatus status;
   try {
     const Json json = Json::parse(io::read_text(file));
-    json.at("state").get_to(status.state);
+    const auto word = json.at("state").get<std::string>();
+    const std::optional<Activity> state = value_of<Activity>(word);
+    if (!state) throw InputError(fmt::format("{}: unknown state \"{}\" of a run", file.string(), word));
+    status.state = *state;
     json.at("time").get_to(status.time);
     json.at("step").get_to(status.step);
     json.at("time_step").get_to(status.time_step);
@@ -48,7 +51,7 @@ RunStatus read_status(const std::filesystem::path& run) {
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("{}: is no status of a run: {}", file.string(), error.what()));
   }
-  if ((status.state == "running" || status.state == "paused") && !io::is_running(run)) status.state = "lost";
+  if (goes_on(status.state) && !io::is_running(run)) status.state = Activity::lost;
   return status;
 }
 

@@ -1,16 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 
+#include "src/core/base/word_list.hpp"
+
 namespace whipple::run {
 
-/// What status.json of a run directory says (SI; docs/manual/output.md).
+/// State of a run; a run is lost if its file says that it goes on, but no process holds it.
+enum class Activity : std::uint8_t { running, paused, done, stopped, failed, lost };
+constexpr std::array<Word<Activity>, 6> words(Activity) {
+  return {{{Activity::running, "running"},
+           {Activity::paused, "paused"},
+           {Activity::done, "done"},
+           {Activity::stopped, "stopped"},
+           {Activity::failed, "failed"},
+           {Activity::lost, "lost"}}};
+}
+/// Returns whether a run in this state makes further steps, at once or when it is continued.
+constexpr bool goes_on(Activity state) { return state == Activity::running || state == Activity::paused; }
+
+/// Holds what status.json of a run directory says (SI; docs/manual/output.md).
 struct RunStatus {
-  std::string state;  ///< running, paused, done, stopped, failed
+  Activity state = Activity::running;
   double time = 0.0;  ///< s, simulated
   std::int64_t step = 0;
   double time_step = 0.0;           ///< s, simulated
@@ -25,8 +41,8 @@ struct RunStatus {
 /// Replaces the file as a whole. @throws InputError if it cannot be written
 void write_status(const std::filesystem::path& file, const RunStatus& status);
 
-/// Reads the file of a run directory. A run that says it goes on, but is held by no process, has the state
-/// "lost". @throws InputError if there is no such file or it is damaged
+/// Reads the file of a run directory. A run that says it goes on, but is held by no process, is lost.
+/// @throws InputError if there is no such file or it is damaged
 RunStatus read_status(const std::filesystem::path& run);
 
 }  // namespace whipple::run

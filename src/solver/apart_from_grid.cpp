@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles and grid apart: free flight, matter at rest, and random shifts of the grid (docs/theory/mpm.md,
+// Particles and grid apart: free flight, material at rest, and random shifts of the grid (docs/theory/mpm.md,
 // section 8).
 #include <algorithm>
 #include <array>
@@ -63,7 +63,7 @@ void Simulation::find_free_flight() {
   grid_.release(flying_);
 }
 
-/// Does a particle move, or feel a stress?
+/// Returns whether a particle moves or bears a stress.
 bool Simulation::is_restless(std::size_t p) const {
   const double tolerance = setup_.transfer.rest_tolerance, sound_speed = particles_.sound_speed[p];
   const double speed = tolerance * sound_speed;

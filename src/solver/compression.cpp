@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How fast matter is compressed, which bounds the time step (docs/theory/mpm.md, section 6).
+// How fast material is compressed, which bounds the time step (docs/theory/mpm.md, section 6).
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -15,7 +15,7 @@
 namespace whipple::solver {
 namespace {
 
-/// Share of the mass that may be compressed faster than the time step follows: a few particles that are
+/// Fraction of the mass that may be compressed faster than the time step follows: a few particles that are
 /// squeezed between debris and a wall must not hold up all others.
 constexpr double free_share = 1e-3;
 

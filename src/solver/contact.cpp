@@ -26,7 +26,7 @@ void Simulation::set_up_contact() {
   contact_field_of_body_ = setup_.contact_fields.of_body;
 }
 
-/// kappa c/dx with a quarter of the sound speed at rest: matter that has failed and opened, or boiled, is
+/// kappa c/dx with a quarter of the sound speed at rest: material that has failed and opened, or boiled, is
 /// softer.
 std::vector<double> Simulation::least_relaxation_rates() const {
   constexpr double share_of_tight_matter = 0.25;

@@ -19,7 +19,7 @@ namespace whipple::solver {
 namespace {
 
 constexpr double lookahead_steps = 8.0;  // motion that the active blocks foresee
-constexpr double astray = 0.05;          // share of a rank's elements elsewhere before elements move
+constexpr double astray = 0.05;          // fraction of a rank's elements elsewhere before elements move
 constexpr int rank_of_bars_in_files = 0;
 
 /// The nodes of every element.

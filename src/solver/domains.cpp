@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Domains of the particles: deformation with the matter, division of stretched particles (docs/theory/mpm.md,
+// Domains of the particles: deformation with the material, division of stretched particles (docs/theory/mpm.md,
 // section 2).
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -15,7 +15,7 @@ bool Simulation::follows_domains() const {
   return shape_ == transfer::ShapeFunction::convected_gimp || setup_.splitting.length > 0.0;
 }
 
-/// Whether anything asks for the domains of the particles.
+/// Returns whether anything asks for the domains of the particles.
 bool Simulation::carries_extent() const {
   return follows_domains() || shape_ == transfer::ShapeFunction::gimp || setup_.contact_fields.several() ||
          may_meet_images();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Does matter under pressure fill its cells (docs/theory/contact.md, 7)?
+// Does material under pressure fill its cells (docs/theory/contact.md, 7)?
 #include "src/transfer/fill.hpp"
 
 #include <algorithm>
@@ -17,12 +17,12 @@ namespace {
 constexpr std::int64_t look_every = 20;    // steps
 constexpr int looks_to_warn = 3;           // one after the other
 constexpr double strong = 0.1;             // pressure over rho c^2
-constexpr double filled = 0.85;            // of cells that matter under pressure should fill
+constexpr double filled = 0.85;            // of cells that material under pressure should fill
 constexpr double share_to_warn_of = 1e-2;  // of the mass
 
 }  // namespace
 
-/// Sums the intact matter that is squeezed although its cells hold voids: a mark of bodies that act on each
+/// Sums the intact material that is squeezed although its cells hold voids: a mark of bodies that act on each
 /// other across a gap, which energy and momentum do not show. Every 20 steps.
 void Simulation::look_at_fill() {
   if (state_.step % look_every != 0) return;

@@ -25,7 +25,7 @@ double Simulation::landing_on_touch(double dt) const {
   return left < dt ? std::min(dt, std::max(left, setup_.time.first_step * accurate_step_)) : dt;
 }
 
-/// Of interest are touches that could strain matter, in one whole step, by more than the time step is to
+/// Watches touches that could strain material, in one whole step, by more than the time step is to
 /// follow.
 void Simulation::watch_touches() {
   const double strain = setup_.time.compression_limit;

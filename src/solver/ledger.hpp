@@ -14,7 +14,7 @@
 #include "src/core/parallel/mpi.hpp"
 #include "src/particles/particles.hpp"
 
-/// What is conserved, and where it went.
+/// Accounts for the conserved quantities: their sums, and where they went.
 namespace whipple::solver {
 
 /// Sums over a set of particles and elements (SI).
@@ -31,7 +31,7 @@ struct Totals {
   [[nodiscard]] double energy() const {
     return kinetic_energy + affine_kinetic_energy + unresolved_energy + internal_energy + hourglass_energy;
   }
-  /// Of the kinetic energy of resolved motion, what is unresolved; 0 where nothing moves.
+  /// Returns the ratio of the unresolved energy to the kinetic energy of resolved motion; 0 where nothing moves.
   [[nodiscard]] double unresolved_share() const {
     const double resolved = kinetic_energy + affine_kinetic_energy;
     return resolved > 0.0 ? unresolved_energy / resolved : 0.0;
@@ -39,7 +39,7 @@ struct Totals {
   Totals& operator+=(const Totals& other);
 };
 
-/// What of one body has left the domain (SI).
+/// Holds the mass, momentum and energy of one body that have left the domain (SI).
 struct BodyOutflow {
   double mass = 0.0;
   Vector3 momentum = Vector3::Zero();
@@ -62,17 +62,17 @@ void for_each_number(T& totals, Function&& f) {
   f("hourglass_energy", totals.hourglass_energy);
 }
 
-/// Of one particle.
+/// Returns the totals of one particle.
 /// @param affine_inertia  of the affine field per mass, m^2 (`transfer::affine_inertia`)
 Totals totals_of(const Particles& particles, std::size_t p, double affine_inertia);
-/// Of all particles of this rank; bitwise independent of the number of threads.
+/// Sums over all particles of this rank; bitwise independent of the number of threads.
 Totals totals_of(const Particles& particles, double affine_inertia);
-/// The same.
+/// Sums over the particles, and takes the sums of unchanged chunks from the last call.
 /// @param of_chunk  sums of each chunk of particles, by the last call
 /// @param stays     stays(chunk): are its particles as they were then?
 Totals totals_of(const Particles& particles, double affine_inertia, std::vector<Totals>& of_chunk,
                  const std::function<bool(std::size_t)>& stays);
-/// Of the elements of a mesh and their nodes; bitwise independent of the number of threads.
+/// Sums over the elements of a mesh and their nodes; bitwise independent of the number of threads.
 Totals totals_of(const fem::Mesh& mesh, double affine_inertia);
 Totals totals_of(const fem::Bars& bars, double affine_inertia);
 
@@ -105,7 +105,7 @@ struct Ledger {
   double limited_domains = 0.0;  ///< steps of particles whose domain was larger than its shape function takes
   double limited_densities = 0.0;   ///< steps of particles at their least density
   double limited_void_steps = 0.0;  ///< steps of particles that changed beside their void by the most allowed
-  double limited_bulking = 0.0;     ///< steps of particles of crushed brittle matter at its greatest bulking
+  double limited_bulking = 0.0;     ///< steps of particles of crushed brittle material at its greatest bulking
   double held_time_steps = 0.0;     ///< steps longer than `time.compression_limit` asked for
 
   double largest_kinetic_energy =
@@ -163,7 +163,7 @@ void for_each_number(L& ledger, Function&& f) {
   f("largest_momentum", ledger.largest_momentum);
 }
 
-/// A bound that matter or the time step may run into: its column in history.csv and how it is told.
+/// A bound that material or the time step may run into: its column in history.csv and how it is told.
 struct Limiter {
   const char* name;
   double Ledger::* count;
@@ -198,7 +198,8 @@ struct PhaseMasses {
   double failed = 0.0;           ///< kg
   PhaseMasses& operator+=(const PhaseMasses& other);
 };
-/// Of the particles of this rank (sorted by body), the elements and the bars, one entry per body.
+/// Sums the masses (kg) by phase over the particles of this rank (sorted by body), the elements and the bars, one entry
+/// per body.
 std::vector<PhaseMasses> phase_masses(const Particles& particles, std::span<const fem::Mesh> meshes,
                                       std::span<const fem::Bars> all_bars, std::size_t bodies);
 /// Collective.

@@ -24,7 +24,7 @@ class Profile {
     return work();
   }
 
-  /// What took so many seconds inside a stage belongs to another one.
+  /// Moves a time (s) from the stage in which it passed to the one that it belongs to.
   void reassign(std::string_view from, std::string_view to, double seconds) {
     stage(from).seconds -= seconds;
     stage(to).seconds += seconds;

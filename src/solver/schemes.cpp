@@ -10,7 +10,7 @@ void step_symplectic(Simulation& s, double until) {
   s.begin_step(until);         // (6.1) dt from c, |v|, |a|
   s.split_particles();         // (2.5)-(2.7) if asked for
   s.compute_element_forces();  // f^n of elements on their nodes (docs/theory/fem.md)
-  s.bin_particles();           // blocks follow the matter
+  s.bin_particles();           // blocks follow the material
   s.conduct_heat();            // e, if the case asks for it (docs/theory/conduction.md)
   s.map_particles_to_grid();   // (3.1)-(3.3) m, (mv)^n, f^n on nodes
   s.advance_grid();            // (3.4)-(3.5) v^{n+1} = v^n + dt f^n / m

@@ -25,9 +25,9 @@ namespace whipple::solver {
 namespace {
 
 constexpr std::int64_t sort_every = 20;  // steps between sorts of the particle arrays
-/// Of the matter at rest when the blocks were shared out among the ranks, part below which that is done anew.
+/// Has the blocks distributed over the ranks anew once the material at rest is less than this part of what it was then.
 constexpr double rest_of_old_shares = 0.8;
-/// Of the stable time step: a few particles of thin matter must not hold up the others for accuracy's sake.
+/// Keeps accuracy of a few particles of thin material from reducing the time step below this part of the stable one.
 constexpr double least_share_for_accuracy = 0.125;
 
 transfer::AffineField affine_field(const cases::TransferControl& control) {
@@ -118,7 +118,7 @@ void Simulation::find_bodies() {
   }
 }
 
-/// What both constructors end with.
+/// Completes both constructors.
 void Simulation::prepare() {
   step_outflow_.resize(bodies_.size());
   state_.outflow_of_body.resize(bodies_.size());
@@ -165,7 +165,7 @@ double Simulation::affine_inertia() const {
 /// Shape functions that can carry affine fields always do, perhaps as zeros.
 bool Simulation::carries_affine_velocity() const { return affine_inertia() > 0.0; }
 
-/// Of the fields that the particles of this case carry: 0 without affine fields.
+/// Returns the inertia per mass (m^2) of the affine fields that particles of this case carry; 0 without such fields.
 double Simulation::particle_affine_inertia() const {
   return affine_field(setup_.transfer) == transfer::AffineField::none ? 0.0 : affine_inertia();
 }
@@ -204,7 +204,7 @@ double Simulation::grid_time_step() {
   return setup_.time.courant * setup_.domain.cell_size / speed;
 }
 
-/// For values by chunk of particles that are kept from step to step: those of matter at rest stay.
+/// For values by chunk of particles that are kept from step to step: those of material at rest stay.
 /// @param arrangement  of the particles when the values were found; set to that of now
 std::function<bool(std::size_t)> Simulation::stays_since(std::size_t& arrangement) const {
   const bool same = std::exchange(arrangement, grid_.arrangement()) == grid_.arrangement();
@@ -370,7 +370,7 @@ void Simulation::advance_grid() {
   });
 }
 
-/// What other ranks own of the nodes arrives, at the latest when the particles of the border need it.
+/// Receives the values of nodes that other ranks own, at the latest when the particles of the border need them.
 void Simulation::finish_exchange() {
   step_.wall_impulse += grid_update_.finish(grid_);
   step_.contact_heat += grid_update_.take_contact_heat();

@@ -39,7 +39,7 @@ struct RunState {
   double time_step = 0.0;             ///< s, of the last step; 0 before the first
   double unclipped_step = 0.0;        ///< s, the same if it had not been shortened to meet a time
   double maximum_acceleration = 0.0;  ///< m/s^2, in the last step
-  double compression_rate = 0.0;  ///< 1/s, that all but a thousandth of the matter under pressure kept below
+  double compression_rate = 0.0;  ///< 1/s, that all but a thousandth of the material under pressure kept below
   double squeezed_beside_voids = 0.0;  ///< kg, intact, under pressure in cells that it does not fill
   double first_touch = 1e300;  ///< s, at which bodies that have not touched yet next do; 1e300: not in sight
   transfer::FirstTouches::Words touched;  ///< what has
@@ -84,7 +84,7 @@ class Simulation {
   /// The bodies of elements, as far as they are still elements: the share of this rank, with copies of the
   /// nodes that it shares with other ranks (src/fem/distribution.hpp).
   [[nodiscard]] const std::vector<fem::Mesh>& meshes() const { return meshes_; }
-  /// The same as a checkpoint holds them. Collective.
+  /// Returns the meshes as a checkpoint holds them. Collective.
   [[nodiscard]] std::vector<fem::Mesh> meshes_for_checkpoint() const;
   /// The bars, all on one rank. Collective.
   [[nodiscard]] std::vector<fem::Bars> bars_for_checkpoint() const;
@@ -96,13 +96,13 @@ class Simulation {
   /// Sums over all ranks.
   [[nodiscard]] const Totals& totals() const { return totals_; }
   [[nodiscard]] const grid::BlockGrid& grid() const { return grid_; }
-  /// Is a body one with its image at a face, as the field that it moves in (docs/theory/mpm.md, 3)?
+  /// Returns whether a body is one with its image at a face, as the field that it moves in is (docs/theory/mpm.md, 3).
   [[nodiscard]] bool is_one_with_image(std::size_t body, std::size_t face) const;
   /// The bodies as seeded; `first` and `count` are those of this rank now.
   [[nodiscard]] const std::vector<cases::BodySummary>& bodies() const { return bodies_; }
   [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
   [[nodiscard]] Profile& profile() { return profile_; }
-  /// Least share of its cells that matter of more than a pressure (Pa) fills, 1e300 without any: a look at
+  /// Least fraction of its cells that material of more than a pressure (Pa) fills, 1e300 without any: a look at
   /// the run, for tests. Collective.
   [[nodiscard]] double least_fill(double pressure);
   /// Time step (s) that the state allows, whatever the step before it was. Collective.
@@ -167,9 +167,9 @@ class Simulation {
   void compute_bar_forces();
   void advance_bars();
   void remove_bars_outside();
-  /// What of a body left the domain.
+  /// Books the part of a body that left the domain.
   void book_outflow(std::size_t body, const Totals& outflow);
-  /// The same, by the totals of the body before and after.
+  /// Books the part of a body that left the domain, by the totals of the body before and after.
   void book_outflow(std::size_t body, const Totals& before, Totals after);
   void remove_elements_outside();
   void warn_of_contact() const;
@@ -228,7 +228,7 @@ class Simulation {
   double accurate_step_ = 0.0;   // s, that the state allows, in the step under way
   bool compression_is_followed_ = true;  // by that step, as `time.compression_limit` asks
   bool surfaces_found_ = false;  // in the step under way
-  int looks_at_voids_ = 0;       // one after the other that found much matter squeezed beside voids
+  int looks_at_voids_ = 0;       // one after the other that found much material squeezed beside voids
   bool warned_of_voids_ = false;
   std::vector<std::uint8_t> contact_field_;              // of each particle
   std::vector<std::vector<fem::Facet>> surface_facets_;  // of each mesh

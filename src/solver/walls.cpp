@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Matter at mirror planes and walls: one with its image, or in contact with it (docs/theory/mpm.md, section
+// Material at mirror planes and walls: one with its image, or in contact with it (docs/theory/mpm.md, section
 // 3).
 #include <algorithm>
 #include <array>
@@ -36,7 +36,7 @@ bool Simulation::is_one_with_image(std::size_t body, std::size_t face) const {
   return grid_.is_bonded_at(face, contact_field_of_body_.empty() ? 0U : contact_field_of_body_[body]);
 }
 
-/// Is there matter that may meet its image as another body?
+/// Returns whether there is material that may meet its image as another body.
 bool Simulation::may_meet_images() const {
   for (std::size_t face = 0; face < 6; ++face) {
     if (grid_.is_apart_at(face)) return true;

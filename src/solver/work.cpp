@@ -6,7 +6,8 @@
 namespace whipple::solver {
 namespace {
 
-/// Of the constitutive update, measured by `whipple bench` (docs/manual/performance.md): 233 ns for the transfers,
+/// Returns the work (transfers of a particle) of the constitutive update, measured by `whipple bench`
+/// (docs/manual/performance.md): 233 ns for the transfers,
 /// 41 to 65 ns for the update with a model whose state is explicit or tabulated.
 double work_of_material(const Material& material) { return 0.25 * material.eos->relative_cost(); }
 

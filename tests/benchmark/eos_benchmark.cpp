@@ -79,7 +79,7 @@ void gray_vapour(benchmark::State& s) { evaluate(s, copper_eos(), {50, 8e6}); }
 void gray_solid_melt_liquid(benchmark::State& s) { evaluate_spread(s, copper_eos(), 0.6, 1.2, 8000); }
 void gray_all_phases(benchmark::State& s) { evaluate_spread(s, copper_eos(), 0.6, 3.0, 20000); }
 void gray_equilibrium_melting(benchmark::State& s) {
-  static const test::GrayEos eos(test::copper("equilibrium"));
+  static const test::GrayEos eos(test::copper(MeltingTransition::equilibrium));
   evaluate(s, eos, {0.8, 1.93e6});
 }
 void gray_dome(benchmark::State& s) { evaluate(s, copper_eos(), {5, 3.5e6}); }

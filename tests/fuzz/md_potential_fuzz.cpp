@@ -23,7 +23,7 @@ std::string small_setfl() {
   tables.element = "Cu";
   tables.mass = 63.55;
   tables.header_lattice_constant = 3.6;
-  tables.structure = "fcc";
+  tables.structure = CrystalStructure::fcc;
   tables.density_step = 1.0;
   tables.radius_step = 0.1;
   tables.cutoff = 5.0;
@@ -97,7 +97,7 @@ TEST(StoreFuzz, TruncatedStoresAreRefused) {
   PointRecord point;
   point.key = std::string(64, 'a');
   point.protocol = "lattice";
-  point.status = "done";
+  point.status = PointStatus::done;
   point.results = {{"lattice_constant", {3.615e-10, 0.0}}};
   append_point(path, point);
   const auto size = std::filesystem::file_size(path);

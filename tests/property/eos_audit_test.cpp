@@ -56,13 +56,13 @@ TEST(EosAudit, FindsExplosivesThatDoNotExist) {
 }
 
 TEST(EosAudit, CopperIsSoundAndItsFiguresAreThoseOfTheLoci) {
-  const Audit band = audit(GrayEos(copper("band")));
+  const Audit band = audit(GrayEos(copper(MeltingTransition::band)));
   EXPECT_THAT(band.summary(),
               HasSubstr("with reservations: identities of the phase melting hold to 0.11 only"));
   for (const PhaseIdentities& phase : band.identities) {
     EXPECT_EQ(phase.verdict == Verdict::sound, phase.phase != "melting") << phase.phase;
   }
-  const GrayEos eos(copper("equilibrium"));
+  const GrayEos eos(copper(MeltingTransition::equilibrium));
   const Audit a = audit(eos);
   EXPECT_EQ(a.summary(), "sound");
   EXPECT_TRUE(a.condensed);

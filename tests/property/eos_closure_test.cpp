@@ -112,7 +112,7 @@ Statistics sample(const EquationOfState& a, const EquationOfState& b, double lea
 TEST(EosClosure, TwoIdenticalMaterialsAreThePureStateInEveryPhase) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(0, 1);
-  for (const char* melting : {"band", "isochoric"}) {
+  for (const MeltingTransition melting : {MeltingTransition::band, MeltingTransition::isochoric}) {
     const GrayEos eos(copper(melting));
     std::map<std::string, int> phases;
     for (int i = 0; i < 3000; ++i) {
@@ -135,16 +135,16 @@ TEST(EosClosure, TwoIdenticalMaterialsAreThePureStateInEveryPhase) {
 }
 
 TEST(EosClosure, CopperAndAluminiumThroughMelting) {
-  for (const char* melting : {"band", "isochoric"}) {
+  for (const MeltingTransition melting : {MeltingTransition::band, MeltingTransition::isochoric}) {
     GrayConstants al = aluminium();
     al.melting = melting;
     const GrayEos copper_eos(copper(melting)), aluminium_eos(al);
     const Statistics s = sample(copper_eos, aluminium_eos, 0.55, 1.05, 15000, 6000);
-    EXPECT_EQ(s.failed, 0) << melting;
+    EXPECT_EQ(s.failed, 0) << word_of(melting);
     int melts = 0;
     for (const auto& [phases, states] : s.phases)
       melts += phases.find("melting") != std::string::npos ? states : 0;
-    EXPECT_GT(melts, 200) << melting;
+    EXPECT_GT(melts, 200) << word_of(melting);
   }
 }
 

@@ -59,10 +59,10 @@ void require_phases(const std::map<std::string, Worst>& worst, const std::vector
 
 TEST(EosIdentities, GrayCondensedPhasesWithExactMelting) {
   for (GrayConstants c : {copper(), aluminium()}) {
-    c.melting = "isochoric";
+    c.melting = MeltingTransition::isochoric;
     require_phases(sample(GrayEos(c), 0.4, 1.29, 60000, 2500), {"solid", "melting", "liquid", "hot liquid"});
     // In equilibrium up to the solid of the last tie line; farther in tension the temperature is not unique.
-    c.melting = "equilibrium";
+    c.melting = MeltingTransition::equilibrium;
     require_phases(sample(GrayEos(c), 0.4, 1.19, 60000, 2500), {"solid", "melting", "liquid", "hot liquid"});
   }
 }
@@ -75,7 +75,7 @@ TEST(EosIdentities, GrayVapour) {
 }
 
 TEST(EosIdentities, MieGruneisenBothLawsCompressionAndExpansion) {
-  for (const char* law : {"constant_product", "constant"}) {
+  for (const auto law : {CompressedGruneisenLaw::constant_product, CompressedGruneisenLaw::constant}) {
     const MieGruneisenEos eos(aluminium_2024(law));
     require_phases(sample(eos, 0.65, 0.99, 5000, 500), {"solid"});
     require_phases(sample(eos, 1.01, 1.5, 5000, 500), {"solid"});
@@ -85,7 +85,7 @@ TEST(EosIdentities, MieGruneisenBothLawsCompressionAndExpansion) {
 TEST(EosIdentities, SoundSpeedOfTheMeltingBandIsExactAndItsEntropyNearlySo) {
   // The band (G31) is a closed form for P and E; c^2 is its exact derivative, while dE = T dS - P dV holds to
   // the second order of the band's width only.
-  const GrayEos eos(copper("band"));
+  const GrayEos eos(copper(MeltingTransition::band));
   const GrayFreeEnergy& f = eos.underlying().free_energy();
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -137,7 +137,8 @@ double integrability_defect(const GrayEos& eos, double V, double nu) {
 }
 
 TEST(EosIdentities, TheMeltingBandIsIntegrableInItsMiddleOnlyTheOtherChoicesEverywhere) {
-  const GrayEos band(copper("band")), isochoric(copper("isochoric")), equilibrium(copper("equilibrium"));
+  const GrayEos band(copper(MeltingTransition::band)), isochoric(copper(MeltingTransition::isochoric)),
+      equilibrium(copper(MeltingTransition::equilibrium));
   const double V0 = copper().reference_specific_volume;
   double middle = 0, beside = 0, exact = 0;
   for (double ratio = 0.62; ratio < 1.09; ratio += 0.046) {
@@ -155,7 +156,7 @@ TEST(EosIdentities, TheMeltingBandIsIntegrableInItsMiddleOnlyTheOtherChoicesEver
 }
 
 TEST(EosProperty, EntropyRisesWithEnergyOnEveryIsochore) {
-  for (const char* melting : {"band", "isochoric", "equilibrium"}) {
+  for (const auto& [melting, word] : words(MeltingTransition{})) {
     const GrayEos eos(copper(melting));
     for (double ratio : {0.36, 0.45, 0.6, 0.75, 0.9, 1.0, 1.1, 1.2, 1.29, 1.31, 1.6, 2.5, 5.0, 30.0, 300.0}) {
       const double rho = eos.reference_density() / ratio;

@@ -104,7 +104,7 @@ class SyntheticDynamics {
            const md::RunSize& size, Measure measure) const {
     PointRecord point;
     point.protocol = protocol;
-    point.status = "done";
+    point.status = md::PointStatus::done;
     point.conditions = conditions;
     for (const PointRecord& other : points) {
       if (other.label() == point.label()) return;

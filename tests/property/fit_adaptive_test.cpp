@@ -105,7 +105,7 @@ TEST(Adaptive, FailedPointsAreLeftOut) {
   const std::size_t before = points.size();
   exact.answer(*first.next, points);
   ASSERT_EQ(points.size(), before + 1);
-  points.back().status = "failed";
+  points.back().status = md::PointStatus::failed;
   const Proposal second = propose(plan, points, 1, "synthetic");
   ASSERT_TRUE(second.next && second.next->hugoniot);
   EXPECT_NE(second.next->hugoniot->volume_ratio, first.next->hugoniot->volume_ratio);

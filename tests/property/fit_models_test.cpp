@@ -174,7 +174,7 @@ TEST(FitModels, MieGruneisenIsRecovered) {
 // Debye and Grueneisen: an isotherm of Vinet's form in place of the shocks.
 TEST(FitModels, DebyeGruneisenIsRecovered) {
   eos::GrayConstants truth = harmonic();
-  truth.melting = "isochoric";  // the model melts by Lindemann's law alone
+  truth.melting = eos::MeltingTransition::isochoric;  // the model melts by Lindemann's law alone
   SolidConstants solid{truth, 0.0, 135e9, 5.3};
   const auto store = [&](bool silent, unsigned seed) {
     Noise noise;

@@ -62,18 +62,18 @@ TEST(FitRecovery, WhollyCorrelatedErrorsAreFitted) {
 // The isochoric melting law is the other reading of T_m0: same data, and the Lindemann curve through them.
 TEST(FitRecovery, IsochoricMeltingFollowsTheSolidVolume) {
   eos::GrayConstants truth = true_constants();
-  truth.melting = "isochoric";  // T1 = T_m(V) in the synthetic coexistence points
+  truth.melting = eos::MeltingTransition::isochoric;  // T1 = T_m(V) in the synthetic coexistence points
   Noise noise;
   noise.silent = true;
   const SyntheticStore store(truth, noise, 1);
   FitSettings settings = noise_only();
-  settings.melting = "isochoric";
+  settings.melting = eos::MeltingTransition::isochoric;
   const GrayFit fit = fit_gray(store.points, settings, "synthetic");
   EXPECT_NEAR(fit.value("melting_temperature"), truth.melting_temperature, 0.01);
   ASSERT_TRUE(fit.isochoric_melting_temperature.has_value());
   EXPECT_NEAR(*fit.isochoric_melting_temperature, truth.melting_temperature, 0.01);
   // Read as a band, the same points need a higher T_m0: half the band above.
-  settings.melting = "band";
+  settings.melting = eos::MeltingTransition::band;
   const GrayFit band = fit_gray(store.points, settings, "synthetic");
   EXPECT_GT(band.value("melting_temperature"), truth.melting_temperature + 50.0);
   // The constants of the other law shift gamma a little, and the reading of the points with it.
@@ -84,15 +84,15 @@ TEST(FitRecovery, IsochoricMeltingFollowsTheSolidVolume) {
 // back, and the complete model melts at the points' own temperatures and pressures.
 TEST(FitRecovery, EquilibriumMeltingFollowsTheCommonTangent) {
   eos::GrayConstants truth = true_constants();
-  truth.melting = "equilibrium";
+  truth.melting = eos::MeltingTransition::equilibrium;
   Noise noise;
   noise.silent = true;
   const SyntheticStore store(truth, noise, 1);
   FitSettings settings = noise_only();
-  settings.melting = "equilibrium";
+  settings.melting = eos::MeltingTransition::equilibrium;
   const GrayFit fit = fit_gray(store.points, settings, "synthetic");
   EXPECT_NEAR(fit.value("melting_temperature"), truth.melting_temperature, 0.01);
-  EXPECT_EQ(fit.gray.melting, "equilibrium");
+  EXPECT_EQ(fit.gray.melting, eos::MeltingTransition::equilibrium);
   const eos::GrayFreeEnergy surface(truth);
   const eos::GrayMeltingCurve curve(surface);
   int points = 0;

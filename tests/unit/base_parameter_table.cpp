@@ -13,6 +13,7 @@
 
 #include "src/core/base/parameter_table.hpp"
 #include "src/core/base/units.hpp"
+#include "src/core/base/word_list.hpp"
 
 namespace whipple {
 namespace {
@@ -44,6 +45,15 @@ ParameterTable<Model> table() {
           vector("velocity", &Model::velocity, "m/s", range::any(), "of the body").optional(),
           real_list("times", &Model::times, "s", range::non_negative(), "when").optional(),
           text_list("fields", &Model::fields, {"pressure", "temperature"}, "what").optional()};
+}
+
+TEST(Words, AreFoundByValueAndValuesByWord) {
+  EXPECT_EQ(word_of(Colour::red), "red");
+  EXPECT_EQ(word_of(Colour::by_temperature), "");
+  EXPECT_EQ(value_of<Colour>("blue"), Colour::blue);
+  EXPECT_EQ(value_of<Colour>("Blue"), std::nullopt);
+  EXPECT_EQ(value_of<Colour>(""), std::nullopt);
+  EXPECT_EQ(word_list<Colour>(), (std::vector<std::string>{"blue", "red"}));
 }
 
 TEST(Range, TextSaysWhatIsAdmissible) {

@@ -220,7 +220,7 @@ TEST(EosPAlphaPower, TheExponentTwoIsTheQuadraticCurveAndThreeIsThatOfRht) {
   const auto solid = std::make_shared<DebyeEos>(debye_copper());
   const PAlphaConstants square = {.distension = 1.2, .elastic_pressure = 1e8, .solid_pressure = 2e9};
   PAlphaConstants power = square;
-  power.compaction = "power";
+  power.compaction = CompactionCurve::power;
   EXPECT_THROW(PAlpha(solid, power), InputError);  // needs the exponent
   power.compaction_exponent = 2;
   PAlphaConstants wrong = square;

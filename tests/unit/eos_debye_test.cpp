@@ -65,7 +65,7 @@ TEST(EosDebye, HeatCapacityGoesToDulongPetitAndToTheCubeOfTheTemperature) {
 }
 
 TEST(EosDebye, IsothermOfTheReferenceTemperatureIsTheOneAskedFor) {
-  for (const char* isotherm : {"vinet", "birch_murnaghan"}) {
+  for (const auto& [isotherm, form] : words(IsothermForm{})) {
     DebyeGruneisenConstants c = debye_copper();
     c.isotherm = isotherm;
     const DebyeEos eos(c);
@@ -82,10 +82,10 @@ TEST(EosDebye, IsothermOfTheReferenceTemperatureIsTheOneAskedFor) {
     for (double v : {0.5, 0.7, 0.9, 1.05}) {
       const double X = std::cbrt(v), q = std::pow(v, -1.0 / 3);
       const double expected =
-          c.isotherm == "vinet"
+          c.isotherm == IsothermForm::vinet
               ? 3 * 132.4e9 * (1 - X) / (X * X) * std::exp(1.5 * 4.32 * (1 - X))
               : 1.5 * 132.4e9 * (std::pow(q, 7) - std::pow(q, 5)) * (1 + 0.75 * 1.32 * (q * q - 1));
-      EXPECT_NEAR(at(v).pressure, expected, 1e-10 * 132.4e9) << isotherm << " " << v;
+      EXPECT_NEAR(at(v).pressure, expected, 1e-10 * 132.4e9) << form << " " << v;
     }
   }
 }
@@ -93,13 +93,13 @@ TEST(EosDebye, IsothermOfTheReferenceTemperatureIsTheOneAskedFor) {
 TEST(EosDebye, IdentitiesHoldForEveryChoice) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(0, 1);
-  for (const char* isotherm : {"vinet", "birch_murnaghan"}) {
-    for (const char* law : {"power", "linear"}) {
+  for (const auto& [isotherm, form] : words(IsothermForm{})) {
+    for (const auto& [law, word] : words(LatticeGruneisenLaw{})) {
       for (double q : {0.0, 1.3}) {
         DebyeGruneisenConstants c = debye_copper();
         c.isotherm = isotherm;
         c.gruneisen_law = law;
-        (c.gruneisen_law == "power" ? c.gruneisen_exponent : c.gruneisen_slope) = q;
+        (c.gruneisen_law == LatticeGruneisenLaw::power ? c.gruneisen_exponent : c.gruneisen_slope) = q;
         const DebyeEos eos(c);
         int checked = 0;
         double worst = 0;
@@ -116,7 +116,7 @@ TEST(EosDebye, IdentitiesHoldForEveryChoice) {
           worst = std::max(worst, defect);
           if (!std::isnan(d.sound_speed) && !std::isnan(d.bulk_modulus)) ++checked;
         }
-        EXPECT_LT(worst, 1e-6) << isotherm << " " << law << " " << q;
+        EXPECT_LT(worst, 1e-6) << form << " " << word << " " << q;
         EXPECT_GT(checked, 1800);
       }
     }
@@ -261,16 +261,16 @@ TEST(EosDebye, ContradictingConstantsAreInputErrors) {
   c.gruneisen_slope = 1.5;  // of the other law
   EXPECT_THROW(DebyeGruneisen{c}, InputError);
   c = debye_copper();
-  c.gruneisen_law = "linear";
+  c.gruneisen_law = LatticeGruneisenLaw::linear;
   c.gruneisen_exponent = 2;
   EXPECT_THROW(DebyeGruneisen{c}, InputError);
   c = debye_copper();
-  c.gruneisen_law = "linear";
+  c.gruneisen_law = LatticeGruneisenLaw::linear;
   c.gruneisen_slope = 400;  // gamma turns negative at once
   EXPECT_THROW(DebyeGruneisen{c}, InputError);
   // Birch-Murnaghan with K' far below 4 turns over: the limit lies there.
   c = debye_copper();
-  c.isotherm = "birch_murnaghan";
+  c.isotherm = IsothermForm::birch_murnaghan;
   c.bulk_modulus_slope = 1.5;
   EXPECT_LT(DebyeGruneisen(c).maximum_density(), 2.5 * c.reference_density);
   EXPECT_EQ(catalogue().at("debye_gruneisen").name, "debye_gruneisen");

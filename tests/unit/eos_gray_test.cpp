@@ -14,7 +14,7 @@ namespace whipple::eos::test {
 namespace {
 
 TEST(EosGray, AgreesWithAnIndependentImplementationToNineDigits) {
-  const Gray gray(copper("isochoric"));
+  const Gray gray(copper(MeltingTransition::isochoric));
   const auto rows = read_csv(WHIPPLE_SOURCE_DIR "/tests/data/eos/gray_golden_cu.csv");
   int compared = 0;
   for (const auto& row : rows) {
@@ -36,7 +36,7 @@ TEST(EosGray, AgreesWithAnIndependentImplementationToNineDigits) {
 }
 
 TEST(EosGray, BatchEqualsSinglePoints) {
-  for (const char* melting : {"band", "isochoric", "equilibrium"}) {
+  for (const auto& [melting, word] : words(MeltingTransition{})) {
     const GrayEos eos(copper(melting));
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -77,7 +77,7 @@ TEST(EosGray, EnergyToTemperatureAndBackIsExact) {
 }
 
 TEST(EosGray, PressureEnergyAndEntropyAreContinuousAtEveryJoint) {
-  for (const char* melting : {"band", "isochoric"}) {
+  for (const MeltingTransition melting : {MeltingTransition::band, MeltingTransition::isochoric}) {
     const Gray gray(copper(melting));
     const GrayFreeEnergy& f = gray.free_energy();
     for (double ratio : {0.4, 0.5, 0.62, 0.8, 1.0, 1.15, 1.29}) {
@@ -187,12 +187,12 @@ TEST(EosGray, ConstantsThatContradictEachOtherAreRefusedByName) {
 TEST(EosGray, AttractionOfTheVapourIsSolvedForTheCriticalOrTheBoilingTemperature) {
   for (GrayConstants c : {copper(), aluminium()}) {
     c.vapour_attraction = GrayConstants::not_given;
-    c.vapour = "critical";
+    c.vapour = VapourCondition::critical;
     for (const double T : {6600.0, 7800.0, 10000.0}) {
       c.critical_temperature = T;
       EXPECT_NEAR(Gray(c).dome().critical_point().temperature, T, 1e-6 * T);
     }
-    c.vapour = "boiling";
+    c.vapour = VapourCondition::boiling;
     for (const double T : {2414.7, 2835.0}) {
       c.boiling_temperature = T;
       EXPECT_NEAR(Gray(c).dome().at_pressure(101325).value().temperature, T, 1e-6 * T);
@@ -200,7 +200,7 @@ TEST(EosGray, AttractionOfTheVapourIsSolvedForTheCriticalOrTheBoilingTemperature
   }
   // The presets find the attraction that gives the temperatures of copper with 620 J m^3/kg^2, and say so.
   GrayConstants c = copper();
-  c.vapour = "boiling";
+  c.vapour = VapourCondition::boiling;
   c.boiling_temperature = Gray(copper()).dome().at_pressure(101325).value().temperature;
   c.vapour_attraction = GrayConstants::not_given;
   const GrayEos eos(c);
@@ -220,19 +220,20 @@ TEST(EosGray, VapourPresetWithoutItsTemperatureOrOutOfReachIsRefused) {
   };
   GrayConstants c = copper();
   for (const auto& [vapour, name] :
-       {std::pair("critical", "critical_temperature"), std::pair("boiling", "boiling_temperature"),
-        std::pair("attraction", "vapour_attraction")}) {
+       {std::pair(VapourCondition::critical, "critical_temperature"),
+        std::pair(VapourCondition::boiling, "boiling_temperature"),
+        std::pair(VapourCondition::attraction, "vapour_attraction")}) {
     c.vapour = vapour;
     c.vapour_attraction = GrayConstants::not_given;
     EXPECT_NE(refusal(c).find(std::string("needs ") + name), std::string::npos) << refusal(c);
   }
   // The join alone binds copper: with any attraction it boils above 300 K and is a fluid with a loop at 2000
   // K.
-  c.vapour = "critical";
+  c.vapour = VapourCondition::critical;
   c.critical_temperature = 2000;
   EXPECT_NE(refusal(c).find("no vapour_attraction gives a critical_temperature of 2000 K"),
             std::string::npos);
-  c.vapour = "boiling";
+  c.vapour = VapourCondition::boiling;
   c.boiling_temperature = 300;
   EXPECT_NE(refusal(c).find("no vapour_attraction gives a boiling_temperature of 300 K"), std::string::npos);
 }

@@ -13,13 +13,13 @@ namespace whipple::eos::test {
 namespace {
 
 TEST(EosMieGruneisen, ReproducesItsLinearHugoniotForBothLaws) {
-  for (const char* law : {"constant_product", "constant"}) {
+  for (const auto law : {CompressedGruneisenLaw::constant_product, CompressedGruneisenLaw::constant}) {
     const MieGruneisenEos eos(aluminium_2024(law));
     const Hugoniot hugoniot(eos);
     for (double up : {1.0, 10.0, 100.0, 500.0, 1000.0, 2000.0, 3000.0}) {
       const ShockState s = hugoniot.at_particle_velocity(up);
       const double us = 5328 + 1.338 * up;
-      EXPECT_NEAR(s.shock_velocity, us, 1e-10 * us) << law << " up " << up;
+      EXPECT_NEAR(s.shock_velocity, us, 1e-10 * us) << word_of(law) << " up " << up;
       EXPECT_NEAR(s.particle_velocity, up, 1e-10 * up);
       EXPECT_NEAR(s.state.pressure, 2785 * us * up, 1e-10 * 2785 * us * up);
       EXPECT_NEAR(s.state.specific_internal_energy, 0.5 * up * up, 1e-10 * up * up);

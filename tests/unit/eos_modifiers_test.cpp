@@ -154,7 +154,7 @@ TEST(EosPAlpha, StartsPorousAtRestAndResistsUpToTheElasticPressure) {
 
 TEST(EosPAlpha, FollowsTheCrushCurveOfBothKinds) {
   PAlphaConstants exponential = pores();
-  exponential.compaction = "exponential";
+  exponential.compaction = CompactionCurve::exponential;
   exponential.solid_pressure = 0;
   exponential.compaction_rate = 2.54e-9;
   for (const PAlphaConstants& c : {pores(), exponential}) {
@@ -218,7 +218,7 @@ TEST(EosPAlpha, PressedCopperOfBoade) {
   const double alpha0 = 8.935 / 6.4;
   const PAlpha eos(solid_copper(), {.distension = alpha0,
                                     .elastic_pressure = 1.4e8,
-                                    .compaction = "exponential",
+                                    .compaction = CompactionCurve::exponential,
                                     .compaction_rate = 2.54e-9});
   for (double kbar : {5.0, 10.0, 20.0, 35.0}) {
     const double published = 1 + (alpha0 - 1) * std::exp(-0.254 * (kbar - 1.4));
@@ -350,10 +350,10 @@ TEST(EosPAlpha, OutOfRangeIsReportedAndConstantsAreChecked) {
   refused({.distension = 0.9, .elastic_pressure = 1e8, .solid_pressure = 2e9});
   refused({.distension = 1.4, .elastic_pressure = 3e9, .solid_pressure = 2e9});
   refused({.distension = 1.4, .elastic_pressure = 1e8, .solid_pressure = 2e9, .compaction_rate = 1e-9});
-  refused({.distension = 1.4, .elastic_pressure = 1e8, .compaction = "exponential"});
+  refused({.distension = 1.4, .elastic_pressure = 1e8, .compaction = CompactionCurve::exponential});
   refused({.distension = 1.4,
            .elastic_pressure = 1e8,
-           .compaction = "exponential",
+           .compaction = CompactionCurve::exponential,
            .solid_pressure = 1e9,
            .compaction_rate = 1e-9});
   EXPECT_THROW(PAlpha(std::make_shared<PAlpha>(solid_copper(), pores()), pores()), InputError);

@@ -21,7 +21,7 @@ using DebyeEos = ModelEquationOfState<DebyeGruneisen>;
 using MieGruneisenEos = ModelEquationOfState<MieGruneisen>;
 
 /// Copper: C, S, a, T_m0 of Steinberg, UCRL-MA-106439 (1996), with gamma0 = 1.97.
-inline GrayConstants copper(const std::string& melting = "band") {
+inline GrayConstants copper(MeltingTransition melting = MeltingTransition::band) {
   GrayConstants c;
   c.molar_mass = 63.546e-3;
   c.reference_specific_volume = 0.1118e-3;
@@ -52,7 +52,7 @@ inline GrayConstants aluminium() {
 }
 
 /// Aluminium 2024-T4 on Steinberg's linear Hugoniot.
-inline MieGruneisenConstants aluminium_2024(const std::string& law = "constant_product") {
+inline MieGruneisenConstants aluminium_2024(CompressedGruneisenLaw law = CompressedGruneisenLaw::constant_product) {
   MieGruneisenConstants c;
   c.reference_density = 2785;
   c.hugoniot_intercept = 5328;

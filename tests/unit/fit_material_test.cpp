@@ -190,7 +190,7 @@ TEST_F(FitMaterial, TheJoinOfTheVapourGivesWayToTheMelt) {
   std::vector<md::PointRecord>& points = store.points;
   for (md::PointRecord& point : points) point.provenance["element"] = "Ni";
   FitSettings settings;
-  settings.melting = "band";  // phases in equilibrium end at V_J instead
+  settings.melting = eos::MeltingTransition::band;  // phases in equilibrium end at V_J instead
   const GrayFit fit = fit_gray(points, settings, "store");
   EXPECT_DOUBLE_EQ(fit.value("join_volume_ratio"), 1.2);
   EXPECT_THAT(fit.remarks, Contains(HasSubstr("V_J/V0 raised by 0.05 from the element's default, with which: "
@@ -262,7 +262,7 @@ TEST_F(FitMaterial, NamesAllMissingProtocolsAtOnce) {
   });
   md::PointRecord failed = store.points.back();
   failed.protocol = "hugoniot";
-  failed.status = "failed";
+  failed.status = md::PointStatus::failed;
   points.push_back(failed);
   const std::string message = refusal(points);
   EXPECT_THAT(message, HasSubstr("protocol \"zero_pressure_volume\": 0 finished"));

@@ -160,7 +160,7 @@ md::PointRecord state_with_blocks(std::mt19937_64& generator, bool with_blocks) 
   std::normal_distribution<double> normal;
   md::PointRecord point;
   point.protocol = "isochore";
-  point.status = "done";
+  point.status = md::PointStatus::done;
   constexpr int blocks = 16;
   std::vector<double> pressure, energy;
   for (int b = 0; b < blocks; ++b) {
@@ -213,7 +213,7 @@ TEST(Bootstrap, ScattersByTheStatedErrors) {
 TEST(Bootstrap, KeepsTheJumpConditions) {
   md::PointRecord point;
   point.protocol = "hugoniot";
-  point.status = "done";
+  point.status = md::PointStatus::done;
   const double v0 = 1.12e-4, v = 0.9e-4, pressure = 3e10;
   point.conditions = {{"specific_volume", v}};
   point.results = {{"pressure", {pressure, 1e9}},

@@ -101,7 +101,7 @@ class SyntheticStore {
            std::map<std::string, md::Estimate> results) {
     md::PointRecord point;
     point.protocol = protocol;
-    point.status = "done";
+    point.status = md::PointStatus::done;
     point.conditions = std::move(conditions);
     point.results = std::move(results);
     point.provenance = {{"element", "Cu"},

@@ -60,6 +60,22 @@ TEST_F(Hdf5, writes_slabs_that_need_more_than_one_chunk) {
   EXPECT_EQ(File::open(path).root.open_dataset("squares").read_all<std::uint64_t>(), numbers);
 }
 
+TEST_F(Hdf5, tells_the_type_of_stored_numbers) {
+  const std::filesystem::path path = folder_ / "types.h5";
+  const std::vector<std::uint8_t> bytes = {1, 2};
+  const std::vector<float> reals = {1.0F, 2.0F};
+  File file = File::create(path, File::Compatibility::compact);
+  file.root.write<std::uint8_t>("bytes", bytes, Slab::whole(2));
+  file.root.write<float>("reals", reals, Slab::whole(2));
+  file.close();
+  const File read = File::open(path);
+  EXPECT_TRUE(read.root.open_dataset("bytes").stores<std::uint8_t>());
+  EXPECT_FALSE(read.root.open_dataset("bytes").stores<std::uint16_t>());
+  EXPECT_FALSE(read.root.open_dataset("bytes").stores<float>());
+  EXPECT_TRUE(read.root.open_dataset("reals").stores<float>());
+  EXPECT_FALSE(read.root.open_dataset("reals").stores<double>());
+}
+
 TEST_F(Hdf5, keeps_the_order_of_creation_and_changes_an_open_file) {
   const std::filesystem::path path = folder_ / "a.h5";
   {

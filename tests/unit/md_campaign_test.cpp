@@ -157,7 +157,7 @@ TEST_F(Campaign, FailureIsRecordedAndTheOthersGoOn) {
   EXPECT_EQ(first.blocked, 1);
   const std::vector<PointRecord> points = read_store(store);
   ASSERT_EQ(points.size(), 3U);
-  EXPECT_EQ(points[1].status, "failed");
+  EXPECT_EQ(points[1].status, PointStatus::failed);
   EXPECT_NE(points[1].message.find("Lost atoms"), std::string::npos);
   EXPECT_TRUE(points[1].results.empty());
   EXPECT_NE(summarize(points[1]).find("isotherm at temperature = 2 K FAILED: LAMMPS: Lost atoms"),

@@ -25,7 +25,7 @@ PointRecord example(const std::string& name) {
   PointRecord point;
   point.key = sha256(name);
   point.protocol = "isotherm";
-  point.status = "done";
+  point.status = PointStatus::done;
   point.message = "läuft, \"quoted\"\nsecond line";
   point.conditions = {{"specific_volume", 1.0 / 8930.0}, {"temperature", 293.0}};
   point.results = {{"pressure", {1.0 / 3.0 * 1e10, 7.1e6}},
@@ -57,14 +57,14 @@ TEST(Select, TakesTheNewestRevisionOfEachPoint) {
     PointRecord record;
     record.key = key;
     record.protocol = "isochore";
-    record.status = "done";
+    record.status = PointStatus::done;
     record.conditions = {{"specific_volume", volume}, {"temperature", 300.0}};
     if (!revision.empty()) record.provenance["revision"] = revision;
     return record;
   };
   std::vector<PointRecord> points = {point("a", 1e-4, "3"), point("b", 1e-4, "10"), point("c", 1e-4, "10"),
                                      point("d", 2e-4, "3"), point("e", 3e-4, ""),   point("f", 1e-4, "11")};
-  points.back().status = "failed";
+  points.back().status = PointStatus::failed;
   std::string keys;
   for (const PointRecord& chosen : select(points, "isochore")) keys += chosen.key;
   EXPECT_EQ(keys, "bcde");
@@ -105,7 +105,7 @@ TEST(Store, ReplacesFailedPointsAndNeverFinishedOnes) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "copper.md.h5";
   PointRecord failed = example("point");
-  failed.status = "failed";
+  failed.status = PointStatus::failed;
   failed.results.clear();
   append_point(path, failed);
   EXPECT_TRUE(select(read_store(path), "isotherm").empty());
@@ -119,6 +119,35 @@ TEST(Store, ReplacesFailedPointsAndNeverFinishedOnes) {
   EXPECT_EQ(read_store(path)[0].result("pressure").value, example("point").result("pressure").value);
   EXPECT_EQ(select(points, "isotherm").size(), 1U);
   EXPECT_TRUE(select(points, "hugoniot").empty());
+}
+
+TEST(Store, KnowsTheStateAndTheProtocolOfAPoint) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "copper.md.h5";
+  PointRecord untried = example("point");
+  untried.status = PointStatus::not_tried;
+  EXPECT_THROW(append_point(path, untried), InternalError);
+  PointRecord spall = example("spall");
+  spall.protocol = "spall";
+  append_point(path, spall);
+  append_point(path, example("point"));
+  const std::vector<PointRecord> points = read_store(path);
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_EQ(points[0].kind(), std::nullopt);  // no reader tells it apart
+  EXPECT_EQ(points[1].kind(), PointKind::isotherm);
+  {
+    hdf5::File file = hdf5::File::open(path, hdf5::File::Access::modify);
+    const hdf5::Group odd = file.root.open_group("points").create_group("odd");
+    odd.set_fixed_attribute("protocol", "isotherm");
+    odd.set_fixed_attribute("status", "begun");
+    file.close();
+  }
+  try {
+    read_store(path);
+    ADD_FAILURE() << "the odd point is read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("unknown status 'begun'"), std::string::npos) << error.what();
+  }
 }
 
 // Four processes append at once: the lock lets none of the points be lost.
@@ -196,7 +225,7 @@ TEST(Store, InOrderHasTheSameBytesWhateverItsHistory) {
   const auto second = folder.path() / "second.md.h5";
   for (const char* name : {"a", "b", "c"}) append_point(first, example(name));
   PointRecord failed = example("b");
-  failed.status = "failed";
+  failed.status = PointStatus::failed;
   failed.results.clear();
   append_point(second, failed);
   for (const char* name : {"c", "a", "b"}) {

@@ -57,7 +57,7 @@ TEST(KimModel, MishinsCopperIsThatOfTheTables) {
   if (!models_installed()) GTEST_SKIP() << "no models of OpenKIM (scripts/install_deps.sh --kim)";
   const Potential model = Potential::load(mishin_model, "Cu");
   const Potential tables = Potential::load("copper_mishin_2001", "Cu");
-  EXPECT_EQ(model.structure(), "fcc");
+  EXPECT_EQ(model.structure(), CrystalStructure::fcc);
   EXPECT_NEAR(model.lattice_constant(), tables.lattice_constant(), 2e-5);
   EXPECT_NEAR(model.mass(), tables.mass(), 0.01);
   EXPECT_NEAR(model.cutoff(), tables.cutoff(), 0.1);
@@ -94,7 +94,7 @@ TEST(KimModel, CompressionEndsWhereTheModelRefuses) {
 TEST(KimModel, FindsTheStructure) {
   if (!models_installed()) GTEST_SKIP() << "no models of OpenKIM (scripts/install_deps.sh --kim)";
   const Potential tantalum = Potential::load(ravelo_model, "Ta");
-  EXPECT_EQ(tantalum.structure(), "bcc");
+  EXPECT_EQ(tantalum.structure(), CrystalStructure::bcc);
   EXPECT_NEAR(tantalum.lattice_constant(), 3.304, 5e-4);
   EXPECT_EQ(tantalum.table_end(), 0.0);
   EXPECT_NE(loading_fault(magnesium_model, "Mg").find("is hcp; fcc and bcc are supported"),

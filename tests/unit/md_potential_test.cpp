@@ -82,7 +82,7 @@ TEST(Potential, EveryNamedPotentialKnowsItsLimit) {
         std::pair("aluminium_voter_chen_1987", "Al"), std::pair("nickel_universal_3", "Ni")}) {
     const Potential potential = Potential::load(name, element);
     EXPECT_NO_THROW(potential.require_range(0.65)) << name;
-    EXPECT_EQ(potential.tables().structure, "fcc") << name;
+    EXPECT_EQ(potential.tables().structure, CrystalStructure::fcc) << name;
     const double least = potential.least_volume_ratio();
     if (least > 0.0) {
       EXPECT_EQ(input_error([&] { potential.require_range(0.99 * least); }).substr(0, 10),
@@ -170,17 +170,17 @@ TEST(Potential, ReportsDamagedFiles) {
 // The file gives tantalum the structure fcc, because its author's program knows no other.
 TEST(Potential, TakesTheStructureOfLeastEnergy) {
   const Potential tantalum = Potential::load("CuTa.eam.alloy", "Ta");
-  EXPECT_EQ(tantalum.structure(), "bcc");
+  EXPECT_EQ(tantalum.structure(), CrystalStructure::bcc);
   EXPECT_NEAR(tantalum.lattice_constant(), 3.303, 0.002);
   EXPECT_NEAR(tantalum.crystal_energy(tantalum.lattice_constant()), -8.09, 0.001);
   EXPECT_NE(tantalum.remark().find("the header gives Ta the structure 'fcc', but bcc has the least energy"),
             std::string::npos)
       << tantalum.remark();
-  const Potential stated = Potential::load("CuTa.eam.alloy", "Ta", {}, "fcc");
-  EXPECT_EQ(stated.structure(), "fcc");
+  const Potential stated = Potential::load("CuTa.eam.alloy", "Ta", {}, CrystalStructure::fcc);
+  EXPECT_EQ(stated.structure(), CrystalStructure::fcc);
   EXPECT_NEAR(stated.lattice_constant(), 4.140, 0.001);
   const Potential copper = Potential::load("CuTa.eam.alloy", "Cu");
-  EXPECT_EQ(copper.structure(), "fcc");
+  EXPECT_EQ(copper.structure(), CrystalStructure::fcc);
   EXPECT_EQ(copper.remark(), "");
   const std::string hexagonal = input_error([] { Potential::load("Mg_mm.eam.fs", "Mg"); });
   EXPECT_NE(hexagonal.find("the crystal is hcp; fcc and bcc are supported"), std::string::npos) << hexagonal;

@@ -24,7 +24,7 @@ PointRecord part(double pressure, double error, double correlation = 0.0) {
   PointRecord point;
   point.key = "key";
   point.protocol = "isotherm";
-  point.status = "done";
+  point.status = PointStatus::done;
   point.results = {{"pressure", {pressure, error}},
                    {"specific_internal_energy", {2.0 * pressure, 3.0 * error}},
                    {"error_correlation", {correlation, 0.0}},
@@ -141,7 +141,7 @@ TEST(Join, OfReplicasIsTheMeanOfAllRuns) {
     PointRecord made;
     made.key = "key";
     made.protocol = "coexistence";
-    made.status = "done";
+    made.status = PointStatus::done;
     made.results = {{"melting_temperature", replica_mean(runs)}};
     made.blocks = {{"melting_temperature", runs}};
     made.provenance = {{"replicas", "3"}};

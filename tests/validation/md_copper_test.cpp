@@ -73,7 +73,7 @@ TEST(Copper, EquipartitionAtLowTemperatureForAnySize) {
 // The header of CuTa.eam.alloy gives tantalum the structure fcc, in which its crystal is no minimum of the
 // energy: it leaves its sites, and still passes for a crystal by its order and its displacements.
 TEST(Crystal, ThatIsNoMinimumIsRefused) {
-  const Potential potential = Potential::load("CuTa.eam.alloy", "Ta", {}, "fcc");
+  const Potential potential = Potential::load("CuTa.eam.alloy", "Ta", {}, CrystalStructure::fcc);
   NvtStateSource source(potential, {.cells = 4, .equilibration_steps = 300, .steps = 600}, 1);
   try {
     source.state(potential.static_volume(), 300.0, StateSource::Effort::final);

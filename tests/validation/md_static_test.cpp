@@ -21,7 +21,7 @@ const Potential& mishin() {
   return potential;
 }
 
-ColdState cold(const std::string& structure, double ratio) {
+ColdState cold(CrystalStructure structure, double ratio) {
   std::string transcript;
   return measure_cold(mishin(), structure, ratio * mishin().static_volume(), transcript);
 }
@@ -49,9 +49,11 @@ TEST(Elastic, BulkModulusIsTheSlopeOfTheColdCurveAtAnyPressure) {
     const ElasticResult result = measure_elastic(mishin(), ratio * mishin().static_volume(), 0.002, 5);
     const double step = 1e-4;
     const double slope =
-        -(cold("fcc", ratio * (1 + step)).pressure - cold("fcc", ratio * (1 - step)).pressure) / (2 * step);
+        -(cold(CrystalStructure::fcc, ratio * (1 + step)).pressure -
+          cold(CrystalStructure::fcc, ratio * (1 - step)).pressure) /
+        (2 * step);
     EXPECT_NEAR(result.bulk_modulus.value / slope, 1.0, 2e-3) << ratio;
-    EXPECT_NEAR(result.pressure / cold("fcc", ratio).pressure, 1.0, 1e-9);
+    EXPECT_NEAR(result.pressure / cold(CrystalStructure::fcc, ratio).pressure, 1.0, 1e-9);
   }
 }
 
@@ -65,17 +67,17 @@ TEST(Elastic, ExtrapolationFindsTheLineAndItsUncertainty) {
 // P = -dE/dV, and the energy is that of the lattice sums over the potential's tables.
 TEST(ColdCurve, PressureIsTheDerivativeOfTheEnergy) {
   const double volume = mishin().static_volume();
-  for (const char* structure : {"fcc", "bcc", "hcp"}) {
+  for (const auto structure : {CrystalStructure::fcc, CrystalStructure::bcc, CrystalStructure::hcp}) {
     for (const double ratio : {0.5, 0.75, 0.9, 1.15}) {
       const double step = 2e-4;
       const double derivative = -(cold(structure, ratio + step).specific_internal_energy -
                                   cold(structure, ratio - step).specific_internal_energy) /
                                 (2 * step * volume);
-      EXPECT_NEAR(cold(structure, ratio).pressure / derivative, 1.0, 1e-3) << structure << " " << ratio;
+      EXPECT_NEAR(cold(structure, ratio).pressure / derivative, 1.0, 1e-3) << word_of(structure) << " " << ratio;
     }
   }
   const double a = std::cbrt(0.7) * mishin().lattice_constant();
-  EXPECT_NEAR(cold("fcc", 0.7).specific_internal_energy /
+  EXPECT_NEAR(cold(CrystalStructure::fcc, 0.7).specific_internal_energy /
                   metal::specific_energy(mishin().tables().crystal_energy(a), mishin().mass()),
               1.0, 2e-5);
 }
@@ -83,17 +85,17 @@ TEST(ColdCurve, PressureIsTheDerivativeOfTheEnergy) {
 // Energies of other structures above fcc, each at its own least energy: Mishin et al. (2001): hcp 0.008 eV,
 // bcc 0.046 eV. An hcp crystal of a pair-like metal keeps nearly the ideal axial ratio 1.633.
 TEST(ColdCurve, StructuresDifferAsPublished) {
-  const auto least = [&](const std::string& structure) {
+  const auto least = [&](CrystalStructure structure) {
     double energy = 0.0;
     for (double ratio = 0.98; ratio < 1.04; ratio += 0.004) {
       energy = std::fmin(energy, cold(structure, ratio).specific_internal_energy);
     }
     return energy / metal::specific_energy(1.0, mishin().mass());
   };
-  const double fcc = least("fcc");
-  EXPECT_NEAR(least("hcp") - fcc, 0.008, 0.001);
-  EXPECT_NEAR(least("bcc") - fcc, 0.046, 0.002);
-  EXPECT_NEAR(cold("hcp", 1.0).axial_ratio, 1.633, 0.01);
+  const double fcc = least(CrystalStructure::fcc);
+  EXPECT_NEAR(least(CrystalStructure::hcp) - fcc, 0.008, 0.001);
+  EXPECT_NEAR(least(CrystalStructure::bcc) - fcc, 0.046, 0.002);
+  EXPECT_NEAR(cold(CrystalStructure::hcp, 1.0).axial_ratio, 1.633, 0.01);
 }
 
 TEST(ColdCurve, RefusesCompressionBeyondTheTable) {

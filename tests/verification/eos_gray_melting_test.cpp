@@ -14,7 +14,7 @@ namespace whipple::eos::test {
 namespace {
 
 TEST(EosGrayMelting, TangentHasEqualPressureAndGibbsEnergyAndTheSlopeOfClausiusAndClapeyron) {
-  for (GrayConstants c : {copper("equilibrium"), aluminium()}) {
+  for (GrayConstants c : {copper(MeltingTransition::equilibrium), aluminium()}) {
     const GrayFreeEnergy f(c);
     const GrayMeltingCurve curve(f);
     const double T1 = curve.coldest().temperature, T2 = curve.hottest().temperature;
@@ -37,7 +37,7 @@ TEST(EosGrayMelting, TangentHasEqualPressureAndGibbsEnergyAndTheSlopeOfClausiusA
 }
 
 TEST(EosGrayMelting, CopperMeltsAtTheFiguresOfAnIndependentImplementation) {
-  const GrayEos eos(copper("equilibrium"));
+  const GrayEos eos(copper(MeltingTransition::equilibrium));
   const GrayMeltingCurve& curve = eos.underlying().melting_curve().value();
   const double line[][2] = {{0, 1327}, {10, 1672}, {50, 2757}, {200, 5407}};
   for (const auto& row : line) EXPECT_NEAR(curve.at_pressure(row[0] * 1e9).temperature, row[1], 0.6);
@@ -104,7 +104,7 @@ TEST(EosGrayMelting, AmbientMeltingPointsFollowFromSteinbergsConstantsAlone) {
 
 TEST(EosGrayMelting, SolidMixtureAndLiquidMeetAtTheirEdges) {
   for (GrayConstants c : {copper(), aluminium()}) {
-    c.melting = "equilibrium";
+    c.melting = MeltingTransition::equilibrium;
     const Gray gray(c);
     const GrayMeltingCurve& curve = gray.melting_curve().value();
     const GrayFreeEnergy& f = gray.free_energy();
@@ -132,7 +132,7 @@ TEST(EosGrayMelting, BeyondTheLastTieLineInTensionTheJumpIsSmallAndTheEntropyRis
   // The tangent is followed until the liquid reaches V_J: copper -12.0 GPa, 799 K, V_s = 1.20 V0. On the
   // isochores beyond that solid, melting below the tie line is isochoric; crossing the line changes P by
   // less than 0.5 GPa and T by less than 75 K.
-  const Gray gray(copper("equilibrium"));
+  const Gray gray(copper(MeltingTransition::equilibrium));
   const auto& last = gray.melting_curve()->coldest();
   const double V0 = 0.1118e-3;
   EXPECT_NEAR(last.liquid_volume / V0, 1.3, 1e-9);
@@ -151,7 +151,7 @@ TEST(EosGrayMelting, BeyondTheLastTieLineInTensionTheJumpIsSmallAndTheEntropyRis
 }
 
 TEST(EosGrayMelting, CompressionLimitIsTheDensestLiquidInEquilibrium) {
-  const Gray gray(copper("equilibrium"));
+  const Gray gray(copper(MeltingTransition::equilibrium));
   const auto& limit = gray.melting_curve()->hottest();
   EXPECT_NEAR(limit.solid_volume, gray.free_energy().least_volume(), 1e-9 * limit.solid_volume);
   EXPECT_DOUBLE_EQ(gray.maximum_density(), 1 / limit.liquid_volume);
@@ -159,7 +159,7 @@ TEST(EosGrayMelting, CompressionLimitIsTheDensestLiquidInEquilibrium) {
 }
 
 TEST(EosGrayMelting, ConstantsWithoutATangentAreRefused) {
-  GrayConstants c = copper("equilibrium");
+  GrayConstants c = copper(MeltingTransition::equilibrium);
   c.melting_gruneisen = 0.2;  // melting temperature falls with compression: the liquid would be the denser
   c.melting_gruneisen_slope = 0;
   EXPECT_THROW(

@@ -54,19 +54,19 @@ TEST(EosLoci, ThreeWaysToTheSameShockState) {
 }
 
 TEST(EosLoci, ShockMeltingOfCopper) {
-  const auto band = shock_melting(GrayEos(copper("band")));
+  const auto band = shock_melting(GrayEos(copper(MeltingTransition::band)));
   ASSERT_TRUE(band);
   EXPECT_NEAR(band->onset.state.pressure * 1e-9, 221.8, 0.5);
   EXPECT_NEAR(band->onset.state.temperature, 5698, 5);
   EXPECT_NEAR(band->completion.state.pressure * 1e-9, 286.2, 0.5);
   EXPECT_NEAR(band->completion.state.temperature, 6491, 5);
-  const auto isochoric = shock_melting(GrayEos(copper("isochoric")));
+  const auto isochoric = shock_melting(GrayEos(copper(MeltingTransition::isochoric)));
   ASSERT_TRUE(isochoric);
   EXPECT_NEAR(isochoric->onset.state.pressure * 1e-9, 227.8, 0.5);
   EXPECT_NEAR(isochoric->completion.state.pressure * 1e-9, 281.0, 0.5);
   // Sound speeds on either side of both edges (isochoric): 8.336/8.239 and 8.792/8.902 km/s, known on a
   // grid of pressures of some 0.4 GPa.
-  const GrayEos eos(copper("isochoric"));
+  const GrayEos eos(copper(MeltingTransition::isochoric));
   const Hugoniot hugoniot(eos);
   const double onset = isochoric->onset.state.pressure, completion = isochoric->completion.state.pressure;
   EXPECT_NEAR(hugoniot.at_pressure(onset * 0.9999).state.sound_speed, 8336, 6);
@@ -93,7 +93,7 @@ TEST(EosLoci, MeltingAndLiquidAtZeroPressure) {
 
 TEST(EosLoci, ReleaseMeltsAboveTheKnownShockPressures) {
   // Incipient and complete melting on release to P = 0: 145.9 and 178.9 GPa with isochoric melting.
-  const GrayEos eos(copper("isochoric"));
+  const GrayEos eos(copper(MeltingTransition::isochoric));
   const auto melted = [&](double P) {
     return release(eos, Hugoniot(eos).at_pressure(P).state, 0.0).end.state.melted_fraction;
   };
@@ -102,7 +102,7 @@ TEST(EosLoci, ReleaseMeltsAboveTheKnownShockPressures) {
   EXPECT_LT(melted(178.4e9), 1.0);
   EXPECT_EQ(melted(179.4e9), 1.0);
   // With the band, near the equilibrium thresholds of 136.6 and 190.2 GPa.
-  const GrayEos band(copper("band"));
+  const GrayEos band(copper(MeltingTransition::band));
   const auto banded = [&](double P) {
     return release(band, Hugoniot(band).at_pressure(P).state, 0.0).end.state.melted_fraction;
   };
@@ -149,7 +149,7 @@ TEST(EosLoci, CriticalAndBoilingPointsOfCopper) {
 TEST(EosLoci, IsentropeKeepsTheEntropyThroughAllPhases) {
   // Integration of de = p/rho^2 d(rho) against the entropy of the free energy, from a liquid state at 400 GPa
   // down to the vapour, and from rest to 200 GPa.
-  const GrayEos eos(copper("isochoric"));
+  const GrayEos eos(copper(MeltingTransition::isochoric));
   const State hot = Hugoniot(eos).at_pressure(1500e9).state;
   for (const IsentropeState& s : isentrope(eos, hot, {14000, 11000, 9000, 7500, 6900, 6000, 3000, 500, 50})) {
     EXPECT_NEAR(s.state.specific_entropy, hot.specific_entropy, 1e-4) << s.state.density;

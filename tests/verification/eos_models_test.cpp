@@ -31,16 +31,16 @@ TEST(EosModels, SteinbergHugoniotOfThirdOrderIsReproduced) {
   c.hugoniot_cubic = -1.64;
   c.gruneisen = 2.74;
   c.heat_capacity = 124;
-  for (const char* law : {"constant_product", "constant", "linear"}) {
+  for (const auto& [law, word] : words(CompressedGruneisenLaw{})) {
     c.gruneisen_law = law;
-    c.gruneisen_slope = c.gruneisen_law == "linear" ? 0.54 : 0.0;
+    c.gruneisen_slope = c.gruneisen_law == CompressedGruneisenLaw::linear ? 0.54 : 0.0;
     const Eos<MieGruneisen> eos(c);
     for (double up : {10.0, 300.0, 1000.0, 1500.0}) {
       const double us = Hugoniot(eos).at_particle_velocity(up).shock_velocity, x = up / us;
-      EXPECT_NEAR(us, 2006 + up * (1.429 + x * (0.8506 - x * 1.64)), 1e-9 * us) << law << " " << up;
+      EXPECT_NEAR(us, 2006 + up * (1.429 + x * (0.8506 - x * 1.64)), 1e-9 * us) << word << " " << up;
     }
   }
-  c.gruneisen_law = "constant";
+  c.gruneisen_law = CompressedGruneisenLaw::constant;
   c.gruneisen_slope = 0.5;
   EXPECT_THROW(Eos<MieGruneisen>{c}, InputError);
   c.gruneisen_slope = 0;
@@ -60,7 +60,7 @@ TEST(EosModels, LeadAtTheSphereOnPlateVelocity) {
   c.hugoniot_quadratic = 0.8506;
   c.hugoniot_cubic = -1.64;
   c.gruneisen = 2.74;
-  c.gruneisen_law = "linear";
+  c.gruneisen_law = CompressedGruneisenLaw::linear;
   c.gruneisen_slope = 0.54;
   c.heat_capacity = 124;
   const Eos<MieGruneisen> eos(c);

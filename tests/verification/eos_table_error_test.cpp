@@ -44,12 +44,12 @@ TEST(EosTableError, CopperWithTheMeltingBand) {
 
 TEST(EosTableError, CopperWithEquilibriumMeltingInAllPhases) {
   // Six phases on an isochore in strong tension, a kink at the last tie line and jumps across it.
-  const test::GrayEos eos(test::copper("equilibrium"));
+  const test::GrayEos eos(test::copper(MeltingTransition::equilibrium));
   expect_requested_error(eos, {});
 }
 
 TEST(EosTableError, CopperWithIsochoricMeltingInAllPhases) {
-  const test::GrayEos eos(test::copper("isochoric"));
+  const test::GrayEos eos(test::copper(MeltingTransition::isochoric));
   expect_requested_error(eos, {.error = 3e-4});
 }
 

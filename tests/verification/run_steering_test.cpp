@@ -11,6 +11,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/parallel/mpi.hpp"
+#include "src/io/run_directory.hpp"
 #include "src/run/directory_control.hpp"
 #include "src/run/material_copies.hpp"
 #include "src/run/observers/checkpoints.hpp"
@@ -204,7 +206,7 @@ TEST_F(Steering, EndNowEndsAsAWholeRunDoes) {
   EXPECT_EQ(result.history.back(), 6);
   EXPECT_EQ(result.snapshots.size(), 2U);
   EXPECT_EQ(result.checkpoints, 1U);
-  EXPECT_EQ(read_status(result.folder).state, "done");
+  EXPECT_EQ(read_status(result.folder).state, Activity::done);
 }
 
 /// A signal that comes while a run is paused.
@@ -285,7 +287,7 @@ TEST_F(Steering, ABadRequestIsAnsweredAndChangesNothing) {
 TEST_F(Steering, TheStatusTellsHowFarARunIs) {
   const Result result = run({});
   const RunStatus status = read_status(result.folder);
-  EXPECT_EQ(status.state, "done");
+  EXPECT_EQ(status.state, Activity::done);
   EXPECT_EQ(status.time, result.time);
   EXPECT_EQ(status.step, result.steps);
   EXPECT_EQ(status.end, ball_on_plate().time.end);
@@ -296,17 +298,21 @@ TEST_F(Steering, TheStatusTellsHowFarARunIs) {
 
 TEST_F(Steering, TheStatusOfARunThatNoProcessHoldsIsLost) {
   RunStatus status;
-  status.state = "running";
+  status.state = Activity::running;
   status.step = 7;
   status.message = "with \"quotes\"";
   write_status(temporary_.path() / "status.json", status);
   const RunStatus read = read_status(temporary_.path());
-  EXPECT_EQ(read.state, "lost");
+  EXPECT_EQ(read.state, Activity::lost);
   EXPECT_EQ(read.step, 7);
   EXPECT_EQ(read.message, status.message);
   EXPECT_EQ(read.time_left, std::nullopt);
   const auto lock = io::lock_run(temporary_.path());
-  EXPECT_EQ(read_status(temporary_.path()).state, "running");
+  EXPECT_EQ(read_status(temporary_.path()).state, Activity::running);
+  const std::string text = io::read_text(temporary_.path() / "status.json");
+  EXPECT_THAT(text, HasSubstr("\"state\": \"running\""));
+  std::ofstream(temporary_.path() / "status.json") << std::regex_replace(text, std::regex("running"), "asleep");
+  EXPECT_THROW((void)read_status(temporary_.path()), InputError);
   std::ofstream(temporary_.path() / "status.json") << "{}";
   EXPECT_THROW((void)read_status(temporary_.path()), InputError);
 }

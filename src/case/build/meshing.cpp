@@ -88,7 +88,7 @@ void drop_unused_nodes(fem::Hexahedra& mesh) {
   }
 }
 
-/// Nodes on mirror planes keep to them, those on walls that matter sticks to stay there.
+/// Nodes on mirror planes keep to them, those on walls that material sticks to stay there.
 void hold_at_planes(const Case& setup, fem::Mesh& mesh, Vector3& wall_impulse) {
   fem::Nodes& nodes = mesh.nodes;
   std::vector<double> heat(nodes.size(), 0.0);

@@ -104,7 +104,7 @@ bool inside_domain(const Case& setup, const Vector3& point) {
   return true;
 }
 
-/// What a particle takes of its cell of the lattice.
+/// Describes the part of a cell of the lattice that a particle takes.
 struct Site {
   Vector3 position;
   double share = 1.0;      // of the cell's volume
@@ -149,7 +149,7 @@ std::optional<Site> partial_site(const Case& setup, const Body& body, const Latt
   return Site{point + center, count / all, SymmetricTensor::from(extent)};
 }
 
-/// Whether f(site) holds for some particle of the body inside the domain; asks those in and near a box only,
+/// Returns whether f(site) holds for some particle of the body inside the domain; asks those in and near a box only,
 /// up to the first one.
 template <class Function>
 bool any_site(const Case& setup, const Body& body, const Lattice& lattice, const Shape::Bounds& box,
@@ -193,8 +193,8 @@ void for_each_site(const Case& setup, const Body& body, const Lattice& lattice, 
 struct Allotment {
   std::size_t particles = 0;
   double volume = 0.0;    // of the body, in cells of the lattice
-  double least = 0.0;     // share of the smallest site that becomes a particle
-  double enlarged = 1.0;  // factor of the share of a cut site
+  double least = 0.0;     // fraction of the smallest site that becomes a particle
+  double enlarged = 1.0;  // factor of the fraction of a cut site
 
   [[nodiscard]] bool takes(const Site& site) const { return site.share >= least; }
   [[nodiscard]] double share(const Site& site) const {
@@ -272,7 +272,7 @@ std::vector<std::uint8_t> faces_touched(const Case& setup) {
   std::vector<std::uint8_t> faces(setup.bodies.size(), 0);
   for (std::size_t b = 0; b < faces.size(); ++b) {
     const Body& body = setup.bodies[b];
-    if (body.discretization.is_bars()) continue;  // they share the field of the matter around
+    if (body.discretization.is_bars()) continue;  // they share the field of the material around
     const Shape::Bounds bounds = body.shape->bounds();
     const Lattice lattice = lattice_of(setup, body);
     for (int face = 0; face < 6; ++face) {

@@ -24,14 +24,14 @@ double expected_memory(const Case& setup);
 /// Bodies that leave the domain through an outflow face, hold no particle, or share points with another body.
 std::vector<PlacementFault> placement_faults(const Case& setup);
 
-/// What is wrong with no case but seldom meant: a warning for each body of particles that is thinner than a
+/// Returns warnings about what is no fault but seldom meant: one for each body of particles that is thinner than a
 /// cell, or whose particles have another volume than its shape.
 std::vector<std::string> placement_warnings(const Case& setup);
 
 /// Boxes of the whole particles that fill a body, or would fill one of elements, in and near a part of space.
 std::vector<Shape::Bounds> particle_boxes(const Case& setup, const Body& body, const Shape::Bounds& near);
 
-/// What a body became.
+/// Holds the particles and the mass that a body was seeded with.
 struct BodySummary {
   std::size_t first = 0;  ///< its particles are [first, first + count)
   std::size_t count = 0;
@@ -47,7 +47,7 @@ struct Seeding {
   Vector3 wall_impulse = Vector3::Zero();  ///< N s, see `make_meshes`
 };
 
-/// Which faces of the domain that mirror or stop matter a body touches or crosses at the start: of each body,
+/// Which faces of the domain that mirror or stop material a body touches or crosses at the start: of each body,
 /// a bit per face in the order of Geometry::boundary. It follows from the case alone, so a run that goes on
 /// from a checkpoint finds the same.
 std::vector<std::uint8_t> faces_touched(const Case& setup);

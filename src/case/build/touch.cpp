@@ -46,7 +46,7 @@ class BoxTable {
       });
     }
   }
-  /// Does f(box) hold for one of those that come near this one?
+  /// Returns whether f(box) holds for one of the boxes within a distance (m) of this one.
   template <class Function>
   [[nodiscard]] bool any_near(const Shape::Bounds& box, double distance, Function&& f) const {
     return for_each_cell(grown(box, distance), [&](std::uint64_t key) {

@@ -7,7 +7,7 @@
 
 namespace whipple::cases {
 
-/// What several shapes have in common.
+/// Describes the part that several shapes have in common.
 class Intersection final : public Shape {
  public:
   static constexpr const char* name = "intersection";

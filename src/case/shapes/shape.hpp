@@ -24,7 +24,7 @@ class Shape {
   [[nodiscard]] virtual Bounds bounds() const = 0;
   /// Volume (m^3), to judge a discretisation by: exact for primitives, to about 1e-3 for combinations.
   [[nodiscard]] virtual double volume() const = 0;
-  /// Do whole cells of a lattice over its bounds fill it: is it a box along the axes?
+  /// Returns whether whole cells of a lattice over its bounds fill it, as they do a box along the axes.
   [[nodiscard]] virtual bool fills_lattice() const { return false; }
   /// `{ NAME = ... }` as it stands in a case file.
   [[nodiscard]] virtual std::string toml() const = 0;

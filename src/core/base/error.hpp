@@ -58,7 +58,7 @@ class InternalError : public std::logic_error {
 /// The code of the kind of an error; what is none of the three is a defect.
 ExitCode exit_code(const std::exception& error);
 
-/// What the user sees of an error: "program: error: message", or the message as it is if it names its place
+/// Returns the text of an error for the user: "program: error: message", or the message as it is if it names its place
 /// in a file ("case.toml:3:1: error: message").
 std::string message_for_user(const std::string& program, const std::exception& error);
 

@@ -19,7 +19,7 @@ const std::filesystem::path& regular_file(const std::filesystem::path& path,
 /// @throws InputError if the file exists and `force` is not set
 void require_new_file(const std::filesystem::path& path, bool force);
 
-/// The same for a figure, whose ending must be one that it can be drawn as: png, pdf, svg.
+/// Checks that a figure can be written as `require_new_file` does, and that its ending is one of png, pdf, svg.
 void require_new_figure(const std::filesystem::path& path, bool force);
 
 /// A file in the making. It lies beside its target under a name of its own, NAME.XXXXXXXX.partial, and takes

@@ -9,8 +9,8 @@ namespace whipple {
 /// container.
 int usable_processors();
 
-/// Number of threads that the environment asks for: OMP_NUM_THREADS, else SLURM_CPUS_PER_TASK. 0: none does.
-/// What is no number from 1 to 4096 is ignored with a warning.
+/// Returns the number of threads that the environment asks for: OMP_NUM_THREADS, else SLURM_CPUS_PER_TASK; 0 if
+/// neither is set. Ignores what is no number from 1 to 4096, with a warning.
 int threads_of_environment();
 
 /// Tells this machine and the processors that this process may use from others.

@@ -28,7 +28,7 @@ void for_each_marked(std::span<const std::uint8_t> marks, Function&& f) {
   }
 }
 
-/// Is none of four items from `first` on marked?
+/// Returns whether none of the four items from `first` on is marked.
 inline bool none_of_four(std::span<const std::uint8_t> marks, std::size_t first) {
   std::uint32_t four = 0;
   std::memcpy(&four, &marks[first], sizeof(four));

@@ -41,7 +41,7 @@ inline Range open_between(double lower, double upper) {
 }
 }  // namespace range
 
-/// What a parameter is, without the object that it belongs to.
+/// Describes a parameter without the object that it belongs to.
 struct ParameterInfo {
   std::string name;
   std::string unit;  ///< SI unit of the value in memory; empty: dimensionless or not a number
@@ -95,7 +95,7 @@ struct Parameter {
     info.required = false;
     return std::move(*this);
   }
-  /// The same where the initial value only marks "missing": `default_text` says what stands in for it.
+  /// Lets the key be missing where the initial value only marks that: `default_text` says what stands in for it.
   [[nodiscard]] Parameter optional(std::string default_text) && {
     info.required = false;
     info.default_text = std::move(default_text);

@@ -14,10 +14,10 @@ constexpr std::size_t prefetched_together = 8;
 /// Points on the way to which a sweep over a few arrays has time to have them fetched.
 constexpr std::size_t prefetch_distance = 32;
 
-/// Is it the turn of a point to ask for what it and the next ones need?
+/// Returns whether it is the turn of a point to fetch the values of itself and the next ones.
 WHIPPLE_INLINE inline bool prefetches(std::size_t point) { return point % prefetched_together == 0; }
 
-/// Has the values of `prefetched_together` points from `first` on fetched into the second-level cache. They
+/// Fetches the values of `prefetched_together` points from `first` on into the second-level cache. They
 /// may lie behind the end.
 template <class... Array>
 WHIPPLE_INLINE inline void prefetch(std::size_t first, const Array&... arrays) {

@@ -36,7 +36,7 @@
 
 namespace whipple {
 
-/// Are the kernels for AVX-512 in use? Where the processor has it, until a test sets otherwise.
+/// Tells whether the kernels for AVX-512 are in use: where the processor has it, until a test sets otherwise.
 inline bool& wide_registers() {
 #if WHIPPLE_WIDE_KERNELS
   static bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&

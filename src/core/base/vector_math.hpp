@@ -119,7 +119,7 @@ inline std::array<Lanes, 3> beside_components(Lanes four) {
 void exponentials(double* x, std::size_t size);
 void logarithms(double* x, std::size_t size);
 
-/// What a comparison of Lanes gives; `mask ? a : b` selects lane by lane.
+/// Holds the result of a comparison of Lanes; `mask ? a : b` selects lane by lane.
 using LanesMask = decltype(Lanes{} < Lanes{});
 /// One bit per lane of a comparison.
 inline unsigned bits(LanesMask mask) { return static_cast<unsigned>(_mm256_movemask_pd(__m256d(mask))); }

@@ -255,6 +255,12 @@ Dataset::Shape Dataset::stored_shape() const {
   return shape;
 }
 
+bool Dataset::has_type(hid_t memory_type) const {
+  const Handle type = checked(H5Dget_type(id()), H5Tclose, name_, "read the type");
+  return H5Tget_class(type.get()) == H5Tget_class(memory_type) &&
+         H5Tget_size(type.get()) == H5Tget_size(memory_type);
+}
+
 void Dataset::require_shape(const Shape& expected) const {
   const Shape found = stored_shape();
   if (found.rows == expected.rows && (found.rows == 0 || found.columns == expected.columns)) return;
@@ -266,9 +272,7 @@ void Dataset::read_bytes(void* values, hid_t memory_type, std::uint64_t size, co
                          std::uint64_t columns, bool collective) const {
   require_shape({slab.total, columns});
   if (size != slab.count * columns) throw InternalError(name_ + ": the room for the rows has another size");
-  const Handle type = checked(H5Dget_type(id()), H5Tclose, name_, "read the type");
-  if (H5Tget_class(type.get()) != H5Tget_class(memory_type) ||
-      H5Tget_size(type.get()) != H5Tget_size(memory_type)) {
+  if (!has_type(memory_type)) {
     throw InputError(fmt::format("{}: has numbers of another type than expected", name_));
   }
   if (slab.total == 0) return;
@@ -361,7 +365,7 @@ std::vector<Bytef> deflated(const Rows& rows, std::size_t first, std::size_t chu
   return chunk;
 }
 
-/// What H5Dwrite does with an array in chunks with shuffle and deflate, on all threads: HDF5 has one.
+/// Writes an array in chunks with shuffle and deflate on all threads, as H5Dwrite does on one.
 void write_deflated(const Dataset& dataset, const Rows& rows, std::size_t chunk_rows, int level) {
   constexpr std::size_t together = 32;  // chunks in memory
   const std::size_t chunks = (rows.count + chunk_rows - 1) / chunk_rows;

@@ -111,6 +111,11 @@ class Dataset : public Object {
   /// @throws InputError naming both shapes, as `stored_shape`
   void require_shape(const Shape& expected) const;
 
+  /// Returns whether the numbers in the file are of the class and width of T, so that they can be read as such.
+  template <class T>
+  [[nodiscard]] bool stores() const {
+    return has_type(NumberType<T>::memory());
+  }
   /// Reads rows [slab.first, slab.first + slab.count), all columns, row by row.
   /// @throws InputError also if the type is of another class or width than T, or the array has other columns.
   template <class T>
@@ -122,7 +127,8 @@ class Dataset : public Object {
   [[nodiscard]] std::vector<T> read_all() const {
     return read_all<T>(stored_shape());
   }
-  /// The same, of a known shape.
+  /// Reads the whole array of a known shape, by this process alone.
+  /// @throws InputError if the array has another shape or type
   template <class T>
   [[nodiscard]] std::vector<T> read_all(const Shape& expected) const {
     require_shape(expected);
@@ -135,6 +141,7 @@ class Dataset : public Object {
  private:
   friend class Group;
   using Object::Object;
+  [[nodiscard]] bool has_type(hid_t memory_type) const;
   void read_bytes(void* values, hid_t memory_type, std::uint64_t size, const Slab& slab,
                   std::uint64_t columns, bool collective) const;
 };
@@ -144,7 +151,7 @@ class Group : public Object {
   Group create_group(const std::string& name, Order order = Order::name) const;
   [[nodiscard]] Group open_group(const std::string& name) const;
   [[nodiscard]] Dataset open_dataset(const std::string& name) const;
-  /// Is there a link of this name (one level)?
+  /// Returns whether there is a link of this name (one level).
   [[nodiscard]] bool has(const std::string& name) const;
   /// Names of the links of this group.
   [[nodiscard]] std::vector<std::string> names(Order order = Order::name) const;

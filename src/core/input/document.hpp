@@ -20,10 +20,10 @@ class Table;
 /// One input file. Errors are collected while its tables are read; `finish` throws them together.
 class Document {
  public:
-  /// What people wrote: every number of a quantity needs its unit, but for 0.
+  /// Reads what people wrote: every number of a quantity needs its unit, but for 0.
   /// @throws InputError if the file is missing or is not TOML (with file:line:column).
   static Document from_file(const std::filesystem::path& path);
-  /// What a program wrote: a number without a unit is in SI.
+  /// Reads what a program wrote: a number without a unit is in SI.
   static Document from_text(const std::string& text, const std::string& name);
 
   Document(Document&&) noexcept;
@@ -44,7 +44,7 @@ class Document {
 
   /// Reports every key that no reader asked for, then throws the collected errors, if any, as one InputError.
   void finish();
-  /// The same for a reader that takes a few keys out of a larger document: other keys are no errors.
+  /// Throws the collected errors, if any, after a few keys of a larger document were read: other keys are no errors.
   void finish_partly_read();
 
   struct State;
@@ -91,7 +91,7 @@ class Table {
   [[nodiscard]] std::string where(std::string_view key = {}) const;
   /// Path of the table in the document, "body[1].shape".
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// The same as --set and InputFault::key take it, "body.1.shape".
+  /// Returns the path of the table as --set and InputFault::key take it, "body.1.shape".
   [[nodiscard]] std::string key_path() const;
   /// Folder of the file: relative paths in the input are resolved against it.
   [[nodiscard]] std::filesystem::path folder() const;

@@ -6,7 +6,7 @@
 
 namespace whipple::input {
 
-/// What toml++ must not see.
+/// Locates a structure that toml++ must not see.
 struct StructureFault {
   unsigned line = 1;
   unsigned column = 1;

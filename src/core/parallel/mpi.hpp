@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-/// What the solver says between processes. Everything with a communicator is collective, and free on one
+/// Communicates between the processes of the solver. Everything with a communicator is collective, and free on one
 /// rank. Sums are taken along one tree of ranks: the same bits for the same number of ranks.
 namespace whipple::parallel {
 
@@ -31,11 +31,11 @@ int ranks_on_machine(MPI_Comm comm);
 
 /// Largest value of all ranks.
 double maximum(MPI_Comm comm, double value);
-/// The same, element by element and in place.
+/// Replaces the values by their maximum over all ranks, element by element.
 void maximum(MPI_Comm comm, std::span<double> values);
 /// Sum over all ranks, element by element and in place.
 void sum(MPI_Comm comm, std::span<double> values);
-/// Is it true on any rank?
+/// Returns whether the value is true on any rank.
 bool any(MPI_Comm comm, bool value);
 
 /// Ends a failed step on every rank: if any rank brings an error (a text that is not empty), all throw a

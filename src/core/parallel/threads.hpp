@@ -17,7 +17,7 @@ inline void set_threads(int n) { omp_set_num_threads(n); }
 inline int threads() { return omp_get_max_threads(); }
 /// Cores that this process may use and its threads leave alone.
 inline int free_cores() { return std::max(0, omp_get_num_procs() - threads()); }
-/// Is this the thread that goes on alone after a loop?
+/// Returns whether this is the thread that goes on alone after a loop.
 inline bool is_first_thread() { return omp_get_thread_num() == 0; }
 
 constexpr std::size_t chunk_size = 1024;

@@ -13,11 +13,11 @@ namespace whipple::process {
 /// @returns its exit code
 int run_script(const std::string& script, const std::vector<std::string>& arguments);
 
-/// The same for a script that draws a figure.
+/// Runs a script that draws a figure.
 /// @throws InputError if it fails
 void draw_with(const std::string& script, const std::vector<std::string>& arguments);
 
-/// The same on JSON text: `SCRIPT DATA.json FIGURE`, the data in a file beside the figure while it is drawn.
+/// Draws JSON text by `SCRIPT DATA.json FIGURE`, the data in a file beside the figure while it is drawn.
 /// @throws InputError if the folder cannot be written or the script fails
 void draw_json(const std::string& script, const std::string& json, const std::filesystem::path& figure);
 

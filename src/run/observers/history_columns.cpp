@@ -134,7 +134,7 @@ const auto outflow_of_body = std::to_array<BodyColumn>({
 });
 // clang-format on
 
-/// What decides which of the columns a file has.
+/// Holds the parts of a run that decide which columns its file has.
 struct Parts {
   bool elements = false, cold_work = false, bars = false;
   std::vector<std::string> bodies;

@@ -13,7 +13,7 @@
 
 namespace whipple::run {
 
-/// What the columns of history.csv are computed from: a simulation, and sums and maxima over all ranks (SI).
+/// Holds what the columns of history.csv are computed from: a simulation, and sums and maxima over all ranks (SI).
 struct HistorySource {
   const solver::RunState& state;
   const solver::Ledger& ledger;

@@ -10,33 +10,32 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/last_message.hpp"
 #include "src/core/base/log.hpp"
-#include "src/run/status.hpp"
 
 namespace whipple::run {
 namespace {
 
 constexpr std::chrono::seconds interval{1};
 
-const char* state_of(Outcome::Kind kind) {
+Activity state_of(Outcome::Kind kind) {
   switch (kind) {
-    case Outcome::Kind::done: return "done";
-    case Outcome::Kind::stopped: return "stopped";
+    case Outcome::Kind::done: return Activity::done;
+    case Outcome::Kind::stopped: return Activity::stopped;
     case Outcome::Kind::left_range:
     case Outcome::Kind::out_of_resources: break;
   }
-  return "failed";
+  return Activity::failed;
 }
 
 }  // namespace
 
 void StatusFile::start(const Moment& moment) {
   first_time_ = moment.time();
-  write(moment, "running", log::last_message());
+  write(moment, Activity::running, log::last_message());
 }
 
 void StatusFile::after_step(const Moment& moment) {
   if (!ranks_.is_root()) return;
-  const std::string state = moment.paused ? "paused" : "running";
+  const Activity state = moment.paused ? Activity::paused : Activity::running;
   if (state != written_ || Clock::now() - written_at_ >= interval) write(moment, state, log::last_message());
 }
 
@@ -44,7 +43,7 @@ void StatusFile::end(const Moment& moment, Outcome& outcome) {
   write(moment, state_of(outcome.kind), outcome.message.empty() ? log::last_message() : outcome.message);
 }
 
-void StatusFile::write(const Moment& moment, const std::string& state, const std::string& message) {
+void StatusFile::write(const Moment& moment, Activity state, const std::string& message) {
   if (!ranks_.is_root()) return;
   const double done = moment.time() - first_time_, left = moment.schedule.end - moment.time();
   written_ = state;

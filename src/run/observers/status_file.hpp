@@ -2,11 +2,13 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "src/io/ranks.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/run/observer.hpp"
+#include "src/run/status.hpp"
 
 namespace whipple::run {
 
@@ -25,14 +27,14 @@ class StatusFile : public RunObserver {
 
  private:
   void start(const Moment& moment);
-  void write(const Moment& moment, const std::string& state, const std::string& message);
+  void write(const Moment& moment, Activity state, const std::string& message);
 
   using Clock = std::chrono::steady_clock;
   std::filesystem::path file_;
   std::string program_;
   io::Ranks ranks_;
   double first_time_ = 0.0;  // s, simulated, at the start of this process
-  std::string written_;      // state
+  std::optional<Activity> written_;  // state
   Clock::time_point written_at_;
 };
 
