@@ -199,6 +199,16 @@ TEST_F(Steering, SnapshotsLieAtTheMultiplesOfTheirIntervalAndCostAStepEach) {
   EXPECT_LE(result.steps, free.steps + 4);
 }
 
+TEST_F(Steering, AMultipleThatIsTheEndButForRoundOffIsTheEnd) {
+  const Result free = run({});
+  std::size_t parts = 2;
+  while (parts < 60 && static_cast<double>(parts) * (free.time / static_cast<double>(parts)) >= free.time) ++parts;
+  ASSERT_LT(parts, 60U) << "no interval whose multiple lies below the end";
+  const Result result = run({{1, {Act::snapshot_every, free.time / static_cast<double>(parts)}}});
+  EXPECT_EQ(result.snapshots.size(), parts + 1);
+  EXPECT_EQ(result.time, free.time);
+}
+
 TEST_F(Steering, EndNowEndsAsAWholeRunDoes) {
   const Result result = run({{6, {Act::end}}});
   EXPECT_EQ(result.code, 0);
