@@ -94,14 +94,15 @@ class Reach {
                                               static_cast<std::size_t>(node[1] + 1),
                                               static_cast<std::size_t>(node[2] + 1)};
     std::array<std::uint64_t, 27> reached{};
-    if (!reaches(first, count, reached)) return;
+    constexpr auto along_z = static_cast<int>(transfer::count_z<Shape>);
+    if (!reaches(first, {count, count, along_z}, reached)) return;
     const transfer::Weights<count> w = transfer::weights_at<Shape>(points, p, in_stencil, geometry.cell_size);
     const auto f = at_point(p);
     for (std::size_t i = 0; i < count; ++i) {
       const Folded& x = axes_[0][first[0] + i];
       for (std::size_t j = 0; j < count; ++j) {
         const Folded& y = axes_[1][first[1] + j];
-        for (std::size_t k = 0; k < count; ++k) {
+        for (std::size_t k = 0; k < along_z; ++k) {
           const Folded& z = axes_[2][first[2] + k];
           const auto n = static_cast<std::size_t>(grid::neighbour_index(x.block, y.block, z.block));
           const std::uint64_t bit = x.nodes & y.nodes & z.nodes;
@@ -184,11 +185,11 @@ class Reach {
   }
 
   /// Finds which of the nodes that matter the stencil reaches, by block around; returns whether any.
-  [[nodiscard]] bool reaches(const std::array<std::size_t, 3>& first, int count,
+  [[nodiscard]] bool reaches(const std::array<std::size_t, 3>& first, const std::array<int, 3>& count,
                              std::array<std::uint64_t, 27>& reached) const {
     std::array<std::array<std::uint64_t, 3>, 3> layers{};
     for (std::size_t a = 0; a < 3; ++a) {
-      for (std::size_t n = first[a]; n < first[a] + static_cast<std::size_t>(count); ++n) {
+      for (std::size_t n = first[a]; n < first[a] + static_cast<std::size_t>(count[a]); ++n) {
         layers[a][static_cast<std::size_t>(axes_[a][n].block)] |= axes_[a][n].nodes;
       }
     }

@@ -72,7 +72,9 @@ constexpr std::size_t lanes_of_normals = 3, lanes_of_extents = 2;
 /// of its followed domain), scaled to its present volume.
 class HalfThickness {
  public:
-  HalfThickness(const Particles& particles, std::size_t p) : extent_(particles.extent[p].matrix()) {
+  HalfThickness(const grid::Geometry& geometry, const Particles& particles, std::size_t p)
+      : extent_(particles.extent[p].matrix()) {
+    if (geometry.is_planar()) return set_planar(geometry, particles, p);
     const double box = 8.0 * std::sqrt(std::max(extent_.determinant(), 0.0));
     const double volume = particles.volume[p] + particles.void_volume[p];
     scale_ = std::cbrt(box > 0.0 ? volume / box : volume);
@@ -89,6 +91,17 @@ class HalfThickness {
   }
 
  private:
+  void set_planar(const grid::Geometry& geometry, const Particles& particles, std::size_t p) {
+    extent_.row(2).setZero();
+    extent_.col(2).setZero();
+    const double box = 4.0 * std::sqrt(std::max(extent_.topLeftCorner<2, 2>().determinant(), 0.0));
+    const double area =
+        (particles.volume[p] + particles.void_volume[p]) / geometry.depth(particles.position[p]);
+    scale_ = std::sqrt(box > 0.0 ? area / box : area);
+    if (!(box > 0.0)) extent_ = Vector3(0.25, 0.25, 0.0).asDiagonal();
+    largest_ = scale_ * std::sqrt(std::max(extent_.trace(), 0.0));
+  }
+
   Matrix3 extent_;
   double scale_, largest_;
 };
@@ -240,9 +253,11 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
       }
     } else {
       for_each_place<Shape>(particles, grid, several, [&](std::size_t p) {
-        return [&, volume = particles.volume[p] + particles.void_volume[p]](const Place& place) {
+        const double volume = particles.volume[p] + particles.void_volume[p];
+        const double size = grid.geometry().size_in_section(volume, particles.position[p]);
+        return [&, size](const Place& place) {
           gradient_.values[place.in(gradient_, place.field)] +=
-              lanes(volume * place.gradient.cwiseProduct(place.off_plane), volume * place.weight);
+              lanes(size * place.gradient.cwiseProduct(place.off_plane), size * place.weight);
         };
       });
       const double cell_size = grid.geometry().cell_size;
@@ -296,7 +311,7 @@ void Surfaces::find(Normal kind, transfer::ShapeFunction shape, const Particles&
       });
     };
     for_each_place<Shape>(particles, grid, normals, [&](std::size_t p) {
-      return [&, half = HalfThickness(particles, p)](const Place& place) {
+      return [&, half = HalfThickness(grid.geometry(), particles, p)](const Place& place) {
         extend(place, half.largest(), [&](const Normals& n) { return half.along(n); });
       };
     });

@@ -222,6 +222,13 @@ class BlockGrid {
   [[nodiscard]] std::span<const PlaceInStencil> places(Points points) const {
     return points == Points::particles ? place_of_particle_ : place_of_guest_;
   }
+  /// Distance of a particle from the lower face along y at the last `bin` (m): the radius of a ring.
+  [[nodiscard]] double radius_at_bin(std::size_t p) const {
+    const auto slot = static_cast<std::size_t>(slot_of_particle_[p]);
+    const PlaceInStencil& place = place_of_particle_[p];
+    const double first = block_edge * coordinate(slot)[1] + place.first_node(stencil_)[1];
+    return (first + place.from_first(1)) * geometry_.cell_size;
+  }
   /// Calls f(points of one field, field) for the points of a slot, in the order of their indices; once for
   /// all of them where they reach no contact slot, and not at all where there are none.
   template <class Function>

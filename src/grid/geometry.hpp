@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "src/core/base/tensor.hpp"
 #include "src/core/base/vector_math.hpp"
@@ -37,6 +38,19 @@ constexpr std::array<Word<Boundary>, 4> words(Boundary) {
            {Boundary::separating, "separating"}}};
 }
 
+/// Dimensions of the problem. In two dimensions all points lie in the plane z = lower and do not move out of it.
+enum class Dimension : std::uint8_t {
+  space,         ///< three dimensions
+  plane_strain,  ///< a slice of `unit_depth` out of a body that is the same for all z
+  axisymmetric,  ///< x along the axis, y the radius: a point is a whole ring
+};
+constexpr std::array<Word<Dimension>, 3> words(Dimension) {
+  return {{{Dimension::space, "3d"},
+           {Dimension::plane_strain, "plane_strain"},
+           {Dimension::axisymmetric, "axisymmetric"}}};
+}
+constexpr double unit_depth = 1.0;  ///< m, along z in plane strain
+
 /// The uniform background grid of the domain: node i of a direction lies at lower + i * cell_size.
 struct Geometry {
   Vector3 lower = Vector3::Zero();      ///< m
@@ -44,6 +58,7 @@ struct Geometry {
   double cell_size = 0.0;               ///< m, dx
   /// Faces in the order x_lower, x_upper, y_lower, y_upper, z_lower, z_upper.
   std::array<Boundary, 6> boundary{};
+  Dimension dimension = Dimension::space;
 
   /// Position in cells from the lower corner, the directions in lanes. Whoever asks for the cell, block or
   /// stencil of a position takes it from here: two ways of rounding would disagree about positions on the
@@ -52,6 +67,23 @@ struct Geometry {
     return (load_vector(position.data()) - load_vector(lower.data())) / cell_size;
   }
   [[nodiscard]] double upper(int axis) const { return lower[axis] + cells[axis] * cell_size; }
+  [[nodiscard]] bool is_planar() const { return dimension != Dimension::space; }
+  [[nodiscard]] bool is_axisymmetric() const { return dimension == Dimension::axisymmetric; }
+  /// Extent of a cell across the plane (m): the length of the ring in axisymmetry.
+  [[nodiscard]] double depth(const Vector3& position) const {
+    switch (dimension) {
+      case Dimension::plane_strain:
+        return unit_depth;
+      case Dimension::axisymmetric:
+        return 2.0 * std::numbers::pi * position[1];
+      default:
+        return cell_size;
+    }
+  }
+  /// Volume of a particle, or in two dimensions its area in the plane.
+  [[nodiscard]] double size_in_section(double volume, const Vector3& position) const {
+    return is_planar() ? volume / depth(position) : volume;
+  }
   /// Returns whether material continues beyond a face as its mirror image.
   [[nodiscard]] bool mirrors(std::size_t face) const {
     return boundary[face] == Boundary::symmetry || boundary[face] == Boundary::no_slip;

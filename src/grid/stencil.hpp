@@ -18,14 +18,18 @@ namespace whipple::grid {
 constexpr int reach_edge = block_edge + 3;
 
 /// Nodes that a kernel reaches from a particle: `count` nodes per direction, the first at floor(X - shift)
-/// where X is the position in cells.
+/// where X is the position in cells. In two dimensions one node along z, that of the plane z = lower.
 struct Stencil {
   double shift = 0.5;
   int count = 3;
+  bool planar = false;
 
   /// Nodes that points of a block reach before those of the block, and edge of all that they reach.
   [[nodiscard]] constexpr int before() const { return shift > 0.0 ? 1 : 0; }
   [[nodiscard]] constexpr int edge() const { return before() == 0 ? block_edge + 1 : reach_edge; }
+  /// The same along z.
+  [[nodiscard]] constexpr int before_z() const { return planar ? 0 : before(); }
+  [[nodiscard]] constexpr int edge_z() const { return planar ? 1 : edge(); }
 };
 
 /// Lower corner of a block, in cells.
@@ -78,8 +82,8 @@ class PlaceInStencil {
   }
   /// Returns the first node counted from the lower corner of the block, by direction.
   [[nodiscard]] std::array<int, 3> first_node(Stencil stencil) const {
-    const int edge = stencil.edge(), before = stencil.before(), first = first_node();
-    return {first / (edge * edge) - before, first / edge % edge - before, first % edge - before};
+    const int edge = stencil.edge(), edge_z = stencil.edge_z(), before = stencil.before(), first = first_node();
+    return {first / (edge * edge_z) - before, first / edge_z % edge - before, first % edge_z - stencil.before_z()};
   }
 
  private:
@@ -91,8 +95,8 @@ class PlaceInStencil {
 class StencilPlaces {
  public:
   explicit StencilPlaces(Stencil stencil) : shift_(broadcast(stencil.shift)) {
-    const double edge = stencil.edge();
-    strides_ = Lanes{edge * edge, edge, 1.0, 0.0};
+    const double edge = stencil.edge(), edge_z = stencil.edge_z();
+    strides_ = Lanes{edge * edge_z, edge_z, stencil.planar ? 0.0 : 1.0, 0.0};
     origin_ = Lanes{integer, 0.0, 0.0, 0.0} + stencil.before() * strides_;
   }
   /// First node of the stencil, in cells like `local`.

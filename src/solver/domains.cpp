@@ -12,12 +12,12 @@
 namespace whipple::solver {
 
 bool Simulation::follows_domains() const {
-  return shape_ == transfer::ShapeFunction::convected_gimp || setup_.splitting.length > 0.0;
+  return setup_.transfer.shape_function == transfer::ShapeFunction::convected_gimp || setup_.splitting.length > 0.0;
 }
 
 /// Returns whether anything asks for the domains of the particles.
 bool Simulation::carries_extent() const {
-  return follows_domains() || shape_ == transfer::ShapeFunction::gimp || setup_.contact_fields.several() ||
+  return follows_domains() || setup_.transfer.shape_function == transfer::ShapeFunction::gimp || setup_.contact_fields.several() ||
          may_meet_images();
 }
 
@@ -25,7 +25,7 @@ bool Simulation::carries_extent() const {
 std::size_t Simulation::deform_domains(std::span<const std::uint32_t> particles,
                                        std::span<const Matrix3> gradients) {
   const double dt = state_.time_step, dx = setup_.domain.cell_size;
-  const bool counted = shape_ == transfer::ShapeFunction::convected_gimp;
+  const bool counted = setup_.transfer.shape_function == transfer::ShapeFunction::convected_gimp;
   std::size_t larger = 0;
   for (std::size_t k = 0; k < particles.size(); ++k) {
     const Matrix3 step = Matrix3::Identity() + dt * gradients[k];

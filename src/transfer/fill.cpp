@@ -13,10 +13,11 @@ std::vector<double> fill_of_cells(const Particles& particles, const TransitionNo
   using grid::BlockGrid;
   using grid::Node;
   grid.clear();
-  const double dx = grid.geometry().cell_size, per_cell = 1.0 / (dx * dx * dx);
+  const double dx = grid.geometry().cell_size, per_area = 1.0 / (dx * dx);
   scalars::scatter(BlockGrid::Points::particles, grid,
                    [&](Node& node, std::size_t p, double n, const Vector3&) {
                      const double volume = particles.volume[p] + particles.void_volume[p];
+                     const double per_cell = per_area / grid.geometry().depth(particles.position[p]);
                      node.first += Lanes{n * volume * per_cell, 0.0, 0.0, 0.0};
                    });
   if (elements.size() > 0) {

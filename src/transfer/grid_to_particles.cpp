@@ -65,11 +65,19 @@ double squared_change(Lanes velocity, const Vector3& former) {
   return sum3(change * change);
 }
 
-template <AffineField field>
+/// Adds the rate of the hoop, v_y/r, to the gradient of a ring: dv_z/dz.
+[[gnu::always_inline]] inline void add_hoop_rate(std::array<Lanes, 3>& gradient, double radial_velocity,
+                                                 double radius) {
+  gradient[2] += (radial_velocity / radius) * Lanes{0.0, 0.0, 1.0, 0.0};
+}
+
+/// @param radius  of a ring, where it was before the step (m); 0: not axisymmetric
+template <AffineField field, bool planar>
 [[gnu::always_inline]] inline TransferBalance update_particle(Particles& particles, std::size_t p, double dt,
                                                               const Advance<>& advance, Matrix3& gradient,
                                                               const Losses& losses,
-                                                              std::span<const Vector3> acceleration) {
+                                                              std::span<const Vector3> acceleration,
+                                                              double radius) {
   const double mean_stress = -(particles.pressure[p] + particles.artificial_viscosity[p]);
   const std::array<Lanes, 3> stress = stress_columns<0>(particles.deviatoric_stress[p], mean_stress);
   const double change = squared_change(advance.velocity, particles.velocity[p]);
@@ -78,9 +86,17 @@ template <AffineField field>
   const auto mean_gradient = [&](std::size_t a) {
     return advance.grid_velocity.gradient[a] - 0.5 * advance.increment.gradient[a];
   };
-  const std::array<Lanes, 3> mean = {mean_gradient(0), mean_gradient(1), mean_gradient(2)};
+  std::array<Lanes, 3> mean = {mean_gradient(0), mean_gradient(1), mean_gradient(2)};
+  std::array<Lanes, 3> l = advance.grid_velocity.gradient;
+  if constexpr (planar) {
+    if (radius > 0.0) {
+      const double radial = advance.grid_velocity.value[1];
+      add_hoop_rate(l, radial, radius);
+      add_hoop_rate(mean, radial - 0.5 * advance.increment.value[1], radius);
+    }
+  }
   const Lanes power = stress[0] * mean[0] + stress[1] * mean[1] + stress[2] * mean[2];
-  store_columns(gradient, advance.grid_velocity.gradient);
+  store_columns(gradient, l);
   const double mass = particles.mass[p], loss = advance.heat[0], volume_and_time = particles.volume[p] * dt;
   const double work = sum3(power) * volume_and_time;
   const double viscous_work =
@@ -88,7 +104,6 @@ template <AffineField field>
   const double heat_of_contact = advance.increment.value[3];  // docs/theory/contact.md, 4.6
   Booking booking{.heat = loss, .of_contact = heat_of_contact};
   if (losses.kept) {
-    const auto& l = advance.grid_velocity.gradient;
     const double divergence = l[0][0] + l[1][1] + l[2][2];
     booking = book_losses(losses, particles, p, loss, heat_of_contact, viscous_work / mass, divergence, dt);
     particles.unresolved_energy[p] += booking.kept - booking.returned;
@@ -184,6 +199,7 @@ template <class Shape, AffineField field>
 TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt, const Losses& losses,
                            const TakeGradients& take_gradients, std::span<const Vector3> acceleration,
                            const BeforeBorder& before_border) {
+  const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
   return gather_particles(
       grid, take_gradients, before_border,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
@@ -195,8 +211,9 @@ TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt, con
               prefetch(p + prefetch_distance, particles.affine_velocity);
             }
           }
-          balance +=
-              update_particle<field>(particles, p, dt, advance, gradients[place], losses, acceleration);
+          const double radius = radial ? particles.position[p][1] : 0.0;
+          balance += update_particle<field, Planar<Shape>>(particles, p, dt, advance, gradients[place], losses,
+                                                           acceleration, radius);
         };
         Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
                                         typename Kernels::template Transfer<field>{dt}, take);
@@ -207,6 +224,7 @@ template <class Shape, bool with_gradient>
 TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double dt, double relaxation,
                                   const TakeGradients& take_gradients, std::span<const Vector3> acceleration,
                                   const BeforeBorder& before_border) {
+  const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
   return gather_particles(
       grid, take_gradients, before_border,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
@@ -219,11 +237,14 @@ TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double 
               std::max(balance.squared_change, squared_change(updated, particles.velocity[p]));
           store_vector(velocity, updated);
           double* const position = particles.position[p].data();
+          const double radius = position[1];
           store_vector(position, load_vector(position) + dt * after);
           particles.specific_internal_energy[p] += increment[3];  // of contact
           if constexpr (with_gradient) {
             if (prefetches(p)) prefetch_state(particles, p);  // for who takes the gradients
-            gradients[place] = matrix(update.after.gradient);
+            std::array<Lanes, 3> l = update.after.gradient;
+            if (radial) add_hoop_rate(l, after[1], radius);
+            gradients[place] = matrix(l);
           }
           if (!acceleration.empty()) {
             balance.external_work += external_work(after, increment, particles.mass[p], acceleration[p], dt);
@@ -333,10 +354,13 @@ double gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& 
 
 double gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                                 const TakeGradients& take, const BeforeBorder& before_border) {
+  const bool radial = grid.geometry().is_axisymmetric();
   return gather_first(shape, particles, grid, take, before_border,
                       [&](std::size_t p, const ValueAndGradient<>& sums, Matrix3& gradient) WHIPPLE_INLINE {
                         if (prefetches(p)) prefetch_state(particles, p);  // for who takes the gradients
-                        gradient = matrix(sums.gradient);
+                        std::array<Lanes, 3> l = sums.gradient;
+                        if (radial) add_hoop_rate(l, sums.value[1], grid.radius_at_bin(p));
+                        gradient = matrix(l);
                       });
 }
 

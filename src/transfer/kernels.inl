@@ -27,14 +27,15 @@ template <class Shape, class Content = grid::Node>
 class ReachCopy {
  public:
   static constexpr int before = Shape::stencil.before(), edge = Shape::stencil.edge();
-  static constexpr int size = edge * edge * edge;
+  static constexpr int before_z = Shape::stencil.before_z(), edge_z = Shape::stencil.edge_z();
+  static constexpr int size = edge * edge * edge_z;
   static_assert(Shape::stencil.count <= edge - grid::block_edge + 1);
 
   /// The nodes of one particle.
   struct Stencil {
     Content* origin;
     Content& operator()(std::size_t i, std::size_t j, std::size_t k) const {
-      return origin[(i * edge + j) * edge + k];
+      return origin[(i * edge + j) * edge_z + k];
     }
   };
   /// @param first  node, as of grid::PlaceInStencil
@@ -57,7 +58,7 @@ class ReachCopy {
 
  private:
   static std::size_t index(int x, int y, int z) {
-    return static_cast<std::size_t>((x * edge + y) * edge + z);
+    return static_cast<std::size_t>((x * edge + y) * edge_z + z);
   }
 
   /// Calls f(nodes of the owning block, index in it, index here) for every node of the reach whose block is
@@ -65,7 +66,7 @@ class ReachCopy {
   template <class Grid, class Function>
   static void for_each_owner(Grid& grid, std::size_t slot, unsigned field, Function&& f) {
     static constexpr grid::ReachMap map = grid::reach_map();
-    constexpr int skipped = 1 - before;  // the map begins one node before the block
+    constexpr int skipped = 1 - before, skipped_z = 1 - before_z;  // the map begins one node before the block
     const auto& neighbours = grid.neighbours(slot);
     for (int x = 0; x < edge; ++x) {
       for (int y = 0; y < edge; ++y) {
@@ -78,14 +79,19 @@ class ReachCopy {
           if (owner == grid::BlockGrid::no_slot) return;
           auto* nodes = grid.nodes(static_cast<std::size_t>(owner), field);
           for (int z = from; z < to; ++z) {
-            f(nodes, row + map.node[static_cast<std::size_t>(z + skipped)], index(x, y, z));
+            f(nodes, row + map.node[static_cast<std::size_t>(z + skipped_z)], index(x, y, z));
           }
         };
-        using Number = std::integral_constant<int, before>;
-        using Behind = std::integral_constant<int, before + grid::block_edge>;
-        if constexpr (before > 0) part(0, std::integral_constant<int, 0>{}, Number{});
-        part(1, Number{}, Behind{});
-        part(2, Behind{}, std::integral_constant<int, edge>{});
+        using Number = std::integral_constant<int, before_z>;
+        using Behind = std::integral_constant<int, before_z + grid::block_edge>;
+        using End = std::integral_constant<int, edge_z>;
+        if constexpr (edge_z == 1) {
+          part(1, Number{}, End{});
+        } else {
+          if constexpr (before_z > 0) part(0, std::integral_constant<int, 0>{}, Number{});
+          part(1, Number{}, Behind{});
+          part(2, Behind{}, End{});
+        }
       }
     }
   }
@@ -103,27 +109,28 @@ class DirectAccess {
   class Stencil {
    public:
     grid::Node& operator()(std::size_t i, std::size_t j, std::size_t k) const {
-      return *node_[(i * count + j) * count + k];
+      return *node_[(i * count + j) * along_z + k];
     }
 
    private:
     friend class DirectAccess;
-    static constexpr std::size_t count = Shape::count;
-    std::array<grid::Node*, count * count * count> node_;
+    static constexpr std::size_t count = Shape::count, along_z = count_z<Shape>;
+    std::array<grid::Node*, count * count * along_z> node_;
   };
   /// @param first  node, as of grid::PlaceInStencil
   Stencil stencil(std::int32_t first) {
     static constexpr grid::ReachMap map = grid::reach_map();
-    constexpr int edge = Shape::stencil.edge(), skipped = 1 - Shape::stencil.before();
-    const int x = first / (edge * edge) + skipped, y = first / edge % edge + skipped,
-              z = first % edge + skipped;
+    constexpr int edge = Shape::stencil.edge(), edge_z = Shape::stencil.edge_z();
+    constexpr int skipped = 1 - Shape::stencil.before(), skipped_z = 1 - Shape::stencil.before_z();
+    const int x = first / (edge * edge_z) + skipped, y = first / edge_z % edge + skipped,
+              z = first % edge_z + skipped_z;
     Stencil all;
     grid::Node** next = all.node_.data();
     for (int i = x; i < x + Shape::count; ++i) {
       for (int j = y; j < y + Shape::count; ++j) {
         const auto ux = static_cast<std::size_t>(i), uy = static_cast<std::size_t>(j);
         const int row = grid::node_index(map.node[ux], map.node[uy], 0);
-        for (int k = z; k < z + Shape::count; ++k) {
+        for (int k = z; k < z + static_cast<int>(count_z<Shape>); ++k) {
           const auto uz = static_cast<std::size_t>(k);
           const std::int32_t owner = neighbours_[static_cast<std::size_t>(
               grid::neighbour_index(map.block[ux], map.block[uy], map.block[uz]))];
@@ -290,6 +297,31 @@ class Direction<QuadraticBSpline> {
   double per_cell_;
 };
 
+/// The one node along z of a stencil in a plane.
+struct FlatDirection {
+  static constexpr std::size_t n = 1;
+  using Values = std::array<Vector, n>;
+  Values distance{};
+
+  template <class Group>
+  WHIPPLE_INLINE FlatDirection(const Group&, std::size_t, double) {}
+  WHIPPLE_INLINE static Vector sum(const Values& f) { return f[0]; }
+  WHIPPLE_INLINE static void with_derivatives(const Values& f, Vector& of_weight, Vector& of_derivatives) {
+    of_weight = f[0];
+    of_derivatives = Vector{};
+  }
+  WHIPPLE_INLINE static void with_moments(const Values& f, Vector& of_weight, Vector& of_moments) {
+    of_weight = f[0];
+    of_moments = Vector{};
+  }
+};
+
+/// The directions x and y, and z.
+template <class Shape>
+using Along = Direction<typename AlongAxis<Shape>::type>;
+template <class Shape>
+using AlongZ = std::conditional_t<Planar<Shape>, FlatDirection, Along<Shape>>;
+
 enum class Slopes { derivatives, moments };
 
 /// Sums of one vector per node, built up direction by direction: along the rows in z, over the rows of a
@@ -303,14 +335,18 @@ struct NodeSums {
   };
   Values value, slope_y, slope_z;
 
-  WHIPPLE_INLINE static void add_up(const Direction& along, const Values& f, Vector& value, Vector& slope) {
+  template <class Any>
+  WHIPPLE_INLINE static void add_up(const Any& along, const typename Any::Values& f, Vector& value,
+                                    Vector& slope) {
     if constexpr (kind == Slopes::derivatives) {
       along.with_derivatives(f, value, slope);
     } else {
       along.with_moments(f, value, slope);
     }
   }
-  WHIPPLE_INLINE static void set_row(Rows& rows, std::size_t row, const Direction& z, const Values& f) {
+  template <class DirectionOfZ>
+  WHIPPLE_INLINE static void set_row(Rows& rows, std::size_t row, const DirectionOfZ& z,
+                                     const typename DirectionOfZ::Values& f) {
     add_up(z, f, rows.value[row], rows.slope[row]);
   }
   WHIPPLE_INLINE void set_plane(std::size_t plane, const Direction& y, const Rows& rows) {
@@ -333,25 +369,27 @@ struct NodeSums {
 template <bool affine, class Group>
 WHIPPLE_INLINE inline Moments<Vector> moments(const Group& group, double cell_size, Vector v,
                                               const std::array<Vector, 3>& c) {
-  using Along = Direction<typename Group::Shape>;
-  constexpr std::size_t n = Along::n;
-  const Along x(group, 0, cell_size), y(group, 1, cell_size), z(group, 2, cell_size);
-  NodeSums<Along, Slopes::derivatives> velocity, increment;
-  NodeSums<Along, Slopes::moments> change;
+  using InPlaneOrSpace = Along<typename Group::Shape>;
+  using AcrossPlane = AlongZ<typename Group::Shape>;
+  constexpr std::size_t n = InPlaneOrSpace::n, n_z = AcrossPlane::n;
+  const InPlaneOrSpace x(group, 0, cell_size), y(group, 1, cell_size);
+  const AcrossPlane z(group, 2, cell_size);
+  NodeSums<InPlaneOrSpace, Slopes::derivatives> velocity, increment;
+  NodeSums<InPlaneOrSpace, Slopes::moments> change;
   std::array<Vector, n> loss;
   for (std::size_t i = 0; i < n; ++i) {
     Vector field_x = v;
     if constexpr (affine) field_x = multiply_add(x.distance[i], c[0], field_x);
-    typename NodeSums<Along, Slopes::derivatives>::Rows row_velocity, row_increment;
-    typename NodeSums<Along, Slopes::moments>::Rows row_change;
+    typename NodeSums<InPlaneOrSpace, Slopes::derivatives>::Rows row_velocity, row_increment;
+    typename NodeSums<InPlaneOrSpace, Slopes::moments>::Rows row_change;
     std::array<Vector, n> row_loss;
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < n; ++j) {
       Vector field_y = field_x;
       if constexpr (affine) field_y = multiply_add(y.distance[j], c[1], field_y);
-      std::array<Vector, n> velocities, d, changed, lost;
+      std::array<Vector, n_z> velocities, d, changed, lost;
 #pragma GCC unroll 4
-      for (std::size_t k = 0; k < n; ++k) {
+      for (std::size_t k = 0; k < n_z; ++k) {
         const Vector first = group.first(i, j, k);
         Vector field = field_y;
         if constexpr (affine) field = multiply_add(z.distance[k], c[2], field);
@@ -383,18 +421,20 @@ WHIPPLE_INLINE inline Moments<Vector> moments(const Group& group, double cell_si
 /// Sums of one vector per node, value(i, j, k).
 template <class Group, class Value>
 WHIPPLE_INLINE inline ValueAndGradient<Vector> sums_of(const Group& group, double cell_size, Value&& value) {
-  using Along = Direction<typename Group::Shape>;
-  constexpr std::size_t n = Along::n;
-  const Along x(group, 0, cell_size), y(group, 1, cell_size), z(group, 2, cell_size);
-  NodeSums<Along, Slopes::derivatives> planes;
+  using InPlaneOrSpace = Along<typename Group::Shape>;
+  using AcrossPlane = AlongZ<typename Group::Shape>;
+  constexpr std::size_t n = InPlaneOrSpace::n, n_z = AcrossPlane::n;
+  const InPlaneOrSpace x(group, 0, cell_size), y(group, 1, cell_size);
+  const AcrossPlane z(group, 2, cell_size);
+  NodeSums<InPlaneOrSpace, Slopes::derivatives> planes;
 #pragma GCC unroll 4
   for (std::size_t i = 0; i < n; ++i) {
-    typename NodeSums<Along, Slopes::derivatives>::Rows rows;
+    typename NodeSums<InPlaneOrSpace, Slopes::derivatives>::Rows rows;
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < n; ++j) {
-      std::array<Vector, n> nodes;
+      std::array<Vector, n_z> nodes;
 #pragma GCC unroll 4
-      for (std::size_t k = 0; k < n; ++k) nodes[k] = value(i, j, k);
+      for (std::size_t k = 0; k < n_z; ++k) nodes[k] = value(i, j, k);
       planes.set_row(rows, j, z, nodes);
     }
     planes.set_plane(i, y, rows);
@@ -658,11 +698,16 @@ WHIPPLE_INLINE inline void add_payload(const Payload& load, const Weights<Shape:
                rows_z = shares(y.weight, planes_z[i]);
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < n; ++j) {
-      const auto share = shares(z.weight, z.slope, rows[j], rows_z[j]);
+      if constexpr (Planar<Shape>) {
+        grid::Node& node = nodes(i, j, 0);
+        store_node(node, load_node(node) + rows[j]);
+      } else {
+        const auto share = shares(z.weight, z.slope, rows[j], rows_z[j]);
 #pragma GCC unroll 4
-      for (std::size_t k = 0; k < n; ++k) {
-        grid::Node& node = nodes(i, j, k);
-        store_node(node, load_node(node) + share[k]);
+        for (std::size_t k = 0; k < n; ++k) {
+          grid::Node& node = nodes(i, j, k);
+          store_node(node, load_node(node) + share[k]);
+        }
       }
     }
   }
@@ -679,7 +724,7 @@ WHIPPLE_INLINE inline void add_payload(Lanes load, const Weights<Shape::count>& 
     for (std::size_t j = 0; j < n; ++j) {
       const Lanes a = broadcast(w.weight[j][1]) * a_x;
 #pragma GCC unroll 4
-      for (std::size_t k = 0; k < n; ++k) first_register(nodes(i, j, k)) += weight[k] * a;
+      for (std::size_t k = 0; k < count_z<Shape>; ++k) first_register(nodes(i, j, k)) += weight[k] * a;
     }
   }
 }
@@ -790,7 +835,7 @@ struct Kernels {
         }
         return;
       }
-      constexpr bool with_weights = !std::is_same_v<Shape, QuadraticBSpline>;
+      constexpr bool with_weights = !std::is_same_v<typename AlongAxis<Shape>::type, QuadraticBSpline>;
       const auto gather_some = [&](const auto& some, const auto& weights) WHIPPLE_INLINE {
         using Group = Group<Shape, std::remove_reference_t<decltype(access)>>;
         const std::size_t groups = (some.size() + together - 1) / together;

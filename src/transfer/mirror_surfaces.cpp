@@ -19,8 +19,17 @@ constexpr double reach_of_points = 3.0;
 
 /// Distances along the axes from the centre of a particle to its surface (m): of its domain at the beginning,
 /// or as it is followed, scaled to its present volume.
-Lanes half_thickness(const Particles& particles, std::size_t p) {
+Lanes half_thickness(const grid::Geometry& geometry, const Particles& particles, std::size_t p) {
   const double volume = particles.volume[p] + particles.void_volume[p];
+  if (geometry.is_planar()) {
+    const double area = volume / geometry.depth(particles.position[p]);
+    if (particles.extent.empty()) return broadcast(0.5 * std::sqrt(area));
+    const SymmetricTensor& extent = particles.extent[p];
+    const double box = 4.0 * std::sqrt(std::max(extent.xx * extent.yy - extent.xy * extent.xy, 0.0));
+    if (!(box > 0.0)) return broadcast(0.5 * std::sqrt(area));
+    const Lanes squared = {extent.xx, extent.yy, 0.0, 0.0};
+    return std::sqrt(area / box) * sqrt(squared);
+  }
   if (particles.extent.empty()) return broadcast(0.5 * std::cbrt(volume));
   const SymmetricTensor& extent = particles.extent[p];
   const double box = 8.0 * std::sqrt(std::max(extent.matrix().determinant(), 0.0));
@@ -77,7 +86,7 @@ void MirrorContact::extend(const Particles& particles, std::span<const Vector3> 
       const std::array<int, 3> from = in_stencil.first_node(Shape::stencil);
       for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t j = 0; j < count; ++j) {
-          for (std::size_t k = 0; k < count; ++k) {
+          for (std::size_t k = 0; k < count_z<Shape>; ++k) {
             if (!(w.weight[i][0] * w.weight[j][1] * w.weight[k][2] > 0.0)) continue;
             const auto at_x = static_cast<std::size_t>(from[0] + static_cast<int>(i) + 1);
             const auto at_y = static_cast<std::size_t>(from[1] + static_cast<int>(j) + 1);
@@ -99,7 +108,7 @@ void MirrorContact::extend(const Particles& particles, std::span<const Vector3> 
     grid.for_each_field(BlockGrid::Points::particles, slot,
                         [&](std::span<const std::uint32_t> members, unsigned field) {
                           extend_by(slot, field, BlockGrid::Points::particles, particles, members,
-                                    [&](std::uint32_t p) { return half_thickness(particles, p); });
+                                    [&](std::uint32_t p) { return half_thickness(geometry, particles, p); });
                         });
     if constexpr (CarriesAffineField<Shape>) {  // guests work with B-splines only
       grid.for_each_field(BlockGrid::Points::guests, slot,

@@ -48,6 +48,7 @@ struct OfParticles {
   const Particles& points;
   static constexpr auto kind = grid::BlockGrid::Points::particles;
 };
+template <bool axisymmetric>
 struct Everything : OfParticles {
   using Content = grid::Node;
   std::span<const Vector3> acceleration;
@@ -56,7 +57,8 @@ struct Everything : OfParticles {
              points.artificial_viscosity, points.deviatoric_stress);
     if (!points.affine_velocity.empty()) prefetch(p, points.affine_velocity);
   }
-  /// The internal force on node i is -V sigma . grad N_i, sigma = s - (p + q) I.
+  /// The internal force on node i is -V sigma . grad N_i, sigma = s - (p + q) I; of a ring of radius r also
+  /// -V sigma_zz N_i / r towards the axis.
   template <bool affine>
   [[nodiscard, gnu::always_inline]] Payload load(std::size_t p) const {
     const double mean = -(points.pressure[p] + points.artificial_viscosity[p]);
@@ -64,6 +66,10 @@ struct Everything : OfParticles {
     const Lanes minus_volume = -points.volume[p] * Lanes{0.0, 1.0, 1.0, 1.0};
     Payload out = inertia<affine>(points, p);
     if (!acceleration.empty()) out.b0 += times(points.mass[p], acceleration[p].data());
+    if constexpr (axisymmetric) {
+      const double hoop = points.deviatoric_stress[p].zz + mean;
+      out.b0[2] -= points.volume[p] * hoop / points.position[p][1];
+    }
     out.bx = minus_volume * stress[0];
     out.by = minus_volume * stress[1];
     out.bz = minus_volume * stress[2];
@@ -115,7 +121,12 @@ void particles_to_grid(ShapeFunction shape, const Particles& particles, grid::Bl
                        std::span<const Vector3> acceleration, const std::function<void()>& at_border) {
   grid.clear();
   with_shape(shape, [&]<class Shape>(Shape) {
-    scatter_all<Shape>(Everything{{particles}, acceleration}, grid, at_border);
+    if constexpr (Planar<Shape>) {
+      if (grid.geometry().is_axisymmetric()) {
+        return scatter_all<Shape>(Everything<true>{{particles}, acceleration}, grid, at_border);
+      }
+    }
+    scatter_all<Shape>(Everything<false>{{particles}, acceleration}, grid, at_border);
   });
 }
 

@@ -16,7 +16,12 @@ using grid::Node;
 /// Calls work(Shape{}) with the functions of the scalars.
 template <class Work>
 void with_scalar_shape(const BlockGrid& grid, Work&& work) {
-  grid.stencil().before() == 0 ? work(Linear{}) : work(QuadraticBSpline{});
+  const bool linear = grid.stencil().before() == 0;
+  if (grid.stencil().planar) {
+    linear ? work(InPlane<Linear>{}) : work(InPlane<QuadraticBSpline>{});
+  } else {
+    linear ? work(Linear{}) : work(QuadraticBSpline{});
+  }
 }
 
 /// Weights of a point whose place is that of the run's stencil, which may begin a node before that of
@@ -27,12 +32,15 @@ Weights<Shape::count> weights_in(const grid::Stencil& of_run, const grid::PlaceI
   Lanes from_first = place.from_first();
   std::int32_t first_node = place.first_node();
   if (of_run.shift != Shape::stencil.shift) {
-    constexpr int edge = Shape::stencil.edge();
+    constexpr int edge = Shape::stencil.edge(), edge_z = Shape::stencil.edge_z();
     const Lanes skipped = floor(from_first - broadcast(Shape::stencil.shift));
     from_first -= skipped;
-    first_node += static_cast<std::int32_t>((skipped[0] * edge + skipped[1]) * edge + skipped[2]);
+    const double along_z = Planar<Shape> ? 0.0 : skipped[2];
+    first_node += static_cast<std::int32_t>((skipped[0] * edge + skipped[1]) * edge_z + along_z);
   }
-  return {Shape::weights(from_first, cell_size), first_node};
+  Weights<Shape::count> w{Shape::weights(from_first, cell_size), first_node};
+  if constexpr (Planar<Shape>) set_flat(w);
+  return w;
 }
 
 /// Calls f(node, N, grad N) for the nodes of a point.
@@ -44,7 +52,7 @@ void for_each_node(BlockGrid::Points kind, std::size_t p, const BlockGrid& grid,
   const auto nodes = access.stencil(w.first_node);
   for (std::size_t i = 0; i < Shape::count; ++i) {
     for (std::size_t j = 0; j < Shape::count; ++j) {
-      for (std::size_t k = 0; k < Shape::count; ++k) {
+      for (std::size_t k = 0; k < count_z<Shape>; ++k) {
         const double wx = w.weight[i][0], wy = w.weight[j][1], wz = w.weight[k][2];
         const Vector3 gradient(w.derivative[i][0] * wy * wz, wx * w.derivative[j][1] * wz,
                                wx * wy * w.derivative[k][2]);

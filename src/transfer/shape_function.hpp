@@ -19,13 +19,34 @@
 /// product of three of them. Equations: docs/theory/mpm.md, section 2.
 namespace whipple::transfer {
 
-enum class ShapeFunction : std::uint8_t { linear, gimp, convected_gimp, quadratic_bspline, cubic_bspline };
+/// Kinds of shape functions, then the same in two dimensions (`in_plane`).
+enum class ShapeFunction : std::uint8_t {
+  linear,
+  gimp,
+  convected_gimp,
+  quadratic_bspline,
+  cubic_bspline,
+  planar_linear,
+  planar_gimp,
+  planar_convected_gimp,
+  planar_quadratic_bspline,
+  planar_cubic_bspline
+};
+
+/// The words of those that a case can name.
 constexpr std::array<Word<ShapeFunction>, 5> words(ShapeFunction) {
   return {{{ShapeFunction::quadratic_bspline, "quadratic_bspline"},
            {ShapeFunction::cubic_bspline, "cubic_bspline"},
            {ShapeFunction::convected_gimp, "convected_gimp"},
            {ShapeFunction::gimp, "gimp"},
            {ShapeFunction::linear, "linear"}}};
+}
+
+/// The kind that reaches nodes of the plane z = lower only.
+constexpr ShapeFunction in_plane(ShapeFunction kind) {
+  constexpr auto first = static_cast<std::uint8_t>(ShapeFunction::planar_linear);
+  const auto number = static_cast<std::uint8_t>(kind);
+  return number < first ? static_cast<ShapeFunction>(number + first) : kind;
 }
 
 /// Weights, derivatives and distances of the nodes that a particle reaches along one direction, from its
@@ -149,6 +170,31 @@ struct ConvectedGimp {
   }
 };
 
+/// A shape function in two dimensions: along z it is 1 at the one node that is reached, and its slope is 0.
+template <class Shape>
+struct InPlane : Shape {
+  using Spatial = Shape;
+  static constexpr ShapeFunction kind = in_plane(Shape::kind);
+  static constexpr grid::Stencil stencil{
+      .shift = Shape::stencil.shift, .count = Shape::stencil.count, .planar = true};
+};
+template <class Shape>
+concept Planar = Shape::stencil.planar;
+
+/// The function of one direction of the plane or of space.
+template <class Shape>
+struct AlongAxis {
+  using type = Shape;
+};
+template <Planar Shape>
+struct AlongAxis<Shape> {
+  using type = typename Shape::Spatial;
+};
+
+/// Nodes along z.
+template <class Shape>
+constexpr std::size_t count_z = Planar<Shape> ? 1 : static_cast<std::size_t>(Shape::count);
+
 /// True if the weights depend on the size of the particle.
 template <class Shape>
 concept Sized = requires { Shape::largest_half_size; };
@@ -171,6 +217,16 @@ decltype(auto) with_shape(ShapeFunction kind, Function&& f) {
       return f(QuadraticBSpline{});
     case ShapeFunction::cubic_bspline:
       return f(CubicBSpline{});
+    case ShapeFunction::planar_linear:
+      return f(InPlane<Linear>{});
+    case ShapeFunction::planar_gimp:
+      return f(InPlane<Gimp>{});
+    case ShapeFunction::planar_convected_gimp:
+      return f(InPlane<ConvectedGimp>{});
+    case ShapeFunction::planar_quadratic_bspline:
+      return f(InPlane<QuadraticBSpline>{});
+    case ShapeFunction::planar_cubic_bspline:
+      return f(InPlane<CubicBSpline>{});
   }
   throw InternalError("unknown shape function");
 }
@@ -214,6 +270,13 @@ template <std::size_t Count>
   return all;
 }
 
+/// Sets the weights of the one node along z.
+template <int Count>
+[[gnu::always_inline]] inline void set_flat(Weights<Count>& w) {
+  w.weight[0][2] = 1.0;
+  w.derivative[0][2] = w.distance[0][2] = 0.0;
+}
+
 /// Weights of all three directions for a particle, or another point.
 template <class Shape, class Points>
 [[gnu::always_inline]] inline Weights<Shape::count> weights_at(const Points& points, std::size_t p,
@@ -232,6 +295,11 @@ template <class Shape, class Points>
         all.distance[i][a] = axis.distance[i];
       }
     }
+    if constexpr (Planar<Shape>) set_flat(all);
+    return all;
+  } else if constexpr (Planar<Shape>) {
+    Weights<Shape::count> all{Shape::weights(from_first, cell_size), place.first_node()};
+    set_flat(all);
     return all;
   } else {
     return {Shape::weights(from_first, cell_size), place.first_node()};
