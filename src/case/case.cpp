@@ -112,6 +112,33 @@ void read_materials(Case& setup, const Faults& bodies) {
   }
 }
 
+/// Adds what cannot be in two dimensions.
+void check_planar(const Case& setup, const Faults& faults) {
+  const bool axisymmetric = setup.domain.dimension == grid::Dimension::axisymmetric;
+  const auto lies_in_plane = [&](const Vector3& v) { return v[2] == 0.0 && !(axisymmetric && v[1] != 0.0); };
+  const char* const expected = axisymmetric ? "along x, the axis" : "in the plane x, y";
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const Body& body = setup.bodies[b];
+    const Faults of_body = faults.in("body").in(b);
+    if (!lies_in_plane(body.velocity)) {
+      of_body.add("velocity", fmt::format("'velocity' must be {}", expected));
+    }
+    const Vector3& spin = body.angular_velocity;
+    if (spin[0] != 0.0 || spin[1] != 0.0 || (axisymmetric && spin[2] != 0.0)) {
+      of_body.add("angular_velocity", axisymmetric ? "nothing rotates in axisymmetry" : "rotation is about z");
+    }
+    if (body.discretization.has_elements() || body.discretization.is_bars()) {
+      of_body.add("discretization", "finite elements and bars need three dimensions: take particles");
+    }
+  }
+  if (!lies_in_plane(setup.gravity.acceleration)) {
+    faults.in("gravity").add("acceleration", fmt::format("'acceleration' must be {}", expected));
+  }
+  if (setup.splitting.length > 0.0) {
+    faults.in("splitting").add("length", "particles are divided in three dimensions only: leave it out");
+  }
+}
+
 bool can_be_placed(const Case& setup) {
   return std::ranges::all_of(setup.geometry.cells, [](std::int32_t count) { return count > 0; }) &&
          std::ranges::all_of(setup.bodies, [](const Body& body) { return body.shape != nullptr; });
@@ -127,6 +154,7 @@ std::vector<InputFault> settle(Case& setup) {
   const std::size_t of_files = list.size();
   if (setup.bodies.empty()) faults.add("body", "no bodies: expected at least one [[body]]");
   check_content(setup, setup, faults);
+  if (setup.domain.is_planar()) check_planar(setup, faults);
   // Only sound values can be placed.
   if (list.size() > of_files || !can_be_placed(setup)) return list;
   setup.contact_fields = find_contact_fields(setup);
@@ -142,6 +170,13 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   setup.file = document.path();
   input::Table root = document.root();
   root.accept("provenance");
+  if (const auto domain = root.optional_table("domain"); domain && domain->has("dimension")) {
+    Domain peeked;
+    input::Table table = *domain;
+    const auto all = Domain::parameters();
+    const auto dimension = std::ranges::find(all, "dimension", [](const auto& p) { return p.info.name; });
+    if (table.read(ParameterTable<Domain>{*dimension}, peeked) && peeked.is_planar()) document.set_planar();
+  }
   read_content(setup, setup, root);
   document.add(settle(setup));
   document.finish();

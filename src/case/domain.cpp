@@ -29,7 +29,11 @@ ParameterTable<Domain> Domain::parameters() {
           vector("upper", &Domain::upper, "m", range::any(),
                  "upper corner; moved outwards to whole cells at outflow faces"),
           real("cell_size", &Domain::cell_size, "m", range::positive(),
-               "edge of the cells of the background grid")};
+               "edge of the cells of the background grid"),
+          choice("dimension", &Domain::dimension,
+                 "three dimensions | a slice of 1 m of what is the same for all z | x along the axis, y >= 0 the "
+                 "radius, masses are those of whole rings; in two dimensions vectors have two components")
+              .optional()};
 }
 
 std::span<const Section<Domain>> Domain::sections() {
@@ -48,6 +52,7 @@ struct Count {
 };
 
 Count cells_along(const Domain& domain, Eigen::Index axis) {
+  if (domain.is_planar() && axis == 2) return {1.0, 1.0};
   const double exact = (domain.upper[axis] - domain.lower[axis]) / domain.cell_size;
   return {exact, std::round(exact)};
 }
@@ -60,6 +65,9 @@ grid::Geometry Domain::geometry() const {
   g.lower = lower;
   g.cell_size = cell_size;
   g.boundary = boundary.in_order();
+  g.dimension = dimension;
+  if (is_planar()) g.lower[2] = 0.0;
+  if (dimension == grid::Dimension::axisymmetric) g.boundary[2] = grid::Boundary::symmetry;  // the axis
   for (std::size_t a = 0; a < 3; ++a) {
     const Count count = cells_along(*this, static_cast<Eigen::Index>(a));
     if (!count.possible()) continue;
@@ -82,6 +90,22 @@ void Domain::check(const Case& setup, const Faults& faults) const {
                                       "along {}: {} m holds {:.6g} cells of {} m",
                                       "xyz"[a], word_of(end), "xyz"[a], upper[axis] - lower[axis], count.exact,
                                       cell_size));
+    }
+  }
+  if (is_planar()) {
+    const auto faces = boundary.in_order();
+    if (faces[4] != grid::Boundary::outflow || faces[5] != grid::Boundary::outflow) {
+      faults.add("boundary", "in two dimensions nothing reaches faces across z: leave 'z_lower' and 'z_upper' out");
+    }
+  }
+  if (dimension == grid::Dimension::axisymmetric) {
+    const grid::Boundary axis = boundary.y_lower;
+    if (lower[1] != 0.0) {
+      faults.add("lower", fmt::format("y is the radius and the axis the lower face: 'lower' has y = {} m, expected 0",
+                                      lower[1]));
+    }
+    if (axis != grid::Boundary::outflow && axis != grid::Boundary::symmetry) {
+      faults.add("boundary", "'y_lower' is the axis, a mirror plane: leave it out");
     }
   }
   if (boundary.any(grid::Boundary::separating) && setup.time.scheme == Scheme::usf) {

@@ -26,6 +26,7 @@ struct Domain {
   Vector3 lower = Vector3::Zero();  ///< m
   Vector3 upper = Vector3::Zero();  ///< m
   double cell_size = 0.0;           ///< m
+  grid::Dimension dimension = grid::Dimension::space;
   Faces boundary;
 
   static constexpr bool required = true;
@@ -33,7 +34,8 @@ struct Domain {
   static std::span<const Section<Domain>> sections();
   void check(const Case& setup, const Faults& faults) const;
 
-  /// Returns the grid of whole cells: walls lie on faces of cells, an outflow face at an upper end is moved
+  [[nodiscard]] bool is_planar() const { return dimension != grid::Dimension::space; }
+  /// Returns the grid of whole cells, in two dimensions one cell along z from z = 0 on: walls lie on faces of cells, an outflow face at an upper end is moved
   /// outwards to one. An axis along which `check` finds a fault may have no cells.
   [[nodiscard]] grid::Geometry geometry() const;
 };

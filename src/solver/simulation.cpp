@@ -55,11 +55,16 @@ transfer::Relaxation relaxation(const cases::TransferControl& control) {
   return {.kappa = control.kappa, .fixed = -1.0};
 }
 
+transfer::ShapeFunction shape_of(const cases::Case& setup) {
+  const transfer::ShapeFunction kind = setup.transfer.shape_function;
+  return setup.domain.is_planar() ? transfer::in_plane(kind) : kind;
+}
+
 }  // namespace
 
 Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator)
     : setup_(setup),
-      shape_(setup.transfer.shape_function),
+      shape_(shape_of(setup)),
       communicator_(communicator),
       grid_(setup.geometry, communicator) {
   if (parallel::rank(communicator) == 0) {
@@ -92,7 +97,7 @@ Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator)
 Simulation::Simulation(const cases::Case& setup, Particles particles, const RunState& state,
                        MPI_Comm communicator, std::vector<fem::Mesh> meshes, std::vector<fem::Bars> bars)
     : setup_(setup),
-      shape_(setup.transfer.shape_function),
+      shape_(shape_of(setup)),
       communicator_(communicator),
       particles_(std::move(particles)),
       meshes_(std::move(meshes)),

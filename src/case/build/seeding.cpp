@@ -39,19 +39,32 @@ double wanted_spacing(const Case& setup, const Body& body) {
   return setup.geometry.cell_size / std::cbrt(static_cast<double>(body.discretization.per_cell));
 }
 
+/// Returns the box around a body; in two dimensions around its section, one particle thick.
+Shape::Bounds bounds_of(const Case& setup, const Body& body) {
+  Shape::Bounds bounds = body.shape->bounds();
+  if (setup.geometry.is_planar()) {
+    const double half = 0.5 * wanted_spacing(setup, body);
+    bounds.lower[2] = setup.geometry.lower[2] - half;
+    bounds.upper[2] = setup.geometry.lower[2] + half;
+  }
+  return bounds;
+}
+
 Shape::Bounds common_part(const Shape::Bounds& a, const Shape::Bounds& b) {
   return {a.lower.cwiseMax(b.lower), a.upper.cwiseMin(b.upper)};
 }
 
 Shape::Bounds domain_of(const Case& setup) {
   const grid::Geometry& g = setup.geometry;
-  return {g.lower, Vector3(g.upper(0), g.upper(1), g.upper(2))};
+  Shape::Bounds domain{g.lower, Vector3(g.upper(0), g.upper(1), g.upper(2))};
+  if (g.is_planar()) domain.lower[2] -= g.cell_size;
+  return domain;
 }
 
 /// Points of the lattice of a body inside the domain, before it is made: the number may be beyond any
 /// integer.
 double lattice_size(const Case& setup, const Body& body) {
-  const Shape::Bounds inside = common_part(body.shape->bounds(), domain_of(setup));
+  const Shape::Bounds inside = common_part(bounds_of(setup, body), domain_of(setup));
   return ((inside.upper - inside.lower).cwiseMax(0.0) / wanted_spacing(setup, body)).prod();
 }
 
@@ -62,7 +75,7 @@ std::optional<std::string> too_many(const Case& setup, const Body& body) {
   constexpr double longest_edge = 1e12;   // beyond it round-off joins neighbours
   const bool elements = body.discretization.has_elements();
   const Vector3 edges =
-      (body.shape->bounds().upper - body.shape->bounds().lower) /
+      (bounds_of(setup, body).upper - bounds_of(setup, body).lower) /
       (elements ? body.discretization.size(setup.domain.cell_size) : wanted_spacing(setup, body));
   const double count = elements ? edges.prod() : lattice_size(setup, body);
   const double most = elements ? most_elements : most_particles;
@@ -76,7 +89,7 @@ std::optional<std::string> too_many(const Case& setup, const Body& body) {
 /// The lattice divides the bounding box evenly, so that faces of boxes and ends of cylinders are met exactly;
 /// a body that a mirror plane halves gets an even number, so that its image continues the lattice.
 Lattice lattice_of(const Case& setup, const Body& body) {
-  const Shape::Bounds bounds = body.shape->bounds();
+  const Shape::Bounds bounds = bounds_of(setup, body);
   const double wanted = wanted_spacing(setup, body);
   Lattice lattice;
   lattice.lower = bounds.lower;
@@ -124,15 +137,17 @@ std::optional<Site> whole_site(const Case& setup, const Body& body, const Lattic
 std::optional<Site> partial_site(const Case& setup, const Body& body, const Lattice& lattice,
                                  const Vector3& point) {
   constexpr int parts = 4;
-  constexpr double all = parts * parts * parts;
-  const Vector3 part = lattice.spacing / parts;
+  const int parts_z = setup.geometry.is_planar() ? 1 : parts;
+  const double all = parts * parts * parts_z;
+  const Vector3 part(lattice.spacing[0] / parts, lattice.spacing[1] / parts, lattice.spacing[2] / parts_z);
+  const Vector3 middle(0.5 * (parts - 1), 0.5 * (parts - 1), 0.5 * (parts_z - 1));
   double count = 0;
   Vector3 first = Vector3::Zero();
   Matrix3 second = Matrix3::Zero();
   for (int i = 0; i < parts; ++i) {
     for (int j = 0; j < parts; ++j) {
-      for (int k = 0; k < parts; ++k) {
-        const Vector3 offset = part.cwiseProduct(Vector3(i, j, k) - Vector3::Constant(0.5 * (parts - 1)));
+      for (int k = 0; k < parts_z; ++k) {
+        const Vector3 offset = part.cwiseProduct(Vector3(i, j, k) - middle);
         if (!inside_domain(setup, point + offset) || !body.shape->contains(point + offset)) continue;
         count += 1;
         first += offset;
@@ -223,6 +238,7 @@ Allotment allotment_of(const Case& setup, const Body& body, const Lattice& latti
 /// Volume of the particles of a body over that of the part of its shape inside the domain, less 1; 0 where a
 /// mirror plane cuts the body elsewhere than in its middle, so that this part is not known.
 double excess_volume(const Case& setup, const Body& body) {
+  if (setup.geometry.is_planar()) return 0.0;
   const Lattice lattice = lattice_of(setup, body);
   const Shape::Bounds bounds = body.shape->bounds(), domain = domain_of(setup);
   const double tolerance = 1e-9 * setup.geometry.cell_size;
@@ -245,7 +261,7 @@ bool boxes_meet(const Shape::Bounds& a, const Shape::Bounds& b) {
 /// A fault where a particle of one of two bodies lies in the other: the one may lie between the particles of
 /// the other.
 std::optional<std::string> overlap(const Case& setup, const Body& body, const Body& former) {
-  const Shape::Bounds bounds = body.shape->bounds(), theirs = former.shape->bounds();
+  const Shape::Bounds bounds = bounds_of(setup, body), theirs = bounds_of(setup, former);
   if (!boxes_meet(bounds, theirs)) return std::nullopt;
   const Shape::Bounds both = common_part(bounds, theirs);
   Vector3 at;
@@ -273,7 +289,7 @@ std::vector<std::uint8_t> faces_touched(const Case& setup) {
   for (std::size_t b = 0; b < faces.size(); ++b) {
     const Body& body = setup.bodies[b];
     if (body.discretization.is_bars()) continue;  // they share the field of the material around
-    const Shape::Bounds bounds = body.shape->bounds();
+    const Shape::Bounds bounds = bounds_of(setup, body);
     const Lattice lattice = lattice_of(setup, body);
     for (int face = 0; face < 6; ++face) {
       const int a = face / 2;
@@ -310,9 +326,9 @@ std::vector<PlacementFault> placement_faults(const Case& setup) {
   if (!faults.empty()) return faults;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Body& body = setup.bodies[b];
-    const Shape::Bounds bounds = body.shape->bounds();
+    const Shape::Bounds bounds = bounds_of(setup, body);
     const double tolerance = 1e-9 * setup.geometry.cell_size;
-    for (int face = 0; face < 6; ++face) {
+    for (int face = 0; face < (setup.geometry.is_planar() ? 4 : 6); ++face) {
       const int a = face / 2;
       const bool beyond = face % 2 == 0 ? bounds.lower[a] < setup.geometry.lower[a] - tolerance
                                         : bounds.upper[a] > setup.geometry.upper(a) + tolerance;
@@ -362,7 +378,9 @@ std::vector<std::string> placement_warnings(const Case& setup) {
   for (const Body& body : setup.bodies) {
     if (body.discretization.is_bars() || body.discretization.has_elements()) continue;
     Eigen::Index axis = 0;
-    const double thickness = (body.shape->bounds().upper - body.shape->bounds().lower).minCoeff(&axis);
+    const Shape::Bounds bounds = bounds_of(setup, body);
+    const double thickness =
+        (bounds.upper - bounds.lower).head(setup.geometry.is_planar() ? 2 : 3).minCoeff(&axis);
     if (thickness < (1.0 - 1e-9) * cell) {
       warnings.push_back(fmt::format(
           "body \"{}\" is thinner than a cell: {:.4g} mm along {}, cells of {:.4g} mm; the grid sees "
@@ -426,21 +444,25 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     particles.extent.resize(end);
     const eos::State state = body.initial.of(material);
     const double density = body_density(material, state);
-    const double mass = density * lattice.spacing.prod();
-    const Shape::Bounds bounds = body.shape->bounds();
+    const bool planar = setup.geometry.is_planar();
+    const double area = lattice.spacing[0] * lattice.spacing[1];
+    const double mass = density * lattice.spacing.prod();  // of a whole site in three dimensions
+    const Shape::Bounds bounds = bounds_of(setup, body);
     const Vector3 center = 0.5 * (bounds.lower + bounds.upper);
     const Vector3& w = body.angular_velocity;
     Matrix3 spin;
     spin << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
     std::size_t index = 0;
     for_each_site(setup, body, lattice, [&](const Site& site) {
+      const double mass_of_site = planar ? density * area * setup.geometry.depth(site.position) : mass;
+      if (planar) summary.mass += mass_of_site * site.share;
       if (!allotment.takes(site)) return;
       const std::size_t number = index++;
       if (number < begin || number >= behind) return;
       const std::size_t p = summary.first + number - begin;
       particles.id[p] = first_id + number;
       particles.body[p] = static_cast<std::uint32_t>(b);
-      particles.mass[p] = mass * allotment.share(site);
+      particles.mass[p] = mass_of_site * allotment.share(site);
       particles.position[p] = site.position;
       particles.velocity[p] = body.velocity + spin * (site.position - center);
       particles.affine_velocity[p] = spin;
@@ -453,9 +475,9 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       particles.failure_threshold_factor[p] =
           body.failure_scatter.factor(particles.id[p], lattice.spacing.prod());
     }
-    summary.mass = mass * allotment.volume;
+    if (!planar) summary.mass = mass * allotment.volume;
     first_id += allotment.particles;
-    summary.shape_mass = density * body.shape->volume();
+    summary.shape_mass = planar ? summary.mass : density * body.shape->volume();
     seeding.bodies.push_back(summary);
   }
   if (setup.has_elements()) {

@@ -50,6 +50,7 @@ struct ParameterInfo {
   bool required = true;
   std::vector<std::string> choices;  ///< accepted words; empty: any
   std::string default_text = {};     ///< what `describe` shows as default; empty: the value
+  double across = 0.0;               ///< third component of a vector that is given in a plane
 };
 
 /// An enumeration's value behind its words, whatever its type.
@@ -99,6 +100,11 @@ struct Parameter {
   [[nodiscard]] Parameter optional(std::string default_text) && {
     info.required = false;
     info.default_text = std::move(default_text);
+    return std::move(*this);
+  }
+  /// The third component of a vector of which two are given, in problems in a plane.
+  [[nodiscard]] Parameter in_plane(double across) && {
+    info.across = across;
     return std::move(*this);
   }
 };

@@ -27,6 +27,7 @@ namespace whipple::input {
 struct Document::State {
   std::filesystem::path path;
   bool needs_units = false;  ///< a bare number has none
+  bool planar = false;       ///< vectors may have two components
   toml::table root;
   std::vector<InputFault> errors;  // sorted by position when thrown
   std::map<const toml::table*, std::set<std::string, std::less<>>>
@@ -105,6 +106,13 @@ void read_into(Vector3* target, const toml::node& node, const ParameterInfo& inf
   if (array.size() != 3) throw InputError(fmt::format("has {} entries, expected 3", array.size()));
   for (int i = 0; i < 3; ++i) (*target)[i] = read_real(array[static_cast<std::size_t>(i)], info);
 }
+/// Reads a vector of a problem in a plane: two components, or three.
+void read_in_plane(Vector3* target, const toml::node& node, const ParameterInfo& info) {
+  const toml::array& array = read_array(node, "a list of two numbers with units");
+  if (array.size() == 3) return read_into(target, node, info);
+  if (array.size() != 2) throw InputError(fmt::format("has {} entries, expected 2", array.size()));
+  *target = {read_real(array[0], info), read_real(array[1], info), info.across};
+}
 void read_into(std::vector<double>* target, const toml::node& node, const ParameterInfo& info) {
   const toml::array& array = read_array(node, "a list of numbers with units");
   std::vector<double> values;
@@ -128,9 +136,13 @@ void require_units(const toml::node& node, const ParameterInfo& info) {
 }
 
 /// Reads into a copy of the target and commits it only if the value is admissible.
-void read_checked(const BoundParameter& parameter, const toml::node& node) {
-  const auto read = [&](auto& value) {
-    read_into(&value, node, parameter.info);
+void read_checked(const BoundParameter& parameter, const toml::node& node, bool planar) {
+  const auto read = [&]<class Value>(Value& value) {
+    if constexpr (std::is_same_v<Value, Vector3>) {
+      planar ? read_in_plane(&value, node, parameter.info) : read_into(&value, node, parameter.info);
+    } else {
+      read_into(&value, node, parameter.info);
+    }
     const std::string fault = check({parameter.info, ParameterTarget(&value)});
     if (!fault.empty()) throw InputError(fault);
   };
@@ -312,6 +324,8 @@ Table Document::root() {
 
 const std::filesystem::path& Document::path() const { return state_->path; }
 
+void Document::set_planar() { state_->planar = true; }
+
 void Document::finish() {
   report_unknown(*state_, state_->root, "");
   finish_partly_read();
@@ -355,7 +369,7 @@ bool Table::read(std::span<const BoundParameter> parameters) {
     }
     try {
       if (state_->needs_units) require_units(*node, info);
-      read_checked(parameter, *node);
+      read_checked(parameter, *node, state_->planar);
     } catch (const InputError& fault) {
       sound = false;
       error_at(info.name, fmt::format("'{}' {}", info.name, fault.what()));

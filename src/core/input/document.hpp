@@ -36,6 +36,8 @@ class Document {
 
   Table root();
   [[nodiscard]] const std::filesystem::path& path() const;
+  /// From here on vectors may have two components; the third is then `ParameterInfo::across`.
+  void set_planar();
 
   /// Adds what a check has found wrong with the values, each fault at the place of its key, or of the table
   /// nearest to it. Faults at, above or below a key that already has one are dropped: the value that was
