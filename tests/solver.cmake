@@ -4,7 +4,7 @@ whipple_test(test_transfer STARTS_MPI
           verification/transfer_conduction_test.cpp
   DEPENDS whipple_transfer LABELS fast)
 whipple_test(test_solver STARTS_MPI
-  SOURCES unit/case_in_code_test.cpp verification/solver_planar_impact_test.cpp verification/solver_taylor_bar_test.cpp verification/solver_elastic_test.cpp
+  SOURCES unit/case_in_code_test.cpp verification/solver_planar_test.cpp verification/solver_planar_impact_test.cpp verification/solver_taylor_bar_test.cpp verification/solver_elastic_test.cpp
           verification/solver_contact_test.cpp verification/solver_bars_test.cpp verification/solver_element_contact_test.cpp verification/solver_orders_test.cpp
           verification/solver_methods_test.cpp verification/solver_failure_test.cpp
           verification/solver_viscous_test.cpp verification/solver_wall_test.cpp validation/solver_debris_cloud_test.cpp

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Two dimensions: plane strain is three dimensions with nothing along z; rings keep energy and axial momentum exactly;
+// uniform pressure, Noh's problem, an expanding ring and a Taylor bar against exact solutions and three dimensions.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "tests/verification/exact/runs.hpp"
+#include "tests/verification/solver_problems.hpp"
+
+namespace whipple::verification {
+namespace {
+
+using exact::start_with;
+using testing::HasSubstr;
+
+std::string gas() {
+  return write_material("planar_gas", R"toml(
+name = "gas"
+source = "units of the verification problems"
+[eos]
+model = "ideal_gas"
+source = "units of the verification problems"
+reference_density = "1 kg/m^3"
+heat_capacity_ratio = 1.6666666666666667
+heat_capacity = "1e-9 J/(kg K)"
+reference_temperature = "1e3 K"
+[strength]
+model = "none"
+)toml");
+}
+
+cases::Case read(const std::string& text) { return cases::read_case_text(text, "planar.toml"); }
+
+// --- Plane strain ------------------------------------------------------------------------------------------
+
+std::string planar_impact(bool plane, const Method& method) {
+  const std::string walls = plane ? "boundary = { y_lower = \"symmetry\", y_upper = \"symmetry\" }\n"
+                                    "dimension = \"plane_strain\"\n"
+                                  : "boundary = { y_lower = \"symmetry\", y_upper = \"symmetry\", z_lower = "
+                                    "\"symmetry\", z_upper = \"symmetry\" }\n";
+  const auto corner = [&](double x, double y) {
+    return plane ? fmt::format("[{}, {}]", x, y) : fmt::format("[{}, {}, {}]", x, y, y);
+  };
+  const auto body = [&](const char* name, double velocity, double lower, double upper) {
+    return fmt::format("[[body]]\nname = \"{}\"\nmaterial = \"{}\"\nvelocity = {}\nshape = {{ box = {{ lower = {}, "
+                       "upper = {} }} }}\n",
+                       name, aluminium("planar_aluminium", "290 MPa"), corner(velocity, 0.0), corner(lower, 0.0),
+                       corner(upper, 3e-4));
+  };
+  return method.time_toml(0.15e-6) + method.toml() + "[output]\nmaximum_energy_error = 10.0\n[domain]\nlower = " +
+         corner(-3e-3, 0.0) + "\nupper = " + corner(3e-3, 3e-4) + "\ncell_size = 1e-4\n" + walls +
+         body("left", 400.0, -1e-3, 0.0) + body("right", -400.0, 0.0, 1.5e-3);
+}
+
+/// Values of the particles along x, of which several stand at each place.
+std::map<long, std::array<double, 5>> profile(const std::string& text) {
+  const cases::Case setup = read(text);
+  solver::Simulation simulation(setup, parallel::world());
+  const std::vector<Vector3> start = exact::positions_by_id(simulation.particles());
+  run_to(simulation, setup.time.end);
+  std::map<long, std::array<double, 5>> profile;
+  const Particles& q = simulation.particles();
+  for (std::size_t p = 0; p < q.size(); ++p) {
+    profile[std::lround(1e9 * start[q.id[p]][0])] = {q.position[p][0], q.velocity[p][0], q.pressure[p],
+                                                     q.deviatoric_stress[p].zz, q.specific_internal_energy[p]};
+  }
+  return profile;
+}
+
+TEST(PlaneStrain, PlanarImpactEqualsThreeDimensionsWithEveryShapeFunction) {
+  constexpr std::array<double, 5> scale = {1e-3, 400.0, 7e9, 2e8, 8e4};
+  for (const char* function : {"quadratic_bspline", "cubic_bspline", "convected_gimp", "gimp", "linear"}) {
+    for (const char* scheme : {"symplectic", "musl", "usl", "usf"}) {
+      Method method;
+      method.shape_function = function;
+      method.scheme = scheme;
+      const bool exact = std::string(scheme) == "symplectic";
+      if (!exact && std::string(function) != "linear" && std::string(function) != "quadratic_bspline") continue;
+      method.particle_update = exact && std::string(function).ends_with("bspline") ? "relaxed_affine" : "flip";
+      SCOPED_TRACE(std::string(function) + " " + scheme);
+      const auto space = profile(planar_impact(false, method)), plane = profile(planar_impact(true, method));
+      ASSERT_EQ(space.size(), plane.size());
+      for (const auto& [x, values] : space) {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          ASSERT_NEAR(plane.at(x)[i], values[i], 1e-10 * scale[i]) << x << " " << i;
+        }
+      }
+    }
+  }
+}
+
+// --- Rings -------------------------------------------------------------------------------------------------
+
+std::string ball_on_plate(const std::string& more = {}) {
+  return R"(
+[time]
+end = "1.5 us"
+)" + more + R"(
+[domain]
+dimension = "axisymmetric"
+lower = ["-6 mm", "0 mm"]
+upper = ["8 mm", "9 mm"]
+cell_size = "0.25 mm"
+[[body]]
+name = "ball"
+material = "copper.toml"
+velocity = ["3 km/s", "0 m/s"]
+shape = { sphere = { center = ["-2 mm", "0 mm"], radius = "2 mm" } }
+[[body]]
+name = "plate"
+material = "aluminium.toml"
+shape = { box = { lower = ["0 mm", "-8 mm"], upper = ["2 mm", "8 mm"] } }
+)";
+}
+
+TEST(Axisymmetric, EnergyAxialMomentumAndTheMassOfTheBodyAreExact) {
+  const cases::Case setup = read(ball_on_plate());
+  solver::Simulation simulation(setup, parallel::world());
+  const double density = setup.materials[0]->reference.density;
+  EXPECT_NEAR(simulation.bodies()[0].mass, density * 4.0 / 3.0 * std::numbers::pi * 8e-9, 2e-3 * density * 3.35e-8);
+  const double momentum = simulation.totals().momentum[0];
+  EnergyWatch watch;
+  run_to(simulation, setup.time.end, std::ref(watch));
+  EXPECT_LT(watch.worst, 1e-12);
+  EXPECT_NEAR(simulation.totals().momentum[0], momentum, 1e-12 * momentum);
+  double least = 1.0;
+  for (const Vector3& x : simulation.particles().position) least = std::min(least, x[1]);
+  EXPECT_GT(least, 0.0);  // nothing crosses the axis
+  EXPECT_GT(simulation.particles().size(), 400U);
+}
+
+TEST(Axisymmetric, UniformPressureIsInEquilibriumAtTheAxis) {
+  // Gas of pressure 1 Pa in a closed cylinder: what moves does so by the quadrature of the first two cells.
+  const std::string text = fmt::format(R"(
+[time]
+end = 0.5
+[domain]
+dimension = "axisymmetric"
+lower = [0, 0]
+upper = [0.4, 1]
+cell_size = 0.05
+boundary = {{ x_lower = "symmetry", x_upper = "symmetry", y_upper = "symmetry" }}
+[[body]]
+name = "gas"
+material = "{}"
+initial = {{ density = 1, pressure = 1 }}
+shape = {{ box = {{ lower = [0, -1], upper = [0.4, 1] }} }}
+)",
+                                       gas());
+  const cases::Case setup = read(text);
+  solver::Simulation simulation(setup, parallel::world());
+  double fastest = 0.0;
+  run_to(simulation, setup.time.end, [&](const solver::Simulation& s) {
+    for (const Vector3& v : s.particles().velocity) fastest = std::max(fastest, v.norm());
+  });
+  EXPECT_LT(fastest, 0.005 * std::sqrt(5.0 / 3.0));
+  const Particles& q = simulation.particles();
+  for (std::size_t p = 0; p < q.size(); ++p) ASSERT_NEAR(q.pressure[p], 1.0, 0.01);
+}
+
+/// Mean density of cylindrical Noh (exact: 16) between two radii, and the radius of the shock (exact: 0.2).
+std::pair<double, double> noh(int cells) {
+  const cases::Case setup = read(fmt::format(R"(
+[time]
+end = 0.6
+[domain]
+dimension = "axisymmetric"
+lower = [0, 0]
+upper = [{0}, 1.2]
+cell_size = {1:.17g}
+boundary = {{ x_lower = "symmetry", x_upper = "symmetry" }}
+[[body]]
+name = "gas"
+material = "{2}"
+initial = {{ density = 1, pressure = 1e-6 }}
+shape = {{ box = {{ lower = [0, -1], upper = [{0}, 1] }} }}
+)",
+                                             4.0 / cells, 1.0 / cells, gas()));
+  solver::Simulation simulation = start_with(setup, [](Particles& particles) {
+    for (Vector3& v : particles.velocity) v = Vector3(0.0, -1.0, 0.0);
+  });
+  EnergyWatch watch;
+  run_to(simulation, setup.time.end, std::ref(watch));
+  EXPECT_LT(watch.worst, 1e-12);
+  const Particles& q = simulation.particles();
+  double mass = 0.0, volume = 0.0, front = 0.0;
+  for (std::size_t p = 0; p < q.size(); ++p) {
+    const double r = q.position[p][1], rho = q.mass[p] / q.volume[p];
+    if (r > 0.08 && r < 0.15) mass += q.mass[p], volume += q.volume[p];
+    if (rho > 10.0) front = std::max(front, r);
+  }
+  std::printf("cylindrical Noh, %d cells: plateau %.2f (16), shock at %.4f (0.2), energy error %.1e\n", cells,
+              mass / volume, front, watch.worst);
+  return {mass / volume, front};
+}
+
+TEST(Axisymmetric, NohConvergesWithFirstOrder) {
+  const auto [coarse, front_coarse] = noh(100);
+  const auto [fine, front_fine] = noh(200);
+  EXPECT_NEAR(coarse, 16.0, 2.0);
+  EXPECT_LT(16.0 - fine, 0.7 * (16.0 - coarse));
+  EXPECT_LT(std::abs(front_fine - 0.2), 0.7 * std::abs(front_coarse - 0.2));
+}
+
+TEST(Axisymmetric, ExpandingRingStopsWhereItsPlasticWorkIsDone) {
+  // rho v^2/2 = Y (epsilon - Y/(2 E)), R = R0 exp(epsilon): 33.37 mm.
+  const double yield = 300e6, speed = 150.0, rho = 2785.0, bulk = rho * 5328.0 * 5328.0, shear = 27.6e9;
+  const double young = 9.0 * bulk * shear / (3.0 * bulk + shear);
+  const double exact = 30e-3 * std::exp(0.5 * rho * speed * speed / yield + 0.5 * yield / young);
+  const cases::Case setup = read(fmt::format(R"(
+[time]
+end = "60 us"
+[domain]
+dimension = "axisymmetric"
+lower = ["-3 mm", "0 mm"]
+upper = ["3 mm", "40 mm"]
+cell_size = "0.5 mm"
+[[body]]
+name = "ring"
+material = "{}"
+shape = {{ box = {{ lower = ["-1 mm", "29 mm"], upper = ["1 mm", "31 mm"] }} }}
+)",
+                                             aluminium("planar_ring", "300 MPa")));
+  solver::Simulation simulation =
+      start_with(setup, [&](Particles& particles) { for (Vector3& v : particles.velocity) v[1] = speed; });
+  double largest = 0.0;
+  EnergyWatch watch;
+  run_to(simulation, setup.time.end, [&](const solver::Simulation& s) {
+    watch(s);
+    double mass = 0.0, moment = 0.0;
+    for (std::size_t p = 0; p < s.particles().size(); ++p) {
+      mass += s.particles().mass[p];
+      moment += s.particles().mass[p] * s.particles().position[p][1];
+    }
+    largest = std::max(largest, moment / mass);
+  });
+  std::printf("expanding ring: stops at %.3f mm (%.3f), energy error %.1e\n", 1e3 * largest, 1e3 * exact, watch.worst);
+  EXPECT_NEAR(largest, exact, 5e-4 * exact);
+  EXPECT_LT(watch.worst, 1e-12);
+}
+
+// --- Input -------------------------------------------------------------------------------------------------
+
+std::string error_of(const std::string& text) {
+  try {
+    read(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(TwoDimensions, WhatNeedsThreeIsRefusedWithTheReason) {
+  const std::string text = ball_on_plate();
+  EXPECT_EQ(error_of(text), "");
+  EXPECT_THAT(error_of(replaced(text, "[\"-6 mm\", \"0 mm\"]", "[\"-6 mm\", \"-1 mm\"]")), HasSubstr("y is the radius"));
+  EXPECT_THAT(error_of(replaced(text, "[\"3 km/s\", \"0 m/s\"]", "[\"3 km/s\", \"1 m/s\"]")),
+              HasSubstr("must be along x, the axis"));
+  EXPECT_THAT(error_of(text + "discretization = { method = \"finite_elements\" }\n"), HasSubstr("three dimensions"));
+  EXPECT_THAT(error_of(text + "angular_velocity = [\"0 rad/s\", \"0 rad/s\", \"1 rad/s\"]\n"),
+              HasSubstr("nothing rotates in axisymmetry"));
+  EXPECT_THAT(error_of(ball_on_plate("[gravity]\nacceleration = [\"0 m/s^2\", \"9.81 m/s^2\"]\n")),
+              HasSubstr("along x"));
+  EXPECT_THAT(error_of(replaced(text, "dimension = \"axisymmetric\"\n", "")), HasSubstr("has 2 entries, expected 3"));
+  EXPECT_THAT(error_of(replaced(text, "axisymmetric", "2d")), HasSubstr("plane_strain"));
+}
+
+}  // namespace
+}  // namespace whipple::verification
