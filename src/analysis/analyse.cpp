@@ -227,6 +227,7 @@ void write_frame(const Run& run, const Start& start, const hdf5::Group& root) {
   group.set_attribute("up", static_cast<std::int64_t>(frame.transverse[0]));
   group.set_attribute("sight", static_cast<std::int64_t>(frame.transverse[1]));
   group.set_attribute("copies", frame.copies());
+  group.set_attribute("dimension", word_of(frame.dimension));
   group.set_attribute("impact_speed", frame.impact_speed);
   group.set_attribute("impact_angle", frame.impact_angle);
   group.set_attribute("projectile", std::string_view(run.bodies[frame.projectile].name));
@@ -272,7 +273,7 @@ Quantities final_values(const Table& series, const Run& run, const Start& start)
 }
 
 /// Says why values are missing.
-void explain(const Quantities& values) {
+void explain(const Quantities& values, bool planar) {
   struct Reason {
     const char* begin;
     const char* text;
@@ -286,12 +287,15 @@ void explain(const Quantities& values) {
        {"radi", "no debris flies forward, or it has come to the border of the domain"},
        {"outermost", "no debris flies forward, or it has come to the border of the domain"},
        {"pullback", "the forward surface was not slowed by a tenth after its greatest velocity"}}};
+  constexpr const char* of_rings = "in two dimensions a connected piece of the section is a ring or a bar, no fragment";
   std::map<std::string, std::vector<std::string>> missing;
   for (const Quantity& value : values) {
     if (std::isfinite(value.value)) continue;
     const auto reason =
         std::ranges::find_if(reasons, [&](const Reason& r) { return value.name.starts_with(r.begin); });
-    missing[reason == reasons.end() ? "nothing to measure it on" : reason->text].push_back(value.name);
+    const bool fragment = planar && value.name.find("fragment") != std::string::npos;
+    missing[fragment ? of_rings : reason == reasons.end() ? "nothing to measure it on" : reason->text].push_back(
+        value.name);
   }
   for (const auto& [text, names] : missing) log::info("not measured: {} ({})", fmt::join(names, ", "), text);
 }
@@ -347,7 +351,11 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
   }
   const double link = options.link > 0.0 ? options.link : run.cell_size;
   const std::vector<Fragment> fragments = find_fragments(last, frame, link);
-  append(values, fragment_measures(fragments, start.projectile_mass, start.particle_mass));
+  Quantities of_fragments = fragment_measures(fragments, start.projectile_mass, start.particle_mass);
+  if (frame.is_planar()) {
+    for (Quantity& value : of_fragments) value.value = nan;
+  }
+  append(values, std::move(of_fragments));
 
   std::vector<Table> tables = {std::move(series), body_table(last, frame, run.bodies),
                                fragment_table(fragments, frame), fragment_distribution(fragments)};
@@ -362,7 +370,7 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
     tables.push_back(std::move(witness.rings));
     tables.push_back(std::move(witness.flux));
   }
-  explain(values);
+  explain(values, frame.is_planar());
   Table quantities{.name = "quantities",
                    .meaning = "final values",
                    .label = "quantity",

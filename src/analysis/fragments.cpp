@@ -214,7 +214,7 @@ Table fragment_table(const std::vector<Fragment>& fragments, const Frame& frame)
   for (const Fragment& f : fragments) {
     const Vector3 offset = f.position - frame.centre;
     table.append(
-        {{"mass", "kg", "of one fragment, completed at mirror planes", f.mass},
+        {{"mass", "kg", "of one fragment, completed at mirror planes; in axisymmetry of the whole ring", f.mass},
          {"copies", "1", "such fragments in the full problem", f.copies},
          {"particles", "1", "particles in the model", static_cast<double>(f.particles)},
          {"body", "1", "body of the largest share of the mass", static_cast<double>(f.body)},
@@ -227,7 +227,8 @@ Table fragment_table(const std::vector<Fragment>& fragments, const Frame& frame)
          {"velocity_x", "m/s", "velocity of the centre of mass", f.velocity.x()},
          {"velocity_y", "m/s", "velocity of the centre of mass", f.velocity.y()},
          {"velocity_z", "m/s", "velocity of the centre of mass", f.velocity.z()},
-         {"diameter", "m", "of the sphere of the same volume", 2.0 * std::cbrt(f.volume * 0.238732414637843)},
+         {"diameter", "m", "of the sphere of the same volume", 
+          frame.is_planar() ? nan : 2.0 * std::cbrt(f.volume * 0.238732414637843)},
          {"temperature", "K", "mean by mass", f.temperature},
          {"melted_fraction", "1", "mass fraction of liquid and vapour", f.melted_fraction},
          {"internal_energy", "J/kg", "mean by mass", f.internal_energy}});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace whipple::analysis {
 
@@ -29,6 +30,22 @@ Frame Frame::at_face(double coordinate) const {
   }
   moved.start = coordinate;
   return moved;
+}
+
+double Frame::area_between(double inner, double outer) const {
+  if (dimension == grid::Dimension::plane_strain) return 2.0 * (outer - inner) * grid::unit_depth;
+  return std::numbers::pi * (outer * outer - inner * inner);
+}
+
+double Frame::edge(double volume, const Vector3& position) const {
+  switch (dimension) {
+    case grid::Dimension::plane_strain:
+      return std::sqrt(volume / grid::unit_depth);
+    case grid::Dimension::axisymmetric:
+      return std::sqrt(volume / (2.0 * std::numbers::pi * radius(position)));
+    default:
+      return std::cbrt(volume);
+  }
 }
 
 bool Frame::mirrored(int direction) const {
@@ -59,6 +76,8 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
   const bool at_rest = std::ranges::all_of(velocity, [](const Vector3& v) { return v.isZero(0.0); });
   if (at_rest && last != nullptr) velocity = mean_velocities(run, *last);
   Frame frame;
+  frame.dimension = run.dimension;
+  if (run.dimension == grid::Dimension::axisymmetric) axis = 0;
   std::size_t slowest = 0;
   Vector3 least = velocity[0], greatest = least;
   for (std::size_t b = 0; b < velocity.size(); ++b) {
@@ -105,9 +124,11 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
     frame.planes.push_back({a, *plane});
     frame.centre[a] = *plane;
   }
+  if (run.dimension == grid::Dimension::axisymmetric) frame.centre[1] = 0.0;  // not that of the sections of rings
   // A half model is seen across its mirror plane, which may hold an oblique flight.
   other.insert(other.end(), mirrored.begin(), mirrored.end());
   frame.transverse = {other[0], other[1]};
+  if (frame.is_planar()) frame.transverse = {frame.axis == 0 ? 1 : 0, 2};
   return frame;
 }
 

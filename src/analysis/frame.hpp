@@ -13,6 +13,7 @@ struct Plane {
 
 /// Where the impact is: the frame in which everything is measured.
 struct Frame {
+  grid::Dimension dimension = grid::Dimension::space;
   int axis = 2;                      ///< of the flight: the direction in which the bodies approach each other
   double sign = 1.0;                 ///< +1: the projectile flies up along the axis
   Vector3 centre = Vector3::Zero();  ///< a point of the axis; its axial coordinate is 0
@@ -25,6 +26,7 @@ struct Frame {
   Vector3 direction = Vector3::Zero();  ///< of the flight: relative velocity over its axial component
   std::array<int, 2> transverse = {0, 1};  ///< upward in pictures; sight, across the only mirror plane
 
+  [[nodiscard]] bool is_planar() const { return dimension != grid::Dimension::space; }
   /// How many models make the full problem: 4 for a quarter model.
   [[nodiscard]] double copies() const { return static_cast<double>(1U << planes.size()); }
   /// Returns this frame about the point at which the line of flight meets an axial coordinate (m).
@@ -35,6 +37,10 @@ struct Frame {
   [[nodiscard]] double radius(const Vector3& position) const;
   /// Component of the velocity away from the axis; its magnitude across the axis on the axis itself.
   [[nodiscard]] double radial_speed(const Vector3& position, const Vector3& velocity) const;
+  /// Area (m^2) between two distances from the axis: of a ring; in plane strain of the strips on both sides.
+  [[nodiscard]] double area_between(double inner, double outer) const;
+  /// Edge (m) of the square, in three dimensions of the cube, that a particle of volume `volume` (m^3) fills.
+  [[nodiscard]] double edge(double volume, const Vector3& position) const;
   /// Returns whether the model ends at a mirror plane in this direction.
   [[nodiscard]] bool mirrored(int direction) const;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "src/core/base/error.hpp"
 #include "src/core/parallel/threads.hpp"
@@ -45,7 +46,7 @@ void PictureLimits::include(const Snapshot& snapshot, const Frame& frame) {
   upper_axial = std::max(upper_axial, weighted_quantile(axial, 1.0 - edge));
   lower_up = std::min(lower_up, weighted_quantile(up, edge));
   upper_up = std::max(upper_up, weighted_quantile(up, 1.0 - edge));
-  if (frame.mirrored(frame.transverse[0])) {
+  if (frame.mirrored(frame.transverse[0]) || frame.dimension == grid::Dimension::axisymmetric) {
     upper_up = std::max(upper_up, -lower_up);
     lower_up = -upper_up;
   }
@@ -111,11 +112,19 @@ Radiograph take_radiograph(const Snapshot& snapshot, const Frame& frame, const P
     const double x = (frame.axial(offset) - picture.lower_axial) / options.pixel;
     const double up = offset[frame.transverse[0]], amount = per_area * snapshot.mass[i];
     // A particle of vapour or of spray fills its volume, voids included.
-    const double edge = std::clamp(std::cbrt(volumes[i]) / options.pixel, 1.0, widest);
-    deposit(image, picture.rows, picture.columns, x, (up - picture.lower_up) / options.pixel, edge, amount);
-    if (reflect)
-      deposit(image, picture.rows, picture.columns, x, (-up - picture.lower_up) / options.pixel, edge,
-              amount);
+    const double edge = std::clamp(frame.edge(volumes[i], snapshot.position[i]) / options.pixel, 1.0, widest);
+    const auto add = [&](double height, double part) {
+      deposit(image, picture.rows, picture.columns, x, (height - picture.lower_up) / options.pixel, edge,
+              part * amount);
+    };
+    if (frame.dimension == grid::Dimension::axisymmetric) {
+      // A ring by points a pixel apart at equal angles, of which each stands for those before and behind the axis.
+      const int points = static_cast<int>(std::ceil(std::numbers::pi * std::abs(up) / (edge * options.pixel))) + 1;
+      for (int k = 0; k < points; ++k) add(up * std::cos(std::numbers::pi * (k + 0.5) / points), 1.0 / points);
+    } else {
+      add(up, 1.0);
+      if (reflect) add(-up, 1.0);
+    }
   }
   constexpr double width_of_sigma = 2.3548200450309493;  // full width at half maximum, 2 sqrt(2 ln 2)
   picture.transmission.assign(picture.rows * picture.columns, 0.0);

@@ -36,11 +36,13 @@ void read_domain(input::Table table, Run& run) {
     boundary->read(cases::Faces::parameters(), domain.boundary);
   }
   run.cell_size = domain.cell_size;
+  run.dimension = domain.dimension;
   run.lower = domain.lower;
   run.upper = domain.upper;
   const std::array<grid::Boundary, 6> faces = domain.boundary.in_order();
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<Eigen::Index>(a);
+    if ((domain.dimension == grid::Dimension::axisymmetric && a == 1) || (domain.is_planar() && a == 2)) continue;
     if (faces[2 * a + 1] == grid::Boundary::symmetry) run.mirror_planes[a] = domain.upper[axis];
     if (faces[2 * a] == grid::Boundary::symmetry) run.mirror_planes[a] = domain.lower[axis];
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/core/base/tensor.hpp"
+#include "src/grid/geometry.hpp"
 
 /// Measures of a finished or running run, from run.toml and the snapshots alone (docs/theory/analysis.md).
 /// SI.
@@ -35,7 +36,9 @@ struct Run {
   std::string title;
   double cell_size = 0.0;
   Vector3 lower = Vector3::Zero(), upper = Vector3::Zero();  ///< corners of the domain
-  /// Position of the mirror plane normal to each axis, if there is one (the lower one of two).
+  grid::Dimension dimension = grid::Dimension::space;
+  /// Position of the mirror plane normal to each axis, if there is one (the lower one of two). The axis of rings and
+  /// the plane of two dimensions are none: masses are those of whole rings, or of a slice.
   std::array<std::optional<double>, 3> mirror_planes;
   std::vector<BodyInput> bodies;
   std::vector<SnapshotEntry> snapshots;

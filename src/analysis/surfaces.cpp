@@ -37,7 +37,8 @@ double on_axis(const RingField& field, std::size_t layer) {
 
 RingField::RingField(const Snapshot& snapshot, const Frame& frame, double size, double lower, double upper,
                      double radius, const std::function<bool(std::size_t)>& chosen, bool wall_at_upper)
-    : size_(size),
+    : frame_(frame),
+      size_(size),
       lower_(lower),
       rings_(bins(radius, size)),
       layers_(bins(upper - lower, size)),
@@ -65,7 +66,8 @@ RingField::RingField(const Snapshot& snapshot, const Frame& frame, double size, 
 }
 
 double RingField::ring_area(std::size_t ring) const {
-  return std::numbers::pi * size_ * size_ * (2.0 * static_cast<double>(ring) + 1.0);
+  const double inner = size_ * static_cast<double>(ring);
+  return frame_.area_between(inner, inner + size_);
 }
 
 double RingField::cross_section(std::size_t layer) const {

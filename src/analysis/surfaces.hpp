@@ -36,6 +36,7 @@ class RingField {
   [[nodiscard]] double thickness(std::size_t ring) const;
 
  private:
+  Frame frame_;
   double size_, lower_;
   std::size_t rings_, layers_;
   std::vector<double> volume_;  // of the full problem, layer by layer

@@ -32,7 +32,8 @@ ParameterTable<Domain> Domain::parameters() {
                "edge of the cells of the background grid"),
           choice("dimension", &Domain::dimension,
                  "three dimensions | a slice of 1 m of what is the same for all z | x along the axis, y >= 0 the "
-                 "radius, masses are those of whole rings; in two dimensions vectors have two components")
+                 "radius, masses are those of whole rings; in two dimensions the section z = 0 counts, and vectors "
+                 "may have two components")
               .optional()};
 }
 
@@ -94,7 +95,10 @@ void Domain::check(const Case& setup, const Faults& faults) const {
   }
   if (is_planar()) {
     const auto faces = boundary.in_order();
-    if (faces[4] != grid::Boundary::outflow || faces[5] != grid::Boundary::outflow) {
+    const auto counts = [](grid::Boundary face) {
+      return face != grid::Boundary::outflow && face != grid::Boundary::symmetry;
+    };
+    if (counts(faces[4]) || counts(faces[5])) {
       faults.add("boundary", "in two dimensions nothing reaches faces across z: leave 'z_lower' and 'z_upper' out");
     }
   }

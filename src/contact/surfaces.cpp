@@ -74,7 +74,10 @@ class HalfThickness {
  public:
   HalfThickness(const grid::Geometry& geometry, const Particles& particles, std::size_t p)
       : extent_(particles.extent[p].matrix()) {
-    if (geometry.is_planar()) return set_planar(geometry, particles, p);
+    if (geometry.is_planar()) {
+      set_planar(geometry, particles, p);
+      return;
+    }
     const double box = 8.0 * std::sqrt(std::max(extent_.determinant(), 0.0));
     const double volume = particles.volume[p] + particles.void_volume[p];
     scale_ = std::cbrt(box > 0.0 ? volume / box : volume);

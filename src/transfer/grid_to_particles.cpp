@@ -161,7 +161,7 @@ constexpr auto particle_kind = BlockGrid::Points::particles;
 
 /// gather(kernels, slot, sum of the slot, gradients of its particles), on threads; the gradients are handed
 /// on stretch by stretch, unless nobody wants them. @returns the sum of the sums
-template <class Gather>
+template <class Shape, class Gather>
 TransferBalance gather_particles(BlockGrid& grid, const TakeGradients& take,
                                  const BeforeBorder& before_border, Gather&& gather) {
   std::vector<TransferBalance> of_slot(grid.slots());
@@ -182,7 +182,7 @@ TransferBalance gather_particles(BlockGrid& grid, const TakeGradients& take,
           take(grid.particles_by_block().subspan(begin, size), std::span(gradients).first(size));
     }
   };
-  with_kernels([&](auto kernels) {
+  with_kernels<Shape>([&](auto kernels) {
     parallel::for_each_uneven(interior.size(), [&](std::size_t s) {
       grid.progress();
       gather_stretch(kernels, interior[s]);
@@ -200,7 +200,7 @@ TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt, con
                            const TakeGradients& take_gradients, std::span<const Vector3> acceleration,
                            const BeforeBorder& before_border) {
   const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
-  return gather_particles(
+  return gather_particles<Shape>(
       grid, take_gradients, before_border,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
         const auto take = [&](std::size_t place, std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
@@ -225,7 +225,7 @@ TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double 
                                   const TakeGradients& take_gradients, std::span<const Vector3> acceleration,
                                   const BeforeBorder& before_border) {
   const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
-  return gather_particles(
+  return gather_particles<Shape>(
       grid, take_gradients, before_border,
       [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance& balance, Matrix3* gradients) {
         const auto take = [&](std::size_t place, std::size_t p,
@@ -286,7 +286,7 @@ namespace {
 template <class Shape, AffineField field>
 void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt) {
   constexpr auto kind = BlockGrid::Points::guests;
-  with_kernels([&]<class Kernels>(Kernels) {
+  with_kernels<Shape>([&]<class Kernels>(Kernels) {
     parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
       if (grid.guests_in(slot).empty()) return;
       const auto take = [&](std::size_t, std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
@@ -309,7 +309,9 @@ void grid_to_nodes(ShapeFunction shape, TransitionNodes& nodes, BlockGrid& grid,
                    AffineField affine) {
   using enum AffineField;
   with_shape(shape, [&]<class Shape>(Shape) {
-    if constexpr (CarriesAffineField<Shape>) {
+    if constexpr (Planar<Shape>) {
+      throw InternalError("elements need three dimensions");
+    } else if constexpr (CarriesAffineField<Shape>) {
       if (affine == none) return move_nodes<Shape, none>(nodes, grid, dt);
       if (affine == deformed) return move_nodes<Shape, deformed>(nodes, grid, dt);
       return move_nodes<Shape, turned>(nodes, grid, dt);
@@ -338,7 +340,7 @@ template <class TakeSums>
 double gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                     const TakeGradients& take, const BeforeBorder& before_border, TakeSums&& take_sums) {
   return with_shape(shape, [&]<class Shape>(Shape) {
-    return gather_particles(
+    return gather_particles<Shape>(
                grid, take, before_border,
                [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, Matrix3* gradients) {
                  const auto each = [&](std::size_t place, std::size_t p, const ValueAndGradient<>& sums)

@@ -195,11 +195,13 @@ WHIPPLE_INLINE inline void store_node(grid::Node& node, Both value) {
 #endif
 #endif
 
-/// Calls f(Kernels{}) with the set that the processor runs.
-template <class Function>
+/// Calls f(Kernels{}) with the set that the processor runs. Rows of nodes in a plane are too short for wide registers.
+template <class Shape, class Function>
 void with_kernels(Function&& f) {
 #if WHIPPLE_WIDE_KERNELS
-  if (wide_registers()) return f(wide::Kernels{});
+  if constexpr (!Planar<Shape>) {
+    if (wide_registers()) return f(wide::Kernels{});
+  }
 #endif
   f(narrow::Kernels{});
 }

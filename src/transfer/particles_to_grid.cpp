@@ -48,10 +48,11 @@ struct OfParticles {
   const Particles& points;
   static constexpr auto kind = grid::BlockGrid::Points::particles;
 };
-template <bool axisymmetric>
+template <bool planar>
 struct Everything : OfParticles {
   using Content = grid::Node;
   std::span<const Vector3> acceleration;
+  bool rings;  ///< of axisymmetry
   WHIPPLE_INLINE void prefetch_from(std::size_t p) const {
     prefetch(p, points.mass, points.velocity, points.sound_speed, points.volume, points.pressure,
              points.artificial_viscosity, points.deviatoric_stress);
@@ -66,9 +67,9 @@ struct Everything : OfParticles {
     const Lanes minus_volume = -points.volume[p] * Lanes{0.0, 1.0, 1.0, 1.0};
     Payload out = inertia<affine>(points, p);
     if (!acceleration.empty()) out.b0 += times(points.mass[p], acceleration[p].data());
-    if constexpr (axisymmetric) {
+    if constexpr (planar) {
       const double hoop = points.deviatoric_stress[p].zz + mean;
-      out.b0[2] -= points.volume[p] * hoop / points.position[p][1];
+      if (rings) out.b0[2] -= points.volume[p] * hoop / points.position[p][1];
     }
     out.bx = minus_volume * stress[0];
     out.by = minus_volume * stress[1];
@@ -108,7 +109,7 @@ void scatter_all(const What& what, grid::BlockGrid& grid, const std::function<vo
   const auto scatter = [&](std::size_t slot) {
     grid.progress();
     if (grid.members(What::kind, slot).empty()) return;
-    with_kernels([&]<class Kernels>(Kernels) { Kernels::template scatter<Shape>(what, grid, slot); });
+    with_kernels<Shape>([&]<class Kernels>(Kernels) { Kernels::template scatter<Shape>(what, grid, slot); });
   };
   grid.for_each_apart(grid::BlockGrid::Region::border, scatter);
   if (at_border) at_border();
@@ -121,18 +122,14 @@ void particles_to_grid(ShapeFunction shape, const Particles& particles, grid::Bl
                        std::span<const Vector3> acceleration, const std::function<void()>& at_border) {
   grid.clear();
   with_shape(shape, [&]<class Shape>(Shape) {
-    if constexpr (Planar<Shape>) {
-      if (grid.geometry().is_axisymmetric()) {
-        return scatter_all<Shape>(Everything<true>{{particles}, acceleration}, grid, at_border);
-      }
-    }
-    scatter_all<Shape>(Everything<false>{{particles}, acceleration}, grid, at_border);
+    const bool rings = grid.geometry().is_axisymmetric();
+    scatter_all<Shape>(Everything<Planar<Shape>>{{particles}, acceleration, rings}, grid, at_border);
   });
 }
 
 void nodes_to_grid(ShapeFunction shape, const TransitionNodes& nodes, grid::BlockGrid& grid) {
   with_shape(shape, [&]<class Shape>(Shape) {
-    if constexpr (CarriesAffineField<Shape>) scatter_all<Shape>(OfNodes{nodes}, grid);
+    if constexpr (CarriesAffineField<Shape> && !Planar<Shape>) scatter_all<Shape>(OfNodes{nodes}, grid);
   });
 }
 

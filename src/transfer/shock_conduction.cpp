@@ -147,7 +147,7 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
 
     grid.for_each_apart([&](std::size_t slot) {
       if (taking_part[slot] == 0 || grid.particles_in(slot).empty()) return;
-      with_kernels([&]<class Kernels>(Kernels) {
+      with_kernels<Shape>([&]<class Kernels>(Kernels) {
         Kernels::template scatter<Shape>(Capacity{particles, exchange}, grid, slot);
       });
     });
@@ -167,7 +167,7 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
     parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {  // (eq. 9)
       if (taking_part[slot] == 0 || grid.particles_in(slot).empty()) return;
       double sum = 0.0;
-      with_kernels([&]<class Kernels>(Kernels) {
+      with_kernels<Shape>([&]<class Kernels>(Kernels) {
         const auto take = [&](std::size_t, std::size_t p, const ValueAndGradient<>& sums) WHIPPLE_INLINE {
           const double gain =
               exchange.heat_capacity(p) * (sums.value[0] - sums.value[1] * particles.temperature[p]);

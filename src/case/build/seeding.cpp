@@ -132,12 +132,11 @@ std::optional<Site> whole_site(const Case& setup, const Body& body, const Lattic
   return Site{point, 1.0, {half[0] * half[0], half[1] * half[1], half[2] * half[2], 0, 0, 0}};
 }
 
-/// The part of a cell that lies in the body, by the points of a lattice four times as fine: its volume,
-/// centroid and second moments.
+/// The part of a cell that lies in the body, by the points of a lattice four times as fine, in two dimensions twelve
+/// times: its volume, centroid and second moments.
 std::optional<Site> partial_site(const Case& setup, const Body& body, const Lattice& lattice,
                                  const Vector3& point) {
-  constexpr int parts = 4;
-  const int parts_z = setup.geometry.is_planar() ? 1 : parts;
+  const int parts = setup.geometry.is_planar() ? 12 : 4, parts_z = setup.geometry.is_planar() ? 1 : parts;
   const double all = parts * parts * parts_z;
   const Vector3 part(lattice.spacing[0] / parts, lattice.spacing[1] / parts, lattice.spacing[2] / parts_z);
   const Vector3 middle(0.5 * (parts - 1), 0.5 * (parts - 1), 0.5 * (parts_z - 1));
@@ -199,6 +198,13 @@ void for_each_site(const Case& setup, const Body& body, const Lattice& lattice, 
     f(site);
     return false;
   });
+}
+
+/// The place of a ring: the centre of mass of a small part of it, as far from the axis as makes a uniform pressure
+/// nearly balanced there: r + (mean square distance of the section from r) / r.
+Vector3 centre_of_mass(const Site& site) {
+  const double r = site.position[1];
+  return {site.position[0], r + site.extent.yy / (3.0 * r), site.position[2]};
 }
 
 /// Which sites of a body become particles, and of how much volume. A particle of a few per cent of a cell is
@@ -454,6 +460,7 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     spin << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
     std::size_t index = 0;
     for_each_site(setup, body, lattice, [&](const Site& site) {
+      // The volume of a ring is its area times the way of its section's centroid (Pappus).
       const double mass_of_site = planar ? density * area * setup.geometry.depth(site.position) : mass;
       if (planar) summary.mass += mass_of_site * site.share;
       if (!allotment.takes(site)) return;
@@ -463,7 +470,7 @@ Seeding seed(const Case& setup, int rank, int ranks) {
       particles.id[p] = first_id + number;
       particles.body[p] = static_cast<std::uint32_t>(b);
       particles.mass[p] = mass_of_site * allotment.share(site);
-      particles.position[p] = site.position;
+      particles.position[p] = setup.geometry.is_axisymmetric() ? centre_of_mass(site) : site.position;
       particles.velocity[p] = body.velocity + spin * (site.position - center);
       particles.affine_velocity[p] = spin;
       particles.extent[p] = site.extent;
