@@ -84,8 +84,7 @@ class Analysis:
                                  np.array([frame[f"centre_{a}"] for a in AXES]), float(frame["impact_speed"]),
                                  str(frame["projectile"]), float(frame["impact_angle"]), int(frame["copies"]),
                                  {i: float(frame[f"plane_{a}"]) for i, a in enumerate(AXES) if f"plane_{a}" in frame})
-        self.final = {name: float(value) for name, value in file["quantities"].attrs.items()
-                      if name not in ("meaning", "label", "labels")}
+        self.final = {name: float(value) for name, value in file["quantities"].attrs.items()}
         self.tables = {name: {column: data[:] for column, data in file[name].items()}
                        for name in file if name not in ("frame", "quantities", "radiographs")}
         self.units = {name: {column: data.attrs["unit"] for column, data in file[name].items()}

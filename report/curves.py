@@ -150,13 +150,13 @@ def fragment_figure(analysis: Analysis) -> Figure | None:
 
 
 def surface_figure(analysis: Analysis) -> Figure | None:
-    """Draws crater and holes over time; None if there are none."""
+    """Draws craters, penetration and holes over time; None if there are none."""
     series = analysis.series
-    craters = (("crater_depth", "crater, depth"), ("crater_diameter", "crater, diameter"))
-    shown = [(name, label) for name, label in craters
-             if name in series and np.isfinite(series[name]).any()]
-    shown += [(name, f"{name.split('.')[1]}, hole") for name in series
-              if name.startswith("hole_diameter.") and np.nanmax(series[name], initial=0.0) > 0]
+    labels = {"crater_depth": "depth of the crater", "crater_diameter": "diameter of the crater",
+              "penetration_depth": "depth of penetration", "hole_diameter": "hole"}
+    shown = [(name, f"{body}, {labels[measure]}") for name in series
+             for measure, _, body in [name.partition(".")]
+             if measure in labels and (np.nan_to_num(series[name]) > 0).any()]
     if not shown:
         return None
     figure, (ax,) = new_figure(1)

@@ -31,6 +31,20 @@ Frame Frame::at_face(double coordinate) const {
   return moved;
 }
 
+Frame Frame::along(int other) const {
+  Frame turned = *this;
+  if (other == axis) return turned;
+  turned.axis = other;
+  turned.sign = direction[other] >= 0.0 ? 1.0 : -1.0;
+  turned.centre[axis] = sign * start;
+  turned.start = turned.sign * turned.centre[other];
+  turned.centre[other] = 0.0;
+  turned.direction = direction / std::abs(direction[other]);
+  turned.impact_angle = std::acos(std::min(1.0, 1.0 / turned.direction.norm()));
+  turned.transverse = {axis, transverse[0] == other ? transverse[1] : transverse[0]};
+  return turned;
+}
+
 bool Frame::mirrored(int direction) const {
   return std::ranges::any_of(planes, [&](const Plane& plane) { return plane.axis == direction; });
 }
@@ -96,8 +110,8 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
   for (int a = 0; a < 3; ++a) {
     const std::optional<double>& plane = run.mirror_planes[static_cast<std::size_t>(a)];
     if (a == frame.axis) {
-      // A body flies against it: the face of a wall, not of a model cut in halves.
-      if (plane) frame.wall = frame.sign * *plane;
+      // The projectile flies against it: the face of a wall, not of a model cut in halves.
+      if (plane && !at_rest && frame.sign * *plane > frame.start) frame.wall = frame.sign * *plane;
       continue;
     }
     (plane ? mirrored : other).push_back(a);

@@ -29,6 +29,9 @@ struct Frame {
   [[nodiscard]] double copies() const { return static_cast<double>(1U << planes.size()); }
   /// Returns this frame about the point at which the line of flight meets an axial coordinate (m).
   [[nodiscard]] Frame at_face(double coordinate) const;
+  /// Returns this frame along another axis of the model, in which the line of flight goes forward too. It must not be
+  /// normal to a mirror plane.
+  [[nodiscard]] Frame along(int other) const;
   /// Component or coordinate along the flight.
   [[nodiscard]] double axial(const Vector3& v) const { return sign * v[axis]; }
   /// Distance from the axis.

@@ -90,12 +90,15 @@ double first_surface(const std::vector<double>& fractions, double size) {
   return nan;
 }
 
-Crater measure_crater(const Snapshot& snapshot, const Frame& frame, double face, double rear,
+Crater measure_crater(const Snapshot& snapshot, const Frame& frame, std::size_t body, double face, double rear,
                       double cell_size) {
+  const auto mine = [&](std::size_t i) { return snapshot.body[i] == body; };
+  double outermost = 0.0;
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    if (mine(i)) outermost = std::max(outermost, frame.radius(snapshot.position[i]));
+  }
   // Layer boundaries lie on the original surface; what stands out of it is not looked at.
-  const double reach = rear - face;
-  const RingField field(snapshot, frame, cell_size, face, rear, reach * 2.0,
-                        [](std::size_t) { return true; });
+  const RingField field(snapshot, frame, cell_size, face, rear, outermost, mine);
   Crater crater;
   std::vector<double> along_axis(field.layers());
   for (std::size_t layer = 0; layer < field.layers(); ++layer) along_axis[layer] = on_axis(field, layer);
@@ -108,16 +111,24 @@ Crater measure_crater(const Snapshot& snapshot, const Frame& frame, double face,
     radius[layer] = first_surface(outward, cell_size);
   }
   crater.radius = std::isfinite(radius[1]) ? 1.5 * radius[0] - 0.5 * radius[1] : radius[0];
+  if (std::isnan(crater.depth)) crater.radius = nan;
   return crater;
 }
 
-Hole measure_hole(const Snapshot& snapshot, const Frame& frame, std::size_t body, double thickness,
-                  double cell_size) {
-  const double speed = moving * frame.impact_speed;
+double penetration_depth(const Snapshot& snapshot, const Frame& frame, std::size_t body, double spacing,
+                         double face) {
+  std::vector<std::pair<double, double>> axial;
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    if (snapshot.body[i] == body) axial.emplace_back(frame.axial(snapshot.position[i]), snapshot.mass[i]);
+  }
+  if (axial.empty()) return nan;
+  return std::max(weighted_quantile(axial, 1.0 - beyond) + 0.5 * spacing - face, 0.0);
+}
+
+Hole measure_hole(const Snapshot& snapshot, const Frame& frame, const std::vector<std::uint8_t>& wall,
+                  double thickness, double cell_size) {
   double lower = std::numeric_limits<double>::infinity(), upper = -lower, radius = 0.0;
-  const auto chosen = [&](std::size_t i) {
-    return snapshot.body[i] == body && std::abs(frame.axial(snapshot.velocity[i])) <= speed;
-  };
+  const auto chosen = [&](std::size_t i) { return wall[i] != 0; };
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     if (!chosen(i)) continue;
     lower = std::min(lower, frame.axial(snapshot.position[i]));

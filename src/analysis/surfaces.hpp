@@ -50,17 +50,23 @@ struct Crater {
   double radius = 0.0;  ///< in the plane of the original surface, m
 };
 
-/// Crater in a body whose original face is at the axial coordinate `face`.
-Crater measure_crater(const Snapshot& snapshot, const Frame& frame, double face, double rear,
+/// Measures the crater in a body that reached from the axial coordinate `face` to `rear`. Other bodies' material, such as
+/// the remains of the projectile, is no part of its floor.
+Crater measure_crater(const Snapshot& snapshot, const Frame& frame, std::size_t body, double face, double rear,
                       double cell_size);
+
+/// Measures how deep (m) a body has come below the axial coordinate `face`: 0.1 % of its mass lies deeper. 0 before it
+/// arrives, NaN if nothing of it is left.
+double penetration_depth(const Snapshot& snapshot, const Frame& frame, std::size_t body, double spacing, double face);
 
 struct Hole {
   double diameter = 0.0;      ///< within which less than half of the plate is left in the line of flight, m
   double left_on_axis = 1.0;  ///< fraction of the plate's thickness left on the axis
 };
 
-/// Hole in a plate: its material slower than debris (see cloud.hpp), projected along the axis.
-Hole measure_hole(const Snapshot& snapshot, const Frame& frame, std::size_t body, double thickness,
-                  double cell_size);
+/// Measures the hole in a plate: what is left of its material, projected along the axis.
+/// @param wall  1: the particle belongs to what is left of the plate
+Hole measure_hole(const Snapshot& snapshot, const Frame& frame, const std::vector<std::uint8_t>& wall,
+                  double thickness, double cell_size);
 
 }  // namespace whipple::analysis

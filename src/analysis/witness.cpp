@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "src/analysis/cloud.hpp"
+#include "src/analysis/measures.hpp"
 
 namespace whipple::analysis {
 namespace {
@@ -49,11 +50,9 @@ Witness witness_plate(const Snapshot& snapshot, const Frame& frame, const Witnes
                   .label = {},
                   .labels = {},
                   .columns = {}};
-  witness.totals = {{"witness_mass", "kg", "debris that hits the witness plate", total[0]},
-                    {"witness_momentum", "kg m/s", "axial momentum that hits the witness plate", total[1]},
-                    {"witness_energy", "J", "kinetic energy that hits the witness plate", total[2]},
-                    {"witness_first", "s", "first hit", first},
-                    {"witness_last", "s", "last hit", last}};
+  witness.totals = {measured("witness_mass", total[0]), measured("witness_momentum", total[1]),
+                    measured("witness_energy", total[2]), measured("witness_first", hits.empty() ? nan : first),
+                    measured("witness_last", hits.empty() ? nan : last)};
   if (hits.empty()) return witness;
 
   std::vector<Load> by_ring(static_cast<std::size_t>(widest / options.ring) + 1);

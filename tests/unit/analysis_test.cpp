@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <random>
@@ -13,10 +16,12 @@
 #include "src/analysis/bar.hpp"
 #include "src/analysis/cloud.hpp"
 #include "src/analysis/fragments.hpp"
+#include "src/analysis/measures.hpp"
 #include "src/analysis/peaks.hpp"
 #include "src/analysis/radiograph.hpp"
 #include "src/analysis/surfaces.hpp"
 #include "src/analysis/witness.hpp"
+#include "src/core/base/error.hpp"
 #include "src/core/parallel/threads.hpp"
 
 namespace whipple::analysis {
@@ -182,7 +187,7 @@ TEST(Cloud, KnownSpeeds) {
   }
   Frame frame;
   frame.impact_speed = 3000;
-  const Quantities row = cloud_measures(maker.snapshot, frame, {.lower = -2e-3, .upper = 2e-3});
+  const Quantities row = cloud_measures(maker.snapshot, frame, Extent{.lower = -2e-3, .upper = 2e-3});
   EXPECT_NEAR(value(row, "front"), 0.02998, 1e-6);
   EXPECT_NEAR(value(row, "rear"), 0.01002, 1e-6);
   EXPECT_NEAR(value(row, "radius"), 0.002998, 1e-7);
@@ -230,15 +235,27 @@ TEST(Surfaces, CraterOfAParaboloid) {
       },
       Vector3::Zero(), 1);
   for (int i = 0; i < 50; ++i) maker.add({1e-4 * i, 1e-4 * i, 2e-3 + 1e-4 * i}, {0, 0, -500}, 0);
-  const Crater crater = measure_crater(maker.snapshot, quarter(), 0.0, 30e-3, cell);
+  // The remains of the projectile line the crater, two cells thick.
+  maker.fill(
+      {0, 0, 0}, {30e-3, 30e-3, 30e-3},
+      [&](const Vector3& p) {
+        const double floor = depth * (1 - (p.x() * p.x() + p.y() * p.y()) / (radius * radius));
+        return p.z() < floor && p.z() > floor - 2 * cell;
+      },
+      Vector3::Zero(), 0);
+  const Crater crater = measure_crater(maker.snapshot, quarter(), 1, 0.0, 30e-3, cell);
   EXPECT_NEAR(crater.depth, depth, 0.25 * cell);
   EXPECT_NEAR(crater.radius, radius, 0.25 * cell);
+  // They have come down to the floor on the axis.
+  EXPECT_NEAR(penetration_depth(maker.snapshot, quarter(), 0, 0.5 * cell, 0.0), depth, 0.6 * cell);
+  EXPECT_EQ(penetration_depth(maker.snapshot, quarter(), 0, 0.5 * cell, 20e-3), 0.0);
+  EXPECT_TRUE(std::isnan(penetration_depth(maker.snapshot, quarter(), 2, 0.5 * cell, 0.0)));
 }
 
 TEST(Surfaces, NoCraterBeforeTheImpact) {
   Maker maker(0.5e-3);
   maker.fill({0, 0, 0}, {20e-3, 20e-3, 20e-3}, [](const Vector3&) { return true; }, Vector3::Zero());
-  const Crater crater = measure_crater(maker.snapshot, quarter(), 0.0, 20e-3, 1e-3);
+  const Crater crater = measure_crater(maker.snapshot, quarter(), 0, 0.0, 20e-3, 1e-3);
   EXPECT_EQ(crater.depth, 0.0);
   EXPECT_EQ(crater.radius, 0.0);
 }
@@ -251,12 +268,14 @@ TEST(Surfaces, HoleInAPlateThinnerThanTheCell) {
       [&](const Vector3& p) { return std::hypot(p.x(), p.y()) > hole_radius; }, Vector3::Zero(), 1);
   maker.fill(
       {0, 0, 40e-3}, {4e-3, 4e-3, 44e-3}, [](const Vector3&) { return true; }, {0, 0, 3000}, 1);  // plug
-  const Hole hole = measure_hole(maker.snapshot, quarter(), 1, thickness, cell);
+  std::vector<std::uint8_t> plate(maker.snapshot.size());
+  for (std::size_t i = 0; i < plate.size(); ++i) plate[i] = maker.snapshot.position[i].z() < 1e-3 ? 1 : 0;
+  const Hole hole = measure_hole(maker.snapshot, quarter(), plate, thickness, cell);
   EXPECT_NEAR(hole.diameter, 2 * hole_radius, 0.3 * cell);
   EXPECT_LT(hole.left_on_axis, 0.1);
   Maker whole(0.25e-3);
   whole.fill({0, 0, 0}, {25e-3, 25e-3, thickness}, [](const Vector3&) { return true; }, Vector3::Zero(), 1);
-  const Hole none = measure_hole(whole.snapshot, quarter(), 1, thickness, cell);
+  const Hole none = measure_hole(whole.snapshot, quarter(), std::vector<std::uint8_t>(whole.snapshot.size(), 1), thickness, cell);
   EXPECT_EQ(none.diameter, 0.0);
   EXPECT_NEAR(none.left_on_axis, 1.0, 0.1);
 }
@@ -300,17 +319,98 @@ TEST(Bar, SpallLayerAndPullback) {
     end.add({0, 0, z + (i < 26 ? 1e-3 : 1.7e-3)}, Vector3::Zero());  // 1.4 mm flies ahead
   }
   const Quantities row =
-      spall_measures(start.snapshot, end.snapshot, quarter(), 0, {"target", Vector3::Zero(), 0.1e-3});
+      spall_measures(start.snapshot, end.snapshot, quarter(), 0, {"target", Vector3::Zero(), 0.1e-3}, true);
   EXPECT_NEAR(value(row, "spall_thickness.target"), 1.4e-3, 1e-9);
   EXPECT_NEAR(value(row, "largest_gap.target"), 0.8e-3, 1e-9);
   // A second plane 0.5 mm behind, wider open: what flies off is still the layer ahead of the first.
   for (std::size_t i = 0; i < 21; ++i) end.snapshot.position[i].z() -= 0.9e-3;
   const Quantities planes =
-      spall_measures(start.snapshot, end.snapshot, quarter(), 0, {"target", Vector3::Zero(), 0.1e-3});
+      spall_measures(start.snapshot, end.snapshot, quarter(), 0, {"target", Vector3::Zero(), 0.1e-3}, true);
   EXPECT_NEAR(value(planes, "spall_thickness.target"), 1.4e-3, 1e-9);
   EXPECT_NEAR(value(planes, "largest_gap.target"), 1.0e-3, 1e-9);
   EXPECT_DOUBLE_EQ(pullback({0, 100, 480, 500, 500, 430, 345, 350, 410, 300}), 155.0);
   EXPECT_TRUE(std::isnan(pullback({0, 100, 500, 499, 498})));
+}
+
+TEST(Bar, ALayerNeedsMoreThanASingleParticle) {
+  Maker start(0.1e-3);
+  for (int i = 0; i < 40; ++i) {
+    for (int j = 0; j < 4; ++j) start.add({j * 0.1e-3, 0, (i + 0.5) * 0.1e-3}, Vector3::Zero());
+  }
+  const BodyInput target{"target", Vector3::Zero(), 0.1e-3};
+  const auto measure = [&](const Snapshot& end, bool planar = true) {
+    return spall_measures(start.snapshot, end, quarter(), 0, target, planar);
+  };
+  EXPECT_TRUE(std::isnan(value(measure(start.snapshot), "spall_thickness.target")));  // no gap at all
+  EXPECT_EQ(value(measure(start.snapshot), "largest_gap.target"), 0.0);
+  Snapshot end = start.snapshot;
+  end.position.back().z() += 5e-3;
+  EXPECT_TRUE(std::isnan(value(measure(end), "spall_thickness.target")));  // one particle ahead of the gap
+  for (std::size_t i = 120; i < 160; ++i) end.position[i].z() += 1e-3;     // and a layer of 1 mm
+  EXPECT_NEAR(value(measure(end), "spall_thickness.target"), 1e-3, 1e-9);
+  EXPECT_TRUE(std::isnan(value(measure(end, false), "spall_thickness.target")));
+  EXPECT_TRUE(std::isnan(value(measure(end, false), "largest_gap.target")));
+}
+
+TEST(Bar, OnlyABodyThatFliesAtTheWallIsOneAndItKeepsItsLengthWhenItRebounds) {
+  constexpr double cell = 0.5e-3;
+  Maker maker(0.5 * cell);
+  maker.fill({0, 0, 0}, {5e-3, 5e-3, 20e-3}, [](const Vector3& p) { return std::hypot(p.x(), p.y()) < 4e-3; },
+             {0, 0, -200});
+  Frame frame = quarter(200);
+  frame.sign = -1.0;
+  frame.wall = 0.0;
+  EXPECT_TRUE(bar_measures(maker.snapshot, frame, 0, {"charge", Vector3::Zero(), 0.5 * cell}, cell, 0.0, true).empty());
+  for (Vector3& position : maker.snapshot.position) position.z() += 3e-3;
+  const Quantities row =
+      bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.5 * cell}, cell, 30e-3, false);
+  EXPECT_NEAR(value(row, "length.bar"), 20e-3, 1e-9);
+  EXPECT_NEAR(value(row, "foot_diameter.bar"), 8e-3, 0.06e-3);
+  EXPECT_DOUBLE_EQ(value(row, "foot_temperature.bar"), 300.0);
+  EXPECT_TRUE(std::isnan(value(row, "diameter_at.bar")));  // 30 mm from the end of a bar of 20 mm
+}
+
+TEST(Frame, AMirrorPlaneIsAWallOnlyIfTheProjectileFliesAtIt) {
+  analysis::Run bar;
+  bar.bodies = {{"bar", Vector3(0, 0, -200), 1e-3}};
+  bar.mirror_planes[2] = 0.0;
+  Maker maker(1e-3);
+  maker.add(Vector3(0, 0, 5e-3), bar.bodies[0].velocity);
+  EXPECT_EQ(find_frame(bar, maker.snapshot).wall, 0.0);
+  bar.bodies[0].velocity.z() = 200.0;
+  EXPECT_FALSE(find_frame(bar, maker.snapshot).wall.has_value());
+  bar.bodies[0].velocity.z() = 0.0;  // a charge
+  EXPECT_FALSE(find_frame(bar, maker.snapshot).wall.has_value());
+}
+
+TEST(Cloud, BodiesWithoutPhasesCountInNone) {
+  Maker maker(1e-3);
+  maker.add(Vector3::Zero(), {0, 0, 4000}, 0, 2.0);
+  maker.add(Vector3::Zero(), {0, 0, 4000}, 1, 0.0, 3900.0);
+  std::vector<BodyInput> bodies = {{"ball", {0, 0, 6000}, 1e-3}, {"wall", Vector3::Zero(), 1e-3}};
+  bodies[1].phases = false;
+  const Quantities wall = body_measures(maker.snapshot, quarter(), 1, bodies[1]);
+  EXPECT_TRUE(std::isnan(value(wall, "solid_fraction.wall")));
+  EXPECT_TRUE(std::isnan(value(wall, "melted_fraction.wall")));
+  EXPECT_EQ(value(body_measures(maker.snapshot, quarter(), 0, bodies[0]), "liquid_fraction.ball"), 1.0);
+  const Quantities cloud = cloud_measures(maker.snapshot, quarter(), {}, bodies);
+  EXPECT_EQ(value(cloud, "debris_melted_fraction"), 1.0);
+  EXPECT_TRUE(std::isnan(value(cloud, "cloud_length")));  // there is no target
+  const Table table = body_table(maker.snapshot, quarter(), bodies);
+  const auto row = std::ranges::find(table.labels, "wall whole") - table.labels.begin();
+  EXPECT_TRUE(std::isnan(table["solid_fraction"][static_cast<std::size_t>(row)]));
+}
+
+TEST(Measures, TheTableOfTheManualIsThatOfTheProgram) {
+  std::ifstream file(std::filesystem::path(WHIPPLE_SOURCE_DIR) / "docs/manual/output.md");
+  const std::string page((std::istreambuf_iterator<char>(file)), {});
+  const std::string table = measures_as_markdown();
+  EXPECT_NE(page.find(table), std::string::npos) << "docs/manual/output.md lacks the table\n" << table;
+  std::set<std::string_view> names;
+  for (const Measure& measure : measures()) EXPECT_TRUE(names.insert(measure.name).second) << measure.name;
+  EXPECT_EQ(measured("length", "bar", 1.0).unit, "m");
+  EXPECT_FALSE(measured("length", "bar", nan).reason.empty());
+  EXPECT_THROW(measured("length", 1.0), InternalError);
 }
 
 TEST(Frame, AHalfModelIsSeenAcrossItsMirrorPlane) {
