@@ -168,11 +168,11 @@ def surface_figure(analysis: Analysis) -> Figure | None:
     return figure
 
 
-def witness_figure(analysis: Analysis) -> Figure | None:
-    """Draws the loads on the witness plate by distance from the axis and over time."""
-    if "witness_rings" not in analysis.tables:
+def loads_figure(analysis: Analysis, plane: str) -> Figure | None:
+    """Draws the loads on a plane ("witness", "loads") by distance from the axis and over time; None without hits."""
+    rings, flux = (analysis.tables.get(f"{plane}_{kind}") for kind in ("rings", "flux"))
+    if not rings or not flux:
         return None
-    rings, flux = analysis.tables["witness_rings"], analysis.tables["witness_flux"]
     figure, (left, right) = new_figure(2)
     for ax, table, x, scale, suffix, per in ((left, rings, "radius", units.MILLIMETRES, "_per_area", "/m²"),
                                              (right, flux, "time", units.MICROSECONDS, "_flux", "/s")):

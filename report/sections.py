@@ -160,7 +160,7 @@ class Report:
                          f"over a spot of {spot:.3g} mm: what a flash radiograph shows, without the response of a "
                          "film.", pictures.radiograph_figure(analysis, view))
         self._extent(analysis)
-        self._add_figure("surfaces.png", "Depth of the crater on the axis and diameter at the original surface; "
+        self._add_figure("surfaces.png", "Depth of craters on the axis and diameter at the original surface; depth of penetration; "
                          "diameter within which less than half of a plate is left.", curves.surface_figure(analysis))
         fragments = curves.fragment_figure(analysis)
         if fragments is not None:
@@ -168,9 +168,11 @@ class Report:
         self._add_figure("fragments.png", "Number of fragments of at least a mass (connected particles of condensed "
                          "matter; fragments cut by symmetry planes are completed).", fragments)
         self._add_figure("witness.png", "Loads on the witness plate if the debris flies on freely.",
-                         curves.witness_figure(analysis))
+                         curves.loads_figure(analysis, "witness"))
         self._final_table(shown[-1].time, analysis)
         planar.add_to(self.page, self.output, analysis, run.history)
+        self._add_figure("loads.png", "Loads on the plane in the course of the run, of what has passed it until the end.",
+                         curves.loads_figure(analysis, "loads"))
 
     def _extent(self, analysis):
         columns = analysis.series

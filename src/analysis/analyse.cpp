@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 
+#include "src/analysis/arrivals.hpp"
 #include "src/analysis/bar.hpp"
 #include "src/analysis/cloud.hpp"
 #include "src/analysis/fragments.hpp"
@@ -329,11 +330,29 @@ void require_bodies(const Run& run, const Options& options) {
   for (const BodyInput& body : run.bodies) known.push_back(body.name);
   for (const auto& [name, value] : options.attenuation) asked.push_back(name);
   if (!options.peak_decay.empty()) asked.push_back(options.peak_decay);
+  if (!options.loads.empty()) asked.push_back(options.loads);
   for (const std::string& name : asked) {
     if (std::ranges::find(known, name) != known.end()) continue;
     throw InputError(
         fmt::format("error: the run has no body \"{}\" (bodies: {})", name, fmt::join(known, ", ")));
   }
+}
+
+std::size_t body_named(const Run& run, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::find(run.bodies, name, &BodyInput::name) - run.bodies.begin());
+}
+
+/// Plane of the loads asked for: before the face of a body by two cells, where what arrives still flies freely.
+std::optional<Arrivals> arrivals_at(const Run& run, const Start& start, const Options& options) {
+  if (!options.loads.empty()) {
+    const std::size_t wall = body_named(run, options.loads);
+    const Frame frame =
+        start.walls[wall] ? start.walls[wall]->frame() : start.frame.at_face(start.extents[wall].lower);
+    const double face = start.walls[wall] ? start.walls[wall]->extent().lower : start.extents[wall].lower;
+    return Arrivals(frame, face - 2.0 * run.cell_size, wall);
+  }
+  if (!options.loads_at) return {};
+  return Arrivals(start.frame.at_face(*options.loads_at), *options.loads_at);
 }
 
 }  // namespace
@@ -348,10 +367,10 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
 
   std::optional<PeakDecay> peaks;
   if (!options.peak_decay.empty()) {
-    const auto body = static_cast<std::size_t>(
-        std::ranges::find(run.bodies, options.peak_decay, &BodyInput::name) - run.bodies.begin());
+    const std::size_t body = body_named(run, options.peak_decay);
     peaks.emplace(first, frame, body, 1.5 * run.cell_size, start.extents[body].lower);
   }
+  std::optional<Arrivals> arrivals = arrivals_at(run, start, options);
   Table series{
       .name = "series", .meaning = "measures of every snapshot", .label = {}, .labels = {}, .columns = {}};
   if (first.scalar("density") == nullptr) {
@@ -365,6 +384,7 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
     row = measure(run, start, options, outflow, last);
     series.append(row);
     if (peaks) peaks->add(last);
+    if (arrivals) arrivals->add(last);
   }
   end_at_the_border(run, frame, series);
   add_speeds(series);
@@ -386,12 +406,14 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
     tables.push_back(peaks->profile(run.cell_size));
     append(values, peaks->measures(2.0 * start.projectile_radius));
   }
-  if (options.witness) {
-    Witness witness = witness_plate(last, frame, {.position = *options.witness, .ring = 2.0 * run.cell_size});
-    append(values, witness.totals);
-    tables.push_back(std::move(witness.rings));
-    tables.push_back(std::move(witness.flux));
-  }
+  const auto add_loads = [&](Loads loads) {
+    append(values, std::move(loads.totals));
+    tables.push_back(std::move(loads.rings));
+    tables.push_back(std::move(loads.flux));
+  };
+  const double ring = 2.0 * run.cell_size;
+  if (options.witness) add_loads(witness_plate(last, frame, {.position = *options.witness, .ring = ring}));
+  if (arrivals) add_loads(arrivals->loads(ring));
   explain(values);
   explain_phases(run);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace whipple::analysis {
 
@@ -11,6 +12,10 @@ double Frame::radius(const Vector3& position) const {
   Vector3 offset = position - centre;
   offset[axis] = 0.0;
   return offset.norm();
+}
+
+double Frame::ring_area(double inner, double outer) const {
+  return std::numbers::pi * (outer - inner) * (outer + inner);
 }
 
 double Frame::radial_speed(const Vector3& position, const Vector3& velocity) const {

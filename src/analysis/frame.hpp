@@ -36,6 +36,8 @@ struct Frame {
   [[nodiscard]] double axial(const Vector3& v) const { return sign * v[axis]; }
   /// Distance from the axis.
   [[nodiscard]] double radius(const Vector3& position) const;
+  /// Returns the area of a ring about the axis, m^2.
+  [[nodiscard]] double ring_area(double inner, double outer) const;
   /// Component of the velocity away from the axis; its magnitude across the axis on the axis itself.
   [[nodiscard]] double radial_speed(const Vector3& position, const Vector3& velocity) const;
   /// Returns whether the model ends at a mirror plane in this direction.

@@ -21,6 +21,7 @@ constexpr std::string_view bar_gone = "fewer than three cells of the bar are lef
 constexpr std::string_view no_fragments = "too few fragments of the debris";
 constexpr std::string_view no_peaks = "no particle of the body began at these depths near the axis";
 constexpr std::string_view no_hits = "no debris hits the plate";
+constexpr std::string_view no_arrivals = "nothing has passed the plane";
 constexpr std::string_view gone = "all of the body has left the domain";
 
 // clang-format off
@@ -113,6 +114,13 @@ constexpr auto table = std::to_array<Measure>({
     {"witness_energy", "J", "kinetic energy that hits the witness plate", ""},
     {"witness_first", "s", "time of the first hit", no_hits},
     {"witness_last", "s", "time of the last hit", no_hits},
+    // With --loads.
+    {"loads_mass", "kg", "mass that has passed the plane", ""},
+    {"loads_momentum", "kg m/s", "axial momentum that has passed the plane", ""},
+    {"loads_energy", "J", "kinetic energy that has passed the plane", ""},
+    {"loads_first", "s", "time of the first arrival", no_arrivals},
+    {"loads_last", "s", "time of the last arrival", no_arrivals},
+    {"loads_under_way", "kg", "mass of the debris before the plane at the end", ""},
 });
 // clang-format on
 

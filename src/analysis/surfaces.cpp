@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "src/analysis/cloud.hpp"
 
@@ -42,6 +41,9 @@ RingField::RingField(const Snapshot& snapshot, const Frame& frame, double size, 
       rings_(bins(radius, size)),
       layers_(bins(upper - lower, size)),
       volume_(rings_ * layers_, 0.0) {
+  for (std::size_t ring = 0; ring < rings_; ++ring) {
+    area_.push_back(frame.ring_area(static_cast<double>(ring) * size, static_cast<double>(ring + 1) * size));
+  }
   const std::vector<double> volumes = snapshot.volumes();
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     if (!chosen(i)) continue;
@@ -62,10 +64,6 @@ RingField::RingField(const Snapshot& snapshot, const Frame& frame, double size, 
       }
     }
   }
-}
-
-double RingField::ring_area(std::size_t ring) const {
-  return std::numbers::pi * size_ * size_ * (2.0 * static_cast<double>(ring) + 1.0);
 }
 
 double RingField::cross_section(std::size_t layer) const {

@@ -29,7 +29,7 @@ class RingField {
   [[nodiscard]] double fraction(std::size_t ring, std::size_t layer) const {
     return volume_[layer * rings_ + ring] / (ring_area(ring) * size_);
   }
-  [[nodiscard]] double ring_area(std::size_t ring) const;
+  [[nodiscard]] double ring_area(std::size_t ring) const { return area_[ring]; }
   /// Cross-section of the material in a layer, m^2.
   [[nodiscard]] double cross_section(std::size_t layer) const;
   /// Thickness of the material along the axis in a ring, m.
@@ -38,6 +38,7 @@ class RingField {
  private:
   double size_, lower_;
   std::size_t rings_, layers_;
+  std::vector<double> area_;    // of the rings, m^2
   std::vector<double> volume_;  // of the full problem, layer by layer
 };
 

@@ -13,6 +13,7 @@
 #include <random>
 #include <set>
 
+#include "src/analysis/arrivals.hpp"
 #include "src/analysis/bar.hpp"
 #include "src/analysis/cloud.hpp"
 #include "src/analysis/fragments.hpp"
@@ -510,7 +511,7 @@ TEST(Witness, FreeFlightToARingAtAKnownTime) {
   maker.add({0, 2e-3, 110e-3}, {0, 100, 1000});  // beyond: was there 10 us before, at 1 mm
   maker.add({0, 0, 0}, {0, 0, 10});              // no debris
   maker.snapshot.time = 20e-6;
-  const Witness witness = witness_plate(maker.snapshot, quarter(), {.position = 100e-3, .ring = 2e-3});
+  const Loads witness = witness_plate(maker.snapshot, quarter(), {.position = 100e-3, .ring = 2e-3});
   EXPECT_DOUBLE_EQ(value(witness.totals, "witness_mass"), 4 * 2 * m);
   EXPECT_DOUBLE_EQ(value(witness.totals, "witness_momentum"), 4 * m * 3000);
   EXPECT_NEAR(value(witness.totals, "witness_first"), 10e-6, 1e-15);
@@ -521,6 +522,42 @@ TEST(Witness, FreeFlightToARingAtAKnownTime) {
               4 * 0.5 * m * (500.0 * 500 + 2000.0 * 2000), 1e-9);
   const std::vector<double>& flux = witness.flux["mass_flux"];
   EXPECT_NEAR(std::accumulate(flux.begin(), flux.end(), 0.0) * 1.1e-6, 8 * m, 1e-12);
+}
+
+TEST(Arrivals, CountWhatPassesThePlaneOnceWithItsMotionBefore) {
+  const double m = density * 1e-9;
+  const auto at = [](double time, const std::vector<std::pair<std::uint64_t, Vector3>>& places, double speed) {
+    Maker maker(1e-3);
+    for (const auto& [id, place] : places) {
+      maker.add(place, {0, 0, speed}, id == 9 ? 1 : 0);
+      maker.snapshot.id.back() = id;
+    }
+    maker.snapshot.time = time;
+    return maker.snapshot;
+  };
+  Arrivals arrivals(quarter(), 10e-3, 1);
+  // 1 passes in the middle of an interval and is slowed behind; 2 returns and passes again; 3 has left the domain beyond
+  // the plane; 4 is under way; 5 begins beyond; 9 is of the wall.
+  arrivals.add(at(0.0, {{1, {3e-3, 0, 9e-3}}, {2, {0, 1e-3, 9e-3}}, {3, {5e-3, 0, 8e-3}}, {4, {0, 0, -9e-3}},
+                        {5, {0, 0, 11e-3}}, {9, {0, 0, 9e-3}}},
+                  2000));
+  arrivals.add(at(1e-6, {{1, {5e-3, 0, 11e-3}}, {2, {0, 1e-3, 10.5e-3}}, {3, {5e-3, 0, 9e-3}}, {4, {0, 0, -7e-3}},
+                         {5, {0, 0, 9e-3}}, {9, {0, 0, 11e-3}}},
+                  1000));
+  arrivals.add(at(3e-6, {{1, {5e-3, 0, 12e-3}}, {2, {0, 1e-3, 9.5e-3}}, {4, {0, 0, -5e-3}}}, 1000));
+  arrivals.add(at(4e-6, {{2, {0, 1e-3, 10.5e-3}}, {4, {0, 0, -4e-3}}}, 1000));
+  const Loads loads = arrivals.loads(2e-3);
+  EXPECT_DOUBLE_EQ(value(loads.totals, "loads_mass"), 4 * 3 * m);
+  EXPECT_DOUBLE_EQ(value(loads.totals, "loads_momentum"), 4 * m * (2000 + 2000 + 1000));
+  EXPECT_NEAR(value(loads.totals, "loads_energy"), 4 * 0.5 * m * (2 * 4e6 + 1e6), 1e-9);
+  EXPECT_NEAR(value(loads.totals, "loads_first"), 0.5e-6, 1e-15);
+  EXPECT_NEAR(value(loads.totals, "loads_last"), 2e-6, 1e-15);
+  EXPECT_DOUBLE_EQ(value(loads.totals, "loads_under_way"), 4 * m);
+  ASSERT_EQ(loads.rings.rows(), 3U);
+  EXPECT_DOUBLE_EQ(loads.rings["mass"][0], 4 * m);      // 2, at 1 mm
+  EXPECT_NEAR(loads.rings["mass"][2], 4 * 2 * m, 1e-18);  // 1 and 3, at 4 and 5 mm
+  EXPECT_NEAR(loads.rings["momentum_per_area"][0], 4 * m * 2000 / (pi * 4e-6), 1e-9);
+  EXPECT_TRUE(std::isnan(value(Arrivals(quarter(), 1.0).loads(1e-3).totals, "loads_first")));
 }
 
 TEST(PeakDecay, PowerLawFront) {
