@@ -43,10 +43,28 @@ class Geometry:
     impact_angle: float = 0.0  # of the relative velocity with the axis, rad
     copies: int = 1    # of the model, in the full problem
     planes: dict[int, float] = field(default_factory=dict)  # position of the symmetry planes by axis
+    dimension: str = "3d"  # or "axisymmetric": particles are rings; "plane_strain": bars of 1 m
 
     def axis_name(self) -> str:
         """Writes the direction of flight: "z", "-z"."""
         return ("" if self.sign > 0 else "-") + AXES[self.axis]
+
+    @property
+    def planar(self) -> bool:
+        """Whether the model is a plane section."""
+        return self.dimension != "3d"
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether pictures show the model and, below it, its image."""
+        return self.up in self.planes or self.dimension == "axisymmetric"
+
+    def edges(self, volume: np.ndarray, position: np.ndarray) -> np.ndarray:
+        """Computes the edges (m) of the cubes, in a section of the squares, that particles of a volume (m^3) fill."""
+        if not self.planar:
+            return np.cbrt(volume)
+        depth = 1.0 if self.dimension == "plane_strain" else 2 * np.pi * np.abs(position[:, 1])
+        return np.sqrt(volume / depth)
 
     @property
     def oblique(self) -> bool:
@@ -83,9 +101,9 @@ class Analysis:
         self.geometry = Geometry(int(frame["axis"]), float(frame["sign"]), int(frame["up"]), int(frame["sight"]),
                                  np.array([frame[f"centre_{a}"] for a in AXES]), float(frame["impact_speed"]),
                                  str(frame["projectile"]), float(frame["impact_angle"]), int(frame["copies"]),
-                                 {i: float(frame[f"plane_{a}"]) for i, a in enumerate(AXES) if f"plane_{a}" in frame})
-        self.final = {name: float(value) for name, value in file["quantities"].attrs.items()
-                      if name not in ("meaning", "label", "labels")}
+                                 {i: float(frame[f"plane_{a}"]) for i, a in enumerate(AXES) if f"plane_{a}" in frame},
+                                 str(frame["dimension"]))
+        self.final = {name: float(value) for name, value in file["quantities"].attrs.items()}
         self.tables = {name: {column: data[:] for column, data in file[name].items()}
                        for name in file if name not in ("frame", "quantities", "radiographs")}
         self.units = {name: {column: data.attrs["unit"] for column, data in file[name].items()}

@@ -150,13 +150,13 @@ def fragment_figure(analysis: Analysis) -> Figure | None:
 
 
 def surface_figure(analysis: Analysis) -> Figure | None:
-    """Draws crater and holes over time; None if there are none."""
+    """Draws craters, penetration and holes over time; None if there are none."""
     series = analysis.series
-    craters = (("crater_depth", "crater, depth"), ("crater_diameter", "crater, diameter"))
-    shown = [(name, label) for name, label in craters
-             if name in series and np.isfinite(series[name]).any()]
-    shown += [(name, f"{name.split('.')[1]}, hole") for name in series
-              if name.startswith("hole_diameter.") and np.nanmax(series[name], initial=0.0) > 0]
+    labels = {"crater_depth": "depth of the crater", "crater_diameter": "diameter of the crater",
+              "penetration_depth": "depth of penetration", "hole_diameter": "hole"}
+    shown = [(name, f"{body}, {labels[measure]}") for name in series
+             for measure, _, body in [name.partition(".")]
+             if measure in labels and (np.nan_to_num(series[name]) > 0).any()]
     if not shown:
         return None
     figure, (ax,) = new_figure(1)
@@ -168,11 +168,11 @@ def surface_figure(analysis: Analysis) -> Figure | None:
     return figure
 
 
-def witness_figure(analysis: Analysis) -> Figure | None:
-    """Draws the loads on the witness plate by distance from the axis and over time."""
-    if "witness_rings" not in analysis.tables:
+def loads_figure(analysis: Analysis, plane: str) -> Figure | None:
+    """Draws the loads on a plane ("witness", "loads") by distance from the axis and over time; None without hits."""
+    rings, flux = (analysis.tables.get(f"{plane}_{kind}") for kind in ("rings", "flux"))
+    if not rings or not flux:
         return None
-    rings, flux = analysis.tables["witness_rings"], analysis.tables["witness_flux"]
     figure, (left, right) = new_figure(2)
     for ax, table, x, scale, suffix, per in ((left, rings, "radius", units.MILLIMETRES, "_per_area", "/m²"),
                                              (right, flux, "time", units.MICROSECONDS, "_flux", "/s")):

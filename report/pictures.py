@@ -40,7 +40,7 @@ class View:
 
     def __init__(self, geo: Geometry, snapshots: list[Snapshot], dots_per_inch: int):
         self.geo = geo
-        self.mirrored = geo.up in geo.planes
+        self.mirrored = geo.mirrored
         self.depth_copies = 2 if geo.depth in geo.planes else 1
         self._label_axes()
         edge = (1 - SHOWN_MASS) / 2
@@ -84,11 +84,11 @@ class View:
         return self.shape[0] / self.shape[1]
 
 
-def radii(snapshot: Snapshot) -> np.ndarray:
-    """Computes half the size of the cube of a particle's matter; 0 if the density was not written."""
+def radii(snapshot: Snapshot, geo: Geometry) -> np.ndarray:
+    """Computes half the size of a particle's material; 0 if the density was not written."""
     if snapshot.density is None:
         return np.zeros(len(snapshot))
-    return 0.5 * np.cbrt(snapshot.mass / np.maximum(snapshot.density, 1e-3))
+    return 0.5 * geo.edges(snapshot.mass / np.maximum(snapshot.density, 1e-3), snapshot.position)
 
 
 def render(snapshot: Snapshot, view: View, outside: bool) -> tuple[np.ndarray, np.ndarray]:
@@ -102,7 +102,7 @@ def render(snapshot: Snapshot, view: View, outside: bool) -> tuple[np.ndarray, n
     owner, corners = rendering.surface_faces(snapshot.connectivity[elements])
     labels = snapshot.particles + elements[owner]
     nodes = np.stack(view.coordinates(snapshot.nodes), axis=1)
-    radius = radii(snapshot)[particles] / view.pixel
+    radius = radii(snapshot, view.geo)[particles] / view.pixel
     for side in (1, -1) if view.mirrored else (1,):
         def place(axial, up, toward):
             if outside and view.depth_copies == 2:
@@ -234,13 +234,16 @@ def cloud_figures(run: Run, view: View, snapshots: list[Snapshot]) -> Iterator[t
     times = [s.time for s in snapshots]
     cuts = [render(s, view, outside=False) for s in snapshots]
     complete = " The model is completed at its symmetry planes." if run.symmetry_planes else ""
-    cut_text = "Section through the axis, particles and elements behind the cut, the nearest in front." + complete
+    cut_text = ("Section through the axis: particles are rings." if view.geo.dimension == "axisymmetric" else
+                "Section." if view.geo.planar else
+                "Section through the axis, particles and elements behind the cut, the nearest in front.") + complete
     if all(s.body is not None for s in snapshots):
         names = run.body_names(snapshots[0])
         legend = [Patch(color=BODY_COLOURS[i % len(BODY_COLOURS)], label=name) for i, name in enumerate(names)]
-        images = [paint(render(s, view, outside=True), body_colours(s)) for s in snapshots]
-        yield ("cloud_outside.png", "Side view from outside, coloured by body." + complete,
-               panels(view, images, times, "From outside", legend=legend))
+        if not view.geo.planar:
+            images = [paint(render(s, view, outside=True), body_colours(s)) for s in snapshots]
+            yield ("cloud_outside.png", "Side view from outside, coloured by body." + complete,
+                   panels(view, images, times, "From outside", legend=legend))
         yield ("cloud_body.png", cut_text + " Coloured by body.",
                panels(view, [paint(c, body_colours(s)) for c, s in zip(cuts, snapshots)], times,
                       "Section, by body", legend=legend))

@@ -42,6 +42,11 @@ DISSIPATION = (("viscous_work", "artificial viscosity", "internal energy"),
                ("unresolved_kept", "transfers and viscosity", "unresolved motion"),
                ("unresolved_returned", "unresolved motion where gaps close", "internal energy"),
                ("conducted_heat", "conduction inside shocks", "moved between particles"))
+DIMENSIONS = {
+    "axisymmetric": "Axisymmetric model: particles are rings, and all masses, momenta and energies are those of whole "
+                    "rings. A fragment of the section is a ring too: numbers and masses of fragments, petals and "
+                    "everything that breaks the symmetry need three dimensions.",
+    "plane_strain": "Plane strain: the same for all z. Masses, momenta and energies are those of 1 m along z."}
 FINER_CELLS_ADVISED = 0.05  # of the kinetic energy, unresolved
 # Columns of the table of bodies: heading and factor.
 BODY_COLUMNS = {"mass": ("mass (g)", units.GRAMS), "axial_momentum": ("axial momentum (kg m/s)", 1),
@@ -105,6 +110,8 @@ class Report:
             if history.last(name):
                 tiles.append((meaning, f"{history.last(name):.0f}"))
         self.page.tiles(tiles)
+        if run.analysis and run.analysis.geometry.planar:
+            self.page.note(DIMENSIONS[run.analysis.geometry.dimension])
         if run.multiplicity > 1:
             planes = ", ".join(AXES[axis] for axis in sorted(run.symmetry_planes))
             self.page.note(f"Symmetry planes normal to {planes}: the model is 1/{run.multiplicity} of the problem. "
@@ -160,7 +167,7 @@ class Report:
                          f"over a spot of {spot:.3g} mm: what a flash radiograph shows, without the response of a "
                          "film.", pictures.radiograph_figure(analysis, view))
         self._extent(analysis)
-        self._add_figure("surfaces.png", "Depth of the crater on the axis and diameter at the original surface; "
+        self._add_figure("surfaces.png", "Depth of craters on the axis and diameter at the original surface; depth of penetration; "
                          "diameter within which less than half of a plate is left.", curves.surface_figure(analysis))
         fragments = curves.fragment_figure(analysis)
         if fragments is not None:
@@ -168,9 +175,11 @@ class Report:
         self._add_figure("fragments.png", "Number of fragments of at least a mass (connected particles of condensed "
                          "matter; fragments cut by symmetry planes are completed).", fragments)
         self._add_figure("witness.png", "Loads on the witness plate if the debris flies on freely.",
-                         curves.witness_figure(analysis))
+                         curves.loads_figure(analysis, "witness"))
         self._final_table(shown[-1].time, analysis)
         planar.add_to(self.page, self.output, analysis, run.history)
+        self._add_figure("loads.png", "Loads on the plane in the course of the run, of what has passed it until the end.",
+                         curves.loads_figure(analysis, "loads"))
 
     def _extent(self, analysis):
         columns = analysis.series

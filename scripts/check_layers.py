@@ -44,7 +44,7 @@ MAY_USE = {
     # Times the solver.
     "src/bench": ["src/core/base", "src/core/parallel", "src/core/process", "src/particles", "src/grid", "src/transfer", "src/io", "src/case", "src/solver"],
     # Reads what runs wrote, with the keys of a case; knows no solver.
-    "src/analysis": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/hdf5", "src/grid", "src/case"],
+    "src/analysis": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/hdf5", "src/grid", "src/material", "src/case"],
     "md_fitting/plan": ["src/core/base", "src/core/input"],
     "md_fitting/lammps": ["src/core/base", "md_fitting/data_set"],
     "md_fitting/protocols": ["src/core/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],

@@ -10,16 +10,18 @@
 #include <limits>
 #include <map>
 
+#include "src/analysis/arrivals.hpp"
 #include "src/analysis/bar.hpp"
 #include "src/analysis/cloud.hpp"
-#include "src/analysis/columns.hpp"
 #include "src/analysis/fragments.hpp"
 #include "src/analysis/frame.hpp"
+#include "src/analysis/measures.hpp"
 #include "src/analysis/outflow.hpp"
 #include "src/analysis/peaks.hpp"
 #include "src/analysis/radiograph.hpp"
 #include "src/analysis/surfaces.hpp"
 #include "src/analysis/table.hpp"
+#include "src/analysis/wall.hpp"
 #include "src/analysis/witness.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
@@ -30,17 +32,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double open = 0.1;  ///< fraction of a plate's thickness: with less it is perforated
-
 /// Holds what the first snapshot tells about the bodies.
 struct Start {
   Frame frame;
   std::vector<Extent> extents;        ///< of each body along the axis
   std::optional<std::size_t> target;  ///< the first body that the projectile hits
   double projectile_mass = 0.0, projectile_radius = 0.0, particle_mass = 0.0;
-  std::vector<Columns> columns;          ///< of each body
+  std::vector<std::optional<Wall>> walls;  ///< of the bodies that may be perforated
+  bool planar = false;                     ///< the impact is planar: it makes neither craters nor holes
   std::vector<std::uint64_t> near_axis;  ///< particles that begin within a quarter of the projectile's radius
 };
+
+/// Returns whether all bodies fill the section of the domain, as in a planar impact.
+bool is_planar(const Run& run, const Snapshot& first, const Frame& frame) {
+  std::vector<Vector3> lower(run.bodies.size(), Vector3::Constant(std::numeric_limits<double>::infinity())), upper;
+  for (const Vector3& corner : lower) upper.push_back(-corner);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const std::uint16_t b = first.body[i];
+    lower[b] = lower[b].cwiseMin(first.position[i]);
+    upper[b] = upper[b].cwiseMax(first.position[i]);
+  }
+  for (std::size_t b = 0; b < run.bodies.size(); ++b) {
+    const double near = run.bodies[b].spacing;
+    for (const int a : frame.transverse) {
+      if (!(lower[b][a] < run.lower[a] + near && upper[b][a] > run.upper[a] - near)) return false;
+    }
+  }
+  return true;
+}
 
 Start start_of(const Run& run, const Snapshot& first, const Options& options) {
   // Where something moves at the start, the last snapshot says nothing about the axis.
@@ -51,7 +70,7 @@ Start start_of(const Run& run, const Snapshot& first, const Options& options) {
   Start start{.frame = find_frame(run, first, options.axis, last ? &*last : nullptr),
               .extents = {},
               .target = {},
-              .columns = {},
+              .walls = {},
               .near_axis = {}};
   const Frame& frame = start.frame;
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
@@ -73,10 +92,13 @@ Start start_of(const Run& run, const Snapshot& first, const Options& options) {
     if (frame.radius(first.position[i]) < 0.25 * start.projectile_radius)
       start.near_axis.push_back(first.id[i]);
   }
+  start.planar = is_planar(run, first, frame);
   // What follows is measured about the point that an oblique flight hits.
   if (start.target) start.frame = start.frame.at_face(start.extents[*start.target].lower);
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
-    start.columns.emplace_back(first, start.frame, b, 2.0 * run.cell_size);
+    start.walls.emplace_back();
+    if (b == frame.projectile || frame.wall || start.planar || first.scalar("density") == nullptr) continue;
+    if (std::isfinite(start.extents[b].lower)) start.walls[b].emplace(run, first, start.frame, b);
   }
   return start;
 }
@@ -92,52 +114,64 @@ Quantities axis_measures(const Snapshot& snapshot, const Start& start, const std
   }
   Quantities row;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    row.push_back({fmt::format("axis_melted_fraction.{}", bodies[b].name), "1",
-                   "median over the mass that began within a quarter of the projectile's radius of the axis",
-                   weighted_quantile(of_body[b], 0.5)});
+    row.push_back(measured("axis_melted_fraction", bodies[b].name,
+                           bodies[b].phases ? weighted_quantile(of_body[b], 0.5) : nan));
   }
   return row;
 }
 
 void append(Quantities& row, Quantities more) { row.insert(row.end(), more.begin(), more.end()); }
 
-/// All measures of one snapshot.
+/// Measures craters, holes and perforation of the bodies that may be struck, and how deep those that fly at the first
+/// target have come.
+Quantities surface_measures(const Run& run, const Start& start, const Snapshot& snapshot) {
+  Quantities row;
+  double perforated = nan;  // the first target
+  for (std::size_t b = 0; b < run.bodies.size(); ++b) {
+    if (!start.walls[b]) continue;
+    const std::string& name = run.bodies[b].name;
+    const Extent& extent = start.walls[b]->extent();
+    const Quantities wall = start.walls[b]->measure(snapshot);
+    const bool open = wall.front().value == 1.0;
+    if (b == *start.target) perforated = wall.front().value;
+    const Crater crater =
+        open ? Crater{.depth = nan, .radius = nan}
+             : measure_crater(snapshot, start.walls[b]->frame(), b, extent.lower, extent.upper, run.cell_size);
+    const std::string reason = open ? "the body is perforated" : "";
+    append(row, {measured("crater_depth", name, crater.depth, reason),
+                 measured("crater_radius", name, crater.radius, reason),
+                 measured("crater_diameter", name, 2.0 * crater.radius, reason),
+                 measured("crater_depth_over_diameter", name, 0.5 * crater.depth / crater.radius, reason)});
+    append(row, wall);
+  }
+  if (!start.target || !start.walls[*start.target]) return row;
+  const Frame& normal = start.walls[*start.target]->frame();
+  const Extent& target = start.walls[*start.target]->extent();
+  const double rest = normal.axial(run.bodies[*start.target].velocity);
+  for (std::size_t b = 0; b < run.bodies.size(); ++b) {
+    const bool flies_at = normal.axial(run.bodies[b].velocity) > rest &&
+                          start.extents[b].lower < start.extents[*start.target].upper && b != *start.target;
+    if (!flies_at) continue;
+    const double depth = penetration_depth(snapshot, normal, b, run.bodies[b].spacing, target.lower);
+    const bool through = perforated == 1.0 || (!(perforated == 0.0) && depth >= target.length());
+    row.push_back(measured("penetration_depth", run.bodies[b].name, through ? nan : depth));
+  }
+  return row;
+}
+
+/// Measures one snapshot.
 Quantities measure(const Run& run, const Start& start, const Options& options, const OutflowHistory& outflow,
                    const Snapshot& snapshot) {
   const Frame& frame = start.frame;
-  Quantities row = {{"time", "s", "of the snapshot", snapshot.time}};
-  append(row, cloud_measures(snapshot, frame, start.target ? start.extents[*start.target] : Extent{}));
+  Quantities row = {measured("time", snapshot.time)};
+  append(row, cloud_measures(snapshot, frame,
+                             start.target ? std::optional(start.extents[*start.target]) : std::nullopt, run.bodies));
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
     append(row, body_measures(snapshot, frame, b, run.bodies[b], outflow.at(b, snapshot.time)));
     append(row, bar_measures(snapshot, frame, b, run.bodies[b], run.cell_size, options.diameter_at,
                              frame.wall && start.extents[b].upper > *frame.wall - 0.01 * run.cell_size));
   }
-  const bool has_volumes = snapshot.scalar("density") != nullptr;
-  if (start.target && has_volumes && !frame.wall) {
-    const Extent& extent = start.extents[*start.target];
-    const Crater crater = measure_crater(snapshot, frame, extent.lower, extent.upper, run.cell_size);
-    append(row,
-           {{"crater_depth", "m", "of the floor on the axis below the original surface", crater.depth},
-            {"crater_radius", "m", "in the plane of the original surface", crater.radius},
-            {"crater_diameter", "m", "in the plane of the original surface", 2.0 * crater.radius},
-            {"crater_depth_over_diameter", "1", "depth over diameter", 0.5 * crater.depth / crater.radius}});
-    for (std::size_t b = 0; b < run.bodies.size(); ++b) {
-      if (b == frame.projectile) continue;
-      const Hole hole = measure_hole(snapshot, frame.at_face(start.extents[b].lower), b,
-                                     start.extents[b].length(), run.cell_size);
-      const double least_left = start.columns[b].least_left(snapshot);
-      const std::string& name = run.bodies[b].name;
-      append(row, {{fmt::format("hole_diameter.{}", name), "m",
-                    "within which less than half of the plate is left", hole.diameter},
-                   {fmt::format("left_on_axis.{}", name), "1",
-                    "share of the thickness left where the line of flight meets it", hole.left_on_axis},
-                   {fmt::format("least_left.{}", name), "1",
-                    "least share of the thickness left along any line through it", least_left},
-                   {fmt::format("perforated.{}", name), "1",
-                    "1: less than a tenth of the thickness is left along some line through it",
-                    least_left < open ? 1.0 : 0.0}});
-    }
-  }
+  append(row, surface_measures(run, start, snapshot));
   return row;
 }
 
@@ -237,67 +271,59 @@ void write_frame(const Run& run, const Start& start, const hdf5::Group& root) {
   }
 }
 
-/// The last row of the series and what is known only when all snapshots were seen.
-Quantities final_values(const Table& series, const Run& run, const Start& start) {
+/// Final values: the last row of the series and what is known only when all snapshots were seen.
+/// @param last  measures of the last snapshot
+Quantities final_values(const Table& series, const Quantities& last, const Run& run, const Start& start) {
   Quantities row;
   for (const Column& column : series.columns) {
-    row.push_back({column.name, column.unit, column.meaning, column.values.back()});
+    // The series may end before its last row: the reason is that of the table then.
+    const auto found = std::ranges::find(last, column.name, &Quantity::name);
+    const std::size_t dot = column.name.find('.');
+    const double value = column.values.back();
+    const std::string reason = found == last.end() ? std::string() : found->reason;
+    row.push_back(dot == std::string::npos
+                      ? measured(column.name, value, reason)
+                      : measured(column.name.substr(0, dot), column.name.substr(dot + 1), value, reason));
   }
-  const auto set = [&](const char* name, const char* of) {
-    std::ranges::find(row, name, &Quantity::name)->value = final_slope(series["time"], series[of]);
-  };
-  set("front_speed", "front");
-  set("rear_speed", "rear");
-  set("expansion_speed", "radius");
-  const auto value = [&](const char* name) { return std::ranges::find(row, name, &Quantity::name)->value; };
-  const double speed = start.frame.impact_speed > 0.0 ? start.frame.impact_speed : nan;
-  append(
-      row,
-      {{"impact_speed", "m/s", "relative speed of the fastest and the slowest body at the start",
-        start.frame.impact_speed},
-       {"impact_angle", "rad", "of their relative velocity with the axis, 0 for a normal impact",
-        start.frame.impact_angle},
-       {"front_speed_over_impact_speed", "1", "ratio", value("front_speed") / speed},
-       {"radial_speed_over_impact_speed", "1", "ratio", value("radial_speed") / speed}});
-  const BodyInput& projectile = run.bodies[start.frame.projectile];
-  row.push_back({"projectile_size", "m", "smallest extent of the projectile by its shape in the case",
-                 projectile.velocity.isZero(0.0) ? nan : projectile.size});
+  const auto of = [&](const char* name) { return std::ranges::find(row, name, &Quantity::name); };
+  for (const auto& [position, speed] : analysis::speeds) {
+    // A speed without the position that it belongs to would be one of the past.
+    const double slope = std::isfinite(of(position)->value) ? final_slope(series["time"], series[position]) : nan;
+    *of(speed) = measured(speed, slope);
+  }
+  const Frame& frame = start.frame;
+  const double speed = frame.impact_speed > 0.0 ? frame.impact_speed : nan;
+  append(row, {measured("impact_speed", speed), measured("impact_angle", speed > 0.0 ? frame.impact_angle : nan),
+               measured("front_speed_over_impact_speed", of("front_speed")->value / speed),
+               measured("radial_speed_over_impact_speed", of("radial_speed")->value / speed)});
+  const BodyInput& projectile = run.bodies[frame.projectile];
+  row.push_back(measured("projectile_size", projectile.velocity.isZero(0.0) ? nan : projectile.size));
   for (const BodyInput& body : run.bodies) {
     const std::string name = "front_velocity." + body.name;
     if (std::ranges::find(series.columns, name, &Column::name) == series.columns.end()) continue;
-    row.push_back({"pullback." + body.name, "m/s",
-                   "fall of the velocity of the forward surface from its maximum to the following minimum",
-                   pullback(series[name])});
+    row.push_back(measured("pullback", body.name, pullback(series[name])));
   }
   return row;
 }
 
 /// Says why values are missing.
-void explain(const Quantities& values, bool planar) {
-  struct Reason {
-    const char* begin;
-    const char* text;
-  };
-  constexpr std::array<Reason, 8> reasons = {
-      {{"projectile_size", "nothing moves at the start, or the shape states no extent"},
-       {"crater_", "no floor of a crater in the first target: it is open on the axis, or nothing has hit it"},
-       {"hole_", "the plate has no matter left, or no edge of a hole that ends inside of it"},
-       {"front", "no debris flies forward, or it has come to the border of the domain"},
-       {"foremost", "no debris flies forward, or it has come to the border of the domain"},
-       {"radi", "no debris flies forward, or it has come to the border of the domain"},
-       {"outermost", "no debris flies forward, or it has come to the border of the domain"},
-       {"pullback", "the forward surface was not slowed by a tenth after its greatest velocity"}}};
-  constexpr const char* of_rings = "in two dimensions a connected piece of the section is a ring or a bar, no fragment";
+void explain(const Quantities& values) {
   std::map<std::string, std::vector<std::string>> missing;
   for (const Quantity& value : values) {
-    if (std::isfinite(value.value)) continue;
-    const auto reason =
-        std::ranges::find_if(reasons, [&](const Reason& r) { return value.name.starts_with(r.begin); });
-    const bool fragment = planar && value.name.find("fragment") != std::string::npos;
-    missing[fragment ? of_rings : reason == reasons.end() ? "nothing to measure it on" : reason->text].push_back(
-        value.name);
+    if (!std::isfinite(value.value)) missing[value.reason].push_back(value.name);
   }
   for (const auto& [text, names] : missing) log::info("not measured: {} ({})", fmt::join(names, ", "), text);
+}
+
+/// Says which bodies have no phases, whatever their temperature.
+void explain_phases(const Run& run) {
+  std::vector<std::string> names;
+  for (const BodyInput& body : run.bodies) {
+    if (!body.phases) names.push_back(body.name);
+  }
+  if (names.empty()) return;
+  log::info("the equations of state of {} have no phases: these bodies count in no mass or fraction of a phase",
+            fmt::join(names, ", "));
 }
 
 void require_bodies(const Run& run, const Options& options) {
@@ -305,11 +331,29 @@ void require_bodies(const Run& run, const Options& options) {
   for (const BodyInput& body : run.bodies) known.push_back(body.name);
   for (const auto& [name, value] : options.attenuation) asked.push_back(name);
   if (!options.peak_decay.empty()) asked.push_back(options.peak_decay);
+  if (!options.loads.empty()) asked.push_back(options.loads);
   for (const std::string& name : asked) {
     if (std::ranges::find(known, name) != known.end()) continue;
     throw InputError(
         fmt::format("error: the run has no body \"{}\" (bodies: {})", name, fmt::join(known, ", ")));
   }
+}
+
+std::size_t body_named(const Run& run, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::find(run.bodies, name, &BodyInput::name) - run.bodies.begin());
+}
+
+/// Plane of the loads asked for: before the face of a body by two cells, where what arrives still flies freely.
+std::optional<Arrivals> arrivals_at(const Run& run, const Start& start, const Options& options) {
+  if (!options.loads.empty()) {
+    const std::size_t wall = body_named(run, options.loads);
+    const Frame frame =
+        start.walls[wall] ? start.walls[wall]->frame() : start.frame.at_face(start.extents[wall].lower);
+    const double face = start.walls[wall] ? start.walls[wall]->extent().lower : start.extents[wall].lower;
+    return Arrivals(frame, face - 2.0 * run.cell_size, wall);
+  }
+  if (!options.loads_at) return {};
+  return Arrivals(start.frame.at_face(*options.loads_at), *options.loads_at);
 }
 
 }  // namespace
@@ -324,10 +368,10 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
 
   std::optional<PeakDecay> peaks;
   if (!options.peak_decay.empty()) {
-    const auto body = static_cast<std::size_t>(
-        std::ranges::find(run.bodies, options.peak_decay, &BodyInput::name) - run.bodies.begin());
+    const std::size_t body = body_named(run, options.peak_decay);
     peaks.emplace(first, frame, body, 1.5 * run.cell_size, start.extents[body].lower);
   }
+  std::optional<Arrivals> arrivals = arrivals_at(run, start, options);
   Table series{
       .name = "series", .meaning = "measures of every snapshot", .label = {}, .labels = {}, .columns = {}};
   if (first.scalar("density") == nullptr) {
@@ -335,25 +379,31 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
   }
   const OutflowHistory outflow(run);
   Snapshot last;
+  Quantities row;
   for (const SnapshotEntry& entry : run.snapshots) {
     last = read_snapshot(entry);
-    series.append(measure(run, start, options, outflow, last));
+    row = measure(run, start, options, outflow, last);
+    series.append(row);
     if (peaks) peaks->add(last);
+    if (arrivals) arrivals->add(last);
   }
   end_at_the_border(run, frame, series);
   add_speeds(series);
 
-  Quantities values = final_values(series, run, start);
+  Quantities values = final_values(series, row, run, start);
   append(values, axis_measures(last, start, run.bodies));
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
-    append(values, spall_measures(first, last, frame, b, run.bodies[b]));
+    append(values, spall_measures(first, last, frame, b, run.bodies[b], start.planar));
     append(values, rod_measures(first, last, b, run.bodies[b], run.cell_size));
   }
   const double link = options.link > 0.0 ? options.link : run.cell_size;
   const std::vector<Fragment> fragments = find_fragments(last, frame, link);
   Quantities of_fragments = fragment_measures(fragments, start.projectile_mass, start.particle_mass);
   if (frame.is_planar()) {
-    for (Quantity& value : of_fragments) value.value = nan;
+    for (Quantity& value : of_fragments) {
+      value.value = nan;
+      value.reason = "in two dimensions a connected piece of the section is a ring or a bar, no fragment";
+    }
   }
   append(values, std::move(of_fragments));
 
@@ -364,23 +414,16 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
     tables.push_back(peaks->profile(run.cell_size));
     append(values, peaks->measures(2.0 * start.projectile_radius));
   }
-  if (options.witness) {
-    Witness witness = witness_plate(last, frame, {.position = *options.witness, .ring = 2.0 * run.cell_size});
-    append(values, witness.totals);
-    tables.push_back(std::move(witness.rings));
-    tables.push_back(std::move(witness.flux));
-  }
-  explain(values, frame.is_planar());
-  Table quantities{.name = "quantities",
-                   .meaning = "final values",
-                   .label = "quantity",
-                   .labels = {},
-                   .columns = {{"value", "", "in the SI unit of the column `unit` of analysis.h5", {}}}};
-  for (const Quantity& value : values) {
-    quantities.labels.push_back(value.name);
-    quantities.columns[0].values.push_back(value.value);
-  }
-  tables.push_back(std::move(quantities));
+  const auto add_loads = [&](Loads loads) {
+    append(values, std::move(loads.totals));
+    tables.push_back(std::move(loads.rings));
+    tables.push_back(std::move(loads.flux));
+  };
+  const double ring = 2.0 * run.cell_size;
+  if (options.witness) add_loads(witness_plate(last, frame, {.position = *options.witness, .ring = ring}));
+  if (arrivals) add_loads(arrivals->loads(ring));
+  explain(values);
+  explain_phases(run);
 
   fs::create_directories(folder);
   PartialFile partial(folder / "analysis.h5");
@@ -394,7 +437,8 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
     write_hdf5(table, file.root);
     write_csv(table, folder);
   }
-  const hdf5::Group group = file.root.open_group("quantities");
+  write_quantities(values, folder);
+  const hdf5::Group group = file.root.create_group("quantities");
   for (const Quantity& value : values) group.set_attribute(value.name, value.value);
   write_radiographs(run, frame, options, file.root);
   file.close();

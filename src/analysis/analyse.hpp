@@ -13,6 +13,8 @@ namespace whipple::analysis {
 struct Options {
   double link = 0.0;              ///< linking length of fragments, m; 0: the cell size
   std::optional<double> witness;  ///< axial coordinate of a witness plate, m
+  std::string loads;              ///< body on whose face the loads are measured; empty: none
+  std::optional<double> loads_at;  ///< axial coordinate of a plane on which they are measured instead, m
   double diameter_at = 0.0;       ///< of bars: distance from the wall, m; 0: not asked for
   std::optional<int> axis;        ///< of the flight: 0, 1, 2 instead of what is found
   std::string peak_decay;         ///< body whose peak pressure is followed; empty: none
@@ -25,8 +27,8 @@ struct Options {
 };
 
 /// Measures a run and writes into `folder`: quantities.csv (final values), series.csv (a row per snapshot),
-/// bodies.csv, fragments.csv, fragment_distribution.csv, profile.csv, peak_pressure.csv and witness_*.csv
-/// where asked for, and analysis.h5 with all of them and the radiographs (docs/manual/output.md).
+/// bodies.csv, fragments.csv, fragment_distribution.csv, profile.csv, peak_pressure.csv, witness_*.csv and
+/// loads_*.csv where asked for, and analysis.h5 with all of them and the radiographs (docs/manual/output.md).
 /// @throws InputError if the run has no snapshots, a body of the options is not in it, or the output cannot
 /// be written
 void analyse(const Run& run, const Options& options, const std::filesystem::path& folder);

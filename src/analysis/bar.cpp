@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/analysis/bar.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "src/analysis/measures.hpp"
 #include "src/analysis/surfaces.hpp"
 
 namespace whipple::analysis {
@@ -77,76 +76,81 @@ Table diameter_profile(const Snapshot& snapshot, const Frame& frame, const Run& 
 
 Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,
                         const BodyInput& input, double cell_size, double diameter_at, bool held) {
-  if (!frame.wall) return {};
-  // Axial coordinates grow towards the wall: the bar lies below it.
-  const double wall = *frame.wall;
+  // Axial coordinates grow towards the wall: the bar lies below it. What does not fly at it is no bar.
+  if (!frame.wall || !(frame.axial(input.velocity) > 0.0)) return {};
   const Extent extent = axial_extent(snapshot, frame, body, input.spacing);
   if (!std::isfinite(extent.length())) return {};  // nothing of it is left
   const double size = cell_size;
-  const double lower = wall - std::ceil((wall - extent.lower) / size + 1.0) * size;
-  const std::vector<double> d = diameters(snapshot, frame, body, size, lower, wall, true, !held);
-  const auto name = [&](const char* measure) { return fmt::format("{}.{}", measure, input.name); };
+  // A bar that has not arrived, or has rebounded, ends in free space.
+  const double foot = *frame.wall - extent.upper > size ? extent.upper : *frame.wall;
+  const double length = foot - extent.lower;
+  const double lower = foot - std::ceil(length / size + 1.0) * size;
+  const std::vector<double> d = diameters(snapshot, frame, body, size, lower, foot, true, !held);
   const std::size_t n = d.size();
-  Quantities row = {
-      {name("length"), "m", "from the wall to the far end", wall - extent.lower},
-      {name("foot_diameter"), "m", "at the wall, continued from the three layers of a cell above it",
-       n < 3 ? nan : (15.0 * d[n - 1] - 10.0 * d[n - 2] + 3.0 * d[n - 3]) / 8.0}};  // parabola
+  Quantities row = {measured("length", input.name, length),
+                    measured("foot_diameter", input.name,
+                             n < 3 ? nan : (15.0 * d[n - 1] - 10.0 * d[n - 2] + 3.0 * d[n - 3]) / 8.0)};  // parabola
   if (diameter_at > 0.0) {
-    const double x = diameter_at / size - 0.5;  // in layers from the wall
+    const double x = diameter_at / size - 0.5;  // in layers from the foot
     const double k = std::clamp(std::floor(x), 0.0, static_cast<double>(n) - 2.0);
     const auto at = static_cast<std::size_t>(k);
-    row.push_back({name("diameter_at"), "m", "at the distance from the wall that was asked for",
-                   d[n - 1 - at] + (x - k) * (d[n - 2 - at] - d[n - 1 - at])});
+    row.push_back(measured("diameter_at", input.name,
+                           diameter_at < length ? d[n - 1 - at] + (x - k) * (d[n - 2 - at] - d[n - 1 - at]) : nan));
   }
-  const auto foot_mean = [&](const char* field, const char* unit, const char* measure) {
+  const auto foot_mean = [&](const char* field, const char* measure) {
     const std::vector<double>* values = snapshot.scalar(field);
     if (values == nullptr) return;
     double mass = 0.0, total = 0.0;
     for (std::size_t i = 0; i < snapshot.size(); ++i) {
-      const bool foot = wall - frame.axial(snapshot.position[i]) < input.spacing &&
+      const bool near = foot - frame.axial(snapshot.position[i]) < input.spacing &&
                         frame.radius(snapshot.position[i]) < 2.0 * input.spacing;
-      if (snapshot.body[i] != body || !foot) continue;
+      if (snapshot.body[i] != body || !near) continue;
       mass += snapshot.mass[i];
       total += snapshot.mass[i] * (*values)[i];
     }
-    row.push_back({name(measure), unit, "mean within a particle spacing of the wall, two of the axis",
-                   mass > 0.0 ? total / mass : nan});
+    row.push_back(measured(measure, input.name, mass > 0.0 ? total / mass : nan));
   };
-  foot_mean("temperature", "K", "foot_temperature");
-  foot_mean("plastic_strain", "1", "foot_plastic_strain");
+  foot_mean("temperature", "foot_temperature");
+  foot_mean("plastic_strain", "foot_plastic_strain");
   return row;
 }
 
 Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Frame& frame, std::size_t body,
-                          const BodyInput& input) {
-  std::vector<std::pair<double, double>> matter;  // axial coordinate, mass
+                          const BodyInput& input, bool planar) {
+  std::vector<std::pair<double, double>> material;  // axial coordinate, mass
   double total = 0.0;
   for (std::size_t i = 0; i < last.size(); ++i) {
     if (last.body[i] != body) continue;
-    matter.emplace_back(frame.axial(last.position[i]), last.mass[i]);
+    material.emplace_back(frame.axial(last.position[i]), last.mass[i]);
     total += last.mass[i];
   }
-  if (matter.size() < 2) return {};
-  std::sort(matter.begin(), matter.end());
-  // What is left of the distance of two layers beyond the spacing of the particles.
-  const auto gap_behind = [&](std::size_t i) {
-    return std::max(matter[i + 1].first - matter[i].first - input.spacing, 0.0);
+  if (material.size() < 2 || !planar) {
+    const char* reason = "not all bodies fill the section of the domain: the impact is not planar";
+    return {measured("spall_thickness", input.name, nan, reason), measured("largest_gap", input.name, nan, reason)};
+  }
+  std::sort(material.begin(), material.end());
+  const double length = axial_extent(first, frame, body, input.spacing).length();
+  // Gaps, from the foremost on, that have at least a layer of particles ahead of them and behind: a single particle
+  // is none. Their width is what is left of the distance of two layers beyond the spacing of the particles; at less than
+  // half a spacing the material is stretched, not parted.
+  struct Gap {
+    double width, ahead;
   };
-  double largest = 0.0;
-  for (std::size_t i = 0; i + 1 < matter.size(); ++i) largest = std::max(largest, gap_behind(i));
+  std::vector<Gap> gaps;
+  const double layer = 0.99 * total * input.spacing / length;
+  double ahead = 0.0, largest = 0.0;
+  for (std::size_t i = material.size() - 1; i > 0; --i) {
+    ahead += material[i].second;
+    const double width = material[i].first - material[i - 1].first - input.spacing;
+    if (width < 0.5 * input.spacing || ahead < layer || total - ahead < layer) continue;
+    gaps.push_back({width, ahead});
+    largest = std::max(largest, width);
+  }
   // Metal often parts on several planes at once; the layer that flies off ends at the foremost.
   constexpr double is_open = 0.5;  // of the largest gap
-  std::size_t foremost = matter.size() - 1;
-  double ahead = 0.0;
-  do {
-    ahead += matter[foremost].second;
-  } while (--foremost > 0 && gap_behind(foremost) < is_open * largest);
-  const double length = axial_extent(first, frame, body, input.spacing).length();
-  return {{fmt::format("spall_thickness.{}", input.name), "m",
-           "initial thickness of the matter ahead of the foremost gap at least half as wide as the largest",
-           length * ahead / total},
-          {fmt::format("largest_gap.{}", input.name), "m", "largest gap between particles along the axis",
-           largest > 0.0 ? largest + input.spacing : 0.0}};
+  const auto foremost = std::ranges::find_if(gaps, [&](const Gap& gap) { return gap.width >= is_open * largest; });
+  return {measured("spall_thickness", input.name, foremost == gaps.end() ? nan : length * foremost->ahead / total),
+          measured("largest_gap", input.name, gaps.empty() ? 0.0 : largest + input.spacing)};
 }
 
 Quantities rod_measures(const Snapshot& first, const Snapshot& last, std::size_t body, const BodyInput& input,
@@ -194,15 +198,9 @@ Quantities rod_measures(const Snapshot& first, const Snapshot& last, std::size_t
     mass += now.mass[end];
     momentum += now.momentum[end];
   }
-  const auto name = [&](const char* measure) { return fmt::format("{}.{}", measure, input.name); };
-  return {
-      {name("residual_length_ratio"), "1",
-       "length of what still flies with 0.9 of the initial speed, from the rear end on as far as it has half "
-       "of "
-       "the initial section, over the initial length",
-       static_cast<double>(end - begin) / static_cast<double>(whole.mass.size())},
-      {name("residual_speed_ratio"), "1", "its mean speed along the initial direction over the initial one",
-       mass > 0.0 ? momentum / mass / speed : nan}};
+  return {measured("residual_length_ratio", input.name,
+                   static_cast<double>(end - begin) / static_cast<double>(whole.mass.size())),
+          measured("residual_speed_ratio", input.name, mass > 0.0 ? momentum / mass / speed : nan)};
 }
 
 double pullback(const std::vector<double>& velocity) {

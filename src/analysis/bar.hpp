@@ -10,15 +10,17 @@ namespace whipple::analysis {
 /// Diameter of the circle with the cross-section of the body, along the axis.
 Table diameter_profile(const Snapshot& snapshot, const Frame& frame, const Run& run);
 
-/// Measures a body against a wall: its length, its diameter and the state at its end on the wall.
+/// Measures a bar that flies at a wall: its length, its diameter and the state at its end on the wall. Other bodies have
+/// none of these.
 /// @param diameter_at distance from the wall at which the diameter is asked for; 0: not
 /// @param held        it touched the wall from the start, so that no gap can be between them
 Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,
                         const BodyInput& input, double cell_size, double diameter_at, bool held);
 
-/// Spall of a body in planar impact, from the gaps along the axis at the last snapshot.
+/// Measures the spall of a body in planar impact, from the gaps along the axis at the last snapshot.
+/// @param planar  the impact is planar; otherwise both values are NaN
 Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Frame& frame, std::size_t body,
-                          const BodyInput& input);
+                          const BodyInput& input, bool planar);
 
 /// Measures the rest of a rod behind its target, along its direction of flight.
 Quantities rod_measures(const Snapshot& first, const Snapshot& last, std::size_t body, const BodyInput& input,

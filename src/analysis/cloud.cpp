@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/analysis/measures.hpp"
 #include "src/core/parallel/threads.hpp"
 
 namespace whipple::analysis {
@@ -15,9 +16,11 @@ namespace {
 
 constexpr std::array<const char*, 4> phases = {"solid", "melting", "liquid", "vapour"};
 
-/// Sums over particles; momentum along the axis.
+/// Sums over particles; momentum along the axis. `warm`: mass of those that have a temperature (trusses have none);
+/// `phased`: mass of those whose equation of state has phases.
 struct Sums {
   double mass = 0, momentum = 0, kinetic = 0, internal = 0, heat = 0, melted = 0, vaporised = 0, failed = 0;
+  double warm = 0, phased = 0;
   std::array<double, 4> phase{};
   Sums& operator+=(const Sums& other) {
     mass += other.mass;
@@ -28,6 +31,8 @@ struct Sums {
     melted += other.melted;
     vaporised += other.vaporised;
     failed += other.failed;
+    warm += other.warm;
+    phased += other.phased;
     for (std::size_t k = 0; k < phase.size(); ++k) phase[k] += other.phase[k];
     return *this;
   }
@@ -36,12 +41,17 @@ struct Sums {
 /// The fields that the sums are made of; nullptr if not written.
 struct Fields {
   const Snapshot& snapshot;
+  std::span<const BodyInput> bodies = {};
   const std::vector<double>* energy = snapshot.scalar("internal_energy");
   const std::vector<double>* temperature = snapshot.scalar("temperature");
   const std::vector<double>* phase = snapshot.scalar("phase");
   const std::vector<double>* melted = snapshot.scalar("melted_fraction");
   const std::vector<double>* vaporised = snapshot.scalar("vaporised_fraction");
   const std::vector<double>* failed = snapshot.scalar("failed");
+  /// Returns whether the equation of state of a particle's body has phases.
+  [[nodiscard]] bool has_phases(std::size_t i) const {
+    return snapshot.body[i] >= bodies.size() || bodies[snapshot.body[i]].phases;
+  }
 };
 
 template <class Chosen>
@@ -55,17 +65,23 @@ Sums sum(const Fields& fields, const Frame& frame, Chosen&& chosen) {
     one.momentum = m * frame.axial(s.velocity[i]);
     one.kinetic = 0.5 * m * s.velocity[i].squaredNorm();
     if (fields.energy != nullptr) one.internal = m * (*fields.energy)[i];
-    if (fields.temperature != nullptr) one.heat = m * (*fields.temperature)[i];
+    if (fields.temperature != nullptr && (*fields.temperature)[i] > 0.0) {
+      one.warm = m;
+      one.heat = m * (*fields.temperature)[i];
+    }
+    if (fields.failed != nullptr && (*fields.failed)[i] > 0.0) one.failed = m;
+    if (!fields.has_phases(i)) return one;
+    one.phased = m;
     if (fields.melted != nullptr) one.melted = m * (*fields.melted)[i];
     if (fields.vaporised != nullptr) one.vaporised = m * (*fields.vaporised)[i];
-    if (fields.failed != nullptr && (*fields.failed)[i] > 0.0) one.failed = m;
     if (fields.phase != nullptr) one.phase[static_cast<std::size_t>((*fields.phase)[i]) & 3U] = m;
     return one;
   });
 }
 
 Quantities as_row(const Sums& sums, const Fields& fields, double copies) {
-  const double per_mass = sums.mass > 0.0 ? 1.0 / sums.mass : nan;
+  const auto inverse = [](double mass) { return mass > 0.0 ? 1.0 / mass : nan; };
+  const double per_mass = inverse(sums.mass), per_phased = inverse(sums.phased);
   Quantities row = {{"mass", "kg", "mass of the full problem", copies * sums.mass},
                     {"axial_momentum", "kg m/s", "momentum along the axis", copies * sums.momentum},
                     {"kinetic_energy", "J", "kinetic energy", copies * sums.kinetic},
@@ -73,41 +89,37 @@ Quantities as_row(const Sums& sums, const Fields& fields, double copies) {
   if (fields.energy != nullptr)
     row.push_back({"internal_energy", "J", "internal energy", copies * sums.internal});
   if (fields.temperature != nullptr)
-    row.push_back({"mean_temperature", "K", "mean temperature by mass", sums.heat * per_mass});
+    row.push_back({"mean_temperature", "K", "mean temperature by mass", sums.heat * inverse(sums.warm)});
   if (fields.melted != nullptr)
-    row.push_back({"melted_fraction", "1", "mass fraction of liquid and vapour", sums.melted * per_mass});
+    row.push_back({"melted_fraction", "1", "mass fraction of liquid and vapour", sums.melted * per_phased});
   if (fields.vaporised != nullptr)
-    row.push_back({"vaporised_fraction", "1", "mass fraction of vapour", sums.vaporised * per_mass});
+    row.push_back({"vaporised_fraction", "1", "mass fraction of vapour", sums.vaporised * per_phased});
   if (fields.failed != nullptr)
-    row.push_back({"failed_fraction", "1", "share of the mass that has failed", sums.failed * per_mass});
+    row.push_back({"failed_fraction", "1", "fraction of the mass that has failed", sums.failed * per_mass});
   for (std::size_t k = 0; fields.phase != nullptr && k < phases.size(); ++k) {
     row.push_back({fmt::format("{}_fraction", phases[k]), "1",
-                   fmt::format("share of the mass in particles of the phase {}", phases[k]),
-                   sums.phase[k] * per_mass});
+                   fmt::format("fraction of the mass in particles of the phase {}", phases[k]),
+                   sums.phase[k] * per_phased});
   }
   return row;
 }
 
-/// Percentiles of the mass beyond an axial coordinate, of position and distance from the axis.
+/// Measures the mass beyond an axial coordinate: percentiles of position and distance from the axis.
 void append_percentiles(Quantities& row, const Snapshot& snapshot, const Frame& frame, double from) {
   std::vector<std::pair<double, double>> axial, distance;
-  double mass = 0.0;
+  double mass = std::isfinite(from) ? 0.0 : nan;
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     const double z = frame.axial(snapshot.position[i] - frame.centre);
-    if (z <= from) continue;
+    if (!(z > from)) continue;
     axial.emplace_back(z, snapshot.mass[i]);
     distance.emplace_back(frame.radius(snapshot.position[i]), snapshot.mass[i]);
     mass += snapshot.mass[i];
   }
-  const char* what = "of the mass beyond the rear face by a quarter of the target's thickness";
-  row.push_back({"mass_behind", "kg", "mass beyond the rear face by a quarter of the target's thickness",
-                 frame.copies() * mass});
+  row.push_back(measured("mass_behind", frame.copies() * mass));
   for (const int percent : {50, 90, 99}) {
-    const double share = 0.01 * percent;
-    row.push_back({fmt::format("axial_{}", percent), "m", fmt::format("percentile {}", what),
-                   weighted_quantile(axial, share)});
-    row.push_back({fmt::format("radius_{}", percent), "m", fmt::format("percentile {}", what),
-                   weighted_quantile(distance, share)});
+    const double fraction = 0.01 * percent;
+    row.push_back(measured(fmt::format("axial_{}", percent), weighted_quantile(axial, fraction)));
+    row.push_back(measured(fmt::format("radius_{}", percent), weighted_quantile(distance, fraction)));
   }
 }
 
@@ -121,8 +133,9 @@ std::vector<std::uint32_t> debris(const Snapshot& snapshot, const Frame& frame) 
   return chosen;
 }
 
-Quantities cloud_measures(const Snapshot& snapshot, const Frame& frame, const Extent& target) {
-  const double rear_face = target.upper;
+Quantities cloud_measures(const Snapshot& snapshot, const Frame& frame, const std::optional<Extent>& target,
+                          std::span<const BodyInput> bodies) {
+  const double rear_face = target ? target->upper : nan;
   const std::vector<std::uint32_t> chosen = debris(snapshot, frame);
   using Weighted = std::vector<std::pair<double, double>>;
   Weighted axial, distance, radial, angle;
@@ -142,42 +155,30 @@ Quantities cloud_measures(const Snapshot& snapshot, const Frame& frame, const Ex
   const double rear = weighted_quantile(axial, beyond), front = weighted_quantile(axial, 1.0 - beyond);
   const double radius = weighted_quantile(distance, 1.0 - beyond);
   const double speed = moving * frame.impact_speed;
-  const Fields fields{snapshot};
+  const Fields fields{snapshot, bodies};
   const Sums all = sum(fields, frame, [](std::size_t) { return true; });
   const Sums flying =
       sum(fields, frame, [&](std::size_t i) { return frame.axial(snapshot.velocity[i]) > speed; });
-  Quantities row = {
-      {"front", "m", "axial coordinate beyond which 0.1 % of the debris lies", front},
-      {"foremost", "m", "axial coordinate of the foremost particle of the debris",
-       chosen.empty() ? nan : foremost},
-      {"rear", "m", "axial coordinate below which 0.1 % of the debris lies", rear},
-      {"radius", "m", "distance from the axis beyond which 0.1 % of the debris lies", radius},
-      {"outermost", "m", "distance of the outermost particle of the debris from the axis",
-       chosen.empty() ? nan : outermost},
-      {"radial_speed", "m/s", "speed away from the axis that 0.1 % of the debris exceeds",
-       weighted_quantile(radial, 1.0 - beyond)},
-      {"mean_velocity", "m/s", "mean axial velocity of the debris",
-       flying.mass > 0.0 ? flying.momentum / flying.mass : nan},
-      {"half_angle", "rad", "of the cone of directions that holds 95 % of the kinetic energy of the debris",
-       weighted_quantile(angle, 0.95)},
-      {"cloud_length", "m", "from the rear face of the first target to the front", front - rear_face},
-      {"cloud_length_over_width", "1", "cloud length over twice the radius",
-       (front - rear_face) / (2.0 * radius)},
-      {"debris_mass", "kg", "mass of the debris", frame.copies() * flying.mass}};
-  append_percentiles(row, snapshot, frame, rear_face + 0.25 * target.length());
-  const double copies = frame.copies();
-  if (fields.melted != nullptr) {
-    row.push_back({"melted_mass", "kg", "mass of liquid and vapour", copies * all.melted});
-    row.push_back({"melted_fraction", "1", "mass fraction of liquid and vapour", all.melted / all.mass});
-    row.push_back({"debris_melted_fraction", "1", "mass fraction of liquid and vapour in the debris",
-                   flying.mass > 0.0 ? flying.melted / flying.mass : nan});
-  }
-  if (fields.vaporised != nullptr) {
-    row.push_back({"vaporised_mass", "kg", "mass of vapour", copies * all.vaporised});
-    row.push_back({"vaporised_fraction", "1", "mass fraction of vapour", all.vaporised / all.mass});
-    row.push_back({"debris_vaporised_fraction", "1", "mass fraction of vapour in the debris",
-                   flying.mass > 0.0 ? flying.vaporised / flying.mass : nan});
-  }
+  Quantities row = {measured("front", front),
+                    measured("foremost", chosen.empty() ? nan : foremost),
+                    measured("rear", rear),
+                    measured("radius", radius),
+                    measured("outermost", chosen.empty() ? nan : outermost),
+                    measured("radial_speed", weighted_quantile(radial, 1.0 - beyond)),
+                    measured("mean_velocity", flying.mass > 0.0 ? flying.momentum / flying.mass : nan),
+                    measured("half_angle", weighted_quantile(angle, 0.95)),
+                    measured("cloud_length", front - rear_face),
+                    measured("cloud_length_over_width", (front - rear_face) / (2.0 * radius)),
+                    measured("debris_mass", frame.copies() * flying.mass)};
+  append_percentiles(row, snapshot, frame, target ? rear_face + 0.25 * target->length() : nan);
+  const auto append_phase = [&](const std::string& phase, double of_all, double of_debris) {
+    row.push_back(measured(phase + "_mass", all.phased > 0.0 ? frame.copies() * of_all : nan));
+    row.push_back(measured(phase + "_fraction", all.phased > 0.0 ? of_all / all.phased : nan));
+    row.push_back(
+        measured(fmt::format("debris_{}_fraction", phase), flying.phased > 0.0 ? of_debris / flying.phased : nan));
+  };
+  if (fields.melted != nullptr) append_phase("melted", all.melted, flying.melted);
+  if (fields.vaporised != nullptr) append_phase("vaporised", all.vaporised, flying.vaporised);
   return row;
 }
 
@@ -187,7 +188,7 @@ Table body_table(const Snapshot& snapshot, const Frame& frame, const std::vector
               .label = "body part",
               .labels = {},
               .columns = {}};
-  const Fields fields{snapshot};
+  const Fields fields{snapshot, bodies};
   const double speed = moving * frame.impact_speed;
   const auto axial = [&](std::size_t i) { return frame.axial(snapshot.velocity[i]); };
   const auto add_rows = [&](const std::string& name, auto&& mine) {
@@ -214,52 +215,38 @@ Quantities body_measures(const Snapshot& snapshot, const Frame& frame, std::size
                          const BodyInput& input, const Outflow& outflow) {
   const Fields fields{snapshot};
   const Sums sums = sum(fields, frame, [&](std::size_t i) { return snapshot.body[i] == body; });
-  const Quantity left = {fmt::format("outflow_mass.{}", input.name), "kg",
-                         "has left the domain: counts in mean_velocity, in nothing else",
-                         frame.copies() * outflow.mass};
-  const Quantity mean = {fmt::format("mean_velocity.{}", input.name), "m/s",
-                         "momentum over mass, along the axis, with what has left the domain",
-                         (sums.momentum + frame.axial(outflow.momentum)) / (sums.mass + outflow.mass)};
+  const Quantity left = measured("outflow_mass", input.name, frame.copies() * outflow.mass);
+  const Quantity mean = measured("mean_velocity", input.name,
+                                 (sums.momentum + frame.axial(outflow.momentum)) / (sums.mass + outflow.mass));
   if (!(sums.mass > 0.0)) return outflow.mass > 0.0 ? Quantities{mean, left} : Quantities{};
   const Extent extent = axial_extent(snapshot, frame, body, input.spacing);
   // Particles whose centre lies within one spacing of the foremost one: its outermost layer.
   const Sums surface = sum(fields, frame, [&](std::size_t i) {
     return snapshot.body[i] == body && frame.axial(snapshot.position[i]) > extent.upper - input.spacing;
   });
-  const auto name = [&](const char* measure) { return fmt::format("{}.{}", measure, input.name); };
-  Quantities row = {
-      mean,
-      left,
-      {name("axial_length"), "m", "extent along the axis", extent.length()},
-      {name("front_velocity"), "m/s", "mean axial velocity of the outermost layer of particles ahead",
-       surface.momentum / surface.mass}};
+  Quantities row = {mean, left, measured("axial_length", input.name, extent.length()),
+                    measured("front_velocity", input.name, surface.momentum / surface.mass)};
   for (std::size_t k = 0; fields.phase != nullptr && k < phases.size(); ++k) {
-    row.push_back({fmt::format("{}_fraction.{}", phases[k], input.name), "1", "share of the mass",
-                   sums.phase[k] / sums.mass});
+    row.push_back(measured(fmt::format("{}_fraction", phases[k]), input.name,
+                           input.phases ? sums.phase[k] / sums.mass : nan));
   }
   if (fields.melted != nullptr) {
     std::vector<std::pair<double, double>> all;
     for (std::size_t i = 0; i < snapshot.size(); ++i) {
-      if (snapshot.body[i] != body) continue;
-      all.emplace_back((*fields.melted)[i], snapshot.mass[i]);
+      if (snapshot.body[i] == body) all.emplace_back((*fields.melted)[i], snapshot.mass[i]);
     }
-    row.push_back(
-        {name("melted_fraction"), "1", "mass fraction of liquid and vapour", sums.melted / sums.mass});
-    row.push_back({name("median_melted_fraction"), "1", "median over the mass: surface layers have no weight",
-                   weighted_quantile(all, 0.5)});
+    row.push_back(measured("melted_fraction", input.name, input.phases ? sums.melted / sums.mass : nan));
+    row.push_back(measured("median_melted_fraction", input.name, input.phases ? weighted_quantile(all, 0.5) : nan));
   }
   return row;
 }
 
 void add_speeds(Table& series) {
   const std::vector<double> time = series["time"];
-  const std::array<std::array<const char*, 3>, 3> names = {
-      {{"front", "front_speed", "change of the front in time"},
-       {"rear", "rear_speed", "change of the rear in time"},
-       {"radius", "expansion_speed", "change of the radius in time"}}};
-  for (const auto& [of, name, meaning] : names) {
+  for (const auto& [of, name] : speeds) {
     const std::vector<double> x = series[of];
-    Column column{name, "m/s", meaning, std::vector<double>(x.size(), nan)};
+    const Quantity speed = measured(name, nan);
+    Column column{speed.name, speed.unit, speed.meaning, std::vector<double>(x.size(), nan)};
     for (std::size_t k = 0; k < x.size(); ++k) {
       const std::size_t before = k > 0 && std::isfinite(x[k - 1]) ? k - 1 : k;
       const std::size_t after = k + 1 < x.size() && std::isfinite(x[k + 1]) ? k + 1 : k;

@@ -1,34 +1,58 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "src/analysis/frame.hpp"
 
 namespace whipple::analysis {
 
-/// Thickness of the material of a body along the axis, in columns of two cells over the face of the model: says
-/// whether a plate is open anywhere, wherever it was hit.
+/// Thickness of the material of a body along the axis, in columns over the face of the body: tells how much of a plate is
+/// left anywhere, wherever it was hit.
+///
+/// Columns near the rim do not count, nor do those where the body was thinner at the start: the margin is a twentieth of
+/// the lesser width of the face, at least a column.
 class Columns {
  public:
   /// @param size  edge of the columns, m
   Columns(const Snapshot& first, const Frame& frame, std::size_t body, double size);
 
-  /// Least fraction of its initial thickness that is left in any column, of material that is slower than debris;
-  /// the rim of the body, thinner parts of it and columns cut by the domain do not count. 1 if the body has no
-  /// column that counts.
-  [[nodiscard]] double least_left(const Snapshot& snapshot) const;
+  /// Returns the least fraction of its initial thickness that the chosen material has in a column that counts; 1 if none
+  /// counts.
+  /// @param chosen  1: the particle counts
+  /// @param shift   displacement of the body since the start, m
+  [[nodiscard]] double least_left(const Snapshot& snapshot, const std::vector<std::uint8_t>& chosen,
+                                  const Vector3& shift) const;
+
+  /// Returns whether a place of the first snapshot (m) lies in a column that counts.
+  [[nodiscard]] bool inside(const Vector3& place) const;
+  /// Returns whether any column counts.
+  [[nodiscard]] bool any() const;
+  /// Returns whether the model ends at a mirror plane at the lower (0) or upper (1) end of a transverse direction.
+  [[nodiscard]] bool mirrored(std::size_t direction, std::size_t end) const { return mirrored_[direction][end]; }
+  /// Returns the lower corner of the face (m), and its widths.
+  [[nodiscard]] const std::array<double, 2>& lower() const { return lower_; }
+  [[nodiscard]] std::array<double, 2> widths() const {
+    return {size_ * static_cast<double>(count_[0]), size_ * static_cast<double>(count_[1])};
+  }
 
  private:
-  [[nodiscard]] std::vector<double> thickness(const Snapshot& snapshot, bool all) const;
+  template <class Chosen>
+  [[nodiscard]] std::vector<double> thickness(const Snapshot& snapshot, const Vector3& shift, Chosen&& chosen) const;
+  [[nodiscard]] std::size_t index(std::ptrdiff_t i, std::ptrdiff_t j) const {
+    return static_cast<std::size_t>(i * count_[1] + j);
+  }
 
   Frame frame_;
-  std::size_t body_;
+  std::array<int, 2> transverse_;
   double size_;
-  std::array<double, 2> lower_{}, upper_{};    // of the body, across the axis
-  std::array<std::ptrdiff_t, 2> count_{};      // of columns
-  std::vector<double> initial_;                // m
-  std::vector<std::size_t> inside_;            // columns that count
+  std::array<double, 2> lower_{};                // of the face
+  std::array<std::ptrdiff_t, 2> count_{};        // of columns
+  std::array<std::array<bool, 2>, 2> mirrored_{};
+  std::vector<double> initial_;                  // m
+  std::vector<std::uint8_t> counts_;             // 1: farther from the rim than the margin
 };
 
 }  // namespace whipple::analysis

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "src/analysis/cloud.hpp"
+#include "src/analysis/measures.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/parallel/threads.hpp"
 
@@ -69,7 +70,7 @@ struct CellList {
     }
     if (((upper - lower).array() / size > 2.0e6).any()) {
       throw InputError(
-          "error: the linking length of the fragments is too small for the extent of the matter");
+          "error: the linking length of the fragments is too small for the extent of the material");
     }
     std::vector<std::uint64_t> of_point(points.size());
     parallel::for_each(points.size(), [&](std::size_t i) {
@@ -286,15 +287,13 @@ Quantities fragment_measures(const std::vector<Fragment>& fragments, double proj
   const std::span<const std::pair<double, double>> smaller =
       debris.empty() ? std::span<const std::pair<double, double>>{} : std::span(debris).subspan(1);
   const Exponent exponent = distribution_exponent(smaller, 7.5 * particle_mass);
-  return {
-      {"debris_fragments", "1", "number of fragments of the debris, single particles among them", number},
-      {"debris_fragments_resolved", "1", "number of those of at least eight particles", resolved},
-      {"largest_fragment", "kg", "mass of the largest fragment of the debris", largest},
-      {"largest_fragment_over_projectile", "1", "over the mass of the projectile", largest / projectile_mass},
-      {"mean_fragment", "kg", "mean mass of the fragments of the debris", number > 0.0 ? mass / number : nan},
-      {"fragment_exponent", "1", "b of N(m) ~ m^-b from eight particles on, without the largest",
-       exponent.value},
-      {"fragment_exponent_error", "1", "standard error of b", exponent.error}};
+  return {measured("debris_fragments", number),
+          measured("debris_fragments_resolved", resolved),
+          measured("largest_fragment", debris.empty() ? nan : largest),
+          measured("largest_fragment_over_projectile", debris.empty() ? nan : largest / projectile_mass),
+          measured("mean_fragment", number > 0.0 ? mass / number : nan),
+          measured("fragment_exponent", exponent.value),
+          measured("fragment_exponent_error", exponent.error)};
 }
 
 }  // namespace whipple::analysis

@@ -14,6 +14,11 @@ double Frame::radius(const Vector3& position) const {
   return offset.norm();
 }
 
+double Frame::ring_area(double inner, double outer) const {
+  if (dimension == grid::Dimension::plane_strain) return 2.0 * (outer - inner) * grid::unit_depth;
+  return std::numbers::pi * (outer - inner) * (outer + inner);
+}
+
 double Frame::radial_speed(const Vector3& position, const Vector3& velocity) const {
   Vector3 offset = position - centre, across = velocity;
   offset[axis] = 0.0;
@@ -32,20 +37,26 @@ Frame Frame::at_face(double coordinate) const {
   return moved;
 }
 
-double Frame::area_between(double inner, double outer) const {
-  if (dimension == grid::Dimension::plane_strain) return 2.0 * (outer - inner) * grid::unit_depth;
-  return std::numbers::pi * (outer * outer - inner * inner);
+double Frame::depth(const Vector3& position) const {
+  return dimension == grid::Dimension::plane_strain ? grid::unit_depth : 2.0 * std::numbers::pi * radius(position);
 }
 
 double Frame::edge(double volume, const Vector3& position) const {
-  switch (dimension) {
-    case grid::Dimension::plane_strain:
-      return std::sqrt(volume / grid::unit_depth);
-    case grid::Dimension::axisymmetric:
-      return std::sqrt(volume / (2.0 * std::numbers::pi * radius(position)));
-    default:
-      return std::cbrt(volume);
-  }
+  return is_planar() ? std::sqrt(volume / depth(position)) : std::cbrt(volume);
+}
+
+Frame Frame::along(int other) const {
+  Frame turned = *this;
+  if (other == axis) return turned;
+  turned.axis = other;
+  turned.sign = direction[other] >= 0.0 ? 1.0 : -1.0;
+  turned.centre[axis] = sign * start;
+  turned.start = turned.sign * turned.centre[other];
+  turned.centre[other] = 0.0;
+  turned.direction = direction / std::abs(direction[other]);
+  turned.impact_angle = std::acos(std::min(1.0, 1.0 / turned.direction.norm()));
+  turned.transverse = {axis, transverse[0] == other ? transverse[1] : transverse[0]};
+  return turned;
 }
 
 bool Frame::mirrored(int direction) const {
@@ -115,8 +126,8 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
   for (int a = 0; a < 3; ++a) {
     const std::optional<double>& plane = run.mirror_planes[static_cast<std::size_t>(a)];
     if (a == frame.axis) {
-      // A body flies against it: the face of a wall, not of a model cut in halves.
-      if (plane) frame.wall = frame.sign * *plane;
+      // The projectile flies against it: the face of a wall, not of a model cut in halves.
+      if (plane && !at_rest && frame.sign * *plane > frame.start) frame.wall = frame.sign * *plane;
       continue;
     }
     (plane ? mirrored : other).push_back(a);

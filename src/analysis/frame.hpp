@@ -31,14 +31,19 @@ struct Frame {
   [[nodiscard]] double copies() const { return static_cast<double>(1U << planes.size()); }
   /// Returns this frame about the point at which the line of flight meets an axial coordinate (m).
   [[nodiscard]] Frame at_face(double coordinate) const;
+  /// Returns this frame along another axis of the model, in which the line of flight goes forward too. It must not be
+  /// normal to a mirror plane.
+  [[nodiscard]] Frame along(int other) const;
   /// Component or coordinate along the flight.
   [[nodiscard]] double axial(const Vector3& v) const { return sign * v[axis]; }
   /// Distance from the axis.
   [[nodiscard]] double radius(const Vector3& position) const;
+  /// Returns the area of a ring about the axis, m^2; in plane strain of the strips on both sides.
+  [[nodiscard]] double ring_area(double inner, double outer) const;
   /// Component of the velocity away from the axis; its magnitude across the axis on the axis itself.
   [[nodiscard]] double radial_speed(const Vector3& position, const Vector3& velocity) const;
-  /// Area (m^2) between two distances from the axis: of a ring; in plane strain of the strips on both sides.
-  [[nodiscard]] double area_between(double inner, double outer) const;
+  /// Extent (m) of a particle across the plane of two dimensions: the way around the axis of a ring.
+  [[nodiscard]] double depth(const Vector3& position) const;
   /// Edge (m) of the square, in three dimensions of the cube, that a particle of volume `volume` (m^3) fills.
   [[nodiscard]] double edge(double volume, const Vector3& position) const;
   /// Returns whether the model ends at a mirror plane in this direction.

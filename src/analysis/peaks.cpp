@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/analysis/measures.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::analysis {
@@ -87,14 +88,10 @@ Quantities PeakDecay::measures(double diameter) const {
     xy += (x - x_mean) * (y - y_mean);
   });
   const double slope = n > 2.0 ? xy / xx : nan;
-  return {
-      {"peak_pressure_contact", "Pa", "mean peak over depths of 0 to 0.6 radii of the projectile",
-       mean_to(0.3 * diameter)},
-      {"peak_pressure_contact_wide", "Pa", "mean peak over depths of 0 to 1.2 radii of the projectile",
-       mean_to(0.6 * diameter)},
-      {"peak_pressure_exponent", "1", "n of P ~ depth^-n over 2 to 5 diameters of the projectile", -slope},
-      {"peak_pressure_4_diameters", "Pa", "peak at 4 diameters of the projectile, from the same fit",
-       std::exp(y_mean + slope * (std::log(4.0) - x_mean))}};
+  return {measured("peak_pressure_contact", mean_to(0.3 * diameter)),
+          measured("peak_pressure_contact_wide", mean_to(0.6 * diameter)),
+          measured("peak_pressure_exponent", -slope),
+          measured("peak_pressure_4_diameters", std::exp(y_mean + slope * (std::log(4.0) - x_mean)))};
 }
 
 }  // namespace whipple::analysis

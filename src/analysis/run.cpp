@@ -10,14 +10,18 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "src/analysis/table.hpp"
 #include "src/case/discretization.hpp"
 #include "src/case/domain.hpp"
+#include "src/case/shapes/shape.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/log.hpp"
 #include "src/core/base/parameter_table.hpp"
 #include "src/core/hdf5/hdf5.hpp"
 #include "src/core/input/document.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/material/material_file.hpp"
 
 namespace whipple::analysis {
 namespace {
@@ -25,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct BodyKeys {
-  std::string name;
+  std::string name, material;
   Vector3 velocity = Vector3::Zero();
 };
 
@@ -48,37 +52,17 @@ void read_domain(input::Table table, Run& run) {
   }
 }
 
-struct ShapeKeys {
-  double radius = 0.0;
-  double height = std::numeric_limits<double>::infinity();
-  Vector3 lower = Vector3::Zero(), upper = Vector3::Zero();
-};
-
-/// Reads the smallest extent of a shape (m); NaN of shapes that state none. Of a box the thickness along the
-/// velocity counts alone: that of a planar impact ends at mirror planes.
-double smallest_extent(input::Table holder, const Vector3& velocity) {
-  if (auto moved = holder.optional_table("moved")) {
-    if (auto shape = moved->optional_table("shape")) return smallest_extent(*shape, velocity);
+/// Reads what the copy of a material file in the run tells about phases. A file that is missing, or that this program
+/// does not accept, tells nothing.
+void read_material_traits(const fs::path& file, BodyInput& body) {
+  if (!fs::is_regular_file(file)) return;
+  try {
+    const Material material = read_material(file);
+    body.phases = material.eos->has_phases();
+    body.condensed = material.eos->condensed();
+  } catch (const InputError& error) {
+    log::warning("cannot tell whether '{}' has phases: {}", body.name, error.what());
   }
-  ShapeKeys keys;
-  const auto radius = real("radius", &ShapeKeys::radius, "m", range::positive(), "radius");
-  const auto height = real("height", &ShapeKeys::height, "m", range::positive(), "length along the axis");
-  for (const char* round : {"sphere", "ogive", "cylinder"}) {
-    auto shape = holder.optional_table(round);
-    if (!shape) continue;
-    shape->read(ParameterTable<ShapeKeys>{radius}, keys);
-    if (shape->has("height")) shape->read(ParameterTable<ShapeKeys>{height}, keys);
-    return std::min(2.0 * keys.radius, keys.height);
-  }
-  if (auto box = holder.optional_table("box")) {
-    box->read(ParameterTable<ShapeKeys>{vector("lower", &ShapeKeys::lower, "m", range::any(), "corner"),
-                                        vector("upper", &ShapeKeys::upper, "m", range::any(), "corner")},
-              keys);
-    Eigen::Index along = 0;
-    velocity.cwiseAbs().maxCoeff(&along);
-    return keys.upper[along] - keys.lower[along];
-  }
-  return std::numeric_limits<double>::quiet_NaN();
 }
 
 void read_bodies(input::Table root, Run& run) {
@@ -87,6 +71,7 @@ void read_bodies(input::Table root, Run& run) {
     table.read(
         ParameterTable<BodyKeys>{
             text("name", &BodyKeys::name, "name of the body"),
+            text("material", &BodyKeys::material, "material file").optional(),
             vector("velocity", &BodyKeys::velocity, "m/s", range::any(), "initial velocity").optional()},
         body);
     cases::Discretization made;
@@ -97,10 +82,13 @@ void read_bodies(input::Table root, Run& run) {
     const double spacing = made.has_particles()
                                ? run.cell_size / std::cbrt(static_cast<double>(made.per_cell))
                                : 0.5 * made.size(run.cell_size);
-    const auto shape = table.optional_table("shape");
-    const double size =
-        shape ? smallest_extent(*shape, body.velocity) : std::numeric_limits<double>::quiet_NaN();
-    run.bodies.push_back({body.name, body.velocity, spacing, size});
+    auto holder = table.optional_table("shape");
+    const std::unique_ptr<cases::Shape> shape = holder ? cases::read_only_shape(*holder) : nullptr;
+    run.bodies.push_back({.name = body.name,
+                          .velocity = body.velocity,
+                          .spacing = spacing,
+                          .size = shape ? shape->smallest_extent(body.velocity) : nan});
+    if (!body.material.empty()) read_material_traits(run.folder / body.material, run.bodies.back());
   }
 }
 
@@ -211,9 +199,8 @@ std::vector<double> Snapshot::volumes() const {
 
 namespace {
 
-/// Appends the elements of the snapshot: eight points for each, at the natural coordinates (+-0.5)^3, and one
-/// for a bar, at its middle, with
-/// shares of its mass and the fields of its particles.
+/// Appends the elements of the snapshot: eight points for each, at the natural coordinates (+-0.5)^3, and one for a bar,
+/// at its middle, with parts of its mass and the fields of its particles.
 void append_elements(const fs::path& path, Snapshot& snapshot) {
   constexpr std::uint8_t vtk_line = 3;
   const hdf5::File file = hdf5::File::open(path);
@@ -296,6 +283,19 @@ void append_elements(const fs::path& path, Snapshot& snapshot) {
   }
 }
 
+/// Brings all points into the order of their numbers.
+void sort_by_number(Snapshot& snapshot) {
+  std::vector<std::uint32_t> order(snapshot.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return snapshot.id[i]; });
+  snapshot.id = sorted(snapshot.id, order);
+  snapshot.position = sorted(snapshot.position, order);
+  snapshot.velocity = sorted(snapshot.velocity, order);
+  snapshot.mass = sorted(snapshot.mass, order);
+  snapshot.body = sorted(snapshot.body, order);
+  for (auto& [name, values] : snapshot.scalars) values = sorted(values, order);
+}
+
 }  // namespace
 
 Snapshot read_snapshot(const SnapshotEntry& entry) {
@@ -322,7 +322,10 @@ Snapshot read_snapshot(const SnapshotEntry& entry) {
   if (const std::size_t kind = elements.rfind(".particles."); kind != std::string::npos) {
     elements.replace(kind, 11, ".elements.");
     const fs::path with_elements = entry.file.parent_path() / elements;
-    if (fs::exists(with_elements)) append_elements(with_elements, snapshot);
+    if (fs::exists(with_elements)) {
+      append_elements(with_elements, snapshot);
+      sort_by_number(snapshot);
+    }
   }
   require_sound(snapshot, entry);
   return snapshot;

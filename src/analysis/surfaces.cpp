@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "src/analysis/cloud.hpp"
 
@@ -37,12 +36,14 @@ double on_axis(const RingField& field, std::size_t layer) {
 
 RingField::RingField(const Snapshot& snapshot, const Frame& frame, double size, double lower, double upper,
                      double radius, const std::function<bool(std::size_t)>& chosen, bool wall_at_upper)
-    : frame_(frame),
-      size_(size),
+    : size_(size),
       lower_(lower),
       rings_(bins(radius, size)),
       layers_(bins(upper - lower, size)),
       volume_(rings_ * layers_, 0.0) {
+  for (std::size_t ring = 0; ring < rings_; ++ring) {
+    area_.push_back(frame.ring_area(static_cast<double>(ring) * size, static_cast<double>(ring + 1) * size));
+  }
   const std::vector<double> volumes = snapshot.volumes();
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     if (!chosen(i)) continue;
@@ -63,11 +64,6 @@ RingField::RingField(const Snapshot& snapshot, const Frame& frame, double size, 
       }
     }
   }
-}
-
-double RingField::ring_area(std::size_t ring) const {
-  const double inner = size_ * static_cast<double>(ring);
-  return frame_.area_between(inner, inner + size_);
 }
 
 double RingField::cross_section(std::size_t layer) const {
@@ -92,12 +88,15 @@ double first_surface(const std::vector<double>& fractions, double size) {
   return nan;
 }
 
-Crater measure_crater(const Snapshot& snapshot, const Frame& frame, double face, double rear,
+Crater measure_crater(const Snapshot& snapshot, const Frame& frame, std::size_t body, double face, double rear,
                       double cell_size) {
+  const auto mine = [&](std::size_t i) { return snapshot.body[i] == body; };
+  double outermost = 0.0;
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    if (mine(i)) outermost = std::max(outermost, frame.radius(snapshot.position[i]));
+  }
   // Layer boundaries lie on the original surface; what stands out of it is not looked at.
-  const double reach = rear - face;
-  const RingField field(snapshot, frame, cell_size, face, rear, reach * 2.0,
-                        [](std::size_t) { return true; });
+  const RingField field(snapshot, frame, cell_size, face, rear, outermost, mine);
   Crater crater;
   std::vector<double> along_axis(field.layers());
   for (std::size_t layer = 0; layer < field.layers(); ++layer) along_axis[layer] = on_axis(field, layer);
@@ -110,16 +109,24 @@ Crater measure_crater(const Snapshot& snapshot, const Frame& frame, double face,
     radius[layer] = first_surface(outward, cell_size);
   }
   crater.radius = std::isfinite(radius[1]) ? 1.5 * radius[0] - 0.5 * radius[1] : radius[0];
+  if (std::isnan(crater.depth)) crater.radius = nan;
   return crater;
 }
 
-Hole measure_hole(const Snapshot& snapshot, const Frame& frame, std::size_t body, double thickness,
-                  double cell_size) {
-  const double speed = moving * frame.impact_speed;
+double penetration_depth(const Snapshot& snapshot, const Frame& frame, std::size_t body, double spacing,
+                         double face) {
+  std::vector<std::pair<double, double>> axial;
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    if (snapshot.body[i] == body) axial.emplace_back(frame.axial(snapshot.position[i]), snapshot.mass[i]);
+  }
+  if (axial.empty()) return nan;
+  return std::max(weighted_quantile(axial, 1.0 - beyond) + 0.5 * spacing - face, 0.0);
+}
+
+Hole measure_hole(const Snapshot& snapshot, const Frame& frame, const std::vector<std::uint8_t>& wall,
+                  double thickness, double cell_size) {
   double lower = std::numeric_limits<double>::infinity(), upper = -lower, radius = 0.0;
-  const auto chosen = [&](std::size_t i) {
-    return snapshot.body[i] == body && std::abs(frame.axial(snapshot.velocity[i])) <= speed;
-  };
+  const auto chosen = [&](std::size_t i) { return wall[i] != 0; };
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     if (!chosen(i)) continue;
     lower = std::min(lower, frame.axial(snapshot.position[i]));

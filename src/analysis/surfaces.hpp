@@ -29,16 +29,16 @@ class RingField {
   [[nodiscard]] double fraction(std::size_t ring, std::size_t layer) const {
     return volume_[layer * rings_ + ring] / (ring_area(ring) * size_);
   }
-  [[nodiscard]] double ring_area(std::size_t ring) const;
+  [[nodiscard]] double ring_area(std::size_t ring) const { return area_[ring]; }
   /// Cross-section of the material in a layer, m^2.
   [[nodiscard]] double cross_section(std::size_t layer) const;
   /// Thickness of the material along the axis in a ring, m.
   [[nodiscard]] double thickness(std::size_t ring) const;
 
  private:
-  Frame frame_;
   double size_, lower_;
   std::size_t rings_, layers_;
+  std::vector<double> area_;    // of the rings, m^2
   std::vector<double> volume_;  // of the full problem, layer by layer
 };
 
@@ -51,17 +51,23 @@ struct Crater {
   double radius = 0.0;  ///< in the plane of the original surface, m
 };
 
-/// Crater in a body whose original face is at the axial coordinate `face`.
-Crater measure_crater(const Snapshot& snapshot, const Frame& frame, double face, double rear,
+/// Measures the crater in a body that reached from the axial coordinate `face` to `rear`. Other bodies' material, such as
+/// the remains of the projectile, is no part of its floor.
+Crater measure_crater(const Snapshot& snapshot, const Frame& frame, std::size_t body, double face, double rear,
                       double cell_size);
+
+/// Measures how deep (m) a body has come below the axial coordinate `face`: 0.1 % of its mass lies deeper. 0 before it
+/// arrives, NaN if nothing of it is left.
+double penetration_depth(const Snapshot& snapshot, const Frame& frame, std::size_t body, double spacing, double face);
 
 struct Hole {
   double diameter = 0.0;      ///< within which less than half of the plate is left in the line of flight, m
   double left_on_axis = 1.0;  ///< fraction of the plate's thickness left on the axis
 };
 
-/// Hole in a plate: its material slower than debris (see cloud.hpp), projected along the axis.
-Hole measure_hole(const Snapshot& snapshot, const Frame& frame, std::size_t body, double thickness,
-                  double cell_size);
+/// Measures the hole in a plate: what is left of its material, projected along the axis.
+/// @param wall  1: the particle belongs to what is left of the plate
+Hole measure_hole(const Snapshot& snapshot, const Frame& frame, const std::vector<std::uint8_t>& wall,
+                  double thickness, double cell_size);
 
 }  // namespace whipple::analysis

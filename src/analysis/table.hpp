@@ -19,6 +19,7 @@ struct Quantity {
   std::string unit;
   std::string meaning;
   double value = 0.0;
+  std::string reason = {};  ///< why the value is NaN
 };
 using Quantities = std::vector<Quantity>;
 

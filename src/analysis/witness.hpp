@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "src/analysis/frame.hpp"
-#include "src/analysis/table.hpp"
+#include "src/analysis/hits.hpp"
 
 /// Measures the impacts on a witness plate (docs/theory/analysis.md, section 5).
 namespace whipple::analysis {
@@ -13,14 +12,8 @@ struct WitnessOptions {
   int times = 50;         ///< intervals of the flux over time
 };
 
-struct Witness {
-  Table rings;  ///< mass, momentum and energy per area against the distance from the axis
-  Table flux;   ///< mass, momentum and energy per time
-  Quantities totals;
-};
-
-/// Debris in free flight from its state in the snapshot: particle i passes the plate at
+/// Measures the debris in free flight from its state in the snapshot: particle i passes the plate at
 /// t + (X - z_i) / v_i, which lies before the snapshot for those already beyond.
-Witness witness_plate(const Snapshot& snapshot, const Frame& frame, const WitnessOptions& options);
+Loads witness_plate(const Snapshot& snapshot, const Frame& frame, const WitnessOptions& options);
 
 }  // namespace whipple::analysis

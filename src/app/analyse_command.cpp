@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "src/analysis/analyse.hpp"
@@ -37,6 +38,10 @@ void add_analysis_options(CLI::App& command, AnalysisWords& words) {
   command.add_option("--witness", words.witness, "Axial coordinate of a witness plate, e.g. '200 mm'")
       ->type_name("LENGTH");
   command
+      .add_option("--loads", words.loads,
+                  "Loads in the course of the run on the face of a body, or on a plane at an axial coordinate")
+      ->type_name("BODY|LENGTH");
+  command
       .add_option("--diameter-at", words.diameter_at,
                   "Of a bar against a wall: diameter at this distance from it")
       ->type_name("LENGTH");
@@ -66,7 +71,7 @@ void run_analysis(const std::filesystem::path& run, const AnalysisWords& words,
   options.link = length(words.link, "--link");
   options.pixel = length(words.pixel, "--pixel");
   options.spot = units::parse_quantity(words.spot, "m");
-  if (!(options.spot >= 0.0)) throw InputError("error: --spot is negative");
+  if (!(options.spot >= 0.0)) throw InputError("--spot is negative");
   options.diameter_at = length(words.diameter_at, "--diameter-at");
   options.peak_decay = words.peak_decay;
   options.radiographs = words.radiographs;
@@ -74,13 +79,24 @@ void run_analysis(const std::filesystem::path& run, const AnalysisWords& words,
   for (const std::string& word : words.attenuation) {
     const std::size_t equal = word.find('=');
     if (equal == std::string::npos || equal == 0) {
-      throw InputError(fmt::format("error: --attenuation is \"{}\", expected BODY='0.2 cm^2/g'", word));
+      throw InputError(fmt::format("--attenuation is \"{}\", expected BODY='0.2 cm^2/g'", word));
     }
     const double value = units::parse_quantity(word.substr(equal + 1), "m^2/kg");
-    if (!(value >= 0.0)) throw InputError(fmt::format("error: --attenuation of \"{}\" is negative", word));
+    if (!(value >= 0.0)) throw InputError(fmt::format("--attenuation of \"{}\" is negative", word));
     options.attenuation[word.substr(0, equal)] = value;
   }
-  analysis::analyse(analysis::read_run(run), options, output);
+  const analysis::Run read = analysis::read_run(run);
+  const bool is_body = std::ranges::find(read.bodies, words.loads, &analysis::BodyInput::name) != read.bodies.end();
+  if (is_body) {
+    options.loads = words.loads;
+  } else if (!words.loads.empty()) {
+    try {
+      options.loads_at = units::parse_quantity(words.loads, "m");
+    } catch (const InputError&) {
+      throw InputError(fmt::format("--loads is \"{}\", expected a body of the run or a length", words.loads));
+    }
+  }
+  analysis::analyse(read, options, output);
 }
 
 void add_analyse_command(CLI::App& app) {

@@ -10,7 +10,7 @@ namespace whipple::app {
 
 /// The options of the analysis as words, shared by `analyse` and `report`.
 struct AnalysisWords {
-  std::string axis, link, witness, diameter_at, peak_decay, pixel, spot = "1 mm";
+  std::string axis, link, witness, loads, diameter_at, peak_decay, pixel, spot = "1 mm";
   std::vector<std::string> attenuation;
   int radiographs = 6;
 };

@@ -58,7 +58,7 @@ const auto& table() {
      [](const Source& s, std::size_t i) { return s.particles.vaporised_fraction[i]; }},
     {"plastic_strain", "1", "equivalent plastic strain", false,
      [](const Source& s, std::size_t i) { return s.particles.plastic_strain[i]; }},
-    {"failed", "", failure::code_meanings(), false,
+    {"failed", "", failure::code_meanings(), true,
      [](const Source& s, std::size_t i) { return s.particles.failed[i]; }},
     {"damage", "1", "of failure criteria with a past: 0 none, 1 failed", false,
      [](const Source& s, std::size_t i) { return s.particles.damage[i]; }},

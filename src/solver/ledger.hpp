@@ -82,7 +82,7 @@ Totals totals_of(const fem::Bars& bars, double affine_inertia);
 struct Ledger {
   Totals initial;
   Totals outflow;
-  Vector3 wall_impulse = Vector3::Zero();      ///< N s, by mirror planes and walls
+  Vector3 wall_impulse = Vector3::Zero();      ///< N s, by mirror planes and walls, along y by hoop stresses
   Vector3 external_impulse = Vector3::Zero();  ///< N s, by an external acceleration
   double external_work = 0.0;                  ///< J, of the same, and of nodes with prescribed velocities
   double work = 0.0;                           ///< J, stress on strain, into internal energy

@@ -357,6 +357,9 @@ void Simulation::map_particles_to_grid() {
       send();
     }
   });
+  if (setup_.geometry.is_axisymmetric()) {
+    step_.wall_impulse[1] -= state_.time_step * transfer::hoop_force(particles_, grid_);
+  }
   find_surfaces(true);
   find_surfaces_at_walls();
 }

@@ -127,6 +127,15 @@ void particles_to_grid(ShapeFunction shape, const Particles& particles, grid::Bl
   });
 }
 
+double hoop_force(const Particles& particles, const grid::BlockGrid& grid) {
+  const std::span<const std::uint32_t> inside = grid.particles_by_block();
+  return parallel::sum<double>(inside.size(), [&](std::size_t k) {
+    const std::size_t p = inside[k];
+    const double mean = -(particles.pressure[p] + particles.artificial_viscosity[p]);
+    return particles.volume[p] * (particles.deviatoric_stress[p].zz + mean) / particles.position[p][1];
+  });
+}
+
 void nodes_to_grid(ShapeFunction shape, const TransitionNodes& nodes, grid::BlockGrid& grid) {
   with_shape(shape, [&]<class Shape>(Shape) {
     if constexpr (CarriesAffineField<Shape> && !Planar<Shape>) scatter_all<Shape>(OfNodes{nodes}, grid);

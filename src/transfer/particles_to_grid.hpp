@@ -19,6 +19,10 @@ void particles_to_grid(ShapeFunction shape, const Particles& particles, grid::Bl
                        std::span<const Vector3> acceleration = {},
                        const std::function<void()>& at_border = {});
 
+/// Computes the force (N) of the hoop stress of all rings of this rank towards the axis, the sum of V sigma_zz / r: it
+/// changes the radial momentum, which is no invariant.
+double hoop_force(const Particles& particles, const grid::BlockGrid& grid);
+
 /// Mass and momentum only, with a velocity per particle: Node::first is replaced, Node::second stays
 /// (equations 5.3, 5.9).
 void momentum_to_grid(ShapeFunction shape, const Particles& particles, std::span<const Vector3> velocity,

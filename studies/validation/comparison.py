@@ -9,7 +9,7 @@ from studies.validation.variants import variants_of
 # Kinds of quantities whose dependence on the grid reports of single runs quote.
 KINDS_OF_MEASURE = (("molten mass", r"melted"), ("vaporised mass", r"vaporised"), ("solid fraction", r"solid_fraction"),
                     ("speed of the front", r"front_speed|front_velocity|^front$"), ("fastest particle", r"maximum_speed"),
-                    ("diameter of a hole", r"hole_diameter"), ("depth of a crater", r"crater_depth$"),
+                    ("diameter of a hole", r"hole_diameter"), ("depth of a crater", r"crater_depth\."),
                     ("width of a crater", r"crater_radius|crater_diameter"),
                     ("largest fragment", r"fragment"), ("residual velocity", r"mean_velocity|residual_speed"),
                     ("final length", r"^length\.|residual_length"), ("diameter of a bar", r"foot_diameter|diameter_at"),

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures of impacts that are not normal, not on the axis, or that leave the domain.
+// Measures of impacts that are not normal, not on the axis, or that leave the domain; walls that are perforated or not.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "src/analysis/cloud.hpp"
-#include "src/analysis/columns.hpp"
 #include "src/analysis/outflow.hpp"
+#include "src/analysis/wall.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::analysis::paths {
@@ -22,6 +23,7 @@ void add(Snapshot& snapshot, const Vector3& position, const Vector3& velocity, s
   snapshot.mass.push_back(density * spacing * spacing * spacing);
   snapshot.body.push_back(body);
   snapshot.scalars["density"].push_back(density);
+  snapshot.scalars["failed"].push_back(0.0);
 }
 
 /// A plate of 30 mm by 20 mm, 2 mm thick, without the matter within `radius` of a point, where only `left` of
@@ -45,29 +47,129 @@ Frame free_flight() {
   return frame;
 }
 
-TEST(Columns, FindAHoleWhereverItIs) {
-  const Snapshot whole = plate(Vector3::Zero(), 0.0, 0.0);
-  const Columns columns(whole, free_flight(), 1, 2.0 * cell);
-  EXPECT_NEAR(columns.least_left(whole), 1.0, 1e-12);
-  EXPECT_LT(columns.least_left(plate({22e-3, 7e-3, 0}, 3e-3, 0.0)), 0.02);
-  EXPECT_NEAR(columns.least_left(plate({22e-3, 7e-3, 0}, 4e-3, 0.5)), 0.5, 0.02);
-}
-
-TEST(Columns, AreWholeAtAMirrorPlane) {
+/// Measures what becomes of the plate in a run whose line of flight meets it at its middle, or on mirror planes at x = 0
+/// and y = 0.
+struct Struck {
+  analysis::Run run;
   Frame frame = free_flight();
-  frame.planes = {{0, 0.0}, {1, 0.0}};
-  const Snapshot whole = plate(Vector3::Zero(), 0.0, 0.0);
-  const Columns columns(whole, frame, 1, 2.0 * cell);
-  EXPECT_NEAR(columns.least_left(whole), 1.0, 1e-12);
-  EXPECT_LT(columns.least_left(plate(Vector3::Zero(), 4e-3, 0.0)), 0.02);
+  Snapshot whole = plate(Vector3::Zero(), 0.0, 0.0);
+
+  explicit Struck(bool quarter = false) {
+    run.cell_size = cell;
+    run.lower = Vector3(0, 0, -20e-3);
+    run.upper = Vector3(40e-3, 30e-3, 40e-3);
+    run.bodies = {{"ball", Vector3(0, 0, 5000), spacing}, {"wall", Vector3::Zero(), spacing}};
+    frame.centre = quarter ? Vector3::Zero() : Vector3(15e-3, 10e-3, 0);
+    if (quarter) frame.planes = {{0, 0.0}, {1, 0.0}};
+  }
+  [[nodiscard]] Quantity operator()(const Snapshot& now, const std::string& name) const {
+    const Quantities row = Wall(run, whole, frame, 1).measure(now);
+    return *std::ranges::find(row, name + ".wall", &Quantity::name);
+  }
+};
+
+TEST(Wall, ThatBulgesAndStaysWholeIsNotPerforatedHoweverFast) {
+  const Struck struck;
+  Snapshot now = struck.whole;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const Vector3 offset = now.position[i] - struck.frame.centre;
+    const double bulge = std::exp(-std::pow(std::hypot(offset.x(), offset.y()) / 5e-3, 2));
+    now.position[i].z() += 4e-3 * bulge;
+    now.velocity[i].z() = 600.0 * bulge;  // debris is what exceeds 250 m/s
+  }
+  EXPECT_EQ(struck(now, "perforated").value, 0.0);
+  EXPECT_NEAR(struck(now, "least_left").value, 1.0, 0.02);
+  EXPECT_NEAR(struck(now, "left_on_axis").value, 1.0, 0.1);
+  EXPECT_TRUE(std::isnan(struck(now, "hole_diameter").value));
+  // The bulge has parted in two layers, each of which is whole; then the front one has a hole.
+  for (std::size_t i = 0; i < now.size(); ++i) now.position[i].z() += struck.whole.position[i].z() > 1e-3 ? 2e-3 : 0.0;
+  EXPECT_EQ(struck(now, "perforated").value, 0.0);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const Vector3 offset = struck.whole.position[i] - struck.frame.centre;
+    const bool front = struck.whole.position[i].z() < 1e-3 && std::hypot(offset.x(), offset.y()) < 3e-3;
+    now.scalars["failed"][i] = front ? 1.0 : 0.0;
+  }
+  EXPECT_EQ(struck(now, "perforated").value, 0.0);
+  EXPECT_NEAR(struck(now, "least_left").value, 0.5, 0.02);
 }
 
-TEST(Columns, LeaveOutWhatFliesAndTheRim) {
-  Snapshot part = plate({22e-3, 7e-3, 0}, 3e-3, 0.0);
-  const Columns columns(plate(Vector3::Zero(), 0.0, 0.0), free_flight(), 1, 2.0 * cell);
-  add(part, {22e-3, 7e-3, 1e-3}, {0, 0, 3000}, 1);
-  EXPECT_LT(columns.least_left(part), 0.02);
-  EXPECT_NEAR(columns.least_left(plate(Vector3::Zero(), 0.0, 0.0, 0.6e-3)), 1.0, 0.05);  // a rim worn off
+TEST(Wall, IsPerforatedWhereverThePathLeadsThroughIt) {
+  const Struck struck, quarter(true);
+  EXPECT_EQ(struck(struck.whole, "perforated").value, 0.0);
+  EXPECT_NEAR(struck(struck.whole, "least_left").value, 1.0, 1e-12);
+  const Snapshot beside = plate({22e-3, 7e-3, 0}, 3e-3, 0.0);
+  EXPECT_EQ(struck(beside, "perforated").value, 1.0);
+  EXPECT_LT(struck(beside, "least_left").value, 0.02);
+  EXPECT_NEAR(struck(plate({22e-3, 7e-3, 0}, 4e-3, 0.5), "least_left").value, 0.5, 0.02);
+  EXPECT_EQ(struck(plate({22e-3, 7e-3, 0}, 4e-3, 0.5), "perforated").value, 0.0);
+  const Snapshot middle = plate(struck.frame.centre, 4e-3, 0.0);
+  EXPECT_NEAR(struck(middle, "hole_diameter").value, 8e-3, 0.3 * cell);
+  EXPECT_LT(struck(middle, "left_on_axis").value, 0.1);
+  EXPECT_EQ(quarter(quarter.whole, "perforated").value, 0.0);
+  EXPECT_NEAR(quarter(quarter.whole, "least_left").value, 1.0, 1e-12);
+  const Snapshot corner = plate(Vector3::Zero(), 4e-3, 0.0);
+  EXPECT_EQ(quarter(corner, "perforated").value, 1.0);
+  EXPECT_NEAR(quarter(corner, "hole_diameter").value, 8e-3, 0.3 * cell);
+  // A rim that is worn off is no hole; a crack from rim to rim is.
+  EXPECT_EQ(struck(plate(Vector3::Zero(), 0.0, 0.0, 0.6e-3), "perforated").value, 0.0);
+  Snapshot halves = struck.whole;
+  for (std::size_t i = 0; i < halves.size(); ++i) halves.position[i].x() += halves.position[i].x() > 12e-3 ? 2.5e-3 : 0.0;
+  EXPECT_EQ(struck(halves, "perforated").value, 1.0);
+}
+
+TEST(Wall, WhosePlugIsShearedOffIsPerforatedEvenWhereThePlugIsStillInPlace) {
+  const Struck struck;
+  Snapshot now = struck.whole;
+  const auto plug = [&](std::size_t i, double radius) {
+    const Vector3 offset = struck.whole.position[i] - struck.frame.centre;
+    return std::hypot(offset.x(), offset.y()) < radius;
+  };
+  for (std::size_t i = 0; i < now.size(); ++i) now.scalars["failed"][i] = plug(i, 5e-3) && !plug(i, 3.5e-3) ? 2.0 : 0.0;
+  EXPECT_EQ(struck(now, "perforated").value, 1.0);
+  EXPECT_LT(struck(now, "left_on_axis").value, 0.1);
+  EXPECT_NEAR(struck(now, "hole_diameter").value, 10e-3, 0.5 * cell);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (plug(i, 3.5e-3)) now.position[i].z() += 8e-3;
+  }
+  EXPECT_EQ(struck(now, "perforated").value, 1.0);
+  // The same ring half through the thickness leaves the plug on the wall.
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (struck.whole.position[i].z() < 1e-3) now.scalars["failed"][i] = 0.0;
+  }
+  now.position = struck.whole.position;
+  EXPECT_EQ(struck(now, "perforated").value, 0.0);
+}
+
+TEST(Wall, OfAnObliqueFlightIsMeasuredAcrossItsThinDirection) {
+  // The flight is 70 degrees from the normal of the plate: its axis is x, along the plate.
+  Struck struck;
+  struck.frame.axis = 0;
+  struck.frame.transverse = {1, 2};
+  struck.frame.direction = Vector3(1, 0, std::tan(20 * std::numbers::pi / 180));
+  struck.frame.impact_angle = 20 * std::numbers::pi / 180;
+  struck.frame.centre = Vector3(0, 10e-3, 0);  // meets the face z = 0 at x = 10 mm
+  struck.frame.start = 10e-3;
+  EXPECT_EQ(struck(struck.whole, "perforated").value, 0.0);
+  const Snapshot open = plate({10e-3, 10e-3, 0}, 4e-3, 0.0);
+  EXPECT_EQ(struck(open, "perforated").value, 1.0);
+  EXPECT_NEAR(struck(open, "hole_diameter").value, 8e-3, 0.3 * cell);
+}
+
+TEST(Wall, SaysWhyItCannotBeDecided) {
+  Struck struck;
+  Snapshot now = struck.whole;
+  now.scalars.erase("failed");
+  EXPECT_TRUE(std::isnan(struck(now, "perforated").value));
+  EXPECT_EQ(struck(now, "perforated").reason, "the snapshots lack the field failed");
+  EXPECT_EQ(struck(now, "hole_diameter").reason, "the snapshots lack the field failed");
+  now = struck.whole;
+  for (Vector3& position : now.position) position.z() += 37.5e-3;
+  EXPECT_EQ(struck(now, "perforated").reason, "the wall has come to the border of the domain");
+  struck.run.bodies[1].condensed = false;
+  EXPECT_EQ(struck(struck.whole, "perforated").reason, "the body is a gas");
+  Struck open;
+  open.whole = plate(open.frame.centre, 4e-3, 0.0);
+  EXPECT_EQ(open(open.whole, "perforated").value, 0.0);  // a hole of the drawing is part of the rim
 }
 
 analysis::Run oblique() {
@@ -119,7 +221,10 @@ TEST(Run, TheSizeOfABodyIsTheSmallestExtentOfItsShape) {
   EXPECT_DOUBLE_EQ(size_of("cylinder = { " + centre + "radius = \"2 mm\", height = \"1 cm\" }"), 4e-3);
   // Thickness along the velocity, not the width of the column.
   EXPECT_DOUBLE_EQ(size_of("box = { lower = [0, 0, \"-3 mm\"], upper = [\"1 um\", \"1 um\", 0] }"), 3e-3);
-  EXPECT_DOUBLE_EQ(size_of("moved = { angle = \"30 degree\", shape = { ogive = { " + centre +
+  EXPECT_DOUBLE_EQ(size_of("moved = { angle = \"90 degree\", axis = [1, 0, 0], shape = { box = { lower = [0, 0, 0], "
+                           "upper = [\"9 mm\", \"2 mm\", \"9 mm\"] } } }"),
+                   2e-3);
+  EXPECT_DOUBLE_EQ(size_of("moved = { angle = \"30 degree\", shape = { ogive = { base = [0, 0, 0], "
                            "radius = \"3.5 mm\", nose_length = \"9 mm\" } } }"),
                    7e-3);
   EXPECT_TRUE(std::isnan(size_of("union = [{ sphere = { " + centre + "radius = \"2 mm\" } }]")));

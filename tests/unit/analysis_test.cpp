@@ -4,19 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <random>
 #include <set>
 
+#include "src/analysis/arrivals.hpp"
 #include "src/analysis/bar.hpp"
 #include "src/analysis/cloud.hpp"
 #include "src/analysis/fragments.hpp"
+#include "src/analysis/measures.hpp"
 #include "src/analysis/peaks.hpp"
 #include "src/analysis/radiograph.hpp"
 #include "src/analysis/surfaces.hpp"
 #include "src/analysis/witness.hpp"
+#include "src/core/base/error.hpp"
 #include "src/core/parallel/threads.hpp"
 
 namespace whipple::analysis {
@@ -182,7 +188,7 @@ TEST(Cloud, KnownSpeeds) {
   }
   Frame frame;
   frame.impact_speed = 3000;
-  const Quantities row = cloud_measures(maker.snapshot, frame, {.lower = -2e-3, .upper = 2e-3});
+  const Quantities row = cloud_measures(maker.snapshot, frame, Extent{.lower = -2e-3, .upper = 2e-3});
   EXPECT_NEAR(value(row, "front"), 0.02998, 1e-6);
   EXPECT_NEAR(value(row, "rear"), 0.01002, 1e-6);
   EXPECT_NEAR(value(row, "radius"), 0.002998, 1e-7);
@@ -230,15 +236,27 @@ TEST(Surfaces, CraterOfAParaboloid) {
       },
       Vector3::Zero(), 1);
   for (int i = 0; i < 50; ++i) maker.add({1e-4 * i, 1e-4 * i, 2e-3 + 1e-4 * i}, {0, 0, -500}, 0);
-  const Crater crater = measure_crater(maker.snapshot, quarter(), 0.0, 30e-3, cell);
+  // The remains of the projectile line the crater, two cells thick.
+  maker.fill(
+      {0, 0, 0}, {30e-3, 30e-3, 30e-3},
+      [&](const Vector3& p) {
+        const double floor = depth * (1 - (p.x() * p.x() + p.y() * p.y()) / (radius * radius));
+        return p.z() < floor && p.z() > floor - 2 * cell;
+      },
+      Vector3::Zero(), 0);
+  const Crater crater = measure_crater(maker.snapshot, quarter(), 1, 0.0, 30e-3, cell);
   EXPECT_NEAR(crater.depth, depth, 0.25 * cell);
   EXPECT_NEAR(crater.radius, radius, 0.25 * cell);
+  // They have come down to the floor on the axis.
+  EXPECT_NEAR(penetration_depth(maker.snapshot, quarter(), 0, 0.5 * cell, 0.0), depth, 0.6 * cell);
+  EXPECT_EQ(penetration_depth(maker.snapshot, quarter(), 0, 0.5 * cell, 20e-3), 0.0);
+  EXPECT_TRUE(std::isnan(penetration_depth(maker.snapshot, quarter(), 2, 0.5 * cell, 0.0)));
 }
 
 TEST(Surfaces, NoCraterBeforeTheImpact) {
   Maker maker(0.5e-3);
   maker.fill({0, 0, 0}, {20e-3, 20e-3, 20e-3}, [](const Vector3&) { return true; }, Vector3::Zero());
-  const Crater crater = measure_crater(maker.snapshot, quarter(), 0.0, 20e-3, 1e-3);
+  const Crater crater = measure_crater(maker.snapshot, quarter(), 0, 0.0, 20e-3, 1e-3);
   EXPECT_EQ(crater.depth, 0.0);
   EXPECT_EQ(crater.radius, 0.0);
 }
@@ -251,12 +269,14 @@ TEST(Surfaces, HoleInAPlateThinnerThanTheCell) {
       [&](const Vector3& p) { return std::hypot(p.x(), p.y()) > hole_radius; }, Vector3::Zero(), 1);
   maker.fill(
       {0, 0, 40e-3}, {4e-3, 4e-3, 44e-3}, [](const Vector3&) { return true; }, {0, 0, 3000}, 1);  // plug
-  const Hole hole = measure_hole(maker.snapshot, quarter(), 1, thickness, cell);
+  std::vector<std::uint8_t> plate(maker.snapshot.size());
+  for (std::size_t i = 0; i < plate.size(); ++i) plate[i] = maker.snapshot.position[i].z() < 1e-3 ? 1 : 0;
+  const Hole hole = measure_hole(maker.snapshot, quarter(), plate, thickness, cell);
   EXPECT_NEAR(hole.diameter, 2 * hole_radius, 0.3 * cell);
   EXPECT_LT(hole.left_on_axis, 0.1);
   Maker whole(0.25e-3);
   whole.fill({0, 0, 0}, {25e-3, 25e-3, thickness}, [](const Vector3&) { return true; }, Vector3::Zero(), 1);
-  const Hole none = measure_hole(whole.snapshot, quarter(), 1, thickness, cell);
+  const Hole none = measure_hole(whole.snapshot, quarter(), std::vector<std::uint8_t>(whole.snapshot.size(), 1), thickness, cell);
   EXPECT_EQ(none.diameter, 0.0);
   EXPECT_NEAR(none.left_on_axis, 1.0, 0.1);
 }
@@ -300,17 +320,98 @@ TEST(Bar, SpallLayerAndPullback) {
     end.add({0, 0, z + (i < 26 ? 1e-3 : 1.7e-3)}, Vector3::Zero());  // 1.4 mm flies ahead
   }
   const Quantities row =
-      spall_measures(start.snapshot, end.snapshot, quarter(), 0, {"target", Vector3::Zero(), 0.1e-3});
+      spall_measures(start.snapshot, end.snapshot, quarter(), 0, {"target", Vector3::Zero(), 0.1e-3}, true);
   EXPECT_NEAR(value(row, "spall_thickness.target"), 1.4e-3, 1e-9);
   EXPECT_NEAR(value(row, "largest_gap.target"), 0.8e-3, 1e-9);
   // A second plane 0.5 mm behind, wider open: what flies off is still the layer ahead of the first.
   for (std::size_t i = 0; i < 21; ++i) end.snapshot.position[i].z() -= 0.9e-3;
   const Quantities planes =
-      spall_measures(start.snapshot, end.snapshot, quarter(), 0, {"target", Vector3::Zero(), 0.1e-3});
+      spall_measures(start.snapshot, end.snapshot, quarter(), 0, {"target", Vector3::Zero(), 0.1e-3}, true);
   EXPECT_NEAR(value(planes, "spall_thickness.target"), 1.4e-3, 1e-9);
   EXPECT_NEAR(value(planes, "largest_gap.target"), 1.0e-3, 1e-9);
   EXPECT_DOUBLE_EQ(pullback({0, 100, 480, 500, 500, 430, 345, 350, 410, 300}), 155.0);
   EXPECT_TRUE(std::isnan(pullback({0, 100, 500, 499, 498})));
+}
+
+TEST(Bar, ALayerNeedsMoreThanASingleParticle) {
+  Maker start(0.1e-3);
+  for (int i = 0; i < 40; ++i) {
+    for (int j = 0; j < 4; ++j) start.add({j * 0.1e-3, 0, (i + 0.5) * 0.1e-3}, Vector3::Zero());
+  }
+  const BodyInput target{"target", Vector3::Zero(), 0.1e-3};
+  const auto measure = [&](const Snapshot& end, bool planar = true) {
+    return spall_measures(start.snapshot, end, quarter(), 0, target, planar);
+  };
+  EXPECT_TRUE(std::isnan(value(measure(start.snapshot), "spall_thickness.target")));  // no gap at all
+  EXPECT_EQ(value(measure(start.snapshot), "largest_gap.target"), 0.0);
+  Snapshot end = start.snapshot;
+  end.position.back().z() += 5e-3;
+  EXPECT_TRUE(std::isnan(value(measure(end), "spall_thickness.target")));  // one particle ahead of the gap
+  for (std::size_t i = 120; i < 160; ++i) end.position[i].z() += 1e-3;     // and a layer of 1 mm
+  EXPECT_NEAR(value(measure(end), "spall_thickness.target"), 1e-3, 1e-9);
+  EXPECT_TRUE(std::isnan(value(measure(end, false), "spall_thickness.target")));
+  EXPECT_TRUE(std::isnan(value(measure(end, false), "largest_gap.target")));
+}
+
+TEST(Bar, OnlyABodyThatFliesAtTheWallIsOneAndItKeepsItsLengthWhenItRebounds) {
+  constexpr double cell = 0.5e-3;
+  Maker maker(0.5 * cell);
+  maker.fill({0, 0, 0}, {5e-3, 5e-3, 20e-3}, [](const Vector3& p) { return std::hypot(p.x(), p.y()) < 4e-3; },
+             {0, 0, -200});
+  Frame frame = quarter(200);
+  frame.sign = -1.0;
+  frame.wall = 0.0;
+  EXPECT_TRUE(bar_measures(maker.snapshot, frame, 0, {"charge", Vector3::Zero(), 0.5 * cell}, cell, 0.0, true).empty());
+  for (Vector3& position : maker.snapshot.position) position.z() += 3e-3;
+  const Quantities row =
+      bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.5 * cell}, cell, 30e-3, false);
+  EXPECT_NEAR(value(row, "length.bar"), 20e-3, 1e-9);
+  EXPECT_NEAR(value(row, "foot_diameter.bar"), 8e-3, 0.06e-3);
+  EXPECT_DOUBLE_EQ(value(row, "foot_temperature.bar"), 300.0);
+  EXPECT_TRUE(std::isnan(value(row, "diameter_at.bar")));  // 30 mm from the end of a bar of 20 mm
+}
+
+TEST(Frame, AMirrorPlaneIsAWallOnlyIfTheProjectileFliesAtIt) {
+  analysis::Run bar;
+  bar.bodies = {{"bar", Vector3(0, 0, -200), 1e-3}};
+  bar.mirror_planes[2] = 0.0;
+  Maker maker(1e-3);
+  maker.add(Vector3(0, 0, 5e-3), bar.bodies[0].velocity);
+  EXPECT_EQ(find_frame(bar, maker.snapshot).wall, 0.0);
+  bar.bodies[0].velocity.z() = 200.0;
+  EXPECT_FALSE(find_frame(bar, maker.snapshot).wall.has_value());
+  bar.bodies[0].velocity.z() = 0.0;  // a charge
+  EXPECT_FALSE(find_frame(bar, maker.snapshot).wall.has_value());
+}
+
+TEST(Cloud, BodiesWithoutPhasesCountInNone) {
+  Maker maker(1e-3);
+  maker.add(Vector3::Zero(), {0, 0, 4000}, 0, 2.0);
+  maker.add(Vector3::Zero(), {0, 0, 4000}, 1, 0.0, 3900.0);
+  std::vector<BodyInput> bodies = {{"ball", {0, 0, 6000}, 1e-3}, {"wall", Vector3::Zero(), 1e-3}};
+  bodies[1].phases = false;
+  const Quantities wall = body_measures(maker.snapshot, quarter(), 1, bodies[1]);
+  EXPECT_TRUE(std::isnan(value(wall, "solid_fraction.wall")));
+  EXPECT_TRUE(std::isnan(value(wall, "melted_fraction.wall")));
+  EXPECT_EQ(value(body_measures(maker.snapshot, quarter(), 0, bodies[0]), "liquid_fraction.ball"), 1.0);
+  const Quantities cloud = cloud_measures(maker.snapshot, quarter(), {}, bodies);
+  EXPECT_EQ(value(cloud, "debris_melted_fraction"), 1.0);
+  EXPECT_TRUE(std::isnan(value(cloud, "cloud_length")));  // there is no target
+  const Table table = body_table(maker.snapshot, quarter(), bodies);
+  const auto row = std::ranges::find(table.labels, "wall whole") - table.labels.begin();
+  EXPECT_TRUE(std::isnan(table["solid_fraction"][static_cast<std::size_t>(row)]));
+}
+
+TEST(Measures, TheTableOfTheManualIsThatOfTheProgram) {
+  std::ifstream file(std::filesystem::path(WHIPPLE_SOURCE_DIR) / "docs/manual/output.md");
+  const std::string page((std::istreambuf_iterator<char>(file)), {});
+  const std::string table = measures_as_markdown();
+  EXPECT_NE(page.find(table), std::string::npos) << "docs/manual/output.md lacks the table\n" << table;
+  std::set<std::string_view> names;
+  for (const Measure& measure : measures()) EXPECT_TRUE(names.insert(measure.name).second) << measure.name;
+  EXPECT_EQ(measured("length", "bar", 1.0).unit, "m");
+  EXPECT_FALSE(measured("length", "bar", nan).reason.empty());
+  EXPECT_THROW(measured("length", 1.0), InternalError);
 }
 
 TEST(Frame, AHalfModelIsSeenAcrossItsMirrorPlane) {
@@ -410,7 +511,7 @@ TEST(Witness, FreeFlightToARingAtAKnownTime) {
   maker.add({0, 2e-3, 110e-3}, {0, 100, 1000});  // beyond: was there 10 us before, at 1 mm
   maker.add({0, 0, 0}, {0, 0, 10});              // no debris
   maker.snapshot.time = 20e-6;
-  const Witness witness = witness_plate(maker.snapshot, quarter(), {.position = 100e-3, .ring = 2e-3});
+  const Loads witness = witness_plate(maker.snapshot, quarter(), {.position = 100e-3, .ring = 2e-3});
   EXPECT_DOUBLE_EQ(value(witness.totals, "witness_mass"), 4 * 2 * m);
   EXPECT_DOUBLE_EQ(value(witness.totals, "witness_momentum"), 4 * m * 3000);
   EXPECT_NEAR(value(witness.totals, "witness_first"), 10e-6, 1e-15);
@@ -421,6 +522,42 @@ TEST(Witness, FreeFlightToARingAtAKnownTime) {
               4 * 0.5 * m * (500.0 * 500 + 2000.0 * 2000), 1e-9);
   const std::vector<double>& flux = witness.flux["mass_flux"];
   EXPECT_NEAR(std::accumulate(flux.begin(), flux.end(), 0.0) * 1.1e-6, 8 * m, 1e-12);
+}
+
+TEST(Arrivals, CountWhatPassesThePlaneOnceWithItsMotionBefore) {
+  const double m = density * 1e-9;
+  const auto at = [](double time, const std::vector<std::pair<std::uint64_t, Vector3>>& places, double speed) {
+    Maker maker(1e-3);
+    for (const auto& [id, place] : places) {
+      maker.add(place, {0, 0, speed}, id == 9 ? 1 : 0);
+      maker.snapshot.id.back() = id;
+    }
+    maker.snapshot.time = time;
+    return maker.snapshot;
+  };
+  Arrivals arrivals(quarter(), 10e-3, 1);
+  // 1 passes in the middle of an interval and is slowed behind; 2 returns and passes again; 3 has left the domain beyond
+  // the plane; 4 is under way; 5 begins beyond; 9 is of the wall.
+  arrivals.add(at(0.0, {{1, {3e-3, 0, 9e-3}}, {2, {0, 1e-3, 9e-3}}, {3, {5e-3, 0, 8e-3}}, {4, {0, 0, -9e-3}},
+                        {5, {0, 0, 11e-3}}, {9, {0, 0, 9e-3}}},
+                  2000));
+  arrivals.add(at(1e-6, {{1, {5e-3, 0, 11e-3}}, {2, {0, 1e-3, 10.5e-3}}, {3, {5e-3, 0, 9e-3}}, {4, {0, 0, -7e-3}},
+                         {5, {0, 0, 9e-3}}, {9, {0, 0, 11e-3}}},
+                  1000));
+  arrivals.add(at(3e-6, {{1, {5e-3, 0, 12e-3}}, {2, {0, 1e-3, 9.5e-3}}, {4, {0, 0, -5e-3}}}, 1000));
+  arrivals.add(at(4e-6, {{2, {0, 1e-3, 10.5e-3}}, {4, {0, 0, -4e-3}}}, 1000));
+  const Loads loads = arrivals.loads(2e-3);
+  EXPECT_DOUBLE_EQ(value(loads.totals, "loads_mass"), 4 * 3 * m);
+  EXPECT_DOUBLE_EQ(value(loads.totals, "loads_momentum"), 4 * m * (2000 + 2000 + 1000));
+  EXPECT_NEAR(value(loads.totals, "loads_energy"), 4 * 0.5 * m * (2 * 4e6 + 1e6), 1e-9);
+  EXPECT_NEAR(value(loads.totals, "loads_first"), 0.5e-6, 1e-15);
+  EXPECT_NEAR(value(loads.totals, "loads_last"), 2e-6, 1e-15);
+  EXPECT_DOUBLE_EQ(value(loads.totals, "loads_under_way"), 4 * m);
+  ASSERT_EQ(loads.rings.rows(), 3U);
+  EXPECT_DOUBLE_EQ(loads.rings["mass"][0], 4 * m);      // 2, at 1 mm
+  EXPECT_NEAR(loads.rings["mass"][2], 4 * 2 * m, 1e-18);  // 1 and 3, at 4 and 5 mm
+  EXPECT_NEAR(loads.rings["momentum_per_area"][0], 4 * m * 2000 / (pi * 4e-6), 1e-9);
+  EXPECT_TRUE(std::isnan(value(Arrivals(quarter(), 1.0).loads(1e-3).totals, "loads_first")));
 }
 
 TEST(PeakDecay, PowerLawFront) {

@@ -25,6 +25,11 @@ class Box final : public Shape {
   }
   [[nodiscard]] Bounds bounds() const override { return {lower_, upper_}; }
   [[nodiscard]] double volume() const override { return (upper_ - lower_).prod(); }
+  [[nodiscard]] double smallest_extent(const Vector3& direction) const override {
+    Eigen::Index along = 0;
+    direction.cwiseAbs().maxCoeff(&along);
+    return upper_[along] - lower_[along];
+  }
   [[nodiscard]] bool fills_lattice() const override { return true; }
   [[nodiscard]] std::string toml() const override { return shape_as_toml(*this); }
   [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {

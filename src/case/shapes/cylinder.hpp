@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -42,6 +43,7 @@ class Cylinder final : public Shape {
   [[nodiscard]] double volume() const override {
     return std::numbers::pi * radius_ * radius_ * height_;
   }
+  [[nodiscard]] double smallest_extent(const Vector3&) const override { return std::min(2.0 * radius_, height_); }
   [[nodiscard]] std::string toml() const override { return shape_as_toml(*this); }
   [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
     Vector3 base = center_;

@@ -70,6 +70,9 @@ class Moved final : public Shape {
     return {middle - reach, middle + reach};
   }
   [[nodiscard]] double volume() const override { return shape_->volume(); }
+  [[nodiscard]] double smallest_extent(const Vector3& direction) const override {
+    return shape_->smallest_extent(rotation_.transpose() * direction);
+  }
   [[nodiscard]] bool fills_lattice() const override {
     return rotation_.isIdentity(1e-12) && shape_->fills_lattice();
   }

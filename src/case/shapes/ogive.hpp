@@ -45,6 +45,7 @@ class Ogive final : public Shape, public Revolution {
                         d * (l * std::sqrt(r * r - l * l) + r * r * std::asin(l / r));
     return std::numbers::pi * (nose + radius_ * radius_ * shank_);
   }
+  [[nodiscard]] double smallest_extent(const Vector3&) const override { return 2.0 * radius_; }
   [[nodiscard]] std::string toml() const override { return shape_as_toml(*this); }
   [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
     Vector3 rear = base;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,6 +25,11 @@ class Shape {
   [[nodiscard]] virtual Bounds bounds() const = 0;
   /// Volume (m^3), to judge a discretisation by: exact for primitives, to about 1e-3 for combinations.
   [[nodiscard]] virtual double volume() const = 0;
+  /// Returns the smallest extent (m), to judge how many cells lie across it; NaN of shapes that state none. Of a box it is
+  /// the extent along `direction`, in which it flies: the section of a planar impact ends at mirror planes.
+  [[nodiscard]] virtual double smallest_extent(const Vector3& /*direction*/) const {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   /// Returns whether whole cells of a lattice over its bounds fill it, as they do a box along the axes.
   [[nodiscard]] virtual bool fills_lattice() const { return false; }
   /// `{ NAME = ... }` as it stands in a case file.

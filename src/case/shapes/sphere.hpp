@@ -33,6 +33,7 @@ class Sphere final : public Shape {
   [[nodiscard]] double volume() const override {
     return 4.0 / 3.0 * std::numbers::pi * radius_ * radius_ * radius_;
   }
+  [[nodiscard]] double smallest_extent(const Vector3&) const override { return 2.0 * radius_; }
   [[nodiscard]] std::string toml() const override { return shape_as_toml(*this); }
   [[nodiscard]] std::optional<fem::Hexahedra> hexahedra(double size, const Bounds& clip) const override {
     fem::Halved halved{};

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/analysis/wall.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "src/analysis/fragments.hpp"
+#include "src/analysis/measures.hpp"
+#include "src/analysis/surfaces.hpp"
+
+namespace whipple::analysis {
+namespace {
+
+/// Two lattice planes a reach apart do not touch: a layer of failed particles between them separates.
+constexpr double touching = 0.99;
+
+/// Smallest distance within which particles of a body touch: a cell, within which they interact through the grid, or
+/// half as much again as their initial spacing, if that is more.
+double reach_of(const Run& run, std::size_t body) {
+  return std::max(run.cell_size, 1.5 * run.bodies[body].spacing);
+}
+
+/// Frame of a body: along the axis of the flight, or along the direction in which a plate is thin, if the flight has a
+/// component in it.
+Frame frame_of(const Run& run, const Snapshot& first, const Frame& flight, std::size_t body) {
+  constexpr double thin = 0.5, component = 0.05;
+  const double spacing = run.bodies[body].spacing;
+  int axis = flight.axis;
+  double least = thin * axial_extent(first, flight, body, spacing).length();
+  for (const int a : flight.transverse) {
+    if (flight.mirrored(a) || !(std::abs(flight.direction[a]) > component)) continue;
+    const double length = axial_extent(first, flight.along(a), body, spacing).length();
+    if (!(length < least)) continue;
+    least = length;
+    axis = a;
+  }
+  const Frame frame = flight.along(axis);
+  return frame.at_face(axial_extent(first, frame, body, spacing).lower);
+}
+
+/// The lower of the two cells nearest to a coordinate in cells; the other one is the next.
+std::ptrdiff_t lower_cell(double x) { return static_cast<std::ptrdiff_t>(std::floor(x - 0.5)); }
+
+}  // namespace
+
+Wall::Wall(const Run& run, const Snapshot& first, const Frame& flight, std::size_t body)
+    : run_(run),
+      frame_(frame_of(run, first, flight, body)),
+      body_(body),
+      extent_(axial_extent(first, frame_, body, run.bodies[body].spacing)),
+      reach_(reach_of(run, body)),
+      columns_(first, frame_, body, 2.0 * run.cell_size) {
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first.body[i] != body) continue;
+    id_.push_back(first.id[i]);
+    place_.push_back(first.position[i]);
+    rim_ += columns_.inside(first.position[i]) ? 0.0 : 1.0;
+  }
+  if (!run.bodies[body].condensed) {
+    never_ = "the body is a gas";
+  } else if (!columns_.any()) {
+    never_ = "the face of the body is too narrow: no column of two cells lies within its rim";
+  }
+  if (!never_.empty()) return;
+  const std::array<double, 2> widths = columns_.widths();
+  for (std::size_t a = 0; a < 2; ++a) cells_[a] = static_cast<std::size_t>(std::ceil(widths[a] / reach_ - 1e-9));
+  for (std::size_t i = 0; i < cells_[0]; ++i) {
+    for (std::size_t j = 0; j < cells_[1]; ++j) {
+      Vector3 middle = Vector3::Zero();
+      middle[frame_.transverse[0]] = columns_.lower()[0] + (static_cast<double>(i) + 0.5) * reach_;
+      middle[frame_.transverse[1]] = columns_.lower()[1] + (static_cast<double>(j) + 0.5) * reach_;
+      face_.push_back(columns_.inside(middle) ? 1 : 0);
+      face_cells_ += face_.back();
+    }
+  }
+  if (undecided(first).empty() && !remains(first).closed) {
+    never_ = "the body is open along the axis from the start, or its particles do not touch";
+  }
+}
+
+std::string Wall::undecided(const Snapshot& snapshot) const {
+  if (!never_.empty()) return never_;
+  if (snapshot.scalar("failed") == nullptr) return "the snapshots lack the field failed";
+  return {};
+}
+
+/// Connected pieces of the material that has neither failed nor melted, by decreasing number of particles.
+std::vector<Wall::Piece> Wall::pieces(const Snapshot& snapshot) const {
+  const std::vector<double>& failed = *snapshot.scalar("failed");
+  const std::vector<double>* damage = snapshot.scalar("damage");
+  const std::vector<double>* phase = snapshot.scalar("phase");
+  Piece intact;
+  std::vector<Vector3> points;
+  for (std::uint32_t i = 0; i < snapshot.size(); ++i) {
+    if (snapshot.body[i] != body_ || failed[i] > 0.0) continue;
+    if (damage != nullptr && (*damage)[i] >= 1.0) continue;
+    if (phase != nullptr && (*phase)[i] >= 2.0) continue;  // liquid, vapour
+    intact.push_back(i);
+    points.push_back(snapshot.position[i]);
+  }
+  const std::vector<std::uint32_t> label = connected_components(points, touching * reach_);
+  std::vector<std::size_t> piece_of(label.size());
+  std::vector<Piece> result;
+  for (std::size_t k = 0; k < label.size(); ++k) {
+    if (label[k] == k) {  // the first of its piece
+      piece_of[k] = result.size();
+      result.emplace_back();
+    }
+    result[piece_of[label[k]]].push_back(intact[k]);
+  }
+  std::ranges::stable_sort(result, std::greater{}, &Piece::size);
+  return result;
+}
+
+const Vector3* Wall::place_of(std::uint64_t id) const {
+  const auto found = std::ranges::lower_bound(id_, id);
+  return found == id_.end() || *found != id ? nullptr : &place_[static_cast<std::size_t>(found - id_.begin())];
+}
+
+Vector3 Wall::shift_of(const Snapshot& snapshot, const Piece& piece) const {
+  Vector3 sum = Vector3::Zero();
+  double count = 0.0;
+  for (const std::uint32_t i : piece) {
+    const Vector3* place = place_of(snapshot.id[i]);
+    if (place == nullptr) continue;
+    sum += snapshot.position[i] - *place;
+    count += 1.0;
+  }
+  if (count > 0.0) sum /= count;
+  sum[frame_.axis] = 0.0;
+  for (const int a : frame_.transverse) {
+    if (frame_.mirrored(a) || frame_.dimension == grid::Dimension::axisymmetric) sum[a] = 0.0;
+  }
+  return sum;
+}
+
+/// Fills the cells around the particles of a piece and seeks a path of empty ones, over the face of the body, from before
+/// the piece to behind it. Every particle fills the eight nearest cells: openings narrower than about two cells are not
+/// seen.
+bool Wall::closes(const Snapshot& snapshot, const Piece& piece, const Vector3& shift) const {
+  if (4 * piece.size() < face_cells_) return false;  // cannot cover the face
+  double front = std::numeric_limits<double>::infinity(), rear = -front;
+  for (const std::uint32_t i : piece) {
+    front = std::min(front, frame_.axial(snapshot.position[i]));
+    rear = std::max(rear, frame_.axial(snapshot.position[i]));
+  }
+  front -= 2.0 * reach_;
+  const std::size_t n0 = cells_[0], n1 = cells_[1];
+  const auto layers = static_cast<std::size_t>(std::ceil((rear - front) / reach_)) + 2;
+  enum : std::uint8_t { empty, filled, reached };
+  std::vector<std::uint8_t> cells(n0 * n1 * layers, empty);
+  const auto index = [&](std::size_t i, std::size_t j, std::size_t layer) { return (layer * n0 + i) * n1 + j; };
+  for (const std::uint32_t p : piece) {
+    std::array<std::ptrdiff_t, 2> at{};
+    for (std::size_t a = 0; a < 2; ++a) {
+      const int axis = frame_.transverse[a];
+      at[a] = lower_cell((snapshot.position[p][axis] - shift[axis] - columns_.lower()[a]) / reach_);
+    }
+    const std::ptrdiff_t along = lower_cell((frame_.axial(snapshot.position[p]) - front) / reach_);
+    for (std::ptrdiff_t i = at[0]; i < at[0] + 2; ++i) {
+      for (std::ptrdiff_t j = at[1]; j < at[1] + 2; ++j) {
+        if (i < 0 || j < 0 || i >= static_cast<std::ptrdiff_t>(n0) || j >= static_cast<std::ptrdiff_t>(n1)) continue;
+        for (std::ptrdiff_t k = along; k < along + 2; ++k) {
+          cells[index(static_cast<std::size_t>(i), static_cast<std::size_t>(j), static_cast<std::size_t>(k))] = filled;
+        }
+      }
+    }
+  }
+  std::vector<std::array<std::size_t, 3>> open;
+  const auto enter = [&](std::size_t i, std::size_t j, std::size_t layer) {
+    if (i >= n0 || j >= n1 || layer >= layers || face_[i * n1 + j] == 0) return;
+    std::uint8_t& cell = cells[index(i, j, layer)];
+    if (cell != empty) return;
+    cell = reached;
+    open.push_back({i, j, layer});
+  };
+  for (std::size_t i = 0; i < n0; ++i) {
+    for (std::size_t j = 0; j < n1; ++j) enter(i, j, 0);
+  }
+  while (!open.empty()) {
+    const auto [i, j, layer] = open.back();
+    open.pop_back();
+    if (layer + 1 == layers) return false;
+    enter(i, j, layer + 1);
+    enter(i, j, layer - 1);  // wraps below 0: beyond the last one
+    enter(i + 1, j, layer);
+    enter(i - 1, j, layer);
+    enter(i, j + 1, layer);
+    enter(i, j - 1, layer);
+  }
+  return true;
+}
+
+Wall::Remains Wall::remains(const Snapshot& snapshot) const {
+  Remains result;
+  result.wall.assign(snapshot.size(), 0);
+  const std::vector<Piece> all = pieces(snapshot);
+  if (all.empty()) return result;
+  result.shift = shift_of(snapshot, all.front());
+  const auto take = [&](const Piece& piece) {
+    for (const std::uint32_t i : piece) result.wall[i] = 1;
+  };
+  // Layers that a spall plane divides may each close the body.
+  for (const Piece& piece : all) {
+    if (!closes(snapshot, piece, shift_of(snapshot, piece))) continue;
+    result.closed = true;
+    take(piece);
+  }
+  if (result.closed) return result;
+  // Debris does not hang on the rim, from which only small pieces may stem.
+  constexpr double much = 0.1;
+  for (const Piece& piece : all) {
+    const auto from_rim = std::ranges::count_if(piece, [&](std::uint32_t i) {
+      const Vector3* place = place_of(snapshot.id[i]);
+      return place != nullptr && !columns_.inside(*place);
+    });
+    if (static_cast<double>(from_rim) >= much * rim_ || &piece == &all.front()) take(piece);
+  }
+  return result;
+}
+
+/// Returns whether the wall has come to an end of the domain along the axis, beyond which it cannot be followed.
+bool Wall::at_border(const Snapshot& snapshot, const Remains& remains) const {
+  double lower = run_.lower[frame_.axis], upper = run_.upper[frame_.axis];
+  if (frame_.sign < 0.0) std::tie(lower, upper) = std::pair(-upper, -lower);
+  lower += run_.cell_size;
+  upper -= run_.cell_size;
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    if (remains.wall[i] == 0) continue;
+    const double z = frame_.axial(snapshot.position[i]);
+    if ((z < lower && extent_.lower > lower) || (z > upper && extent_.upper < upper)) return true;
+  }
+  return false;
+}
+
+Quantities Wall::measure(const Snapshot& snapshot) const {
+  const std::string& name = run_.bodies[body_].name;
+  std::string reason = undecided(snapshot);
+  Remains left;
+  if (reason.empty()) {
+    left = remains(snapshot);
+    if (at_border(snapshot, left)) reason = "the wall has come to the border of the domain";
+  }
+  if (!reason.empty()) {
+    return {measured("perforated", name, nan, reason), measured("least_left", name, nan, reason),
+            measured("left_on_axis", name, nan, reason), measured("hole_diameter", name, nan, reason)};
+  }
+  const Hole hole = measure_hole(snapshot, frame_, left.wall, extent_.length(), run_.cell_size);
+  const double diameter = left.closed || !(hole.diameter > 0.0) ? nan : hole.diameter;
+  return {measured("perforated", name, left.closed ? 0.0 : 1.0),
+          measured("least_left", name, columns_.least_left(snapshot, left.wall, left.shift)),
+          measured("left_on_axis", name, hole.left_on_axis),
+          measured("hole_diameter", name, diameter,
+                   left.closed ? "the body is not perforated"
+                               : "no hole about the line of flight that ends within the body")};
+}
+
+}  // namespace whipple::analysis
