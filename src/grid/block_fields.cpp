@@ -150,7 +150,7 @@ void BlockGrid::find_mirror_nodes() {
       const bool bonded = (bonded_[static_cast<std::size_t>(mirror.face)] >> std::max(field, 0) & 1U) != 0;
       std::vector<std::uint32_t>& on_plane = bonded ? mirror.on_plane : mirror.on_plane_apart;
       std::vector<MirrorPair>& pairs = bonded ? mirror.pairs : mirror.pairs_apart;
-      for (int i = 0; i < nodes_per_block; ++i) {
+      for (int i = 0; i < nodes_per_block; i += static_cast<int>(step_of_nodes())) {
         const std::array<int, 3> inside_block = {i / 16, i / 4 % 4, i % 4};
         const std::int32_t along = blocks_.coordinate[s][axis] * block_edge + inside_block[axis];
         const auto index = static_cast<std::uint32_t>(b * nodes_per_block + static_cast<std::size_t>(i));

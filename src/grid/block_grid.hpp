@@ -222,6 +222,9 @@ class BlockGrid {
   [[nodiscard]] std::span<const PlaceInStencil> places(Points points) const {
     return points == Points::particles ? place_of_particle_ : place_of_guest_;
   }
+  /// Returns how far apart in memory those nodes of a block are that particles reach: in two dimensions they lie in the
+  /// plane z = lower, and z is the fastest direction.
+  [[nodiscard]] std::size_t step_of_nodes() const { return geometry_.is_planar() ? block_edge : 1; }
   /// Distance of a particle from the lower face along y at the last `bin` (m): the radius of a ring.
   [[nodiscard]] double radius_at_bin(std::size_t p) const {
     const auto slot = static_cast<std::size_t>(slot_of_particle_[p]);

@@ -213,7 +213,7 @@ GridBalance GridUpdate::begin_advance(BlockGrid& grid, double dt, const Relaxati
     const double mass_kept =
         grid.is_contact_block(block) || mirror_contact_.concerns_block(block) ? 1.0 : 0.0;
     const std::array<double, grid::nodes_per_block> betas = relaxation_of(&nodes[first], relaxation, rate);
-    for (std::size_t i = first; i < first + grid::nodes_per_block; ++i) {
+    for (std::size_t i = first; i < first + grid::nodes_per_block; i += grid.step_of_nodes()) {
       Node& node = nodes[i];
       const double mass = node.first[0];
       if (mass < no_mass || grid.is_image(i)) {
@@ -274,7 +274,7 @@ void GridUpdate::begin_velocity_from_momentum(BlockGrid& grid) {
   parallel::for_each(grid.owned_blocks(), [&](std::size_t b) {
     const std::size_t block = grid.owned_block(b), begin = block * grid::nodes_per_block;
     const double mass_kept = mirror_contact_.concerns_block(block) ? 1.0 : 0.0;
-    for (std::size_t i = begin; i < begin + grid::nodes_per_block; ++i) {
+    for (std::size_t i = begin; i < begin + grid::nodes_per_block; i += grid.step_of_nodes()) {
       Lanes& first = nodes[i].first;
       const double mass = first[0];
       if (mass < no_mass || grid.is_image(i)) {

@@ -91,7 +91,7 @@ void for_each_node(BlockGrid& grid, const std::vector<std::uint64_t>& marked, st
     if (marked[slot] == 0) return;
     const auto of_field = [&](unsigned field) {
       Node* const nodes = grid.nodes(slot, field);
-      for (int i = 0; i < grid::nodes_per_block; ++i) f(nodes[i]);
+      for (std::size_t i = 0; i < grid::nodes_per_block; i += grid.step_of_nodes()) f(nodes[i]);
     };
     if (grid.contact_number(slot) == BlockGrid::no_slot) {
       of_field(0);

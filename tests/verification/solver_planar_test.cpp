@@ -18,20 +18,20 @@ namespace {
 using exact::start_with;
 using testing::HasSubstr;
 
-std::string gas() {
-  return write_material("planar_gas", R"toml(
+std::string gas(double ratio = 5.0 / 3.0) {
+  return write_material(fmt::format("planar_gas_{:.3f}", ratio), fmt::format(R"toml(
 name = "gas"
 source = "units of the verification problems"
 [eos]
 model = "ideal_gas"
 source = "units of the verification problems"
 reference_density = "1 kg/m^3"
-heat_capacity_ratio = 1.6666666666666667
+heat_capacity_ratio = {:.17g}
 heat_capacity = "1e-9 J/(kg K)"
 reference_temperature = "1e3 K"
 [strength]
 model = "none"
-)toml");
+)toml", ratio));
 }
 
 cases::Case read(const std::string& text) { return cases::read_case_text(text, "planar.toml"); }
@@ -154,13 +154,22 @@ shape = {{ box = {{ lower = [0, -1], upper = [0.4, 1] }} }}
                                        gas());
   const cases::Case setup = read(text);
   solver::Simulation simulation(setup, parallel::world());
+  const Particles& q = simulation.particles();
+  simulation.advance(setup.time.end);
+  double near = 0.0, beyond = 0.0;  // force in p/dx
+  for (std::size_t p = 0; p < q.size(); ++p) {
+    double& force = q.position[p][1] < 2.0 * 0.05 ? near : beyond;
+    force = std::max(force, 0.05 * q.velocity[p].norm() / simulation.state().time_step);
+  }
+  std::printf("uniform pressure: force %.1e p/dx in two cells at the axis, %.1e beyond\n", near, beyond);
+  EXPECT_LT(near, 0.01);
+  EXPECT_LT(beyond, 5e-4);
   double fastest = 0.0;
   run_to(simulation, setup.time.end, [&](const solver::Simulation& s) {
     for (const Vector3& v : s.particles().velocity) fastest = std::max(fastest, v.norm());
   });
   EXPECT_LT(fastest, 0.005 * std::sqrt(5.0 / 3.0));
-  const Particles& q = simulation.particles();
-  for (std::size_t p = 0; p < q.size(); ++p) ASSERT_NEAR(q.pressure[p], 1.0, 0.01);
+  for (std::size_t p = 0; p < q.size(); ++p) ASSERT_NEAR(q.pressure[p], 1.0, 0.02);
 }
 
 /// Mean density of cylindrical Noh (exact: 16) between two radii, and the radius of the shock (exact: 0.2).
@@ -242,6 +251,102 @@ shape = {{ box = {{ lower = ["-1 mm", "29 mm"], upper = ["1 mm", "31 mm"] }} }}
   std::printf("expanding ring: stops at %.3f mm (%.3f), energy error %.1e\n", 1e3 * largest, 1e3 * exact, watch.worst);
   EXPECT_NEAR(largest, exact, 5e-4 * exact);
   EXPECT_LT(watch.worst, 1e-12);
+}
+
+/// Radii at which the density is largest near the axis, at 45 degrees and near the equator (exact: 1).
+std::array<double, 3> sedov(int cells) {
+  const double dx = 1.0 / cells, energy = 0.851 / 2.0;  // of half a space, gamma 1.4
+  const cases::Case setup = read(fmt::format(R"(
+[time]
+end = 1
+[domain]
+dimension = "axisymmetric"
+lower = [0, 0]
+upper = [1.28, 1.28]
+cell_size = {:.17g}
+boundary = {{ x_lower = "symmetry" }}
+[[body]]
+name = "gas"
+material = "{}"
+initial = {{ density = 1, pressure = 1e-6 }}
+shape = {{ box = {{ lower = [-1.24, -1.24], upper = [1.24, 1.24] }} }}
+)",
+                                             dx, gas(1.4)));
+  solver::Simulation simulation = start_with(setup, [&](Particles& q) {
+    double mass = 0.0;
+    for (std::size_t p = 0; p < q.size(); ++p) mass += q.position[p].norm() < 2.5 * dx ? q.mass[p] : 0.0;
+    for (std::size_t p = 0; p < q.size(); ++p) {
+      if (q.position[p].norm() < 2.5 * dx) q.specific_internal_energy[p] = energy / mass;
+    }
+  });
+  EnergyWatch watch;
+  run_to(simulation, setup.time.end, std::ref(watch));
+  EXPECT_LT(watch.worst, 1e-12);
+  std::array<double, 3> radius{}, largest{};
+  const Particles& q = simulation.particles();
+  std::array<std::map<long, std::array<double, 2>>, 3> shells;  // mass and volume
+  for (std::size_t p = 0; p < q.size(); ++p) {
+    const double angle = std::atan2(q.position[p][1], q.position[p][0]) * 180.0 / std::numbers::pi;
+    const std::size_t sector = angle < 15.0 ? 0 : angle < 30.0 || angle > 75.0 ? (angle > 75.0 ? 2 : 3) : 1;
+    if (sector > 2) continue;
+    auto& shell = shells[sector][std::lround(2.0 * q.position[p].norm() / dx)];
+    shell[0] += q.mass[p];
+    shell[1] += q.volume[p];
+  }
+  for (std::size_t s = 0; s < 3; ++s) {
+    for (const auto& [bin, sums] : shells[s]) {
+      if (sums[0] / sums[1] <= largest[s]) continue;
+      largest[s] = sums[0] / sums[1];
+      radius[s] = 0.5 * dx * static_cast<double>(bin);
+    }
+  }
+  std::printf("Sedov, %d cells: shock at %.3f %.3f %.3f, density %.2f %.2f %.2f (6)\n", cells, radius[0], radius[1],
+              radius[2], largest[0], largest[1], largest[2]);
+  return radius;
+}
+
+TEST(Axisymmetric, SedovsBlastIsRound) {
+  const std::array<double, 3> radius = sedov(40);
+  for (const double r : radius) EXPECT_NEAR(r, 1.0, 0.03);
+}
+
+/// Length of a copper bar after the impact and diameter of its foot (mm): by the outermost particles and half their
+/// spacing.
+std::pair<double, double> taylor_bar(const char* dimension) {
+  const cases::Case setup = read(fmt::format(R"(
+[time]
+end = "80 us"
+[domain]
+dimension = "{}"
+lower = ["0 mm", "0 mm", "0 mm"]
+upper = ["28.88 mm", "13.68 mm", "13.68 mm"]
+cell_size = "0.76 mm"
+boundary = {{ x_lower = "symmetry", y_lower = "symmetry", z_lower = "symmetry" }}
+[[body]]
+name = "bar"
+material = "copper_taylor.toml"
+velocity = ["-190 m/s", "0 m/s", "0 m/s"]
+shape = {{ cylinder = {{ center = ["12.73 mm", "0 mm", "0 mm"], axis = "x", radius = "3.8 mm", height = "25.46 mm" }} }}
+)",
+                                             dimension));
+  solver::Simulation simulation(setup, parallel::world());
+  run_to(simulation, setup.time.end);
+  double top = 0.0, foot = 0.0;
+  const Particles& q = simulation.particles();
+  for (std::size_t p = 0; p < q.size(); ++p) {
+    const Vector3& x = q.position[p];
+    top = std::max(top, x[0]);
+    if (x[0] < 0.57e-3) foot = std::max(foot, std::hypot(x[1], x[2]));
+  }
+  std::printf("Taylor bar, %s: length %.3f mm, foot %.3f mm\n", dimension, 1e3 * top + 0.19, 2e3 * foot + 0.38);
+  return {1e3 * top + 0.19, 2e3 * foot + 0.38};
+}
+
+TEST(Axisymmetric, TaylorBarEqualsThreeDimensions) {
+  const auto [length, foot] = taylor_bar("axisymmetric");
+  const auto [length_3d, foot_3d] = taylor_bar("3d");
+  EXPECT_NEAR(length, length_3d, 0.005 * length_3d);
+  EXPECT_NEAR(foot, foot_3d, 0.015 * foot_3d);
 }
 
 // --- Input -------------------------------------------------------------------------------------------------
