@@ -51,22 +51,10 @@ std::string check_case(const RunOptions& options) {
   std::string text = fmt::format("{}\n{}\n\n", setup.file.string(), setup.title);
   text += fmt::format("grid: {} x {} x {} cells of {:.6g} mm\n", setup.geometry.cells[0],
                       setup.geometry.cells[1], setup.geometry.cells[2], 1e3 * setup.geometry.cell_size);
-  const std::vector<fem::Mesh> meshes = simulation.meshes_for_checkpoint();
-  const auto total = [&](std::size_t of_rank) {
-    auto count = static_cast<double>(of_rank);
-    parallel::sum(communicator, std::span(&count, 1));
-    return static_cast<std::size_t>(count);
-  };
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const cases::BodySummary& body = simulation.bodies()[b];
-    std::string parts = fmt::format("{} particles", total(body.count));
-    for (const fem::Mesh& mesh : meshes) {
-      if (mesh.body == b)
-        parts = fmt::format("{} elements, {} nodes", total(mesh.elements.size()), total(mesh.nodes.size()));
-    }
-    for (const fem::Bars& bars : simulation.bars()) {
-      if (bars.body == b) parts = fmt::format("{} bars", total(bars.elements.size()));
-    }
+    std::string parts;
+    for (const solver::Carrier* carrier : simulation.carriers()) parts += carrier->count_text(b);
     text += fmt::format("body \"{}\" of {}: {}, {:.6g} g in the domain; whole shape {:.6g} g\n",
                         setup.bodies[b].name, setup.materials[b]->name, parts, 1e3 * body.mass,
                         1e3 * body.shape_mass);

@@ -4,24 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/core/base/marks.hpp"
 #include "src/core/base/vector_math.hpp"
 #include "src/io/output_fields.hpp"
 #include "src/core/parallel/threads.hpp"
 
 namespace whipple::solver {
-
-Totals& Totals::operator+=(const Totals& other) {
-  mass += other.mass;
-  momentum += other.momentum;
-  momentum_scale += other.momentum_scale;
-  kinetic_energy += other.kinetic_energy;
-  affine_kinetic_energy += other.affine_kinetic_energy;
-  internal_energy += other.internal_energy;
-  unresolved_energy += other.unresolved_energy;
-  hourglass_energy += other.hourglass_energy;
-  return *this;
-}
 
 Totals totals_of(const Particles& particles, std::size_t p, double affine_inertia) {
   const double m = particles.mass[p];
@@ -107,36 +94,6 @@ Totals totals_of(const Particles& particles, double affine_inertia) {
   return totals_of(particles, affine_inertia, of_chunk, [](std::size_t) { return false; });
 }
 
-Totals totals_of(const fem::Mesh& mesh, double affine_inertia) {
-  const fem::MeshTotals of_mesh = fem::totals(mesh);
-  const fem::Nodes& nodes = mesh.nodes;
-  double affine = 0.0;
-  for_each_marked(nodes.in_transition, [&](std::size_t a) {
-    affine += 0.5 * nodes.mass[a] * affine_inertia * nodes.affine_velocity[a].squaredNorm();
-  });
-  return {.mass = of_mesh.mass,
-          .momentum = of_mesh.momentum,
-          .momentum_scale = of_mesh.momentum_scale,
-          .kinetic_energy = of_mesh.kinetic_energy,
-          .affine_kinetic_energy = affine,
-          .internal_energy = of_mesh.internal_energy,
-          .hourglass_energy = of_mesh.hourglass_energy};
-}
-
-Totals totals_of(const fem::Bars& bars, double affine_inertia) {
-  const fem::Nodes& nodes = bars.nodes;
-  Totals sums = parallel::sum<Totals>(nodes.size(), [&](std::size_t a) {
-    const double m = nodes.mass[a], speed2 = nodes.velocity[a].squaredNorm();
-    return Totals{.mass = m,
-                  .momentum = m * nodes.velocity[a],
-                  .momentum_scale = m * std::sqrt(speed2),
-                  .kinetic_energy = 0.5 * m * speed2,
-                  .affine_kinetic_energy = 0.5 * m * affine_inertia * nodes.affine_velocity[a].squaredNorm()};
-  });
-  sums.internal_energy = fem::internal_energy(bars);
-  return sums;
-}
-
 void Ledger::add(const Ledger& step) {
   outflow += step.outflow;
   wall_impulse += step.wall_impulse;
@@ -208,41 +165,24 @@ PhaseMasses& PhaseMasses::operator+=(const PhaseMasses& other) {
   return *this;
 }
 
-std::vector<PhaseMasses> phase_masses(const Particles& particles, std::span<const fem::Mesh> meshes,
-                                      std::span<const fem::Bars> all_bars, std::size_t bodies) {
-  std::vector<PhaseMasses> result(bodies);
-  const auto of_points = [](const MaterialPoints& points, std::size_t first, std::size_t count) {
-    return parallel::sum_of_chunks<PhaseMasses>(count, [&](std::size_t begin, std::size_t end) {
-      std::array<Lanes, 4> mass{};
-      Lanes failed{};
-      for (std::size_t p = first + begin; p < first + end; p += 4) {
-        const std::size_t four = std::min<std::size_t>(4, first + end - p);
-        const Lanes m = load(&points.mass[p], four, 0.0),
-                    melted = load(&points.melted_fraction[p], four, 0.0);
-        const std::array<LanesMask, 4> in =
-            io::phases(melted, load(&points.vaporised_fraction[p], four, 0.0));
-        for (std::size_t i = 0; i < 4; ++i) mass[i] += select(in[i], m, Lanes{});
-        for (std::size_t k = 0; k < four; ++k) failed[k] += points.failed[p + k] != 0 ? m[k] : 0.0;
-      }
-      PhaseMasses sum;
-      for (std::size_t i = 0; i < 4; ++i) sum.mass[i] = sum4(mass[i]);
-      sum.failed = sum4(failed);
-      return sum;
-    });
-  };
-  for (std::uint32_t b = 0; b < bodies; ++b) {
-    const auto own = std::ranges::equal_range(particles.body, b);
-    result[b] =
-        of_points(particles, static_cast<std::size_t>(own.begin() - particles.body.begin()), own.size());
-  }
-  for (const fem::Mesh& mesh : meshes) result[mesh.body] += of_points(mesh.points, 0, mesh.points.size());
-  for (const fem::Bars& bars : all_bars) {
-    for (std::size_t b = 0; b < bars.elements.size(); ++b) {
-      result[bars.body].mass[static_cast<std::size_t>(io::Phase::solid)] += bars.elements.mass[b];
-      if (bars.elements.broken[b] != 0) result[bars.body].failed += bars.elements.mass[b];
+PhaseMasses phase_masses(const MaterialPoints& points, std::size_t first, std::size_t count) {
+  return parallel::sum_of_chunks<PhaseMasses>(count, [&](std::size_t begin, std::size_t end) {
+    std::array<Lanes, 4> mass{};
+    Lanes failed{};
+    for (std::size_t p = first + begin; p < first + end; p += 4) {
+      const std::size_t four = std::min<std::size_t>(4, first + end - p);
+      const Lanes m = load(&points.mass[p], four, 0.0),
+                  melted = load(&points.melted_fraction[p], four, 0.0);
+      const std::array<LanesMask, 4> in =
+          io::phases(melted, load(&points.vaporised_fraction[p], four, 0.0));
+      for (std::size_t i = 0; i < 4; ++i) mass[i] += select(in[i], m, Lanes{});
+      for (std::size_t k = 0; k < four; ++k) failed[k] += points.failed[p + k] != 0 ? m[k] : 0.0;
     }
-  }
-  return result;
+    PhaseMasses sum;
+    for (std::size_t i = 0; i < 4; ++i) sum.mass[i] = sum4(mass[i]);
+    sum.failed = sum4(failed);
+    return sum;
+  });
 }
 
 void sum_over_ranks(MPI_Comm communicator, std::vector<PhaseMasses>& by_body) {

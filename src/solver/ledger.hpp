@@ -9,8 +9,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "src/fem/bars.hpp"
-#include "src/fem/mesh.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/particles/particles.hpp"
 
@@ -36,7 +34,17 @@ struct Totals {
     const double resolved = kinetic_energy + affine_kinetic_energy;
     return resolved > 0.0 ? unresolved_energy / resolved : 0.0;
   }
-  Totals& operator+=(const Totals& other);
+  Totals& operator+=(const Totals& other) {
+    mass += other.mass;
+    momentum += other.momentum;
+    momentum_scale += other.momentum_scale;
+    kinetic_energy += other.kinetic_energy;
+    affine_kinetic_energy += other.affine_kinetic_energy;
+    internal_energy += other.internal_energy;
+    unresolved_energy += other.unresolved_energy;
+    hourglass_energy += other.hourglass_energy;
+    return *this;
+  }
 };
 
 /// Holds the mass, momentum and energy of one body that have left the domain (SI).
@@ -72,9 +80,6 @@ Totals totals_of(const Particles& particles, double affine_inertia);
 /// @param stays     stays(chunk): are its particles as they were then?
 Totals totals_of(const Particles& particles, double affine_inertia, std::vector<Totals>& of_chunk,
                  const std::function<bool(std::size_t)>& stays);
-/// Sums over the elements of a mesh and their nodes; bitwise independent of the number of threads.
-Totals totals_of(const fem::Mesh& mesh, double affine_inertia);
-Totals totals_of(const fem::Bars& bars, double affine_inertia);
 
 /// Books everything that enters and leaves, so that at every time
 /// energy = initial - outflow + external work, momentum = initial - outflow + impulse of walls and external
@@ -198,10 +203,9 @@ struct PhaseMasses {
   double failed = 0.0;           ///< kg
   PhaseMasses& operator+=(const PhaseMasses& other);
 };
-/// Sums the masses (kg) by phase over the particles of this rank (sorted by body), the elements and the bars, one entry
-/// per body.
-std::vector<PhaseMasses> phase_masses(const Particles& particles, std::span<const fem::Mesh> meshes,
-                                      std::span<const fem::Bars> all_bars, std::size_t bodies);
+/// Sums the masses (kg) by phase over the material points [first, first + count); bitwise independent of the number of
+/// threads.
+PhaseMasses phase_masses(const MaterialPoints& points, std::size_t first, std::size_t count);
 /// Collective.
 void sum_over_ranks(MPI_Comm communicator, std::vector<PhaseMasses>& by_body);
 

@@ -43,9 +43,10 @@ inline void expect_same(const solver::Simulation& a, const solver::Simulation& b
 
 /// Writes a checkpoint of a simulation into a folder. Collective.
 inline std::filesystem::path save(const solver::Simulation& simulation, const std::filesystem::path& folder) {
-  return io::write_checkpoint(folder, simulation.state().step, simulation.particles(),
-                              run::to_checkpoint(simulation.state()), simulation.communicator(),
-                              simulation.meshes_for_checkpoint(), simulation.bars_for_checkpoint());
+  const solver::Contents contents = simulation.contents();
+  return io::write_checkpoint(folder, simulation.state().step, *contents.particles,
+                              run::to_checkpoint(simulation.state()), simulation.communicator(), contents.meshes,
+                              contents.bars);
 }
 
 /// Goes on from a checkpoint. Collective.

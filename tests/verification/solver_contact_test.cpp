@@ -81,10 +81,10 @@ Slide slide(double friction, double duration, const std::string& method) {
   problem.bodies = {{"slab", elastic_aluminium(), box({0, 0, 0}, {28 * dx, 4 * dx, dx})},
                     {"block", elastic_aluminium(), box({5.3 * dx, 4 * dx, 0}, {15.3 * dx, 10 * dx, dx})}};
   solver::Simulation simulation(problem.read(), parallel::world());
-  simulation.add_acceleration([=](const Particles&, std::size_t, double time) {
+  simulation.add_load(solver::uniform_load("slope", [=](double time) {
     return Vector3(Vector3(g * std::sin(angle), -g * std::cos(angle), 0) *
                    std::min(time / (0.3 * duration), 1.0));
-  });
+  }));
   double energy = 0,
          momentum = 0;  // largest errors: relative to what gravity has given, as all is at rest at first
   const auto watch = [&](const solver::Simulation& s) {
@@ -159,16 +159,37 @@ TEST(Gravity, GivesItsMomentumToEveryBody) {
   EXPECT_LT(std::abs(state.ledger.energy_error(now)), 1e-12);
 }
 
-TEST(Gravity, AddsToAnExternalAcceleration) {
+TEST(Load, AddsToGravityOnParticlesAndElementsAlike) {
   Problem problem = impact({}, {});
+  problem.bodies[1].more = "discretization = { method = \"finite_elements\" }\n";
   problem.more = "[gravity]\nacceleration = [0, 3e8, -1e8]\n";
   solver::Simulation simulation(problem.read(), parallel::world());
-  simulation.add_acceleration([](const Particles&, std::size_t, double) { return Vector3(0, -3e8, 0); });
+  simulation.add_load(solver::uniform_load("lift", [](double) { return Vector3(0, -3e8, 0); }));
   const solver::Totals start = simulation.totals();
   for (int step = 0; step < 5; ++step) simulation.advance(2e-6);
   const solver::Totals& now = simulation.totals();
   const Vector3 given = now.mass * simulation.state().time * Vector3(0, 0, -1e8);
   EXPECT_LT((now.momentum - start.momentum - given).norm(), 1e-12 * start.momentum_scale);
+  EXPECT_LT(std::abs(simulation.state().ledger.energy_error(now)), 1e-12);
+}
+
+// Material rests until the load begins, and then all of it moves.
+TEST(Load, WakesMaterialWhenItBegins) {
+  const double begin = 1e-6, g = 1e8;
+  Problem problem = impact({}, {});
+  problem.bodies.resize(1);
+  problem.bodies[0].velocity.setZero();
+  solver::Simulation simulation(problem.read(), parallel::world());
+  simulation.add_load(solver::uniform_load("late", [g](double) { return Vector3(0, 0, g); }, begin));
+  run_to(simulation, begin, [begin](const solver::Simulation& s) {
+    if (s.state().time < 0.99 * begin) {
+      EXPECT_EQ(s.state().particles_at_rest, static_cast<std::int64_t>(s.particle_count()));
+    }
+  });
+  EXPECT_DOUBLE_EQ(simulation.next_event(), begin);
+  run_to(simulation, 1.5 * begin, [](const solver::Simulation& s) { EXPECT_EQ(s.state().particles_at_rest, 0); });
+  const solver::Totals& now = simulation.totals();
+  EXPECT_NEAR(now.momentum[2], 0.5 * begin * g * now.mass, 1e-9 * now.momentum[2]);
 }
 
 // A thin plate is pressed, in one step, across the last of its gap to elements, which only impulses stop.

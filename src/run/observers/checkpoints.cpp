@@ -42,10 +42,9 @@ void Checkpoints::write(const Moment& moment, const fs::path& folder) const {
   for (const auto& observer : moment.observers) observer->remember(values);
   values.texts["run_name"] = directory_.name();
   remember_input(simulation.setup(), values);
-  const fs::path path =
-      io::write_checkpoint(folder, simulation.state().step, simulation.particles(), values,
-                           simulation.communicator(), simulation.meshes_for_checkpoint(),
-                           simulation.bars_for_checkpoint());
+  const solver::Contents contents = simulation.contents();
+  const fs::path path = io::write_checkpoint(folder, simulation.state().step, *contents.particles, values,
+                                             simulation.communicator(), contents.meshes, contents.bars);
   log::detail("checkpoint {}", path.string());
 }
 

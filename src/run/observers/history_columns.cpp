@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <array>
+#include <string>
 #include <string_view>
+#include <tuple>
 
 #include "src/core/parallel/mpi.hpp"
-#include "src/core/parallel/threads.hpp"
 
 namespace whipple::run {
 namespace {
@@ -26,11 +26,24 @@ struct BodyColumn {
   double (*value)(const Source&, std::size_t body);
 };
 
+/// Lists the bounds of the time step with their numbers.
+std::string_view bounds_text() {
+  static const std::string text = [] {
+    std::string list = "bound that determined the time step:";
+    for (const auto& [bound, name] : words(solver::TimeStepBound{})) {
+      list += fmt::format("{} {} {}", bound == solver::TimeStepBound::none ? "" : ",", static_cast<int>(bound), name);
+    }
+    return list;
+  }();
+  return text;
+}
+
 // clang-format off
 const auto always = std::to_array<Column>({
     {"step", "", "number of the step", [](const Source& s) { return static_cast<double>(s.state.step); }},
     {"time", "s", "simulated time", [](const Source& s) { return s.state.time; }},
     {"dt", "s", "time step", [](const Source& s) { return s.state.time_step; }},
+    {"dt_bound", "1", bounds_text(), [](const Source& s) { return static_cast<double>(s.time_step_bound); }},
     {"mass", "kg", "mass in the domain", [](const Source& s) { return s.totals.mass; }},
     {"kinetic_energy", "J", "kinetic energy of particles and nodes",
      [](const Source& s) { return s.totals.kinetic_energy; }},
@@ -80,9 +93,9 @@ const auto always = std::to_array<Column>({
     {"mass_liquid", "kg", "liquid mass", [](const Source& s) { return s.all_bodies.mass[2]; }},
     {"mass_vapour", "kg", "mass that is at least half vapour", [](const Source& s) { return s.all_bodies.mass[3]; }},
     {"failed_mass", "kg", "mass that has failed", [](const Source& s) { return s.all_bodies.failed; }},
-    {"maximum_speed", "m/s", "greatest speed of a particle or node", [](const Source& s) { return s.maximum_speed; }},
-    {"maximum_pressure", "Pa", "greatest pressure", [](const Source& s) { return s.maximum_pressure; }},
-    {"maximum_temperature", "K", "greatest temperature", [](const Source& s) { return s.maximum_temperature; }},
+    {"maximum_speed", "m/s", "greatest speed of a particle or node", [](const Source& s) { return s.figures.speed; }},
+    {"maximum_pressure", "Pa", "greatest pressure", [](const Source& s) { return s.figures.pressure; }},
+    {"maximum_temperature", "K", "greatest temperature", [](const Source& s) { return s.figures.temperature; }},
     {"squeezed_beside_voids", "kg", "intact mass under pressure in cells that it does not fill",
      [](const Source& s) { return s.state.squeezed_beside_voids; }},
     {"particles", "1", "number of particles", [](const Source& s) { return s.particles; }},
@@ -100,13 +113,13 @@ const auto of_elements = std::to_array<Column>({
 
 const auto of_cold_work = std::to_array<Column>({
     {"stored_cold_work", "J", "part of the internal energy that plastic work stored without heating",
-     [](const Source& s) { return s.stored_cold_work; }},
+     [](const Source& s) { return s.figures.stored_cold_work; }},
 });
 
 const auto of_bars = std::to_array<Column>({
-    {"bars", "1", "number of bars", [](const Source& s) { return s.bars; }},
-    {"broken_bars", "1", "bars that have broken", [](const Source& s) { return s.broken_bars; }},
-    {"bar_energy", "J", "internal energy of the bars", [](const Source& s) { return s.bar_energy; }},
+    {"bars", "1", "number of bars", [](const Source& s) { return s.figures.bars; }},
+    {"broken_bars", "1", "bars that have broken", [](const Source& s) { return s.figures.broken_bars; }},
+    {"bar_energy", "J", "internal energy of the bars", [](const Source& s) { return s.figures.bar_energy; }},
 });
 
 const auto phases_of_body = std::to_array<BodyColumn>({
@@ -171,60 +184,31 @@ bool stores_cold_work(const cases::Case& setup) {
   return std::ranges::any_of(setup.materials, [](const auto& material) { return material->stores_cold_work(); });
 }
 
-/// J, part of the internal energy of these points.
-double cold_work_of(const MaterialPoints& points) {
-  return parallel::sum<double>(points.stored_cold_work.size(),
-                               [&](std::size_t p) { return points.mass[p] * points.stored_cold_work[p]; });
-}
-
-double largest(const std::vector<double>& values, double so_far) {
-  return parallel::maximum(values.size(), so_far, [&](std::size_t p) { return values[p]; });
-}
-
-double fastest(const std::vector<Vector3>& velocity, double so_far) {
-  return std::sqrt(parallel::maximum(velocity.size(), so_far * so_far,
-                                     [&](std::size_t p) { return velocity[p].squaredNorm(); }));
-}
-
 }  // namespace
 
 HistorySource::HistorySource(const solver::Simulation& simulation)
     : state(simulation.state()),
       ledger(state.ledger),
       totals(simulation.totals()),
-      by_body(solver::phase_masses(simulation.particles(), simulation.meshes(), simulation.bars(),
-                           simulation.setup().bodies.size())),
+      time_step_bound(simulation.time_step_bound()),
+      by_body(simulation.setup().bodies.size()),
       particles(static_cast<double>(simulation.particle_count())),
       elements(static_cast<double>(simulation.element_count())) {
+  for (const solver::Carrier* carrier : simulation.carriers()) {
+    carrier->add_phases(by_body);
+    carrier->add_figures(figures);
+  }
   solver::sum_over_ranks(simulation.communicator(), by_body);
   for (const solver::PhaseMasses& body : by_body) all_bodies += body;
 
-  const Particles& points = simulation.particles();
-  constexpr double none = -std::numeric_limits<double>::infinity();
-  std::array<double, 3> maxima = {fastest(points.velocity, 0.0), largest(points.pressure, none),
-                                  largest(points.temperature, none)};
-  std::array<double, 4> sums = {cold_work_of(points), 0.0, 0.0, 0.0};
-  for (const fem::Mesh& mesh : simulation.meshes()) {
-    maxima = {fastest(mesh.nodes.velocity, maxima[0]), largest(mesh.points.pressure, maxima[1]),
-              largest(mesh.points.temperature, maxima[2])};
-    sums[0] += cold_work_of(mesh.points);
-  }
-  for (const fem::Bars& of_body : simulation.bars()) {
-    sums[1] += static_cast<double>(of_body.elements.size());
-    sums[2] += static_cast<double>(std::ranges::count(of_body.elements.broken, 1));
-    sums[3] += fem::internal_energy(of_body);
-  }
+  std::array<double, 3> maxima = {figures.speed, figures.pressure, figures.temperature};
   parallel::maximum(simulation.communicator(), maxima);
+  std::tie(figures.speed, figures.pressure, figures.temperature) = std::tuple_cat(maxima);
   if (simulation.setup().has_bars() || stores_cold_work(simulation.setup())) {
+    std::array<double, 4> sums = {figures.stored_cold_work, figures.bars, figures.broken_bars, figures.bar_energy};
     parallel::sum(simulation.communicator(), sums);
+    std::tie(figures.stored_cold_work, figures.bars, figures.broken_bars, figures.bar_energy) = std::tuple_cat(sums);
   }
-  maximum_speed = maxima[0];
-  maximum_pressure = maxima[1];
-  maximum_temperature = maxima[2];
-  stored_cold_work = sums[0];
-  bars = sums[1];
-  broken_bars = sums[2];
-  bar_energy = sums[3];
 }
 
 std::vector<HistoryColumn> history_columns(const cases::Case& setup) {

@@ -18,12 +18,11 @@ struct HistorySource {
   const solver::RunState& state;
   const solver::Ledger& ledger;
   const solver::Totals& totals;
+  solver::TimeStepBound time_step_bound;
   std::vector<solver::PhaseMasses> by_body;
   solver::PhaseMasses all_bodies;
-  double maximum_speed = 0.0, maximum_pressure = 0.0, maximum_temperature = 0.0;
+  solver::Figures figures;
   double particles = 0.0, elements = 0.0;
-  double stored_cold_work = 0.0;
-  double bars = 0.0, broken_bars = 0.0, bar_energy = 0.0;
 
   /// Collective.
   explicit HistorySource(const solver::Simulation& simulation);

@@ -66,15 +66,18 @@ void SnapshotFiles::restart(double time) {
 }
 
 void SnapshotFiles::write(const solver::Simulation& simulation) {
-  particles_.write(simulation.particles(), simulation.state().time);
-  if (elements_) elements_->write(simulation.meshes(), simulation.bars(), simulation.state().time);
+  const solver::View view = simulation.view();
+  const double time = simulation.state().time;
+  particles_.write(*view.particles, time);
+  if (elements_) elements_->write(view.meshes, view.bars, time);
 }
 
 std::function<void()> SnapshotFiles::prepare(const solver::Simulation& simulation) {
+  const solver::View view = simulation.view();
   const double time = simulation.state().time;
   const std::function<void()> of_elements =
-      elements_ ? elements_->prepare(simulation.meshes(), simulation.bars(), time) : std::function<void()>();
-  return [of_particles = particles_.prepare(simulation.particles(), time), of_elements] {
+      elements_ ? elements_->prepare(view.meshes, view.bars, time) : std::function<void()>();
+  return [of_particles = particles_.prepare(*view.particles, time), of_elements] {
     of_particles();
     if (of_elements) of_elements();
   };

@@ -1,35 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Domains of the particles: deformation with the material, division of stretched particles (docs/theory/mpm.md,
 // section 2).
+#include "src/solver/carriers/domains.hpp"
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
-#include "src/solver/simulation.hpp"
 
-namespace whipple::solver {
+namespace whipple::solver::domains {
 
-bool Simulation::follows_domains() const {
-  return setup_.transfer.shape_function == transfer::ShapeFunction::convected_gimp || setup_.splitting.length > 0.0;
+bool follow_deformation(const State& state) {
+  return state.setup.transfer.shape_function == transfer::ShapeFunction::convected_gimp || state.setup.splitting.length > 0.0;
 }
 
-/// Returns whether anything asks for the domains of the particles.
-bool Simulation::carries_extent() const {
-  return follows_domains() || setup_.transfer.shape_function == transfer::ShapeFunction::gimp || setup_.contact_fields.several() ||
-         may_meet_images();
+bool are_needed(const State& state, bool may_meet_images) {
+  return follow_deformation(state) || state.setup.transfer.shape_function == transfer::ShapeFunction::gimp ||
+         state.setup.contact_fields.several() || may_meet_images;
 }
 
-/// E <- (I + dt L) E (I + dt L)^T (2.4). @returns how many domains are larger than the shape function takes
-std::size_t Simulation::deform_domains(std::span<const std::uint32_t> particles,
-                                       std::span<const Matrix3> gradients) {
-  const double dt = state_.time_step, dx = setup_.domain.cell_size;
-  const bool counted = setup_.transfer.shape_function == transfer::ShapeFunction::convected_gimp;
+std::size_t deform(State& state, std::span<const std::uint32_t> particles, std::span<const Matrix3> gradients) {
+  const double dt = state.run.time_step, dx = state.setup.domain.cell_size;
+  const bool counted = state.setup.transfer.shape_function == transfer::ShapeFunction::convected_gimp;
   std::size_t larger = 0;
   for (std::size_t k = 0; k < particles.size(); ++k) {
     const Matrix3 step = Matrix3::Identity() + dt * gradients[k];
-    SymmetricTensor& extent = particles_.extent[particles[k]];
+    SymmetricTensor& extent = state.particles.extent[particles[k]];
     extent = SymmetricTensor::from(step * extent.matrix() * step.transpose());
     if (!counted) continue;
     const double largest = transfer::half_sizes(extent, dx).maxCoeff();
@@ -84,17 +82,16 @@ double divide(Particles& particles, std::size_t p, std::size_t other, const Vect
 
 }  // namespace
 
-/// Intact particles longer than wanted (Ma, Zhang & Huang, CMES 54 (2009) 61: L = (1 + eps) V0^(1/3) > alpha
-/// dx) are divided along their longest direction, those that leave the domain by it are not.
-void Simulation::split_particles() {
-  if (setup_.splitting.length <= 0.0) return;
-  profile_.time("split", [&] {
-    const double limit = 0.5 * setup_.splitting.length * setup_.domain.cell_size;  // half the length
+void split(State& state, const Carriers& carriers, ParticleCarrier& of_particles) {
+  if (state.setup.splitting.length <= 0.0) return;
+  state.profile.time("split", [&] {
+    const double limit = 0.5 * state.setup.splitting.length * state.setup.domain.cell_size;  // half the length
     std::vector<std::pair<std::uint32_t, Vector3>> divided;
-    for (std::uint32_t p = 0; p < particles_.size(); ++p) {
-      const SymmetricTensor& e = particles_.extent[p];
+    for (std::uint32_t p = 0; p < state.particles.size(); ++p) {
+      const SymmetricTensor& e = state.particles.extent[p];
       if (e.xx + e.yy + e.zz <= limit * limit) continue;  // the largest eigenvalue is smaller still
-      if (particles_.failed[p] != 0 || particles_.generation[p] >= setup_.splitting.maximum_generations) {
+      if (state.particles.failed[p] != 0 ||
+          state.particles.generation[p] >= state.setup.splitting.maximum_generations) {
         continue;
       }
       const Vector3 half_edge = longest_half_edge(e);
@@ -102,37 +99,34 @@ void Simulation::split_particles() {
       bool inside = true;
       for (int a = 0; a < 3; ++a) {
         const double reach = 0.5 * std::abs(half_edge[a]);
-        inside = inside && particles_.position[p][a] - reach >= setup_.geometry.lower[a] &&
-                 particles_.position[p][a] + reach <= setup_.geometry.upper(a);
+        inside = inside && state.particles.position[p][a] - reach >= state.setup.geometry.lower[a] &&
+                 state.particles.position[p][a] + reach <= state.setup.geometry.upper(a);
       }
       if (inside) divided.emplace_back(p, half_edge);
     }
-    if (!parallel::any(communicator_, !divided.empty())) return;
+    if (!parallel::any(state.communicator, !divided.empty())) return;
 
     // New particles take the numbers above all present ones, rank by rank.
     std::uint64_t largest = 0;
-    for (const std::uint64_t id : particles_.id) largest = std::max(largest, id);
-    for (const fem::Mesh& mesh : meshes_) {  // whose elements may become particles, eight each
-      for (const std::uint64_t id : mesh.elements.id) largest = std::max(largest, 8 * id + 7);
-    }
-    largest = static_cast<std::uint64_t>(parallel::maximum(communicator_, static_cast<double>(largest)));
-    std::vector<double> count(static_cast<std::size_t>(parallel::size(communicator_)), 0.0);
-    const auto rank = static_cast<std::size_t>(parallel::rank(communicator_));
+    for (const Carrier* carrier : carriers) largest = std::max(largest, carrier->largest_particle_id());
+    largest = static_cast<std::uint64_t>(parallel::maximum(state.communicator, static_cast<double>(largest)));
+    std::vector<double> count(static_cast<std::size_t>(parallel::size(state.communicator)), 0.0);
+    const auto rank = static_cast<std::size_t>(parallel::rank(state.communicator));
     count[rank] = static_cast<double>(divided.size());
-    parallel::sum(communicator_, count);
+    parallel::sum(state.communicator, count);
     std::uint64_t next = largest + 1;
     for (std::size_t r = 0; r < rank; ++r) next += static_cast<std::uint64_t>(count[r]);
-    for (const double n : count) particle_count_ += static_cast<std::size_t>(n);
+    for (const double n : count) state.particle_count += static_cast<std::size_t>(n);
 
-    const std::size_t before = particles_.size();
-    resize(particles_, before + divided.size());
+    const std::size_t before = state.particles.size();
+    resize(state.particles, before + divided.size());
     for (std::size_t i = 0; i < divided.size(); ++i) {
-      (losses_.kept ? step_.unresolved_kept : step_.transfer_heat) +=
-          divide(particles_, divided[i].first, before + i, divided[i].second, particle_affine_inertia());
-      particles_.id[before + i] = next++;
+      (state.keeps_losses() ? state.booked.unresolved_kept : state.booked.transfer_heat) +=
+          divide(state.particles, divided[i].first, before + i, divided[i].second, state.particle_affine_inertia());
+      state.particles.id[before + i] = next++;
     }
-    particles_reallocated();
+    of_particles.reallocated();
   });
 }
 
-}  // namespace whipple::solver
+}  // namespace whipple::solver::domains

@@ -10,7 +10,7 @@
 
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
-#include "src/solver/simulation.hpp"
+#include "src/solver/stages/time_step.hpp"
 
 namespace whipple::solver {
 namespace {
@@ -41,17 +41,18 @@ constexpr double parts_of_mass =
 /// Rate that all but `free_share` of the particles' mass keep below, or one that does not bound the next
 /// step.
 /// @param largest  1/s, of all particles of all ranks
-double Simulation::compression_rate_of_most(double largest) const {
-  if (!losses_.kept) return largest;
-  const double harmless = setup_.time.compression_limit / (setup_.time.maximum_growth * state_.unclipped_step);
+double TimeStep::compression_rate_of_most(double largest) const {
+  if (!state_.keeps_losses()) return largest;
+  const cases::TimeControl& control = state_.setup.time;
+  const double harmless = control.compression_limit / (control.maximum_growth * state_.run.unclipped_step);
   if (largest <= harmless) return largest;
   const auto mass = std::make_unique<std::array<std::atomic<std::int64_t>, Bins::count>>();
   for (auto& bin : *mass) bin.store(0, std::memory_order_relaxed);
-  const double per_mass = parts_of_mass / totals_.mass;
-  parallel::for_each_chunk(particles_.size(), [&](std::size_t begin, std::size_t end) {
+  const double per_mass = parts_of_mass / state_.totals.mass;
+  parallel::for_each_chunk(state_.particles.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      if (particles_.closing_rate[p] <= harmless || particles_.pressure[p] <= 0.0) continue;
-      (*mass)[Bins::of(particles_.closing_rate[p])].fetch_add(std::llround(per_mass * particles_.mass[p]),
+      if (state_.particles.closing_rate[p] <= harmless || state_.particles.pressure[p] <= 0.0) continue;
+      (*mass)[Bins::of(state_.particles.closing_rate[p])].fetch_add(std::llround(per_mass * state_.particles.mass[p]),
                                                               std::memory_order_relaxed);
     }
   });
@@ -59,7 +60,7 @@ double Simulation::compression_rate_of_most(double largest) const {
   for (std::size_t bin = 0; bin < Bins::count; ++bin) {
     of_all_ranks[bin] = static_cast<double>((*mass)[bin].load(std::memory_order_relaxed));
   }
-  parallel::sum(communicator_, of_all_ranks);
+  parallel::sum(state_.communicator, of_all_ranks);
   double faster = 0.0;
   for (std::size_t bin = Bins::count; bin-- > 0;) {
     faster += of_all_ranks[bin];

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Particles at the faces of the domain.
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "src/core/base/gaps.hpp"
+#include "src/core/base/vector_math.hpp"
+#include "src/core/parallel/threads.hpp"
+#include "src/solver/carriers/particle_carrier.hpp"
+
+namespace whipple::solver {
+namespace {
+
+/// Particles outside of the domain, ascending; those at rest were inside before. Four are passed over at once
+/// where none of them is.
+std::vector<std::uint32_t> outside_of(const grid::Geometry& g, std::span<const Vector3> position,
+                                      const grid::BlockGrid& grid) {
+  const Lanes lower = {g.lower[0], g.lower[1], g.lower[2], 0.0};
+  const Lanes upper = {g.upper(0), g.upper(1), g.upper(2), 0.0};
+  const auto turned = [](Lanes bound) {  // beside x y z x, y z x y, z x y z of four positions
+    return std::array{Lanes{bound[0], bound[1], bound[2], bound[0]},
+                      Lanes{bound[1], bound[2], bound[0], bound[1]},
+                      Lanes{bound[2], bound[0], bound[1], bound[2]}};
+  };
+  const std::array<Lanes, 3> lowers = turned(lower), uppers = turned(upper);
+  std::vector<std::vector<std::uint32_t>> found(parallel::chunk_count(position.size()));
+  parallel::for_each_chunk(position.size(), [&](std::size_t begin, std::size_t end) {
+    if (grid.chunk_rests(begin / parallel::chunk_size)) return;
+    const auto look_at = [&](std::size_t p) {
+      const Lanes at = load_vector(position[p].data());
+      if (bits((at >= lower) & (at <= upper)) == all_lanes) return;
+      found[begin / parallel::chunk_size].push_back(static_cast<std::uint32_t>(p));
+    };
+    std::size_t p = begin;
+    for (; p + 4 <= end; p += 4) {
+      const double* const from = position[p].data();
+      LanesMask inside = (load(from) >= lowers[0]) & (load(from) <= uppers[0]);
+      for (std::size_t i = 1; i < 3; ++i) {
+        inside &= (load(from + 4 * i) >= lowers[i]) & (load(from + 4 * i) <= uppers[i]);
+      }
+      if (bits(inside) == all_lanes) continue;
+      for (std::size_t k = p; k < p + 4; ++k) look_at(k);
+    }
+    for (; p < end; ++p) look_at(p);
+  });
+  std::vector<std::uint32_t> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace
+
+/// Reflects particles at mirror planes and walls, and removes those beyond faces of outflow.
+void ParticleCarrier::remove_outside() {
+  const grid::Geometry& g = state_.setup.geometry;
+  const std::vector<std::uint32_t> outside = outside_of(g, state_.particles.position, state_.grid);
+  std::vector<std::uint32_t> leaving;
+  for (const std::uint32_t p : outside) {
+    bool leaves = false;
+    for (int a = 0; a < 3; ++a) {
+      double& x = state_.particles.position[p][a];
+      if (x >= g.lower[a] && x <= g.upper(a)) continue;
+      const bool low = x < g.lower[a];
+      const grid::Boundary boundary = g.boundary[static_cast<std::size_t>(2 * a + (low ? 0 : 1))];
+      if (boundary == grid::Boundary::outflow) {
+        leaves = true;
+        continue;
+      }
+      // Interpolation gives no normal velocity at a mirror plane, so only the finite time step brings a
+      // particle across: it is put back as its own image.
+      x = 2.0 * (low ? g.lower[a] : g.upper(a)) - x;
+      Matrix3 mirror = Matrix3::Identity();
+      mirror(a, a) = -1.0;
+      // At a no-slip wall all components of the image's velocity are reversed, its place along one axis
+      // only.
+      const Matrix3 image = boundary == grid::Boundary::no_slip ? Matrix3(-Matrix3::Identity()) : mirror;
+      const Vector3 velocity = image * state_.particles.velocity[p];
+      state_.booked.wall_impulse += state_.particles.mass[p] * (velocity - state_.particles.velocity[p]);
+      state_.particles.velocity[p] = velocity;
+      if (!state_.particles.affine_velocity.empty()) {
+        state_.particles.affine_velocity[p] = image * state_.particles.affine_velocity[p] * mirror;
+      }
+      for (auto* tensors : {&state_.particles.deviatoric_stress, &state_.particles.back_stress,
+                            &state_.particles.strain, &state_.particles.extent}) {
+        if (tensors->empty()) continue;  // optional, not in use
+        (*tensors)[p] = SymmetricTensor::from(mirror * (*tensors)[p].matrix() * mirror);
+      }
+    }
+    if (leaves) leaving.push_back(p);
+  }
+  if (leaving.empty()) return;
+  for (const std::uint32_t p : leaving) {
+    state_.book_outflow(state_.particles.body[p], totals_of(state_.particles, p, state_.particle_affine_inertia()));
+  }
+  const std::vector<Move> moves = moves_into_gaps(state_.particles.body, leaving);
+  const std::size_t size = state_.particles.size() - leaving.size();
+  remove(state_.particles, moves, size);
+  state_.grid.particles_removed(moves, size);
+  state_.find_bodies();
+}
+
+}  // namespace whipple::solver

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "src/fem/bars.hpp"
+#include "src/fem/mesh.hpp"
+#include "src/solver/state.hpp"
+
+namespace whipple::solver {
+
+/// Holds what a checkpoint is written from.
+struct Contents {
+  const Particles* particles = nullptr;
+  std::vector<fem::Mesh> meshes;  ///< each node on one rank only, the corners numbered over all ranks
+  std::vector<fem::Bars> bars;    ///< all on one rank
+};
+
+/// Holds what a snapshot is written from: the part of this rank, as long as no step is made.
+struct View {
+  const Particles* particles = nullptr;
+  std::span<const fem::Mesh> meshes;
+  std::span<const fem::Bars> bars;
+};
+
+/// Figures for the history: greatest values and sums over a part of the material (SI).
+struct Figures {
+  double speed = 0.0;
+  double pressure = -std::numeric_limits<double>::infinity();
+  double temperature = -std::numeric_limits<double>::infinity();
+  double stored_cold_work = 0.0;                        ///< J
+  double bars = 0.0, broken_bars = 0.0, bar_energy = 0.0;  ///< numbers, and J
+};
+
+/// Interface of what carries the material of bodies: particles, hexahedra, trusses; on each rank its part of them.
+/// Stages loop over the carriers of a run, which are those that the case has.
+class Carrier {
+ public:
+  explicit Carrier(State& state) : state_(state) {}
+  Carrier(const Carrier&) = delete;
+  Carrier& operator=(const Carrier&) = delete;
+  virtual ~Carrier() = default;
+
+  /// Returns whether the case has no such bodies; the same on all ranks.
+  [[nodiscard]] virtual bool empty() const = 0;
+
+  /// @name In the order of the step
+  /// @{
+  /// Computes the forces on the carrier's nodes, loads included. Particles have their stresses instead.
+  virtual void compute_forces() {}
+  /// Appends the nodes that move with the grid in this step to `State::transition`.
+  virtual void collect() {}
+  /// Joins the forces, masses and sound speeds of the copies of nodes on several ranks. Collective.
+  virtual void join_shared_nodes() {}
+  /// Returns the largest stable time step (s) by the stiffness of elements of this rank; infinite without any.
+  [[nodiscard]] virtual double critical_time_step() const { return std::numeric_limits<double>::infinity(); }
+  /// Moves nodes by themselves or as the grid moved them, and updates strain, work, heat and stress of their elements.
+  /// @returns an error that ends the run, or nothing
+  virtual std::string advance() { return {}; }
+  /// Removes and books what is outside of the domain. Collective.
+  virtual void remove_outside() = 0;
+  /// @}
+
+  /// @name Sums over the part of this rank
+  /// @{
+  virtual void add_totals(Totals& sum) = 0;
+  virtual void add_phases(std::span<PhaseMasses> of_body) const = 0;
+  virtual void add_figures(Figures& figures) const = 0;
+  [[nodiscard]] virtual std::size_t particle_count() const { return 0; }
+  [[nodiscard]] virtual std::size_t element_count() const { return 0; }
+  /// Returns the largest id of a particle that is there, or that an element may become.
+  [[nodiscard]] virtual std::uint64_t largest_particle_id() const { return 0; }
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
+  /// Describes the part of a body by its numbers over all ranks, empty if it has none. Collective.
+  [[nodiscard]] virtual std::string count_text(std::size_t body) const = 0;
+  /// @}
+
+  /// @name Ranks and files
+  /// @{
+  /// Keeps the share of this rank of what all ranks hold at the start. Collective.
+  virtual void keep_share() {}
+  /// Gathers what this rank needs after each has read any part of a checkpoint. Collective.
+  virtual void gather() {}
+  /// Sends elements to the ranks that own the blocks of their centres. Collective.
+  virtual void share_out() {}
+  /// Returns whether its elements count as work where blocks are shared out among the ranks.
+  [[nodiscard]] virtual bool weighs() const { return false; }
+  /// Appends centres (m) and work of the elements.
+  virtual void add_work(std::vector<Vector3>& /*centres*/, std::vector<double>& /*work*/) const {}
+  /// Collective.
+  virtual void save(Contents& contents) const = 0;
+  virtual void show(View& view) const = 0;
+  /// @}
+
+ protected:
+  State& state_;
+};
+
+/// The carriers of a run that have bodies, particles first.
+using Carriers = std::vector<Carrier*>;
+
+}  // namespace whipple::solver

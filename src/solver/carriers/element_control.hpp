@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+
+#include "src/case/case.hpp"
+#include "src/fem/step.hpp"
+
+/// What a case says about elements, as the functions of elements take it.
+namespace whipple::solver {
+
+/// Returns the resistance to hourglass modes.
+inline fem::HourglassControl hourglass(const cases::Discretization& control) {
+  return {control.hourglass, control.hourglass_coefficient};
+}
+
+/// Returns the coefficients of the artificial viscosity.
+inline fem::ViscosityCoefficients viscosity(const cases::ArtificialViscosity& control) {
+  return {.linear = std::max(control.linear, control.expansion), .quadratic = control.quadratic};
+}
+
+}  // namespace whipple::solver

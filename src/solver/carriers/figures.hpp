@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
+#include "src/solver/carriers/carrier.hpp"
+
+/// Sums and greatest values that the carriers have in common.
+namespace whipple::solver {
+
+/// Raises the greatest speed.
+inline void add_speeds(const std::vector<Vector3>& velocity, Figures& figures) {
+  figures.speed = std::sqrt(parallel::maximum(velocity.size(), figures.speed * figures.speed,
+                                              [&](std::size_t p) { return velocity[p].squaredNorm(); }));
+}
+
+/// Adds the state of material points.
+inline void add_state(const MaterialPoints& points, Figures& figures) {
+  const auto largest = [](const std::vector<double>& values, double so_far) {
+    return parallel::maximum(values.size(), so_far, [&](std::size_t p) { return values[p]; });
+  };
+  figures.pressure = largest(points.pressure, figures.pressure);
+  figures.temperature = largest(points.temperature, figures.temperature);
+  figures.stored_cold_work += parallel::sum<double>(
+      points.stored_cold_work.size(), [&](std::size_t p) { return points.mass[p] * points.stored_cold_work[p]; });
+}
+
+/// Returns the memory of all fields.
+template <class Points>
+std::size_t bytes_of(const Points& points) {
+  std::size_t bytes = 0;
+  for_each_field<Points>([&](const auto& field) {
+    const auto& values = points.*(field.values);
+    bytes += values.size() * sizeof(values[0]);
+  });
+  return bytes;
+}
+
+/// Sums a number over all ranks. Collective.
+inline std::size_t sum_over_ranks(MPI_Comm communicator, std::size_t of_rank) {
+  auto count = static_cast<double>(of_rank);
+  parallel::sum(communicator, std::span(&count, 1));
+  return static_cast<std::size_t>(count);
+}
+
+}  // namespace whipple::solver

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "src/fem/distribution.hpp"
+#include "src/fem/facets.hpp"
+#include "src/fem/step.hpp"
+#include "src/solver/carriers/carrier.hpp"
+#include "src/solver/carriers/particle_carrier.hpp"
+#include "src/solver/loads.hpp"
+
+namespace whipple::solver {
+
+/// The bodies of hexahedra, as far as they are still elements (docs/theory/fem.md), and their transition to particles
+/// (docs/theory/afemp.md).
+class Hexahedra : public Carrier {
+ public:
+  Hexahedra(State& state, const Loads& loads, std::vector<fem::Mesh> meshes);
+
+  /// Returns the share of this rank, with copies of the nodes that it shares with other ranks
+  /// (src/fem/distribution.hpp).
+  [[nodiscard]] const std::vector<fem::Mesh>& meshes() const { return meshes_; }
+  /// Returns the faces of each mesh that belong to one element of all ranks only. Collective.
+  [[nodiscard]] const std::vector<std::vector<fem::Facet>>& free_facets();
+
+  /// Turns distorted elements into particles. Collective.
+  /// @param grid_step  s, that the grid allows
+  void convert(ParticleCarrier& particles, double grid_step);
+  /// Marks the nodes at particles or at other bodies: they move with the grid. Collective.
+  void mark_transition();
+  /// Warns of bodies within reach of each other at the start: they push each other from the first step on. Collective.
+  void warn_of_contact() const;
+
+  [[nodiscard]] bool empty() const override { return meshes_.empty(); }
+  void compute_forces() override;
+  void collect() override;
+  void join_shared_nodes() override;
+  [[nodiscard]] double critical_time_step() const override;
+  std::string advance() override;
+  void remove_outside() override;
+  void add_totals(Totals& sum) override;
+  void add_phases(std::span<PhaseMasses> of_body) const override;
+  void add_figures(Figures& figures) const override;
+  [[nodiscard]] std::size_t element_count() const override;
+  [[nodiscard]] std::uint64_t largest_particle_id() const override;
+  [[nodiscard]] std::size_t bytes() const override;
+  [[nodiscard]] std::string count_text(std::size_t body) const override;
+  void keep_share() override;
+  void gather() override;
+  void share_out() override;
+  [[nodiscard]] bool weighs() const override { return !meshes_.empty(); }
+  void add_work(std::vector<Vector3>& centres, std::vector<double>& work) const override;
+  void save(Contents& contents) const override;
+  void show(View& view) const override { view.meshes = meshes_; }
+
+ private:
+  [[nodiscard]] fem::ConstraintBalance advance_free_nodes(std::size_t mesh);
+  [[nodiscard]] std::string advance_mesh(std::size_t mesh);
+  [[nodiscard]] std::string deform(std::size_t mesh, bool heated);
+  [[nodiscard]] std::string describe(const fem::Mesh& mesh, std::size_t point, const std::string& reason) const;
+  void elements_removed();
+
+  const Loads& loads_;
+  std::vector<fem::Mesh> meshes_;
+  std::vector<std::vector<fem::Facet>> free_facets_;  // of each mesh
+  bool surfaces_changed_ = true;                      // since they were found
+  fem::SharedNodes shared_nodes_;
+  std::vector<std::array<double, 5>> shared_;  // force (N), mass (kg), sound speed of all copies of each
+  // In the step under way:
+  std::size_t first_ = 0, count_ = 0;  // of the nodes in State::transition
+  struct Motion {                      // of each mesh
+    std::vector<Vector3> acceleration;  // m/s^2, of the nodes by loads
+    fem::VelocityGradients gradient;
+  };
+  std::vector<Motion> of_mesh_;
+  std::vector<fem::Motion> motions_;
+  std::vector<std::vector<double>> node_heat_;
+};
+
+}  // namespace whipple::solver

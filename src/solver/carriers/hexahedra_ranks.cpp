@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hexahedra on several ranks (docs/theory/fem.md, 10), their sums and files.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "src/afemp/transition.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/solver/carriers/element_totals.hpp"
+#include "src/solver/carriers/figures.hpp"
+#include "src/solver/carriers/hexahedra.hpp"
+#include "src/solver/carriers/share_out.hpp"
+#include "src/solver/work.hpp"
+
+namespace whipple::solver {
+
+void Hexahedra::keep_share() {
+  if (!state_.is_parallel()) return;
+  const int rank = parallel::rank(state_.communicator), ranks = parallel::size(state_.communicator);
+  for (fem::Mesh& mesh : meshes_) fem::keep_share(mesh, rank, ranks);
+  shared_nodes_ = fem::SharedNodes(meshes_, state_.communicator);
+}
+
+void Hexahedra::gather() {
+  if (!state_.is_parallel()) {
+    for (fem::Mesh& mesh : meshes_) fem::connect(mesh);
+    return;
+  }
+  for (fem::Mesh& mesh : meshes_) fem::gather_nodes(mesh, state_.communicator);
+  shared_nodes_ = fem::SharedNodes(meshes_, state_.communicator);
+}
+
+void Hexahedra::share_out() {
+  if (!solver::share_out(meshes_, state_.grid, state_.communicator)) return;
+  shared_nodes_ = fem::SharedNodes(meshes_, state_.communicator);
+  surfaces_changed_ = true;
+}
+
+/// After elements became particles or left, on whatever rank.
+void Hexahedra::elements_removed() {
+  surfaces_changed_ = true;
+  if (!state_.is_parallel()) return;
+  shared_nodes_.elements_removed(meshes_);
+  // Optional fields are in use on all ranks or on none.
+  for_each_field<Particles>([&](const auto& field) {
+    if (!field.optional) return;
+    auto& values = state_.particles.*(field.values);
+    if (parallel::any(state_.communicator, !values.empty())) values.resize(state_.particles.size());
+  });
+}
+
+/// Forces, masses and sound speeds of all copies of the shared nodes.
+void Hexahedra::join_shared_nodes() {
+  if (!state_.is_parallel()) return;
+  const std::span<const fem::SharedNodes::Place> places = shared_nodes_.places();
+  shared_.resize(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const fem::Mesh& mesh = meshes_[places[i].mesh];
+    const std::uint32_t a = places[i].node;
+    const Vector3& f = mesh.nodes.force[a];
+    shared_[i] = {f[0], f[1], f[2], mesh.nodes.mass[a],
+                  mesh.nodes.in_transition[a] != 0 ? afemp::sound_speed_at(mesh, a) : 0.0};
+  }
+  using Values = std::array<double, 5>;
+  shared_nodes_.reduce(shared_, [](const Values& a, const Values& b) {
+    return Values{a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], std::max(a[4], b[4])};
+  });
+  std::size_t i = 0;
+  auto place = places.begin();
+  for (std::uint32_t m = 0; m < meshes_.size(); ++m) {
+    const std::vector<std::uint8_t>& marked = meshes_[m].nodes.in_transition;
+    for (std::uint32_t a = 0; a < marked.size(); ++a) {
+      if (marked[a] == 0) continue;
+      const fem::SharedNodes::Place here{m, a};
+      while (place != places.end() && *place < here) ++place;
+      if (place != places.end() && *place == here) {
+        state_.transition.sound_speed[i] = shared_[static_cast<std::size_t>(place - places.begin())][4];
+      }
+      ++i;
+    }
+  }
+}
+
+/// v <- v + dt f/m of the nodes of a mesh that are not in transition, with the forces of all ranks on those
+/// that they share.
+fem::ConstraintBalance Hexahedra::advance_free_nodes(std::size_t m) {
+  fem::Mesh& mesh = meshes_[m];
+  const double dt = state_.run.time_step;
+  const std::span<const fem::SharedNodes::Place> places = shared_nodes_.places();
+  if (places.empty()) {
+    return fem::advance_velocities(mesh, dt, motions_[m], mesh.nodes.in_transition);
+  }
+  std::vector<std::uint8_t> elsewhere = mesh.nodes.in_transition;
+  for (const fem::SharedNodes::Place& place : places) {
+    if (place.mesh == m) elsewhere[place.node] = 1;
+  }
+  fem::ConstraintBalance balance = fem::advance_velocities(mesh, dt, motions_[m], elsewhere);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].mesh != m || mesh.nodes.in_transition[places[i].node] != 0) continue;
+    const std::array<double, 5>& of_node = shared_[i];
+    balance +=
+        fem::advance_velocity(mesh.nodes, places[i].node,
+                              Vector3(of_node[0], of_node[1], of_node[2]) / of_node[3], dt, motions_[m]);
+  }
+  return balance;
+}
+
+void Hexahedra::add_work(std::vector<Vector3>& centres, std::vector<double>& work) const {
+  const std::vector<Vector3> own = centres_of(meshes_, state_.setup.geometry);
+  centres.insert(centres.end(), own.begin(), own.end());
+  for (const fem::Mesh& mesh : meshes_) {
+    work.insert(work.end(), mesh.elements.size(), work_of_element(mesh.quadrature));
+  }
+}
+
+void Hexahedra::add_totals(Totals& sum) {
+  for (const fem::Mesh& mesh : meshes_) sum += totals_of(mesh, state_.affine_inertia());
+}
+
+void Hexahedra::add_phases(std::span<PhaseMasses> of_body) const {
+  for (const fem::Mesh& mesh : meshes_) of_body[mesh.body] += phase_masses(mesh.points, 0, mesh.points.size());
+}
+
+void Hexahedra::add_figures(Figures& figures) const {
+  for (const fem::Mesh& mesh : meshes_) {
+    add_speeds(mesh.nodes.velocity, figures);
+    add_state(mesh.points, figures);
+  }
+}
+
+std::size_t Hexahedra::element_count() const {
+  std::size_t count = 0;
+  for (const fem::Mesh& mesh : meshes_) count += mesh.elements.size();
+  return count;
+}
+
+/// An element may become eight particles.
+std::uint64_t Hexahedra::largest_particle_id() const {
+  std::uint64_t largest = 0;
+  for (const fem::Mesh& mesh : meshes_) {
+    for (const std::uint64_t id : mesh.elements.id) largest = std::max(largest, 8 * id + 7);
+  }
+  return largest;
+}
+
+std::size_t Hexahedra::bytes() const {
+  std::size_t bytes = 0;
+  for (const fem::Mesh& mesh : meshes_) {
+    bytes += bytes_of(mesh.nodes) + bytes_of(mesh.elements) + bytes_of(mesh.points);
+  }
+  return bytes;
+}
+
+std::string Hexahedra::count_text(std::size_t body) const {
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    const fem::Mesh& mesh = meshes_[m];
+    if (mesh.body != body) continue;
+    double nodes = shared_nodes_.count(m, std::vector<std::uint8_t>(mesh.nodes.size(), 1));
+    parallel::sum(state_.communicator, std::span(&nodes, 1));
+    return fmt::format("{} elements, {} nodes", sum_over_ranks(state_.communicator, mesh.elements.size()),
+                       static_cast<std::size_t>(nodes));
+  }
+  return {};
+}
+
+void Hexahedra::save(Contents& contents) const {
+  contents.meshes = state_.is_parallel() ? shared_nodes_.numbered_together(meshes_) : meshes_;
+}
+
+}  // namespace whipple::solver

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/carriers/particle_carrier.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
+#include "src/solver/carriers/figures.hpp"
+
+namespace whipple::solver {
+
+void ParticleCarrier::complete_seeded(bool extent) {
+  Particles& particles = state_.particles;
+  if (!(state_.affine_inertia() > 0.0)) {
+    std::vector<Matrix3>().swap(particles.affine_velocity);
+  } else if (!(state_.particle_affine_inertia() > 0.0)) {
+    std::ranges::fill(particles.affine_velocity, Matrix3::Zero().eval());
+  }
+  if (!extent) std::vector<SymmetricTensor>().swap(particles.extent);
+}
+
+void ParticleCarrier::complete_read(bool extent) {
+  require_fields(extent);
+  sort_by_body(state_.particles);  // checkpoints hold the particles of several ranks one after the other
+  state_.find_bodies();
+}
+
+/// @param arrangement  of the particles when the values were found; set to that of now
+std::function<bool(std::size_t)> ParticleCarrier::stays_since(std::size_t& arrangement) const {
+  const grid::BlockGrid& grid = state_.grid;
+  const bool same = std::exchange(arrangement, grid.arrangement()) == grid.arrangement();
+  return [&grid, same](std::size_t chunk) { return same && grid.chunk_rests(chunk); };
+}
+
+double ParticleCarrier::fastest() {
+  const Particles& particles = state_.particles;
+  parallel::update_chunks(particles.size(), fastest_.values, stays_since(fastest_.arrangement),
+                          [&](std::size_t begin, std::size_t end) {
+                            double fastest = 0.0;
+                            for (std::size_t p = begin; p < end; ++p) {
+                              fastest = std::max(fastest, particles.sound_speed[p] +
+                                                              particles.velocity[p].cwiseAbs().maxCoeff());
+                            }
+                            return fastest;
+                          });
+  double speed = 0.0;
+  for (const double fastest : fastest_.values) speed = std::max(speed, fastest);
+  return speed;
+}
+
+void ParticleCarrier::sort() {
+  std::vector<std::uint32_t> next;
+  for (const cases::BodySummary& body : state_.bodies) next.push_back(static_cast<std::uint32_t>(body.first));
+  state_.grid.list_by_stencil(by_stencil_);
+  sorted_.resize(state_.particles.size());
+  for (const std::uint32_t p : by_stencil_) sorted_[next[state_.particles.body[p]]++] = p;
+  reorder(state_.particles, sorted_, sort_buffers_);
+  state_.grid.particles_reordered(sorted_);
+}
+
+void ParticleCarrier::reallocated() {
+  sort_by_body(state_.particles);
+  state_.find_bodies();
+  state_.grid.particles_reordered();
+}
+
+void ParticleCarrier::add_totals(Totals& sum) {
+  sum += totals_of(state_.particles, state_.particle_affine_inertia(), totals_.values,
+                   stays_since(totals_.arrangement));
+}
+
+void ParticleCarrier::add_phases(std::span<PhaseMasses> of_body) const {
+  const Particles& particles = state_.particles;
+  for (std::uint32_t b = 0; b < of_body.size(); ++b) {
+    const auto own = std::ranges::equal_range(particles.body, b);
+    of_body[b] +=
+        phase_masses(particles, static_cast<std::size_t>(own.begin() - particles.body.begin()), own.size());
+  }
+}
+
+void ParticleCarrier::add_figures(Figures& figures) const {
+  add_speeds(state_.particles.velocity, figures);
+  add_state(state_.particles, figures);
+}
+
+std::uint64_t ParticleCarrier::largest_particle_id() const {
+  return state_.particles.size() == 0 ? 0 : std::ranges::max(state_.particles.id);
+}
+
+std::size_t ParticleCarrier::bytes() const { return bytes_of(state_.particles); }
+
+std::string ParticleCarrier::count_text(std::size_t body) const {
+  if (state_.setup.bodies[body].discretization.has_elements() || state_.setup.bodies[body].discretization.is_bars()) {
+    return {};
+  }
+  return fmt::format("{} particles", sum_over_ranks(state_.communicator, state_.bodies[body].count));
+}
+
+}  // namespace whipple::solver

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "src/core/base/error.hpp"
+#include "src/solver/carriers/particle_carrier.hpp"
+
+namespace whipple::solver {
+
+/// A checkpoint of the same case holds the optional fields that it needs; of another case, perhaps not.
+void ParticleCarrier::require_fields(bool extent) const {
+  Particles needed;
+  needed.mass.resize(state_.particles.size());
+  for (const auto& material : state_.setup.materials) use_fields(*material, needed);
+  if (std::ranges::any_of(state_.setup.bodies, [](const auto& body) { return body.failure_scatter.given(); })) {
+    needed.failure_threshold_factor.resize(state_.particles.size());
+  }
+  if (state_.affine_inertia() > 0.0) needed.affine_velocity.resize(state_.particles.size());
+  if (extent) needed.extent.resize(state_.particles.size());
+  if (state_.keeps_losses()) {
+    needed.unresolved_energy.resize(state_.particles.size());
+    needed.closing_rate.resize(state_.particles.size());
+    needed.heating_viscosity.resize(state_.particles.size());
+  }
+  std::string missing;
+  for_each_field<Particles>([&](const auto& field) {
+    if (field.optional && (needed.*(field.values)).size() > (state_.particles.*(field.values)).size()) {
+      missing = field.name;
+    }
+  });
+  if (!missing.empty()) {
+    throw InputError(fmt::format("the checkpoint has no field \"{}\", which the case needs", missing));
+  }
+}
+
+}  // namespace whipple::solver

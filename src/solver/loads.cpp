@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/loads.hpp"
+
+#include <algorithm>
+
+namespace whipple::solver {
+
+Load uniform_load(std::string name, std::function<Vector3(double time)> acceleration, double begin) {
+  return {.name = std::move(name),
+          .add =
+              [acceleration = std::move(acceleration)](const LoadedPoints&, double time, std::span<Vector3> sum) {
+                const Vector3 of_all = acceleration(time);
+                for (Vector3& of_point : sum) of_point += of_all;
+              },
+          .next_event = [begin](double time) { return std::max(begin, time); }};
+}
+
+Load gravity(const cases::Gravity& gravity) {
+  return uniform_load("gravity", [gravity](double time) { return gravity.at(time); });
+}
+
+void Loads::evaluate(const LoadedPoints& points, double time, std::vector<Vector3>& acceleration) const {
+  acceleration.clear();
+  if (next_event(time) > time) return;
+  acceleration.resize(points.position.size(), Vector3::Zero());
+  for (const Load& load : loads_) {
+    if (load.next_event(time) <= time) load.add(points, time, acceleration);
+  }
+}
+
+double Loads::next_event(double time) const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const Load& load : loads_) next = std::min(next, load.next_event(time));
+  return next;
+}
+
+}  // namespace whipple::solver

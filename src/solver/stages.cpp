@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/stages.hpp"
+
+#include <utility>
+
+namespace whipple::solver {
+
+Stages::Stages(const cases::Case& setup, MPI_Comm communicator, const RunState& run, std::vector<fem::Mesh> meshes,
+               std::vector<fem::Bars> bars)
+    : state(setup, communicator, run),
+      particles(state),
+      hexahedra(state, loads, std::move(meshes)),
+      trusses(state, loads, std::move(bars)),
+      activity(state, loads),
+      material(state, activity),
+      transfers(state, loads, activity),
+      contact(state, hexahedra, transfers.grid_update()),
+      time_step(state, carriers, particles),
+      partition(state, carriers, particles, activity),
+      elements(state, carriers, particles, hexahedra, partition),
+      fill(state),
+      balance(state, carriers) {
+  carriers.push_back(&particles);
+  for (Carrier* carrier : {static_cast<Carrier*>(&hexahedra), static_cast<Carrier*>(&trusses)}) {
+    if (!carrier->empty()) carriers.push_back(carrier);
+  }
+  if (!setup.gravity.acceleration.isZero(0.0)) loads.add(gravity(setup.gravity));
+}
+
+}  // namespace whipple::solver

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/stages/activity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
+
+namespace whipple::solver {
+namespace {
+
+constexpr std::int64_t look_for_rest_every = 20;  // steps
+/// Has the blocks distributed over the ranks anew once the material at rest is less than this part of what it was then.
+constexpr double rest_of_old_shares = 0.8;
+
+/// Returns the first time (s), from the given one on, at which a material changes although it is at rest.
+double next_event(const Material& material, const cases::HeatControl& heat, double time) {
+  return heat.conduction && material.conductivity > 0.0 ? time : std::numeric_limits<double>::infinity();
+}
+
+/// A number in [0, 1) that depends on its arguments only: the same on all ranks and after a restart
+/// (splitmix64: Steele, Lea & Flood, OOPSLA 2014).
+double random_number(std::uint64_t seed, std::uint64_t step, std::uint64_t axis) {
+  std::uint64_t z = (seed << 40U) + 4 * step + axis;
+  for (int round = 0; round < 2; ++round) {
+    z += 0x9e3779b97f4a7c15ULL;
+    z = (z ^ z >> 30U) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ z >> 27U) * 0x94d049bb133111ebULL;
+    z ^= z >> 31U;
+  }
+  return static_cast<double>(z >> 11U) * 0x1p-53;
+}
+
+}  // namespace
+
+/// Walls lie on nodes, so the grid keeps its place along their normals.
+void Activity::shift_grid() {
+  if (!state_.setup.transfer.random_shift) return;
+  Vector3 cells = Vector3::Zero();
+  for (int a = 0; a < 3; ++a) {
+    const auto face = static_cast<std::size_t>(2 * a);
+    if (state_.setup.geometry.boundary[face] != grid::Boundary::outflow ||
+        state_.setup.geometry.boundary[face + 1] != grid::Boundary::outflow) {
+      continue;
+    }
+    cells[a] = random_number(static_cast<std::uint64_t>(state_.setup.transfer.random_seed),
+                             static_cast<std::uint64_t>(state_.run.step), static_cast<std::uint64_t>(a)) -
+               0.5;
+  }
+  state_.grid.shift(cells);
+}
+
+void Activity::find() {
+  flying_.clear();
+  const double end = state_.run.time + state_.run.time_step;
+  // Loads act through the grid.
+  if (state_.setup.transfer.free_flight && loads_.next_event(state_.run.time) >= end) find_free_flight();
+  let_material_rest();
+}
+
+/// A failed particle without stress whose surroundings of two cells hold no other one moves on by itself: the
+/// transfers would give back what they were given.
+void Activity::find_free_flight() {
+  const auto without_stress = [&](std::size_t p) {
+    return state_.particles.failed[p] != 0 && state_.particles.pressure[p] == 0.0 &&
+           state_.particles.artificial_viscosity[p] == 0.0;
+  };
+  const std::vector<std::uint32_t> loose = parallel::where(state_.particles.size(), without_stress);
+  if (loose.empty()) return;
+  state_.grid.count_cells(state_.particles.position, state_.transition.position);
+  std::ranges::copy_if(loose, std::back_inserter(flying_),
+                       [&](std::uint32_t p) { return state_.grid.is_alone(p, state_.particles.position[p]); });
+  state_.grid.release(flying_);
+}
+
+bool Activity::is_restless(std::size_t p) const {
+  const double tolerance = state_.setup.transfer.rest_tolerance, sound_speed = state_.particles.sound_speed[p];
+  const double speed = tolerance * sound_speed;
+  // The negations also catch NaN.
+  if (!(state_.particles.velocity[p].cwiseAbs().maxCoeff() <= speed)) return true;
+  if (!state_.particles.affine_velocity.empty() &&
+      !(state_.setup.domain.cell_size * state_.particles.affine_velocity[p].cwiseAbs().maxCoeff() <= speed)) {
+    return true;
+  }
+  const SymmetricTensor& s = state_.particles.deviatoric_stress[p];
+  const double stress = std::abs(state_.particles.pressure[p]) + std::abs(state_.particles.artificial_viscosity[p]) +
+                        std::sqrt(s.squared_norm());
+  return !(stress * state_.particles.volume[p] <= speed * sound_speed * state_.particles.mass[p]);
+}
+
+double Activity::next_event() const {
+  double next = loads_.next_event(state_.run.time);
+  for (const auto& material : state_.setup.materials) {
+    next = std::min(next, solver::next_event(*material, state_.setup.heat, state_.run.time));
+  }
+  return next;
+}
+
+bool Activity::material_may_rest() const {
+  return state_.setup.transfer.rest_tolerance > 0.0 && next_event() >= state_.run.time + state_.run.time_step;
+}
+
+bool Activity::has_much_woken() const {
+  return state_.is_parallel() && static_cast<double>(state_.run.particles_at_rest) <
+                                     rest_of_old_shares * static_cast<double>(most_at_rest_);
+}
+
+/// How often particles bring something to the nodes in a step: each time, motion gets to blocks that share
+/// nodes with those where it was (docs/theory/mpm.md, section 8).
+int Activity::layers_ahead_of_motion() const {
+  const int layers = cases::transfers_per_step(state_.setup.time.scheme);
+  return state_.setup.transfer.particle_update == cases::ParticleUpdate::fmpm
+             ? layers + static_cast<int>(state_.setup.transfer.fmpm_order) - 1
+             : layers;
+}
+
+/// Blocks without motion and stress keep their state until motion may reach them. The layers between take
+/// part and are quiet: what is missing at their outer nodes is below the tolerance. What takes part keeps
+/// mass, momentum and energy among itself.
+void Activity::let_material_rest() {
+  if (!material_may_rest()) {
+    state_.grid.wake();  // a load may have begun
+    state_.run.particles_at_rest = 0;
+    return;
+  }
+  // What has been stirred hardly comes to rest again: where nothing rests, that is seldom looked for.
+  if (state_.run.particles_at_rest == 0 && state_.run.step % look_for_rest_every != 0) return;
+  const std::size_t at_rest = state_.grid.let_rest(layers_ahead_of_motion(), [&](std::size_t slot) {
+    return std::ranges::any_of(state_.grid.particles_in(slot), [&](std::uint32_t p) { return is_restless(p); });
+  });
+  std::array<double, 1> of_all_ranks = {static_cast<double>(at_rest)};
+  parallel::sum(state_.communicator, of_all_ranks);
+  state_.run.particles_at_rest = static_cast<std::int64_t>(of_all_ranks[0]);
+  most_at_rest_ = std::max(most_at_rest_, state_.run.particles_at_rest);
+}
+
+}  // namespace whipple::solver

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/stages/contact.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "src/core/parallel/mpi.hpp"
+
+namespace whipple::solver {
+
+ContactStage::ContactStage(State& state, Hexahedra& hexahedra, transfer::GridUpdate& grid_update)
+    : state_(state), hexahedra_(hexahedra), with_images_(grid_update.mirror_contact()) {
+  const cases::ContactControl& control = state_.setup.contact;
+  if (state_.setup.contact_fields.several()) {
+    // Other schemes strain bodies by velocities before contact, or after it of each body alone.
+    const bool common = control.method == cases::ContactMethod::automatic &&
+                        state_.setup.time.scheme == cases::Scheme::symplectic;
+    contact_.emplace(
+        contact::Settings{.response = common ? contact::Response::common_field : contact::Response::impulses,
+                          .normal = control.normal,
+                          .friction = control.friction,
+                          .gap_test = control.gap_test,
+                          .gap = control.gap,
+                          .least_relaxation_rate = least_relaxation_rates()});
+    field_of_body_ = state_.setup.contact_fields.of_body;
+  }
+  set_up_walls();
+}
+
+/// kappa c/dx with a quarter of the sound speed at rest: material that has failed and opened, or boiled, is
+/// softer.
+std::vector<double> ContactStage::least_relaxation_rates() const {
+  constexpr double share_of_tight_matter = 0.25;
+  // Others relax by no speed of sound.
+  if (state_.setup.transfer.particle_update != cases::ParticleUpdate::relaxed_affine) return {};
+  const std::vector<std::uint8_t>& field_of_body = state_.setup.contact_fields.of_body;
+  std::vector<double> rates(*std::ranges::max_element(field_of_body) + std::size_t{1},
+                            std::numeric_limits<double>::infinity());
+  for (std::size_t b = 0; b < field_of_body.size(); ++b) {
+    double& rate = rates[field_of_body[b]];
+    rate = std::min(rate, share_of_tight_matter * state_.setup.transfer.kappa *
+                              state_.setup.materials[b]->reference.sound_speed / state_.setup.domain.cell_size);
+  }
+  return rates;
+}
+
+void ContactStage::separate_fields() {
+  if (!contact_) return;
+  surfaces_found_ = false;
+  field_.resize(state_.particles.size());
+  for (std::size_t p = 0; p < state_.particles.size(); ++p) {
+    field_[p] = field_of_body_[state_.particles.body[p]];
+  }
+  field_of_node_.clear();
+  for (const std::uint32_t body : state_.transition_body) field_of_node_.push_back(field_of_body_[body]);
+  state_.grid.separate_fields(transfer::stencil(state_.shape), {state_.particles.position, field_},
+                        {state_.transition.position, field_of_node_},
+                        *std::ranges::max_element(field_of_body_) + 1U, state_.setup.contact.everywhere);
+}
+
+void ContactStage::find_surfaces(bool after_transfer) {
+  if (!contact_ || std::exchange(surfaces_found_, true)) return;
+  state_.profile.time("contact", [&] {
+    surface_points_.clear();
+    const std::vector<std::vector<fem::Facet>>& facets = hexahedra_.free_facets();
+    // Of the contact slots of other ranks nothing is known here.
+    std::optional<contact::BlocksAtContact> near;
+    if (parallel::size(state_.communicator) == 1) near.emplace(state_.grid);
+    const std::vector<fem::Mesh>& meshes = hexahedra_.meshes();
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+      surface_points_.add(meshes[m], facets[m], field_of_body_[meshes[m].body],
+                          state_.setup.domain.cell_size, near ? &*near : nullptr);
+    }
+    surface_points_.send_to_owners(state_.grid, transfer::stencil(state_.shape), state_.communicator);
+    contact_->find_surfaces(state_.shape, state_.particles, surface_points_, state_.grid,
+                            after_transfer ? state_.run.time_step : 0.0);
+  });
+}
+
+transfer::TouchAtNode ContactStage::touch_at_node() const {
+  if (!contact_) return {};
+  return [this](std::size_t slot, std::size_t node, std::size_t a, std::size_t b) {
+    return contact_->touch(state_.grid, slot, node, a, b);
+  };
+}
+
+void ContactStage::apply() {
+  if (!contact_) return;
+  const contact::Balance balance = contact_->apply(state_.grid, state_.run.time_step, *first_touches_);
+  state_.booked.contact_heat += balance.contact_heat;
+  state_.booked.friction_heat += balance.friction_heat;
+  state_.booked.contact_impulse += balance.impulse;
+  state_.booked.friction_impulse += balance.friction_impulse;
+}
+
+}  // namespace whipple::solver

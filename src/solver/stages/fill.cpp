@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/stages/fill.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "src/core/base/log.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
+#include "src/transfer/fill.hpp"
+
+namespace whipple::solver {
+namespace {
+
+constexpr std::int64_t look_every = 20;    // steps
+constexpr int looks_to_warn = 3;           // one after the other
+constexpr double strong = 0.1;             // pressure over rho c^2
+constexpr double filled = 0.85;            // of cells that material under pressure should fill
+constexpr double share_to_warn_of = 1e-2;  // of the mass
+
+}  // namespace
+
+void FillWatch::look() {
+  if (state_.run.step % look_every != 0) return;
+  state_.profile.time("fill", [&] {
+    const auto is_pressed = [&](std::size_t p) {
+      const double c = state_.particles.sound_speed[p];
+      return state_.particles.failed[p] == 0 &&
+             state_.particles.pressure[p] * state_.particles.volume[p] > strong * state_.particles.mass[p] * c * c;
+    };
+    const bool any = !parallel::where(state_.particles.size(), is_pressed).empty();
+    if (!parallel::any(state_.communicator, any)) {
+      state_.run.squeezed_beside_voids = 0.0;
+      return;
+    }
+    const std::vector<double> fill = transfer::fill_of_cells(state_.particles, state_.transition, state_.grid);
+    std::array<double, 1> mass = {parallel::sum<double>(state_.particles.size(), [&](std::size_t p) {
+      return fill[p] < filled && is_pressed(p) ? state_.particles.mass[p] : 0.0;
+    })};
+    parallel::sum(state_.communicator, mass);
+    state_.run.squeezed_beside_voids = mass[0];
+    // A shock that breaks out of a surface squeezes a layer beside the void outside for a few steps.
+    looks_at_voids_ = mass[0] < share_to_warn_of * state_.totals.mass ? 0 : looks_at_voids_ + 1;
+    if (looks_at_voids_ < looks_to_warn || warned_) return;
+    warned_ = true;
+    if (parallel::rank(state_.communicator) != 0) return;
+    log::warning(
+        "step {}, t = {:.4g} us: {:.3g} g of intact matter are under high pressure in cells that they do not "
+        "fill: "
+        "where bodies or layers meet across a gap in one velocity field, pressures come out too high",
+        state_.run.step, 1e6 * state_.run.time, 1e3 * mass[0]);
+  });
+}
+
+double FillWatch::least(double pressure) const {
+  const std::vector<double> fill = transfer::fill_of_cells(state_.particles, state_.transition, state_.grid);
+  std::array<double, 1> least = {-1e300};
+  for (std::size_t p = 0; p < fill.size(); ++p) {
+    if (state_.particles.pressure[p] > pressure) least[0] = std::max(least[0], -fill[p]);
+  }
+  parallel::maximum(state_.communicator, least);
+  return -least[0];
+}
+
+}  // namespace whipple::solver

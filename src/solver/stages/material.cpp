@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/stages/material.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "src/solver/carriers/domains.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
+
+namespace whipple::solver {
+
+UpdateSettings update_settings(const State& state, std::size_t body) {
+  const cases::ArtificialViscosity& viscosity = state.setup.viscosity_of(body);
+  return {.time_step = state.run.time_step,
+          .cell_size = state.setup.domain.cell_size,
+          .linear_viscosity = viscosity.linear,
+          .quadratic_viscosity = viscosity.quadratic,
+          .expansion_viscosity = viscosity.expansion,
+          .affine_gain = state.setup.dissipation.affine_gain,
+          .affine_compression = state.setup.dissipation.affine_compression,
+          .initial_density = state.initial_density[body],
+          .rotation = state.setup.time.stress_rotation,
+          .time = state.run.time + state.run.time_step};
+}
+
+namespace {
+
+/// tr C of the particles of a list, 1/s.
+std::span<const double> affine_divergence(const Particles& particles, std::span<const std::uint32_t> list) {
+  thread_local std::vector<double> divergence;
+  divergence.resize(std::max(divergence.size(), list.size()));
+  for (std::size_t k = 0; k < list.size(); ++k) divergence[k] = particles.affine_velocity[list[k]].trace();
+  return std::span(divergence).first(list.size());
+}
+
+}  // namespace
+
+std::string book(State& state, const MaterialReport& report, const Material& material,
+                 const std::function<std::string(std::size_t, const std::string&)>& describe) {
+  state.booked.clamped_to_cold_curve += static_cast<double>(report.equation_of_state.below_cold_curve);
+  state.booked.held_at_pressure_floor += static_cast<double>(report.equation_of_state.at_pressure_floor);
+  state.booked.plastic_work += report.plastic_work;
+  state.booked.limited_volume_changes += static_cast<double>(report.limited_volume_changes);
+  state.booked.limited_densities += static_cast<double>(report.limited_densities);
+  state.booked.limited_void_steps += static_cast<double>(report.limited_void_steps);
+  state.booked.limited_bulking += static_cast<double>(report.limited_bulking);
+  if (report.undefined != 0) {
+    return describe(report.first_undefined,
+                    "the state is not defined (NaN, or a volume that is not positive)");
+  }
+  if (report.equation_of_state.out_of_range == 0) return {};
+  return describe(report.equation_of_state.first,
+                  fmt::format("the equation of state of {} is out of range: {}", material.name,
+                              report.equation_of_state.bound));
+}
+
+void MaterialStage::update(std::string_view stage, Energy energy,
+                           const std::function<void(const transfer::TakeGradients&)>& gather) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<UpdateSettings> settings;
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) settings.push_back(update_settings(state_, b));
+  std::vector<MaterialReport> reports(state_.bodies.size());
+  std::size_t limited_domains = 0;
+  Clock::duration in_material{};  // of all threads
+  std::mutex mutex;
+  const bool has_affine_field = state_.keeps_losses() && state_.particle_affine_inertia() > 0.0;
+  const bool deforming = domains::follow_deformation(state_);
+  const std::vector<std::uint32_t>& flying = activity_.flying();
+  const auto take = [&](std::span<const std::uint32_t> particles,
+                        std::span<const Matrix3> gradients) -> double {
+    const Clock::time_point begin = Clock::now();
+    const std::size_t limited = deforming ? domains::deform(state_, particles, gradients) : 0;
+    double plastic_work = 0.0;  // apart from the report, which other threads add to in any order
+    for (std::size_t first = 0, end = 0; first < particles.size(); first = end) {
+      const std::uint32_t body = state_.particles.body[particles[first]];
+      for (end = first + 1; end < particles.size() && state_.particles.body[particles[end]] == body;) ++end;
+      const auto list = particles.subspan(first, end - first);
+      const auto of_list = gradients.subspan(first, end - first);
+      const Material& material = *state_.setup.materials[body];
+      UpdateSettings of_body = settings[body];
+      if (has_affine_field) of_body.affine_divergence = affine_divergence(state_.particles, list);
+      MaterialReport report = energy == Energy::by_work_identity
+                                  ? whipple::update_material(material, state_.particles, list, of_list, of_body)
+                                  : update_material_and_energy(material, state_.particles, list, of_list, of_body);
+      plastic_work += std::exchange(report.plastic_work, 0.0);
+      const std::lock_guard lock(mutex);
+      reports[body].merge(report);
+    }
+    const std::lock_guard lock(mutex);
+    limited_domains += limited;
+    in_material += Clock::now() - begin;
+    return plastic_work;
+  };
+  std::string error;
+  state_.profile.time(stage, [&] {
+    gather(take);
+    parallel::for_each_chunk(flying.size(), [&](std::size_t begin, std::size_t end) {
+      const std::vector<Matrix3> none(end - begin, Matrix3::Zero());
+      take(std::span(flying).subspan(begin, end - begin), none);  // without strain, so without plastic work
+    });
+    state_.booked.limited_domains += static_cast<double>(limited_domains);
+    for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+      state_.rates.compression = std::max(state_.rates.compression, reports[b].compression_rate);
+      const std::string of_body =
+          book(state_, reports[b], *state_.setup.materials[b], [&](std::size_t p, const std::string& reason) {
+            return state_.describe_particle(p, state_.run.time + state_.run.time_step, reason);
+          });
+      if (error.empty()) error = of_body;
+    }
+  });
+  state_.profile.reassign(stage, "material",
+                    std::chrono::duration<double>(in_material).count() / parallel::threads());
+  parallel::throw_together(state_.communicator, error);
+}
+
+}  // namespace whipple::solver

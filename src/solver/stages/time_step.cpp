@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/stages/time_step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "src/core/base/error.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/core/parallel/threads.hpp"
+
+namespace whipple::solver {
+namespace {
+
+/// Keeps accuracy of a few particles of thin material from reducing the time step below this part of the stable one.
+constexpr double least_share_for_accuracy = 0.125;
+
+}  // namespace
+
+double grid_time_step(const State& state, ParticleCarrier& particles) {
+  const transfer::TransitionNodes& nodes = state.transition;
+  double speed = particles.fastest();
+  speed = std::max(speed, parallel::maximum(nodes.size(), 0.0, [&](std::size_t i) {
+                     return nodes.sound_speed[i] + nodes.velocity[i].cwiseAbs().maxCoeff();
+                   }));
+  speed = parallel::maximum(state.communicator, speed);
+  return state.setup.time.courant * state.setup.domain.cell_size / speed;
+}
+
+void TimeStep::limit(double bound, TimeStepBound by) {
+  if (!(bound < step_)) return;
+  step_ = bound;
+  by_ = by;
+}
+
+double TimeStep::accurate() {
+  const cases::TimeControl& control = state_.setup.time;
+  step_ = grid_time_step(state_, particles_);  // NaN stays, and is reported
+  by_ = TimeStepBound::sound_speed;
+  limit(diffusive_bound(), TimeStepBound::diffusion);
+  limit(element_bound(), TimeStepBound::elements);
+  if (state_.run.maximum_acceleration > 0.0) {
+    limit(std::sqrt(control.acceleration_limit * state_.setup.domain.cell_size / state_.run.maximum_acceleration),
+          TimeStepBound::acceleration);
+  }
+  compression_is_followed_ = true;
+  if (state_.run.compression_rate > 0.0) {
+    const double accurate = control.compression_limit / state_.run.compression_rate;
+    compression_is_followed_ = accurate >= least_share_for_accuracy * step_;
+    limit(std::max(accurate, least_share_for_accuracy * step_), TimeStepBound::compression);
+  }
+  return step_;
+}
+
+void TimeStep::begin(double until) {
+  state_.profile.time("time step", [&] {
+    if (state_.particle_count == 0 && state_.element_count == 0) {
+      throw StateError("all matter has left the domain");
+    }
+    const cases::TimeControl& control = state_.setup.time;
+    accurate_step_ = accurate();
+    const double first_step = control.first_step * accurate_step_;
+    if (state_.run.time_step == 0.0) {
+      // The first step does not know yet how hard bodies that touch will meet.
+      limit(first_step, TimeStepBound::first_step);
+    } else {
+      limit(control.maximum_growth * state_.run.unclipped_step, TimeStepBound::growth);
+      // It ends when bodies touch, and the next is as small as the first of a run.
+      limit(std::max(state_.run.first_touch - state_.run.time, first_step), TimeStepBound::first_touch);
+    }
+    require_positive();
+    if (!compression_is_followed_ && parallel::rank(state_.communicator) == 0) {
+      state_.booked.held_time_steps += 1.0;
+    }
+    state_.run.unclipped_step = step_;
+    const double left = until - state_.run.time;
+    if (!(left > 0.0)) throw InternalError(fmt::format("t = {} s has been reached already", until));
+    // The last step before `until` ends at it; the one before is halved rather than leaving a small rest.
+    if (step_ < left && 2.0 * step_ > left) {
+      limit(0.5 * left, TimeStepBound::output_time);
+    } else {
+      limit(left, TimeStepBound::output_time);
+    }
+    state_.run.time_step = step_;
+    state_.time_step_bound = by_;
+  });
+}
+
+void TimeStep::require_positive() const {
+  if (step_ > 0.0 && std::isfinite(step_)) return;
+  const std::string reason = fmt::format("the stable time step is {} s", step_);
+  const Particles& particles = state_.particles;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (std::isfinite(particles.sound_speed[p] + particles.velocity[p].sum())) continue;
+    throw StateError(state_.describe_particle(
+        p, state_.run.time, fmt::format("{}; speed of sound {} m/s", reason, particles.sound_speed[p])));
+  }
+  throw StateError(fmt::format("step {}, t = {} s: {}", state_.run.step, state_.run.time, reason));
+}
+
+double TimeStep::element_bound() const {
+  double dt = std::numeric_limits<double>::infinity();
+  for (const Carrier* carrier : carriers_) dt = std::min(dt, carrier->critical_time_step());
+  return state_.setup.time.element_safety * -parallel::maximum(state_.communicator, -dt);
+}
+
+/// Explicit diffusion of momentum and of heat is stable below dx^2 / (9 a), a the diffusivity, whatever the
+/// particles: the squares of the gradients of quadratic B-splines over their values add up to 18/dx^2 at most
+/// (docs/theory/conduction.md, eq. 5).
+double TimeStep::diffusive_bound() const {
+  const double dx = state_.setup.domain.cell_size;
+  const Particles& particles = state_.particles;
+  double diffusivity = 0.0;
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    const Material& material = *state_.setup.materials[b];
+    double per_volume = material.strength->viscosity();
+    if (state_.setup.heat.conduction && material.conductivity > 0.0) {
+      per_volume = std::max(per_volume, material.conductivity / material.reference.heat_capacity);
+    }
+    if (!(per_volume > 0.0)) continue;
+    const cases::BodySummary& body = state_.bodies[b];
+    diffusivity = std::max(diffusivity, parallel::maximum(body.count, 0.0, [&](std::size_t i) {
+                             const std::size_t p = body.first + i;
+                             return per_volume * particles.volume[p] / particles.mass[p];
+                           }));
+  }
+  diffusivity = parallel::maximum(state_.communicator, diffusivity);
+  return diffusivity > 0.0 ? dx * dx / (18.0 * diffusivity) : std::numeric_limits<double>::infinity();
+}
+
+void TimeStep::take_rates() {
+  const State::Rates rates = std::exchange(state_.rates, {});
+  std::array<double, 3> fastest = {std::sqrt(rates.squared_change) / state_.run.time_step, rates.compression,
+                                   rates.element_compression};
+  parallel::maximum(state_.communicator, fastest);
+  state_.run.maximum_acceleration = fastest[0];
+  state_.run.compression_rate = std::max(compression_rate_of_most(fastest[1]), fastest[2]);
+}
+
+}  // namespace whipple::solver

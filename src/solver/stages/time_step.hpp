@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "src/solver/carriers/particle_carrier.hpp"
+#include "src/solver/state.hpp"
+
+namespace whipple::solver {
+
+/// Computes the time step (s) that the Courant number allows for what moves with the grid: particles, and nodes of
+/// `State::transition`; infinite if nothing does. Collective.
+double grid_time_step(const State& state, ParticleCarrier& particles);
+
+/// Determines the time step: the least of a list of bounds (docs/theory/mpm.md, section 6).
+class TimeStep {
+ public:
+  TimeStep(State& state, const Carriers& carriers, ParticleCarrier& particles)
+      : state_(state), carriers_(carriers), particles_(particles) {}
+
+  /// Computes the time step (s) that the state allows, whatever the step before it was. Collective.
+  double accurate();
+  /// Sets the time step; not beyond `until` (s). Collective.
+  /// @throws StateError without material in the domain, or if there is no positive time step
+  void begin(double until);
+  /// Takes the largest rates of the step for the bounds of the next one. Collective.
+  void take_rates();
+
+  /// Returns the step that the state allowed in the step under way, s.
+  [[nodiscard]] double accurate_step() const { return accurate_step_; }
+
+ private:
+  /// Lowers the step to a bound.
+  void limit(double bound, TimeStepBound by);
+  [[nodiscard]] double diffusive_bound() const;
+  [[nodiscard]] double element_bound() const;
+  [[nodiscard]] double compression_rate_of_most(double largest) const;
+  void require_positive() const;
+
+  State& state_;
+  const Carriers& carriers_;
+  ParticleCarrier& particles_;
+  double step_ = 0.0;  // s, the least of the bounds so far
+  TimeStepBound by_ = TimeStepBound::none;  // that it is
+  double accurate_step_ = 0.0;
+  bool compression_is_followed_ = true;  // by that step, as `time.compression_limit` asks
+};
+
+}  // namespace whipple::solver

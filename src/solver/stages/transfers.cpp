@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/solver/stages/transfers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/transfer/particles_to_grid.hpp"
+
+namespace whipple::solver {
+namespace {
+
+transfer::AffineField affine_field(const cases::TransferControl& control) {
+  using enum transfer::AffineField;
+  if (!cases::is_affine(control.particle_update)) return none;
+  return control.affine_field == cases::AffineTransport::turned ? turned : deformed;
+}
+
+/// Returns beta of every particle update; FMPM is PIC with another grid velocity.
+transfer::Relaxation relaxation(const cases::TransferControl& control) {
+  using enum cases::ParticleUpdate;
+  switch (control.particle_update) {
+    case apic:
+    case pic:
+    case fmpm:
+      return {.kappa = 0.0, .fixed = 1.0};
+    case flip:
+      return {.kappa = 0.0, .fixed = 0.0};
+    case blend:
+      return {.kappa = 0.0, .fixed = 1.0 - control.flip_fraction};
+    case relaxed_affine:
+    case by_scheme:
+      break;
+  }
+  return {.kappa = control.kappa, .fixed = -1.0};
+}
+
+}  // namespace
+
+Transfers::Transfers(State& state, const Loads& loads, const Activity& activity)
+    : state_(state), loads_(loads), activity_(activity) {
+  const cases::Dissipation& control = state_.setup.dissipation;
+  for (std::size_t b = 0; b < state_.setup.bodies.size(); ++b) {
+    const cases::ArtificialViscosity& viscosity = state_.setup.viscosity_of(b);
+    shock_conductivity_.push_back(
+        {.heat_capacity = std::max(state_.setup.materials[b]->reference.heat_capacity, 0.0),
+         .linear_viscosity = viscosity.linear,
+         .quadratic_viscosity = viscosity.quadratic});
+  }
+  losses_ = {.kept = control.keeps_losses(),
+             .heat_share = control.heat_share,
+             .collision_rate = control.collision_rate,
+             .initial_density = state_.initial_density};
+}
+
+void Transfers::evaluate_loads() {
+  const Particles& particles = state_.particles;
+  loads_.evaluate({particles.id, particles.position, particles.velocity}, state_.run.time, acceleration_);
+  for (std::size_t p = 0; p < acceleration_.size(); ++p) {
+    state_.booked.external_impulse += particles.mass[p] * state_.run.time_step * acceleration_[p];
+  }
+}
+
+void Transfers::conduct_in_shocks() {
+  const cases::Dissipation& control = state_.setup.dissipation;
+  if (!control.keeps_losses() || !(control.shock_conduction > 0.0)) return;
+  state_.profile.time("conduction", [&] {
+    state_.booked.conducted_heat += transfer::conduct_in_shocks(
+        state_.shape, state_.particles, state_.grid, state_.run.time_step,
+        {control.shock_conduction, control.conduction_onset, control.conduction_rise, shock_conductivity_});
+  });
+}
+
+void Transfers::conduct_heat(const transfer::TouchAtNode& touch) {
+  state_.profile.time("conduction", [&] {
+    std::vector<transfer::ThermalConstants> constants;
+    for (const auto& material : state_.setup.materials) {
+      const double capacity = material->reference.heat_capacity;
+      constants.push_back({material->conductivity, capacity > 0.0 ? capacity : 1.0});
+    }
+    transfer::conduct_heat(state_.particles, state_.grid, state_.run.time_step, constants, touch);
+  });
+}
+
+void Transfers::to_grid(const std::function<void()>& send) {
+  state_.profile.time("particles to grid", [&] {
+    const bool with_nodes = state_.transition.size() > 0;
+    transfer::particles_to_grid(state_.shape, state_.particles, state_.grid, acceleration_,
+                                with_nodes ? std::function<void()>() : send);
+    if (with_nodes) {
+      transfer::nodes_to_grid(state_.shape, state_.transition, state_.grid);
+      send();
+    }
+  });
+  if (state_.setup.geometry.is_axisymmetric()) {
+    state_.booked.wall_impulse[1] -= state_.run.time_step * transfer::hoop_force(state_.particles, state_.grid);
+  }
+}
+
+void Transfers::momentum_to_grid(const std::function<void()>& send) {
+  state_.profile.time("momentum to grid", [&] {
+    transfer::momentum_to_grid(state_.shape, state_.particles, state_.particles.velocity, state_.grid, send);
+    grid_update_.begin_velocity_from_momentum(state_.grid);
+  });
+}
+
+void Transfers::advance_grid(const std::function<void()>& contact) {
+  state_.profile.time("grid", [&] {
+    const transfer::GridBalance balance = grid_update_.begin_advance(
+        state_.grid, state_.run.time_step, relaxation(state_.setup.transfer), contact);
+    state_.booked.wall_impulse += balance.wall_impulse;
+  });
+}
+
+void Transfers::apply_full_mass_matrix() {
+  if (state_.setup.transfer.particle_update != cases::ParticleUpdate::fmpm) return;
+  receive();
+  state_.profile.time("full mass matrix", [&] {
+    state_.booked.wall_impulse +=
+        full_mass_matrix_.apply(state_.shape, state_.particles, state_.grid, grid_update_,
+                                static_cast<int>(state_.setup.transfer.fmpm_order));
+  });
+}
+
+void Transfers::receive() {
+  state_.booked.wall_impulse += grid_update_.finish(state_.grid);
+  state_.booked.contact_heat += grid_update_.take_contact_heat();
+}
+
+void Transfers::to_particles(const transfer::TakeGradients& take, const std::function<void()>& receive) {
+  const double dt = state_.run.time_step;
+  const transfer::AffineField affine = affine_field(state_.setup.transfer);
+  const transfer::TransferBalance balance = transfer::grid_to_particles(
+      state_.shape, state_.particles, state_.grid, dt, affine, losses_, take, acceleration_, receive);
+  Ledger& booked = state_.booked;
+  booked.work += balance.work;
+  booked.viscous_work += balance.viscous_work;
+  booked.plastic_work += balance.plastic_work;
+  booked.transfer_heat += balance.heat;
+  booked.unresolved_kept += balance.kept;
+  booked.unresolved_returned += balance.returned;
+  booked.external_work += balance.external_work;
+  state_.rates.squared_change = balance.squared_change;
+  if (state_.transition.size() > 0) {
+    transfer::grid_to_nodes(state_.shape, state_.transition, state_.grid, dt, affine);
+  }
+  fly();
+  if (!losses_.kept) return;
+  for (const std::uint32_t p : activity_.flying()) state_.particles.closing_rate[p] = 0.0;
+}
+
+void Transfers::velocity_to_particles(const transfer::TakeGradients& take, const std::function<void()>& receive) {
+  const transfer::TransferBalance balance = transfer::update_velocity(
+      state_.shape, state_.particles, state_.grid, state_.run.time_step, relaxation(state_.setup.transfer).fixed,
+      take, acceleration_, receive);
+  state_.booked.external_work += balance.external_work;
+  state_.booked.plastic_work += balance.plastic_work;
+  state_.rates.squared_change = balance.squared_change;
+  fly();
+}
+
+void Transfers::gradient_to_particles(const transfer::TakeGradients& take, const std::function<void()>& receive) {
+  state_.booked.plastic_work +=
+      transfer::gather_velocity_gradient(state_.shape, state_.particles, state_.grid, take, receive);
+}
+
+/// Moves the particles that fly without the grid.
+void Transfers::fly() {
+  for (const std::uint32_t p : activity_.flying()) {
+    state_.particles.position[p] += state_.run.time_step * state_.particles.velocity[p];
+  }
+}
+
+}  // namespace whipple::solver

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact with images at mirror planes and walls.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "src/case/build/seeding.hpp"
+#include "src/solver/stages/contact.hpp"
+
+namespace whipple::solver {
+
+/// A velocity field is one with its image where one of its bodies touches the plane at the start.
+void ContactStage::set_up_walls() {
+  const std::vector<std::uint8_t> touched = cases::faces_touched(state_.setup);
+  std::vector<std::uint8_t> field_of_body = field_of_body_;
+  field_of_body.resize(touched.size(), 0);  // one field without contact of bodies
+  const unsigned fields = *std::ranges::max_element(field_of_body) + 1U;
+  // What no body has is bonded as well: then nothing has to be looked for.
+  const std::uint64_t unused = fields >= grid::maximum_fields ? 0 : ~((std::uint64_t{1} << fields) - 1);
+  std::array<std::uint64_t, 6> bonded{};
+  bonded.fill(unused);
+  for (std::size_t b = 0; b < touched.size(); ++b) {
+    for (std::size_t face = 0; face < 6; ++face) {
+      if ((touched[b] >> face & 1U) != 0) bonded[face] |= std::uint64_t{1} << field_of_body[b];
+    }
+  }
+  state_.grid.bond_at_planes(bonded);
+  first_touches_.emplace(fields);
+  first_touches_->set(state_.run.touched);
+  with_images_.watch(*first_touches_);
+}
+
+bool ContactStage::is_one_with_image(std::size_t body, std::size_t face) const {
+  return state_.grid.is_bonded_at(face, field_of_body_.empty() ? 0U : field_of_body_[body]);
+}
+
+bool ContactStage::may_meet_images() const {
+  for (std::size_t face = 0; face < 6; ++face) {
+    if (state_.grid.is_apart_at(face)) return true;
+  }
+  return false;
+}
+
+void ContactStage::find_surfaces_at_walls() {
+  if (!may_meet_images()) return;
+  state_.profile.time("walls", [&] {
+    with_images_.find_surfaces(state_.shape, state_.particles, state_.transition.position, state_.grid,
+                                                state_.run.time_step);
+  });
+}
+
+}  // namespace whipple::solver
