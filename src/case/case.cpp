@@ -164,20 +164,30 @@ std::vector<InputFault> settle(Case& setup) {
   return list;
 }
 
+/// Reads what says how vectors are to be read.
+Domain peek_dimension(input::Table& root) {
+  Domain domain;
+  auto table = root.optional_table("domain");
+  if (!table) return domain;
+  ParameterTable<Domain> keys = Domain::parameters();
+  std::erase_if(keys, [](const auto& key) { return key.info.name != "dimension" && key.info.name != "axis"; });
+  if (!table->read(keys, domain)) return {};
+  return domain;
+}
+
 Case read(input::Document document, const std::vector<std::pair<std::string, std::string>>& overrides) {
   for (const auto& [key, value] : overrides) document.set(key, value);
   Case setup;
   setup.file = document.path();
   input::Table root = document.root();
   root.accept("provenance");
-  if (const auto domain = root.optional_table("domain"); domain && domain->has("dimension")) {
-    Domain peeked;
-    input::Table table = *domain;
-    const auto all = Domain::parameters();
-    const auto dimension = std::ranges::find(all, "dimension", [](const auto& p) { return p.info.name; });
-    if (table.read(ParameterTable<Domain>{*dimension}, peeked) && peeked.is_planar()) document.set_planar();
-  }
+  const Domain section = peek_dimension(root);
+  if (section.is_planar()) document.set_section(static_cast<int>(index_of(section.axis)));
   read_content(setup, setup, root);
+  if (section.is_planar()) {
+    setup.domain.boundary = setup.domain.boundary.in_section(static_cast<std::size_t>(index_of(section.axis)));
+    setup.domain.axis = Axis::x;
+  }
   document.add(settle(setup));
   document.finish();
   return setup;

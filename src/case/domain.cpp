@@ -24,6 +24,12 @@ ParameterTable<Faces> Faces::parameters() {
 
 bool Faces::any(grid::Boundary kind) const { return std::ranges::count(in_order(), kind) > 0; }
 
+Faces Faces::in_section(std::size_t first) const {
+  const std::array<grid::Boundary, 6> f = in_order();
+  const auto at = [&](std::size_t i) { return f[(2 * first + i) % 6]; };
+  return {at(0), at(1), at(2), at(3), at(4), at(5)};
+}
+
 ParameterTable<Domain> Domain::parameters() {
   return {vector("lower", &Domain::lower, "m", range::any(), "lower corner of the domain"),
           vector("upper", &Domain::upper, "m", range::any(),
@@ -34,6 +40,10 @@ ParameterTable<Domain> Domain::parameters() {
                  "three dimensions | a slice of 1 m of what is the same for all z | x along the axis, y >= 0 the "
                  "radius, masses are those of whole rings; in two dimensions the section z = 0 counts, and vectors "
                  "may have two components")
+              .optional(),
+          choice("axis", &Domain::axis,
+                 "in two dimensions: direction of vectors of three components, of faces and of axes that becomes x, "
+                 "the axis of rings; the next one of x, y, z, x becomes y")
               .optional()};
 }
 
@@ -92,6 +102,9 @@ void Domain::check(const Case& setup, const Faults& faults) const {
                                       "xyz"[a], word_of(end), "xyz"[a], upper[axis] - lower[axis], count.exact,
                                       cell_size));
     }
+  }
+  if (!is_planar() && axis != Axis::x) {
+    faults.add("axis", "'axis' is that of a section: set 'dimension' to \"axisymmetric\" or \"plane_strain\" too");
   }
   if (is_planar()) {
     const auto faces = boundary.in_order();

@@ -42,7 +42,7 @@ struct Revolution {
   template <class Owner>
   static ParameterTable<Owner> parameters(const char* meaning_of_base) {
     return {vector<Owner>("base", &Owner::base, "m", range::any(), meaning_of_base),
-            choice("axis", static_cast<Axis Owner::*>(&Owner::axis), "direction of the axis").optional()};
+            choice("axis", static_cast<Axis Owner::*>(&Owner::axis), "direction of the axis").is_axis().optional()};
   }
 };
 

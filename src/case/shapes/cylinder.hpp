@@ -25,7 +25,7 @@ class Cylinder final : public Shape {
 
   static ParameterTable<Cylinder> parameters() {
     return {vector("center", &Cylinder::center_, "m", range::any(), "centre, at half height"),
-            choice("axis", &Cylinder::axis_, "direction of the axis").optional(),
+            choice("axis", &Cylinder::axis_, "direction of the axis").is_axis().optional(),
             real("radius", &Cylinder::radius_, "m", range::positive(), "radius"),
             real("height", &Cylinder::height_, "m", range::positive(), "length along the axis")};
   }

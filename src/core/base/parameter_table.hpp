@@ -51,6 +51,7 @@ struct ParameterInfo {
   std::vector<std::string> choices;  ///< accepted words; empty: any
   std::string default_text = {};     ///< what `describe` shows as default; empty: the value
   double across = 0.0;               ///< third component of a vector that is given in a plane
+  bool is_axis = false;              ///< a word "x", "y" or "z" that names a direction of space
 };
 
 /// An enumeration's value behind its words, whatever its type.
@@ -100,6 +101,11 @@ struct Parameter {
   [[nodiscard]] Parameter optional(std::string default_text) && {
     info.required = false;
     info.default_text = std::move(default_text);
+    return std::move(*this);
+  }
+  /// The word names a direction of space.
+  [[nodiscard]] Parameter is_axis() && {
+    info.is_axis = true;
     return std::move(*this);
   }
   /// The third component of a vector of which two are given, in problems in a plane.

@@ -27,7 +27,7 @@ namespace whipple::input {
 struct Document::State {
   std::filesystem::path path;
   bool needs_units = false;  ///< a bare number has none
-  bool planar = false;       ///< vectors may have two components
+  std::optional<int> section = {};  ///< as of `set_section`
   toml::table root;
   std::vector<InputFault> errors;  // sorted by position when thrown
   std::map<const toml::table*, std::set<std::string, std::less<>>>
@@ -38,7 +38,10 @@ struct Document::State {
                         : fmt::format("{}:{}:{}", path.string(), at.line, at.column);
   }
   void error(const toml::source_position& at, std::string key, const std::string& message) {
-    errors.push_back({path.string(), at.line, at.column, std::move(key), message});
+    InputFault fault{path.string(), at.line, at.column, std::move(key), message};
+    // What is read twice is reported once.
+    const auto same = [&](const InputFault& known) { return known.message() == fault.message(); };
+    if (std::ranges::none_of(errors, same)) errors.push_back(std::move(fault));
   }
   void error(const toml::node& node, std::string key, const std::string& message) {
     error(node.source().begin, std::move(key), message);
@@ -106,10 +109,15 @@ void read_into(Vector3* target, const toml::node& node, const ParameterInfo& inf
   if (array.size() != 3) throw InputError(fmt::format("has {} entries, expected 3", array.size()));
   for (int i = 0; i < 3; ++i) (*target)[i] = read_real(array[static_cast<std::size_t>(i)], info);
 }
-/// Reads a vector of a problem in a plane: two components, or three.
-void read_in_plane(Vector3* target, const toml::node& node, const ParameterInfo& info) {
+/// Reads a vector of a problem in a plane: two components, or three of space.
+void read_in_section(Vector3* target, const toml::node& node, const ParameterInfo& info, int first) {
   const toml::array& array = read_array(node, "a list of two numbers with units");
-  if (array.size() == 3) return read_into(target, node, info);
+  if (array.size() == 3) {
+    Vector3 in_space;
+    read_into(&in_space, node, info);
+    for (int i = 0; i < 3; ++i) (*target)[i] = in_space[(first + i) % 3];
+    return;
+  }
   if (array.size() != 2) throw InputError(fmt::format("has {} entries, expected 2", array.size()));
   *target = {read_real(array[0], info), read_real(array[1], info), info.across};
 }
@@ -135,11 +143,16 @@ void require_units(const toml::node& node, const ParameterInfo& info) {
   }
 }
 
+/// Returns the direction of a section, "x", "y" or "z", that a direction of space is.
+std::string axis_in_section(const std::string& word, int first) {
+  return std::string(1, "xyz"[(word.front() - 'x' - first + 3) % 3]);
+}
+
 /// Reads into a copy of the target and commits it only if the value is admissible.
-void read_checked(const BoundParameter& parameter, const toml::node& node, bool planar) {
+void read_checked(const BoundParameter& parameter, const toml::node& node, std::optional<int> section) {
   const auto read = [&]<class Value>(Value& value) {
     if constexpr (std::is_same_v<Value, Vector3>) {
-      planar ? read_in_plane(&value, node, parameter.info) : read_into(&value, node, parameter.info);
+      section ? read_in_section(&value, node, parameter.info, *section) : read_into(&value, node, parameter.info);
     } else {
       read_into(&value, node, parameter.info);
     }
@@ -149,7 +162,7 @@ void read_checked(const BoundParameter& parameter, const toml::node& node, bool 
   if (const ChoiceTarget* choice = std::get_if<ChoiceTarget>(&parameter.target)) {
     std::string word;
     read(word);
-    choice->set(choice->value, word);
+    choice->set(choice->value, parameter.info.is_axis && section ? axis_in_section(word, *section) : word);
     return;
   }
   std::visit(
@@ -324,7 +337,7 @@ Table Document::root() {
 
 const std::filesystem::path& Document::path() const { return state_->path; }
 
-void Document::set_planar() { state_->planar = true; }
+void Document::set_section(int first) { state_->section = first; }
 
 void Document::finish() {
   report_unknown(*state_, state_->root, "");
@@ -364,12 +377,15 @@ bool Table::read(std::span<const BoundParameter> parameters) {
         error_at(info.name, fmt::format("missing key '{}'{}: {}{}", info.name,
                                         name_.empty() ? "" : " in [" + name_ + "]", info.meaning,
                                         info.unit.empty() ? "" : " (unit " + info.unit + ")"));
+      } else if (const auto* choice = std::get_if<ChoiceTarget>(&parameter.target);
+                 choice != nullptr && info.is_axis && state_->section) {
+        choice->set(choice->value, axis_in_section(choice->word(choice->value), *state_->section));
       }
       continue;
     }
     try {
       if (state_->needs_units) require_units(*node, info);
-      read_checked(parameter, *node, state_->planar);
+      read_checked(parameter, *node, state_->section);
     } catch (const InputError& fault) {
       sound = false;
       error_at(info.name, fmt::format("'{}' {}", info.name, fault.what()));

@@ -36,8 +36,10 @@ class Document {
 
   Table root();
   [[nodiscard]] const std::filesystem::path& path() const;
-  /// From here on vectors may have two components; the third is then `ParameterInfo::across`.
-  void set_planar();
+  /// From here on vectors may have two components; the third is then `ParameterInfo::across`. Three components, and
+  /// words that name a direction, are those of space, of which the plane is a section.
+  /// @param first  direction of space (0, 1, 2) that is the first one of the plane; the next one is its second
+  void set_section(int first);
 
   /// Adds what a check has found wrong with the values, each fault at the place of its key, or of the table
   /// nearest to it. Faults at, above or below a key that already has one are dropped: the value that was
