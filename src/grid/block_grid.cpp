@@ -287,7 +287,7 @@ void BlockGrid::set_apart() {
 void BlockGrid::clear() {
   parallel::for_each(nodes_.size() / nodes_per_block, [&](std::size_t b) {
     Node* of_block = &nodes_[b * nodes_per_block];
-    for (int i = 0; i < nodes_per_block; ++i) of_block[i] = {broadcast(0.0), broadcast(0.0)};
+    for (std::size_t i = 0; i < nodes_per_block; i += step_of_nodes()) of_block[i] = {broadcast(0.0), broadcast(0.0)};
   });
 }
 

@@ -90,23 +90,27 @@ struct Energies {
 void GridUpdate::remember_nodes_at_planes(const BlockGrid& grid) {
   if (at_planes_of_ == grid.layout()) return;
   at_planes_of_ = grid.layout();
-  std::vector<std::pair<std::uint32_t, std::uint8_t>> nodes;  // and whether it is only an image
+  std::vector<std::uint64_t> nodes;  // twice its number, and 1 if it is only an image
+  const auto add = [&](std::uint32_t node, std::uint64_t only_image) {
+    nodes.push_back(2 * static_cast<std::uint64_t>(node) + only_image);
+  };
   for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
     // Where matter meets its image as another body it may not do so yet.
-    for (const BlockGrid::MirrorPair& pair : plane.pairs_apart) nodes.emplace_back(pair.outside, 1);
-    for (const std::uint32_t on_plane : plane.on_plane_apart) nodes.emplace_back(on_plane, 1);
-    for (const BlockGrid::MirrorPair& pair : plane.pairs) nodes.emplace_back(pair.outside, 0);
+    for (const BlockGrid::MirrorPair& pair : plane.pairs_apart) add(pair.outside, 1);
+    for (const std::uint32_t on_plane : plane.on_plane_apart) add(on_plane, 1);
+    for (const BlockGrid::MirrorPair& pair : plane.pairs) add(pair.outside, 0);
     // Another rank may be the one that folds onto them.
-    for (const std::uint32_t near : plane.near) nodes.emplace_back(near, 1);
-    for (const std::uint32_t on_plane : plane.on_plane) nodes.emplace_back(on_plane, 0);
+    for (const std::uint32_t near : plane.near) add(near, 1);
+    for (const std::uint32_t on_plane : plane.on_plane) add(on_plane, 0);
   }
   std::ranges::sort(nodes);  // what is more than an image comes first
   at_planes_.clear();
   may_be_unchanged_.clear();
-  for (const auto& [node, only_image] : nodes) {
+  for (const std::uint64_t entry : nodes) {
+    const auto node = static_cast<std::uint32_t>(entry / 2);
     if (!at_planes_.empty() && at_planes_.back() == node) continue;
     at_planes_.push_back(node);
-    may_be_unchanged_.push_back(only_image);
+    may_be_unchanged_.push_back(static_cast<std::uint8_t>(entry % 2));
   }
 }
 
