@@ -95,7 +95,7 @@ def render(snapshot: Snapshot, view: View, outside: bool) -> tuple[np.ndarray, n
     """Finds the number of the particle or element seen in each pixel of the completed side view, and the light.
     `outside` looks at the cloud from outside; otherwise it is cut along the plane of sight through its axis."""
     axial, up, toward = view.coordinates(snapshot.position)
-    shown = np.full(len(snapshot), True) if outside else toward <= 0
+    shown = np.full(len(snapshot), True) if outside or view.geo.planar else toward <= 0
     canvas = rendering.Canvas(view.shape)
     particles = np.flatnonzero(shown[:snapshot.particles])
     elements = np.flatnonzero(shown[snapshot.particles:])

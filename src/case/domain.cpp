@@ -77,7 +77,10 @@ grid::Geometry Domain::geometry() const {
   g.cell_size = cell_size;
   g.boundary = boundary.in_order();
   g.dimension = dimension;
-  if (is_planar()) g.lower[2] = 0.0;
+  if (is_planar()) {
+    g.lower[2] = 0.0;
+    g.boundary[4] = g.boundary[5] = grid::Boundary::outflow;  // not reached
+  }
   if (dimension == grid::Dimension::axisymmetric) g.boundary[2] = grid::Boundary::symmetry;  // the axis
   for (std::size_t a = 0; a < 3; ++a) {
     const Count count = cells_along(*this, static_cast<Eigen::Index>(a));
