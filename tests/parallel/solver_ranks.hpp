@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <thread>
+#include <vector>
 
+#include "src/core/parallel/mpi.hpp"
 #include "src/solver/simulation.hpp"
 
 /// Tools of the tests of the solver on several ranks.
@@ -13,6 +17,38 @@ namespace whipple::solver {
 
 inline void advance_to(Simulation& simulation, double time) {
   while (simulation.state().time < time) simulation.advance(time);
+}
+
+inline bool is_root() { return parallel::rank(MPI_COMM_WORLD) == 0; }
+
+/// Advances the run of one rank that the others are compared with, on the root only: the other ranks sleep until it
+/// has ended, as there are fewer cores than ranks.
+inline void advance_on_root(Simulation& alone, double time) {
+  if (is_root()) advance_to(alone, time);
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  for (int ended = 0;;) {
+    MPI_Test(&request, &ended, MPI_STATUS_IGNORE);
+    if (ended != 0) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+/// Every rank of a run holds the same bits of its sums.
+inline void expect_same_on_all_ranks(const Simulation& together) {
+  std::vector<double> own = {static_cast<double>(together.state().step),
+                             static_cast<double>(together.particle_count()),
+                             static_cast<double>(together.element_count()), together.state().time_step};
+  const auto add = [&](const char*, double value) { own.push_back(value); };
+  const Ledger& ledger = together.state().ledger;
+  for_each_number(together.totals(), add);
+  for_each_number(ledger.initial, add);
+  for_each_number(ledger.outflow, add);
+  own.insert(own.end(), ledger.wall_impulse.begin(), ledger.wall_impulse.end());
+  own.insert(own.end(), {ledger.external_work, ledger.transfer_heat, ledger.contact_heat, ledger.friction_heat,
+                         ledger.contact_impulse, ledger.converted_mass, ledger.conversion_heat});
+  const auto ranks = static_cast<std::size_t>(parallel::size(MPI_COMM_WORLD));
+  EXPECT_EQ(parallel::exchange(MPI_COMM_WORLD, std::vector(ranks, own)), std::vector(ranks, own));
 }
 
 /// Every number of two runs, relative to the largest of its kind.
@@ -37,6 +73,12 @@ inline void expect_equal(const Simulation& a, const Simulation& b, double tolera
   EXPECT_NEAR(a.state().ledger.transfer_heat, b.state().ledger.transfer_heat, tolerance * initial.energy());
   EXPECT_LE(std::abs(a.state().ledger.energy_error(a.totals())), 1e-10);
   EXPECT_LE(a.state().ledger.momentum_error(a.totals()), 1e-11);
+}
+
+/// Compares a run on all ranks with that of the root alone. Collective.
+inline void expect_agreement(const Simulation& together, const Simulation& alone, double tolerance) {
+  expect_same_on_all_ranks(together);
+  if (is_root()) expect_equal(together, alone, tolerance);
 }
 
 }  // namespace whipple::solver
