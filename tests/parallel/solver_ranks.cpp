@@ -202,6 +202,27 @@ TEST_F(SolverRanks, AgreeWithOneRankInEveryOption) {
   }
 }
 
+// Blocks of rings lie in one layer; the hoop force is that of the particles of each rank; a checkpoint goes on.
+TEST_F(SolverRanks, AgreeWithOneRankInAxisymmetry) {
+  const Overrides rings = {{"domain.dimension", "axisymmetric"}, {"domain.axis", "z"}, {"domain.cell_size", "0.4 mm"}};
+  Simulation together(read(rings), MPI_COMM_WORLD);
+  advance_to(together, 0.7e-6);
+  const fs::path file = io::write_checkpoint(folder_ / "rings", together.state().step, together.particles(),
+                                             run::to_checkpoint(together.state()), MPI_COMM_WORLD);
+  advance_to(together, 1.2e-6);
+  Simulation alone(read(rings), MPI_COMM_SELF);
+  advance_on_root(alone, 0.7e-6);
+  advance_on_root(alone, 1.2e-6);
+  expect_agreement(together, alone, 1e-11);
+  EXPECT_EQ(together.particles().size() < together.particle_count(), ranks_.is_parallel());
+  EXPECT_LE(together.state().ledger.momentum_error(together.totals()), 1e-12);
+  io::Checkpoint checkpoint = io::read_checkpoint(file, MPI_COMM_SELF);
+  Simulation resumed(read(rings), std::move(checkpoint.particles), run::from_checkpoint(checkpoint.values),
+                     MPI_COMM_SELF);
+  advance_on_root(resumed, 1.2e-6);
+  if (is_root()) expect_equal(resumed, alone, 1e-11);
+}
+
 // Fields that only other ranks see at a shared block, nodes that several ranks have in contact, mirror planes
 // through the contact, three bodies.
 TEST_F(SolverRanks, AgreeWithOneRankInContact) {
