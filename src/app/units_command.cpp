@@ -56,6 +56,21 @@ void print_table() {
       "eV is the exact value of the SI of 2019. The dimension is checked where the quantity is read.\n");
 }
 
+/// Prints a quantity in the SI unit of its kind.
+void print_in_si(const std::string& text) {
+  for (const Quantity& quantity : quantities()) {
+    if (quantity.si_unit.empty()) continue;
+    try {
+      const double value = units::parse_quantity(text, quantity.si_unit);
+      fmt::print("{} ({})\n", units::format_quantity(value, quantity.si_unit), quantity.name);
+      return;
+    } catch (const InputError&) {
+      // of another kind
+    }
+  }
+  throw InputError(fmt::format("'{}' is no quantity with a unit that 'whipple units' lists: name one with --to UNIT", text));
+}
+
 }  // namespace
 
 void add_units_command(CLI::App& app) {
@@ -67,13 +82,15 @@ void add_units_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("units", "Accepted units with examples; converts a quantity");
   command->add_option("quantity", options->quantity, "A quantity to convert, for example \"6.58 km/s\"");
   command->add_option("--to", options->unit, "The unit to convert to");
-  command->footer("Example:\n  whipple units\n  whipple units \"1.4 Mbar\" --to GPa");
+  command->footer("Example:\n  whipple units\n  whipple units \"10 ug\"\n  whipple units \"1.4 Mbar\" --to GPa");
   command->callback([options] {
-    if (options->quantity.empty() != options->unit.empty()) {
-      throw InputError("a conversion needs both a quantity and --to UNIT");
+    if (options->quantity.empty() && !options->unit.empty()) {
+      throw InputError("--to needs a quantity to convert, as in: whipple units \"1.4 Mbar\" --to GPa");
     }
     if (options->quantity.empty()) {
       print_table();
+    } else if (options->unit.empty()) {
+      print_in_si(options->quantity);
     } else {
       const double value = units::parse_quantity(options->quantity, options->unit);
       fmt::print("{}\n", units::format_quantity(value, options->unit));

@@ -204,9 +204,9 @@ fs::path find_material(const fs::path& path, const fs::path& beside) {
   }
   std::vector<std::string> known;
   for (const auto& [stem, file] : library_files()) known.push_back(stem);
-  throw InputError(fmt::format("no material file '{}'{}; searched: {}; in the library: {}", path.string(),
-                               did_you_mean(path.stem().string(), known), fmt::join(searched, ", "),
-                               fmt::join(known, ", ")));
+  throw InputError(fmt::format("no material file '{}'{}; searched: {}; 'whipple materials' lists the {} of the library",
+                               path.string(), did_you_mean(path.stem().string(), known), fmt::join(searched, ", "),
+                               known.size()));
 }
 
 Material read_material(const fs::path& path, const fs::path& beside) {

@@ -176,7 +176,7 @@ TEST_F(MaterialFile, EnvironmentAddsALibraryThatHidesTheOwnOne) {
 TEST_F(MaterialFile, MissingFilesNameTheFoldersSearchedAndTheNearestMaterial) {
   EXPECT_THAT(message("coper.toml", folder_),
               AllOf(HasSubstr("no material file 'coper.toml', did you mean \"copper\"?"),
-                    HasSubstr(folder_.string()), HasSubstr("eos/materials")));
+                    HasSubstr(folder_.string()), HasSubstr("eos/materials"), HasSubstr("'whipple materials' lists")));
   EXPECT_THAT(message("no/such.toml", folder_), HasSubstr((folder_ / "no/such.toml").string()));
 }
 
