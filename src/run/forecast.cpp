@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -42,26 +43,6 @@ struct Box {
   }
 };
 
-/// Calls `visit(body, position, velocity, sound speed, whether stressed)` for every particle and every node of
-/// elements of this rank.
-template <class Visit>
-void for_each_point(const solver::Simulation& s, const Visit& visit) {
-  const Particles& points = s.particles();
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    const double c = points.sound_speed[p];
-    const bool stressed = std::abs(points.pressure[p]) * points.volume[p] > 1e-6 * points.mass[p] * c * c;
-    visit(points.body[p], points.position[p], points.velocity[p], c, stressed);
-  }
-  const auto of_nodes = [&](const auto& nodes, std::size_t body) {
-    const eos::State& reference = s.setup().materials[body]->reference;
-    for (std::size_t n = 0; n < nodes.mass.size(); ++n) {
-      visit(body, nodes.position[n], nodes.velocity[n], reference.sound_speed, false);
-    }
-  };
-  for (const fem::Mesh& mesh : s.meshes()) of_nodes(mesh.nodes, mesh.body);
-  for (const fem::Bars& bars : s.bars()) of_nodes(bars.nodes, bars.body);
-}
-
 /// Estimates the mean active fraction of the particles and nodes over the run. Collective.
 double moving_share(const solver::Simulation& s) {
   const cases::Case& setup = s.setup();
@@ -69,10 +50,14 @@ double moving_share(const solver::Simulation& s) {
   const std::size_t count = s.bodies().size();
   std::vector<Box> moving(count);
   double fastest = 0.0, points = 0.0;
-  for_each_point(s, [&](std::size_t b, const Vector3& x, const Vector3& v, double, bool stressed) {
+  const auto is_active = [](const solver::Point& point) { return point.is_stressed || !point.velocity.isZero(0.0); };
+  const auto for_each_point = [&](const std::function<void(const solver::Point& point)>& visit) {
+    for (const solver::Carrier* carrier : s.carriers()) carrier->for_each_point(visit);
+  };
+  for_each_point([&](const solver::Point& point) {
     points += 1.0;
-    fastest = std::max(fastest, v.norm());
-    if (stressed || !v.isZero(0.0)) moving[b].include(x);
+    fastest = std::max(fastest, point.velocity.norm());
+    if (is_active(point)) moving[point.body].include(point.position);
   });
   std::vector<double> extremes(6 * count + 1, fastest);
   for (std::size_t b = 0; b < count; ++b) {
@@ -90,15 +75,15 @@ double moving_share(const solver::Simulation& s) {
   const auto every = std::max<std::size_t>(1, static_cast<std::size_t>(points) / samples);
   std::size_t seen = 0;
   std::array<double, 2> sums = {0.0, 0.0};  // share, points
-  for_each_point(s, [&](std::size_t, const Vector3& x, const Vector3& v, double c, bool stressed) {
+  for_each_point([&](const solver::Point& point) {
     if (seen++ % every != 0) return;
     double way = std::numeric_limits<double>::infinity();
     Box here;
-    here.include(x);
+    here.include(point.position);
     for (const Box& source : sources) way = std::min(way, here.gap_to(source).norm());
-    if (stressed || !v.isZero(0.0)) way = 0.0;
+    if (is_active(point)) way = 0.0;
     way = std::max(0.0, way - layers_of_blocks * grid::block_edge * setup.domain.cell_size);
-    sums[0] += std::max(0.0, 1.0 - way / (std::max(c, fastest) * setup.time.end));
+    sums[0] += std::max(0.0, 1.0 - way / (std::max(point.sound_speed, fastest) * setup.time.end));
     sums[1] += 1.0;
   });
   parallel::sum(s.communicator(), sums);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numeric>
 #include <random>
 #include <set>
@@ -138,6 +139,35 @@ TEST(TimeStep, BeginsSmallAndFollowsTheCompression) {
     EXPECT_NEAR(usual.first, 0.05 * unlimited.first, 1e-12 * usual.first) << method;
     EXPECT_NEAR(usual.most, 0.02, 1e-12) << method;
     EXPECT_GT(unlimited.most, 0.06) << method;
+  }
+}
+
+TEST(TimeStep, TellsTheBoundThatDeterminedIt) {
+  using enum solver::TimeStepBound;
+  solver::Simulation unlimited(touching_slabs("particles", 1.0, 1e9), parallel::world());
+  EXPECT_EQ(unlimited.time_step_bound(), none);
+  unlimited.advance(1.0);
+  EXPECT_EQ(unlimited.time_step_bound(), sound_speed);
+  for (const char* method : {"particles", "finite_elements"}) {
+    solver::Simulation simulation(touching_slabs(method, 0.05, 0.02), parallel::world());
+    simulation.advance(1.0);
+    EXPECT_EQ(simulation.time_step_bound(), first_step) << method;
+    std::map<solver::TimeStepBound, int> times;
+    for (int step = 1; step < 100; ++step) {
+      const solver::RunState before = simulation.state();
+      simulation.advance(1.0);
+      const double dt = simulation.state().time_step;
+      ++times[simulation.time_step_bound()];
+      if (simulation.time_step_bound() == growth) {
+        EXPECT_NEAR(dt, 1.05 * before.time_step, 1e-12 * dt) << method;
+      } else if (simulation.time_step_bound() == compression) {
+        EXPECT_NEAR(dt * before.compression_rate, 0.02, 1e-14) << method;
+      }
+    }
+    EXPECT_GT(times[growth], 0) << method;
+    EXPECT_GT(times[compression], 0) << method;
+    simulation.advance(simulation.state().time + 0.5 * simulation.state().time_step);
+    EXPECT_EQ(simulation.time_step_bound(), output_time) << method;
   }
 }
 

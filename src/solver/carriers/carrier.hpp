@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -35,6 +36,14 @@ struct Figures {
   double temperature = -std::numeric_limits<double>::infinity();
   double stored_cold_work = 0.0;                        ///< J
   double bars = 0.0, broken_bars = 0.0, bar_energy = 0.0;  ///< numbers, and J
+};
+
+/// A particle, or a node of elements.
+struct Point {
+  std::size_t body;
+  const Vector3 &position, &velocity;  ///< m, m/s
+  double sound_speed;                  ///< m/s, of nodes that of the reference state
+  bool is_stressed;                    ///< its pressure is more than a millionth of rho c^2; nodes bear none
 };
 
 /// Interface of what carries the material of bodies: particles, hexahedra, trusses; on each rank its part of them.
@@ -76,6 +85,8 @@ class Carrier {
   /// Returns the largest id of a particle that is there, or that an element may become.
   [[nodiscard]] virtual std::uint64_t largest_particle_id() const { return 0; }
   [[nodiscard]] virtual std::size_t bytes() const = 0;
+  /// Visits every particle or node.
+  virtual void for_each_point(const std::function<void(const Point& point)>& visit) const = 0;
   /// Describes the part of a body by its numbers over all ranks, empty if it has none. Collective.
   [[nodiscard]] virtual std::string count_text(std::size_t body) const = 0;
   /// @}

@@ -41,6 +41,15 @@ std::size_t bytes_of(const Points& points) {
   return bytes;
 }
 
+/// Visits the nodes of the elements of a body.
+inline void visit_nodes(const fem::Nodes& nodes, std::size_t body, const State& state,
+                        const std::function<void(const Point& point)>& visit) {
+  const double sound_speed = state.setup.materials[body]->reference.sound_speed;
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    visit({body, nodes.position[a], nodes.velocity[a], sound_speed, false});
+  }
+}
+
 /// Sums a number over all ranks. Collective.
 inline std::size_t sum_over_ranks(MPI_Comm communicator, std::size_t of_rank) {
   auto count = static_cast<double>(of_rank);

@@ -129,7 +129,7 @@ std::string Hexahedra::deform(std::size_t m, bool heated) {
     in_material += durations[i];
   }
   state_.profile.reassign("elements", "material",
-                    std::chrono::duration<double>(in_material).count() / parallel::threads());
+                          std::chrono::duration<double>(in_material).count() / parallel::threads());
   double& rate = state_.rates.element_compression;
   rate = std::max(rate, sum.compression_rate);
   const std::string of_material = book(state_, sum, material, [&](std::size_t p, const std::string& reason) {

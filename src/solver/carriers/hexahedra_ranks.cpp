@@ -152,6 +152,10 @@ std::size_t Hexahedra::bytes() const {
   return bytes;
 }
 
+void Hexahedra::for_each_point(const std::function<void(const Point& point)>& visit) const {
+  for (const fem::Mesh& mesh : meshes_) visit_nodes(mesh.nodes, mesh.body, state_, visit);
+}
+
 std::string Hexahedra::count_text(std::size_t body) const {
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     const fem::Mesh& mesh = meshes_[m];

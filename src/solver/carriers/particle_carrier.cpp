@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "src/core/parallel/mpi.hpp"
@@ -92,6 +93,15 @@ std::uint64_t ParticleCarrier::largest_particle_id() const {
 }
 
 std::size_t ParticleCarrier::bytes() const { return bytes_of(state_.particles); }
+
+void ParticleCarrier::for_each_point(const std::function<void(const Point& point)>& visit) const {
+  const Particles& q = state_.particles;
+  for (std::size_t p = 0; p < q.size(); ++p) {
+    const double c = q.sound_speed[p];
+    const bool is_stressed = std::abs(q.pressure[p]) * q.volume[p] > 1e-6 * q.mass[p] * c * c;
+    visit({q.body[p], q.position[p], q.velocity[p], c, is_stressed});
+  }
+}
 
 std::string ParticleCarrier::count_text(std::size_t body) const {
   if (state_.setup.bodies[body].discretization.has_elements() || state_.setup.bodies[body].discretization.is_bars()) {

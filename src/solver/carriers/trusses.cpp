@@ -130,6 +130,10 @@ std::size_t Trusses::bytes() const {
   return bytes;
 }
 
+void Trusses::for_each_point(const std::function<void(const Point& point)>& visit) const {
+  for (const fem::Bars& bars : bars_) visit_nodes(bars.nodes, bars.body, state_, visit);
+}
+
 std::string Trusses::count_text(std::size_t body) const {
   for (const fem::Bars& bars : bars_) {
     if (bars.body != body) continue;

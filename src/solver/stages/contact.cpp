@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "src/core/parallel/mpi.hpp"
-
 namespace whipple::solver {
 
 ContactStage::ContactStage(State& state, Hexahedra& hexahedra, transfer::GridUpdate& grid_update)
@@ -56,8 +54,8 @@ void ContactStage::separate_fields() {
   field_of_node_.clear();
   for (const std::uint32_t body : state_.transition_body) field_of_node_.push_back(field_of_body_[body]);
   state_.grid.separate_fields(transfer::stencil(state_.shape), {state_.particles.position, field_},
-                        {state_.transition.position, field_of_node_},
-                        *std::ranges::max_element(field_of_body_) + 1U, state_.setup.contact.everywhere);
+                              {state_.transition.position, field_of_node_},
+                              *std::ranges::max_element(field_of_body_) + 1U, state_.setup.contact.everywhere);
 }
 
 void ContactStage::find_surfaces(bool after_transfer) {
@@ -67,7 +65,7 @@ void ContactStage::find_surfaces(bool after_transfer) {
     const std::vector<std::vector<fem::Facet>>& facets = hexahedra_.free_facets();
     // Of the contact slots of other ranks nothing is known here.
     std::optional<contact::BlocksAtContact> near;
-    if (parallel::size(state_.communicator) == 1) near.emplace(state_.grid);
+    if (!state_.is_parallel()) near.emplace(state_.grid);
     const std::vector<fem::Mesh>& meshes = hexahedra_.meshes();
     for (std::size_t m = 0; m < meshes.size(); ++m) {
       surface_points_.add(meshes[m], facets[m], field_of_body_[meshes[m].body],

@@ -115,7 +115,7 @@ void MaterialStage::update(std::string_view stage, Energy energy,
     }
   });
   state_.profile.reassign(stage, "material",
-                    std::chrono::duration<double>(in_material).count() / parallel::threads());
+                          std::chrono::duration<double>(in_material).count() / parallel::threads());
   parallel::throw_together(state_.communicator, error);
 }
 

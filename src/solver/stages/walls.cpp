@@ -46,7 +46,7 @@ void ContactStage::find_surfaces_at_walls() {
   if (!may_meet_images()) return;
   state_.profile.time("walls", [&] {
     with_images_.find_surfaces(state_.shape, state_.particles, state_.transition.position, state_.grid,
-                                                state_.run.time_step);
+                               state_.run.time_step);
   });
 }
 
