@@ -9,8 +9,8 @@
 
 namespace whipple::analysis {
 
-/// Measures the thickness of the material of a body along the axis, in columns over the face of the body: tells how much
-/// of a plate is left anywhere, wherever it was hit.
+/// Measures the thickness of the material of a body along the axis, in columns over the face of the body: tells how
+/// much of a plate is left anywhere, wherever it was hit.
 ///
 /// Columns near the rim do not count, nor do those where the body was thinner at the start: the margin is a twentieth
 /// of the lesser width of the face, at least a column.

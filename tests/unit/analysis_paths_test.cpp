@@ -203,6 +203,7 @@ TEST(Flight, WhereNothingMovesAtFirstTheAxisIsThatOfTheParting) {
   EXPECT_EQ(frame.projectile, 1U);
   EXPECT_EQ(frame.sign, 1.0);
   EXPECT_EQ(frame.impact_speed, 0.0);
+  EXPECT_NEAR(frame.debris_speed(), 0.05 * 1400, 0.01);
 }
 
 double size_of(const std::string& shape) {
