@@ -15,17 +15,18 @@ OBLIQUE = 0.01  # tangent of the angle of impact above which a picture has no di
 DEFINITIONS = [
     ("axis", "the direction in which the bodies approach each other; through the symmetry planes, or the centre of "
              "mass of the projectile where there are none"),
-    ("impact speed", "difference of the initial axial velocities of the fastest and the slowest body; the fastest is "
+    ("impact speed", "magnitude of the initial relative velocity of the fastest and the slowest body; the fastest is "
                      "the projectile"),
     ("debris, ejecta", "particles whose axial velocity exceeds 5% of the impact speed forward, backward"),
     ("front, rear", "axial coordinate beyond, below which 0.1% of the debris mass lies"),
     ("radius", "distance from the axis beyond which 0.1% of the debris mass lies"),
     ("front, rear, expansion speed", "change of front, rear, radius from snapshot to snapshot; at the end the "
-                                     "least-squares slope over the last third of the snapshots (of those before the "
-                                     "debris reached the border of the domain)"),
+                                     "least-squares slope over the last third of the snapshots, unknown if the "
+                                     "debris has reached the border of the domain"),
     ("radial speed", "component of the velocity away from the axis that 0.1% of the debris mass exceeds"),
     ("half angle", "of the cone about the axis whose directions hold 95% of the kinetic energy of the debris"),
     ("residual velocity", "mean axial velocity of what is left of a body (momentum over mass)"),
+    ("perforated", "a path leads through the body that no connected, unfailed material of it closes"),
     ("fragment", "particles of condensed matter connected by links of the linking length, by default a cell"),
 ]
 

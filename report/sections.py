@@ -167,8 +167,9 @@ class Report:
                          f"over a spot of {spot:.3g} mm: what a flash radiograph shows, without the response of a "
                          "film.", pictures.radiograph_figure(analysis, view))
         self._extent(analysis)
-        self._add_figure("surfaces.png", "Depth of craters on the axis and diameter at the original surface; depth of penetration; "
-                         "diameter within which less than half of a plate is left.", curves.surface_figure(analysis))
+        self._add_figure("surfaces.png", "Depth of craters on the axis and diameter at the original surface; depth of "
+                         "penetration; diameter within which less than half of a plate is left.",
+                         curves.surface_figure(analysis))
         fragments = curves.fragment_figure(analysis)
         if fragments is not None:
             self.page.heading("Fragments of the debris")
@@ -178,7 +179,7 @@ class Report:
                          curves.loads_figure(analysis, "witness"))
         self._final_table(shown[-1].time, analysis)
         planar.add_to(self.page, self.output, analysis, run.history)
-        self._add_figure("loads.png", "Loads on the plane in the course of the run, of what has passed it until the end.",
+        self._add_figure("loads.png", "Loads on the plane in the course of the run: what has passed it until the end.",
                          curves.loads_figure(analysis, "loads"))
 
     def _extent(self, analysis):
@@ -213,6 +214,8 @@ class Report:
         ]
         tiles += [(f"hole of {name.split('.')[1]}", f"{number(units.MILLIMETRES * value)} mm")
                   for name, value in analysis.final.items() if name.startswith("hole_diameter.") and value > 0]
+        tiles += [(f"{name.split('.', 1)[1]} perforated", "yes" if value else "no")
+                  for name, value in analysis.final.items() if name.startswith("perforated.") and np.isfinite(value)]
         self.page.tiles(tiles)
         carried = [column for column in analysis.tables["bodies"] if column in BODY_COLUMNS]
         head = ["body", "part"] + (["mass of model (g)"] if run.multiplicity > 1 else []) + [

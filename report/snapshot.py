@@ -12,8 +12,9 @@ VTK_LINE = 3  # type of the cells that are bars
 
 
 class Snapshot:
-    """Holds the particles (and bars) at one time, then the finite elements: arrays by the names of the fields,
-    `position` included; None if not written. The elements have `connectivity` to the places of their `nodes`. SI."""
+    """Holds what pictures show at one time: particles and bars, then the finite elements with `connectivity` to the
+    places of their `nodes`. Arrays by the names of the fields, as they are in the files, and `position`; None if not
+    written. Measures come from `whipple analyse`, which counts an element as particles. SI."""
 
     def __init__(self, path: pathlib.Path, time: float):
         self.path, self.time = path, time
@@ -47,10 +48,8 @@ class Snapshot:
         is_bar = np.repeat(corners == 2, corners)
         # Bars are drawn as particles are, so they stand before the elements.
         for cells, at in ((corners == 2, nodes[is_bar].reshape(-1, 2)), (corners == 8, nodes[~is_bar].reshape(-1, 8))):
-            own = {"position": self.nodes[at].mean(axis=1),
-                   "velocity": vtk["PointData"]["velocity"][:][at].mean(axis=1)}
             for name, values in self.fields.items():
-                more = own[name] if name in own else vtk["CellData"][name][:][cells]
+                more = self.nodes[at].mean(axis=1) if name == "position" else vtk["CellData"][name][:][cells]
                 self.fields[name] = np.concatenate([values, more])
             if at.shape[1] == 2:
                 self.particles += len(at)

@@ -53,7 +53,7 @@ bool is_planar(const Run& run, const Snapshot& first, const Frame& frame) {
     upper[b] = upper[b].cwiseMax(first.position[i]);
   }
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
-    const double near = run.bodies[b].spacing;
+    const double near = run.cell_size;
     for (const int a : frame.transverse) {
       if (!(lower[b][a] < run.lower[a] + near && upper[b][a] > run.upper[a] - near)) return false;
     }

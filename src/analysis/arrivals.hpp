@@ -9,8 +9,8 @@
 
 namespace whipple::analysis {
 
-/// Follows what passes a plane in the course of a run, as the loads on a wall behind it (docs/theory/analysis.md, section
-/// 5). Particles that begin before the plane count when they pass it for the first time.
+/// Follows what passes a plane in the course of a run, as the loads on a wall behind it (docs/theory/analysis.md,
+/// section 5.1). Particles that begin before the plane count when they pass it for the first time.
 class Arrivals {
  public:
   /// @param frame     about the point where the line of flight meets the plane

@@ -131,8 +131,8 @@ Quantities spall_measures(const Snapshot& first, const Snapshot& last, const Fra
   std::sort(material.begin(), material.end());
   const double length = axial_extent(first, frame, body, input.spacing).length();
   // Gaps, from the foremost on, that have at least a layer of particles ahead of them and behind: a single particle
-  // is none. Their width is what is left of the distance of two layers beyond the spacing of the particles; at less than
-  // half a spacing the material is stretched, not parted.
+  // is none. Their width is what is left of the distance of two layers beyond the spacing of the particles; at less
+  // than half a spacing the material is stretched, not parted.
   struct Gap {
     double width, ahead;
   };

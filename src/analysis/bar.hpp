@@ -10,8 +10,8 @@ namespace whipple::analysis {
 /// Diameter of the circle with the cross-section of the body, along the axis.
 Table diameter_profile(const Snapshot& snapshot, const Frame& frame, const Run& run);
 
-/// Measures a bar that flies at a wall: its length, its diameter and the state at its end on the wall. Other bodies have
-/// none of these.
+/// Measures a bar that flies at a wall: its length, its diameter and the state at its end on the wall. Other bodies
+/// have none of these.
 /// @param diameter_at distance from the wall at which the diameter is asked for; 0: not
 /// @param held        it touched the wall from the start, so that no gap can be between them
 Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,

@@ -128,7 +128,7 @@ void append_percentiles(Quantities& row, const Snapshot& snapshot, const Frame& 
 std::vector<std::uint32_t> debris(const Snapshot& snapshot, const Frame& frame) {
   std::vector<std::uint32_t> chosen;
   for (std::uint32_t i = 0; i < snapshot.size(); ++i) {
-    if (frame.axial(snapshot.velocity[i]) > moving * frame.impact_speed) chosen.push_back(i);
+    if (frame.axial(snapshot.velocity[i]) > frame.debris_speed()) chosen.push_back(i);
   }
   return chosen;
 }
@@ -154,7 +154,7 @@ Quantities cloud_measures(const Snapshot& snapshot, const Frame& frame, const st
   }
   const double rear = weighted_quantile(axial, beyond), front = weighted_quantile(axial, 1.0 - beyond);
   const double radius = weighted_quantile(distance, 1.0 - beyond);
-  const double speed = moving * frame.impact_speed;
+  const double speed = frame.debris_speed();
   const Fields fields{snapshot, bodies};
   const Sums all = sum(fields, frame, [](std::size_t) { return true; });
   const Sums flying =
@@ -189,7 +189,7 @@ Table body_table(const Snapshot& snapshot, const Frame& frame, const std::vector
               .labels = {},
               .columns = {}};
   const Fields fields{snapshot, bodies};
-  const double speed = moving * frame.impact_speed;
+  const double speed = frame.debris_speed();
   const auto axial = [&](std::size_t i) { return frame.axial(snapshot.velocity[i]); };
   const auto add_rows = [&](const std::string& name, auto&& mine) {
     const auto add = [&](const char* part, auto&& chosen) {

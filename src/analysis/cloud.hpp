@@ -15,11 +15,8 @@ namespace whipple::analysis {
 
 /// Fraction of the mass that may lie beyond "the front": single particles do not make a cloud.
 constexpr double beyond = 1e-3;
-/// A particle is debris (forward) or ejecta (backward) if its axial speed exceeds this fraction of the impact
-/// speed.
-constexpr double moving = 0.05;
 
-/// Particles of the debris.
+/// Returns the particles of the debris.
 std::vector<std::uint32_t> debris(const Snapshot& snapshot, const Frame& frame);
 
 /// Measures position, size and speeds of the debris; masses of the phases in all of the material and in the debris.

@@ -9,18 +9,18 @@
 
 namespace whipple::analysis {
 
-/// Thickness of the material of a body along the axis, in columns over the face of the body: tells how much of a plate is
-/// left anywhere, wherever it was hit.
+/// Measures the thickness of the material of a body along the axis, in columns over the face of the body: tells how
+/// much of a plate is left anywhere, wherever it was hit.
 ///
-/// Columns near the rim do not count, nor do those where the body was thinner at the start: the margin is a twentieth of
-/// the lesser width of the face, at least a column.
+/// Columns near the rim do not count, nor do those where the body was thinner at the start: the margin is a twentieth
+/// of the lesser width of the face, at least a column.
 class Columns {
  public:
   /// @param size  edge of the columns, m
   Columns(const Snapshot& first, const Frame& frame, std::size_t body, double size);
 
-  /// Returns the least fraction of its initial thickness that the chosen material has in a column that counts; 1 if none
-  /// counts.
+  /// Returns the least fraction of its initial thickness that the chosen material has in a column that counts; 1 if
+  /// none counts.
   /// @param chosen  1: the particle counts
   /// @param shift   displacement of the body since the start, m
   [[nodiscard]] double least_left(const Snapshot& snapshot, const std::vector<std::uint8_t>& chosen,

@@ -199,7 +199,7 @@ std::vector<Fragment> find_fragments(const Snapshot& snapshot, const Frame& fram
         fragment.position[frame.planes[p].axis] = frame.planes[p].position;
         fragment.velocity[frame.planes[p].axis] = 0.0;
       }
-      fragment.debris = frame.axial(fragment.velocity) > moving * frame.impact_speed;
+      fragment.debris = frame.axial(fragment.velocity) > frame.debris_speed();
     }
   });
   std::ranges::stable_sort(fragments, std::greater{}, &Fragment::mass);

@@ -107,7 +107,7 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
   }
   frame.sign = fastest[frame.axis] >= 0.0 ? 1.0 : -1.0;
   const Vector3 approach = run.bodies.size() > 1 ? Vector3(fastest - velocity[slowest]) : fastest;
-  if (!at_rest) frame.impact_speed = approach.norm();
+  (at_rest ? frame.parting_speed : frame.impact_speed) = approach.norm();
   if (approach[frame.axis] != 0.0) {
     frame.direction = approach / std::abs(approach[frame.axis]);
     frame.impact_angle = std::acos(std::min(1.0, 1.0 / frame.direction.norm()));

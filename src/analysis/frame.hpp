@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+
 #include "src/analysis/run.hpp"
 
 namespace whipple::analysis {
@@ -21,7 +23,8 @@ struct Frame {
   std::vector<Plane> planes;         ///< mirror planes that cut the model out of the full problem
   std::optional<double> wall;        ///< axial coordinate of a mirror plane that a body flies against
   std::size_t projectile = 0;        ///< the fastest body
-  double impact_speed = 0.0;  ///< relative speed of the fastest and the slowest body, m/s
+  double impact_speed = 0.0;   ///< relative speed of the fastest and the slowest body, m/s
+  double parting_speed = 0.0;  ///< where nothing moves at the start: of the fastest body at the end, m/s
   double impact_angle = 0.0;  ///< of their relative velocity with the axis, rad; 0: a normal impact
   Vector3 direction = Vector3::Zero();  ///< of the flight: relative velocity over its axial component
   std::array<int, 2> transverse = {0, 1};  ///< upward in pictures; sight, across the only mirror plane
@@ -38,6 +41,8 @@ struct Frame {
   [[nodiscard]] double axial(const Vector3& v) const { return sign * v[axis]; }
   /// Distance from the axis.
   [[nodiscard]] double radius(const Vector3& position) const;
+  /// Returns the axial speed (m/s) above which material is debris (forward) or ejecta (backward).
+  [[nodiscard]] double debris_speed() const { return 0.05 * std::max(impact_speed, parting_speed); }
   /// Returns the area of a ring about the axis, m^2; in plane strain of the strips on both sides.
   [[nodiscard]] double ring_area(double inner, double outer) const;
   /// Component of the velocity away from the axis; its magnitude across the axis on the axis itself.

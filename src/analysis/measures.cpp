@@ -127,9 +127,11 @@ constexpr auto table = std::to_array<Measure>({
 constexpr std::string_view of_body = ".BODY";
 
 Quantity made(const Measure& measure, std::string name, double value, std::string reason) {
-  if (!std::isfinite(value) && reason.empty()) reason = measure.missing;
-  return {std::move(name), std::string(measure.unit), std::string(measure.meaning), value,
-          std::isfinite(value) ? std::string() : std::move(reason)};
+  Quantity quantity{std::move(name), std::string(measure.unit), std::string(measure.meaning), value};
+  if (std::isfinite(value)) return quantity;
+  quantity.value = nan;  // without a sign, not infinite
+  quantity.reason = reason.empty() ? std::string(measure.missing) : std::move(reason);
+  return quantity;
 }
 
 /// Returns a cell of a CSV file: in quotation marks if it holds a comma.

@@ -199,8 +199,8 @@ std::vector<double> Snapshot::volumes() const {
 
 namespace {
 
-/// Appends the elements of the snapshot: eight points for each, at the natural coordinates (+-0.5)^3, and one for a bar,
-/// at its middle, with parts of its mass and the fields of its particles.
+/// Appends the elements of the snapshot: eight points for each, at the natural coordinates (+-0.5)^3, and one for a
+/// bar, at its middle, with parts of its mass and the fields of its particles.
 void append_elements(const fs::path& path, Snapshot& snapshot) {
   constexpr std::uint8_t vtk_line = 3;
   const hdf5::File file = hdf5::File::open(path);

@@ -51,8 +51,8 @@ struct Crater {
   double radius = 0.0;  ///< in the plane of the original surface, m
 };
 
-/// Measures the crater in a body that reached from the axial coordinate `face` to `rear`. Other bodies' material, such as
-/// the remains of the projectile, is no part of its floor.
+/// Measures the crater in a body that reached from the axial coordinate `face` to `rear`. Other bodies' material, such
+/// as the remains of the projectile, is no part of its floor.
 Crater measure_crater(const Snapshot& snapshot, const Frame& frame, std::size_t body, double face, double rear,
                       double cell_size);
 

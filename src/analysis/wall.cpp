@@ -136,9 +136,9 @@ Vector3 Wall::shift_of(const Snapshot& snapshot, const Piece& piece) const {
   return sum;
 }
 
-/// Fills the cells around the particles of a piece and seeks a path of empty ones, over the face of the body, from before
-/// the piece to behind it. Every particle fills the eight nearest cells: openings narrower than about two cells are not
-/// seen.
+/// Fills the cells around the particles of a piece and seeks a path of empty ones, over the face of the body, from
+/// before the piece to behind it. Every particle fills the eight nearest cells: openings narrower than about two cells
+/// are not seen.
 bool Wall::closes(const Snapshot& snapshot, const Piece& piece, const Vector3& shift) const {
   if (4 * piece.size() < face_cells_) return false;  // cannot cover the face
   double front = std::numeric_limits<double>::infinity(), rear = -front;

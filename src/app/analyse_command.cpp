@@ -24,7 +24,7 @@ struct AnalyseOptions {
 double length(const std::string& text, const char* option) {
   if (text.empty()) return 0.0;
   const double value = units::parse_quantity(text, "m");
-  if (!(value > 0.0)) throw InputError(fmt::format("error: {} is {}, expected a length > 0", option, text));
+  if (!(value > 0.0)) throw InputError(fmt::format("{} is {}, expected a length > 0", option, text));
   return value;
 }
 

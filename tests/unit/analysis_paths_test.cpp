@@ -47,8 +47,8 @@ Frame free_flight() {
   return frame;
 }
 
-/// Measures what becomes of the plate in a run whose line of flight meets it at its middle, or on mirror planes at x = 0
-/// and y = 0.
+/// Measures what becomes of the plate in a run whose line of flight meets it at its middle, or on mirror planes at
+/// x = 0 and y = 0.
 struct Struck {
   analysis::Run run;
   Frame frame = free_flight();
@@ -113,7 +113,7 @@ TEST(Wall, IsPerforatedWhereverThePathLeadsThroughIt) {
   // A rim that is worn off is no hole; a crack from rim to rim is.
   EXPECT_EQ(struck(plate(Vector3::Zero(), 0.0, 0.0, 0.6e-3), "perforated").value, 0.0);
   Snapshot halves = struck.whole;
-  for (std::size_t i = 0; i < halves.size(); ++i) halves.position[i].x() += halves.position[i].x() > 12e-3 ? 2.5e-3 : 0.0;
+  for (Vector3& position : halves.position) position.x() += position.x() > 12e-3 ? 2.5e-3 : 0.0;
   EXPECT_EQ(struck(halves, "perforated").value, 1.0);
 }
 
@@ -203,6 +203,7 @@ TEST(Flight, WhereNothingMovesAtFirstTheAxisIsThatOfTheParting) {
   EXPECT_EQ(frame.projectile, 1U);
   EXPECT_EQ(frame.sign, 1.0);
   EXPECT_EQ(frame.impact_speed, 0.0);
+  EXPECT_NEAR(frame.debris_speed(), 0.05 * 1400, 0.01);
 }
 
 double size_of(const std::string& shape) {

@@ -276,7 +276,8 @@ TEST(Surfaces, HoleInAPlateThinnerThanTheCell) {
   EXPECT_LT(hole.left_on_axis, 0.1);
   Maker whole(0.25e-3);
   whole.fill({0, 0, 0}, {25e-3, 25e-3, thickness}, [](const Vector3&) { return true; }, Vector3::Zero(), 1);
-  const Hole none = measure_hole(whole.snapshot, quarter(), std::vector<std::uint8_t>(whole.snapshot.size(), 1), thickness, cell);
+  const std::vector<std::uint8_t> everything(whole.snapshot.size(), 1);
+  const Hole none = measure_hole(whole.snapshot, quarter(), everything, thickness, cell);
   EXPECT_EQ(none.diameter, 0.0);
   EXPECT_NEAR(none.left_on_axis, 1.0, 0.1);
 }
