@@ -124,7 +124,7 @@ void append(Quantities& row, Quantities more) { row.insert(row.end(), more.begin
 
 /// Measures craters, holes and perforation of the bodies that may be struck, and how deep those that fly at the first
 /// target have come.
-Quantities surface_measures(const Run& run, const Start& start, const Snapshot& snapshot) {
+Quantities surface_measures(const Run& run, Start& start, const Snapshot& snapshot) {
   Quantities row;
   double perforated = nan;  // the first target
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
@@ -160,7 +160,7 @@ Quantities surface_measures(const Run& run, const Start& start, const Snapshot& 
 }
 
 /// Measures one snapshot.
-Quantities measure(const Run& run, const Start& start, const Options& options, const OutflowHistory& outflow,
+Quantities measure(const Run& run, Start& start, const Options& options, const OutflowHistory& outflow,
                    const Snapshot& snapshot) {
   const Frame& frame = start.frame;
   Quantities row = {measured("time", snapshot.time)};
@@ -363,7 +363,7 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
     throw InputError(fmt::format("{}: error: has no snapshots", run.folder.string()));
   require_bodies(run, options);
   const Snapshot first = read_snapshot(run.snapshots.front());
-  const Start start = start_of(run, first, options);
+  Start start = start_of(run, first, options);
   const Frame& frame = start.frame;
 
   std::optional<PeakDecay> peaks;

@@ -93,7 +93,7 @@ constexpr auto table = std::to_array<Measure>({
     // Spall, rods.
     {"spall_thickness.BODY", "m", "initial thickness of the material ahead of the foremost gap at least half as wide as the largest, in a planar impact", "there is no gap with a layer of particles ahead of it"},
     {"largest_gap.BODY", "m", "largest gap between layers of particles along the axis in a planar impact; 0: none", gone},
-    {"residual_length_ratio.BODY", "1", "length of the part that keeps 0.9 of its initial speed and half of its initial section, from the rear end on, over the initial length", gone},
+    {"residual_length_ratio.BODY", "1", "length of the part that keeps 0.9 of its initial speed and half of its initial section, from the rear end on, over the initial length", "the first snapshot does not show the body at its initial speed"},
     {"residual_speed_ratio.BODY", "1", "mean speed of that part along the initial direction over the initial speed", "nothing of the body keeps 0.9 of its initial speed"},
     // Fragments.
     {"debris_fragments", "1", "number of fragments of the debris, single particles included", ""},

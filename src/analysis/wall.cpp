@@ -235,18 +235,20 @@ bool Wall::at_border(const Snapshot& snapshot, const Remains& remains) const {
   return false;
 }
 
-Quantities Wall::measure(const Snapshot& snapshot) const {
+Quantities Wall::measure(const Snapshot& snapshot) {
   const std::string& name = run_.bodies[body_].name;
   std::string reason = undecided(snapshot);
   Remains left;
   if (reason.empty()) {
     left = remains(snapshot);
-    if (at_border(snapshot, left)) reason = "the wall has come to the border of the domain";
+    // A bulge that has left the domain looks like a hole; a hole that was there before stays one.
+    if (!perforated_ && at_border(snapshot, left)) reason = "the wall has come to the border of the domain";
   }
   if (!reason.empty()) {
     return {measured("perforated", name, nan, reason), measured("least_left", name, nan, reason),
             measured("left_on_axis", name, nan, reason), measured("hole_diameter", name, nan, reason)};
   }
+  perforated_ = perforated_ || !left.closed;
   const Hole hole = measure_hole(snapshot, frame_, left.wall, extent_.length(), run_.cell_size);
   const double diameter = left.closed || !(hole.diameter > 0.0) ? nan : hole.diameter;
   return {measured("perforated", name, left.closed ? 0.0 : 1.0),

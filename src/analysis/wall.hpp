@@ -23,8 +23,9 @@ class Wall {
   /// Returns the extent of the body along that axis at the start.
   [[nodiscard]] const Extent& extent() const { return extent_; }
 
-  /// Measures perforation, thickness left and hole; NaN with the reason where they cannot be decided.
-  [[nodiscard]] Quantities measure(const Snapshot& snapshot) const;
+  /// Measures perforation, thickness left and hole; NaN with the reason where they cannot be decided. Snapshots come in
+  /// the order of time.
+  [[nodiscard]] Quantities measure(const Snapshot& snapshot);
 
  private:
   /// What is left of the body: the material that closes it, or what hangs on its rim if nothing does.
@@ -57,6 +58,7 @@ class Wall {
   std::vector<std::uint64_t> id_;          // of the particles of the body at the start
   std::vector<Vector3> place_;             // of these, m
   double rim_ = 0.0;                       // number of those on the rim
+  bool perforated_ = false;                // at an earlier time
   std::string never_;                      // reason why nothing can be decided at any time
 };
 

@@ -165,6 +165,11 @@ TEST(Wall, SaysWhyItCannotBeDecided) {
   now = struck.whole;
   for (Vector3& position : now.position) position.z() += 37.5e-3;
   EXPECT_EQ(struck(now, "perforated").reason, "the wall has come to the border of the domain");
+  Wall perforated(struck.run, struck.whole, struck.frame, 1);
+  EXPECT_EQ(perforated.measure(plate(struck.frame.centre, 4e-3, 0.0)).front().value, 1.0);
+  Snapshot later = plate(struck.frame.centre, 4e-3, 0.0);
+  for (Vector3& position : later.position) position.z() += 37.5e-3;
+  EXPECT_EQ(perforated.measure(later).front().value, 1.0);  // it was so before it came to the border
   struck.run.bodies[1].condensed = false;
   EXPECT_EQ(struck(struck.whole, "perforated").reason, "the body is a gas");
   Struck open;

@@ -159,7 +159,7 @@ TEST_F(Series, writes_what_was_asked_for_and_what_reports_need) {
   ParticleSeries series(options({"pressure"}), MPI_COMM_SELF);
   const hdf5::File file = hdf5::File::open(series.write(ramp(3), 0.0));
   EXPECT_THAT(file.root.open_group("VTKHDF").open_group("PointData").names(),
-              ElementsAre("body", "density", "id", "mass", "pressure", "velocity"));
+              ElementsAre("body", "density", "failed", "id", "mass", "pressure", "velocity"));
 }
 
 TEST_F(Series, no_particles_make_a_valid_file) {

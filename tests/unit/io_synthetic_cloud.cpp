@@ -221,7 +221,13 @@ int write_cloud(int argc, char** argv) {
     const double time = end_time * k / std::max(snapshots - 1, 1);
     for (std::size_t i = 0; i < now.size(); ++i)
       now.position[i] = start.position[i] + time * start.velocity[i];
-    series.write(now, time);
+    Particles written = now;
+    if (k == 0) {  // before the impact all of it is whole and solid
+      std::ranges::fill(written.failed, std::uint8_t{0});
+      std::ranges::fill(written.melted_fraction, 0.0);
+      std::ranges::fill(written.vaporised_fraction, 0.0);
+    }
+    series.write(written, time);
   }
   CheckpointValues values;
   values.reals = {{"time", end_time}};
