@@ -42,6 +42,11 @@ bool Case::has_bars() const {
   return std::ranges::any_of(bodies, [](const Body& body) { return body.discretization.is_bars(); });
 }
 
+bool Case::holds(const Body& body, Vector3 point) const {
+  if (geometry.is_planar()) point[2] = 1e-6 * geometry.cell_size;
+  return body.shape->contains(point);
+}
+
 bool Case::has_elements() const {
   return std::ranges::any_of(bodies, [](const Body& body) { return body.discretization.has_elements(); });
 }

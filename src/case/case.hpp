@@ -58,6 +58,9 @@ struct Case {
   }
   [[nodiscard]] bool has_elements() const;
   [[nodiscard]] bool has_bars() const;
+  /// Returns whether a body holds a point; in two dimensions its section, on the side of z = 0 that models with a mirror
+  /// plane there hold.
+  [[nodiscard]] bool holds(const Body& body, Vector3 point) const;
   /// Returns all gauges, those of the tracers last.
   [[nodiscard]] std::vector<Gauge> all_gauges() const;
 };

@@ -70,7 +70,7 @@ void Tracers::check(const Case& setup, const Faults& faults) const {
 void check_places_of_gauges(const Case& setup, const Faults& faults) {
   const auto in_matter = [&](const Vector3& point) {
     return std::ranges::any_of(setup.bodies, [&](const Body& body) {
-      return !body.discretization.is_bars() && body.shape->contains(point);
+      return !body.discretization.is_bars() && setup.holds(body, point);
     });
   };
   const auto check = [&](const Gauge& gauge, const Faults& of_section, const char* key) {

@@ -103,7 +103,8 @@ TEST_F(CommandLine, WrongArgumentsHaveExitCodeTwo) {
   EXPECT_EQ(whipple("md plan.toml --ranks many").code, 2) << "no number";
   EXPECT_EQ(whipple("md plan.toml --ranks 0").code, 2) << "out of range";
   EXPECT_EQ(whipple("version surplus").code, 2);
-  EXPECT_EQ(whipple("units '3 m'").code, 2) << "--to is missing";
+  EXPECT_EQ(whipple("units --to m").code, 2) << "nothing to convert";
+  EXPECT_EQ(whipple("units '3 cakes'").code, 2) << "no unit";
 }
 
 TEST_F(CommandLine, BenchWritesItsFiguresAndComparesThem) {

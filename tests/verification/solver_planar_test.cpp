@@ -394,6 +394,10 @@ TEST(TwoDimensions, WhatNeedsThreeIsRefusedWithTheReason) {
               HasSubstr("along x"));
   EXPECT_THAT(error_of(replaced(text, "dimension = \"axisymmetric\"\n", "")), HasSubstr("has 2 entries, expected 3"));
   EXPECT_THAT(error_of(replaced(text, "axisymmetric", "2d")), HasSubstr("plane_strain"));
+  // A model of three dimensions that ends at a mirror plane z = 0 has a section there.
+  const std::string quarter = replaced(text, "lower = [\"0 mm\", \"-8 mm\"], upper = [\"2 mm\", \"8 mm\"]",
+                                       "lower = [\"0 mm\", \"0 mm\", \"0 mm\"], upper = [\"2 mm\", \"8 mm\", \"8 mm\"]");
+  EXPECT_EQ(error_of(quarter), "");
 }
 
 }  // namespace

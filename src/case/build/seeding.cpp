@@ -127,7 +127,7 @@ struct Site {
 /// A whole cell of the lattice: its centre decides whether it belongs to the body.
 std::optional<Site> whole_site(const Case& setup, const Body& body, const Lattice& lattice,
                                const Vector3& point) {
-  if (!inside_domain(setup, point) || !body.shape->contains(point)) return std::nullopt;
+  if (!inside_domain(setup, point) || !setup.holds(body, point)) return std::nullopt;
   const Vector3 half = 0.5 * lattice.spacing;
   return Site{point, 1.0, {half[0] * half[0], half[1] * half[1], half[2] * half[2], 0, 0, 0}};
 }
@@ -147,7 +147,7 @@ std::optional<Site> partial_site(const Case& setup, const Body& body, const Latt
     for (int j = 0; j < parts; ++j) {
       for (int k = 0; k < parts_z; ++k) {
         const Vector3 offset = part.cwiseProduct(Vector3(i, j, k) - middle);
-        if (!inside_domain(setup, point + offset) || !body.shape->contains(point + offset)) continue;
+        if (!inside_domain(setup, point + offset) || !setup.holds(body, point + offset)) continue;
         count += 1;
         first += offset;
         second += offset * offset.transpose();
