@@ -52,6 +52,11 @@ void find_surfaces(Stages& s) {
   s.contact.find_surfaces_at_walls();
 }
 
+/// Velocity and position of particles apart from their material.
+void move_particles(Stages& s) {
+  s.state.profile.time("grid to particles", [&] { s.transfers.velocity_to_particles({}, receive(s)); });
+}
+
 /// Ledger of energy and momentum, and what the next step is bounded by.
 void end_step(Stages& s) {
   s.state.profile.time("boundaries", [&] {
@@ -103,7 +108,7 @@ void step_usf(Stages& s, double until) {
   find_surfaces(s);
   s.transfers.advance_grid(contact(s));  // (3.4), (5.9)
   s.transfers.apply_full_mass_matrix();
-  s.transfers.velocity_to_particles({}, receive(s));  // (5.1)-(5.2) v, x at n+1
+  move_particles(s);  // (5.1)-(5.2) v, x at n+1
   end_step(s);
 }
 
@@ -133,7 +138,7 @@ void step_musl(Stages& s, double until) {
   find_surfaces(s);
   s.transfers.advance_grid(contact(s));  // (3.4), (5.9)
   s.transfers.apply_full_mass_matrix();
-  s.transfers.velocity_to_particles({}, receive(s));  // (5.1)-(5.2) v, x at n+1; the grid sees the places of before
+  move_particles(s);  // (5.1)-(5.2) v, x at n+1; the grid sees the places of before
   s.transfers.momentum_to_grid(send_momentum(s));     // (5.3) grid velocity from the new v
   s.material.update("velocity gradient", Energy::by_constitutive_model, [&](const Take& take) {
     s.transfers.gradient_to_particles(take, receive(s));  // (5.4) grad v at the old places, by it stress and e
