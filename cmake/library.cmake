@@ -9,6 +9,10 @@ target_compile_options(whipple_flags INTERFACE -Wall -Wextra -Wconversion -Wno-s
                        $<$<BOOL:${WHIPPLE_WERROR}>:-Werror>
                        # of two files that are compiled together neither shadows the other
                        $<$<NOT:$<BOOL:${WHIPPLE_UNITY_BUILD}>>:-Wshadow>)
+# The compiler collects no garbage below 1 GB: no file needs more, and collecting takes a tenth of its time.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(whipple_flags INTERFACE "SHELL:--param ggc-min-heapsize=1000000")
+endif()
 # Contraction into fused multiply-adds is part of the speed; errno and traps of the mathematical functions are not needed.
 target_compile_options(whipple_flags INTERFACE -fno-math-errno -fno-trapping-math -fopenmp)
 target_link_options(whipple_flags INTERFACE -fopenmp)
