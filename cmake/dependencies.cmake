@@ -1,13 +1,11 @@
-# Debian packages by scripts/install_deps.sh. Debian's p4est and UDUNITS2 bring no CMake files: found by name.
+# What the libraries need, for this build and for find_package(whipple). Debian packages by scripts/install_deps.sh.
+# Debian's p4est and UDUNITS2 bring no CMake files: found by name.
 find_package(MPI REQUIRED COMPONENTS C CXX)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(Eigen3 REQUIRED NO_MODULE)
-find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(GSL REQUIRED)
-find_package(LAMMPS REQUIRED CONFIG)
 set(HDF5_PREFER_PARALLEL ON)
 find_package(HDF5 REQUIRED COMPONENTS C)
 find_package(ZLIB REQUIRED)
@@ -30,8 +28,3 @@ target_link_libraries(P4EST INTERFACE SC MPI::MPI_C)
 add_library(HDF5_MPI INTERFACE IMPORTED)
 target_include_directories(HDF5_MPI SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
 target_link_libraries(HDF5_MPI INTERFACE ${HDF5_C_LIBRARIES} MPI::MPI_C)
-
-if(WHIPPLE_TESTS)
-  find_package(GTest REQUIRED)
-  find_package(benchmark REQUIRED)
-endif()

@@ -23,6 +23,13 @@ if(WHIPPLE_PYTHON)
   set_tests_properties(app_surroundings PROPERTIES LABELS fast TIMEOUT 300)
 endif()
 
+# The library as another program finds it; the libraries of a build with sanitizers need their flags.
+if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
+  add_test(NAME installed_library COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/installed/library.py
+           ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}/examples/plate_impact ${CMAKE_CXX_COMPILER} ${CMAKE_C_COMPILER})
+  set_tests_properties(installed_library PROPERTIES LABELS fast TIMEOUT 300)
+endif()
+
 # Coarse runs against stored numbers, half a minute of one core. Sanitizers would make it minutes.
 if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
   add_test(NAME drift COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/drift.py --threads 2

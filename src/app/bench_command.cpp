@@ -48,7 +48,8 @@ bench::Length length(const BenchOptions& options) {
 /// The ranks that measure: each problem has processes of its own, so that its peak memory is its own.
 void run_worker(const BenchOptions& options) {
   const Measurement measurement =
-      bench::measure(bench::find_problem(options.problems.front()), options.threads.front(), length(options));
+      bench::measure(bench::find_problem(options.problems.front()), options.threads.front(), length(options),
+                     parallel::world());
   if (parallel::rank(parallel::world()) == 0) {
     io::write_text_atomically(options.worker, bench::to_json(measurement).dump() + "\n");
   }

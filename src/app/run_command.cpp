@@ -89,7 +89,7 @@ int run_on_ranks(const Arguments& arguments) {
 /// Runs the case on the ranks that this process belongs to.
 int run_here(const Arguments& arguments) {
   try {
-    return run::run_case(run_options(arguments));
+    return run::run_case(run_options(arguments), parallel::world());
   } catch (const std::exception& error) {
     log::record_error(error.what());  // also into log.txt, if the run directory is there
     if (parallel::size(parallel::world()) > 1) {
@@ -157,7 +157,7 @@ void add_check_command(CLI::App& app) {
   command->footer("Example:\n  whipple check cases/copper_disk_on_aluminium/case.toml --threads 2");
   command->callback([arguments] {
     if (arguments->case_file.empty()) throw InputError("expected a case file (CASE.toml)");
-    fmt::print("{}", run::check_case(run_options(*arguments)));
+    fmt::print("{}", run::check_case(run_options(*arguments), parallel::world()));
   });
 }
 

@@ -76,12 +76,11 @@ Part time_steps(solver::Simulation& simulation, std::size_t steps) {
 
 }  // namespace
 
-Measurement measure(const Problem& problem, int threads, Length length) {
-  const MPI_Comm world = parallel::world();
+Measurement measure(const Problem& problem, int threads, Length length, MPI_Comm communicator) {
   parallel::set_threads(threads);
   cases::Case setup = cases::read_case(process::find_data(problem.case_file).string(), problem.overrides);
-  cases::tabulate_materials(setup, io::Ranks(world));
-  std::optional<solver::Simulation> simulation(std::in_place, setup, world);
+  cases::tabulate_materials(setup, io::Ranks(communicator));
+  std::optional<solver::Simulation> simulation(std::in_place, setup, communicator);
   const bool whole = length == Length::whole;
   const int share = length == Length::quick ? 5 : 1;
   if (!whole) {
@@ -98,18 +97,18 @@ Measurement measure(const Problem& problem, int threads, Length length) {
     Part part = time_steps(*simulation,
                            whole ? std::numeric_limits<std::size_t>::max() : std::max(steps, std::size_t{2}));
     std::array<double, 1> slowest = {part.nanoseconds};
-    parallel::maximum(world, slowest);
+    parallel::maximum(communicator, slowest);
     part.nanoseconds = slowest[0];
     if (part.nanoseconds < best.nanoseconds) best = std::move(part);
   }
 
   const double nodes = node_count(*simulation), points = point_count(*simulation);
   std::array<double, 1> memory = {static_cast<double>(simulation->bytes())};
-  parallel::sum(world, memory);
+  parallel::sum(communicator, memory);
   std::array<double, 1> peak = {peak_memory()};
-  parallel::maximum(world, peak);
+  parallel::maximum(communicator, peak);
   Measurement result{.problem = problem.name,
-                     .ranks = parallel::size(world),
+                     .ranks = parallel::size(communicator),
                      .threads = threads,
                      .particles = static_cast<std::size_t>(points),
                      .steps = static_cast<std::size_t>(simulation->state().step - first_step),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mpi.h>
+
 #include <cstddef>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
@@ -44,8 +46,8 @@ enum class Length {
   whole,  ///< from the beginning to the end of the case
 };
 
-/// Times a problem on the ranks of this process's world. Collective.
-Measurement measure(const Problem& problem, int threads, Length length);
+/// Times a problem on the ranks of a communicator. Collective.
+Measurement measure(const Problem& problem, int threads, Length length, MPI_Comm communicator);
 
 nlohmann::json to_json(const Measurement& measurement);
 /// @throws nlohmann::json::exception if keys are missing

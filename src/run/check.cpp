@@ -40,8 +40,7 @@ std::string at_faces(const cases::Case& setup, const solver::Simulation& simulat
 
 }  // namespace
 
-std::string check_case(const RunOptions& options) {
-  const MPI_Comm communicator = parallel::world();
+std::string check_case(const RunOptions& options, MPI_Comm communicator) {
   set_threads(options.threads, communicator);
   cases::Case setup = cases::read_case(options.case_file, options.overrides);
   require_memory(setup, communicator);

@@ -98,7 +98,7 @@ Observers observers_of(solver::Simulation& simulation, const io::RunDirectory& d
   all.push_back(std::make_unique<InputRecord>(directory, ranks));
   all.push_back(std::make_unique<HistoryTable>(setup, history, ranks));
   all.push_back(std::make_unique<GaugeTable>(gauges, ranks));
-  all.push_back(std::make_unique<Snapshots>(setup, directory, ranks));
+  all.push_back(std::make_unique<Snapshots>(setup, directory, simulation.communicator()));
   all.push_back(std::make_unique<Checkpoints>(directory));
   all.push_back(std::make_unique<StatusFile>(directory, options.program, ranks));
   return all;
@@ -114,34 +114,35 @@ int run_with_controls(Runner& runner, const io::RunDirectory& directory, const i
 }
 
 /// Runs a case from its start. @returns the exit code
-int begin(const RunOptions& options, const io::Ranks& ranks) {
+int begin(const RunOptions& options, MPI_Comm communicator) {
+  const io::Ranks ranks(communicator);
   cases::Case setup = cases::read_case(options.case_file, options.overrides);
-  require_memory(setup, parallel::world());
+  require_memory(setup, communicator);
   cases::tabulate_materials(setup, ranks);
   const io::RunDirectory directory =
       new_directory(setup, output_directory(options, options.case_file), options, ranks);
-  if (ranks.is_root()) log::add_file(directory.log_file());
+  if (ranks.is_root()) log::set_file(directory.log_file());
   log::info("{}: {}", setup.title.empty() ? directory.name() : setup.title, directory.path().string());
   for (const std::string& remark : cases::remarks(setup)) log::warning("{}", remark);
-  solver::Simulation simulation(setup, parallel::world());
+  solver::Simulation simulation(setup, communicator);
   Runner runner(simulation, observers_of(simulation, directory, options, ranks), options.wall_time);
   runner.begin();
   return run_with_controls(runner, directory, ranks);
 }
 
 /// Continues a run from its latest checkpoint. @returns the exit code
-int go_on(const RunOptions& options, const io::Ranks& ranks) {
+int go_on(const RunOptions& options, MPI_Comm communicator) {
+  const io::Ranks ranks(communicator);
   std::shared_ptr<const FileLock> lock;  // before anything is read that another run may write
   ranks.on_root([&] { lock = io::lock_run(options.output_directory); });
   cases::Case setup = cases::read_case(options.output_directory / "run.toml", options.overrides);
   cases::tabulate_materials(setup, ranks);
-  io::Checkpoint checkpoint =
-      io::read_latest_checkpoint(options.output_directory / "checkpoint", parallel::world());
+  io::Checkpoint checkpoint = io::read_latest_checkpoint(options.output_directory / "checkpoint", communicator);
   const io::RunDirectory directory =
       io::RunDirectory::open(options.output_directory, checkpoint.values.text("run_name"));
-  if (ranks.is_root()) log::add_file(directory.log_file());
+  if (ranks.is_root()) log::set_file(directory.log_file());
   ranks.on_root([&] { directory.remove_partial_files(); });
-  solver::Simulation simulation = resume(setup, checkpoint, parallel::world());
+  solver::Simulation simulation = resume(setup, checkpoint, communicator);
   if (!options.overrides.empty()) {  // the next restart goes on with them
     ranks.on_root([&] {
       directory.write_input(cases::to_toml(setup, material_copies(setup)) +
@@ -157,11 +158,10 @@ int go_on(const RunOptions& options, const io::Ranks& ranks) {
 
 }  // namespace
 
-int run_case(const RunOptions& options) {
-  const io::Ranks ranks(parallel::world());
-  if (!ranks.is_root()) log::set_level(log::Level::quiet);
-  set_threads(options.threads, parallel::world());
-  return options.restart ? go_on(options, ranks) : begin(options, ranks);
+int run_case(const RunOptions& options, MPI_Comm communicator) {
+  if (parallel::rank(communicator) != 0) log::set_level(log::Level::quiet);
+  set_threads(options.threads, communicator);
+  return options.restart ? go_on(options, communicator) : begin(options, communicator);
 }
 
 }  // namespace whipple::run

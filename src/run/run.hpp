@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <mpi.h>
+
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -23,15 +25,16 @@ struct RunOptions {
   std::vector<std::pair<std::string, std::string>> overrides;  ///< --set
 };
 
-/// Runs a case from its file to its last snapshot; docs/manual/output.md lists the files that it writes. Collective.
+/// Runs a case from its file to its last snapshot on the ranks of a communicator; docs/manual/output.md lists the files
+/// that it writes. Collective.
 /// Signals (`SignalControl`) and files in the run directory (`DirectoryControl`) steer it.
 /// @returns 0; 128 + number of the signal that ended the run; 124 at the limit of wall time
 /// @throws InputError before any work and before anything is written if the input is wrong;
 ///         StateError if the physics leaves its range: the state is saved in the folder failed/ of the run
-int run_case(const RunOptions& options);
+int run_case(const RunOptions& options, MPI_Comm communicator);
 
 /// Describes what a case would run, for `whipple check`: bodies, particles, memory, and steps and wall time from a
 /// few measured steps. Collective. @throws InputError if the case is wrong
-std::string check_case(const RunOptions& options);
+std::string check_case(const RunOptions& options, MPI_Comm communicator);
 
 }  // namespace whipple::run

@@ -20,6 +20,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/progress.hpp"
+#include "src/core/parallel/mpi.hpp"
 #include "src/io/checkpoint.hpp"
 #include "src/case/case.hpp"
 #include "src/run/restart.hpp"
@@ -88,7 +89,7 @@ class Run : public testing::Test {
       set_progress_visible(false);
       int code = 99;
       try {
-        code = run::run_case(options);
+        code = run::run_case(options, parallel::world());
       } catch (const StateError& error) {
         std::ofstream(options.output_directory / "error.txt") << error.what();
         code = 3;

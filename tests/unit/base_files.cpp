@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that are written as a whole or not at all, and locks on them.
+// Files that are written as a whole or not at all, and locks on them; where messages go.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <vector>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/file_lock.hpp"
 #include "src/core/base/files.hpp"
+#include "src/core/base/log.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple {
@@ -110,6 +113,36 @@ TEST(FileLock, EndsWithItsProcess) {
   EXPECT_NO_THROW(FileLock(path, "the folder", FileLock::IfHeld::wait));
   EXPECT_NO_THROW(FileLock(path, "the folder", FileLock::IfHeld::refuse));
   waitpid(holder, nullptr, 0);
+}
+
+TEST(Log, GoesWhereTheCallerWantsByLevelAndToOneFile) {
+  const TemporaryFolder folder;
+  std::vector<std::pair<log::Kind, std::string>> shown;
+  log::set_sink([&](log::Kind kind, const std::string& message) { shown.emplace_back(kind, message); });
+  const auto say = [] {
+    log::info("step {}", 1);
+    log::warning("thin plate");
+    log::detail("checkpoint");
+  };
+  log::set_file(folder.path() / "first.txt");
+  say();
+  log::set_level(log::Level::quiet);
+  log::set_file(folder.path() / "second.txt");
+  say();
+  log::set_level(log::Level::verbose);
+  log::detail("sorted");
+  log::record_error("no energy");
+  log::set_level(log::Level::normal);
+  log::set_sink({});
+  using enum log::Kind;
+  EXPECT_EQ(shown, (std::vector<std::pair<log::Kind, std::string>>{
+                       {information, "step 1"}, {warning, "thin plate"}, {warning, "thin plate"}, {detail, "sorted"}}));
+  const std::string first = content(folder.path() / "first.txt"), second = content(folder.path() / "second.txt");
+  EXPECT_THAT(first, ::testing::ContainsRegex("^20[-0-9]+ [0-9:]+ info: step 1\n"));
+  EXPECT_THAT(first, HasSubstr("warning: thin plate"));
+  EXPECT_EQ(std::ranges::count(first, '\n'), 3);
+  EXPECT_EQ(std::ranges::count(second, '\n'), 5);
+  EXPECT_THAT(second, HasSubstr("error: no energy"));
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ class Steering : public ::testing::Test {
     observers.push_back(std::make_unique<InputRecord>(directory, ranks));
     observers.push_back(std::make_unique<HistoryTable>(
         setup, Table::Options{directory.history_file(), "history_rows", &Schedule::history_every}, ranks));
-    observers.push_back(std::make_unique<Snapshots>(setup, directory, ranks));
+    observers.push_back(std::make_unique<Snapshots>(setup, directory, simulation.communicator()));
     observers.push_back(std::make_unique<Checkpoints>(directory));
     observers.push_back(std::make_unique<StatusFile>(directory, "test", ranks));
     Runner runner(simulation, std::move(observers));

@@ -2,67 +2,72 @@
 #include "src/core/base/log.hpp"
 
 #include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
 
+#include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "src/core/base/last_message.hpp"
 
 namespace whipple::log {
 namespace {
 
+void write_to_standard_error(Kind kind, const std::string& message) {
+  std::fprintf(stderr, "%s%s\n", kind == Kind::warning ? "warning: " : "", message.c_str());
+}
+
 Level present_level = Level::normal;
+Sink shown = write_to_standard_error;
+std::shared_ptr<spdlog::sinks::sink> file;
 std::string latest;
 
-spdlog::logger& logger() {
-  static const std::shared_ptr<spdlog::logger> instance = [] {
-    auto sink = std::make_shared<spdlog::sinks::stderr_sink_st>();
-    sink->set_pattern("%v");
-    auto created = std::make_shared<spdlog::logger>("whipple", sink);
-    created->set_level(spdlog::level::debug);
-    sink->set_level(spdlog::level::info);
-    created->flush_on(spdlog::level::debug);
-    return created;
-  }();
-  return *instance;
+void write_to_file(spdlog::level::level_enum level, const std::string& message) {
+  if (!file) return;
+  file->log({"whipple", level, message});
+  file->flush();
+}
+
+bool is_shown(Kind kind) {
+  return kind == Kind::warning || present_level == Level::verbose ||
+         (kind == Kind::information && present_level == Level::normal);
+}
+
+void show(Kind kind, const std::string& message) {
+  if (is_shown(kind)) shown(kind, message);
 }
 
 }  // namespace
 
-void set_level(Level level) {
-  present_level = level;
-  logger().sinks().front()->set_level(level == Level::quiet     ? spdlog::level::warn
-                                      : level == Level::verbose ? spdlog::level::debug
-                                                                : spdlog::level::info);
-}
+void set_level(Level level) { present_level = level; }
 
 Level level() { return present_level; }
 
-void add_file(const std::filesystem::path& path) {
-  auto sink = std::make_shared<spdlog::sinks::basic_file_sink_st>(path.string(), false);
-  sink->set_pattern("%Y-%m-%d %H:%M:%S %l: %v");
-  logger().sinks().push_back(std::move(sink));
+void set_sink(Sink sink) { shown = sink ? std::move(sink) : write_to_standard_error; }
+
+void set_file(const std::filesystem::path& path) {
+  file = std::make_shared<spdlog::sinks::basic_file_sink_st>(path.string(), false);
+  file->set_pattern("%Y-%m-%d %H:%M:%S %l: %v");
 }
 
 void record_error(const std::string& message) {
   latest = message;
-  const auto& sinks = logger().sinks();
-  for (std::size_t i = 1; i < sinks.size(); ++i) {
-    sinks[i]->log({"whipple", spdlog::level::err, message});
-    sinks[i]->flush();
-  }
+  write_to_file(spdlog::level::err, message);
 }
 
 void write_info(const std::string& message) {
   latest = message;
-  logger().info(message);
+  show(Kind::information, message);
+  write_to_file(spdlog::level::info, message);
 }
 void write_warning(const std::string& message) {
   latest = message;
-  logger().warn("warning: {}", message);
+  show(Kind::warning, message);
+  write_to_file(spdlog::level::warn, "warning: " + message);
 }
-void write_detail(const std::string& message) { logger().debug(message); }
+void write_detail(const std::string& message) {
+  show(Kind::detail, message);
+  write_to_file(spdlog::level::debug, message);
+}
 
 const std::string& last_message() { return latest; }
 

@@ -4,10 +4,11 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 
-/// Messages to the user on standard error and, once a run directory exists, in its log.txt. Thin over spdlog.
+/// Messages to the user: on standard error or where the caller wants them, and in the log.txt of a run directory.
 namespace whipple::log {
 
 enum class Level { quiet, normal, verbose };
@@ -15,10 +16,15 @@ enum class Level { quiet, normal, verbose };
 void set_level(Level level);
 /// The level set last; programs that start others pass it on.
 [[nodiscard]] Level level();
-/// Additionally writes every message to a file, with a time stamp.
-void add_file(const std::filesystem::path& path);
+/// Distinguishes messages: what is done, what the user should know of, and what --verbose adds.
+enum class Kind { information, warning, detail };
+using Sink = std::function<void(Kind, const std::string& message)>;
+/// Passes the messages that the level admits to a function, from then on; an empty one: to standard error.
+void set_sink(Sink sink);
+/// Also appends every message with a time stamp to a file, instead of the file set before.
+void set_file(const std::filesystem::path& path);
 
-/// Writes an error to the files only: the program shows it itself when it ends.
+/// Writes an error to the file only: the program shows it itself when it ends.
 void record_error(const std::string& message);
 
 void write_info(const std::string& message);

@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "src/core/base/log.hpp"
-#include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
 
 namespace whipple::run {
@@ -54,10 +53,11 @@ std::int64_t next_multiple(double time, double every) {
 
 }  // namespace
 
-SnapshotFiles::SnapshotFiles(const cases::Case& setup, const io::RunDirectory& directory, const fs::path& folder)
-    : particles_(series_options(setup, directory, folder), parallel::world()) {
+SnapshotFiles::SnapshotFiles(const cases::Case& setup, const io::RunDirectory& directory, const fs::path& folder,
+                             MPI_Comm communicator)
+    : particles_(series_options(setup, directory, folder), communicator) {
   if (setup.has_elements() || setup.has_bars())
-    elements_.emplace(series_options(setup, directory, folder), parallel::world());
+    elements_.emplace(series_options(setup, directory, folder), communicator);
 }
 
 void SnapshotFiles::restart(double time) {
@@ -133,7 +133,8 @@ void Snapshots::end(const Moment& moment, Outcome& outcome) {
   if (outcome.kind == Outcome::Kind::left_range) {  // snapshots of the run stay good
     const fs::path folder = directory_.failed_folder();
     ranks_.on_root([&] { fs::create_directories(folder); });
-    SnapshotFiles(moment.simulation.setup(), directory_, folder).write(moment.simulation);
+    SnapshotFiles(moment.simulation.setup(), directory_, folder, moment.simulation.communicator())
+        .write(moment.simulation);
   } else if (ranks_.is_root()) {
     log::info("wrote {} ({} snapshots: open {} in ParaView)", directory_.path().string(), files_.particles().size(),
               files_.particles().index_path().string());

@@ -19,7 +19,8 @@ namespace whipple::run {
 class SnapshotFiles {
  public:
   /// Reads run.toml for their provenance. @param folder  where they go
-  SnapshotFiles(const cases::Case& setup, const io::RunDirectory& directory, const std::filesystem::path& folder);
+  SnapshotFiles(const cases::Case& setup, const io::RunDirectory& directory, const std::filesystem::path& folder,
+                MPI_Comm communicator);
 
   /// Drops what is later than a checkpoint. Collective.
   void restart(double time);
@@ -39,8 +40,10 @@ class SnapshotFiles {
 /// and of a state that left the range of the physics into the folder failed/.
 class Snapshots : public RunObserver {
  public:
-  Snapshots(const cases::Case& setup, const io::RunDirectory& directory, const io::Ranks& ranks)
-      : directory_(directory), ranks_(ranks), files_(setup, directory, directory.path()) {}
+  Snapshots(const cases::Case& setup, const io::RunDirectory& directory, MPI_Comm communicator)
+      : directory_(directory),
+        ranks_(communicator),
+        files_(setup, directory, directory.path(), communicator) {}
 
   void begin(const Moment& moment) override;
   void resume(const Moment& moment, const io::CheckpointValues& values) override;
