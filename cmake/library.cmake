@@ -76,13 +76,16 @@ if(WHIPPLE_PRECOMPILED_HEADERS)
   whipple_precompiled_headers(whipple_precompiled HEADERS ${whipple_heavy_headers} DEPENDS Eigen3::Eigen)
 endif()
 
-# whipple_library(NAME [UNITY] [COMMAND_LINE] SOURCES a.cpp ... DEPENDS lib ...): one folder, one static library
+# whipple_library(NAME [UNITY [BATCH files]] [COMMAND_LINE] SOURCES a.cpp ... DEPENDS lib ...): one folder, one static library
 # whipple_NAME. UNITY where no kernel is: GCC's limits of inlining count by what is compiled together.
 function(whipple_library name)
-  cmake_parse_arguments(ARG "UNITY;COMMAND_LINE" "" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "UNITY;COMMAND_LINE" "BATCH" "SOURCES;DEPENDS" ${ARGN})
   add_library(whipple_${name} STATIC ${ARG_SOURCES})
   if(ARG_UNITY)
     set_target_properties(whipple_${name} PROPERTIES UNITY_BUILD ${WHIPPLE_UNITY_BUILD})
+    if(ARG_BATCH)
+      set_target_properties(whipple_${name} PROPERTIES UNITY_BUILD_BATCH_SIZE ${ARG_BATCH})
+    endif()
   endif()
   target_link_libraries(whipple_${name} PUBLIC $<BUILD_INTERFACE:whipple_flags> $<INSTALL_INTERFACE:whipple::consumer> ${ARG_DEPENDS})
   if(ARG_COMMAND_LINE)
