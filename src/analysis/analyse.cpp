@@ -55,6 +55,7 @@ bool is_planar(const Run& run, const Snapshot& first, const Frame& frame) {
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
     const double near = run.cell_size;
     for (const int a : frame.transverse) {
+      if (frame.is_planar() && a == 2) continue;
       if (!(lower[b][a] < run.lower[a] + near && upper[b][a] > run.upper[a] - near)) return false;
     }
   }
@@ -194,8 +195,9 @@ void end_at_the_border(const Run& run, const Frame& frame, Table& series) {
   cut("foremost", {"front", "foremost", "cloud_length", "cloud_length_over_width"}, border - run.cell_size);
   double side = std::numeric_limits<double>::infinity();
   for (const int a : frame.transverse) {
+    if (frame.is_planar() && a == 2) continue;
     side = std::min(side, run.upper[a] - frame.centre[a] - run.cell_size);
-    if (!frame.mirrored(a)) side = std::min(side, frame.centre[a] - run.lower[a] - run.cell_size);
+    if (!frame.mirrored(a) && frame.dimension != grid::Dimension::axisymmetric) side = std::min(side, frame.centre[a] - run.lower[a] - run.cell_size);
   }
   cut("outermost", {"radius", "outermost", "cloud_length_over_width"}, side);
 }

@@ -16,6 +16,7 @@
 #include "src/analysis/arrivals.hpp"
 #include "src/analysis/bar.hpp"
 #include "src/analysis/cloud.hpp"
+#include "src/analysis/columns.hpp"
 #include "src/analysis/fragments.hpp"
 #include "src/analysis/measures.hpp"
 #include "src/analysis/peaks.hpp"
@@ -280,6 +281,37 @@ TEST(Surfaces, HoleInAPlateThinnerThanTheCell) {
   const Hole none = measure_hole(whole.snapshot, quarter(), everything, thickness, cell);
   EXPECT_EQ(none.diameter, 0.0);
   EXPECT_NEAR(none.left_on_axis, 1.0, 0.1);
+}
+
+// Rings of a section: masses and volumes are those of whole rings, so nothing is multiplied.
+TEST(Surfaces, HoleInASectionOfRings) {
+  constexpr double hole_radius = 8.3e-3, cell = 1e-3, thickness = 2e-3, spacing = 0.25e-3, density = 2700.0;
+  Frame frame;
+  frame.dimension = grid::Dimension::axisymmetric;
+  frame.axis = 0;
+  frame.transverse = {1, 2};
+  Snapshot rings;
+  double volume = 0.0;
+  for (double x = 0.5 * spacing; x < thickness; x += spacing) {
+    for (double r = hole_radius + 0.5 * spacing; r < 25e-3; r += spacing) {
+      rings.position.emplace_back(x, r, 0.0);
+      rings.velocity.emplace_back(0.0, 0.0, 0.0);
+      rings.mass.push_back(density * 2.0 * std::numbers::pi * r * spacing * spacing);
+      rings.body.push_back(0);
+      rings.id.push_back(rings.id.size());
+      rings.scalars["density"].push_back(density);
+      volume += rings.mass.back() / density;
+    }
+  }
+  const std::vector<std::uint8_t> all(rings.size(), 1);
+  const Hole hole = measure_hole(rings, frame, all, thickness, cell);
+  EXPECT_NEAR(hole.diameter, 2 * hole_radius, 0.3 * cell);
+  EXPECT_EQ(hole.left_on_axis, 0.0);
+  EXPECT_NEAR(volume, frame.ring_area(hole_radius, 25.05e-3) * thickness, 1e-9 * volume);
+  EXPECT_NEAR(frame.edge(rings.mass[7] / density, rings.position[7]), spacing, 1e-9);
+  const Columns columns(rings, frame, 0, 2.0 * cell);
+  EXPECT_TRUE(columns.any());
+  EXPECT_NEAR(columns.least_left(rings, all, Vector3::Zero()), 1.0, 1e-12);
 }
 
 TEST(Bar, LengthAndDiametersOfAConeOnACylinder) {
