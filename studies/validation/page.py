@@ -140,7 +140,7 @@ def notes(run):
 
 def section(name, case, source, stale):
     """The part of a case. `stale`: names of its runs whose case or material has changed since."""
-    lines = [f"### {case['title']}", "", f"[cases/{name}](../cases/{name})", ""]
+    lines = [f"### {case['title']}", "", f"[cases/{name}](../../cases/{name})", ""]
     if case["overrides"]:
         lines += ["Departs from the one set of numerical parameters: "
                   + "; ".join(f"`{key}` ({reason})" for key, reason in case["overrides"].items()) + ".", ""]
