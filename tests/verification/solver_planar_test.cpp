@@ -15,24 +15,9 @@
 namespace whipple::verification {
 namespace {
 
+using exact::gas;
 using exact::start_with;
 using testing::HasSubstr;
-
-std::string gas(double ratio = 5.0 / 3.0) {
-  return write_material(fmt::format("planar_gas_{:.3f}", ratio), fmt::format(R"toml(
-name = "gas"
-source = "units of the verification problems"
-[eos]
-model = "ideal_gas"
-source = "units of the verification problems"
-reference_density = "1 kg/m^3"
-heat_capacity_ratio = {:.17g}
-heat_capacity = "1e-9 J/(kg K)"
-reference_temperature = "1e3 K"
-[strength]
-model = "none"
-)toml", ratio));
-}
 
 cases::Case read(const std::string& text) { return cases::read_case_text(text, "planar.toml"); }
 
@@ -151,7 +136,7 @@ material = "{}"
 initial = {{ density = 1, pressure = 1 }}
 shape = {{ box = {{ lower = [0, -1], upper = [0.4, 1] }} }}
 )",
-                                       gas());
+                                       gas(5.0 / 3.0));
   const cases::Case setup = read(text);
   solver::Simulation simulation(setup, parallel::world());
   const Particles& q = simulation.particles();
@@ -189,7 +174,7 @@ material = "{2}"
 initial = {{ density = 1, pressure = 1e-6 }}
 shape = {{ box = {{ lower = [0, -1], upper = [{0}, 1] }} }}
 )",
-                                             4.0 / cells, 1.0 / cells, gas()));
+                                             4.0 / cells, 1.0 / cells, gas(5.0 / 3.0)));
   solver::Simulation simulation = start_with(setup, [](Particles& particles) {
     for (Vector3& v : particles.velocity) v = Vector3(0.0, -1.0, 0.0);
   });

@@ -14,24 +14,6 @@ namespace {
 
 constexpr double cold = 1e-6;  ///< Pa, pressure of cold gas: 1e-6 of that behind the shocks
 
-/// A gas whose temperatures lie well within the range of the model.
-std::string gas(double gamma) {
-  return write_material(fmt::format("gas_{:.0f}", 100 * gamma), fmt::format(R"toml(
-name = "gas"
-source = "units of the verification problems"
-[eos]
-model = "ideal_gas"
-source = "units of the verification problems"
-reference_density = "1 kg/m^3"
-heat_capacity_ratio = {:.17g}
-heat_capacity = "1e-9 J/(kg K)"
-reference_temperature = "1e3 K"
-[strength]
-model = "none"
-)toml",
-                                                                            gamma));
-}
-
 std::string column(int cells, double width) {
   return fmt::format(R"(
 [domain]

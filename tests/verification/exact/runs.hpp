@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <functional>
 #include <string>
@@ -26,6 +28,25 @@ inline cases::Case default_case(double end, const std::string& text, const std::
   char time[64];
   std::snprintf(time, sizeof time, "[time]\nend = %.9g\n", end);
   return cases::read_case_text(time + options_of_all_cases() + more + text, "exact.toml");
+}
+
+/// Writes the material of an ideal gas whose temperatures lie well within the range of the model.
+/// @returns its file
+inline std::string gas(double gamma) {
+  return write_material(fmt::format("gas_{:.0f}", 100 * gamma), fmt::format(R"toml(
+name = "gas"
+source = "units of the verification problems"
+[eos]
+model = "ideal_gas"
+source = "units of the verification problems"
+reference_density = "1 kg/m^3"
+heat_capacity_ratio = {:.17g}
+heat_capacity = "1e-9 J/(kg K)"
+reference_temperature = "1e3 K"
+[strength]
+model = "none"
+)toml",
+                                                                            gamma));
 }
 
 /// A simulation of seeded particles after `change` of their state (velocities, energies).
