@@ -61,7 +61,8 @@ class Neighbourhood {
 
  private:
   using Cell = std::array<int, 3>;
-  static_assert(grid::block_edge == 4 && grid::nodes_per_block == 64);
+  static constexpr grid::BlockShape cube = grid::block_shape(false);  // elements are three-dimensional
+  static_assert(cube.edge == 4 && cube.edge_z == 4);
 
   [[nodiscard]] Cell cell_of(const Vector3& position) const {
     return floor_of_three(geometry_.in_cells(position));
@@ -71,15 +72,15 @@ class Neighbourhood {
     return {cell[0] >> 2, cell[1] >> 2, cell[2] >> 2};
   }
   static std::uint64_t bit(const Cell& cell) {
-    return std::uint64_t{1} << grid::node_index(cell[0] & 3, cell[1] & 3, cell[2] & 3);
+    return std::uint64_t{1} << cube.node(cell[0] & 3, cell[1] & 3, cell[2] & 3);
   }
 
-  static int stride_of(int axis) { return grid::node_index(axis == 0, axis == 1, axis == 2); }
+  static int stride_of(int axis) { return cube.node(axis == 0, axis == 1, axis == 2); }
   /// The cells with the coordinate 0 along an axis.
   static std::uint64_t first_layer(int axis) {
     std::uint64_t layer = 0;
-    for (int i = 0; i < grid::block_edge; ++i) {
-      for (int j = 0; j < grid::block_edge; ++j) {
+    for (int i = 0; i < cube.edge; ++i) {
+      for (int j = 0; j < cube.edge; ++j) {
         layer |= bit(axis == 0 ? Cell{0, i, j} : axis == 1 ? Cell{i, 0, j} : Cell{i, j, 0});
       }
     }

@@ -170,7 +170,8 @@ Quantities measure(const Run& run, Start& start, const Options& options, const O
   for (std::size_t b = 0; b < run.bodies.size(); ++b) {
     append(row, body_measures(snapshot, frame, b, run.bodies[b], outflow.at(b, snapshot.time)));
     append(row, bar_measures(snapshot, frame, b, run.bodies[b], run.cell_size, options.diameter_at,
-                             frame.wall && start.extents[b].upper > *frame.wall - 0.01 * run.cell_size));
+                             frame.wall && frame.wall_holds &&
+                                 start.extents[b].upper > *frame.wall - 0.01 * run.cell_size));
   }
   append(row, surface_measures(run, start, snapshot));
   return row;

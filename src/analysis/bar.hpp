@@ -13,7 +13,7 @@ Table diameter_profile(const Snapshot& snapshot, const Frame& frame, const Run& 
 /// Measures a bar that flies at a wall: its length, its diameter and the state at its end on the wall. Other bodies
 /// have none of these.
 /// @param diameter_at distance from the wall at which the diameter is asked for; 0: not
-/// @param held        it touched the wall from the start, so that no gap can be between them
+/// @param held        it touched a mirror plane from the start, so that no gap can be between them
 Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_t body,
                         const BodyInput& input, double cell_size, double diameter_at, bool held);
 

@@ -127,7 +127,11 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
     const std::optional<double>& plane = run.mirror_planes[static_cast<std::size_t>(a)];
     if (a == frame.axis) {
       // The projectile flies against it: the face of a wall, not of a model cut in halves.
-      if (plane && !at_rest && frame.sign * *plane > frame.start) frame.wall = frame.sign * *plane;
+      const std::optional<Run::Wall>& ahead = run.walls[static_cast<std::size_t>(a)][frame.sign > 0.0 ? 1 : 0];
+      if (ahead && !at_rest && frame.sign * ahead->position > frame.start) {
+        frame.wall = frame.sign * ahead->position;
+        frame.wall_holds = ahead->holds;
+      }
       continue;
     }
     (plane ? mirrored : other).push_back(a);

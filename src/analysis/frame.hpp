@@ -21,7 +21,8 @@ struct Frame {
   Vector3 centre = Vector3::Zero();  ///< a point of the axis; its axial coordinate is 0
   double start = 0.0;                ///< axial coordinate of the projectile when its centre is there
   std::vector<Plane> planes;         ///< mirror planes that cut the model out of the full problem
-  std::optional<double> wall;        ///< axial coordinate of a mirror plane that a body flies against
+  std::optional<double> wall;        ///< axial coordinate of a wall or mirror plane that the projectile flies against
+  bool wall_holds = true;            ///< it is a mirror plane: what touches it stays there
   std::size_t projectile = 0;        ///< the fastest body
   double impact_speed = 0.0;   ///< relative speed of the fastest and the slowest body, m/s
   double parting_speed = 0.0;  ///< where nothing moves at the start: of the fastest body at the end, m/s

@@ -46,6 +46,12 @@ void read_domain(input::Table table, Run& run) {
   const std::array<grid::Boundary, 6> faces = domain.boundary.in_order();
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<Eigen::Index>(a);
+    for (const std::size_t side : {0U, 1U}) {
+      const grid::Boundary face = faces[2 * a + side];
+      if (face == grid::Boundary::outflow) continue;
+      run.walls[a][side] = {.position = (side == 0 ? domain.lower : domain.upper)[axis],
+                            .holds = face == grid::Boundary::symmetry};
+    }
     if ((domain.dimension == grid::Dimension::axisymmetric && a == 1) || (domain.is_planar() && a == 2)) continue;
     if (faces[2 * a + 1] == grid::Boundary::symmetry) run.mirror_planes[a] = domain.upper[axis];
     if (faces[2 * a] == grid::Boundary::symmetry) run.mirror_planes[a] = domain.lower[axis];

@@ -42,6 +42,12 @@ struct Run {
   /// Position of the mirror plane normal to each axis, if there is one (the lower one of two). The axis of rings and
   /// the plane of two dimensions are none: masses are those of whole rings, or of a slice.
   std::array<std::optional<double>, 3> mirror_planes;
+  /// A face of the domain that material does not pass.
+  struct Wall {
+    double position = 0.0;
+    bool holds = true;  ///< a mirror plane, which material does not leave either
+  };
+  std::array<std::array<std::optional<Wall>, 2>, 3> walls;  ///< lower and upper, of each axis
   std::vector<BodyInput> bodies;
   std::vector<SnapshotEntry> snapshots;
 };

@@ -87,8 +87,10 @@ class Reach {
   void for_each_place(const Points& points, std::uint32_t p, const grid::BlockCoordinate& block,
                       const grid::Geometry& geometry, AtPoint&& at_point) const {
     constexpr int count = Shape::count;
+    constexpr grid::BlockShape shape = Shape::stencil.block();
     const grid::PlaceInStencil in_stencil = grid::StencilPlaces(Shape::stencil)(
-        grid::position_in_block(geometry.in_cells(points.position[p]), grid::corner_of(block)));
+        grid::position_in_block(geometry.in_cells(points.position[p]), grid::corner_of(block, shape),
+                                 shape.edges()));
     const std::array<int, 3> node = in_stencil.first_node(Shape::stencil);
     const std::array<std::size_t, 3> first = {static_cast<std::size_t>(node[0] + 1),
                                               static_cast<std::size_t>(node[1] + 1),
@@ -129,7 +131,7 @@ class Reach {
   }
 
  private:
-  static constexpr std::size_t places = grid::reach_edge;  // along a direction, from -1 on
+  static constexpr std::size_t places = grid::longest_reach_edge;  // along a direction, from -1 on
 
   /// One place along a direction, folded at the mirror planes.
   struct Folded {
@@ -144,30 +146,27 @@ class Reach {
     std::uint8_t fields = 0, field = 0;  // as in Place
   };
 
-  static constexpr std::array<std::array<std::uint64_t, grid::block_edge>, 3> layers_of_nodes() {
-    std::array<std::array<std::uint64_t, grid::block_edge>, 3> layers{};
-    for (int x = 0; x < grid::block_edge; ++x) {
-      for (int y = 0; y < grid::block_edge; ++y) {
-        for (int z = 0; z < grid::block_edge; ++z) {
-          const std::uint64_t bit = std::uint64_t{1} << grid::node_index(x, y, z);
-          layers[0][static_cast<std::size_t>(x)] |= bit;
-          layers[1][static_cast<std::size_t>(y)] |= bit;
-          layers[2][static_cast<std::size_t>(z)] |= bit;
-        }
+  /// Nodes of a block by their number along each axis: a bit each.
+  using LayersOfNodes = std::array<std::array<std::uint64_t, grid::block_shape(true).edge>, 3>;
+  static constexpr LayersOfNodes layers_of_nodes(bool planar) {
+    LayersOfNodes layers{};
+    for (int node = 0; node < grid::nodes_per_block; ++node) {
+      const std::array<int, 3> place = grid::block_shape(planar).place(node);
+      for (std::size_t a = 0; a < 3; ++a) {
+        layers[a][static_cast<std::size_t>(place[a])] |= std::uint64_t{1} << node;
       }
     }
     return layers;
   }
 
-  static FoldedAxis folded(const grid::BlockGrid& grid, int axis, int block, unsigned field) {
-    static constexpr std::array<std::array<std::uint64_t, grid::block_edge>, 3> layers = layers_of_nodes();
-    static constexpr grid::ReachMap map = grid::reach_map();
+  static FoldedAxis folded(const grid::BlockGrid& grid, std::size_t axis, int block, unsigned field) {
+    static constexpr std::array<LayersOfNodes, 2> layers_by_shape = {layers_of_nodes(false), layers_of_nodes(true)};
+    const auto& layers = layers_by_shape[grid.geometry().is_planar() ? 1 : 0][axis];
+    const int edge = grid.block_shape().along(axis), cells = grid.geometry().cells[axis];
+    const bool lower = grid.is_bonded_at(2 * axis, field), upper = grid.is_bonded_at(2 * axis + 1, field);
     FoldedAxis all;
-    const auto a = static_cast<std::size_t>(axis);
-    const int cells = grid.geometry().cells[a];
-    const bool lower = grid.is_bonded_at(2 * a, field), upper = grid.is_bonded_at(2 * a + 1, field);
-    for (std::size_t n = 0; n < places; ++n) {
-      int place = block * grid::block_edge + static_cast<int>(n) - 1;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(grid::reach_edge(edge)); ++n) {
+      int place = block * edge + static_cast<int>(n) - 1;
       const auto reflect = [&](int at) {
         place = 2 * at - place;
         all[n].sign = -all[n].sign;
@@ -175,11 +174,11 @@ class Reach {
       if (lower && place < 0) reflect(0);
       if (upper && place > cells) reflect(cells);
       if ((lower && place == 0) || (upper && place == cells)) all[n].off_plane = 0.0;
-      const int from_corner = place - block * grid::block_edge + 1;
-      if (from_corner < 0 || from_corner >= static_cast<int>(places)) continue;  // no stencil comes there
-      const auto m = static_cast<std::size_t>(from_corner);
-      all[n].block = map.block[m];
-      all[n].nodes = layers[a][static_cast<std::size_t>(map.node[m])];
+      const int from_corner = place - block * edge + 1;
+      if (from_corner < 0 || from_corner >= grid::reach_edge(edge)) continue;  // no stencil comes there
+      const int shifted = from_corner - 1 + edge;
+      all[n].block = shifted / edge;
+      all[n].nodes = layers[static_cast<std::size_t>(shifted % edge)];
     }
     return all;
   }

@@ -24,7 +24,7 @@ BlocksAtContact::BlocksAtContact(const grid::BlockGrid& grid) : geometry_(grid.g
 bool BlocksAtContact::meet(const Vector3& lower, const Vector3& upper) const {
   if (blocks_.size() == 0) return false;
   const auto block_of = [&](const Vector3& x) {
-    return floor_of_three(geometry_.in_cells(x) / grid::block_edge);
+    return floor_of_three(geometry_.in_cells(x) / geometry_.block().edges());
   };
   const grid::BlockCoordinate first = block_of(lower), last = block_of(upper);
   for (std::int32_t i = first[0]; i <= last[0]; ++i) {

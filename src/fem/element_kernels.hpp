@@ -15,7 +15,7 @@
 #include "src/fem/mesh.hpp"
 #include "src/fem/step.hpp"
 
-/// The loops over the elements of a block, element_kernels.inl, compiled for two sets of registers, one
+/// The loops over the elements of a block, element_kernels/, compiled for two sets of registers, one
 /// element per lane: `narrow` for AVX2, four elements at a time, and `wide` for AVX-512, eight. Lane by lane
 /// both compute the same in the same order, and sums go over four lanes after four, so their results are the
 /// same bits.
@@ -85,7 +85,7 @@ WHIPPLE_INLINE inline std::array<Vector, 4> columns(const std::array<Lanes, widt
   return transposed(rows);
 }
 
-#include "src/fem/element_kernels.inl"
+#include "src/fem/element_kernels/all.inl"
 
 }  // namespace narrow
 
@@ -166,7 +166,7 @@ WHIPPLE_INLINE inline std::array<Vector, 4> columns(const std::array<Lanes, widt
           __builtin_shufflevector(odd_low, odd_high, 2, 3, 10, 11, 6, 7, 14, 15)};
 }
 
-#include "src/fem/element_kernels.inl"
+#include "src/fem/element_kernels/all.inl"
 
 }  // namespace wide
 #if WHIPPLE_OTHER_TARGET

@@ -132,12 +132,12 @@ void BlockGrid::find_mirror_nodes() {
     for (auto* list : {&mirror.pairs, &mirror.pairs_apart}) list->clear();
     const auto axis = static_cast<std::size_t>(mirror.axis);
     const std::int32_t at = mirror.face % 2 == 0 ? 0 : geometry_.cells[axis];
-    const std::int32_t outward = mirror.face % 2 == 0 ? -1 : 1;
+    const std::int32_t outward = mirror.face % 2 == 0 ? -1 : 1, edge = block_.along(axis);
     for (std::size_t b = 0; b < nodes_.size() / nodes_per_block; ++b) {
       const std::size_t s = b < slots() ? b : slot_of_further_[b - slots()];
-      const std::int32_t first = blocks_.coordinate[s][axis] * block_edge;
+      const std::int32_t first = blocks_.coordinate[s][axis] * edge;
       const std::int32_t least_inside =
-          std::min((at - first) * outward, (at - first - (block_edge - 1)) * outward);
+          std::min((at - first) * outward, (at - first - (edge - 1)) * outward);
       if (least_inside > mirror_reach) continue;  // a block inside the domain
       int field = -1;                             // of the block's nodes; -1: of no or any field
       if (contact_number(s) != no_slot) {
@@ -150,9 +150,9 @@ void BlockGrid::find_mirror_nodes() {
       const bool bonded = (bonded_[static_cast<std::size_t>(mirror.face)] >> std::max(field, 0) & 1U) != 0;
       std::vector<std::uint32_t>& on_plane = bonded ? mirror.on_plane : mirror.on_plane_apart;
       std::vector<MirrorPair>& pairs = bonded ? mirror.pairs : mirror.pairs_apart;
-      for (int i = 0; i < nodes_per_block; i += static_cast<int>(step_of_nodes())) {
-        const std::array<int, 3> inside_block = {i / 16, i / 4 % 4, i % 4};
-        const std::int32_t along = blocks_.coordinate[s][axis] * block_edge + inside_block[axis];
+      for (int i = 0; i < nodes_per_block; ++i) {
+        const std::array<int, 3> inside_block = block_.place(i);
+        const std::int32_t along = blocks_.coordinate[s][axis] * edge + inside_block[axis];
         const auto index = static_cast<std::uint32_t>(b * nodes_per_block + static_cast<std::size_t>(i));
         if (along == at) on_plane.push_back(index);
         const std::int32_t inside = (at - along) * outward;
@@ -161,7 +161,7 @@ void BlockGrid::find_mirror_nodes() {
         if (bonded) outside_[index] = 1;
         std::array<std::int32_t, 3> place{};
         for (std::size_t a = 0; a < 3; ++a)
-          place[a] = blocks_.coordinate[s][a] * block_edge + inside_block[a];
+          place[a] = blocks_.coordinate[s][a] * block_.along(a) + inside_block[a];
         place[axis] = 2 * at - along;
         const std::uint32_t image = active_node(place, field);
         // Without an active image no particle reaches so far beyond the plane: its stencil is symmetric.
@@ -207,8 +207,9 @@ void BlockGrid::find_border() {
 std::uint32_t BlockGrid::active_node(const std::array<std::int32_t, 3>& place, int field) const {
   BlockCoordinate coordinate{};
   for (std::size_t a = 0; a < 3; ++a) {
-    if (place[a] < -block_edge) return no_node;
-    coordinate[a] = (place[a] + block_edge) / block_edge - 1;  // floor for >= -4
+    const int edge = block_.along(a);
+    if (place[a] < -edge) return no_node;
+    coordinate[a] = (place[a] + edge) / edge - 1;  // floor for >= -edge
   }
   const std::int32_t found = table_.find(coordinate);
   if (found == no_slot) return no_node;
@@ -219,8 +220,8 @@ std::uint32_t BlockGrid::active_node(const std::array<std::int32_t, 3>& place, i
     of_field = block(slot, static_cast<unsigned>(field));
   }
   const int in_block =
-      node_index(place[0] - coordinate[0] * block_edge, place[1] - coordinate[1] * block_edge,
-                 place[2] - coordinate[2] * block_edge);
+      block_.node(place[0] - coordinate[0] * block_.edge, place[1] - coordinate[1] * block_.edge,
+                  place[2] - coordinate[2] * block_.edge_z);
   return static_cast<std::uint32_t>(of_field * nodes_per_block + static_cast<std::size_t>(in_block));
 }
 

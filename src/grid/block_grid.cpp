@@ -26,6 +26,8 @@ BlockGrid::BlockGrid(const Geometry& geometry, MPI_Comm communicator)
     : communicator_(communicator),
       geometry_(geometry),
       origin_(geometry.lower),
+      block_(geometry.block()),
+      edges_(block_.edges()),
       forest_(geometry, communicator) {
   for (int face = 0; face < 6; ++face) {
     const Boundary boundary = geometry.boundary[static_cast<std::size_t>(face)];
@@ -47,7 +49,7 @@ std::optional<BlockCoordinate> BlockGrid::block_of(const Vector3& position) cons
   for (std::size_t a = 0; a < 3; ++a) {
     const double cells = at[a];
     if (!(cells > -1.0 && cells < geometry_.cells[a] + 1.0)) return std::nullopt;
-    block[a] = static_cast<std::int32_t>(std::floor(cells / block_edge));
+    block[a] = static_cast<std::int32_t>(std::floor(cells / block_.along(a)));
   }
   return block;
 }
@@ -69,14 +71,14 @@ std::vector<WantedBlock> BlockGrid::wanted_blocks(std::span<const Vector3> posit
     for (std::size_t p = begin; p < end; ++p) {
       const Lanes at = in_cells(position[p]);
       const bool on_grid = p + work.apart < position.size();
-      if (homes.empty() || !is_inside(at - corner)) {
+      if (homes.empty() || !is_inside(at - corner, edges_)) {
         const std::optional<BlockCoordinate> block = block_of(position[p]);
         if (!block) {
           outside = true;
           return;
         }
         homes.push_back({{*block, 0.0}, 0});
-        corner = corner_of(*block);
+        corner = corner_of(*block, block_);
       }
       Home& home = homes.back();
       home.block.weight += p < work.of_particle.size() ? work.of_particle[p] : 1.0;
@@ -150,11 +152,11 @@ void BlockGrid::for_each_mirror_block(const BlockCoordinate& block, Function&& f
   for (std::size_t face = 0; face < 6; ++face) {
     if (!is_apart_at(face)) continue;
     const std::size_t a = face / 2;
-    const std::int32_t at = face % 2 == 0 ? 0 : geometry_.cells[a];
+    const std::int32_t at = face % 2 == 0 ? 0 : geometry_.cells[a], edge = block_.along(a);
     for (std::int32_t k = at - mirror_reach; k <= at + mirror_reach; ++k) {
-      if (k < block[a] * block_edge || k >= (block[a] + 1) * block_edge) continue;
+      if (k < block[a] * edge || k >= (block[a] + 1) * edge) continue;
       BlockCoordinate mirror = block;
-      mirror[a] = (2 * at - k + block_edge) / block_edge - 1;  // floor for >= -4
+      mirror[a] = (2 * at - k + edge) / edge - 1;  // floor for >= -edge
       if (mirror[a] >= -1 && mirror[a] <= geometry_.blocks(static_cast<int>(a))) f(mirror);
     }
   }
@@ -174,13 +176,13 @@ std::vector<int> BlockGrid::owners(std::span<const Vector3> position) const {
   known.reserve(slots() + 64);
   Lanes corner{};  // of the block before: neighbours in memory are mostly in one
   for (std::size_t p = 0; p < position.size(); ++p) {
-    if (p > 0 && is_inside(in_cells(position[p]) - corner)) {
+    if (p > 0 && is_inside(in_cells(position[p]) - corner, edges_)) {
       owner[p] = owner[p - 1];
       continue;
     }
     const std::optional<BlockCoordinate> block = block_of(position[p]);
     if (!block) throw InternalError("the owner of a particle outside of the domain was asked for");
-    corner = corner_of(*block);
+    corner = corner_of(*block, block_);
     std::int32_t& rank = known.find_or_insert(*block, BlockTable::none);
     if (rank == BlockTable::none) rank = forest_.owner(*block);
     owner[p] = rank;
@@ -191,7 +193,7 @@ std::vector<int> BlockGrid::owners(std::span<const Vector3> position) const {
 void BlockGrid::owners_reached(const Vector3& position, Stencil stencil, std::vector<int>& ranks) const {
   const std::optional<BlockCoordinate> block = block_of(position);
   if (!block) return;
-  for_each_bit(touched_neighbours(in_cells(position) - corner_of(*block), stencil), [&](unsigned n) {
+  for_each_bit(touched_neighbours(in_cells(position) - corner_of(*block, block_), stencil), [&](unsigned n) {
     const BlockCoordinate reached = shifted(*block, static_cast<int>(n));
     for (std::size_t a = 0; a < 3; ++a) {
       if (reached[a] < -1 || reached[a] > geometry_.blocks(static_cast<int>(a))) return;
@@ -218,7 +220,7 @@ void BlockGrid::activate(std::span<const Vector3> position, std::span<const Vect
   corner_.assign(slots(), Lanes{});
   parallel::for_each(slots(), [&](std::size_t s) {
     const BlockCoordinate& block = blocks_.coordinate[s];
-    corner_[s] = corner_of(block);
+    corner_[s] = corner_of(block, block_);
     // Of two neighbours the first finds the second, and leaves itself with it.
     for (std::size_t n = 0; n < 27; ++n) {
       if (n == 13) {
@@ -286,8 +288,7 @@ void BlockGrid::set_apart() {
 
 void BlockGrid::clear() {
   parallel::for_each(nodes_.size() / nodes_per_block, [&](std::size_t b) {
-    Node* of_block = &nodes_[b * nodes_per_block];
-    for (std::size_t i = 0; i < nodes_per_block; i += step_of_nodes()) of_block[i] = {broadcast(0.0), broadcast(0.0)};
+    std::fill_n(&nodes_[b * nodes_per_block], nodes_per_block, Node{broadcast(0.0), broadcast(0.0)});
   });
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -14,58 +13,17 @@
 #include "src/grid/block_table.hpp"
 #include "src/grid/forest.hpp"
 #include "src/grid/geometry.hpp"
+#include "src/grid/node.hpp"
 #include "src/grid/stencil.hpp"
 #include "src/core/parallel/threads.hpp"
 
 namespace whipple::grid {
-
-/// Payload of a node, two registers of four doubles (SI).
-/// After particles_to_grid: `first` = mass, momentum x y z;           `second` = mass * sound speed, force x
-/// y z. After the grid update:   `first` = velocity x y z, relaxation beta; `second` = velocity increment x y
-/// z, heat per mass (J/kg) that contact gives to the particles around (docs/theory/contact.md, 4).
-struct alignas(64) Node {
-  Lanes first;
-  Lanes second;
-};
 
 /// Work of a step, in any unit that all ranks share.
 struct Work {
   std::span<const double> of_particle;  ///< of this rank; those that are not listed count as 1
   double of_block = 0.0;                ///< of the nodes of a block with particles, whatever their number
   std::size_t apart = 0;  ///< of the points listed, the last so many are work but reach no nodes
-};
-
-constexpr int node_index(int x, int y, int z) { return (x * block_edge + y) * block_edge + z; }
-constexpr int neighbour_index(int x, int y, int z) { return (x * 3 + y) * 3 + z; }
-
-/// Points by block.
-struct PointList {
-  std::vector<std::uint32_t> begin;   ///< of each slot in `points`, and the end
-  std::vector<std::uint32_t> points;  ///< indices, block by block
-
-  [[nodiscard]] std::span<const std::uint32_t> in(std::size_t slot) const {
-    return std::span(points).subspan(begin[slot], begin[slot + 1] - begin[slot]);
-  }
-};
-
-/// Calls f(position) for every bit that is set, from the lowest.
-template <class Function>
-void for_each_bit(std::uint64_t bits, Function&& f) {
-  for (; bits != 0; bits &= bits - 1) f(static_cast<unsigned>(std::countr_zero(bits)));
-}
-
-/// Values that go with the contact slots of a grid: those of slot number c stand from begin[c] to begin[c +
-/// 1].
-struct ContactValues {
-  std::vector<Lanes> values;
-  std::vector<std::uint32_t> begin;
-};
-
-/// Values that go with all blocks of nodes of some slots, of which every rank that works with them knows as
-/// many: those of slot s stand from begin[s] to begin[s + 1].
-struct SlotValues {
-  std::vector<Lanes> values;
-  std::vector<std::uint32_t> begin;
 };
 
 /// The sparse background grid: the blocks where particles are, their nodes, and the list of particles in each
@@ -161,6 +119,7 @@ class BlockGrid {
   void particles_removed(std::span<const Move> moves, std::size_t size);
 
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
+  [[nodiscard]] BlockShape block_shape() const { return block_; }
   [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
   [[nodiscard]] std::size_t slots() const { return blocks_.coordinate.size(); }
   /// The first so many slots are blocks of this rank; the others are borrowed.
@@ -222,14 +181,11 @@ class BlockGrid {
   [[nodiscard]] std::span<const PlaceInStencil> places(Points points) const {
     return points == Points::particles ? place_of_particle_ : place_of_guest_;
   }
-  /// Returns how far apart in memory those nodes of a block are that particles reach: in two dimensions they lie in the
-  /// plane z = lower, and z is the fastest direction.
-  [[nodiscard]] std::size_t step_of_nodes() const { return geometry_.is_planar() ? block_edge : 1; }
   /// Distance of a particle from the lower face along y at the last `bin` (m): the radius of a ring.
   [[nodiscard]] double radius_at_bin(std::size_t p) const {
     const auto slot = static_cast<std::size_t>(slot_of_particle_[p]);
     const PlaceInStencil& place = place_of_particle_[p];
-    const double first = block_edge * coordinate(slot)[1] + place.first_node(stencil_)[1];
+    const double first = block_.edge * coordinate(slot)[1] + place.first_node_along_y_in_plane(stencil_);
     return (first + place.from_first(1)) * geometry_.cell_size;
   }
   /// Calls f(points of one field, field) for the points of a slot, in the order of their indices; once for
@@ -325,26 +281,6 @@ class BlockGrid {
   void borrow_from_owners(SlotValues& values);
   void maximum_to_owners(SlotValues& values);
 
-  /// A node beyond a mirror plane and its image inside, as indices into all_nodes().
-  struct MirrorPair {
-    std::uint32_t outside;
-    std::uint32_t image;
-  };
-  static constexpr std::uint32_t no_node = static_cast<std::uint32_t>(-1);
-  struct MirrorPlane {
-    int face = 0;  ///< in the order of Geometry::boundary
-    int axis = 0;
-    Boundary kind = Boundary::symmetry;
-    /// Pairs of fields that are continuous with their mirror images (`bond_at_planes`).
-    std::vector<MirrorPair> pairs;
-    std::vector<std::uint32_t> on_plane;
-    /// Pairs of fields that are in contact with their mirror images.
-    std::vector<MirrorPair> pairs_apart;
-    std::vector<std::uint32_t> on_plane_apart;
-    /// Inner nodes that particles may reach from beyond the plane: the images of some rank's `outside` nodes.
-    std::vector<std::uint32_t> near;
-    [[nodiscard]] double outward() const { return face % 2 == 0 ? -1.0 : 1.0; }
-  };
   /// Sets the fields that are continuous with their images at the mirror planes: one bit per field for each
   /// face. By default all are, except at separating walls. Call before `bin`.
   void bond_at_planes(const std::array<std::uint64_t, 6>& fields);
@@ -448,6 +384,8 @@ class BlockGrid {
   MPI_Comm communicator_;
   Geometry geometry_;       // with the shift
   Vector3 origin_;          // its lower corner without
+  BlockShape block_;
+  Lanes edges_;  // of it
   double foresight_ = 0.0;  // cells that shifts may move a stencil by
   Stencil stencil_;
   Forest forest_;

@@ -36,7 +36,8 @@ bool BlockGrid::look_up(std::span<const Vector3> position) {
     std::int32_t slot = no_slot;
     for (std::size_t p = begin; p < end; ++p) {
       // Neighbours in memory are mostly in one block.
-      if (slot == no_slot || !is_inside(in_cells(position[p]) - corner_[static_cast<std::size_t>(slot)])) {
+      if (slot == no_slot ||
+          !is_inside(in_cells(position[p]) - corner_[static_cast<std::size_t>(slot)], edges_)) {
         slot = slot_at(position[p]);
       }
       if (slot == no_slot) complete = false;
@@ -75,7 +76,7 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
     std::atomic_ref(reached_[run.slot]).fetch_or(touched, std::memory_order_relaxed);
     if ((touched & absent) == 0) return true;
     for (std::size_t p = run.begin; p < run.end; ++p) {
-      const Lanes local = position_in_block(in_cells(position[p]), corner_[run.slot]);
+      const Lanes local = position_in_block(in_cells(position[p]), corner_[run.slot], edges_);
       if ((touched_neighbours(local, stencil) & absent) != 0) return false;
     }
     return true;
@@ -101,7 +102,7 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
         auto slot = static_cast<std::uint32_t>(slot_of_particle_[p]);
         const Lanes at = in_cells(position[p]);
         Lanes local = at - corner_[slot];
-        if (!is_inside(local)) {
+        if (!is_inside(local, edges_)) {
           const std::int32_t moved = slot_of_neighbour(slot, at);
           if (moved == no_slot) {
             complete = false;
@@ -109,7 +110,7 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
           }
           slot = static_cast<std::uint32_t>(moved);
           slot_of_particle_[p] = moved;
-          local = position_in_block(at, corner_[slot]);
+          local = position_in_block(at, corner_[slot], edges_);
           // Where something comes to is not at rest.
           std::atomic_ref(resting_[slot]).store(0, std::memory_order_relaxed);
         }
@@ -137,7 +138,7 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
 std::int32_t BlockGrid::slot_of_neighbour(std::size_t slot, Lanes in_cells) const {
   int neighbour = 0;
   for (int a = 0; a < 3; ++a) {
-    const double block = std::floor(in_cells[a] / block_edge);
+    const double block = std::floor(in_cells[a] / block_.along(static_cast<std::size_t>(a)));
     const double offset = block - blocks_.coordinate[slot][static_cast<std::size_t>(a)];
     if (!(std::abs(offset) <= 1.0)) return no_slot;
     neighbour = neighbour * 3 + static_cast<int>(offset) + 1;
@@ -155,7 +156,7 @@ bool BlockGrid::locate_guests(std::span<const Vector3> guests, Stencil stencil) 
     if (slot == no_slot) return false;
     slot_of_guest_[g] = slot;
     const auto at = static_cast<std::size_t>(slot);
-    const Lanes local = position_in_block(in_cells(guests[g]), corner_[at]);
+    const Lanes local = position_in_block(in_cells(guests[g]), corner_[at], edges_);
     place_of_guest_[g] = places(local);
     const std::uint32_t touched = touched_neighbours(local, stencil);
     reached_[at] |= touched;
@@ -217,7 +218,7 @@ void BlockGrid::list_by_stencil(std::vector<std::uint32_t>& order) const {
   parallel::for_each_uneven(slots(), [&](std::size_t slot) {  // counting sort
     const std::span<const std::uint32_t> members = particles_in(slot);
     if (members.empty()) return;
-    std::array<std::uint32_t, reach_edge * reach_edge * reach_edge + 1> next{};
+    std::array<std::uint32_t, Stencil{}.nodes_reached() + 1> next{};
     const auto first_node = [&](std::uint32_t p) {
       return static_cast<std::size_t>(place_of_particle_[p].first_node());
     };
@@ -309,7 +310,7 @@ void BlockGrid::count_cells(std::span<const Vector3> position, std::span<const V
   cell_count_.assign(slots() * nodes_per_block, 0);
   const auto count = [&](std::size_t slot, const Vector3& point) {
     const std::array<int, 3> cell = floor_of_three(in_cells(point) - corner_[slot]);
-    ++cell_count_[slot * nodes_per_block + static_cast<std::size_t>(node_index(cell[0], cell[1], cell[2]))];
+    ++cell_count_[slot * nodes_per_block + static_cast<std::size_t>(block_.node(cell[0], cell[1], cell[2]))];
   };
   for (std::size_t p = 0; p < position.size(); ++p) {
     count(static_cast<std::size_t>(slot_of_particle_[p]), position[p]);
@@ -335,22 +336,27 @@ bool BlockGrid::is_alone(std::uint32_t particle, const Vector3& position) const 
   }
   const auto slot = static_cast<std::size_t>(slot_of_particle_[particle]);
   const std::array<int, 3> cell = floor_of_three(place - corner_[slot]);
+  const int ring_z = geometry_.is_planar() ? 0 : ring;
+  const auto place_along = [&](int c, std::size_t axis) {  // block around (0 to 2), cell in it
+    const int edge = block_.along(axis);
+    return std::pair{c < 0 ? 0 : c < edge ? 1 : 2, (c + edge) % edge};
+  };
   int count = 0;
-  for (int x = cell[0] - ring; x <= cell[0] + ring; ++x) {
-    for (int y = cell[1] - ring; y <= cell[1] + ring; ++y) {
-      for (int z = cell[2] - ring; z <= cell[2] + ring; ++z) {
-        const auto block = [](int c) { return c < 0 ? 0 : c < block_edge ? 1 : 2; };
+  for (int i = cell[0] - ring; i <= cell[0] + ring; ++i) {
+    const auto [block_x, x] = place_along(i, 0);
+    for (int j = cell[1] - ring; j <= cell[1] + ring; ++j) {
+      const auto [block_y, y] = place_along(j, 1);
+      for (int k = cell[2] - ring_z; k <= cell[2] + ring_z; ++k) {
+        const auto [block_z, z] = place_along(k, 2);
         const std::int32_t owner =
-            neighbours_[slot][static_cast<std::size_t>(neighbour_index(block(x), block(y), block(z)))];
+            neighbours_[slot][static_cast<std::size_t>(neighbour_index(block_x, block_y, block_z))];
         if (owner == no_slot) {
           if (is_shared()) return false;
           continue;
         }
         const auto of = static_cast<std::size_t>(owner);
         if (unshared_[of] == 0) return false;
-        const auto inside = [](int c) { return (c + block_edge) % block_edge; };
-        count += cell_count_[of * nodes_per_block +
-                             static_cast<std::size_t>(node_index(inside(x), inside(y), inside(z)))];
+        count += cell_count_[of * nodes_per_block + static_cast<std::size_t>(block_.node(x, y, z))];
         if (count > 1) return false;
       }
     }

@@ -52,7 +52,7 @@ inline std::uint32_t touched_neighbours_of_box(Lanes first, Lanes last, Stencil 
   static constexpr std::array<std::uint32_t, 64> by_direction = masks_by_direction();
   const unsigned directions = stencil.planar ? 3U : 7U;
   const unsigned before = bits(first < 0.0) & directions;
-  const unsigned after = bits(last > static_cast<double>(block_edge - stencil.count)) & directions;
+  const unsigned after = bits(last > static_cast<double>(stencil.block().edge - stencil.count)) & directions;
   return by_direction[before | after << 3U];
 }
 /// Neighbours that the nodes of a stencil fall into when the particle is at `local` (cells from the block's

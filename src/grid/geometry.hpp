@@ -12,9 +12,25 @@
 
 namespace whipple::grid {
 
-/// Cells along the edge of a block, and nodes that a block owns along each direction.
-constexpr int block_edge = 4;
-constexpr int nodes_per_block = block_edge * block_edge * block_edge;
+/// Cells of a block along each direction, and as many nodes that it owns. Nodes are numbered with z fastest.
+struct BlockShape {
+  int edge = 4;    ///< along x and y
+  int edge_z = 4;  ///< along z
+
+  [[nodiscard]] constexpr int along(std::size_t axis) const { return axis == 2 ? edge_z : edge; }
+  [[nodiscard]] Lanes edges() const {
+    return Lanes{static_cast<double>(edge), static_cast<double>(edge), static_cast<double>(edge_z), 1.0};
+  }
+  [[nodiscard]] constexpr int node(int x, int y, int z) const { return (x * edge + y) * edge_z + z; }
+  /// Place of a node in the block, by direction.
+  [[nodiscard]] constexpr std::array<int, 3> place(int node) const {
+    return {node / (edge * edge_z), node / edge_z % edge, node % edge_z};
+  }
+};
+/// Returns cubes of 4 x 4 x 4 cells, or in two dimensions squares of 8 x 8 x 1: as many nodes.
+constexpr BlockShape block_shape(bool planar) { return planar ? BlockShape{8, 1} : BlockShape{4, 4}; }
+constexpr int nodes_per_block = 64;
+static_assert(block_shape(true).node(7, 7, 0) == 63 && block_shape(false).node(3, 3, 3) == 63);
 
 /// Velocity fields that bodies may have of their own (docs/theory/contact.md).
 constexpr unsigned maximum_fields = 64;
@@ -119,8 +135,12 @@ struct Geometry {
     }
     return within == all_lanes;
   }
+  [[nodiscard]] BlockShape block() const { return block_shape(is_planar()); }
   /// Blocks along an axis that hold cells of the domain (without the layer outside).
-  [[nodiscard]] std::int32_t blocks(int axis) const { return (cells[axis] + block_edge - 1) / block_edge; }
+  [[nodiscard]] std::int32_t blocks(int axis) const {
+    const int edge = block().along(static_cast<std::size_t>(axis));
+    return (cells[axis] + edge - 1) / edge;
+  }
 };
 
 }  // namespace whipple::grid

@@ -13,9 +13,10 @@
 /// The nodes that a point reaches, and those that the points of a block reach together.
 namespace whipple::grid {
 
-/// Edge of the widest region of nodes that the points of one block reach: one before, four inside, two
+/// Returns the edge of the widest region of nodes that the points of a block reach: one before, those of the block, two
 /// behind.
-constexpr int reach_edge = block_edge + 3;
+constexpr int reach_edge(int block_edge) { return block_edge + 3; }
+constexpr int longest_reach_edge = reach_edge(block_shape(true).edge);
 
 /// Nodes that a kernel reaches from a particle: `count` nodes per direction, the first at floor(X - shift)
 /// where X is the position in cells. In two dimensions one node along z, that of the plane z = lower.
@@ -25,38 +26,44 @@ struct Stencil {
   bool planar = false;
 
   /// Nodes that points of a block reach before those of the block, and edge of all that they reach.
+  [[nodiscard]] constexpr BlockShape block() const { return block_shape(planar); }
   [[nodiscard]] constexpr int before() const { return shift > 0.0 ? 1 : 0; }
-  [[nodiscard]] constexpr int edge() const { return before() == 0 ? block_edge + 1 : reach_edge; }
+  [[nodiscard]] constexpr int edge() const {
+    return before() == 0 ? block().edge + 1 : reach_edge(block().edge);
+  }
   /// The same along z.
   [[nodiscard]] constexpr int before_z() const { return planar ? 0 : before(); }
   [[nodiscard]] constexpr int edge_z() const { return planar ? 1 : edge(); }
+  [[nodiscard]] constexpr int nodes_reached() const { return edge() * edge() * edge_z(); }
 };
 
 /// Lower corner of a block, in cells.
-inline Lanes corner_of(const BlockCoordinate& block) {
-  return Lanes{static_cast<double>(block_edge * block[0]), static_cast<double>(block_edge * block[1]),
-               static_cast<double>(block_edge * block[2]), 0.0};
+inline Lanes corner_of(const BlockCoordinate& block, BlockShape shape) {
+  return Lanes{static_cast<double>(shape.edge * block[0]), static_cast<double>(shape.edge * block[1]),
+               static_cast<double>(shape.edge_z * block[2]), 0.0};
+}
+/// Returns whether a position, in cells from the lower corner of a block, is inside of it.
+/// @param edges  of the block, as of BlockShape::edges
+inline bool is_inside(Lanes local, Lanes edges) {
+  return bits((local >= 0.0) & (local < edges)) == all_lanes;
 }
 /// Position in cells from the corner of the block that it lies in, below the block's upper corner: where it
 /// is just below a corner at zero, the difference may round up.
-/// Is a position, in cells from the lower corner of a block, inside of it?
-inline bool is_inside(Lanes local) {
-  return bits((local >= 0.0) & (local < double{block_edge})) == all_lanes;
-}
-inline Lanes position_in_block(Lanes in_cells, Lanes corner) {
-  constexpr double below_end = block_edge * (1.0 - std::numeric_limits<double>::epsilon());
-  return minimum(in_cells - corner, broadcast(below_end));
+inline Lanes position_in_block(Lanes in_cells, Lanes corner, Lanes edges) {
+  constexpr double below_end = 1.0 - std::numeric_limits<double>::epsilon();
+  return minimum(in_cells - corner, below_end * edges);
 }
 
 /// Place of a node of the widest region, per direction: offset of the block that owns it (0 before, 1 same, 2
 /// behind) and index inside that block. Position 0 is the node before the block's first.
 struct ReachMap {
-  std::array<int, reach_edge> block{};
-  std::array<int, reach_edge> node{};
+  std::array<int, longest_reach_edge> block{};
+  std::array<int, longest_reach_edge> node{};
 };
-constexpr ReachMap reach_map() {
+/// @param block_edge  of the block along the direction
+constexpr ReachMap reach_map(int block_edge) {
   ReachMap map;
-  for (int i = 0; i < reach_edge; ++i) {
+  for (int i = 0; i < reach_edge(block_edge); ++i) {
     const int shifted = i - 1 + block_edge;
     map.block[static_cast<std::size_t>(i)] = shifted / block_edge;
     map.node[static_cast<std::size_t>(i)] = shifted % block_edge;
@@ -79,6 +86,11 @@ class PlaceInStencil {
     std::int32_t low;
     __builtin_memcpy(&low, reinterpret_cast<const double*>(&lanes_) + 3, sizeof(low));
     return low;
+  }
+  /// Returns the first node along y counted from the lower corner of the block, of a planar stencil.
+  [[nodiscard]] int first_node_along_y_in_plane(Stencil stencil) const {
+    constexpr int edge = block_shape(true).edge;  // of the block: divisors that the compiler knows
+    return stencil.before() == 0 ? first_node() % (edge + 1) : first_node() % reach_edge(edge) - 1;
   }
   /// Returns the first node counted from the lower corner of the block, by direction.
   [[nodiscard]] std::array<int, 3> first_node(Stencil stencil) const {

@@ -82,7 +82,7 @@ double moving_share(const solver::Simulation& s) {
     here.include(point.position);
     for (const Box& source : sources) way = std::min(way, here.gap_to(source).norm());
     if (is_active(point)) way = 0.0;
-    way = std::max(0.0, way - layers_of_blocks * grid::block_edge * setup.domain.cell_size);
+    way = std::max(0.0, way - layers_of_blocks * s.grid().block_shape().edge * setup.domain.cell_size);
     sums[0] += std::max(0.0, 1.0 - way / (std::max(point.sound_speed, fastest) * setup.time.end));
     sums[1] += 1.0;
   });

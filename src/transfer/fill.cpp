@@ -26,7 +26,7 @@ std::vector<double> fill_of_cells(const Particles& particles, const TransitionNo
     });
   }
   scalars::fold(grid);
-  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {  // images bring to it as much again
+  for (const grid::MirrorPlane& plane : grid.mirror_planes()) {  // images bring to it as much again
     for (const auto* nodes : {&plane.on_plane, &plane.on_plane_apart}) {
       for (const std::uint32_t node : *nodes) grid.all_nodes()[node].first *= 2.0;
     }

@@ -19,7 +19,7 @@ constexpr double no_mass = 1e-300;  // kg; below it momentum / mass may overflow
 
 /// Sign of the components under reflection, for a vector in lanes 1 to 3 (P2G form) or 0 to 2 (velocity
 /// form).
-Lanes reflection(const BlockGrid::MirrorPlane& plane, int first_lane) {
+Lanes reflection(const grid::MirrorPlane& plane, int first_lane) {
   Lanes sign = broadcast(1.0);
   for (int c = 0; c < 3; ++c) {
     if (plane.kind == grid::Boundary::no_slip || c == plane.axis) sign[first_lane + c] = -1.0;
@@ -94,11 +94,11 @@ void GridUpdate::remember_nodes_at_planes(const BlockGrid& grid) {
   const auto add = [&](std::uint32_t node, std::uint64_t only_image) {
     nodes.push_back(2 * static_cast<std::uint64_t>(node) + only_image);
   };
-  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+  for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
     // Where matter meets its image as another body it may not do so yet.
-    for (const BlockGrid::MirrorPair& pair : plane.pairs_apart) add(pair.outside, 1);
+    for (const grid::MirrorPair& pair : plane.pairs_apart) add(pair.outside, 1);
     for (const std::uint32_t on_plane : plane.on_plane_apart) add(on_plane, 1);
-    for (const BlockGrid::MirrorPair& pair : plane.pairs) add(pair.outside, 0);
+    for (const grid::MirrorPair& pair : plane.pairs) add(pair.outside, 0);
     // Another rank may be the one that folds onto them.
     for (const std::uint32_t near : plane.near) add(near, 1);
     for (const std::uint32_t on_plane : plane.on_plane) add(on_plane, 0);
@@ -125,16 +125,16 @@ void GridUpdate::remember_content(const BlockGrid& grid, Nodes which) {
 /// Folds every plane and restricts the nodes on it, where matter is one with its image.
 void GridUpdate::fold_planes(BlockGrid& grid, Nodes which, bool with_forces) {
   const std::span<Node> nodes = grid.all_nodes();
-  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+  for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
     const Lanes sign = reflection(plane, 1);
     parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
-      const BlockGrid::MirrorPair& pair = plane.pairs[i];
+      const grid::MirrorPair& pair = plane.pairs[i];
       if (!among(grid, pair.image, which)) return;
       fold(nodes[pair.image], nodes[pair.outside], sign, with_forces);
     });
   }
   // After all folds, because between two planes one cell apart each folds onto the nodes of the other.
-  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+  for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
     const Lanes sign = reflection(plane, 1);
     parallel::for_each(plane.on_plane.size(), [&](std::size_t i) {
       const std::uint32_t node = plane.on_plane[i];
@@ -148,10 +148,10 @@ void GridUpdate::copy_back(BlockGrid& grid, Nodes which) {
   const std::span<Node> nodes = grid.all_nodes();
   const auto planes = grid.mirror_planes();
   for (std::size_t n = planes.size(); n-- > 0;) {
-    const BlockGrid::MirrorPlane& plane = planes[n];
+    const grid::MirrorPlane& plane = planes[n];
     const Lanes sign = reflection(plane, 0);
     parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
-      const BlockGrid::MirrorPair& pair = plane.pairs[i];
+      const grid::MirrorPair& pair = plane.pairs[i];
       if (!among(grid, pair.image, which)) return;
       nodes[pair.outside].first = sign * nodes[pair.image].first;
       nodes[pair.outside].second = sign * nodes[pair.image].second;
@@ -217,7 +217,7 @@ GridBalance GridUpdate::begin_advance(BlockGrid& grid, double dt, const Relaxati
     const double mass_kept =
         grid.is_contact_block(block) || mirror_contact_.concerns_block(block) ? 1.0 : 0.0;
     const std::array<double, grid::nodes_per_block> betas = relaxation_of(&nodes[first], relaxation, rate);
-    for (std::size_t i = first; i < first + grid::nodes_per_block; i += grid.step_of_nodes()) {
+    for (std::size_t i = first; i < first + grid::nodes_per_block; ++i) {
       Node& node = nodes[i];
       const double mass = node.first[0];
       if (mass < no_mass || grid.is_image(i)) {
@@ -278,7 +278,7 @@ void GridUpdate::begin_velocity_from_momentum(BlockGrid& grid) {
   parallel::for_each(grid.owned_blocks(), [&](std::size_t b) {
     const std::size_t block = grid.owned_block(b), begin = block * grid::nodes_per_block;
     const double mass_kept = mirror_contact_.concerns_block(block) ? 1.0 : 0.0;
-    for (std::size_t i = begin; i < begin + grid::nodes_per_block; i += grid.step_of_nodes()) {
+    for (std::size_t i = begin; i < begin + grid::nodes_per_block; ++i) {
       Lanes& first = nodes[i].first;
       const double mass = first[0];
       if (mass < no_mass || grid.is_image(i)) {

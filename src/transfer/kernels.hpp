@@ -14,7 +14,7 @@
 #include "src/transfer/grid_to_particles.hpp"
 #include "src/transfer/shape_function.hpp"
 
-/// The loops over points and their nodes, kernels.inl, compiled for two sets of registers: `narrow` for AVX2,
+/// The loops over points and their nodes, kernels/, compiled for two sets of registers: `narrow` for AVX2,
 /// whose register holds half a node, and `wide` for AVX-512, whose register holds a node when points bring
 /// something to it, and halves of two nodes when two points take something at a time. Lane by lane both
 /// compute the same in the same order, so their results are the same bits.
@@ -110,7 +110,7 @@ WHIPPLE_INLINE inline Lanes second_of(Both both) { return both.second; }
 WHIPPLE_INLINE inline Both load_node(const grid::Node& node) { return {node.first, node.second}; }
 WHIPPLE_INLINE inline void store_node(grid::Node& node, Both value) { node = {value.first, value.second}; }
 
-#include "src/transfer/kernels.inl"
+#include "src/transfer/kernels/all.inl"
 
 }  // namespace narrow
 
@@ -187,7 +187,7 @@ WHIPPLE_INLINE inline void store_node(grid::Node& node, Both value) {
   *reinterpret_cast<NodeRegister*>(&node) = value;
 }
 
-#include "src/transfer/kernels.inl"
+#include "src/transfer/kernels/all.inl"
 
 }  // namespace wide
 #if WHIPPLE_OTHER_TARGET

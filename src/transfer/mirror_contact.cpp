@@ -19,7 +19,7 @@ constexpr double no_mass = 1e-300;  // kg
 constexpr double sticking_gap = 0.04;
 
 /// 1 for the components that reflection reverses, in lanes 0 to 2.
-Lanes reversed(const BlockGrid::MirrorPlane& plane) {
+Lanes reversed(const grid::MirrorPlane& plane) {
   Lanes lanes{};
   for (int c = 0; c < 3; ++c) {
     if (plane.kind == grid::Boundary::no_slip || c == plane.axis) lanes[c] = 1.0;
@@ -60,7 +60,7 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
   first_of_block_.clear();
   folded_.clear();
   std::vector<std::uint8_t> concerned(grid.slots(), 0);
-  for (const BlockGrid::MirrorPlane& mirror : grid.mirror_planes()) {
+  for (const grid::MirrorPlane& mirror : grid.mirror_planes()) {
     if (!grid.is_apart_at(static_cast<std::size_t>(mirror.face))) continue;
     Plane& plane = planes_.emplace_back();
     plane.of.face = mirror.face;
@@ -69,9 +69,9 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
     const auto axis = static_cast<std::size_t>(mirror.axis);
     const std::int32_t at = mirror.face % 2 == 0 ? 0 : grid.geometry().cells[axis];
     for (std::size_t s = 0; s < grid.slots(); ++s) {
-      const std::int32_t first = grid.coordinate(s)[axis] * grid::block_edge;
-      if (first <= at + BlockGrid::mirror_reach &&
-          first + grid::block_edge - 1 >= at - BlockGrid::mirror_reach) {
+      const int edge = grid.block_shape().along(axis);
+      const std::int32_t first = grid.coordinate(s)[axis] * edge;
+      if (first <= at + BlockGrid::mirror_reach && first + edge - 1 >= at - BlockGrid::mirror_reach) {
         concerned[s] = 1;
       }
     }
@@ -98,14 +98,14 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
   own_.values.assign(next, Lanes{});
   extent_.values.assign(next, broadcast(-std::numeric_limits<double>::infinity()));
   heat_.assign(next / lanes_per_node, 0.0);
-  const auto both_concern = [&](const BlockGrid::MirrorPair& pair) {
+  const auto both_concern = [&](const grid::MirrorPair& pair) {
     return concerns_block(pair.outside / nodes_per_block) && concerns_block(pair.image / nodes_per_block);
   };
   auto plane = planes_.begin();
   const auto mirrors = grid.mirror_planes();
-  for (const BlockGrid::MirrorPlane& mirror : mirrors) {
+  for (const grid::MirrorPlane& mirror : mirrors) {
     if (!grid.is_apart_at(static_cast<std::size_t>(mirror.face))) continue;
-    for (const BlockGrid::MirrorPair& pair : mirror.pairs_apart) {
+    for (const grid::MirrorPair& pair : mirror.pairs_apart) {
       if (both_concern(pair)) plane->couples.push_back({pair.image, pair.outside});
     }
     for (const std::uint32_t node : mirror.on_plane_apart) plane->couples.push_back({node, node});
@@ -128,11 +128,11 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
   const auto count = [&](std::uint32_t node) {
     if (concerns_block(node / nodes_per_block)) ++planes_of[place(node) / lanes_per_node];
   };
-  for (const BlockGrid::MirrorPlane& mirror : mirrors) {
+  for (const grid::MirrorPlane& mirror : mirrors) {
     if (!grid.is_apart_at(static_cast<std::size_t>(mirror.face))) continue;
     for (const std::uint32_t node : mirror.near) count(node);
     for (const std::uint32_t node : mirror.on_plane_apart) count(node);
-    for (const BlockGrid::MirrorPair& pair : mirror.pairs_apart) count(pair.outside);
+    for (const grid::MirrorPair& pair : mirror.pairs_apart) count(pair.outside);
   }
   for (Plane& of : planes_) {
     for (std::uint32_t c = 0; c < of.couples.size(); ++c) {
@@ -144,7 +144,7 @@ void MirrorContact::lay_out(const BlockGrid& grid) {
     }
   }
   for (std::size_t n = mirrors.size(); n-- > 0;) {
-    for (const BlockGrid::MirrorPair& pair : mirrors[n].pairs) {
+    for (const grid::MirrorPair& pair : mirrors[n].pairs) {
       if (both_concern(pair)) folded_.push_back({pair.outside, pair.image});
     }
   }

@@ -67,7 +67,7 @@ class MirrorContact {
     std::uint32_t node, mirror;
   };
   struct Plane {
-    grid::BlockGrid::MirrorPlane of;  // without its lists
+    grid::MirrorPlane of;  // without its lists
     std::vector<Couple> couples;
     std::vector<double> share;  // of the step, that the two touch in: of each couple
     /// Those of nodes that other planes concern too: up to eight nodes have images of one another.

@@ -47,7 +47,8 @@ struct Positions {
 
 template <class Shape>
 void MirrorContact::extend(const Particles& particles, std::span<const Vector3> guests, BlockGrid& grid) {
-  static constexpr grid::ReachMap map = grid::reach_map();
+  static constexpr grid::BlockShape block_shape = Shape::stencil.block();
+  static constexpr grid::ReachMap map = grid::reach_map(block_shape.edge), map_z = grid::reach_map(block_shape.edge_z);
   constexpr int count = Shape::count;
   const grid::Geometry& geometry = grid.geometry();
   const Lanes upper_corner = {geometry.upper(0), geometry.upper(1), geometry.upper(2), 0.0};
@@ -92,9 +93,9 @@ void MirrorContact::extend(const Particles& particles, std::span<const Vector3> 
             const auto at_y = static_cast<std::size_t>(from[1] + static_cast<int>(j) + 1);
             const auto at_z = static_cast<std::size_t>(from[2] + static_cast<int>(k) + 1);
             const std::uint32_t of_block = first[static_cast<std::size_t>(
-                grid::neighbour_index(map.block[at_x], map.block[at_y], map.block[at_z]))];
+                grid::neighbour_index(map.block[at_x], map.block[at_y], map_z.block[at_z]))];
             if (of_block == nowhere) continue;
-            const int inside = grid::node_index(map.node[at_x], map.node[at_y], map.node[at_z]);
+            const int inside = block_shape.node(map.node[at_x], map.node[at_y], map_z.node[at_z]);
             Lanes* extent = &extent_.values[of_block + lanes_per_node * static_cast<std::size_t>(inside)];
             extent[0] = maximum(extent[0], beyond_lower);
             extent[1] = maximum(extent[1], beyond_upper);

@@ -101,7 +101,7 @@ void gather(BlockGrid& grid, Function&& f) {
 /// @param apart_too  also of matter that meets its image as another body; else its nodes beyond are its own
 inline void fold(BlockGrid& grid, bool apart_too = true) {
   const std::span<Node> nodes = grid.all_nodes();
-  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+  for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
     for (const auto* pairs : {&plane.pairs, &plane.pairs_apart}) {
       if (pairs == &plane.pairs_apart && !apart_too) continue;
       parallel::for_each(pairs->size(), [&](std::size_t i) {

@@ -91,7 +91,7 @@ void for_each_node(BlockGrid& grid, const std::vector<std::uint64_t>& marked, st
     if (marked[slot] == 0) return;
     const auto of_field = [&](unsigned field) {
       Node* const nodes = grid.nodes(slot, field);
-      for (std::size_t i = 0; i < grid::nodes_per_block; i += grid.step_of_nodes()) f(nodes[i]);
+      for (std::size_t i = 0; i < grid::nodes_per_block; ++i) f(nodes[i]);
     };
     if (grid.contact_number(slot) == BlockGrid::no_slot) {
       of_field(0);
@@ -104,7 +104,7 @@ void for_each_node(BlockGrid& grid, const std::vector<std::uint64_t>& marked, st
 /// Nodes beyond a mirror plane may be folded onto others whose block is not next to theirs.
 void clear_beyond_planes(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
-  for (const BlockGrid::MirrorPlane& plane : grid.mirror_planes()) {
+  for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
     parallel::for_each(plane.pairs.size(),
                        [&](std::size_t i) { nodes[plane.pairs[i].outside].first = broadcast(0.0); });
   }

@@ -378,7 +378,7 @@ TYPED_TEST(Transfer, NodesOfEveryStencilAreActiveWhereTheDivisionRounds) {
         const grid::PlaceInStencil& place = grid.places(grid::BlockGrid::Points::particles)[0];
         const int first = place.first_node(TypeParam::stencil)[0];
         for (const int node : {first, first + TypeParam::count - 1}) {
-          const int block = node < 0 ? 0 : node < grid::block_edge ? 1 : 2;
+          const int block = node < 0 ? 0 : node < grid.block_shape().edge ? 1 : 2;
           EXPECT_NE(grid.neighbours(slot)[static_cast<std::size_t>(grid::neighbour_index(block, 1, 1))],
                     grid::BlockGrid::no_slot)
               << half_cells << " half cells of " << cell_size << " m";

@@ -404,13 +404,18 @@ TEST(Bar, OnlyABodyThatFliesAtTheWallIsOneAndItKeepsItsLengthWhenItRebounds) {
   EXPECT_TRUE(std::isnan(value(row, "diameter_at.bar")));  // 30 mm from the end of a bar of 20 mm
 }
 
-TEST(Frame, AMirrorPlaneIsAWallOnlyIfTheProjectileFliesAtIt) {
+TEST(Frame, AFaceIsAWallOnlyIfTheProjectileFliesAtIt) {
   analysis::Run bar;
   bar.bodies = {{"bar", Vector3(0, 0, -200), 1e-3}};
   bar.mirror_planes[2] = 0.0;
+  bar.walls[2][0] = {.position = 0.0, .holds = true};
   Maker maker(1e-3);
   maker.add(Vector3(0, 0, 5e-3), bar.bodies[0].velocity);
   EXPECT_EQ(find_frame(bar, maker.snapshot).wall, 0.0);
+  bar.mirror_planes[2].reset();
+  bar.walls[2][0]->holds = false;  // a wall that only pushes is one all the same
+  EXPECT_EQ(find_frame(bar, maker.snapshot).wall, 0.0);
+  EXPECT_FALSE(find_frame(bar, maker.snapshot).wall_holds);
   bar.bodies[0].velocity.z() = 200.0;
   EXPECT_FALSE(find_frame(bar, maker.snapshot).wall.has_value());
   bar.bodies[0].velocity.z() = 0.0;  // a charge

@@ -131,11 +131,11 @@ TEST(BlockGrid, SlotsAtWorkTogetherReachDifferentNodes) {
     std::atomic<int> met = 0;
     const auto for_reach = [&](std::size_t slot, auto&& f) {
       const auto node = [&](std::size_t a, int i) {
-        return static_cast<std::size_t>(block_edge * grid.coordinate(slot)[a] + i + 4);
+        return static_cast<std::size_t>(grid.block_shape().edge * grid.coordinate(slot)[a] + i + 4);
       };
-      for (int i = -1; i < block_edge + 2; ++i) {
-        for (int j = -1; j < block_edge + 2; ++j) {
-          for (int k = -1; k < block_edge + 2; ++k) {
+      for (int i = -1; i < grid.block_shape().edge + 2; ++i) {
+        for (int j = -1; j < grid.block_shape().edge + 2; ++j) {
+          for (int k = -1; k < grid.block_shape().edge + 2; ++k) {
             f(at_work[(node(0, i) * nodes[1] + node(1, j)) * nodes[2] + node(2, k)]);
           }
         }

@@ -42,23 +42,37 @@ std::string planar_impact(bool plane, const Method& method) {
          body("left", 400.0, -1e-3, 0.0) + body("right", -400.0, 0.0, 1.5e-3);
 }
 
-/// Values of the particles along x, of which several stand at each place.
-std::map<long, std::array<double, 5>> profile(const std::string& text) {
+using Section = std::map<std::pair<long, long>, std::array<double, 6>>;
+
+/// Values of the particles by where they were at first in the section, of which several stand at each place.
+Section section(const std::string& text) {
   const cases::Case setup = read(text);
   solver::Simulation simulation(setup, parallel::world());
   const std::vector<Vector3> start = exact::positions_by_id(simulation.particles());
   run_to(simulation, setup.time.end);
-  std::map<long, std::array<double, 5>> profile;
+  Section section;
   const Particles& q = simulation.particles();
   for (std::size_t p = 0; p < q.size(); ++p) {
-    profile[std::lround(1e9 * start[q.id[p]][0])] = {q.position[p][0], q.velocity[p][0], q.pressure[p],
-                                                     q.deviatoric_stress[p].zz, q.specific_internal_energy[p]};
+    const Vector3& from = start[q.id[p]];
+    section[{std::lround(1e9 * from[0]), std::lround(1e9 * from[1])}] = {
+        q.position[p][0], q.position[p][1],           q.velocity[p][0],
+        q.pressure[p],    q.deviatoric_stress[p].zz, q.specific_internal_energy[p]};
   }
-  return profile;
+  return section;
+}
+
+/// @param of_scale  difference that is left, in parts of what is usual for each value
+void expect_equal(const Section& plane, const Section& space, double of_scale = 1e-10) {
+  constexpr std::array<double, 6> scale = {1e-3, 1e-3, 400.0, 7e9, 2e8, 8e4};
+  ASSERT_EQ(space.size(), plane.size());
+  for (const auto& [place, values] : space) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      ASSERT_NEAR(plane.at(place)[i], values[i], of_scale * scale[i]) << place.first << " " << place.second << " " << i;
+    }
+  }
 }
 
 TEST(PlaneStrain, PlanarImpactEqualsThreeDimensionsWithEveryShapeFunction) {
-  constexpr std::array<double, 5> scale = {1e-3, 400.0, 7e9, 2e8, 8e4};
   for (const char* function : {"quadratic_bspline", "cubic_bspline", "convected_gimp", "gimp", "linear"}) {
     for (const char* scheme : {"symplectic", "musl", "usl", "usf"}) {
       Method method;
@@ -68,13 +82,58 @@ TEST(PlaneStrain, PlanarImpactEqualsThreeDimensionsWithEveryShapeFunction) {
       if (!exact && std::string(function) != "linear" && std::string(function) != "quadratic_bspline") continue;
       method.particle_update = exact && std::string(function).ends_with("bspline") ? "relaxed_affine" : "flip";
       SCOPED_TRACE(std::string(function) + " " + scheme);
-      const auto space = profile(planar_impact(false, method)), plane = profile(planar_impact(true, method));
-      ASSERT_EQ(space.size(), plane.size());
-      for (const auto& [x, values] : space) {
-        for (std::size_t i = 0; i < values.size(); ++i) {
-          ASSERT_NEAR(plane.at(x)[i], values[i], 1e-10 * scale[i]) << x << " " << i;
-        }
-      }
+      expect_equal(section(planar_impact(true, method)), section(planar_impact(false, method)));
+    }
+  }
+}
+
+TEST(PlaneStrain, BlockThrownAtAWallEqualsThreeDimensions) {
+  for (const char* wall : {"symmetry", "no_slip", "separating"}) {
+    SCOPED_TRACE(wall);
+    const auto block = [&](bool plane) {
+      const auto of = [&](const char* in_plane, const char* along_z) {
+        return plane ? fmt::format("[{}]", in_plane) : fmt::format("[{}, {}]", in_plane, along_z);
+      };
+      return fmt::format(R"(
+[time]
+end = 0.8e-6
+[domain]
+lower = {}
+upper = {}
+cell_size = 1e-4
+boundary = {{ x_lower = "{}"{} }}
+{}
+[[body]]
+name = "block"
+material = "{}"
+velocity = {}
+shape = {{ box = {{ lower = {}, upper = {} }} }}
+)",
+                         of("0.0, 0.0", "0.0"), of("2e-3, 2e-3", "2e-4"), wall,
+                         plane ? "" : ", z_lower = \"symmetry\", z_upper = \"symmetry\"",
+                         plane ? "dimension = \"plane_strain\"" : "", aluminium("wall_aluminium", "290 MPa"),
+                         of("-300.0, 150.0", "0.0"), of("2e-4, 5e-4", "0.0"), of("1e-3, 1.1e-3", "2e-4"));
+    };
+    // Compressed particles are thinner by the square root of their area in a plane, by the cube root of their volume in
+    // space: a block touches a wall that it sticks to, and whose gap counts, that much earlier or later.
+    const bool sticks = std::string(wall) == "no_slip";
+    const Section plane = section(block(true));
+    expect_equal(plane, section(block(false)), sticks ? 2e-2 : 1e-10);
+    // The wall has stopped the layer next to it, and only one that sticks holds it back along itself.
+    double along = 0.0, number = 0.0;
+    for (const auto& [place, values] : plane) {
+      if (place.first != plane.begin()->first.first) continue;
+      EXPECT_GT(values[0], 0.0);
+      EXPECT_LT(values[0], 1e-4);
+      along += values[1] - 1e-9 * static_cast<double>(place.second);
+      number += 1.0;
+    }
+    along /= number;
+    constexpr double free_way = 150.0 * 0.8e-6;
+    if (sticks) {
+      EXPECT_LT(along, 0.95 * free_way);
+    } else {
+      EXPECT_NEAR(along, free_way, 1e-3 * free_way);
     }
   }
 }

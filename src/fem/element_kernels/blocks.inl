@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Elements that go together, and the nodal fields of their block (part of src/fem/element_kernels.hpp)
+
+/// Elements that go together, one per lane: `width` of an ElementGroup, those from a lane of it on. What
+/// lanes without an element hold is nobody's.
+struct Group {
+  const ElementGroup& all;
+  std::size_t lane;
+  std::size_t count;  ///< lanes that are results
+  std::size_t first;  ///< element
+
+  Group(const ElementGroup& group, std::size_t first_lane)
+      : all(group),
+        lane(first_lane),
+        count(std::min<std::size_t>(width, group.count - first_lane)),
+        first(group.first + first_lane) {}
+
+  /// The element of a lane; of lanes without one, the last.
+  [[nodiscard]] std::size_t index(std::size_t l) const { return first + std::min(l, count - 1); }
+
+  /// One number per element, and back.
+  [[nodiscard]] WHIPPLE_INLINE Vector load(const std::vector<double>& from) const {
+    return load_lanes(&from[first], count);
+  }
+  WHIPPLE_INLINE void store(std::vector<double>& to, Vector values) const {
+    store_lanes(&to[first], values, count);
+  }
+};
+
+/// The groups of a block.
+WHIPPLE_INLINE inline std::span<const ElementGroup> groups_of(const Mesh& mesh, std::size_t block) {
+  const Blocks& blocks = mesh.blocks;
+  return std::span(blocks.groups)
+      .subspan(blocks.first_group[block], blocks.first_group[block + 1] - blocks.first_group[block]);
+}
+
+/// Calls f(Group) for the elements of a group.
+template <class Function>
+WHIPPLE_INLINE inline void for_each_part(const ElementGroup& all, Function&& f) {
+  for (std::size_t lane = 0; lane < all.count; lane += width) f(Group(all, lane));
+}
+
+/// A nodal field at the slots of a block; not initialised. Behind the slots there is place for the corners of
+/// a group.
+class BlockField {
+ public:
+  /// An eighth of the field, as `modes` needs it.
+  void copy(const Mesh& mesh, std::size_t block, const std::vector<Vector3>& field) {
+    const Blocks& blocks = mesh.blocks;
+    const std::uint32_t first = blocks.first_slot[block], end = blocks.first_slot[block + 1];
+    const auto put = [&](std::uint32_t s, std::size_t i, Vector x)
+                         WHIPPLE_INLINE { store_lanes(&at_[i][s - first], 0.125 * x, width); };
+    for (std::uint32_t s = first; s < end; s += width) {
+      const std::uint32_t* const node = &blocks.slot_node[s];
+      if (s + width <= end && node[width - 1] - node[0] == width - 1) {  // ascending: no gap between them
+        const auto c = load_vectors(field[node[0]].data());
+        for (std::size_t i = 0; i < 3; ++i) put(s, i, c[i]);
+        continue;
+      }
+      std::array<Lanes, width> rows;
+      for (std::uint32_t l = 0; l < width; ++l) {
+        rows[l] = load_vector(field[blocks.slot_node[std::min(s + l, end - 1)]].data());
+      }
+      const auto c = columns(rows);
+      for (std::size_t i = 0; i < 3; ++i) put(s, i, c[i]);
+    }
+  }
+  /// To where the slots are after a time dt (s) with velocities, in the very operations of `move_nodes`.
+  void advance(const Mesh& mesh, std::size_t block, double dt, const BlockField& velocity) {
+    const std::uint32_t count = mesh.blocks.first_slot[block + 1] - mesh.blocks.first_slot[block];
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::uint32_t s = 0; s < count; s += width) {
+        const Vector there = load_lanes(&at_[i][s], width) + dt * load_lanes(&velocity.at_[i][s], width);
+        store_lanes(&at_[i][s], there, width);
+      }
+    }
+  }
+  void zero(const Mesh& mesh, std::size_t block) {
+    const std::uint32_t count = mesh.blocks.first_slot[block + 1] - mesh.blocks.first_slot[block];
+    for (auto& component : at_) std::fill_n(component, count, 0.0);
+  }
+  /// The values at the slots.
+  void copy_to(std::span<Vector3> values) const {
+    std::size_t s = 0;
+    for (; s + width <= values.size(); s += width) {
+      const auto along = [&](std::size_t i) WHIPPLE_INLINE { return load_lanes(&at_[i][s], width); };
+      store_vectors(values[s].data(), along(0), along(1), along(2));
+    }
+    for (; s < values.size(); ++s) values[s] = Vector3(at_[0][s], at_[1][s], at_[2][s]);
+  }
+
+  /// Copied values of a group, as modes.
+  class OfGroup {
+   public:
+    OfGroup(BlockField& field, const Group& group) : field_(field), group_(group) {
+      if (group.all.is_row != 0) return;
+      for (std::size_t a = 0; a < 8; ++a) {
+        for (auto& component : field.at_) {
+          const Vector corner = gather_lanes(component, &group.all.slot[a][group.lane]);
+          store_lanes(&component[group.all.place[a] + group.lane], corner, width);
+        }
+      }
+    }
+    /// Returns one component of the field as modes: few numbers, which stay in registers.
+    [[nodiscard]] WHIPPLE_INLINE std::array<Vector, 7> component(std::size_t i) const {
+      std::array<Vector, 8> u;
+      for (std::size_t a = 0; a < 8; ++a) {
+        u[a] = load_lanes(&field_.at_[i][group_.all.place[a] + group_.lane], width);
+      }
+      return modes_of_eighths(u);
+    }
+    [[nodiscard]] WHIPPLE_INLINE Modes<Vector> modes() const {
+      return modes_by_components(component(0), component(1), component(2));
+    }
+
+   private:
+    const BlockField& field_;
+    const Group& group_;
+  };
+  [[nodiscard]] WHIPPLE_INLINE OfGroup of(const Group& group) { return OfGroup(*this, group); }
+
+  /// Adds the corners' shares of a field given by its modes.
+  WHIPPLE_INLINE void add(const Group& group, const Modes<Vector>& field) {
+    const std::array<Triple<Vector>, 8> corners = corners_of(field);
+    add_component(at_[0], group, [&](std::size_t a) WHIPPLE_INLINE { return corners[a].x; });
+    add_component(at_[1], group, [&](std::size_t a) WHIPPLE_INLINE { return corners[a].y; });
+    add_component(at_[2], group, [&](std::size_t a) WHIPPLE_INLINE { return corners[a].z; });
+  }
+
+ private:
+  template <class Share>
+  WHIPPLE_INLINE static void add_component(double* to, const Group& group, const Share& share) {
+    // Corners at the back and at the front of elements along a direction, edge by edge.
+    const auto add_lines = [&](const std::array<std::size_t, 4>& back,
+                               const std::array<std::size_t, 4>& front) WHIPPLE_INLINE {
+      for (std::size_t edge = 0; edge < 4; ++edge) {
+        add_to_line(to + group.all.place[back[edge]] + group.lane, share(back[edge]), share(front[edge]),
+                    group.count);
+      }
+    };
+    switch (group.all.along) {
+      case 1:
+        return add_lines({0, 3, 4, 7}, {1, 2, 5, 6});
+      case 2:
+        return add_lines({0, 1, 4, 5}, {3, 2, 7, 6});
+      case 3:
+        return add_lines({0, 1, 2, 3}, {4, 5, 6, 7});
+      default:
+        break;
+    }
+    std::array<Vector, 8> shares;
+    for (std::size_t a = 0; a < 8; ++a) shares[a] = share(a);
+    for (std::size_t l = 0; l < group.count; ++l) {
+      for (std::size_t a = 0; a < 8; ++a) to[group.all.slot[a][group.lane + l]] += shares[a][l];
+    }
+  }
+
+  double at_[3][ElementGroup::gathered_place(8)];  // NOLINT: without initialisation
+};
+
+using Rows = std::array<std::size_t, width>;

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How elements deform, and the forces of their stresses (part of src/fem/element_kernels.hpp)
+
+template <HourglassControl::Kind kind>
+struct OnePoint {
+  static constexpr bool viscous = kind == HourglassControl::Kind::viscous;
+
+  WHIPPLE_INLINE void operator()(const DeformationStep& step, const Group& group, const Fields& fields,
+                                 Tally& tally) const {
+    GaussPoints& points = step.mesh.points;
+    Elements& elements = step.mesh.elements;
+    if (const std::size_t first = group.first; group.lane == 0) {
+      prefetch(first + prefetch_distance, points.mass, points.pressure, points.artificial_viscosity,
+               points.deviatoric_stress, points.sound_speed, points.plastic_strain, points.length,
+               points.specific_internal_energy, elements.hourglass_energy, elements.returned_plastic_strain);
+      for (const auto component : Elements::hourglass_components()) {
+        prefetch(first + prefetch_distance, elements.*component);
+      }
+    }
+    const double dt = step.dt;
+    const Modes<Vector> x = fields.position.modes();
+    const VolumeGradient<Vector> beta = volume_gradient(x);
+    const Vector per_volume = 1.0 / beta.volume, per_eighth = 8.0 * per_volume;
+
+    // Component by component, each a row of a gradient: there are not registers enough for all of a field.
+    using Axis = Vector Triple<Vector>::*;
+    std::array<Triple<Vector>, 4> end_modes;
+    Modes<Vector> moved = x;
+    const auto end_row = [&](std::size_t i, Axis axis) WHIPPLE_INLINE {
+      const std::array<Vector, 7> u = fields.end_velocity.component(i);
+      moved.xi.*axis += dt * u[0];
+      moved.eta.*axis += dt * u[1];
+      moved.zeta.*axis += dt * u[2];
+      moved.eta_zeta.*axis += dt * u[3];
+      moved.zeta_xi.*axis += dt * u[4];
+      moved.xi_eta.*axis += dt * u[5];
+      for (std::size_t m = 0; m < 4; ++m) end_modes[m].*axis = u[3 + m];
+      return per_eighth * mean_gradient_times_eighth(u, beta);
+    };
+    const Columns<Vector> l = by_rows(end_row);
+
+    // Velocity gradient of the step. First, because the divisions that follow one another in it take long.
+    const VolumeGradient<Vector> end = volume_gradient(moved);
+    for_each_component(with_volume_ratio(l, end.volume * per_volume, dt),
+                       [&](const Vector& value, std::size_t k)
+                           WHIPPLE_INLINE { group.store(step.gradient.component[k], value); });
+    group.store(points.length, one_point_length(end));
+
+    // Work of the stress (eq. 2.7) and of the hourglass forces (eq. 3.6), on the mean velocity.
+    auto q = hourglass_forces_of(elements, group);
+    Vector hourglass_rate{};
+    const Columns<Vector> mean = by_rows([&](std::size_t i, Axis axis) WHIPPLE_INLINE {
+      const std::array<Vector, 7> u = fields.mean_velocity.component(i);
+      for (std::size_t m = 0; m < 4; ++m) hourglass_rate += q[m].*axis * u[3 + m];
+      return mean_gradient_times_eighth(u, beta);
+    });
+    const Columns<Vector> deviator = deviator_at(points, group);
+    Columns<Vector> stress = deviator;
+    add_to_diagonal(stress, -(group.load(points.pressure) + group.load(points.artificial_viscosity)));
+    const Vector work = (8.0 * dt) * contraction(stress, mean);
+    Columns<Vector> carried{};  // sum_k Q_k x_k^T
+    for (std::size_t m = 0; m < 4; ++m) add_dyad(carried, q[m], x.*hourglass_modes[m]);
+    const Vector hourglass_work = (root8 * dt) * (hourglass_rate - per_eighth * contraction(carried, mean));
+
+    // Hourglass forces of the next step (eq. 3.3, 3.4).
+    const Vector sound_speed = group.load(points.sound_speed), rate = sound_speed * per_volume;
+    const Vector frequency_squared = 8.0 * beta.squared_norm() * rate * rate;  // eq. 5.1
+    const double coefficient = 0.125 * root8 * step.hourglass.coefficient;
+    const Vector mass = group.load(points.mass);
+    const Vector resistance = mass * (viscous ? 2.0 * coefficient * root(frequency_squared)
+                                              : (coefficient * dt) * frequency_squared);
+    Vector heat = hourglass_work;
+    if constexpr (!viscous) {
+      const Vector returned =
+          return_factor(group, elements, points, deviator, mass * per_volume * sound_speed * sound_speed);
+      const Vector stored = group.load(elements.hourglass_energy) + hourglass_work;
+      heat = (1.0 - returned * returned) * maximum(stored, Vector{});
+      group.store(elements.hourglass_energy, stored - heat);
+      for (Triple<Vector>& force : q) force = returned * force;
+    }
+    for (std::size_t m = 0; m < 4; ++m) {
+      const auto mode = hourglass_modes[m];
+      if constexpr (viscous) {
+        q[m] = resistance * (end_modes[m] - l * (x.*mode));
+      } else {
+        q[m] += resistance * end_modes[m] + l * (dt * q[m] - resistance * (x.*mode));
+      }
+    }
+    for_each_hourglass_component(q, [&](const Vector& force, const auto component)
+                                        WHIPPLE_INLINE { group.store(elements.*component, force); });
+
+    group.store(points.specific_internal_energy,
+                group.load(points.specific_internal_energy) + (work + heat) / mass);
+    tally.add(group, work, hourglass_work);
+    tally.count_inverted(group, end.volume);
+  }
+};
+
+struct DeformEightPoints {
+  void operator()(const DeformationStep& step, const Group& group, const Fields& fields, Tally& tally) const {
+    const Modes<Vector> x = fields.position.modes(), mean_velocity = fields.mean_velocity.modes(),
+                        end_velocity = fields.end_velocity.modes();
+    GaussPoints& points = step.mesh.points;
+    const double dt = step.dt;
+    const VolumeGradient<Vector> beta = volume_gradient(x);
+    const Modes<Vector> end_position = x + dt * end_velocity;
+    const VolumeGradient<Vector> end = volume_gradient(end_position);
+    const Vector ratio = end.volume / beta.volume;
+    const auto along = [&](std::size_t i) {
+      return mean_gradient_times_eighth(fields.mean_velocity.component(i), beta);
+    };
+    const Vector mean_divergence = 8.0 * (along(0).x + along(1).y + along(2).z) / beta.volume;
+    const auto [length, least_jacobian] = eight_point_size(end_position, end);
+    Vector total{};  // work
+    for (std::size_t g = 0; g < 8; ++g) {
+      const GaussPoint at(g);
+      const Rows rows = at.rows(group);
+      const Columns<Vector> jacobian = at.gradient(x), cofactor = cofactors(jacobian);
+      const Vector det = determinant(jacobian);
+      // du/dxi J^-1 times det J: the rows of the inverse are the columns of the cofactors
+      const auto in_space = [&](const Modes<Vector>& u) {
+        const Columns<Vector> natural = at.gradient(u);
+        Columns<Vector> l{};
+        add_dyad(l, natural.x, cofactor.x);
+        add_dyad(l, natural.y, cofactor.y);
+        add_dyad(l, natural.z, cofactor.z);
+        return l;
+      };
+      // Work (eq. 4.3), velocity gradient (eq. 4.4)
+      const Vector work = dt * (contraction(deviator_at(points, rows), in_space(mean_velocity)) +
+                                det * mean_stress_at(points, rows) * mean_divergence);
+      const Columns<Vector> l = with_volume_ratio(scaled(in_space(end_velocity), 1.0 / det), ratio, dt);
+      for_each_component(l, [&](const Vector& value, std::size_t c) {
+        for (std::size_t k = 0; k < group.count; ++k) step.gradient.component[c][rows[k]] = value[k];
+      });
+      for (std::size_t k = 0; k < group.count; ++k) {
+        points.specific_internal_energy[rows[k]] += work[k] / points.mass[rows[k]];
+        points.length[rows[k]] = length[k];
+      }
+      total += work;
+    }
+    tally.add(group, total, Vector{});
+    tally.count_inverted(group, least_jacobian);
+  }
+};
+
+/// Forces f_a = sum_k F_k phi_ka of a stress on the mean gradient (eq. 2.6).
+WHIPPLE_INLINE inline Modes<Vector> mean_gradient_forces(const Columns<Vector>& stress,
+                                                         const VolumeGradient<Vector>& beta) {
+  return {-(stress * beta.xi),      -(stress * beta.eta),    -(stress * beta.zeta), -(stress * beta.eta_zeta),
+          -(stress * beta.zeta_xi), -(stress * beta.xi_eta), Triple<Vector>{}};
+}
+
+struct ForcesOfOnePoint {
+  WHIPPLE_INLINE Modes<Vector> operator()(const Mesh& mesh, const Group& group,
+                                          const Modes<Vector>& x) const {
+    const VolumeGradient<Vector> beta = volume_gradient(x);
+    Columns<Vector> stress = deviator_at(mesh.points, group);
+    add_to_diagonal(stress,
+                    -(group.load(mesh.points.pressure) + group.load(mesh.points.artificial_viscosity)));
+    const auto q = hourglass_forces_of(mesh.elements, group);
+    // Hourglass resistance (eq. 3.5): its part along B_a acts like a stress, the rest on the four modes.
+    const Vector scale = -root8 / beta.volume;
+    const std::array<Triple<Vector>, 4> shape = {x.eta_zeta, x.zeta_xi, x.xi_eta, x.xi_eta_zeta};
+    for (std::size_t m = 0; m < 4; ++m) add_dyad(stress, scale * q[m], shape[m]);
+    Modes<Vector> f = mean_gradient_forces(stress, beta);
+    f.eta_zeta -= (1.0 / root8) * q[0];
+    f.zeta_xi -= (1.0 / root8) * q[1];
+    f.xi_eta -= (1.0 / root8) * q[2];
+    f.xi_eta_zeta -= (1.0 / root8) * q[3];
+    return f;
+  }
+};
+
+struct ForcesOfBBar {
+  WHIPPLE_INLINE Modes<Vector> operator()(const Mesh& mesh, const Group& group,
+                                          const Modes<Vector>& x) const {
+    const VolumeGradient<Vector> beta = volume_gradient(x);
+    Modes<Vector> f{};
+    Vector mean_stress{};  // times the volume
+    for (std::size_t g = 0; g < 8; ++g) {
+      const GaussPoint at(g);
+      const auto rows = at.rows(group);
+      const Columns<Vector> jacobian = at.gradient(x);
+      mean_stress += determinant(jacobian) * mean_stress_at(mesh.points, rows);
+      // Deviator: det J s : grad u = (s cof J) : du/dxi
+      const Columns<Vector> cofactor = cofactors(jacobian), s = deviator_at(mesh.points, rows);
+      const Triple<Vector> px = -0.125 * (s * cofactor.x), py = -0.125 * (s * cofactor.y),
+                           pz = -0.125 * (s * cofactor.z);
+      f.xi += px;
+      f.eta += py;
+      f.zeta += pz;
+      f.eta_zeta += at.zeta * py + at.eta * pz;
+      f.zeta_xi += at.zeta * px + at.xi * pz;
+      f.xi_eta += at.eta * px + at.xi * py;
+      f.xi_eta_zeta += (at.eta * at.zeta) * px + (at.zeta * at.xi) * py + (at.xi * at.eta) * pz;
+    }
+    // Pressure on the mean gradient.
+    Columns<Vector> mean{};
+    add_to_diagonal(mean, mean_stress / beta.volume);
+    return f + mean_gradient_forces(mean, beta);
+  }
+};

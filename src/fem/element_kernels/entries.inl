@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The entries (part of src/fem/element_kernels.hpp)
+
+/// Prefetches part g of the node data that the next block copies.
+template <class... Fields>
+WHIPPLE_INLINE inline void prefetch_next_block(const Mesh& mesh, std::size_t block, std::size_t g,
+                                               const Fields&... fields) {
+  const Blocks& blocks = mesh.blocks;
+  if (block + 1 >= blocks.count()) return;
+  const std::size_t groups = blocks.first_group[block + 1] - blocks.first_group[block];
+  const std::size_t first = blocks.first_slot[block + 1], count = blocks.first_slot[block + 2] - first;
+  for (std::size_t s = first + count * g / groups; s < first + count * (g + 1) / groups; ++s) {
+    (__builtin_prefetch(fields[blocks.slot_node[s]].data(), 0, 2), ...);
+  }
+}
+
+/// The entries. Everything they call is inlined into them.
+struct Kernels {
+  using Field = BlockField;
+
+  /// The positions of the nodes of a block.
+  WHIPPLE_WHOLE_KERNEL static void copy_positions(const Mesh& mesh, std::size_t block, BlockField& position) {
+    position.copy(mesh, block, mesh.nodes.position);
+  }
+
+  /// Calls kernel(step, group, fields, tally) for the elements of a block.
+  /// @param position  those at the end of the step, afterwards
+  template <class Kernel>
+  WHIPPLE_WHOLE_KERNEL static DeformationReport deform(const DeformationStep& step, const Motion& motion,
+                                                       std::size_t block, const Kernel& kernel,
+                                                       BlockField& position) {
+    BlockField mean, end;
+    position.copy(step.mesh, block, step.mesh.nodes.position);
+    mean.copy(step.mesh, block, motion.mean);
+    end.copy(step.mesh, block, motion.end);
+    Tally tally;
+    const std::span<const ElementGroup> groups = groups_of(step.mesh, block);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      prefetch_next_block(step.mesh, block, g, step.mesh.nodes.position, motion.mean, motion.end);
+      for_each_part(groups[g], [&](const Group& group) WHIPPLE_INLINE {
+        kernel(step, group, Fields{position.of(group), mean.of(group), end.of(group)}, tally);
+      });
+    }
+    position.advance(step.mesh, block, step.dt, end);
+    return tally.report();
+  }
+
+  /// Forces kernel(mesh, group, position by modes) of the elements of a block, at its slots.
+  template <class Kernel>
+  WHIPPLE_WHOLE_KERNEL static void forces(Mesh& mesh, std::size_t block, const Kernel& kernel,
+                                          BlockField& position) {
+    BlockField force;
+    force.zero(mesh, block);
+    for (const ElementGroup& all : groups_of(mesh, block)) {
+      for_each_part(all, [&](const Group& group) WHIPPLE_INLINE {
+        force.add(group, kernel(mesh, group, position.of(group).modes()));
+      });
+    }
+    Blocks& blocks = mesh.blocks;
+    const std::uint32_t first = blocks.first_slot[block];
+    force.copy_to(std::span(blocks.slot_force).subspan(first, blocks.first_slot[block + 1] - first));
+  }
+
+  using Viscous = OnePoint<HourglassControl::Kind::viscous>;
+  using Stiffness = OnePoint<HourglassControl::Kind::stiffness>;
+  using EightPoints = DeformEightPoints;
+  using OnePointForces = ForcesOfOnePoint;
+  using BBarForces = ForcesOfBBar;
+};

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Formulas at the points of elements (part of src/fem/element_kernels.hpp)
+
+/// One of the 2 x 2 x 2 Gauss points; weight 1.
+struct GaussPoint {
+  std::size_t number;
+  double xi, eta, zeta;
+
+  explicit GaussPoint(std::size_t g)
+      : number(g),
+        xi(gauss_coordinate * corner_coordinates[g][0]),
+        eta(gauss_coordinate * corner_coordinates[g][1]),
+        zeta(gauss_coordinate * corner_coordinates[g][2]) {}
+
+  [[nodiscard]] Rows rows(const Group& group) const {
+    Rows rows;
+    for (std::size_t l = 0; l < width; ++l) rows[l] = 8 * group.index(l) + number;
+    return rows;
+  }
+  template <class T>
+  [[nodiscard]] Columns<T> gradient(const Modes<T>& u) const {
+    return natural_gradient(u, xi, eta, zeta);
+  }
+};
+
+template <class T>
+void add_to_diagonal(Columns<T>& m, const T& value) {
+  m.x.x += value;
+  m.y.y += value;
+  m.z.z += value;
+}
+
+/// Deviators of points, those of lane l from row(l) on.
+template <class Row>
+WHIPPLE_INLINE inline Columns<Vector> deviator_of(Row&& row) {
+  static_assert(sizeof(SymmetricTensor) == 6 * sizeof(double));
+  std::array<Lanes, width> front, back;
+  for (std::size_t l = 0; l < width; ++l) {
+    const double* const s = row(l);
+    front[l] = whipple::load(s);
+    back[l] = whipple::load(s + 2);
+  }
+  const auto normal = columns(front), shear = columns(back);  // xx yy zz xy, zz xy yz zx
+  const Vector &xy = normal[3], &yz = shear[2], &zx = shear[3];
+  return {{normal[0], xy, zx}, {xy, normal[1], yz}, {zx, yz, normal[2]}};
+}
+WHIPPLE_INLINE inline Columns<Vector> deviator_at(const GaussPoints& points, const Rows& at) {
+  return deviator_of([&](std::size_t l) WHIPPLE_INLINE { return &points.deviatoric_stress[at[l]].xx; });
+}
+/// Those of a group of elements with one point. (Lanes without an element may take what follows in the
+/// block.)
+WHIPPLE_INLINE inline Columns<Vector> deviator_at(const GaussPoints& points, const Group& group) {
+  constexpr std::size_t n = 6;
+  const std::vector<SymmetricTensor>& all = points.deviatoric_stress;
+  const double* from = &all[group.first].xx;
+  std::array<double, n * width> last;  // without initialisation
+  if (group.first % Blocks::size + width > Blocks::size || group.first + width > all.size()) {
+    for (std::size_t l = 0; l < width; ++l) std::copy_n(&all[group.index(l)].xx, n, &last[n * l]);
+    from = last.data();
+  }
+  return deviator_of([&](std::size_t l) WHIPPLE_INLINE { return from + n * l; });
+}
+
+/// -(p + q)
+WHIPPLE_INLINE inline Vector mean_stress_at(const GaussPoints& points, const Rows& at) {
+  Vector stress;
+  for (std::size_t l = 0; l < width; ++l) {
+    stress[l] = -(points.pressure[at[l]] + points.artificial_viscosity[at[l]]);
+  }
+  return stress;
+}
+
+/// Calls f(component of q, the array of it) for the twelve components of hourglass forces.
+template <class Function>
+WHIPPLE_INLINE inline void for_each_hourglass_component(std::array<Triple<Vector>, 4>& q, Function&& f) {
+  constexpr auto components = Elements::hourglass_components();
+  for (std::size_t m = 0; m < 4; ++m) {
+    f(q[m].x, components[3 * m]);
+    f(q[m].y, components[3 * m + 1]);
+    f(q[m].z, components[3 * m + 2]);
+  }
+}
+WHIPPLE_INLINE inline std::array<Triple<Vector>, 4> hourglass_forces_of(const Elements& elements,
+                                                                        const Group& group) {
+  std::array<Triple<Vector>, 4> q;
+  for_each_hourglass_component(
+      q, [&](Vector& x, const auto component) WHIPPLE_INLINE { x = group.load(elements.*component); });
+  return q;
+}
+
+template <class T>
+WHIPPLE_INLINE inline Columns<T> scaled(const Columns<T>& m, const T& factor) {
+  return {factor * m.x, factor * m.y, factor * m.z};
+}
+
+/// The gradient whose volume ratio det(I + dt L) is `ratio` (eq. 2.8).
+WHIPPLE_INLINE inline Columns<Vector> with_volume_ratio(const Columns<Vector>& gradient, const Vector& ratio,
+                                                        double dt) {
+  Columns<Vector> f = scaled(gradient, in_all(dt));
+  add_to_diagonal(f, in_all(1.0));
+  const Vector stretch = cube_root_near_one(ratio / determinant(f));
+  // (stretch F - I)/dt without the difference of large numbers
+  Columns<Vector> result = scaled(gradient, stretch);
+  add_to_diagonal(result, (stretch - 1.0) / dt);
+  return result;
+}
+
+/// Calls f(L_ij, component) for the nine components of a gradient.
+template <class Function>
+WHIPPLE_INLINE inline void for_each_component(const Columns<Vector>& l, Function&& f) {
+  f(l.x.x, 0), f(l.y.x, 1), f(l.z.x, 2);
+  f(l.x.y, 3), f(l.y.y, 4), f(l.z.y, 5);
+  f(l.x.z, 6), f(l.y.z, 7), f(l.z.z, 8);
+}
+
+/// The four modes that the mean gradient does not see.
+constexpr std::array<Triple<Vector> Modes<Vector>::*, 4> hourglass_modes = {
+    &Modes<Vector>::eta_zeta, &Modes<Vector>::zeta_xi, &Modes<Vector>::xi_eta, &Modes<Vector>::xi_eta_zeta};
+
+/// The report of a block in the making: sums of each lane of the groups.
+struct Tally {
+  std::array<Vector, ElementGroup::size / width> work{}, hourglass_work{};
+  DeformationReport inverted;
+
+  WHIPPLE_INLINE void add(const Group& group, Vector work_done, Vector hourglass_work_done) {
+    work[group.lane / width] += first_lanes(work_done, group.count);
+    hourglass_work[group.lane / width] += first_lanes(hourglass_work_done, group.count);
+  }
+  WHIPPLE_INLINE void count_inverted(const Group& group, Vector volume) {
+    if (all_positive(volume)) return;
+    for (std::size_t l = 0; l < group.count; ++l) {
+      if (volume[l] > 0.0) continue;
+      ++inverted.inverted;
+      inverted.first_inverted = std::min(inverted.first_inverted, group.index(l));
+    }
+  }
+  [[nodiscard]] DeformationReport report() const {
+    DeformationReport report = inverted;
+    for (std::size_t part = 0; part < work.size(); ++part) {
+      for (std::size_t l = 0; l < width; ++l) {
+        report.work += work[part][l];
+        report.hourglass_work += hourglass_work[part][l];
+      }
+    }
+    return report;
+  }
+};
+
+/// Returns the factor by which the plastic strain since the last step reduces the hourglass forces (eq. 3.7),
+/// and marks it as applied.
+/// @param modulus  rho c^2
+WHIPPLE_INLINE inline Vector return_factor(const Group& group, Elements& elements, const GaussPoints& points,
+                                           const Columns<Vector>& deviator, const Vector& modulus) {
+  const Vector strain = group.load(points.plastic_strain);
+  const Vector increment = strain - group.load(elements.returned_plastic_strain);
+  group.store(elements.returned_plastic_strain, strain);
+  const Vector overshoot = 0.8 * modulus * maximum(increment, Vector{});  // 3 G dep of metals
+  const Vector equivalent = root(1.5 * contraction(deviator, deviator));
+  return overshoot > 0.0 ? equivalent / (equivalent + overshoot) : in_all(1.0);
+}
+
+/// Fields at the corners of a group that determine its motion.
+struct Fields {
+  BlockField::OfGroup position, mean_velocity, end_velocity;
+};
+
+/// The matrix of the rows row(index, axis).
+template <class Row>
+WHIPPLE_INLINE inline Columns<Vector> by_rows(Row&& row) {
+  const Triple<Vector> x = row(0, &Triple<Vector>::x), y = row(1, &Triple<Vector>::y),
+                       z = row(2, &Triple<Vector>::z);
+  return {{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}};
+}
