@@ -144,8 +144,8 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches&
       std::size_t next = 0;
       grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
         Node* node = grid.nodes(slot, field) + i;
-        sides[next++] = {node, node->second[3], 0.0};
-        node->second[3] = 0.0;
+        sides[next++] = {node, node->motion.mass_for_contact(), 0.0};
+        node->motion.set_heat(0.0);
       });
       meetings.clear();
       for (std::size_t a = 0; a < fields; ++a) {
@@ -178,7 +178,7 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches&
       for (const Stop& stop : stops) stop.heat(of_slot[c]);
       if (pressing.presses() && !stops.empty()) book_rest(pressing, sides, stops, of_slot[c]);
       for (Side& side : sides) {
-        if (side.heat != 0.0) side.node->second[3] = side.heat / side.mass;
+        if (side.heat != 0.0) side.node->motion.set_heat(side.heat / side.mass);
       }
     }
   });

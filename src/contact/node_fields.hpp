@@ -32,15 +32,14 @@ struct Side {
   double mass = 0.0;  ///< kg
   double heat = 0.0;  ///< J, that contact makes
 
-  [[nodiscard]] Vector3 before() const { return vector(node->first); }
-  [[nodiscard]] Vector3 increment() const { return vector(node->second); }
+  [[nodiscard]] Vector3 before() const { return node->motion.velocity(); }
+  [[nodiscard]] Vector3 increment() const { return node->motion.increment(); }
   [[nodiscard]] Vector3 after() const { return before() + increment(); }
-  [[nodiscard]] double relaxation() const { return node->first[3]; }
-  void push(const Vector3& impulse) {
-    const Vector3 change = impulse / mass;
-    node->second += Lanes{change[0], change[1], change[2], 0.0};
+  [[nodiscard]] double relaxation() const { return node->motion.relaxation(); }
+  void push(const Vector3& impulse) { node->motion.accelerate(impulse / mass); }
+  void shift_velocity(const Vector3& change) {
+    node->motion.velocity_and_relaxation += Lanes{change[0], change[1], change[2], 0.0};
   }
-  void shift_velocity(const Vector3& change) { node->first += Lanes{change[0], change[1], change[2], 0.0}; }
 };
 
 }  // namespace whipple::contact

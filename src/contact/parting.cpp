@@ -25,18 +25,14 @@ bool parts(const grid::BlockGrid& grid, std::uint32_t slot, std::size_t node, st
   std::size_t number = 0, reached = 0;
   grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
     const grid::Node* of_field = grid.nodes(slot, field) + node;
-    reached += of_field->first[0] > 0.0 ? 1 : 0;
+    reached += of_field->sums.mass() > 0.0 ? 1 : 0;
     if (number == a) first = of_field;
     if (number == b) second = of_field;
     ++number;
   });
   if (reached != 2) return false;
-  const auto velocity = [](const grid::Node& n) -> Vector3 {
-    return Vector3(n.first[1], n.first[2], n.first[3]) / n.first[0];
-  };
-  const auto increment = [&](const grid::Node& n) -> Vector3 {
-    return dt / n.first[0] * Vector3(n.second[1], n.second[2], n.second[3]);
-  };
+  const auto velocity = [](const grid::Node& n) -> Vector3 { return n.sums.momentum() / n.sums.mass(); };
+  const auto increment = [&](const grid::Node& n) -> Vector3 { return dt / n.sums.mass() * n.sums.force(); };
   const Vector3 apart = velocity(*second) - velocity(*first), pulled = increment(*second) - increment(*first);
   return std::ranges::all_of(normals, [&](const Vector3& normal) {
     return normal.dot(pulled) >= 0.0 && normal.dot(apart + pulled) >= 0.0;

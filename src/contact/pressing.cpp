@@ -161,8 +161,8 @@ void Pressing::mix(Balance& balance) {
       const Vector3 per_mass = (of_b ? -1.0 : 1.0) / side.mass * pair.normal;
       side.shift_velocity(pair.velocity * per_mass);
       const Vector3 change = pair.forces * per_mass;
-      side.node->second += Lanes{change[0], change[1], change[2], 0.0};
-      side.node->first[3] = relaxation_[of_b ? pair.b : pair.a];
+      side.node->motion.accelerate(change);
+      side.node->motion.set_relaxation(relaxation_[of_b ? pair.b : pair.a]);
     }
   }
   double rest = pairs_.size() > 1 ? lost() : 0.0;

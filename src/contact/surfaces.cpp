@@ -157,7 +157,7 @@ NodesThatMatter nodes_of_several(const BlockGrid& grid, bool after_transfer) {
       const grid::Node* of_field = grid.nodes(slots[c], field);
       std::uint64_t reached = 0;
       for (std::size_t i = 0; i < nodes_per_block; ++i) {
-        reached |= std::uint64_t{of_field[i].first[0] > 0.0} << i;
+        reached |= std::uint64_t{of_field[i].sums.mass() > 0.0} << i;
       }
       several |= one & reached;
       one |= reached;

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "src/core/base/vector_math.hpp"
-#include "src/grid/block_grid.hpp"
+#include "src/grid/topology.hpp"
 
 /// Neighbour blocks touched by the stencil of a particle.
 namespace whipple::grid {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <bit>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "src/core/base/vector_math.hpp"
@@ -12,32 +10,58 @@
 /// What nodes hold, and lists and values that go with their blocks.
 namespace whipple::grid {
 
-/// Payload of a node, two registers of four doubles (SI).
-/// After particles_to_grid: `first` = mass, momentum x y z;           `second` = mass * sound speed, force x
-/// y z. After the grid update:   `first` = velocity x y z, relaxation beta; `second` = velocity increment x y
-/// z, heat per mass (J/kg) that contact gives to the particles around (docs/theory/contact.md, 4).
-struct alignas(64) Node {
+/// Sums over the points that reach a node (SI): between particles_to_grid and the grid update.
+struct NodeSums {
+  Lanes mass_and_momentum;  ///< kg, kg m/s
+  Lanes sound_and_force;    ///< mass times sound speed (kg m/s), N
+  [[nodiscard]] double mass() const { return mass_and_momentum[0]; }
+  [[nodiscard]] double sound() const { return sound_and_force[0]; }
+  [[nodiscard]] Vector3 momentum() const {
+    return {mass_and_momentum[1], mass_and_momentum[2], mass_and_momentum[3]};
+  }
+  [[nodiscard]] Vector3 force() const { return {sound_and_force[1], sound_and_force[2], sound_and_force[3]}; }
+};
+
+/// Motion of a node in a step (SI): from the grid update on.
+struct NodeMotion {
+  Lanes velocity_and_relaxation;  ///< m/s at the start of the step; beta (docs/theory/mpm.md, 4)
+  Lanes increment_and_heat;       ///< m/s, of the velocity; J/kg that contact gives to the points around
+  [[nodiscard]] Vector3 velocity() const {
+    return {velocity_and_relaxation[0], velocity_and_relaxation[1], velocity_and_relaxation[2]};
+  }
+  [[nodiscard]] double relaxation() const { return velocity_and_relaxation[3]; }
+  [[nodiscard]] Vector3 increment() const {
+    return {increment_and_heat[0], increment_and_heat[1], increment_and_heat[2]};
+  }
+  [[nodiscard]] double heat() const { return increment_and_heat[3]; }
+  /// Mass (kg) that the grid update leaves in the place of the heat, for contact to take.
+  [[nodiscard]] double mass_for_contact() const { return increment_and_heat[3]; }
+  void set_relaxation(double beta) { velocity_and_relaxation[3] = beta; }
+  void set_heat(double heat) { increment_and_heat[3] = heat; }
+  void accelerate(const Vector3& change) { increment_and_heat += Lanes{change[0], change[1], change[2], 0.0}; }
+};
+
+/// Scalars of a node, such as capacity and temperature in conduction: sums over points, and values kept meanwhile.
+struct NodeScalars {
+  Lanes sums;
+  Lanes kept;
+};
+
+/// The registers of a node, whatever they hold: for what treats all alike.
+struct NodeRegisters {
   Lanes first;
   Lanes second;
 };
 
-constexpr int neighbour_index(int x, int y, int z) { return (x * 3 + y) * 3 + z; }
-
-/// Points by block.
-struct PointList {
-  std::vector<std::uint32_t> begin;   ///< of each slot in `points`, and the end
-  std::vector<std::uint32_t> points;  ///< indices, block by block
-
-  [[nodiscard]] std::span<const std::uint32_t> in(std::size_t slot) const {
-    return std::span(points).subspan(begin[slot], begin[slot + 1] - begin[slot]);
-  }
+/// A node holds one of these at a time; who reads it says which. (Compilers that define reading another member of a
+/// union than was written, as GCC does, make one of the other without a copy.)
+union alignas(64) Node {
+  NodeRegisters registers;
+  NodeSums sums;
+  NodeMotion motion;
+  NodeScalars scalars;
 };
-
-/// Calls f(position) for every bit that is set, from the lowest.
-template <class Function>
-void for_each_bit(std::uint64_t bits, Function&& f) {
-  for (; bits != 0; bits &= bits - 1) f(static_cast<unsigned>(std::countr_zero(bits)));
-}
+static_assert(sizeof(Node) == 64);
 
 /// Values that go with the contact slots of a grid: those of slot number c stand from begin[c] to begin[c +
 /// 1].

@@ -31,7 +31,7 @@ void join_fields(BlockGrid& grid, const TouchAtNode& touch) {
       leader.clear();
       grid::for_each_bit(grid.fields(slot), [&](unsigned field) {
         leader.push_back(fields.size());
-        fields.push_back(&grid.nodes(slot, field)[i].first);
+        fields.push_back(&grid.nodes(slot, field)[i].scalars.sums);
       });
       for (std::size_t b = 1; b < fields.size(); ++b) {
         for (std::size_t a = 0; a < b; ++a) {
@@ -64,12 +64,12 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt, std::span<co
   grid.clear();  // (eq. 1) heat capacity and temperature of the nodes
   scalars::scatter(particle_kind, grid, [&](Node& node, std::size_t p, double n, const Vector3&) {
     const double capacity = n * particles.mass[p] * constants(p).heat_capacity;
-    node.first += Lanes{capacity, capacity * particles.temperature[p], 0.0, 0.0};
+    node.scalars.sums += Lanes{capacity, capacity * particles.temperature[p], 0.0, 0.0};
   });
   fold_and_sum(grid);
   join_fields(grid, touch);
   for_each_owned_node([&](std::size_t i) {
-    Lanes& first = nodes[i].first;
+    Lanes& first = nodes[i].scalars.sums;
     first[1] = first[0] > no_capacity ? first[1] / first[0] : 0.0;
   });
   share(grid);
@@ -77,29 +77,29 @@ void conduct_heat(Particles& particles, BlockGrid& grid, double dt, std::span<co
   std::vector<Vector3> flux(particles.size());  // (eq. 2) -V k grad T of the particles
   gather(grid, [&](std::size_t p, auto&& for_nodes) {
     Vector3 gradient = Vector3::Zero();
-    for_nodes([&](const Node& node, double, const Vector3& g) { gradient += node.first[1] * g; });
+    for_nodes([&](const Node& node, double, const Vector3& g) { gradient += node.scalars.sums[1] * g; });
     flux[p] = -(particles.volume[p] + particles.void_volume[p]) * constants(p).conductivity * gradient;
   });
 
   parallel::for_each(nodes.size(), [&](std::size_t i) {  // (eq. 3) heat of the nodes
-    nodes[i].second = nodes[i].first;
-    nodes[i].first = broadcast(0.0);
+    nodes[i].scalars.kept = nodes[i].scalars.sums;
+    nodes[i].scalars.sums = broadcast(0.0);
   });
   scalars::scatter(particle_kind, grid, [&](Node& node, std::size_t p, double, const Vector3& gradient) {
-    node.first += Lanes{gradient.dot(flux[p]), 0.0, 0.0, 0.0};
+    node.scalars.sums += Lanes{gradient.dot(flux[p]), 0.0, 0.0, 0.0};
   });
   fold_and_sum(grid);
   join_fields(grid, touch);
   for_each_owned_node([&](std::size_t i) {
-    const double capacity = nodes[i].second[0];
-    nodes[i].first =
-        capacity > no_capacity && !grid.is_image(i) ? nodes[i].first * (dt / capacity) : broadcast(0.0);
+    const double capacity = nodes[i].scalars.kept[0];
+    nodes[i].scalars.sums =
+        capacity > no_capacity && !grid.is_image(i) ? nodes[i].scalars.sums * (dt / capacity) : broadcast(0.0);
   });
   share(grid);
 
   gather(grid, [&](std::size_t p, auto&& for_nodes) {  // (eq. 4)
     double rise = 0.0;
-    for_nodes([&](const Node& node, double n, const Vector3&) { rise += n * node.first[0]; });
+    for_nodes([&](const Node& node, double n, const Vector3&) { rise += n * node.scalars.sums[0]; });
     particles.specific_internal_energy[p] += constants(p).heat_capacity * rise;
   });
 }

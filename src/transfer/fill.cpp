@@ -18,25 +18,25 @@ std::vector<double> fill_of_cells(const Particles& particles, const TransitionNo
                    [&](Node& node, std::size_t p, double n, const Vector3&) {
                      const double volume = particles.volume[p] + particles.void_volume[p];
                      const double per_cell = per_area / grid.geometry().depth(particles.position[p]);
-                     node.first += Lanes{n * volume * per_cell, 0.0, 0.0, 0.0};
+                     node.scalars.sums += Lanes{n * volume * per_cell, 0.0, 0.0, 0.0};
                    });
   if (elements.size() > 0) {
     scalars::scatter(BlockGrid::Points::guests, grid, [&](Node& node, std::size_t, double n, const Vector3&) {
-      node.first += Lanes{0.0, n, 0.0, 0.0};
+      node.scalars.sums += Lanes{0.0, n, 0.0, 0.0};
     });
   }
   scalars::fold(grid);
   for (const grid::MirrorPlane& plane : grid.mirror_planes()) {  // images bring to it as much again
     for (const auto* nodes : {&plane.on_plane, &plane.on_plane_apart}) {
-      for (const std::uint32_t node : *nodes) grid.all_nodes()[node].first *= 2.0;
+      for (const std::uint32_t node : *nodes) grid.all_nodes()[node].scalars.sums *= 2.0;
     }
   }
   grid.sum_to_owners(BlockGrid::Part::first);
   for (const std::uint32_t slot : grid.contact_slots().first(grid.owned_contact_slots())) {
     for (int i = 0; i < grid::nodes_per_block; ++i) {
       Lanes sum{};
-      grid::for_each_bit(grid.fields(slot), [&](unsigned field) { sum += grid.nodes(slot, field)[i].first; });
-      grid::for_each_bit(grid.fields(slot), [&](unsigned field) { grid.nodes(slot, field)[i].first = sum; });
+      grid::for_each_bit(grid.fields(slot), [&](unsigned field) { sum += grid.nodes(slot, field)[i].scalars.sums; });
+      grid::for_each_bit(grid.fields(slot), [&](unsigned field) { grid.nodes(slot, field)[i].scalars.sums = sum; });
     }
   }
   scalars::share(grid);
@@ -44,8 +44,8 @@ std::vector<double> fill_of_cells(const Particles& particles, const TransitionNo
   scalars::gather(grid, [&](std::size_t p, auto&& for_nodes) {
     double filled = 0.0, of_elements = 0.0;
     for_nodes([&](const Node& node, double n, const Vector3&) {
-      filled += n * node.first[0];
-      of_elements += n * node.first[1];
+      filled += n * node.scalars.sums[0];
+      of_elements += n * node.scalars.sums[1];
     });
     if (of_elements == 0.0) fill[p] = filled;
   });

@@ -27,10 +27,10 @@ Vector3 momentum(const Particles& particles, std::span<const Vector3> velocity) 
 Vector3 FullMassMatrix::apply(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
                               GridUpdate& update, int order) {
   const std::span<grid::Node> nodes = grid.all_nodes();
-  // Node::first holds the term v*_l of the series (5.9), Node::second the sum so far.
+  // The first register holds the term v*_l of the series (5.9), the second the sum so far.
   parallel::for_each(nodes.size(), [&](std::size_t i) {
-    nodes[i].second += Lanes{1.0, 1.0, 1.0, 0.0} * nodes[i].first;
-    nodes[i].first = nodes[i].second;
+    nodes[i].registers.second += Lanes{1.0, 1.0, 1.0, 0.0} * nodes[i].registers.first;
+    nodes[i].registers.first = nodes[i].registers.second;
   });
   at_particles_.assign(particles.size(), Vector3::Zero());  // stays so where the grid does not reach
   term_.resize(nodes.size());
@@ -40,17 +40,17 @@ Vector3 FullMassMatrix::apply(ShapeFunction shape, const Particles& particles, g
   for (int l = 2; l <= order; ++l) {
     gather_velocity(shape, particles, grid, at_particles_);
     if (planes && l == 2) impulse -= momentum(particles, at_particles_);
-    parallel::for_each(nodes.size(), [&](std::size_t i) { term_[i] = nodes[i].first; });
+    parallel::for_each(nodes.size(), [&](std::size_t i) { term_[i] = nodes[i].registers.first; });
     momentum_to_grid(shape, particles, at_particles_, grid);
     update.velocity_from_momentum(grid);  // sum over particles and nodes of N_i m N_j v*_j / m_i
     parallel::for_each(nodes.size(), [&](std::size_t i) {
-      nodes[i].first = term_[i] - nodes[i].first;
-      nodes[i].second += Lanes{1.0, 1.0, 1.0, 0.0} * nodes[i].first;
+      nodes[i].registers.first = term_[i] - nodes[i].registers.first;
+      nodes[i].registers.second += Lanes{1.0, 1.0, 1.0, 0.0} * nodes[i].registers.first;
     });
   }
   parallel::for_each(nodes.size(), [&](std::size_t i) {
-    nodes[i].first = Lanes{1.0, 1.0, 1.0, 0.0} * nodes[i].second;
-    nodes[i].second = broadcast(0.0);
+    nodes[i].registers.first = Lanes{1.0, 1.0, 1.0, 0.0} * nodes[i].registers.second;
+    nodes[i].registers.second = broadcast(0.0);
   });
   if (planes && order >= 2) {
     gather_velocity(shape, particles, grid, at_particles_);

@@ -76,11 +76,11 @@ TransferBalance update_velocity(ShapeFunction shape, Particles& particles, grid:
                                 std::span<const Vector3> acceleration = {},
                                 const BeforeBorder& before_border = {});
 
-/// Velocity gradient of the nodes' velocities (Node::first). @returns J, plastic work, as `take` reports it
+/// Velocity gradient of the nodes' velocities (NodeMotion::velocity). @returns J, plastic work, as `take` reports it
 double gather_velocity_gradient(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
                                 const TakeGradients& take, const BeforeBorder& before_border = {});
 
-/// The nodes' velocities (Node::first) at the particles.
+/// The nodes' velocities (NodeMotion::velocity) at the particles.
 void gather_velocity(ShapeFunction shape, const Particles& particles, grid::BlockGrid& grid,
                      std::span<Vector3> velocity);
 

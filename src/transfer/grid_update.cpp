@@ -31,23 +31,26 @@ Lanes reflection(const grid::MirrorPlane& plane, int first_lane) {
 /// reflected vector. Real particles only were transferred, so what they brought beyond the plane is folded to
 /// the inside.
 void fold(Node& image, const Node& outside, Lanes sign, bool with_forces) {
-  image.first += sign * outside.first;
-  if (with_forces) image.second += sign * outside.second;
+  image.registers.first += sign * outside.registers.first;
+  if (with_forces) image.registers.second += sign * outside.registers.second;
 }
 
 /// On a plane a vector is its own image: the reversed components vanish. Mass and force would double alike.
 void restrict_to_plane(Node& node, Lanes sign, bool with_forces) {
   const Lanes keep = 0.5 * (broadcast(1.0) + sign);
-  node.first *= keep;
-  if (with_forces) node.second *= keep;
+  node.registers.first *= keep;
+  if (with_forces) node.registers.second *= keep;
 }
 
 /// Returns whether the step of a node is exactly that of the contributions of this rank's particles alone.
 bool is_result_of(const Node& node, const Node& brought, double dt) {
-  const double mass = brought.first[0];
-  const Lanes velocity = brought.first / mass, increment = brought.second * (dt / mass);
+  const double mass = brought.sums.mass();
+  const Lanes velocity = brought.sums.mass_and_momentum / mass,
+              increment = brought.sums.sound_and_force * (dt / mass);
   for (int c = 0; c < 3; ++c) {
-    if (velocity[c + 1] != node.first[c] || increment[c + 1] != node.second[c]) return false;
+    if (velocity[c + 1] != node.motion.velocity_and_relaxation[c] ||
+        increment[c + 1] != node.motion.increment_and_heat[c])
+      return false;
   }
   return true;
 }
@@ -63,8 +66,8 @@ std::array<double, grid::nodes_per_block> relaxation_of(const Node* nodes, const
   }
   for (std::size_t i = 0; i < beta.size(); i += 4) {
     const Node* n = nodes + i;
-    const Lanes mass = {n[0].first[0], n[1].first[0], n[2].first[0], n[3].first[0]};
-    const Lanes carried = {n[0].second[0], n[1].second[0], n[2].second[0], n[3].second[0]};
+    const Lanes mass = {n[0].sums.mass(), n[1].sums.mass(), n[2].sums.mass(), n[3].sums.mass()};
+    const Lanes carried = {n[0].sums.sound(), n[1].sums.sound(), n[2].sums.sound(), n[3].sums.sound()};
     const LanesMask massive = mass >= no_mass;
     Lanes of_four{};
     if (any(massive)) {
@@ -153,8 +156,8 @@ void GridUpdate::copy_back(BlockGrid& grid, Nodes which) {
     parallel::for_each(plane.pairs.size(), [&](std::size_t i) {
       const grid::MirrorPair& pair = plane.pairs[i];
       if (!among(grid, pair.image, which)) return;
-      nodes[pair.outside].first = sign * nodes[pair.image].first;
-      nodes[pair.outside].second = sign * nodes[pair.image].second;
+      nodes[pair.outside].registers.first = sign * nodes[pair.image].registers.first;
+      nodes[pair.outside].registers.second = sign * nodes[pair.image].registers.second;
     });
   }
 }
@@ -166,7 +169,7 @@ void GridUpdate::meet_images(BlockGrid& grid, Nodes which) {
   if (!mirror_contact_.made_heat()) return;
   for (std::size_t i = 0; i < at_planes_.size(); ++i) {
     if (!among(grid, at_planes_[i], which)) continue;
-    contact_heat_ += before_[i].first[0] * mirror_contact_.heat_at(at_planes_[i]);
+    contact_heat_ += before_[i].sums.mass() * mirror_contact_.heat_at(at_planes_[i]);
   }
 }
 
@@ -219,19 +222,19 @@ GridBalance GridUpdate::begin_advance(BlockGrid& grid, double dt, const Relaxati
     const std::array<double, grid::nodes_per_block> betas = relaxation_of(&nodes[first], relaxation, rate);
     for (std::size_t i = first; i < first + grid::nodes_per_block; ++i) {
       Node& node = nodes[i];
-      const double mass = node.first[0];
+      const double mass = node.sums.mass();
       if (mass < no_mass || grid.is_image(i)) {
-        node = {broadcast(0.0), broadcast(0.0)};
+        node.registers = {broadcast(0.0), broadcast(0.0)};
         continue;
       }
       const double beta = betas[i - first];
-      const Lanes velocity = node.first / mass;
-      const Lanes increment = node.second * (dt / mass);
-      node.first = Lanes{velocity[1], velocity[2], velocity[3], beta};
-      node.second = Lanes{increment[1], increment[2], increment[3], mass_kept * mass};
-      const Lanes advanced = node.first + node.second;
-      of_block[b] +=
-          Energies{0.5 * mass * sum3(node.first * node.first), 0.5 * mass * sum3(advanced * advanced)};
+      const Lanes velocity = node.sums.mass_and_momentum / mass;
+      const Lanes increment = node.sums.sound_and_force * (dt / mass);
+      const Lanes v = {velocity[1], velocity[2], velocity[3], beta},
+                  d = {increment[1], increment[2], increment[3], mass_kept * mass};
+      node.motion = {v, d};
+      const Lanes advanced = v + d;
+      of_block[b] += Energies{0.5 * mass * sum3(v * v), 0.5 * mass * sum3(advanced * advanced)};
     }
   });
   mirror_contact_.remember(grid);
@@ -255,13 +258,14 @@ Vector3 GridUpdate::wall_impulse(const BlockGrid& grid, Nodes which) const {
     if (!among(grid, at_planes_[i], which)) continue;
     const Node& real = before_[i];
     const Node& node = grid.all_nodes()[at_planes_[i]];
-    const double mass = real.first[0];
+    const double mass = real.sums.mass();
     // A node that received nothing in the fold is not changed by the planes: only its round-off would count.
     // (What arrives may be a force without any mass to speak of, at the edge of a kernel.)
     if (may_be_unchanged_[i] != 0 && is_result_of(node, real, dt_)) continue;
-    const Lanes momentum = {real.first[1], real.first[2], real.first[3], 0.0};
-    const Lanes force = {real.second[1], real.second[2], real.second[3], 0.0};
-    impulse += mass * node.second - dt_ * force - node.first[3] * (momentum - mass * node.first);
+    const Vector3 momentum = real.sums.momentum(), force = real.sums.force();
+    const Lanes p = {momentum[0], momentum[1], momentum[2], 0.0}, f = {force[0], force[1], force[2], 0.0};
+    const Lanes v = node.motion.velocity_and_relaxation;
+    impulse += mass * node.motion.increment_and_heat - dt_ * f - node.motion.relaxation() * (p - mass * v);
   }
   return {impulse[0], impulse[1], impulse[2]};
 }
@@ -279,7 +283,7 @@ void GridUpdate::begin_velocity_from_momentum(BlockGrid& grid) {
     const std::size_t block = grid.owned_block(b), begin = block * grid::nodes_per_block;
     const double mass_kept = mirror_contact_.concerns_block(block) ? 1.0 : 0.0;
     for (std::size_t i = begin; i < begin + grid::nodes_per_block; ++i) {
-      Lanes& first = nodes[i].first;
+      Lanes& first = nodes[i].registers.first;  // mass and momentum, then velocity
       const double mass = first[0];
       if (mass < no_mass || grid.is_image(i)) {
         first = broadcast(0.0);

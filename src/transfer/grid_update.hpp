@@ -33,11 +33,11 @@ class GridUpdate {
  public:
   /// Folds the nodes beyond the mirror planes onto their images where matter is one with its image, adds up
   /// the parts of all ranks, solves m dv/dt = f (equation 3.4), copies the result back to the nodes beyond,
-  /// and applies the contact with the images elsewhere. Collective. Node layout changes from the first to the
-  /// second form (see grid::Node).
+  /// and applies the contact with the images elsewhere. Collective. Nodes hold NodeSums before it, NodeMotion
+  /// after it.
   /// @param at_contact  called when the nodes of this rank have their step, before others learn of it: may
   ///                    change the velocity increments of contact slots (grid::BlockGrid), where it must
-  ///                    replace the mass in the last lane of Node::second by the heat that nodes give
+  ///                    replace NodeMotion::mass_for_contact by the heat that nodes give
   GridBalance advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation,
                       const std::function<void()>& at_contact = {});
 

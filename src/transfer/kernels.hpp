@@ -86,7 +86,7 @@ WHIPPLE_INLINE inline Vector root(Vector v) { return sqrt(v); }
 /// Lane 3 of the first register of the points' nodes, in all lanes.
 template <class Nodes>
 WHIPPLE_INLINE inline Vector relaxation(Vector, const Nodes& node) {
-  return broadcast_from(reinterpret_cast<const double*>(&node(0).first) + 3);
+  return broadcast_from(reinterpret_cast<const double*>(&node(0).registers.first) + 3);
 }
 
 /// Both registers of a node.
@@ -107,8 +107,10 @@ WHIPPLE_INLINE inline Both multiply_add(Both a, Both b, Both c) {
 }
 WHIPPLE_INLINE inline Lanes first_of(Both both) { return both.first; }
 WHIPPLE_INLINE inline Lanes second_of(Both both) { return both.second; }
-WHIPPLE_INLINE inline Both load_node(const grid::Node& node) { return {node.first, node.second}; }
-WHIPPLE_INLINE inline void store_node(grid::Node& node, Both value) { node = {value.first, value.second}; }
+WHIPPLE_INLINE inline Both load_node(const grid::Node& node) { return {node.registers.first, node.registers.second}; }
+WHIPPLE_INLINE inline void store_node(grid::Node& node, Both value) {
+  node.registers = {value.first, value.second};
+}
 
 #include "src/transfer/kernels/all.inl"
 

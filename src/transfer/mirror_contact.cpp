@@ -43,9 +43,9 @@ double common_relaxation(double mass, double beta, double other_mass, double oth
 
 /// Kinetic energy and work that the points of a node lose because they take the step `taken` instead of the
 /// one that the node makes by itself (3.12), J.
-double loss(Lanes own_velocity, Lanes own_increment, const Node& taken) {
-  const double mass = own_velocity[3], beta = taken.first[3];
-  const Lanes v = taken.first, d = taken.second;
+double loss(Lanes own_velocity, Lanes own_increment, const grid::NodeMotion& taken) {
+  const double mass = own_velocity[3], beta = taken.relaxation();
+  const Lanes v = taken.velocity_and_relaxation, d = taken.increment_and_heat;
   return mass *
          sum3((own_increment - d) * (v + 0.5 * d) - (own_velocity - v) * ((1.0 - beta) * d - beta * v));
 }
@@ -160,10 +160,11 @@ void MirrorContact::remember(BlockGrid& grid) {
     if (!concerns_block(block)) return;
     for (std::size_t i = block * nodes_per_block; i < (block + 1) * nodes_per_block; ++i) {
       Lanes* own = &own_.values[place(static_cast<std::uint32_t>(i))];
-      own[0] = nodes[i].first;
-      own[1] = nodes[i].second;
-      own[0][3] = nodes[i].second[3];
-      if (!grid.is_contact_block(block)) nodes[i].second[3] = 0.0;
+      grid::NodeMotion& motion = nodes[i].motion;
+      own[0] = motion.velocity_and_relaxation;
+      own[1] = motion.increment_and_heat;
+      own[0][3] = motion.mass_for_contact();
+      if (!grid.is_contact_block(block)) motion.set_heat(0.0);
     }
   });
 }
@@ -204,7 +205,8 @@ void MirrorContact::join_relaxation_at_corners(std::span<Node> nodes, const Amon
       if (couple.node == couple.mirror || !among(couple.node)) continue;
       double &mass = mass_of(couple.node), &other_mass = mass_of(couple.mirror);
       if (mass < no_mass || other_mass < no_mass) continue;
-      Lanes &first = nodes[couple.node].first, &other = nodes[couple.mirror].first;
+      Lanes &first = nodes[couple.node].motion.velocity_and_relaxation,
+            &other = nodes[couple.mirror].motion.velocity_and_relaxation;
       first[3] = other[3] = common_relaxation(mass, first[3], other_mass, other[3]);
       mass = other_mass = mass + other_mass;
     }
@@ -220,10 +222,10 @@ double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<N
   if (mass < no_mass || other_mass < no_mass) return 0.0;
   const double open = gap(plane, couple);
   const Lanes mixed = reversed(plane.of), sign = 1.0 - 2.0 * mixed;
-  Node& node = nodes[couple.node];
-  Node& mirror = nodes[couple.mirror];
+  grid::NodeMotion& node = nodes[couple.node].motion;
+  grid::NodeMotion& mirror = nodes[couple.mirror].motion;
   // The image at the node.
-  const Lanes v = node.first, d = node.second, v_image = sign * mirror.first, d_image = sign * mirror.second;
+  const Lanes v = node.velocity_and_relaxation, d = node.increment_and_heat, v_image = sign * mirror.velocity_and_relaxation, d_image = sign * mirror.increment_and_heat;
   const double n = plane.of.outward();
   const double w = n * (v_image - v)[plane.of.axis], e = n * (d_image - d)[plane.of.axis];
   const double beta = common_relaxation(mass, v[3], other_mass, v_image[3]);
@@ -239,25 +241,25 @@ double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<N
     const Lanes to_common = share * mixed;
     const Lanes v_common = (mass * v + other_mass * v_image) / total;
     const Lanes d_common = (mass * d + other_mass * d_image) / total;
-    node.first = v + to_common * (v_common - v);
-    node.second = d + to_common * (d_common - d);
-    node.first[3] = beta;
+    node.velocity_and_relaxation = v + to_common * (v_common - v);
+    node.increment_and_heat = d + to_common * (d_common - d);
+    node.set_relaxation(beta);
     if (!on_plane) {
-      mirror.first = sign * (v_image + to_common * (v_common - v_image));
-      mirror.second = sign * (d_image + to_common * (d_common - d_image));
-      mirror.first[3] = beta;
+      mirror.velocity_and_relaxation = sign * (v_image + to_common * (v_common - v_image));
+      mirror.increment_and_heat = sign * (d_image + to_common * (d_common - d_image));
+      mirror.set_relaxation(beta);
     }
   } else {  // (3.11): a common velocity of the nodes would not slow what is not relaxed towards it
     const double stopped = -(w + e) - std::max(std::max(open, 0.0) / dt, w);
     if (!(stopped > 0.0)) return 0.0;
     const double change = n * stopped / total;  // for a reduced mass: times the other mass
-    node.second[plane.of.axis] -= other_mass * change;
-    if (!on_plane) mirror.second[plane.of.axis] -= mass * change;
+    node.increment_and_heat[plane.of.axis] -= other_mass * change;
+    if (!on_plane) mirror.increment_and_heat[plane.of.axis] -= mass * change;
   }
   const double after = loss(own[0], own[1], node) + loss(own_of_mirror[0], own_of_mirror[1], mirror);
   const double half = 0.5 * (after - before);
   const auto add_heat = [&](std::uint32_t to, double heat) {
-    nodes[to].second[3] += heat;
+    nodes[to].motion.increment_and_heat[3] += heat;
     heat_[place(to) / lanes_per_node] += heat;
   };
   add_heat(couple.node, half / mass);
@@ -289,8 +291,8 @@ void MirrorContact::apply_to_velocities(BlockGrid& grid, const Among& among) {
     parallel::for_each(plane.couples.size(), [&](std::size_t i) {
       const Couple& couple = plane.couples[i];
       if (!among(couple.node)) return;
-      Lanes& v = nodes[couple.node].first;
-      Lanes& of_mirror = nodes[couple.mirror].first;
+      Lanes& v = nodes[couple.node].motion.velocity_and_relaxation;
+      Lanes& of_mirror = nodes[couple.mirror].motion.velocity_and_relaxation;
       const double mass = v[3], other_mass = of_mirror[3];
       if (mass < no_mass || other_mass < no_mass) return;
       const Lanes v_image = sign * of_mirror;

@@ -40,15 +40,15 @@ class MirrorContact {
   [[nodiscard]] bool concerns_block(std::size_t block) const {
     return !first_of_block_.empty() && first_of_block_[block] != nowhere;
   }
-  /// Keeps the step that the nodes of this rank take by themselves, with their mass in the last lane of
-  /// Node::second, which it clears where there is no contact of bodies.
+  /// Keeps the step that the nodes of this rank take by themselves, with their mass
+  /// (NodeMotion::mass_for_contact), which it clears where there is no contact of bodies.
   void remember(grid::BlockGrid& grid);
   /// Tells the other ranks what was remembered. Collective.
   void tell_others(grid::BlockGrid& grid);
   /// Changes velocities, increments and relaxation of the nodes that touch their images, and adds the heat of
-  /// that to the last lane of Node::second (J/kg).
+  /// that to NodeMotion::heat.
   void apply(grid::BlockGrid& grid, double dt, const Among& among);
-  /// Applies contact to velocities in Node::first, with the mass in its last lane: material and image are in
+  /// Applies contact to NodeMotion::velocity, with the mass in its last lane: material and image are in
   /// contact for the fractions that `apply` found in this step, or, before it, for those that follow from
   /// their approach.
   void apply_to_velocities(grid::BlockGrid& grid, const Among& among);

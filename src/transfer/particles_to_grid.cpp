@@ -145,7 +145,7 @@ void nodes_to_grid(ShapeFunction shape, const TransitionNodes& nodes, grid::Bloc
 void momentum_to_grid(ShapeFunction shape, const Particles& particles, std::span<const Vector3> velocity,
                       grid::BlockGrid& grid, const std::function<void()>& at_border) {
   const std::span<grid::Node> nodes = grid.all_nodes();
-  parallel::for_each(nodes.size(), [&](std::size_t i) { nodes[i].first = broadcast(0.0); });
+  parallel::for_each(nodes.size(), [&](std::size_t i) { nodes[i].sums.mass_and_momentum = broadcast(0.0); });
   with_shape(shape, [&]<class Shape>(Shape) {
     scatter_all<Shape>(Momentum{{particles}, velocity}, grid, at_border);
   });

@@ -23,8 +23,8 @@ void particles_to_grid(ShapeFunction shape, const Particles& particles, grid::Bl
 /// changes the radial momentum, which is no invariant.
 double hoop_force(const Particles& particles, const grid::BlockGrid& grid);
 
-/// Mass and momentum only, with a velocity per particle: Node::first is replaced, Node::second stays
-/// (equations 5.3, 5.9).
+/// Mass and momentum only, with a velocity per particle: NodeSums::mass_and_momentum is replaced, the other register
+/// stays (equations 5.3, 5.9).
 void momentum_to_grid(ShapeFunction shape, const Particles& particles, std::span<const Vector3> velocity,
                       grid::BlockGrid& grid, const std::function<void()>& at_border = {});
 

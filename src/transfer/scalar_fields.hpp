@@ -62,7 +62,7 @@ void for_each_node(BlockGrid::Points kind, std::size_t p, const BlockGrid& grid,
   }
 }
 
-/// Adds what every point brings to its nodes: bring(node, p, N, grad N). Node::second stays as it is.
+/// Adds what every point brings to its nodes: bring(node, p, N, grad N). what the node keeps stays as it is.
 template <class Bring>
 void scatter(BlockGrid::Points kind, BlockGrid& grid, Bring&& bring) {
   with_scalar_shape(grid, [&]<class Shape>(Shape) {
@@ -105,7 +105,7 @@ inline void fold(BlockGrid& grid, bool apart_too = true) {
     for (const auto* pairs : {&plane.pairs, &plane.pairs_apart}) {
       if (pairs == &plane.pairs_apart && !apart_too) continue;
       parallel::for_each(pairs->size(), [&](std::size_t i) {
-        nodes[(*pairs)[i].image].first += nodes[(*pairs)[i].outside].first;
+        nodes[(*pairs)[i].image].scalars.sums += nodes[(*pairs)[i].outside].scalars.sums;
       });
     }
   }
@@ -125,7 +125,7 @@ inline void share(BlockGrid& grid, bool apart_too = true) {
     for (const auto* pairs : {&planes[n].pairs, &planes[n].pairs_apart}) {
       if (pairs == &planes[n].pairs_apart && !apart_too) continue;
       parallel::for_each(pairs->size(), [&](std::size_t i) {
-        nodes[(*pairs)[i].outside].first = nodes[(*pairs)[i].image].first;
+        nodes[(*pairs)[i].outside].scalars.sums = nodes[(*pairs)[i].image].scalars.sums;
       });
     }
   }

@@ -106,7 +106,7 @@ void clear_beyond_planes(BlockGrid& grid) {
   const std::span<Node> nodes = grid.all_nodes();
   for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
     parallel::for_each(plane.pairs.size(),
-                       [&](std::size_t i) { nodes[plane.pairs[i].outside].first = broadcast(0.0); });
+                       [&](std::size_t i) { nodes[plane.pairs[i].outside].scalars.sums = broadcast(0.0); });
   }
 }
 
@@ -142,7 +142,7 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
     const std::vector<std::uint64_t>& taking_part = *found;
     std::vector<std::uint64_t> reached = around(grid, taking_part);
     if (grid.is_shared()) std::ranges::fill(reached, 1U);  // whatever other ranks bring adds to zero
-    for_each_node(grid, reached, grid.slots(), [](Node& node) { node.first = broadcast(0.0); });
+    for_each_node(grid, reached, grid.slots(), [](Node& node) { node.scalars.sums = broadcast(0.0); });
     clear_beyond_planes(grid);
 
     grid.for_each_apart([&](std::size_t slot) {
@@ -153,12 +153,12 @@ double conduct_in_shocks(ShapeFunction shape, Particles& particles, BlockGrid& g
     });
     scalars::fold_and_sum(grid, false);
     for_each_node(grid, reached, grid.owned_slots(), [](Node& node) {  // chi T, chi
-      const double capacity = node.first[0];
+      const double capacity = node.scalars.sums[0];
       if (capacity < no_capacity) {
-        node.first = broadcast(0.0);
+        node.scalars.sums = broadcast(0.0);
       } else {
-        const double share = node.first[2] / capacity;
-        node.first = Lanes{share * node.first[1] / capacity, share, 0.0, 0.0};
+        const double share = node.scalars.sums[2] / capacity;
+        node.scalars.sums = Lanes{share * node.scalars.sums[1] / capacity, share, 0.0, 0.0};
       }
     });
     scalars::share(grid, false);

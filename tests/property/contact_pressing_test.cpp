@@ -33,7 +33,7 @@ struct Trial {
     std::vector<Side> sides;
     for (std::size_t s = 0; s < after.size(); ++s) {
       sides.push_back({.node = &after[s], .mass = mass[s]});
-      after[s].second[3] = 0.0;
+      after[s].motion.set_heat(0.0);
     }
     Pressing pressing(friction);
     pressing.begin(sides);
@@ -50,16 +50,16 @@ struct Trial {
   /// N s: what the particles of a field get from the node, without that of their own forces. They bring
   /// m u and take m (d - beta (u - v)), equation (4.3) of mpm.md.
   [[nodiscard]] Vector3 impulse(std::size_t s) const {
-    const Vector3 u = vector(before[s].first), v = vector(after[s].first);
-    const Vector3 f = vector(before[s].second), d = vector(after[s].second);
-    return mass[s] * (d - f - after[s].first[3] * (u - v));
+    const Vector3 u = before[s].motion.velocity(), v = after[s].motion.velocity();
+    const Vector3 f = before[s].motion.increment(), d = after[s].motion.increment();
+    return mass[s] * (d - f - after[s].motion.relaxation() * (u - v));
   }
   /// J: change of the energy of the particles of a field, with the heat of their transfer and the work of
   /// their stresses, (4.5) and (4.6) of mpm.md, summed over them.
   [[nodiscard]] double energy(std::size_t s) const {
-    const Vector3 u = vector(before[s].first), v = vector(after[s].first);
-    const Vector3 f = vector(before[s].second), d = vector(after[s].second);
-    const double beta = after[s].first[3];
+    const Vector3 u = before[s].motion.velocity(), v = after[s].motion.velocity();
+    const Vector3 f = before[s].motion.increment(), d = after[s].motion.increment();
+    const double beta = after[s].motion.relaxation();
     const double kinetic =
         v.dot(d) + 0.5 * d.squaredNorm() + (1.0 - beta) * (u - v).dot(d) - beta * v.dot(u - v);
     return mass[s] * (kinetic - f.dot(v + 0.5 * d));
@@ -67,7 +67,7 @@ struct Trial {
   [[nodiscard]] double scale() const {
     double sum = 0.0;
     for (std::size_t s = 0; s < mass.size(); ++s) {
-      sum += mass[s] * (vector(before[s].first).squaredNorm() + vector(before[s].second).squaredNorm());
+      sum += mass[s] * (before[s].motion.velocity().squaredNorm() + before[s].motion.increment().squaredNorm());
     }
     return sum;
   }
@@ -141,13 +141,13 @@ TEST_F(Pressed, TwoThatTouchMoveAsOneAlongTheNormal) {
     const Vector3 normal = t.meetings[0].normal;
     if (t.balance.impulse == 0.0) {
       for (std::size_t s = 0; s < 2; ++s) {
-        for (int c = 0; c < 4; ++c) EXPECT_EQ(t.after[s].first[c], t.before[s].first[c]);
+        for (int c = 0; c < 4; ++c) EXPECT_EQ(t.after[s].motion.velocity_and_relaxation[c], t.before[s].motion.velocity_and_relaxation[c]);
       }
       continue;
     }
-    EXPECT_NEAR(normal.dot(vector(t.after[1].first) - vector(t.after[0].first)), 0.0, 1e-9);
-    EXPECT_NEAR(normal.dot(vector(t.after[1].second) - vector(t.after[0].second)), 0.0, 1e-9);
-    EXPECT_EQ(t.after[0].first[3], t.after[1].first[3]);
+    EXPECT_NEAR(normal.dot(t.after[1].motion.velocity() - t.after[0].motion.velocity()), 0.0, 1e-9);
+    EXPECT_NEAR(normal.dot(t.after[1].motion.increment() - t.after[0].motion.increment()), 0.0, 1e-9);
+    EXPECT_EQ(t.after[0].motion.relaxation(), t.after[1].motion.relaxation());
     EXPECT_NEAR(t.balance.contact_heat, 0.0, 1e-20);
     EXPECT_GT(normal.dot(t.impulse(1)), 0.0);
   }
@@ -160,8 +160,8 @@ TEST_F(Pressed, AGapClosesExactly) {
     Trial t = trial(2, false);
     const Vector3 normal = t.meetings[0].normal;
     const auto closing = [&](const std::vector<grid::Node>& nodes) {
-      return -normal.dot(vector(nodes[1].first) + vector(nodes[1].second) - vector(nodes[0].first) -
-                         vector(nodes[0].second)) *
+      return -normal.dot(nodes[1].motion.velocity() + nodes[1].motion.increment() - nodes[0].motion.velocity() -
+                         nodes[0].motion.increment()) *
              dt;
     };
     t.meetings[0].open = uniform(0.0, 1e-5);
@@ -171,7 +171,7 @@ TEST_F(Pressed, AGapClosesExactly) {
       EXPECT_NEAR(closing(t.after), t.meetings[0].open, 1e-17);
     } else {
       for (std::size_t s = 0; s < 2; ++s) {
-        for (int c = 0; c < 4; ++c) EXPECT_EQ(t.after[s].first[c], t.before[s].first[c]);
+        for (int c = 0; c < 4; ++c) EXPECT_EQ(t.after[s].motion.velocity_and_relaxation[c], t.before[s].motion.velocity_and_relaxation[c]);
       }
     }
     if (closing(t.before) < t.meetings[0].open) {
@@ -185,19 +185,19 @@ TEST_F(Pressed, AGapClosesExactly) {
 TEST_F(Pressed, AStackMovesAsOneAndDoesNotPull) {
   Trial t;
   t.mass = {1e-6, 2e-6, 3e-6};
-  const auto node = [](double v) { return grid::Node{Lanes{v, 0, 0, 0.1}, Lanes{0, 0, 0, 0}}; };
+  const auto node = [](double v) { return grid::Node{{Lanes{v, 0, 0, 0.1}, Lanes{0, 0, 0, 0}}}; };
   t.before = {node(0), node(0), node(-60)};
   t.meetings = {{0, 1, Vector3::UnitX(), 0.0}, {1, 2, Vector3::UnitX(), 0.0}, {0, 2, Vector3::UnitX(), 0.0}};
   t.apply(0.0);
-  for (std::size_t s = 0; s < 3; ++s) EXPECT_NEAR(t.after[s].first[0], -30.0, 1e-6);
+  for (std::size_t s = 0; s < 3; ++s) EXPECT_NEAR(t.after[s].motion.velocity_and_relaxation[0], -30.0, 1e-6);
   t.before = {node(-5), node(0), node(-60)};  // the first flees, but slower than all of them go on
   t.apply(0.0);
-  EXPECT_NEAR(t.after[0].first[0], -185.0 / 6.0, 1e-6);
+  EXPECT_NEAR(t.after[0].motion.velocity_and_relaxation[0], -185.0 / 6.0, 1e-6);
   t.before = {node(-90), node(0), node(-60)};  // faster
   t.apply(0.0);
-  EXPECT_EQ(t.after[0].first[0], -90.0);
-  EXPECT_NEAR(t.after[1].first[0], -36.0, 1e-6);
-  EXPECT_NEAR(t.after[2].first[0], -36.0, 1e-6);
+  EXPECT_EQ(t.after[0].motion.velocity_and_relaxation[0], -90.0);
+  EXPECT_NEAR(t.after[1].motion.velocity_and_relaxation[0], -36.0, 1e-6);
+  EXPECT_NEAR(t.after[2].motion.velocity_and_relaxation[0], -36.0, 1e-6);
 }
 
 }  // namespace

@@ -33,10 +33,10 @@ NodeSums node_sums(grid::BlockGrid& grid) {
       const grid::BlockCoordinate& c = grid.coordinate(s);
       const Vector3 x =
           grid.geometry().lower + dx * Vector3(c[0] * 4 + i / 16, c[1] * 4 + i / 4 % 4, c[2] * 4 + i % 4);
-      const Vector3 momentum(node.first[1], node.first[2], node.first[3]);
-      sums.mass += node.first[0];
+      const Vector3 momentum = node.sums.momentum();
+      sums.mass += node.sums.mass();
       sums.momentum += momentum;
-      sums.force += Vector3(node.second[1], node.second[2], node.second[3]);
+      sums.force += node.sums.force();
       sums.angular += x.cross(momentum);
     }
   }

@@ -34,8 +34,8 @@ TYPED_TEST(TransferKernels, GradientsComeOnceEachAndRight) {
     for (int i = 0; i < grid::nodes_per_block; ++i) {
       const grid::BlockCoordinate& c = grid.coordinate(s);
       const Vector3 place(c[0] * 4 + i / 16, c[1] * 4 + i / 4 % 4, c[2] * 4 + i % 4), v = field * dx * place;
-      grid.nodes(s)[i].first = Lanes{v[0], v[1], v[2], 0.0};
-      grid.nodes(s)[i].second = Lanes{1.0, -2.0, 2.0, 0.0};  // increment
+      grid.nodes(s)[i].motion.velocity_and_relaxation = Lanes{v[0], v[1], v[2], 0.0};
+      grid.nodes(s)[i].motion.increment_and_heat = Lanes{1.0, -2.0, 2.0, 0.0};  // increment
     }
   }
   std::vector<int> taken(q.size(), 0);

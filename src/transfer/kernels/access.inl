@@ -10,19 +10,19 @@ constexpr std::size_t direct_access_below = Shape::count == 2 ? 16 : 6;
 WHIPPLE_INLINE inline void copy_node(const grid::Node& from, grid::Node& to) {
   store_node(to, load_node(from));
 }
-WHIPPLE_INLINE inline void copy_node(const grid::Node& from, Lanes& to) { to = from.first; }
+WHIPPLE_INLINE inline void copy_node(const grid::Node& from, Lanes& to) { to = from.registers.first; }
 WHIPPLE_INLINE inline void add_node(const grid::Node& from, grid::Node& to) {
   store_node(to, load_node(to) + load_node(from));
 }
-WHIPPLE_INLINE inline void add_node(Lanes from, grid::Node& to) { to.first += from; }
+WHIPPLE_INLINE inline void add_node(Lanes from, grid::Node& to) { to.registers.first += from; }
 WHIPPLE_INLINE inline void clear_node(grid::Node& node) { store_node(node, both(Lanes{}, Lanes{})); }
 WHIPPLE_INLINE inline void clear_node(Lanes& first) { first = Lanes{}; }
-WHIPPLE_INLINE inline Lanes& first_register(grid::Node& node) { return node.first; }
+WHIPPLE_INLINE inline Lanes& first_register(grid::Node& node) { return node.registers.first; }
 WHIPPLE_INLINE inline Lanes& first_register(Lanes& first) { return first; }
 
 /// Copy of the nodes that a block reaches; index = position in the reach, z fastest.
 /// @tparam Shape    its stencil gives the reach
-/// @tparam Content  what is copied: grid::Node, or Lanes for Node::first
+/// @tparam Content  what is copied: grid::Node, or Lanes for the first register
 template <class Shape, class Content = grid::Node>
 class ReachCopy {
  public:

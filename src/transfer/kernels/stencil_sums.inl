@@ -17,7 +17,7 @@ struct Group {
     return of_group([&](std::size_t m) -> Lanes { return first_register(stencil[m](i, j, k)); });
   }
   [[nodiscard]] WHIPPLE_INLINE Vector second(std::size_t i, std::size_t j, std::size_t k) const {
-    return of_group([&](std::size_t m) -> Lanes { return stencil[m](i, j, k).second; });
+    return of_group([&](std::size_t m) -> Lanes { return stencil[m](i, j, k).registers.second; });
   }
 };
 

@@ -6,18 +6,18 @@
 #include <cmath>
 #include <numeric>
 
-#include "src/grid/block_grid.hpp"
+#include "src/grid/point_bins.hpp"
 #include "src/grid/block_reach.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
 
 namespace whipple::grid {
 
-bool BlockGrid::bin(std::span<const Vector3> position, Stencil stencil, std::span<const Vector3> guests) {
+bool PointBins::bin(std::span<const Vector3> position, Stencil stencil, std::span<const Vector3> guests) {
   stencil_ = stencil;
   const bool known = slot_of_particle_.size() == position.size() || (!is_shared() && look_up(position));
   const bool complete = known && locate(position, stencil) && locate_guests(guests, stencil);
-  if (parallel::any(communicator_, !complete)) {
+  if (parallel::any(communicator(), !complete)) {
     forget_runs();
     return false;
   }
@@ -28,7 +28,7 @@ bool BlockGrid::bin(std::span<const Vector3> position, Stencil stencil, std::spa
 }
 
 /// Finds the slot of every particle; false if one is outside of the active set.
-bool BlockGrid::look_up(std::span<const Vector3> position) {
+bool PointBins::look_up(std::span<const Vector3> position) {
   forget_runs();
   slot_of_particle_.resize(position.size());
   std::atomic<bool> complete = true;
@@ -37,7 +37,7 @@ bool BlockGrid::look_up(std::span<const Vector3> position) {
     for (std::size_t p = begin; p < end; ++p) {
       // Neighbours in memory are mostly in one block.
       if (slot == no_slot ||
-          !is_inside(in_cells(position[p]) - corner_[static_cast<std::size_t>(slot)], edges_)) {
+          !is_inside(in_cells(position[p]) - corner(static_cast<std::size_t>(slot)), edges())) {
         slot = slot_at(position[p]);
       }
       if (slot == no_slot) complete = false;
@@ -50,7 +50,7 @@ bool BlockGrid::look_up(std::span<const Vector3> position) {
 
 /// Updates the slot of every particle from its former slot; false if a particle left the active set. Where
 /// matter rests all is as it was.
-bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
+bool PointBins::locate(std::span<const Vector3> position, Stencil stencil) {
   place_of_particle_.resize(position.size());
   if (!runs_known_) {
     resting_.assign(slots(), 0);
@@ -71,12 +71,12 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
   std::atomic<bool> complete = true;
   // Do all particles of a run reach active blocks only? The box around their stencils mostly tells.
   const auto is_active = [&](const Run& run, Lanes first, Lanes last) {
-    const std::uint32_t absent = ~existing_[run.slot];
+    const std::uint32_t absent = ~existing(run.slot);
     const std::uint32_t touched = touched_neighbours_of_box(first, last, stencil);
     std::atomic_ref(reached_[run.slot]).fetch_or(touched, std::memory_order_relaxed);
     if ((touched & absent) == 0) return true;
     for (std::size_t p = run.begin; p < run.end; ++p) {
-      const Lanes local = position_in_block(in_cells(position[p]), corner_[run.slot], edges_);
+      const Lanes local = position_in_block(in_cells(position[p]), corner(run.slot), edges());
       if ((touched_neighbours(local, stencil) & absent) != 0) return false;
     }
     return true;
@@ -101,8 +101,8 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
       for (std::uint32_t p = before.begin; p < before.end; ++p) {
         auto slot = static_cast<std::uint32_t>(slot_of_particle_[p]);
         const Lanes at = in_cells(position[p]);
-        Lanes local = at - corner_[slot];
-        if (!is_inside(local, edges_)) {
+        Lanes local = at - corner(slot);
+        if (!is_inside(local, edges())) {
           const std::int32_t moved = slot_of_neighbour(slot, at);
           if (moved == no_slot) {
             complete = false;
@@ -110,7 +110,7 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
           }
           slot = static_cast<std::uint32_t>(moved);
           slot_of_particle_[p] = moved;
-          local = position_in_block(at, corner_[slot], edges_);
+          local = position_in_block(at, corner(slot), edges());
           // Where something comes to is not at rest.
           std::atomic_ref(resting_[slot]).store(0, std::memory_order_relaxed);
         }
@@ -135,19 +135,19 @@ bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
 
 /// Slot of the block around a position in a slot's block or one of its neighbours; `no_slot` if that is not
 /// active or farther away.
-std::int32_t BlockGrid::slot_of_neighbour(std::size_t slot, Lanes in_cells) const {
+std::int32_t PointBins::slot_of_neighbour(std::size_t slot, Lanes in_cells) const {
   int neighbour = 0;
   for (int a = 0; a < 3; ++a) {
-    const double block = std::floor(in_cells[a] / block_.along(static_cast<std::size_t>(a)));
-    const double offset = block - blocks_.coordinate[slot][static_cast<std::size_t>(a)];
+    const double block = std::floor(in_cells[a] / block_shape().along(static_cast<std::size_t>(a)));
+    const double offset = block - coordinate(slot)[static_cast<std::size_t>(a)];
     if (!(std::abs(offset) <= 1.0)) return no_slot;
     neighbour = neighbour * 3 + static_cast<int>(offset) + 1;
   }
-  return neighbours_[slot][static_cast<std::size_t>(neighbour)];
+  return neighbours(slot)[static_cast<std::size_t>(neighbour)];
 }
 
 /// Guests come and go, so each one's block is looked up; false if a stencil reaches beyond the active set.
-bool BlockGrid::locate_guests(std::span<const Vector3> guests, Stencil stencil) {
+bool PointBins::locate_guests(std::span<const Vector3> guests, Stencil stencil) {
   slot_of_guest_.resize(guests.size());
   place_of_guest_.resize(guests.size());
   const StencilPlaces places(stencil);
@@ -156,18 +156,18 @@ bool BlockGrid::locate_guests(std::span<const Vector3> guests, Stencil stencil) 
     if (slot == no_slot) return false;
     slot_of_guest_[g] = slot;
     const auto at = static_cast<std::size_t>(slot);
-    const Lanes local = position_in_block(in_cells(guests[g]), corner_[at], edges_);
+    const Lanes local = position_in_block(in_cells(guests[g]), corner(at), edges());
     place_of_guest_[g] = places(local);
     const std::uint32_t touched = touched_neighbours(local, stencil);
     reached_[at] |= touched;
-    if ((touched & ~existing_[at]) != 0) return false;
+    if ((touched & ~existing(at)) != 0) return false;
   }
   return true;
 }
 
 /// Counting sort of whole runs by slot; stable, so that the particles of a block keep the order of their
 /// indices.
-void BlockGrid::list_particles() {
+void PointBins::list_particles() {
   PointList& list = particles_;
   list.begin.assign(slots() + 1, 0);
   for (const std::vector<Run>& runs : runs_) {
@@ -202,7 +202,7 @@ void BlockGrid::list_particles() {
   });
 }
 
-void BlockGrid::list_guests() {
+void PointBins::list_guests() {
   guests_.begin.assign(slots() + 1, 0);
   for (const std::int32_t slot : slot_of_guest_) ++guests_.begin[static_cast<std::size_t>(slot) + 1];
   std::partial_sum(guests_.begin.begin(), guests_.begin.end(), guests_.begin.begin());
@@ -213,7 +213,7 @@ void BlockGrid::list_guests() {
   }
 }
 
-void BlockGrid::list_by_stencil(std::vector<std::uint32_t>& order) const {
+void PointBins::list_by_stencil(std::vector<std::uint32_t>& order) const {
   order.resize(particles_.points.size());
   parallel::for_each_uneven(slots(), [&](std::size_t slot) {  // counting sort
     const std::span<const std::uint32_t> members = particles_in(slot);
@@ -229,12 +229,12 @@ void BlockGrid::list_by_stencil(std::vector<std::uint32_t>& order) const {
   });
 }
 
-void BlockGrid::particles_reordered() {
+void PointBins::particles_reordered() {
   forget_runs();
   slot_of_particle_.clear();
 }
 
-void BlockGrid::particles_reordered(std::span<const std::uint32_t> order) {
+void PointBins::particles_reordered(std::span<const std::uint32_t> order) {
   if (is_shared()) return particles_reordered();
   forget_runs();
   reordered_.resize(order.size());
@@ -242,27 +242,27 @@ void BlockGrid::particles_reordered(std::span<const std::uint32_t> order) {
   slot_of_particle_.swap(reordered_);
 }
 
-void BlockGrid::particles_removed(std::span<const Move> moves, std::size_t size) {
+void PointBins::particles_removed(std::span<const Move> moves, std::size_t size) {
   forget_runs();
   if (!slot_of_particle_.empty()) close_gaps(slot_of_particle_, moves, size);
 }
 
-void BlockGrid::forget_runs() {
+void PointBins::forget_runs() {
   runs_known_ = false;
   ++arrangement_;
 }
 
-void BlockGrid::release(std::span<const std::uint32_t> particles) {
+void PointBins::release(std::span<const std::uint32_t> particles) {
   if (particles.empty()) return;
   released_.assign(particles.begin(), particles.end());
   for (const std::uint32_t p : particles) resting_[static_cast<std::size_t>(slot_of_particle_[p])] = 0;
   list_particles();
 }
 
-std::size_t BlockGrid::let_rest(int layers, const std::function<bool(std::size_t)>& is_restless) {
+std::size_t PointBins::let_rest(int layers, const std::function<bool(std::size_t)>& is_restless) {
   const auto for_each_reached = [&](std::size_t s, auto&& f) {
     for_each_bit(reached_[s], [&](unsigned n) {
-      if (neighbours_[s][n] != no_slot) f(static_cast<std::size_t>(neighbours_[s][n]));
+      if (neighbours(s)[n] != no_slot) f(static_cast<std::size_t>(neighbours(s)[n]));
     });
   };
   std::vector<std::uint64_t> awake(slots(), 0);
@@ -295,22 +295,22 @@ std::size_t BlockGrid::let_rest(int layers, const std::function<bool(std::size_t
   return slot_of_particle_.size() - released_.size() - particles_.points.size();
 }
 
-void BlockGrid::wake() {
+void PointBins::wake() {
   if (std::ranges::find(resting_, 1) == resting_.end()) return;
   std::ranges::fill(resting_, std::uint8_t{0});
   list_particles();
 }
 
-bool BlockGrid::chunk_rests(std::size_t chunk) const {
+bool PointBins::chunk_rests(std::size_t chunk) const {
   return runs_known_ &&
          std::ranges::all_of(runs_[chunk], [&](const Run& run) { return resting_[run.slot] != 0; });
 }
 
-void BlockGrid::count_cells(std::span<const Vector3> position, std::span<const Vector3> guests) {
+void PointBins::count_cells(std::span<const Vector3> position, std::span<const Vector3> guests) {
   cell_count_.assign(slots() * nodes_per_block, 0);
   const auto count = [&](std::size_t slot, const Vector3& point) {
-    const std::array<int, 3> cell = floor_of_three(in_cells(point) - corner_[slot]);
-    ++cell_count_[slot * nodes_per_block + static_cast<std::size_t>(block_.node(cell[0], cell[1], cell[2]))];
+    const std::array<int, 3> cell = floor_of_three(in_cells(point) - corner(slot));
+    ++cell_count_[slot * nodes_per_block + static_cast<std::size_t>(block_shape().node(cell[0], cell[1], cell[2]))];
   };
   for (std::size_t p = 0; p < position.size(); ++p) {
     count(static_cast<std::size_t>(slot_of_particle_[p]), position[p]);
@@ -320,25 +320,26 @@ void BlockGrid::count_cells(std::span<const Vector3> position, std::span<const V
   }
   // Other ranks may have particles, unseen here, in blocks that they borrow and in blocks of their own.
   unshared_.assign(slots(), 1);
-  for (std::size_t s = blocks_.owned; s < slots(); ++s) unshared_[s] = 0;
-  for (const BlockSet::Peer& peer : blocks_.peers) {
+  for (std::size_t s = owned_slots(); s < slots(); ++s) unshared_[s] = 0;
+  for (const BlockSet::Peer& peer : peers()) {
     for (const std::uint32_t s : peer.lent) unshared_[s] = 0;
   }
 }
 
-bool BlockGrid::is_alone(std::uint32_t particle, const Vector3& position) const {
+bool PointBins::is_alone(std::uint32_t particle, const Vector3& position) const {
   constexpr int ring = 2;
   const Lanes place = in_cells(position);
-  for (const MirrorPlane& plane : planes_) {
-    const auto axis = static_cast<std::size_t>(plane.axis);
-    const double depth = plane.face % 2 == 0 ? place[axis] : geometry_.cells[axis] - place[axis];
+  for (std::size_t face = 0; face < 6; ++face) {
+    if (geometry().boundary[face] == Boundary::outflow) continue;
+    const std::size_t axis = face / 2;
+    const double depth = face % 2 == 0 ? place[axis] : geometry().cells[axis] - place[axis];
     if (depth < ring) return false;
   }
   const auto slot = static_cast<std::size_t>(slot_of_particle_[particle]);
-  const std::array<int, 3> cell = floor_of_three(place - corner_[slot]);
-  const int ring_z = geometry_.is_planar() ? 0 : ring;
+  const std::array<int, 3> cell = floor_of_three(place - corner(slot));
+  const int ring_z = geometry().is_planar() ? 0 : ring;
   const auto place_along = [&](int c, std::size_t axis) {  // block around (0 to 2), cell in it
-    const int edge = block_.along(axis);
+    const int edge = block_shape().along(axis);
     return std::pair{c < 0 ? 0 : c < edge ? 1 : 2, (c + edge) % edge};
   };
   int count = 0;
@@ -349,14 +350,14 @@ bool BlockGrid::is_alone(std::uint32_t particle, const Vector3& position) const 
       for (int k = cell[2] - ring_z; k <= cell[2] + ring_z; ++k) {
         const auto [block_z, z] = place_along(k, 2);
         const std::int32_t owner =
-            neighbours_[slot][static_cast<std::size_t>(neighbour_index(block_x, block_y, block_z))];
+            neighbours(slot)[static_cast<std::size_t>(neighbour_index(block_x, block_y, block_z))];
         if (owner == no_slot) {
           if (is_shared()) return false;
           continue;
         }
         const auto of = static_cast<std::size_t>(owner);
         if (unshared_[of] == 0) return false;
-        count += cell_count_[of * nodes_per_block + static_cast<std::size_t>(block_.node(x, y, z))];
+        count += cell_count_[of * nodes_per_block + static_cast<std::size_t>(block_shape().node(x, y, z))];
         if (count > 1) return false;
       }
     }

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "src/grid/node.hpp"
+#include "src/grid/velocity_fields.hpp"
+
+namespace whipple::grid {
+
+/// The nodes of all blocks, and the linear constraints on them: which nodes mirror planes connect.
+class NodeStore : public VelocityFields {
+ public:
+  /// The nodes of a slot for a field; those of the slot itself where the field has none of its own.
+  [[nodiscard]] Node* nodes(std::size_t slot, unsigned field = 0) {
+    return &nodes_[block_of_field(slot, field) * nodes_per_block];
+  }
+  [[nodiscard]] const Node* nodes(std::size_t slot, unsigned field = 0) const {
+    return &nodes_[block_of_field(slot, field) * nodes_per_block];
+  }
+  [[nodiscard]] std::span<Node> all_nodes() { return nodes_; }
+  [[nodiscard]] std::span<const Node> all_nodes() const { return nodes_; }
+  /// Sets every node to zero.
+  void clear();
+  /// Changes whenever nodes change their place in all_nodes().
+  [[nodiscard]] std::size_t layout() const { return layout_; }
+
+  /// Sets the fields that are continuous with their images at the mirror planes: one bit per field for each
+  /// face. By default all are, except at separating walls. Call before `bin`.
+  void bond_at_planes(const std::array<std::uint64_t, 6>& fields);
+  /// Returns whether a field is continuous with its image at a face.
+  [[nodiscard]] bool is_bonded_at(std::size_t face, unsigned field) const {
+    return geometry().boundary[face] != Boundary::outflow && (bonded_[face] >> field & 1U) != 0;
+  }
+  /// Returns whether some field may be in contact with its image at a face.
+  [[nodiscard]] bool is_apart_at(std::size_t face) const {
+    return geometry().boundary[face] != Boundary::outflow && ~bonded_[face] != 0;
+  }
+  /// Planes with the active nodes that they concern, in the order in which they are folded.
+  [[nodiscard]] std::span<const MirrorPlane> mirror_planes() const { return planes_; }
+  /// Returns whether a node belongs to a ghost block, or to one that mirror planes connect with a ghost
+  /// block.
+  [[nodiscard]] bool is_awaited(std::size_t node) const {
+    if (awaited_.empty()) return false;
+    const std::size_t block = node / nodes_per_block;
+    return awaited_[slot_of_block(block)] != 0;
+  }
+  /// Returns whether `is_awaited` holds for any node.
+  [[nodiscard]] bool awaits() const { return !awaited_.empty(); }
+  /// Returns whether a node is an image: beyond a plane across which its field is continuous.
+  [[nodiscard]] bool is_image(std::size_t node) const { return !outside_.empty() && outside_[node] != 0; }
+
+ protected:
+  NodeStore(const Geometry& geometry, MPI_Comm communicator);
+  /// Gives the blocks of the fields their nodes.
+  void lay_out_nodes();
+  /// Determines the border slots: values that other ranks await are complete once the slots around them have
+  /// contributed, and mirror planes have been folded onto them. (While all fields share the nodes, the planes
+  /// connect at least as many slots as later.)
+  void find_border();
+  [[nodiscard]] bool is_at_border(std::size_t slot) const { return !border_.empty() && border_[slot] != 0; }
+
+ private:
+  void find_mirror_nodes();
+  [[nodiscard]] std::uint32_t active_node(const std::array<std::int32_t, 3>& place, int field) const;
+
+  std::vector<Node> nodes_;
+  std::size_t layout_ = 0;
+  std::vector<MirrorPlane> planes_;
+  std::array<std::uint64_t, 6> bonded_{};  // bit per field, of each face
+  std::vector<std::uint8_t> outside_;      // of each node: an image across a plane where its field is continuous
+  std::vector<std::uint8_t> awaited_, border_;  // of each slot; empty where nothing is borrowed
+};
+
+}  // namespace whipple::grid

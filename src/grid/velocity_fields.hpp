@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "src/grid/point_bins.hpp"
+
+namespace whipple::grid {
+
+/// Velocity fields that particles and guests belong to. A slot that points of more than one field reach is a contact
+/// slot and has nodes for each of them; elsewhere all fields share the one set (local multi-mesh: docs/theory/contact.md,
+/// 2). Blocks of nodes are numbered by slot, then come the further ones of the contact slots.
+class VelocityFields : public PointBins {
+ public:
+  /// Points of the grid with the velocity field (below `maximum_fields`) of each.
+  struct FieldPoints {
+    std::span<const Vector3> position;
+    std::span<const std::uint8_t> field;
+  };
+  /// Calls f(points of one field, field) for the points of a slot, in the order of their indices; once for
+  /// all of them where they reach no contact slot, and not at all where there are none.
+  template <class Function>
+  void for_each_field(Points points, std::size_t slot, Function&& f) const {
+    const std::span<const std::uint32_t> all = members(points, slot);
+    if (all.empty()) return;
+    if (!meets_contact(slot)) {
+      f(all, 0U);
+      return;
+    }
+    const std::vector<std::uint8_t>& field_of = points == Points::particles ? field_ : field_of_guest_;
+    for (std::size_t i = 0, end = 0; i < all.size(); i = end) {
+      const std::uint8_t field = field_of[all[i]];
+      for (end = i + 1; end < all.size() && field_of[all[end]] == field;) ++end;
+      f(all.subspan(i, end - i), static_cast<unsigned>(field));
+    }
+  }
+  /// Returns whether particles of a slot reach contact slots.
+  [[nodiscard]] bool meets_contact(std::size_t slot) const {
+    return !contact_slots_.empty() && meets_contact_[slot] != 0;
+  }
+
+  /// Blocks of nodes of the slots that this rank owns, and the number of each.
+  [[nodiscard]] std::size_t owned_blocks() const { return owned_slots() + owned_further_; }
+  [[nodiscard]] std::size_t owned_block(std::size_t i) const {
+    return i < owned_slots() ? i : slots() + (i - owned_slots());
+  }
+  [[nodiscard]] bool is_contact_block(std::size_t block) const {
+    return !contact_slots_.empty() && (block >= slots() || contact_number_[block] != no_slot);
+  }
+
+  /// The contact slots, ascending: this rank's own first.
+  [[nodiscard]] std::span<const std::uint32_t> contact_slots() const { return contact_slots_; }
+  [[nodiscard]] std::size_t owned_contact_slots() const { return owned_contact_slots_; }
+  /// Number of a slot in that list, or `no_slot`.
+  [[nodiscard]] std::int32_t contact_number(std::size_t slot) const {
+    return contact_slots_.empty() ? no_slot : contact_number_[slot];
+  }
+  /// Blocks of nodes of a slot: its own, then the further ones.
+  [[nodiscard]] std::size_t node_blocks(std::size_t slot) const {
+    return contact_number(slot) == no_slot ? 1 : static_cast<std::size_t>(std::popcount(fields_[slot]));
+  }
+  [[nodiscard]] std::size_t node_block(std::size_t slot, std::size_t i) const {
+    return i == 0 ? slot : further_begin_[static_cast<std::size_t>(contact_number_[slot])] + i - 1;
+  }
+  /// Bit per field that reaches a slot, since `separate_fields`.
+  [[nodiscard]] std::uint64_t fields(std::size_t slot) const { return fields_[slot]; }
+
+ protected:
+  using PointBins::PointBins;
+  /// Finds which fields reach each slot (BlockGrid::separate_fields); returns whether anything changed. Collective.
+  bool find_fields(Stencil stencil, const FieldPoints& particles, const FieldPoints& guests, unsigned fields,
+                   bool everywhere);
+  /// From now on all points share one field.
+  void forget_fields() { fields_.clear(); }
+  /// Numbers the blocks of nodes.
+  void number_blocks();
+  [[nodiscard]] std::size_t block_count() const { return slots() + slot_of_further_.size(); }
+  [[nodiscard]] std::size_t slot_of_block(std::size_t block) const {
+    return block < slots() ? block : slot_of_further_[block - slots()];
+  }
+  /// Field of the nodes of a block; -1: of no or any field.
+  [[nodiscard]] int field_of_block(std::size_t block) const;
+  /// Block of the nodes of a field in a slot; the slot itself where the field has none of its own.
+  [[nodiscard]] std::size_t block_of_field(std::size_t slot, unsigned field) const {
+    if (contact_slots_.empty() || contact_number_[slot] == no_slot || (fields_[slot] >> field & 1U) == 0) {
+      return slot;
+    }
+    const int before = std::popcount(fields_[slot] & ((std::uint64_t{1} << field) - 1));
+    return before == 0 ? slot
+                       : further_begin_[static_cast<std::size_t>(contact_number_[slot])] +
+                             static_cast<std::size_t>(before) - 1;
+  }
+  /// Returns whether a field reaches a slot, as far as fields are told apart.
+  [[nodiscard]] bool reaches(std::size_t slot, unsigned field) const {
+    return fields_.empty() || fields_[slot] == 0 || (fields_[slot] >> field & 1U) != 0;
+  }
+
+ private:
+  std::vector<std::uint8_t> field_;  // of each particle
+  std::vector<std::uint8_t> field_of_guest_;
+  std::vector<std::uint64_t> fields_;        // of each slot: bit per field that reaches it
+  std::vector<std::uint8_t> meets_contact_;  // of each slot: is one of its neighbours a contact slot?
+  std::vector<std::uint32_t> contact_slots_;
+  std::vector<std::int32_t> contact_number_;    // of each slot
+  std::vector<std::uint32_t> further_begin_;    // of each contact slot: its first further block
+  std::vector<std::uint32_t> slot_of_further_;  // of each further block
+  std::size_t owned_contact_slots_ = 0, owned_further_ = 0;
+};
+
+}  // namespace whipple::grid
