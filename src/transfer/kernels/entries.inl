@@ -14,7 +14,7 @@ struct Kernels {
   WHIPPLE_WHOLE_KERNEL static void gather(const Points& points, grid::BlockGrid& grid,
                                           grid::BlockGrid::Points kind, std::size_t slot, const Sums& sums,
                                           const Take& take) {
-    const double cell_size = grid.geometry().cell_size;
+    const double cell_size = grid.cell_size(slot);
     const std::span<const grid::PlaceInStencil> places = grid.places(kind);
     const std::uint32_t* const list = grid.members(kind, slot).data();
     read_nodes<Shape, typename Sums::Content>(grid, kind, slot, [&](const auto& members, auto& access) {
@@ -76,7 +76,7 @@ struct Kernels {
   /// Adds what the points of a slot bring to the nodes.
   template <class Shape, class What>
   WHIPPLE_WHOLE_KERNEL static void scatter(const What& what, grid::BlockGrid& grid, std::size_t slot) {
-    const double cell_size = grid.geometry().cell_size;
+    const double cell_size = grid.cell_size(slot);
     const std::span<const grid::PlaceInStencil> places = grid.places(What::kind);
     const auto load = [&](std::size_t p) WHIPPLE_INLINE {
       if (prefetches(p)) {
