@@ -1,10 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Kills runs again and again (SIGKILL) and lets them go on; the ends are compared with those of undisturbed runs: bitwise
-on one rank, to round-off on several.
+"""Disturbs runs and lets them go on; the ends are compared with those of undisturbed runs: bitwise on one rank, to
+round-off on several.
 
-Usage: torture.py WHIPPLE CASE.toml FOLDER [--runs 40] [--ranks 1] [--kills 3] [--seed 1]
-On ranks the launcher is killed or one of the ranks, at random.
+Usage: torture.py WHIPPLE CASE.toml FOLDER [--ranks 1] [--runs 40] [--kills 3] [--seed 1]
+       torture.py WHIPPLE CASE.toml FOLDER [--ranks 1] --disks 10
+       torture.py WHIPPLE CASE.toml FOLDER [--ranks 1] --writers 20
+Default: SIGKILL again and again; on ranks the launcher is killed or one of the ranks, at random. --disks: so many file
+systems (tmpfs, which only root may mount) that are too small for the run, and grow before the restart. --writers: so
+often a second process wants to write into the folder of a run.
 """
 import argparse
 import csv
@@ -72,6 +76,61 @@ def disturbed(whipple, case, run, ranks, kills, seconds):
     return killed
 
 
+def ended(call, seconds=120):
+    """The process when it has ended, nothing if it does not end: it is killed, and its ranks with it."""
+    try:
+        return subprocess.run(call, stderr=subprocess.PIPE, text=True, timeout=seconds)
+    except subprocess.TimeoutExpired:
+        return None
+
+
+def on_a_full_disk(whipple, case, run, ranks, size):
+    """Runs a case on a disk of so many bytes, which is full before its end; returns what is wrong."""
+    run.mkdir()
+    subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "torture", run], check=True)
+    try:
+        result = ended([whipple, *command(["run", case, "-o", run / "run"], ranks)])
+        if result is None:
+            return [f"{run}: no end"]
+        began = list(run.glob("run/checkpoint/checkpoint.*.h5"))
+        # No step was made: a fault of the input; later: the run stops, and can go on.
+        if result.returncode not in ((3,) if began else (2, 3)) or "No space left" not in result.stderr:
+            return [f"{run}: exit code {result.returncode}: {result.stderr}"]
+        if began and "--restart" not in result.stderr:
+            return [f"{run}: the message does not name the restart: {result.stderr}"]
+        left = [f"{run}: {path} is left" for path in run.rglob("*.partial")]
+        print(f"{size:9} bytes: exit code {result.returncode}, {'goes on' if began else 'begins anew'}", flush=True)
+        subprocess.run(["mount", "-o", "remount,size=1g", run], check=True)
+        call = ["run", "--restart", run / "run"] if began else ["run", case, "-o", run / "run", "--force"]
+        again = ended([whipple, *command(call, ranks)])
+        if again is None:
+            return [*left, f"{run}: restart: no end"]
+        if again.returncode != 0:
+            return [*left, f"{run}: restart: exit code {again.returncode}: {again.stderr}"]
+        shutil.copytree(run / "run", run.with_suffix(".end"))
+        return left
+    finally:
+        subprocess.run(["umount", "--lazy", run], check=True)
+
+
+def two_writers(whipple, case, run, ranks):
+    """Starts a second run or a restart in the folder of a run that goes on; returns what is wrong."""
+    endless = ["run", case, "-o", run, "--set", "time.end='1 s'"]
+    first = subprocess.Popen([whipple, *command(endless, ranks)], stderr=subprocess.PIPE, text=True)
+    while first.poll() is None and not list(run.glob("checkpoint/checkpoint.*.h5")):
+        time.sleep(0.01)
+    call = random.choice((["run", "--restart", run], ["run", case, "-o", run, "--force"]))
+    second = subprocess.run([whipple, *command(call, ranks)], stderr=subprocess.PIPE, text=True, timeout=300)
+    faults = []
+    if second.returncode != 2 or "process " not in second.stderr:
+        faults.append(f"{run}: second writer: exit code {second.returncode}: {second.stderr}")
+    first.send_signal(signal.SIGINT)
+    message = first.communicate(timeout=300)[1]
+    if first.returncode != 130:
+        faults.append(f"{run}: first writer: exit code {first.returncode}: {message}")
+    return faults
+
+
 def lock_is_held(run):
     import fcntl
     try:
@@ -127,6 +186,8 @@ def main():
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--kills", type=int, default=3)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--disks", type=int, default=0)
+    parser.add_argument("--writers", type=int, default=0)
     options = parser.parse_args()
     random.seed(options.seed)
     shutil.rmtree(options.folder, ignore_errors=True)
@@ -135,20 +196,33 @@ def main():
     begin = time.monotonic()
     subprocess.run([options.whipple, *command(["run", options.case, "-o", whole], options.ranks)], check=True)
     seconds = time.monotonic() - begin
+    size = sum(path.stat().st_size for path in whole.rglob("*"))
     kills, faults, largest = 0, [], (0.0, "")
-    for number in range(options.runs):
+    what = [options.whipple, options.case]
+    for number in range(options.disks or options.writers or options.runs):
         run = options.folder / f"run_{number:03}"
-        kills += disturbed(options.whipple, options.case, run, options.ranks, options.kills, seconds)
-        left = [str(path) for path in run.rglob("*.partial")]
-        if options.ranks == 1:
-            faults += [f"{run}: {name} differs" for name in same_files(run, whole)]
-        largest = max(largest, difference(run, whole))
-        faults += [f"{run}: {path} is left" for path in left]
-        shutil.rmtree(run)
+        end = run
+        if options.disks:
+            found = on_a_full_disk(*what, run, options.ranks, int(size * (number + 0.2) / options.disks))
+            end = run.with_suffix(".end")
+        elif options.writers:
+            found = two_writers(*what, run, options.ranks)
+        else:
+            kills += disturbed(*what, run, options.ranks, options.kills, seconds)
+            found = [f"{run}: {path} is left" for path in run.rglob("*.partial")]
+        faults += found
+        if not options.writers and end.exists():
+            if options.ranks == 1:
+                faults += [f"{run}: {name} differs" for name in same_files(end, whole)]
+            largest = max(largest, difference(end, whole))
+        for folder in {run, end}:
+            shutil.rmtree(folder, ignore_errors=True)
     bound = 0.0 if options.ranks == 1 else ROUND_OFF
     if not largest[0] <= bound:
         faults.append(f"histories differ by {largest[0]:.2e} in {largest[1]}, more than {bound:.0e}")
-    print(f"{options.runs} runs on {options.ranks} ranks, {kills} kills: largest difference {largest[0]:.1e}, {len(faults)} faults")
+    runs = options.disks or options.writers or options.runs
+    events = "full disks" if options.disks else "second writers" if options.writers else f"{kills} kills"
+    print(f"{runs} runs on {options.ranks} ranks, {events}: largest difference {largest[0]:.1e}, {len(faults)} faults")
     print("\n".join(faults))
     if not faults:
         shutil.rmtree(options.folder)

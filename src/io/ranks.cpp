@@ -2,6 +2,7 @@
 #include "src/io/ranks.hpp"
 
 #include <exception>
+#include <new>
 #include <numeric>
 
 #include "src/core/base/error.hpp"
@@ -42,14 +43,16 @@ std::string Ranks::broadcast(std::string text) const {
 }
 
 void Ranks::on_root(const std::function<void()>& work) const {
-  // The kind of error must survive the way to the other ranks: a first character tells an InputError from a
-  // defect.
+  // The kind of error must survive the way to the other ranks: a first character tells an InputError and
+  // exhausted memory from a defect.
   std::string outcome;
   if (is_root()) {
     try {
       work();
     } catch (const InputError& error) {
       outcome = std::string("i") + error.what();
+    } catch (const std::bad_alloc&) {
+      outcome = "m";
     } catch (const std::exception& error) {
       outcome = std::string("d") + error.what();
     }
@@ -57,6 +60,7 @@ void Ranks::on_root(const std::function<void()>& work) const {
   outcome = broadcast(outcome);
   if (outcome.empty()) return;
   if (outcome[0] == 'i') throw InputError(outcome.substr(1));
+  if (outcome[0] == 'm') throw std::bad_alloc();
   throw InternalError(outcome.substr(1));
 }
 

@@ -11,6 +11,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/machine.hpp"
 #include "src/core/base/text.hpp"
+#include "src/core/parallel/address_space.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/case/build/seeding.hpp"
 
@@ -34,7 +35,9 @@ void set_threads(int threads, MPI_Comm communicator) {
     threads = static_cast<int>(
         parallel::maximum(communicator, parallel::rank(communicator) == 0 ? threads_of_environment() : 0));
   }
-  parallel::set_threads(threads > 0 ? threads : share);
+  const int wanted = threads > 0 ? threads : share;
+  parallel::require_address_space(wanted);
+  parallel::set_threads(wanted);
 }
 
 void require_memory(const cases::Case& setup, MPI_Comm communicator) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/solver/ledger.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -14,11 +15,15 @@ Totals totals_of(const Particles& particles, std::size_t p, double affine_inerti
   const double m = particles.mass[p];
   const Vector3& v = particles.velocity[p];
   const double speed2 = v.squaredNorm();
-  const double affine = affine_inertia > 0.0 ? particles.affine_velocity[p].squaredNorm() : 0.0;
+  const bool is_affine = affine_inertia > 0.0;
+  const double affine = is_affine ? particles.affine_velocity[p].squaredNorm() : 0.0;
+  Vector3 per_mass = particles.position[p].cross(v);
+  if (is_affine) per_mass += affine_inertia * rotation_of(particles.affine_velocity[p]);
   return {
       .mass = m,
       .momentum = m * v,
       .momentum_scale = m * std::sqrt(speed2),
+      .angular_momentum = m * per_mass,
       .kinetic_energy = 0.5 * m * speed2,
       .affine_kinetic_energy = 0.5 * m * affine_inertia * affine,
       .internal_energy = m * particles.specific_internal_energy[p],
@@ -27,24 +32,33 @@ Totals totals_of(const Particles& particles, std::size_t p, double affine_inerti
 
 namespace {
 
-/// Sums of m |C|^2 of particles one after the other, in a few registers.
-double affine_sum(const Particles& particles, std::size_t begin, std::size_t end) {
+/// Sums over affine fields: of m |C|^2, and of the mass times twice the axial vector.
+struct AffineSum {
+  double square = 0.0;
+  Vector3 rotation = Vector3::Zero();
+};
+
+/// Sums over particles one after the other, in a few registers.
+AffineSum affine_sum(const Particles& particles, std::size_t begin, std::size_t end) {
   Lanes sum{};
   double rest = 0.0;
+  Vector3 rotation = Vector3::Zero();
   for (std::size_t p = begin; p < end; ++p) {
     const double m = particles.mass[p];
     const double* c = particles.affine_velocity[p].data();
     const Lanes first = load(c), second = load(c + 4);
     sum += m * (first * first + second * second);
     rest += m * c[8] * c[8];
+    rotation += m * rotation_of(particles.affine_velocity[p]);
   }
-  return sum4(sum) + rest;
+  return {sum4(sum) + rest, rotation};
 }
 
 /// Sums of particles, four at a time.
 Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_t end,
                        double affine_inertia) {
   Lanes mass{}, x{}, y{}, z{}, scale{}, twice_kinetic{}, internal{};
+  Lanes about_x{}, about_y{}, about_z{};
   std::size_t p = begin;
   for (; p + 4 <= end; p += 4) {
     const Lanes m = load(&particles.mass[p]);
@@ -54,6 +68,10 @@ Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_
     x += m * v.x;
     y += m * v.y;
     z += m * v.z;
+    const FourVectors at = load_four_vectors(particles.position[p].data());
+    about_x += m * (at.y * v.z - at.z * v.y);
+    about_y += m * (at.z * v.x - at.x * v.z);
+    about_z += m * (at.x * v.y - at.y * v.x);
     scale += m * sqrt(speed2);
     twice_kinetic += m * speed2;
     internal += m * load(&particles.specific_internal_energy[p]);
@@ -61,6 +79,7 @@ Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_
   Totals sum = {.mass = sum4(mass),
                 .momentum = Vector3(sum4(x), sum4(y), sum4(z)),
                 .momentum_scale = sum4(scale),
+                .angular_momentum = Vector3(sum4(about_x), sum4(about_y), sum4(about_z)),
                 .kinetic_energy = 0.5 * sum4(twice_kinetic),
                 .internal_energy = sum4(internal)};
   for (; p < end; ++p) sum += totals_of(particles, p, 0.0);
@@ -72,7 +91,9 @@ Totals totals_of_range(const Particles& particles, std::size_t begin, std::size_
     sum.unresolved_energy += sum4(unresolved);
   }
   if (affine_inertia > 0.0) {
-    sum.affine_kinetic_energy = 0.5 * affine_inertia * affine_sum(particles, begin, end);
+    const AffineSum fields = affine_sum(particles, begin, end);
+    sum.affine_kinetic_energy = 0.5 * affine_inertia * fields.square;
+    sum.angular_momentum += affine_inertia * fields.rotation;
   }
   return sum;
 }

@@ -20,6 +20,7 @@ struct Totals {
   double mass = 0.0;
   Vector3 momentum = Vector3::Zero();
   double momentum_scale = 0.0;         ///< sum m |v|, to judge momentum errors by
+  Vector3 angular_momentum = Vector3::Zero();  ///< about the origin, of positions and of affine fields
   double kinetic_energy = 0.0;         ///< of the particles' and nodes' own velocities
   double affine_kinetic_energy = 0.0;  ///< of their affine fields: m inertia |C|^2 / 2
   double internal_energy = 0.0;
@@ -38,6 +39,7 @@ struct Totals {
     mass += other.mass;
     momentum += other.momentum;
     momentum_scale += other.momentum_scale;
+    angular_momentum += other.angular_momentum;
     kinetic_energy += other.kinetic_energy;
     affine_kinetic_energy += other.affine_kinetic_energy;
     internal_energy += other.internal_energy;
@@ -63,11 +65,20 @@ void for_each_number(T& totals, Function&& f) {
   f("momentum_y", totals.momentum[1]);
   f("momentum_z", totals.momentum[2]);
   f("momentum_scale", totals.momentum_scale);
+  f("angular_momentum_x", totals.angular_momentum[0]);
+  f("angular_momentum_y", totals.angular_momentum[1]);
+  f("angular_momentum_z", totals.angular_momentum[2]);
   f("kinetic_energy", totals.kinetic_energy);
   f("affine_kinetic_energy", totals.affine_kinetic_energy);
   f("internal_energy", totals.internal_energy);
   f("unresolved_energy", totals.unresolved_energy);
   f("hourglass_energy", totals.hourglass_energy);
+}
+
+/// Returns twice the axial vector of a velocity gradient (1/s): times mass and affine inertia the angular momentum of an
+/// affine field.
+inline Vector3 rotation_of(const Matrix3& gradient) {
+  return {gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0), gradient(1, 0) - gradient(0, 1)};
 }
 
 /// Returns the totals of one particle.

@@ -122,8 +122,13 @@ def copy_sources(tree):
             shutil.copyfile(source, target)
 
 
+def folders(place):
+    """The copy of the sources and its build folder: as in a clone, so that ccache knows the objects."""
+    return place / "tree", place / "tree" / "build" / "release"
+
+
 def measure(group, options, write):
-    tree, build = options.build / "tree", options.build / "release"
+    tree, build = folders(options.build)
     _, tests = GROUPS[group]
     command = ["ninja", "-C", str(build), *tests]
     if run(command, tree).returncode != 0:
@@ -163,9 +168,9 @@ def main():
             for path, number, name, changed in chosen(ROOT, group, options.count, options.seed):
                 print(f"{group}: {path}:{number + 1}: {name}: {changed.strip()}")
         return 0
-    copy_sources(options.build / "tree")
-    configured = run(["cmake", "-G", "Ninja", "-S", str(options.build / "tree"), "-B", str(options.build / "release"),
-                      "-DCMAKE_BUILD_TYPE=Release", "-DWHIPPLE_UNITY_BUILD=OFF", "-DWHIPPLE_WERROR=OFF"], ROOT)
+    tree, build = folders(options.build)
+    copy_sources(tree)
+    configured = run(["cmake", "-G", "Ninja", "-S", str(tree), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release"], ROOT)
     if configured.returncode != 0:
         print(configured.stdout, file=sys.stderr)
         return 2

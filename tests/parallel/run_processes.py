@@ -136,6 +136,42 @@ def two_ranks():
     require(code == 3 and "--restart" in message, f"full disk: {code}, {message}")
 
 
+def small_disk():
+    """The disk is full at the first snapshot, which both ranks close together."""
+    if os.geteuid() != 0:
+        print("a disk of its own is root's to mount: not tested")
+        return
+    disk = FOLDER / "disk"
+    disk.mkdir()
+    subprocess.run(["mount", "-t", "tmpfs", "-o", "size=72k", "run_processes", disk], check=True)
+    try:
+        code, message = finish(start(CASE, "-o", disk / "run", "--ranks", "2"))
+        require(code == 2 and "No space left on device" in message, f"small disk: {code}, {message}")
+    finally:
+        subprocess.run(["umount", "--lazy", disk], check=True)
+
+
+def little_memory():
+    """No limit of the address space makes a crash: too little to start is refused, too little to go on is exit code 3."""
+    if "-fsanitize" in subprocess.run([WHIPPLE, "version"], capture_output=True, text=True).stdout:
+        return  # sanitizers take all addresses for themselves
+
+    def limited(megabytes):
+        run = FOLDER / f"memory_{megabytes}"
+        arguments = [CASE, "-o", run, "--threads", "1", "--quiet", "--set", "domain.cell_size='0.25 mm'",
+                     "--set", "time.end='0.03 us'"]
+        size = megabytes << 20
+        result = subprocess.run([WHIPPLE, "run", *map(str, arguments)], stderr=subprocess.PIPE, text=True, timeout=120,
+                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (size, size)))
+        return result.returncode, result.stderr
+
+    code, message = limited(250)
+    require(code == 3 and "ulimit -v" in message, f"too little to start: {code}, {message}")
+    for megabytes in (301, 304, 312):
+        code, message = limited(megabytes)
+        require(code == 0 or code == 3 and "memory" in message, f"{megabytes} MB: {code}, {message}")
+
+
 def steered():
     """A run on two ranks is paused, goes on, is asked nonsense and ends, from another process; then it is restarted."""
     run = FOLDER / "steered"
@@ -202,6 +238,8 @@ def main():
     FOLDER.mkdir(parents=True)
     one_rank()
     two_ranks()
+    small_disk()
+    little_memory()
     steered()
     molecular_dynamics()
     shutil.rmtree(FOLDER)

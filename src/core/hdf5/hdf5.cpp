@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/core/hdf5/hdf5.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -376,7 +383,7 @@ void write_deflated(const Dataset& dataset, const Rows& rows, std::size_t chunk_
     });
     for (std::size_t c = 0; c < part.size(); ++c) {
       const hsize_t offset[2] = {(first + c) * chunk_rows, 0};
-      if (part[c].empty()) fail(dataset.name(), "compress the array");
+      if (part[c].empty()) throw std::bad_alloc();  // zlib knows no other reason
       check(H5Dwrite_chunk(dataset.id(), H5P_DEFAULT, 0, offset, part[c].size(), part[c].data()),
             dataset.name(), "write");
     }
@@ -442,6 +449,15 @@ Handle access_properties(std::optional<MPI_Comm> communicator, const std::string
   return access;
 }
 
+/// Finds out whether there is memory to open a file: HDF5 1.10 crashes where it gets none for its cache (0.7 MB).
+/// @throws std::bad_alloc if there is none
+void require_memory() {
+  constexpr std::size_t needed = 8 << 20;  // bytes
+  void* const room = ::mmap(nullptr, needed, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) throw std::bad_alloc();
+  ::munmap(room, needed);
+}
+
 Handle root_group(const Handle& file, const std::string& path) {
   return checked(H5Gopen2(file.get(), "/", H5P_DEFAULT), H5Gclose, path, "open the root group");
 }
@@ -461,6 +477,7 @@ H5F_libver_t oldest_format(File::Compatibility compatibility) {
 
 File File::create(const std::filesystem::path& path, Compatibility compatibility, std::uint64_t user_block,
                   std::optional<MPI_Comm> communicator) {
+  require_memory();
   silence();
   const std::string text = path.string();
   const Handle access = access_properties(communicator, text);
@@ -475,6 +492,7 @@ File File::create(const std::filesystem::path& path, Compatibility compatibility
 }
 
 File File::open(const std::filesystem::path& path, Access access, std::optional<MPI_Comm> communicator) {
+  require_memory();
   silence();
   const std::string text = path.string();
   const Handle properties = access_properties(communicator, text);
@@ -499,6 +517,31 @@ void end_without_closing() {
   (void)registered;
 }
 
+/// Takes the room that a file needs on the disk before ranks close it together: when one of them cannot write there,
+/// HDF5 1.10 lets each wait for each for ever.
+void reserve_room(const Handle& file, const std::string& path) {
+  std::size_t tables = 0;  // bytes that are not written yet, at most
+  check(H5Fget_mdc_size(file.get(), nullptr, nullptr, &tables, nullptr), path, "find the size of the file");
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  struct stat written = {};
+  ::fstat(descriptor, &written);
+  constexpr std::size_t blocks = 1 << 16;  // HDF5 takes room in blocks
+  const int status =
+      ::fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, written.st_size + static_cast<off_t>(tables + blocks));
+  const int reason = errno;
+  ::close(descriptor);
+  // Some file systems cannot reserve; they are no worse off than before.
+  if (status != 0 && (reason == ENOSPC || reason == EDQUOT || reason == EFBIG)) {
+    throw InputError(fmt::format("{}: cannot close the file: {}", path, std::strerror(reason)));
+  }
+}
+
+/// Gives back what was taken beyond the end of a file that is closed.
+void release_room(const std::string& path) {
+  struct stat closed = {};
+  if (::stat(path.c_str(), &closed) == 0) static_cast<void>(!::truncate(path.c_str(), closed.st_size));
+}
+
 }  // namespace
 
 File::~File() {
@@ -512,7 +555,11 @@ File::~File() {
 }
 
 void File::close() {
-  if (root.handle_.reset() && handle.reset()) return;
+  if (together) reserve_room(handle, path);
+  if (root.handle_.reset() && handle.reset()) {
+    if (together) release_room(path);
+    return;
+  }
   end_without_closing();
   fail(path, "close the file");
 }

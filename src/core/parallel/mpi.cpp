@@ -1,16 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/core/parallel/mpi.hpp"
 
+#include <omp.h>
+
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <new>
 #include <thread>
 
 #include "src/core/base/error.hpp"
+#include "src/core/parallel/address_space.hpp"
 
 namespace whipple::parallel {
 namespace {
+
+/// Called when there is no memory to be had. OpenMP lets no exception out of a loop that threads share, and would
+/// end the process without a word.
+void on_exhausted_memory() {
+  if (omp_get_level() == 0) throw std::bad_alloc();
+  std::fputs("whipple: error: the memory that this process may use is exhausted; a run goes on from its last "
+             "checkpoint with --restart\n",
+             stderr);
+  std::fflush(stderr);
+  std::_Exit(static_cast<int>(ExitCode::state));
+}
 
 /// MPI is a property of the process, so its lifetime is bound to the process and not to an object of ours.
 class Session {
@@ -19,6 +34,8 @@ class Session {
     int initialised = 0;
     MPI_Initialized(&initialised);
     if (initialised != 0) return;
+    require_address_space(1);
+    std::set_new_handler(on_exhausted_memory);
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
     owner_ = true;
