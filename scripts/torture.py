@@ -48,7 +48,7 @@ def disturbed(whipple, case, run, ranks, kills, seconds):
     """Runs a case to its end through so many kills; returns how often it was killed while it ran."""
     killed = 0
     for attempt in range(kills + 1):
-        # A run that had no checkpoint yet begins anew, as a user would have it.
+        # A run that had no checkpoint yet starts over, as a user would have it.
         goes_on = list(run.glob("checkpoint/checkpoint.*.h5"))
         call = ["run", "--restart", run] if goes_on else ["run", case, "-o", run, "--force"]
         process = subprocess.Popen([whipple, *command(call, ranks)], stderr=subprocess.PIPE, text=True)

@@ -12,7 +12,7 @@
 #include "src/core/base/machine.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/parallel/threads.hpp"
-#include "src/case/build/seeding.hpp"
+#include "src/case/build/placement.hpp"
 
 namespace whipple::run {
 namespace {
