@@ -88,15 +88,15 @@ class BlockGrid {
   /// Finds the block of every particle and lists the particles by block, in the order of their index. Blocks
   /// that rest (`let_rest`) stay off the lists until something comes to them: their particles must not have
   /// moved.
-  /// @param guests other points that work with the nodes (nodes of finite elements): listed apart
-  /// @returns false, on every rank, if the stencil of some particle or guest reaches beyond the active
+  /// @param guests off-grid points that use the nodes (nodes of finite elements): listed apart
+  /// @returns false, on every rank, if the stencil of some particle or off-grid point reaches beyond the active
   /// blocks: then `adapt` and `activate` must follow, and another `bin`. Collective.
   bool bin(std::span<const Vector3> position, Stencil stencil, std::span<const Vector3> guests = {});
 
   /// Lets the forest follow the particles: finest leaves where stencils reach, now and along the motion over
-  /// `lookahead` seconds, so that it need not be adapted every step; and divides the blocks anew among the
+  /// `lookahead` seconds, so that it need not be adapted every step; and divides the blocks again among the
   /// ranks if their work has drifted apart. Collective.
-  /// @param position of the particles, then of the guests, then of what is work apart from the grid
+  /// @param position of the particles, then of the off-grid points, then of what is work apart from the grid
   /// @param work  by what the blocks are shared out among the ranks
   /// @throws StateError on every rank if a particle is outside of the domain and its outer layer (names the
   /// index)
@@ -109,7 +109,7 @@ class BlockGrid {
   void owners_reached(const Vector3& position, Stencil stencil, std::vector<int>& ranks) const;
   /// Activates the blocks that the particles of this rank reach, own ones and those that it borrows from
   /// other ranks; drops the others. Collective.
-  /// @param guests how many of the positions, the last ones, are guests
+  /// @param guests number of the positions, the last ones, that are off-grid points
   void activate(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
                 Stencil stencil, std::size_t guests = 0);
 
@@ -117,7 +117,7 @@ class BlockGrid {
   /// `bin`. Axes with mirror planes must not be moved.
   void shift(const Vector3& cells);
 
-  /// Counts the particles and guests of this rank in every cell, after `bin`.
+  /// Counts the particles and off-grid points of this rank in every cell, after `bin`.
   void count_cells(std::span<const Vector3> position, std::span<const Vector3> guests = {});
   /// Returns whether a particle of this rank is farther than two cells from all other particles, off-grid
   /// points, mirror planes, and blocks shared with other ranks. Call `count_cells` before.
@@ -126,7 +126,7 @@ class BlockGrid {
   /// them.
   void release(std::span<const std::uint32_t> particles);
   /// Finds the blocks at rest and takes their particles off the lists; after `bin` and `release`.
-  /// Awake are blocks that are restless or hold guests, and `layers` of blocks around them, one after the
+  /// Active are blocks that are restless or hold off-grid points, and `layers` of blocks around them, one after the
   /// other: those that reach nodes of blocks whose nodes an awake one reaches. Collective.
   /// @param is_restless  is_restless(slot): does something in it move? Not asked of blocks that rested before
   /// @returns number of particles of this rank at rest
@@ -151,7 +151,7 @@ class BlockGrid {
   void separate_fields(Stencil stencil, const FieldPoints& particles, const FieldPoints& guests,
                        unsigned fields, bool everywhere = false);
 
-  /// Particles changed their order or number: the next `bin` looks every block up anew.
+  /// Particles changed their order or number: the next `bin` looks every block up again.
   void particles_reordered();
   /// Records a new order of the particles, none of which has left: new[i] = old[order[i]]. On one rank the
   /// blocks remain known.
@@ -163,7 +163,7 @@ class BlockGrid {
   [[nodiscard]] const Geometry& geometry() const { return geometry_; }
   [[nodiscard]] MPI_Comm communicator() const { return communicator_; }
   [[nodiscard]] std::size_t slots() const { return blocks_.coordinate.size(); }
-  /// The first so many slots are blocks of this rank; the others are borrowed.
+  /// The first so many slots are blocks of this rank; the others are ghost blocks.
   [[nodiscard]] std::size_t owned_slots() const { return blocks_.owned; }
   [[nodiscard]] const BlockCoordinate& coordinate(std::size_t slot) const { return blocks_.coordinate[slot]; }
   /// Slots of the 27 blocks around a slot (see neighbour_index), `no_slot` where inactive.
@@ -174,7 +174,7 @@ class BlockGrid {
   [[nodiscard]] std::span<const std::uint32_t> particles_in(std::size_t slot) const {
     return particles_.in(slot);
   }
-  /// Indices of the guests in a block, ascending.
+  /// Indices of the off-grid points in a block, ascending.
   [[nodiscard]] std::span<const std::uint32_t> guests_in(std::size_t slot) const { return guests_.in(slot); }
   /// Place of the first particle of a slot in `particles_by_block`; of the slot behind the last: how many
   /// there are.
@@ -192,7 +192,7 @@ class BlockGrid {
   [[nodiscard]] Region region(std::size_t slot) const {
     return !border_.empty() && border_[slot] != 0 ? Region::border : Region::interior;
   }
-  /// Calls f(slot) on threads, for all slots with particles or guests, no two at a time whose reaches
+  /// Calls f(slot) on threads, for all slots with particles or off-grid points, no two at a time whose reaches
   /// overlap.
   template <class Function>
   void for_each_apart(Function&& f) const {
@@ -296,12 +296,12 @@ class BlockGrid {
   [[nodiscard]] bool is_shared() const;
   /// Registers of the nodes that are communicated.
   enum class Part { first, both };
-  /// Adds what this rank's particles brought to borrowed nodes to the nodes of their owners. Collective.
+  /// Adds the contributions of this rank's particles to ghost nodes to the nodes of their owners. Collective.
   void sum_to_owners(Part part) {
     begin_sum_to_owners(part);
     finish_sum_to_owners(part);
   }
-  /// Replaces the borrowed nodes by those of their owners. Collective.
+  /// Replaces the ghost nodes by those of their owners. Collective.
   void borrow_from_owners(Part part) {
     begin_borrow_from_owners(part);
     finish_borrow_from_owners(part);
@@ -485,7 +485,7 @@ class BlockGrid {
   static constexpr std::size_t slots_for_cubes = 1024;
   /// By region, for each of eight colours: groups whose reaches do not overlap.
   std::array<std::array<SlotGroups, 8>, 2> apart_;
-  std::vector<std::uint8_t> awaited_, border_;  // of each slot; empty where nothing is borrowed
+  std::vector<std::uint8_t> awaited_, border_;  // of each slot; empty without ghost blocks
   Messages<Lanes> node_messages_;
   std::vector<MirrorPlane> planes_;
   std::array<std::uint64_t, 6> bonded_{};  // bit per field, of each face

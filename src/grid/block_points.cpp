@@ -48,7 +48,7 @@ bool BlockGrid::look_up(std::span<const Vector3> position) {
 }
 
 /// Updates the slot of every particle from its former slot; false if a particle left the active set. Where
-/// matter rests all is as it was.
+/// material rests all is as it was.
 bool BlockGrid::locate(std::span<const Vector3> position, Stencil stencil) {
   place_of_particle_.resize(position.size());
   if (!runs_known_) {
@@ -270,7 +270,7 @@ std::size_t BlockGrid::let_rest(int layers, const std::function<bool(std::size_t
   });
   for (const std::uint32_t p : released_) awake[static_cast<std::size_t>(slot_of_particle_[p])] = 1;
   join_bits_of_ranks(awake);
-  for (int layer = 0; layer < layers; ++layer) {  // what shares nodes with what is awake awakes
+  for (int layer = 0; layer < layers; ++layer) {  // blocks that share nodes with active ones become active
     std::vector<std::uint64_t> stirred(slots(), 0);
     parallel::for_each(slots(), [&](std::size_t s) {
       if (awake[s] == 0) return;

@@ -39,7 +39,7 @@ inline Lanes corner_of(const BlockCoordinate& block) {
 }
 /// Position in cells from the corner of the block that it lies in, below the block's upper corner: where it
 /// is just below a corner at zero, the difference may round up.
-/// Is a position, in cells from the lower corner of a block, inside of it?
+/// Returns whether a position, in cells from the lower corner of a block, is inside it.
 inline bool is_inside(Lanes local) {
   return bits((local >= 0.0) & (local < double{block_edge})) == all_lanes;
 }
