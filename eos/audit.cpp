@@ -29,8 +29,8 @@ constexpr double modest_strength = 0.5;            ///< of rho c^2
 constexpr double greatest_velocity = 20e3;         ///< m/s: particle velocity where the search ends
 constexpr double hottest = 1e5;                    ///< K: temperature where the search ends
 constexpr double modest_temperature = 3000;        ///< K
-constexpr double greatest_melting_point = 5000;    ///< K at zero pressure: no known matter
-constexpr double greatest_critical_point = 25000;  ///< K: no known matter
+constexpr double greatest_melting_point = 5000;    ///< K at zero pressure: no known material
+constexpr double greatest_critical_point = 25000;  ///< K: no known material
 constexpr double densest_matter = 25e3;            ///< kg/m^3 at rest: osmium has 22.6e3
 constexpr double slowest_detonation = 1e3;         ///< m/s: no known explosive
 constexpr double fastest_detonation = 12e3;        ///< m/s: no known explosive
@@ -129,7 +129,7 @@ class Auditor {
       thermal_ = false;
     }
     if (density > densest_matter) {
-      object(Verdict::not_usable, "reference density {:.4g} kg/m^3: no matter at rest has more than {:g}", density,
+      object(Verdict::not_usable, "reference density {:.4g} kg/m^3: no material at rest has more than {:g}", density,
              densest_matter);
     }
     result_.condensed = std::abs(s.pressure) < condensed_pressure * stiffness();
@@ -174,7 +174,7 @@ class Auditor {
       }
       if (std::abs(cold.at_rest.density / rho0 - 1) > 0.2) {
         object(Verdict::reservations,
-               "cold matter is at rest at {:.5g} kg/m^3, {:+.0f} % from the reference density",
+               "cold material is at rest at {:.5g} kg/m^3, {:+.0f} % from the reference density",
                cold.at_rest.density, 100 * (cold.at_rest.density / rho0 - 1));
       }
     }
@@ -279,7 +279,7 @@ class Auditor {
     }
     const double liquidus = result_.melting->liquidus.temperature;
     if (liquidus > greatest_melting_point) {
-      object(Verdict::reservations, "molten at {:.5g} K at zero pressure: above {:g} K, as no known matter",
+      object(Verdict::reservations, "molten at {:.5g} K at zero pressure: above {:g} K, as no known material",
              liquidus, greatest_melting_point);
     }
     if (!full_) return;
@@ -305,7 +305,7 @@ class Auditor {
     result_.critical = dome->critical_point();
     result_.boiling = dome->at_pressure(atmosphere);
     if (result_.critical->temperature > greatest_critical_point) {
-      object(Verdict::reservations, "critical temperature {:.5g} K: above {:g} K, as no known matter",
+      object(Verdict::reservations, "critical temperature {:.5g} K: above {:g} K, as no known material",
              result_.critical->temperature, greatest_critical_point);
     }
     if (!result_.melting) return;

@@ -44,7 +44,7 @@ struct Audit {
   State reference;
   ValidRange range;
   bool condensed = false;               ///< the pressure of the reference state is small beside rho c^2
-  std::optional<ColdCurve> cold;        ///< of condensed matter
+  std::optional<ColdCurve> cold;        ///< of condensed material
   std::optional<MeltingPoint> melting;  ///< at zero pressure
   std::optional<ShockMelting> shock_melting;
   std::optional<CriticalPoint> critical;  ///< of liquid and vapour

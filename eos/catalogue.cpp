@@ -54,12 +54,12 @@ const Catalogue<ModifierEntry>& modifier_catalogue() {
 
 const Catalogue<ModelEntry>& catalogue() {
   static const Catalogue<ModelEntry> all("equation of state", {
-      // Condensed matter with its phases.
+      // Condensed material with its phases.
       entry<Gray>(),
       entry<Gray71>(),
       entry<DebyeGruneisen>(),
       entry<Tillotson>(),
-      // Condensed matter without phases.
+      // Condensed material without phases.
       entry<MieGruneisen>(),
       entry<Polynomial>(),
       entry<Murnaghan>(),

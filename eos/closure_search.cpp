@@ -280,7 +280,7 @@ std::vector<State> ClosureSearch::others(double volume, double energy) const {
   return mixture_at_energy(rest, 1 / volume, energy).components;
 }
 
-/// At given volumes the temperature of the first component rises with its share of the energy and that of the
+/// At given volumes the temperature of the first component rises with its part of the energy and that of the
 /// others falls: one division of the energy makes them equal.
 std::optional<ClosureSearch::Division> ClosureSearch::divide(double log_ratio) const {
   const Component& first = components_.front();

@@ -65,7 +65,7 @@ class EquationOfState {
   [[nodiscard]] virtual double reference_density() const = 0;
   [[nodiscard]] virtual double reference_temperature() const = 0;
   [[nodiscard]] virtual double reference_energy() const = 0;
-  /// Returns whether the model describes condensed matter, which has a state of zero pressure: bodies start there. A
+  /// Returns whether the model describes condensed material, which has a state of zero pressure: bodies start there. A
   /// gas has none: bodies start in its reference state.
   [[nodiscard]] virtual bool condensed() const { return true; }
   /// Returns whether points may melt or vaporise: else both fractions are always 0.
@@ -102,7 +102,7 @@ class EquationOfState {
   [[nodiscard]] virtual const VapourDome* vapour_dome() const { return nullptr; }
 
   /// Densities at which the edges of the phases on isochores have kinks, beside those at which a phase
-  /// appears or ends (kg/m^3): a table begins anew there.
+  /// appears or ends (kg/m^3): a table starts over there.
   [[nodiscard]] virtual std::vector<double> kinks() const { return {}; }
 
   /// Distension of the material that bodies start from; 1: no pores.

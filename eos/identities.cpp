@@ -67,7 +67,7 @@ IdentityDefects check_identities(const EquationOfState& eos, double density, dou
     const State node = eos.state(rho, e);
     if (thermal && std::abs(eos.state_at_temperature(rho, node.temperature).specific_internal_energy - e) >
                        1e-9 * (std::abs(e) + node.heat_capacity * node.temperature)) {
-      throw StateError("temperature held at the model's least");
+      throw StateError("temperature limited to the minimum of the model");
     }
     return node;
   };

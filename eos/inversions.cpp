@@ -83,7 +83,7 @@ State state_at_pressure_and_temperature(const EquationOfState& eos, double press
     }
     if (compress && density >= eos.maximum_density()) {
       throw StateError(
-          fmt::format("{:.6g} Pa at {:.6g} K: beyond the greatest density of model {} ({:.6g} kg/m^3)",
+          fmt::format("{:.6g} Pa at {:.6g} K: beyond the maximum density of model {} ({:.6g} kg/m^3)",
                       pressure, temperature, eos.model(), eos.maximum_density()));
     }
     // Within one phase the pressure follows the density up to a spinodal. Partly molten material may have a
@@ -132,7 +132,7 @@ State state_at_entropy(const EquationOfState& eos, double density, double entrop
   const double coldest = eos.minimum_energy(density);
   const State cold = eos.state(density, coldest);
   if (std::isnan(cold.specific_entropy)) {
-    throw StateError(fmt::format("model {} knows no entropy at {:.6g} kg/m^3", eos.model(), density));
+    throw StateError(fmt::format("model {} has no entropy at {:.6g} kg/m^3", eos.model(), density));
   }
   if (cold.specific_entropy >= entropy) {
     if (cold.specific_entropy - entropy <= 1e-12 * (std::abs(entropy) + 1)) return cold;

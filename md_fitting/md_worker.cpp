@@ -130,7 +130,7 @@ int run_plan(const Options& options) {
     if (plan.liquid_vapour) report_critical_point(options.store);
   }
   if (summary.code != 0) {
-    if (rank == 0) log::warning("the plan is incomplete; the same call goes on with what is missing");
+    if (rank == 0) log::warning("the plan is incomplete; repeat the call to compute what is missing");
     return summary.code;
   }
   const bool complete = summary.failed + summary.blocked + summary.left + summary.molten == 0;

@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures of a run, as `whipple analyse` wrote them into analysis.h5 (docs/manual/output.md). SI."""
-import math
 import pathlib
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import h5py
 import numpy as np
 
 from report.errors import NotARun
-
-AXES = "xyz"
-OBLIQUE = 0.01  # tangent of the angle of impact above which a picture has no direction of flight
+from report.geometry import AXES, Geometry
+from report.views import Views
 
 DEFINITIONS = [
     ("axis", "the direction in which the bodies approach each other; through the symmetry planes, or the centre of "
@@ -27,50 +25,8 @@ DEFINITIONS = [
     ("half angle", "of the cone about the axis whose directions hold 95% of the kinetic energy of the debris"),
     ("residual velocity", "mean axial velocity of what is left of a body (momentum over mass)"),
     ("perforated", "a path leads through the body that no connected, unfailed material of it closes"),
-    ("fragment", "particles of condensed matter connected by links of the linking length, by default a cell"),
+    ("fragment", "particles of condensed material connected by links of the linking length, by default a cell"),
 ]
-
-
-@dataclass
-class Geometry:
-    """Frame of the impact in the coordinates of the model."""
-    axis: int          # 0, 1, 2: direction of flight
-    sign: float        # +1: the projectile flies upward along the axis
-    up: int            # transverse direction that pictures show upward
-    depth: int         # transverse direction of sight
-    centre: np.ndarray  # a point of the axis of the impact
-    impact_speed: float
-    projectile: str
-    impact_angle: float = 0.0  # of the relative velocity with the axis, rad
-    copies: int = 1    # of the model, in the full problem
-    planes: dict[int, float] = field(default_factory=dict)  # position of the symmetry planes by axis
-    dimension: str = "3d"  # or "axisymmetric": particles are rings; "plane_strain": bars of 1 m
-
-    def axis_name(self) -> str:
-        """Writes the direction of flight: "z", "-z"."""
-        return ("" if self.sign > 0 else "-") + AXES[self.axis]
-
-    @property
-    def planar(self) -> bool:
-        """Whether the model is a plane section."""
-        return self.dimension != "3d"
-
-    @property
-    def mirrored(self) -> bool:
-        """Whether pictures show the model and, below it, its image."""
-        return self.up in self.planes or self.dimension == "axisymmetric"
-
-    def edges(self, volume: np.ndarray, position: np.ndarray) -> np.ndarray:
-        """Computes the edges (m) of the cubes, in a section of the squares, that particles of a volume (m^3) fill."""
-        if not self.planar:
-            return np.cbrt(volume)
-        depth = 1.0 if self.dimension == "plane_strain" else 2 * np.pi * np.abs(position[:, 1])
-        return np.sqrt(volume / depth)
-
-    @property
-    def oblique(self) -> bool:
-        """Whether the flight has no single axis of the model."""
-        return self.impact_speed > 0 and math.tan(self.impact_angle) > OBLIQUE
 
 
 @dataclass
@@ -106,7 +62,7 @@ class Analysis:
                                  str(frame["dimension"]))
         self.final = {name: float(value) for name, value in file["quantities"].attrs.items()}
         self.tables = {name: {column: data[:] for column, data in file[name].items()}
-                       for name in file if name not in ("frame", "quantities", "radiographs")}
+                       for name in file if name not in ("frame", "quantities", "radiographs", "views")}
         self.units = {name: {column: data.attrs["unit"] for column, data in file[name].items()}
                       for name in self.tables}
         self.series = self.tables["series"]
@@ -117,6 +73,7 @@ class Analysis:
         self.pictures = [self._picture(group, float(file["radiographs"].attrs["pixel"]))
                          for group in file["radiographs"].values()]
         self.spot = float(file["radiographs"].attrs["spot"])
+        self.views = Views(file["views"], self.geometry) if "views" in file else None
 
     @staticmethod
     def _picture(group, pixel):

@@ -10,7 +10,7 @@ from report.analysis import Analysis
 from report.history import History
 from report.pictures import PHASE_COLOURS, legend_below
 from report.run import Run
-from report.snapshot import PHASES
+from report.views import PHASES
 
 
 def new_figure(columns: int, height: float = 3.9) -> tuple[Figure, np.ndarray]:
@@ -41,7 +41,7 @@ def lines(ax: Axes, history: History, names: list[tuple[str, str]], scale: float
 
 
 def phase_figure(run: Run) -> Figure | None:
-    """Draws the mass of every phase over time as shares of the mass, one panel per body."""
+    """Draws the mass of every phase over time as fractions of the mass, one panel per body."""
     history = run.history
     first = f"mass_{PHASES[0]}."
     bodies = [column.removeprefix(first) for column in history.columns if column.startswith(first)]
@@ -60,7 +60,7 @@ def phase_figure(run: Run) -> Figure | None:
         ax.set_title(f"{name}: {units.mass(run.multiplicity * total[-1])}", fontsize=10, loc="left")
         ax.set_ylim(0, 100)
         ax.set_xlim(units.MICROSECONDS * history["time"][0], max(units.MICROSECONDS * history["time"][-1], 1e-12))
-    axes[0].set_ylabel("share of the mass (%)")
+    axes[0].set_ylabel("fraction of the mass (%)")
     legend_below(figure, *axes[0].get_legend_handles_labels())
     return figure
 

@@ -21,7 +21,7 @@ def phase(state: dict | None) -> str:
 
 
 def of_run(analysis: Analysis, body: str) -> tuple[str, str]:
-    """Writes the mean temperature and melted share of the debris of a body, of all of it where it has none."""
+    """Writes the mean temperature and melted fraction of the debris of a body, of all of it where it has none."""
     parts = {part: m for name, part, m in analysis.bodies if name == body}
     chosen = parts.get("debris")
     if chosen is None or not chosen["mass"] > 0:
@@ -61,5 +61,5 @@ def add_to(page: Page, folder: pathlib.Path, analysis: Analysis, history: Histor
         highest = number(units.GIGAPASCALS * float(history["maximum_pressure"].max()))
         text += (f" Largest pressure of any particle in the run: {highest} GPa; single particles overshoot where "
                  "bodies first touch.")
-    page.note(text + " Matter within a cell or two of a surface of first contact is hotter than the exact state (wall "
+    page.note(text + " Material within a cell or two of a surface of first contact is hotter than the exact state (wall "
               "heating), the rest of the debris also holds plastic work and collisions of fragments.")

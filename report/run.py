@@ -4,12 +4,9 @@ import json
 import pathlib
 import tomllib
 
-import numpy as np
-
 from report.analysis import Analysis
 from report.errors import NotARun
 from report.history import History
-from report.snapshot import Snapshot
 
 
 class Run:
@@ -24,7 +21,7 @@ class Run:
             raise NotARun(f"{folder}: there is no such folder")
         path = self.folder / "run.toml"
         if not path.is_file():
-            raise NotARun(f"{folder}: is not the folder of a run: it holds no run.toml")
+            raise NotARun(f"{folder}: is not the folder of a run: it contains no run.toml")
         self.output = pathlib.Path(output) if output else self.folder / "report"
         self.input_text = path.read_text(encoding="utf-8", errors="replace")
         try:
@@ -35,7 +32,7 @@ class Run:
         self.entries = self._read_index()
         if not self.entries and not self.history.columns:
             raise NotARun(f"{folder}: the run has neither snapshots nor a history.csv yet")
-        # A run that has not come to its first snapshot was not measured.
+        # A run without snapshots was not measured.
         self.analysis = Analysis(self.output / "analysis.h5") if self.entries else None
 
     def _read_index(self):
@@ -50,26 +47,15 @@ class Run:
         except (ValueError, KeyError, TypeError) as error:
             raise NotARun(f"{indices[0]}: is not the index of a series: {error}") from None
 
-    def spread(self, at_most: int) -> list[int]:
-        """Chooses at most so many snapshots, the first and the last among them, closer together at the beginning: the
-        shock is over soon. Returns their numbers."""
-        n = len(self.entries)
-        if n == 0:
-            return []
-        times = np.array([time for _, time in self.entries])
-        wanted = times[0] + (times[-1] - times[0]) * np.linspace(0, 1, min(n, at_most))**1.5
-        return sorted({int(np.abs(times - time).argmin()) for time in wanted})
-
     @property
     def title(self) -> str:
         """Title of the case, the name of the folder if it has none."""
         return (self.analysis.title if self.analysis else str(self.input.get("title", ""))) or self.folder.name
 
-    def body_names(self, snapshot: Snapshot) -> list[str]:
-        """Returns the names of the bodies, also of those that occur without a name."""
+    def body_names(self, at_least: int) -> list[str]:
+        """Returns the names of the bodies, of so many at least: those that occur without a name get one."""
         names = self.analysis.body_names if self.analysis else []
-        count = int(snapshot.body.max()) + 1 if snapshot.body is not None and len(snapshot) else 0
-        return names + [f"body {i}" for i in range(len(names), max(count, len(names), 1))]
+        return names + [f"body {i}" for i in range(len(names), max(at_least, len(names), 1))]
 
     @property
     def symmetry_planes(self) -> dict[int, float]:

@@ -21,18 +21,18 @@ from report.case_text import describe_discretization, describe_shape, describe_v
 from report.files import write_whole
 from report.page import Page
 from report.run import Run
-from report.snapshot import PHASES, Snapshot
 from report.units import number
+from report.views import PHASES
 
 # Clamps are counted by the solver and shown if there were any.
 COUNTED = (("below_cold_curve", "points clamped to the cold curve"),
            ("at_pressure_floor", "points held at the floor of their pressure"),
            ("limited_volume_changes", "limited changes of volume"),
-           ("limited_densities", "points held at the least density"),
-           ("limited_void_steps", "limited changes beside voids"),
+           ("limited_densities", "points limited to their minimum density"),
+           ("limited_void_steps", "limited changes of material with voids"),
            ("limited_bulking", "limited bulking"),
            ("limited_domains", "limited domains"),
-           ("held_time_steps", "steps longer than compression asks for"))
+           ("held_time_steps", "steps longer than the volumetric strain-rate limit"))
 # What took kinetic energy from the motion, and where it is (docs/theory/dissipation.md).
 DISSIPATION = (("viscous_work", "artificial viscosity", "internal energy"),
                ("plastic_work", "plastic work", "internal energy (and stored cold work)"),
@@ -58,8 +58,8 @@ BODY_COLUMNS = {"mass": ("mass (g)", units.GRAMS), "axial_momentum": ("axial mom
 class Report:
     """Builds the page of a run, with its figures beside it."""
 
-    def __init__(self, run: Run, picture_times: int, dots_per_inch: int):
-        self.run, self.output, self.picture_times = run, run.output, picture_times
+    def __init__(self, run: Run, dots_per_inch: int):
+        self.run, self.output = run, run.output
         self.dots_per_inch = dots_per_inch
         self.output.mkdir(parents=True, exist_ok=True)
         origin = run.input.get("provenance", {})
@@ -154,18 +154,19 @@ class Report:
             self.page.note("The run has no snapshots: no pictures and no measures of the cloud.")
             return
         analysis = run.analysis
-        shown = [Snapshot(*run.entries[i]) for i in run.spread(self.picture_times)]
-        if not any(len(snapshot) for snapshot in shown):
+        if analysis.views and not any(view.items for view in analysis.views.times):
             self.page.note("The snapshots hold no particles and no elements: no pictures and no measures of the cloud.")
             return
         self.page.heading("Debris cloud")
-        view = pictures.View(analysis.geometry, shown, self.dots_per_inch)
-        for name, caption, figure in pictures.cloud_figures(run, view, shown):
-            self._add_figure(name, caption, figure)
+        if analysis.views is None:
+            self.page.note("The analysis has no views: pictures are made by `whipple report`.")
+        else:
+            for name, caption, figure in pictures.cloud_figures(run, analysis.views):
+                self._add_figure(name, caption, figure)
         spot = units.MILLIMETRES * analysis.spot
         self._add_figure("radiograph.png", "Transmission along the line of sight through the complete problem, blurred "
                          f"over a spot of {spot:.3g} mm: what a flash radiograph shows, without the response of a "
-                         "film.", pictures.radiograph_figure(analysis, view))
+                         "film.", pictures.radiograph_figure(analysis))
         self._extent(analysis)
         self._add_figure("surfaces.png", "Depth of craters on the axis and diameter at the original surface; depth of "
                          "penetration; diameter within which less than half of a plate is left.",
@@ -174,10 +175,10 @@ class Report:
         if fragments is not None:
             self.page.heading("Fragments of the debris")
         self._add_figure("fragments.png", "Number of fragments of at least a mass (connected particles of condensed "
-                         "matter; fragments cut by symmetry planes are completed).", fragments)
+                         "material; fragments cut by symmetry planes are completed).", fragments)
         self._add_figure("witness.png", "Loads on the witness plate if the debris flies on freely.",
                          curves.loads_figure(analysis, "witness"))
-        self._final_table(shown[-1].time, analysis)
+        self._final_table(run.entries[-1][1], analysis)
         planar.add_to(self.page, self.output, analysis, run.history)
         self._add_figure("loads.png", "Loads on the plane in the course of the run: what has passed it until the end.",
                          curves.loads_figure(analysis, "loads"))
@@ -243,7 +244,7 @@ class Report:
         phases = curves.phase_figure(run)
         if phases is None:
             self.page.note("The run wrote no masses of phases.")
-        self._add_figure("phases.png", "Mass of each phase over time, as shares of the mass of the body.", phases)
+        self._add_figure("phases.png", "Mass of each phase over time, as fractions of the mass of the body.", phases)
         self.page.heading("Energy and momentum")
         self._add_figure("energy.png", "Energies, and the errors of their balance relative to the beginning.",
                          curves.energy_figure(run))

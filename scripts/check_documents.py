@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Check the documents: links that resolve, lines of prose of at most 120 characters, no diary in the manual.
+"""Check the documents: links that resolve, lines of prose of at most 120 characters, no diary in the manual, the terms
+of the glossary (docs/decisions/0005_language.md) in documents, comments and messages.
 
 Usage: check_documents.py [ROOT]         check README.md, CONTRIBUTING.md, CHANGELOG.md, docs/ and cases/*/README.md
        check_documents.py --wrap FILE... fill the paragraphs of these files that are wider, in place
@@ -29,6 +30,34 @@ DIARY = (
     ("commit hash", re.compile(r"(?<![\w.])(?=[0-9a-f]*\d)(?=[0-9a-f]*[a-f])(?!\d+e\d+\b)[0-9a-f]{7,40}\b"
                                r"|\b\d\de\d{4}\b")),
 )
+# Words of the glossary that have no other meaning here: (pattern, the term of the field).
+BANNED = tuple((re.compile(pattern, re.IGNORECASE), term) for pattern, term in (
+    (r"(?<!not )(?<!that )(?<!both )(?<!never )(?<!may )(?<!to )\b(?<!\ba )(?<!no )matter\b", "material"),
+    (r"\bshares? of (the|its|their|a|an|this|what|rho|all|it)\b", "fraction of"),
+    (r"\bspeed of sound\b", "sound speed"),
+    (r"\bconduction of heat\b", "heat conduction"),
+    (r"\btransfer heat\b|\bheat of the transfers?\b", "transfer dissipation"),
+    (r"\bfor good\b(?! reason)", "permanently"),
+    (r"\bbears? (shear|tension|pressure|stress)\b", "carries"),
+    (r"\bloose material\b", "fragmented material"),
+    (r"\bwanted (relative )?(standard )?error\b", "target error"),
+    (r"\bguests of the grid\b", "off-grid points"),
+    (r"\bborrowed (blocks|nodes)\b", "ghost blocks, ghost nodes"),
+    (r"\bnodes in transition\b", "interface nodes"),
+    (r"\blimit of compression\b", "volumetric strain-rate limit"),
+    (r"\bdivision of (stretched )?particles\b", "particle splitting"),
+    (r"\b(turned|turns|carried along) with the material\b", "rotated, convected with the material"),
+    (r"\bwalls? that (matter|material) sticks to\b", "no-slip wall"),
+    (r"\bin turns with version\b", "interleaved with version"),
+    (r"\bdiameter of the foot\b", "diameter of the impact end"),
+    (r"\banew\b", "again"),
+    (r"\b(laid|lay|lays|set|sets|stands?) beside\b", "compared with, next to"),
+    (r"\basks? (the|an) (equation of state|EOS)\b", "evaluates the equation of state"),
+))
+LANGUAGE_OF = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs", "cases", "src", "eos", "md_fitting", "report", "scripts",
+               "studies")
+QUOTES_THE_GLOSSARY = ("docs/decisions/0005_language.md", "scripts/check_documents.py")
+SPOKEN = re.compile(r'//[^\n]*|"(?:\\.|[^"\\\n])*"')  # comments and texts of a line of C++
 ADDRESS = re.compile(r"https?://\S+|\]\([^)\s]*\)")
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 MENTION = re.compile(r"(?<![\w/.])docs/[\w/]+\.(?:md|json)\b")
@@ -182,10 +211,24 @@ def faults_of_mentions(root):
                         yield f"{path.relative_to(root)}: names '{page}', which does not exist"
 
 
+def faults_of_language(root):
+    """Yield the words of the glossary's left column in documents, and in comments and texts of sources."""
+    for name in LANGUAGE_OF:
+        for path in [root / name] if (root / name).is_file() else sorted((root / name).rglob("*")):
+            relative = path.relative_to(root).as_posix()
+            if path.suffix not in (*SOURCES, ".md", ".toml") or not path.is_file() or relative in QUOTES_THE_GLOSSARY:
+                continue
+            for i, line in enumerate(path.read_text(encoding="utf-8", errors="replace").split("\n"), start=1):
+                text = " ".join(SPOKEN.findall(line)) if path.suffix in (".cpp", ".hpp", ".inl") else line
+                for pattern, term in BANNED:
+                    if match := pattern.search(text):
+                        yield f"{relative}:{i}: '{match.group(0)}': the term is '{term}'"
+
+
 def check(root):
     documents = sorted({path for pattern in DOCUMENTS for path in root.glob(pattern)})
     faults = [fault for path in documents for fault in faults_of(root, path)]
-    return documents, faults + list(faults_of_mentions(root))
+    return documents, faults + list(faults_of_mentions(root)) + list(faults_of_language(root))
 
 
 def self_test():
@@ -200,9 +243,10 @@ def self_test():
         "docs/generated/results.md": f"By hand on 3 May.\n\n{PART_OF_A_PROGRAM[0]} -->\n\n{long} on 4 May\n\n"
                                      f"{PART_OF_A_PROGRAM[1]} -->\n\n{long}\n",
         "src/a.cpp": "// docs/theory/none.md\n",
+        "src/b.cpp": '// Bodies share nodes; it does not matter.\nint matter = 1;\nf("hot matter");  // a share of the mass\n',
     }
     expected = ["date", "characters", "characters", "date", "time of day", "commit hash", "time of day", "no file",
-                "no heading", "does not exist"]
+                "no heading", "does not exist", "'matter'", "'share of the'"]
     with tempfile.TemporaryDirectory() as name:
         root = pathlib.Path(name)
         for page, text in pages.items():

@@ -52,7 +52,7 @@ def disturbed(whipple, case, run, ranks, kills, seconds):
     """Runs a case to its end through so many kills; returns how often it was killed while it ran."""
     killed = 0
     for attempt in range(kills + 1):
-        # A run that had no checkpoint yet begins anew, as a user would have it.
+        # A run that had no checkpoint yet starts over, as a user would have it.
         goes_on = list(run.glob("checkpoint/checkpoint.*.h5"))
         call = ["run", "--restart", run] if goes_on else ["run", case, "-o", run, "--force"]
         process = subprocess.Popen([whipple, *command(call, ranks)], stderr=subprocess.PIPE, text=True)
@@ -99,7 +99,7 @@ def on_a_full_disk(whipple, case, run, ranks, size):
         if began and "--restart" not in result.stderr:
             return [f"{run}: the message does not name the restart: {result.stderr}"]
         left = [f"{run}: {path} is left" for path in run.rglob("*.partial")]
-        print(f"{size:9} bytes: exit code {result.returncode}, {'goes on' if began else 'begins anew'}", flush=True)
+        print(f"{size:9} bytes: exit code {result.returncode}, {'goes on' if began else 'begins again'}", flush=True)
         subprocess.run(["mount", "-o", "remount,size=1g", run], check=True)
         call = ["run", "--restart", run / "run"] if began else ["run", case, "-o", run / "run", "--force"]
         again = ended([whipple, *command(call, ranks)])

@@ -42,7 +42,7 @@ set_tests_properties(eos_command.release_to_one_bar_vaporises_a_tenth PROPERTIES
   PASS_REGULAR_EXPRESSION "0\\.100[0-9]* +liquid and vapour")
 add_test(NAME eos_command.beyond_the_model_is_a_state_error COMMAND whipple eos hugoniot copper --pressure "900 TPa")
 set_tests_properties(eos_command.beyond_the_model_is_a_state_error PROPERTIES
-  PASS_REGULAR_EXPRESSION "beyond the greatest density of model gray")
+  PASS_REGULAR_EXPRESSION "beyond the maximum density of model gray")
 add_test(NAME eos_command.less_energy_than_the_coldest_state COMMAND whipple eos state copper --density "8.9 g/cm^3" --energy "-1 MJ/kg")
 set_tests_properties(eos_command.less_energy_than_the_coldest_state PROPERTIES
   PASS_REGULAR_EXPRESSION "physics error: gray: no state with -1e.06 J/kg at 8900 kg/m.3: the coldest one, of 1 K, has -116[0-9]+")

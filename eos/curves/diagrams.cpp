@@ -231,7 +231,7 @@ Figure axes(DiagramKind kind) {
 }  // namespace
 
 Figure diagram(DiagramKind kind, const Subjects& subjects, double greatest, std::vector<double> releases) {
-  if (!(greatest > 0)) throw InputError("the greatest pressure of a diagram must be positive");
+  if (!(greatest > 0)) throw InputError("the maximum pressure of a diagram must be positive");
   if (releases.empty()) releases = {0.25 * greatest, 0.5 * greatest, greatest};
   Figure figure = axes(kind);
   if (subjects.size() == 1) figure.title = fmt::format("{} ({})", subjects[0].name, subjects[0].eos->model());

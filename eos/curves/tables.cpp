@@ -80,11 +80,11 @@ std::string title_of(const HugoniotStart& start) {
 
 }  // namespace
 
-CurveTable state_table(const Subjects& subjects, const StateQuery& query) {
+CurveTable state_table(const Subjects& subjects, std::span<const StateQuery> queries) {
   CurveTable table = table_of("State", subjects, state_columns());
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     const EquationOfState& eos = *subjects[i].eos;
-    table.series[i].rows.push_back(row_of(eos, state_of(eos, query)));
+    for (const StateQuery& query : queries) table.series[i].rows.push_back(row_of(eos, state_of(eos, query)));
   }
   return table;
 }

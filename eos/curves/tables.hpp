@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "eos/curves/queries.hpp"
 #include "eos/curves/table.hpp"
@@ -24,8 +25,8 @@ struct CurveRange {
 // One table of several subjects. Where the model of a subject ends on the way, its curve ends with the reason
 // (`Series::end`); StateError if it has no point at all, InputError if the quantities contradict each other.
 
-/// One state of each subject.
-CurveTable state_table(const Subjects& subjects, const StateQuery& query);
+/// The states of queries, in their order, of each subject.
+CurveTable state_table(const Subjects& subjects, std::span<const StateQuery> queries);
 /// Hugoniots over pressure (from zero to 200 GPa) or particle velocity, or the one shocked state of a query.
 CurveTable hugoniot_table(const Subjects& subjects, const HugoniotStart& start, const ShockQuery& query,
                           Variable variable, const CurveRange& range);
@@ -45,7 +46,7 @@ CurveTable cold_table(const Subjects& subjects, const CurveRange& range);
 CurveTable melt_table(const Subjects& subjects, const CurveRange& range);
 /// Liquid and vapour in equilibrium, at equal ratios of pressure from 100 Pa to the critical point.
 CurveTable dome_table(const Subjects& subjects, const CurveRange& range);
-/// Impact of the first subject on the second with a velocity (m/s), and the shock's way into the others.
+/// Impact of the first subject on the second with a velocity (m/s), and the shock transmitted into the others.
 CurveTable match_table(const Subjects& subjects, double velocity);
 
 }  // namespace whipple::eos::curves

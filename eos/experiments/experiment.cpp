@@ -106,7 +106,7 @@ std::string_view fault(ExperimentKind kind, double x, double y) {
   if (!std::isfinite(x) || !std::isfinite(y)) return "a value is missing or no number";
   switch (kind) {
     case ExperimentKind::shock_velocity:
-      if (x == 0.0) return "at rest (up = 0: a speed of sound, no shock)";
+      if (x == 0.0) return "at rest (up = 0: a sound speed, no shock)";
       if (x < 0.0) return "up is negative";
       if (y <= x) return "Us is not above up";
       break;

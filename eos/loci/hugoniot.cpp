@@ -29,7 +29,7 @@ double first_compression(const EquationOfState& eos, double initial_density,
     if (f(eta) >= 0) return find_root(f, before, eta, what, root_digits);
     before = eta;
   }
-  throw StateError(fmt::format("{}: beyond the greatest density of model {} ({:.6g} kg/m^3)", what,
+  throw StateError(fmt::format("{}: beyond the maximum density of model {} ({:.6g} kg/m^3)", what,
                                eos.model(), eos.maximum_density()));
 }
 

@@ -18,7 +18,7 @@ constexpr double gas_constant = 8.31446261815324;  // J/(mol K), exact in the SI
 /// factor 3 since the fourth derivative is not constant, the error of the pressure follows from that of the
 /// energy in the middle. (The slope itself is exact there to this order and says nothing.)
 constexpr double slope_by_value = 3.0 * 0.0962 * 384.0 / 24.0;
-/// Shares of an interval's errors that its halves keep: third order of the width, and second for gamma, whose
+/// Fractions of the errors of an interval that its halves keep: third order of the width, and second for gamma, whose
 /// second derivative is not constant either.
 constexpr double cubic_share = 1.0 / 8.0, line_share = 1.5 / 4.0;
 

@@ -64,7 +64,7 @@ std::optional<Node> follow(const GrayFreeEnergy& f, const Node& from, double T) 
 
 /// From a node by steps of a factor in T to where `past` holds; the last point before it, to 1e-12 in T.
 Node march(const GrayFreeEnergy& f, Node at, double factor, const std::function<bool(const Node&)>& past) {
-  constexpr int most_steps = 10000;  // 2 % each: no curve of matter is so long
+  constexpr int most_steps = 10000;  // 2 % each: no curve of material is so long
   for (int i = 0; i < most_steps && std::abs(factor - 1) > 1e-12; ++i) {
     const std::optional<Node> next = follow(f, at, at.T * factor);
     if (next && !past(*next)) {

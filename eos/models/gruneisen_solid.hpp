@@ -159,7 +159,7 @@ class GruneisenSolid {
     maximum_density_ = rho0 / (1 - last);
     if (maximum_density_ < 1.01 * rho0) {
       throw InputError(
-          fmt::format("{}: cold matter softens at {:.4g} kg/m^3, at no compression to speak of; check the "
+          fmt::format("{}: cold material softens at {:.4g} kg/m^3, at no compression to speak of; check the "
                       "constants of the curve and of the Grueneisen parameter",
                       name, maximum_density_));
     }

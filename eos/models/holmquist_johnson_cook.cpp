@@ -75,7 +75,7 @@ HolmquistJohnsonCook::HolmquistJohnsonCook(const Constants& k)
   if (!(locked_compression_ - k.crush_compression > (b * c - a * d) / (softer * softer)) ||
       !(intact_modulus_ * (locked_compression_ - k.crush_compression) > b)) {
     throw InputError(
-        fmt::format("{}: crushed matter would unload to less than its own compression: crush_pressure over "
+        fmt::format("{}: crushed material would unload to less than its own compression: crush_pressure over "
                     "crush_compression must be steeper than the line from there to the lock pressure",
                     name));
   }

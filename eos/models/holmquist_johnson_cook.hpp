@@ -22,7 +22,7 @@ struct HolmquistJohnsonCookConstants {
 
 /// Pressure of concrete after Holmquist, Johnson and Cook (14th Int. Symp. Ballistics, 1993), mu = rho/rho0 -
 /// 1 (docs/theory/concrete_and_ceramics.md, section 1): linear up to the crush pressure; then the pores are
-/// crushed for good along a straight line up to the lock pressure; then the curve of the material without
+/// crushed permanently along a straight line up to the lock pressure; then the curve of the material without
 /// pores, K1 m + K2 m^2 + K3 m^3, m = (mu - mu_lock)/(1 + mu_lock). Half-crushed material unloads along a
 /// straight line whose slope is interpolated between that of the intact and that of the locked material. The
 /// past is the distension, the density of the grains over that of the unloaded material: 1 + mu_lock at the
@@ -34,7 +34,7 @@ class HolmquistJohnsonCook {
   using Constants = HolmquistJohnsonCookConstants;
   static constexpr std::string_view name = "holmquist_johnson_cook";
   static constexpr std::string_view summary =
-      "concrete: elastic, pores crushed for good, locked (Holmquist-Johnson-Cook); no energy dependence";
+      "concrete: elastic, pores crushed permanently, locked (Holmquist-Johnson-Cook); no energy dependence";
   static constexpr double least_temperature = 1.0;  ///< K
   static ParameterTable<Constants> parameters();
 

@@ -18,7 +18,7 @@ struct StiffenedGasConstants {
 
 /// Stiffened gas (docs/theory/equations_of_state.md, section 2.4): p = (gamma - 1) rho (e - q) - gamma p_inf,
 /// c^2 = gamma (p + p_inf)/rho. The energy's zero q is such that e = 0 at (rho0, p0). Harlow and Amsden,
-/// LA-4700 (1971); Le Metayer, Massoni and Saurel, Int. J. Therm. Sci. 43 (2004) 265. It bears tension, down
+/// LA-4700 (1971); Le Metayer, Massoni and Saurel, Int. J. Therm. Sci. 43 (2004) 265. It carries tension, down
 /// to -p_inf: cavitation is a failure criterion of the material.
 class StiffenedGasCurve {
  public:

@@ -11,7 +11,7 @@ struct FloorConstants {
   double pressure = 0;  ///< Pa
 };
 
-/// Least pressure of a fluid that cannot bear tension: p = max(p_b, pressure), the energy is kept. Below the
+/// Least pressure of a fluid that cannot carry tension: p = max(p_b, pressure), the energy is kept. Below the
 /// floor the fluid is a mixture of material and void: no stiffness (K_T = 0, Gamma = 0), and the sound speed is
 /// `sound_speed_ratio` of that of the reference state. The points there are counted
 /// (`RangeReport::at_pressure_floor`); the work p dV of the floor is no thermodynamic work of the model
@@ -21,10 +21,10 @@ class Floor final : public Modified {
   using Constants = FloorConstants;
   static constexpr std::string_view name = "floor";
   static constexpr std::string_view summary =
-      "least pressure of a fluid without tension (cavitation), counted";
+      "minimum pressure of a fluid without tension (cavitation), counted";
   static constexpr double sound_speed_ratio = 0.01;
   static ParameterTable<Constants> parameters() {
-    return {real("pressure", &Constants::pressure, "Pa", range::any(), "least pressure; negative: tension")
+    return {real("pressure", &Constants::pressure, "Pa", range::any(), "minimum pressure; negative: tension")
                 .optional()};
   }
 
@@ -34,7 +34,7 @@ class Floor final : public Modified {
         this->base().state(this->base().reference_density(), this->base().reference_energy());
     if (reference.pressure <
         constants.pressure - 1e-6 * reference.density * reference.sound_speed * reference.sound_speed) {
-      throw InputError("floor: the reference state of the model lies below the least pressure");
+      throw InputError("floor: the reference state of the model is below the minimum pressure");
     }
     cavity_sound_speed_ = sound_speed_ratio * reference.sound_speed;
   }

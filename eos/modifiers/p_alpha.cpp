@@ -73,12 +73,12 @@ ParameterTable<PAlphaConstants> PAlpha::parameters() {
       choice("compaction", &C::compaction, "crush curve alpha(p) above p_e").optional(),
       real("solid_pressure", &C::solid_pressure, "Pa", range::non_negative(),
            "p_s of the quadratic curve and of the power, at which the pores are closed")
-          .optional("none; these curves ask for it"),
+          .optional("none; required by these curves"),
       real("compaction_exponent", &C::compaction_exponent, "", range::non_negative(), "n of the power")
-          .optional("none; the power asks for it"),
+          .optional("none; required by the power"),
       real("compaction_rate", &C::compaction_rate, "1/Pa", range::non_negative(),
            "of the exponential curve exp[-rate (p - p_e)]")
-          .optional("none; the exponential curve asks for it"),
+          .optional("none; required by the exponential curve"),
   };
 }
 
@@ -101,7 +101,7 @@ PAlpha::PAlpha(std::shared_ptr<const EquationOfState> base, const Constants& con
   refuse(exponential && k.solid_pressure != 0, "solid_pressure");
   refuse(!power && k.compaction_exponent != 0, "compaction_exponent");
   if (power && !(k.compaction_exponent > 0)) {
-    throw InputError("p_alpha: compaction = \"power\" asks for compaction_exponent");
+    throw InputError("p_alpha: compaction = \"power\" requires compaction_exponent");
   }
   if (!exponential && !(k.solid_pressure > k.elastic_pressure)) {
     throw InputError(
@@ -109,7 +109,7 @@ PAlpha::PAlpha(std::shared_ptr<const EquationOfState> base, const Constants& con
                     k.solid_pressure, k.elastic_pressure));
   }
   if (exponential && !(k.compaction_rate > 0)) {
-    throw InputError("p_alpha: compaction = \"exponential\" asks for compaction_rate");
+    throw InputError("p_alpha: compaction = \"exponential\" requires compaction_rate");
   }
   closing_pressure_ =
       !exponential ? k.solid_pressure : k.elastic_pressure - std::log(open_at_the_end) / k.compaction_rate;

@@ -29,7 +29,7 @@ struct PAlphaConstants {
 /// Porous material after Herrmann, J. Appl. Phys. 40, 2490 (1969), with the pressure of the matrix divided by
 /// the distension (Carroll and Holt, J. Appl. Phys. 43, 759, 1972): alpha = V/V_s,
 ///   p(rho, e, alpha) = p_s(alpha rho, e)/alpha.
-/// The distension stays while p is below the crush curve and follows it in further loading, for good:
+/// The distension stays while p is below the crush curve and follows it in further loading, permanently:
 ///   quadratic:    alpha = 1 + (alpha0 - 1) [(p_s - p)/(p_s - p_e)]^2,  p_e < p < p_s;
 ///   power:        the same with an exponent n for 2 (Borrvall and Riedel, 8th European LS-DYNA Conf., 2011);
 ///   exponential:  alpha = 1 + (alpha0 - 1) exp[-rate (p - p_e)] (Boade, J. Appl. Phys. 39, 5693, 1968), ended
@@ -42,7 +42,7 @@ class PAlpha final : public Modified {
   using Constants = PAlphaConstants;
   static constexpr std::string_view name = "p_alpha";
   static constexpr std::string_view summary =
-      "porous matter that is crushed for good (Herrmann's P-alpha model)";
+      "porous material that is crushed permanently (Herrmann's P-alpha model)";
   static ParameterTable<Constants> parameters();
 
   /// @throws InputError for constants that contradict each other, or a base that has pores already

@@ -73,7 +73,7 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
                                  std::isfinite(reference.temperature) ? "entropy" : "temperature"));
   }
   if (eos.initial_distension() != 1.0) {
-    throw InputError("table: porous matter has a past that no table of density and energy knows");
+    throw InputError("table: the state of porous material depends on its history, which a table of density and energy cannot represent");
   }
   TableData data;
   data.condensed = eos.condensed() ? 1.0 : 0.0;
@@ -90,7 +90,7 @@ TableData tabulate(const EquationOfState& eos, const TableRequest& request, cons
   const double densest =
       request.maximum_density > 0 ? request.maximum_density : default_density_share * eos.maximum_density();
   if (!(request.error > 1e-9 && request.error < 0.1))
-    throw InputError("table: the error must lie between 1e-9 and 0.1");
+    throw InputError("table: the error must be between 1e-9 and 0.1");
   if (!(thinnest < densest && densest <= eos.maximum_density())) {
     throw InputError(
         fmt::format("table: densities from {:.6g} to {:.6g} kg/m^3; the model holds up to {:.6g}", thinnest,

@@ -57,7 +57,7 @@ Table::Table(TableData data) : data_(std::move(data)) {
   };
   if (data_.strips.empty()) refuse("has no strips");
   if (!(data_.thermal_energy > 0) || !(data_.least_sound_speed > 0) || !(data_.least_temperature > 0)) {
-    refuse("least thermal energy, sound speed and temperature must be positive");
+    refuse("minimum thermal energy, sound speed and temperature must be positive");
   }
   for (std::size_t i = 0; i < data_.strips.size(); ++i) {
     const Strip& s = data_.strips[i];

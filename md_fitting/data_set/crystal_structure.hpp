@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "src/core/base/word_list.hpp"
+#include "src/core/base/words.hpp"
 
 namespace whipple::md {
 

@@ -44,7 +44,7 @@ Estimate read_quantity(const hdf5::Group& group, const std::string& name) {
   const std::vector<double> numbers = set.read_all<double>();
   if (numbers.empty() || numbers.size() > 2) {
     throw InputError(
-        fmt::format("{}: holds {} numbers, not a value and its error", set.name(), numbers.size()));
+        fmt::format("{}: contains {} numbers, not a value and its error", set.name(), numbers.size()));
   }
   return {numbers[0], numbers.size() > 1 ? numbers[1] : 0.0};
 }
@@ -283,7 +283,7 @@ std::string obstacle(const std::filesystem::path& probe, std::uintmax_t size) {
     } else {
       reason = errno == ENOSPC   ? "the disk is full"
                : errno == EDQUOT ? "the quota of the disk is used up"
-               : errno == EFBIG  ? "the greatest size of a file is reached"
+               : errno == EFBIG  ? "the maximum size of a file is reached"
                                  : std::strerror(errno);
     }
   }

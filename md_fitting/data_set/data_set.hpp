@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "src/core/base/word_list.hpp"
+#include "src/core/base/words.hpp"
 
 /// The store NAME.md.h5 of finished molecular-dynamics points: the only link between whipple-md, which writes
 /// it, and whipple-fit, which reads it. SI units, energies and volumes per mass

@@ -21,7 +21,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/units.hpp"
-#include "src/core/base/word_list.hpp"
+#include "src/core/base/words.hpp"
 #include "src/core/process/scripts.hpp"
 
 namespace whipple::fit {
@@ -165,7 +165,7 @@ void propose_round(const Options& options) {
   const md::Plan plan = md::read_plan(options.propose);
   if (!plan.adaptive) {
     throw InputError(
-        fmt::format("{}: error: the section [adaptive] is missing: it says what the points are to tell",
+        fmt::format("{}: error: the section [adaptive] is missing: it selects the result that the points shall improve",
                     options.propose));
   }
   const std::filesystem::path& store = options.stores.front();
@@ -246,7 +246,7 @@ int main_program(int argc, char** argv) {
                  "Measured density: replaces the fitted reference volume, e.g. \"8.9445 g/cm^3\"");
   app.add_option(
       "--electrons", options.electrons,
-      "Their heat coefficient g_el, of which the simulations know nothing: a choice of the element's table "
+      "Their heat coefficient g_el, which simulations do not contain: a choice of the element's table "
       "(measured, none, for copper liu2013), or a quantity such as \"0.69 mJ/(mol K^2)\" (default: the "
       "first of the table)");
   app.add_option("--bootstrap", options.bootstrap,

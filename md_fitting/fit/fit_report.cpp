@@ -85,12 +85,12 @@ Row published_cells(const PublishedRow& row) {
 
 std::string left_out_text(const Fit& fit) {
   std::string text =
-      "\neach datum left out in turn and predicted from the rest: data, rms of (datum - prediction)/error, "
+      "\neach datum omitted in turn and predicted from the others: data, rms of (datum - prediction)/error, "
       "largest; "
       "the largest shift of a constant in its errors\n";
   for (const LeaveOneOut& part : fit.left_out) {
     if (part.data == 0) {
-      text += fmt::format("  {}: the rest does not predict it\n", part.quantity);
+      text += fmt::format("  {}: the others do not predict it\n", part.quantity);
       continue;
     }
     text += fmt::format("  {}: {}, {:.2f}, {:.2f} ({}); {} by {:.2f} without {}\n", part.quantity, part.data,
@@ -121,7 +121,7 @@ std::string bootstrap_text(const Fit& fit) {
 
 std::string unknown_to_classical_nuclei(const Fit& fit) {
   std::string text =
-      "\nwhat classical nuclei cannot know: electrons (heat, pressure), zero-point motion, and the fall of "
+      "\neffects that classical nuclei do not include: electrons (heat, pressure), zero-point motion, and the fall of "
       "the heat "
       "capacity below the Debye temperature\n";
   const auto find = [&](const char* name) {
@@ -225,7 +225,7 @@ std::string fit_details(const Fit& fit) {
   if (fit.bootstrap) text += bootstrap_text(fit);
   if (!fit.windows.empty()) text += windows_text(fit);
 
-  text += "\ngamma of each isochore (slope of P against E; noise only) beside the fitted line\n";
+  text += "\ngamma of each isochore (slope of P against E; noise only), compared with the fitted line\n";
   for (const IsochoreGruneisen& isochore : fit.isochores) {
     const double ratio = isochore.volume / fit.fitted_reference_volume;
     text +=

@@ -15,7 +15,7 @@ namespace whipple::fit {
 
 struct GrayFit : Fit {
   eos::GrayConstants gray;  ///< the model of the material
-  SolidFit solid;           ///< the solid's share, as it was fitted
+  SolidFit solid;           ///< the part of the solid, as it was fitted
 };
 
 /// Fits V0, C, S, gamma0, a, g_anh; with coexistence T_m0; with latent heats Delta S; with saturated

@@ -50,8 +50,8 @@ namespace {
 /// At one volume melting rests on Delta S - alpha alone, up to the square of T/T_m - 1. Without the fall of
 /// the liquid's heat capacity (alpha = 0) the surface exists for every g, also where liquid or vapour of the
 /// complete model would have no positive heat capacity. In equilibrium the liquid has another volume, T/T_m
-/// of which is some 1.15: there the square counts, and alpha stays. The attraction of the vapour does not
-/// matter: one is as good as another.
+/// of which is some 1.15: there the square counts, and alpha stays. The attraction of the vapour has no
+/// influence.
 eos::GrayConstants for_melting(eos::GrayConstants constants) {
   if (constants.melting != eos::MeltingTransition::equilibrium) {
     constants.melting_entropy -= constants.liquid_heat_coefficient;

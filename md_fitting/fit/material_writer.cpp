@@ -163,7 +163,7 @@ std::string provenance_table(const Fit& fit, const StoreOrigin& origin) {
 
 std::string defaults_table(const Fit& fit) {
   std::string text =
-      "[defaults]\n# Constants that the simulations do not bear: name of the choice, and its source.\n";
+      "[defaults]\n# Constants that the simulations do not determine: name of the choice, and its source.\n";
   for (const Constant& constant : fit.constants) {
     if (constant.origin == Origin::by_default) {
       text += fmt::format("{} = {}\n", constant.name, toml_string(constant.source));

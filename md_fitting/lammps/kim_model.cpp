@@ -303,7 +303,7 @@ void KimModel::scan() {
     }
   }
   if (volumes_.empty() || volumes_.back() > 0.97 * v0) {
-    throw InputError(fmt::format("with the KIM model {} the crystal of {} bears no compression: {}",
+    throw InputError(fmt::format("with the KIM model {} the crystal of {} carries no compression: {}",
                                  identifier_, element_, reason_));
   }
   for (auto* list : {&volumes_, &energies_, &slopes_}) std::reverse(list->begin(), list->end());

@@ -154,7 +154,7 @@ std::string choose_structure(EamTables& tables, std::optional<CrystalStructure> 
   }
   if (candidates.empty()) {
     throw InputError(
-        fmt::format("potential {}: neither fcc nor bcc {} has a least energy", name, tables.element));
+        fmt::format("potential {}: neither fcc nor bcc {} has an energy minimum", name, tables.element));
   }
   const auto rank = [&](const Candidate& c) {
     return c.energy - (c.tables.structure == header ? clearly : 0.0);
@@ -167,7 +167,7 @@ std::string choose_structure(EamTables& tables, std::optional<CrystalStructure> 
   if (hexagonal < best.energy - clearly) {
     throw InputError(fmt::format(
         "with the potential {} hcp {} has {:.4f} eV per atom, {} {:.4f}: the crystal is hcp; fcc and bcc are "
-        "supported (structure = \"{}\" in the plan takes that one all the same)",
+        "supported (structure = \"{}\" in the plan overrides this)",
         name, tables.element, hexagonal, word_of(tables.structure), best.energy, word_of(tables.structure)));
   }
   if (tables.structure == header) return "";
@@ -176,7 +176,7 @@ std::string choose_structure(EamTables& tables, std::optional<CrystalStructure> 
     energies += fmt::format("{}{} {:.4f}", energies.empty() ? "" : ", ", word_of(c.tables.structure), c.energy);
   }
   return fmt::format(
-      "potential {}: the header gives {} the structure '{}', but {} has the least energy ({} eV "
+      "potential {}: the header gives {} the structure '{}', but {} has the lowest energy ({} eV "
       "per atom) and is taken; `structure` in the plan states another",
       name, tables.element, tables.header_structure, word_of(tables.structure), energies);
 }

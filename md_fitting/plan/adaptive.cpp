@@ -3,14 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <set>
 
 #include "md_fitting/plan/plan.hpp"
 
 namespace whipple::md {
 
-std::vector<BoundParameter> keys(AdaptivePlan& plan) {
-  static const ParameterTable<AdaptivePlan> table = {
+ParameterTable<AdaptivePlan> AdaptivePlan::parameters() {
+  return {
       choice("outcome", &AdaptivePlan::outcome, {adaptive_outcomes.begin(), adaptive_outcomes.end()},
              "result of the fitted equation of state whose error is to fall"),
       real("volume_ratio", &AdaptivePlan::volume_ratio, "", range::open_between(0.1, 1.0),
@@ -29,12 +30,11 @@ std::vector<BoundParameter> keys(AdaptivePlan& plan) {
               "equidistant values to choose from along each range of the plan")
           .optional(),
       boolean("model_errors", &AdaptivePlan::model_errors,
-              "the error holds what the fitted laws leave out, not the noise alone")
+              "the error includes that of the fitted laws, not the noise alone")
           .optional()};
-  return bind(table, plan);
 }
 
-void check(const AdaptivePlan& section, const Plan& plan, input::Table& table) {
+void AdaptivePlan::check(const Plan& plan, const input::Faults& faults) const {
   std::set<double> volumes;
   bool sharpened = plan.zero_pressure && plan.zero_pressure->target.error > 0.0;
   for (const IsochorePlan& isochore : plan.isochores) {
@@ -42,24 +42,25 @@ void check(const AdaptivePlan& section, const Plan& plan, input::Table& table) {
     sharpened = sharpened || isochore.target.error > 0.0;
   }
   if (!plan.zero_pressure || !plan.hugoniot || plan.hugoniot->volume_ratio.size() < 3 || volumes.size() < 2) {
-    table.error(
-        "[adaptive] chooses within the ranges of [zero_pressure_volume], [hugoniot] (three volumes or more) "
-        "and [[isochore]] (two volumes or more, each with two temperatures or more): they must be there");
+    faults.add("",
+               "[adaptive] chooses within the ranges of [zero_pressure_volume], [hugoniot] (three volumes or more) "
+               "and [[isochore]] (two volumes or more, each with two temperatures or more): they must be there");
   }
   sharpened = sharpened || (plan.hugoniot && plan.hugoniot->target.error > 0.0) ||
               (plan.coexistence && plan.coexistence->target.error > 0.0);
   if (sharpened) {
-    table.error("[adaptive] knows what a point costs beforehand: no target_error in the other sections");
+    faults.add("", "[adaptive] requires the cost of a point in advance: no target_error in the other sections");
   }
-  const bool of_hugoniot = section.outcome.starts_with("hugoniot_");
-  if (of_hugoniot && section.volume_ratio == 0.0) {
-    table.error(fmt::format("outcome = \"{}\" needs volume_ratio", section.outcome));
+  const bool of_hugoniot = outcome.starts_with("hugoniot_");
+  const bool given = std::isfinite(volume_ratio);
+  if (of_hugoniot && !given) {
+    faults.add("", fmt::format("outcome = \"{}\" needs volume_ratio", outcome));
   }
-  if (!of_hugoniot && section.volume_ratio != 0.0) {
-    table.error_at("volume_ratio", fmt::format("does not belong to outcome = \"{}\"", section.outcome));
+  if (!of_hugoniot && given) {
+    faults.add("volume_ratio", fmt::format("does not belong to outcome = \"{}\"", outcome));
   }
-  if (section.target_error == 0.0 && section.budget == 0.0) {
-    table.error("[adaptive] needs target_error or budget, or both: one of them ends the work");
+  if (target_error == 0.0 && budget == 0.0) {
+    faults.add("", "[adaptive] needs target_error or budget, or both: one of them ends the work");
   }
 }
 

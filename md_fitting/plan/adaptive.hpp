@@ -3,26 +3,31 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "src/core/base/parameter_table.hpp"
-#include "src/core/input/document.hpp"
+#include "src/core/input/faults.hpp"
 
 namespace whipple::md {
 
 struct Plan;
 
-/// Describes what a call with --adaptive shall learn, and at what price; the other sections are ranges to choose from
+/// Describes which result a call with --adaptive shall improve, and at what cost; the other sections are ranges to choose from
 /// (docs/theory/fit.md, section 8).
 struct AdaptivePlan {
   std::string outcome;
-  double volume_ratio = 0.0;    ///< of the outcomes of one Hugoniot state, V/V0 of the fit
+  /// V/V0 of the fit at the Hugoniot state of an outcome; infinite: not given
+  double volume_ratio = std::numeric_limits<double>::infinity();
   double pressure = 1e5;        ///< Pa: after release, or of the melting temperature
   double target_error = 0.0;    ///< relative, of the outcome; 0: none
   double budget = 0.0;          ///< atom-steps; 0: none
   std::int64_t candidates = 9;  ///< values along each range
   bool model_errors = true;     ///< the error to be lowered holds them, not the noise alone
+
+  static ParameterTable<AdaptivePlan> parameters();
+  void check(const Plan& plan, const input::Faults& faults) const;
 };
 
 /// Names of the outcomes.
@@ -34,8 +39,5 @@ inline constexpr std::array<const char*, 8> adaptive_outcomes = {"hugoniot_press
                                                                  "release_complete_melting_pressure",
                                                                  "release_vaporisation_pressure",
                                                                  "melting_temperature"};
-
-std::vector<BoundParameter> keys(AdaptivePlan& plan);
-void check(const AdaptivePlan& section, const Plan& plan, input::Table& table);
 
 }  // namespace whipple::md

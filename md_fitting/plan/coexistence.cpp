@@ -5,8 +5,8 @@
 
 namespace whipple::md {
 
-std::vector<BoundParameter> keys(CoexistencePlan& plan) {
-  static const ParameterTable<CoexistencePlan> table = {
+ParameterTable<CoexistencePlan> CoexistencePlan::parameters() {
+  ParameterTable<CoexistencePlan> own = {
       real_list("pressure", &CoexistencePlan::pressure, "Pa", range::non_negative(),
                 "pressures of melting points"),
       real_list("first_guess", &CoexistencePlan::first_guess, "K", range::positive(),
@@ -21,14 +21,14 @@ std::vector<BoundParameter> keys(CoexistencePlan& plan) {
               "unit cells along the normal of the interfaces, half of them crystal; below 20 one phase tends "
               "to vanish")
           .optional()};
-  return join_keys(with_size(bind(table, plan), plan.size),
-                   keys(plan.target, "K", "wanted standard error of the melting temperature"));
+  return with_run(std::move(own), &CoexistencePlan::size, &CoexistencePlan::target, "K",
+                  "target standard error of the melting temperature");
 }
 
-void check(const CoexistencePlan& section, const Plan&, input::Table& table) {
-  if (section.pressure.size() != section.first_guess.size()) {
-    table.error_at("first_guess", fmt::format("has {} temperatures for {} pressures",
-                                              section.first_guess.size(), section.pressure.size()));
+void CoexistencePlan::check(const Plan&, const input::Faults& faults) const {
+  if (pressure.size() != first_guess.size()) {
+    faults.add("first_guess",
+               fmt::format("has {} temperatures for {} pressures", first_guess.size(), pressure.size()));
   }
 }
 

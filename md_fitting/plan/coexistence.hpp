@@ -6,7 +6,7 @@
 
 #include "md_fitting/plan/run_size.hpp"
 #include "md_fitting/plan/target.hpp"
-#include "src/core/input/document.hpp"
+#include "src/core/input/faults.hpp"
 
 namespace whipple::md {
 
@@ -21,9 +21,9 @@ struct CoexistencePlan {
   std::int64_t length = 20;  ///< unit cells along the normal of the interfaces
   RunSize size{.cells = 6, .equilibration_steps = 6000, .steps = 10000};
   Target target{};
-};
 
-std::vector<BoundParameter> keys(CoexistencePlan& plan);
-void check(const CoexistencePlan& section, const Plan& plan, input::Table& table);
+  static ParameterTable<CoexistencePlan> parameters();
+  void check(const Plan& plan, const input::Faults& faults) const;
+};
 
 }  // namespace whipple::md

@@ -3,11 +3,10 @@
 
 namespace whipple::md {
 
-std::vector<BoundParameter> keys(ColdCurvePlan& plan) {
-  static const ParameterTable<ColdCurvePlan> table = {
+ParameterTable<ColdCurvePlan> ColdCurvePlan::parameters() {
+  return {
       real_list("volume_ratio", &ColdCurvePlan::volume_ratio, "", range::open_between(0.1, 3.0),
                 "V over the volume of the static crystal at zero pressure; above 1: tension")};
-  return bind(table, plan);
 }
 
 }  // namespace whipple::md

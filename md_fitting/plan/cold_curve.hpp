@@ -10,8 +10,8 @@ namespace whipple::md {
 /// Energy and pressure of static crystals.
 struct ColdCurvePlan {
   std::vector<double> volume_ratio;
-};
 
-std::vector<BoundParameter> keys(ColdCurvePlan& plan);
+  static ParameterTable<ColdCurvePlan> parameters();
+};
 
 }  // namespace whipple::md

@@ -3,8 +3,8 @@
 
 namespace whipple::md {
 
-std::vector<BoundParameter> keys(ElasticPlan& plan) {
-  static const ParameterTable<ElasticPlan> table = {
+ParameterTable<ElasticPlan> ElasticPlan::parameters() {
+  return {
       real_list("volume_ratio", &ElasticPlan::volume_ratio, "", range::open_between(0.1, 3.0),
                 "V over the volume of the static crystal at zero pressure")
           .optional(),
@@ -14,7 +14,6 @@ std::vector<BoundParameter> keys(ElasticPlan& plan) {
       integer("strains", &ElasticPlan::strains, {.lower = 3, .upper = 20},
               "equal steps up to the largest strain")
           .optional()};
-  return bind(table, plan);
 }
 
 }  // namespace whipple::md

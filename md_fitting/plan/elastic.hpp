@@ -13,8 +13,8 @@ struct ElasticPlan {
   std::vector<double> volume_ratio = {1.0};
   double largest_strain = 0.005;
   std::int64_t strains = 5;
-};
 
-std::vector<BoundParameter> keys(ElasticPlan& plan);
+  static ParameterTable<ElasticPlan> parameters();
+};
 
 }  // namespace whipple::md

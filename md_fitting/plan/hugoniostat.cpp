@@ -5,16 +5,16 @@
 
 namespace whipple::md {
 
-std::vector<BoundParameter> keys(HugoniostatPlan& plan) {
-  static const ParameterTable<HugoniostatPlan> table = {real_list(
+ParameterTable<HugoniostatPlan> HugoniostatPlan::parameters() {
+  ParameterTable<HugoniostatPlan> own = {real_list(
       "pressure", &HugoniostatPlan::pressure, "Pa", range::positive(), "pressures behind the shock")};
-  return with_size(bind(table, plan), plan.size);
+  return with_part(std::move(own), &HugoniostatPlan::size, RunSize::parameters());
 }
 
-void check(const HugoniostatPlan& section, const Plan& plan, input::Table& table) {
-  if (section.pressure.empty()) table.error_at("pressure", "needs at least one pressure");
+void HugoniostatPlan::check(const Plan& plan, const input::Faults& faults) const {
+  if (pressure.empty()) faults.add("pressure", "needs at least one pressure");
   if (!plan.zero_pressure) {
-    table.error("[hugoniostat] needs the section [zero_pressure_volume]: it is the state before the shock");
+    faults.add("", "[hugoniostat] needs the section [zero_pressure_volume]: it is the state before the shock");
   }
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "md_fitting/plan/run_size.hpp"
-#include "src/core/input/document.hpp"
+#include "src/core/input/faults.hpp"
 
 namespace whipple::md {
 
@@ -15,9 +15,9 @@ struct Plan;
 struct HugoniostatPlan {
   std::vector<double> pressure;
   RunSize size{.cells = 5, .equilibration_steps = 5000, .steps = 20000};
-};
 
-std::vector<BoundParameter> keys(HugoniostatPlan& plan);
-void check(const HugoniostatPlan& section, const Plan& plan, input::Table& table);
+  static ParameterTable<HugoniostatPlan> parameters();
+  void check(const Plan& plan, const input::Faults& faults) const;
+};
 
 }  // namespace whipple::md

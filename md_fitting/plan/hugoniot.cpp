@@ -5,17 +5,17 @@
 
 namespace whipple::md {
 
-std::vector<BoundParameter> keys(HugoniotPlan& plan) {
-  static const ParameterTable<HugoniotPlan> table = {
+ParameterTable<HugoniotPlan> HugoniotPlan::parameters() {
+  ParameterTable<HugoniotPlan> own = {
       real_list("volume_ratio", &HugoniotPlan::volume_ratio, "", range::open_between(0.1, 1.0),
                 "V behind the shock over the volume of the static crystal at zero pressure")};
-  return join_keys(with_size(bind(table, plan), plan.size),
-                   keys(plan.target, "", "wanted standard error of the shock velocity, relative"));
+  return with_run(std::move(own), &HugoniotPlan::size, &HugoniotPlan::target, "",
+                  "target standard error of the shock velocity, relative");
 }
 
-void check(const HugoniotPlan&, const Plan& plan, input::Table& table) {
+void HugoniotPlan::check(const Plan& plan, const input::Faults& faults) const {
   if (!plan.zero_pressure) {
-    table.error("[hugoniot] needs the section [zero_pressure_volume]: it is the state before the shock");
+    faults.add("", "[hugoniot] needs the section [zero_pressure_volume]: it is the state before the shock");
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include "md_fitting/plan/run_size.hpp"
 #include "md_fitting/plan/target.hpp"
-#include "src/core/input/document.hpp"
+#include "src/core/input/faults.hpp"
 
 namespace whipple::md {
 
@@ -16,9 +16,9 @@ struct HugoniotPlan {
   std::vector<double> volume_ratio;
   RunSize size{};
   Target target{};
-};
 
-std::vector<BoundParameter> keys(HugoniotPlan& plan);
-void check(const HugoniotPlan& section, const Plan& plan, input::Table& table);
+  static ParameterTable<HugoniotPlan> parameters();
+  void check(const Plan& plan, const input::Faults& faults) const;
+};
 
 }  // namespace whipple::md

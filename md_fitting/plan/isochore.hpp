@@ -14,8 +14,8 @@ struct IsochorePlan {
   std::vector<double> temperature;
   RunSize size{};
   Target target{};
-};
 
-std::vector<BoundParameter> keys(IsochorePlan& plan);
+  static ParameterTable<IsochorePlan> parameters();
+};
 
 }  // namespace whipple::md

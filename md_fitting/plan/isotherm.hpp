@@ -14,8 +14,8 @@ struct IsothermPlan {
   std::vector<double> volume_ratio;
   RunSize size{};
   Target target{};
-};
 
-std::vector<BoundParameter> keys(IsothermPlan& plan);
+  static ParameterTable<IsothermPlan> parameters();
+};
 
 }  // namespace whipple::md

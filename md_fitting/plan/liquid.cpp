@@ -3,19 +3,19 @@
 
 namespace whipple::md {
 
-std::vector<BoundParameter> keys(LiquidPlan& plan) {
-  static const ParameterTable<LiquidPlan> table = {
+ParameterTable<LiquidPlan> LiquidPlan::parameters() {
+  ParameterTable<LiquidPlan> own = {
       real_list("temperature", &LiquidPlan::temperature, "K", range::positive(), "temperatures of the melt"),
       real_list("pressure", &LiquidPlan::pressure, "Pa", range::non_negative(),
                 "pressures; every temperature is combined with every pressure")
           .optional()};
-  return join_keys(with_size(bind(table, plan), plan.size),
-                   keys(plan.target, "", "wanted relative standard error of the volume"));
+  return with_run(std::move(own), &LiquidPlan::size, &LiquidPlan::target, "",
+                  "target relative standard error of the volume");
 }
 
-void check(const LiquidPlan& section, const Plan&, input::Table& table) {
-  if (section.temperature.empty()) table.error_at("temperature", "needs at least one temperature");
-  if (section.pressure.empty()) table.error_at("pressure", "needs at least one pressure");
+void LiquidPlan::check(const Plan&, const input::Faults& faults) const {
+  if (temperature.empty()) faults.add("temperature", "needs at least one temperature");
+  if (pressure.empty()) faults.add("pressure", "needs at least one pressure");
 }
 
 }  // namespace whipple::md

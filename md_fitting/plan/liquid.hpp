@@ -6,7 +6,7 @@
 
 #include "md_fitting/plan/run_size.hpp"
 #include "md_fitting/plan/target.hpp"
-#include "src/core/input/document.hpp"
+#include "src/core/input/faults.hpp"
 
 namespace whipple::md {
 
@@ -18,9 +18,9 @@ struct LiquidPlan {
   std::vector<double> pressure = {0.0};
   RunSize size{.cells = 6, .equilibration_steps = 4000, .steps = 15000};
   Target target{};
-};
 
-std::vector<BoundParameter> keys(LiquidPlan& plan);
-void check(const LiquidPlan& section, const Plan& plan, input::Table& table);
+  static ParameterTable<LiquidPlan> parameters();
+  void check(const Plan& plan, const input::Faults& faults) const;
+};
 
 }  // namespace whipple::md

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "md_fitting/plan/run_size.hpp"
-#include "src/core/input/document.hpp"
+#include "src/core/input/faults.hpp"
 
 namespace whipple::md {
 
@@ -17,9 +17,9 @@ struct LiquidVapourPlan {
   double gap = 2.0;
   std::int64_t replicas = 4;
   RunSize size{.cells = 5, .equilibration_steps = 20000, .steps = 60000};
-};
 
-std::vector<BoundParameter> keys(LiquidVapourPlan& plan);
-void check(const LiquidVapourPlan& section, const Plan& plan, input::Table& table);
+  static ParameterTable<LiquidVapourPlan> parameters();
+  void check(const Plan& plan, const input::Faults& faults) const;
+};
 
 }  // namespace whipple::md

@@ -5,22 +5,22 @@
 
 namespace whipple::md {
 
-std::vector<BoundParameter> keys(PistonPlan& plan) {
-  static const ParameterTable<PistonPlan> table = {
+ParameterTable<PistonPlan> PistonPlan::parameters() {
+  ParameterTable<PistonPlan> own = {
       real_list("particle_velocity", &PistonPlan::particle_velocity, "m/s", range::positive(),
                 "velocities of the piston"),
       integer("length", &PistonPlan::length, {.lower = 20, .upper = 10000},
               "unit cells along the shock; the section of the crystal has cells x cells")
           .optional()};
-  return with_size(bind(table, plan), plan.size);
+  return with_part(std::move(own), &PistonPlan::size, RunSize::parameters());
 }
 
-void check(const PistonPlan& section, const Plan& plan, input::Table& table) {
-  if (section.particle_velocity.empty()) {
-    table.error_at("particle_velocity", "needs at least one velocity");
+void PistonPlan::check(const Plan& plan, const input::Faults& faults) const {
+  if (particle_velocity.empty()) {
+    faults.add("particle_velocity", "needs at least one velocity");
   }
   if (!plan.zero_pressure) {
-    table.error("[piston] needs the section [zero_pressure_volume]: it is the state before the shock");
+    faults.add("", "[piston] needs the section [zero_pressure_volume]: it is the state before the shock");
   }
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "md_fitting/plan/run_size.hpp"
-#include "src/core/input/document.hpp"
+#include "src/core/input/faults.hpp"
 
 namespace whipple::md {
 
@@ -16,9 +16,9 @@ struct PistonPlan {
   std::vector<double> particle_velocity;
   std::int64_t length = 60;  ///< unit cells along the shock
   RunSize size{.cells = 8, .equilibration_steps = 1000};
-};
 
-std::vector<BoundParameter> keys(PistonPlan& plan);
-void check(const PistonPlan& section, const Plan& plan, input::Table& table);
+  static ParameterTable<PistonPlan> parameters();
+  void check(const Plan& plan, const input::Faults& faults) const;
+};
 
 }  // namespace whipple::md

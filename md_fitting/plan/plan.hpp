@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,11 @@
 #include "md_fitting/plan/piston.hpp"
 #include "md_fitting/plan/spall.hpp"
 #include "md_fitting/plan/zero_pressure.hpp"
-#include "src/core/input/document.hpp"
+#include "src/core/input/section.hpp"
 
 /// The plan of a campaign of molecular-dynamics points: a TOML file that names what is to be measured. This
-/// library knows neither LAMMPS nor potentials; `whipple describe md` prints its tables. Each protocol has
-/// its section in a file of its own: a structure, its keys, and a check of what its table alone cannot tell.
+/// library depends neither on LAMMPS nor on potentials; `whipple describe md` prints its tables. Each protocol has
+/// its section in a file of its own (src/core/input/section.hpp).
 namespace whipple::md {
 
 struct Plan {
@@ -50,6 +51,9 @@ struct Plan {
   std::optional<SpallPlan> spall;
   std::optional<LiquidVapourPlan> liquid_vapour;
   std::optional<AdaptivePlan> adaptive;  ///< no points of its own
+
+  static ParameterTable<Plan> parameters();
+  static std::span<const input::Section<Plan, Plan>> sections();
 };
 
 /// Reads a plan. @throws InputError with all errors at once, each with file:line:column.

@@ -3,8 +3,8 @@
 
 namespace whipple::md {
 
-std::vector<BoundParameter> keys(RunSize& size) {
-  static const ParameterTable<RunSize> table = {
+ParameterTable<RunSize> RunSize::parameters() {
+  return {
       integer("cells", &RunSize::cells, {.lower = 2, .upper = 100}, "unit cells along each edge of the cube")
           .optional(),
       integer("equilibration_steps", &RunSize::equilibration_steps, {.lower = 100, .upper = 1e9},
@@ -15,17 +15,6 @@ std::vector<BoundParameter> keys(RunSize& size) {
       real("time_step", &RunSize::time_step, "s", range::between(0.0, 1e-13),
            "0: 2 fs for the mass of copper, less when hot or compressed")
           .optional()};
-  return bind(table, size);
-}
-
-std::vector<BoundParameter> with_size(std::vector<BoundParameter> own, RunSize& size) {
-  return join_keys(std::move(own), keys(size));
-}
-
-std::vector<BoundParameter> join_keys(std::vector<BoundParameter> first,
-                                      const std::vector<BoundParameter>& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
 }
 
 }  // namespace whipple::md

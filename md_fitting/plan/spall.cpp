@@ -3,8 +3,8 @@
 
 namespace whipple::md {
 
-std::vector<BoundParameter> keys(SpallPlan& plan) {
-  static const ParameterTable<SpallPlan> table = {
+ParameterTable<SpallPlan> SpallPlan::parameters() {
+  ParameterTable<SpallPlan> own = {
       real_list("temperature", &SpallPlan::temperature, "K", range::positive(),
                 "temperatures at zero pressure, before the tension")
           .optional(),
@@ -17,11 +17,11 @@ std::vector<BoundParameter> keys(SpallPlan& plan) {
       real("largest_strain", &SpallPlan::largest_strain, "", range::between(0.05, 2.0),
            "volume strain at which a run that has not failed is given up")
           .optional()};
-  return with_size(bind(table, plan), plan.size);
+  return with_part(std::move(own), &SpallPlan::size, RunSize::parameters());
 }
 
-void check(const SpallPlan& section, const Plan&, input::Table& table) {
-  if (section.temperature.empty()) table.error_at("temperature", "needs at least one temperature");
+void SpallPlan::check(const Plan&, const input::Faults& faults) const {
+  if (temperature.empty()) faults.add("temperature", "needs at least one temperature");
 }
 
 }  // namespace whipple::md

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "md_fitting/plan/run_size.hpp"
-#include "src/core/input/document.hpp"
+#include "src/core/input/faults.hpp"
 
 namespace whipple::md {
 
@@ -18,9 +18,9 @@ struct SpallPlan {
   std::int64_t replicas = 4;
   double largest_strain = 0.5;
   RunSize size{.cells = 6, .equilibration_steps = 2000};
-};
 
-std::vector<BoundParameter> keys(SpallPlan& plan);
-void check(const SpallPlan& section, const Plan& plan, input::Table& table);
+  static ParameterTable<SpallPlan> parameters();
+  void check(const Plan& plan, const input::Faults& faults) const;
+};
 
 }  // namespace whipple::md

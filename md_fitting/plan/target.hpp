@@ -3,21 +3,28 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
+#include <utility>
 
-#include "src/core/base/parameter_table.hpp"
+#include "md_fitting/plan/run_size.hpp"
 
 namespace whipple::md {
 
-/// How exactly the points of a section are wanted. No part of what a point is: a plan that asks for more
-/// continues the points that a store holds.
+/// Target accuracy of the points of a section. It is no part of the identity of a point: a plan with a smaller error
+/// continues the points that a database holds.
 struct Target {
   double error = 0.0;
   std::int64_t most_steps = 0;
+
+  /// @param unit    of the error; empty: relative
+  /// @param meaning which error is meant
+  static ParameterTable<Target> parameters(const std::string& unit, const std::string& meaning);
 };
 
-/// @param unit    of the error; empty: relative
-/// @param meaning which error is meant
-std::vector<BoundParameter> keys(Target& target, const std::string& unit, const std::string& meaning);
+/// Returns the table of a section with the keys of its runs and of their target error at its end.
+template <class Section>
+ParameterTable<Section> with_run(ParameterTable<Section> own, RunSize Section::* size, Target Section::* target,
+                                 const std::string& unit, const std::string& meaning) {
+  return with_part(with_part(std::move(own), size, RunSize::parameters()), target, Target::parameters(unit, meaning));
+}
 
 }  // namespace whipple::md

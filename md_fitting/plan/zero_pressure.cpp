@@ -3,17 +3,17 @@
 
 namespace whipple::md {
 
-std::vector<BoundParameter> keys(ZeroPressurePlan& plan) {
-  static const ParameterTable<ZeroPressurePlan> table = {
+ParameterTable<ZeroPressurePlan> ZeroPressurePlan::parameters() {
+  ParameterTable<ZeroPressurePlan> own = {
       real_list("temperature", &ZeroPressurePlan::temperature, "K", range::positive(),
                 "temperatures at zero pressure; the first is the state before the shock")
           .optional()};
-  return join_keys(with_size(bind(table, plan), plan.size),
-                   keys(plan.target, "", "wanted relative standard error of the volume"));
+  return with_run(std::move(own), &ZeroPressurePlan::size, &ZeroPressurePlan::target, "",
+                  "target relative standard error of the volume");
 }
 
-void check(const ZeroPressurePlan& section, const Plan&, input::Table& table) {
-  if (section.temperature.empty()) table.error_at("temperature", "needs at least one temperature");
+void ZeroPressurePlan::check(const Plan&, const input::Faults& faults) const {
+  if (temperature.empty()) faults.add("temperature", "needs at least one temperature");
 }
 
 }  // namespace whipple::md

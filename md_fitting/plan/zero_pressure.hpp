@@ -5,7 +5,7 @@
 
 #include "md_fitting/plan/run_size.hpp"
 #include "md_fitting/plan/target.hpp"
-#include "src/core/input/document.hpp"
+#include "src/core/input/faults.hpp"
 
 namespace whipple::md {
 
@@ -17,9 +17,9 @@ struct ZeroPressurePlan {
   std::vector<double> temperature = {293.0};
   RunSize size{.cells = 5, .equilibration_steps = 3000, .steps = 27000};
   Target target{};
-};
 
-std::vector<BoundParameter> keys(ZeroPressurePlan& plan);
-void check(const ZeroPressurePlan& section, const Plan& plan, input::Table& table);
+  static ParameterTable<ZeroPressurePlan> parameters();
+  void check(const Plan& plan, const input::Faults& faults) const;
+};
 
 }  // namespace whipple::md

@@ -100,7 +100,7 @@ class TwoPhaseCell {
     lammps.command("unfix whole");
     lammps.command("velocity all scale {:.17g}", guess);
     lammps.command("fix whole all nph {}", couplings);
-    log::detail("share of crystal by the order parameter: {:.3f} in the crystal, {:.3f} in the melt",
+    log::detail("fraction of crystal by the order parameter: {:.3f} in the crystal, {:.3f} in the melt",
                 crystal_reading_, melt_reading_);
     lammps.command("run {}", section.size.equilibration_steps);
     // Crystal layer by layer, one unit cell each.
@@ -180,7 +180,7 @@ std::pair<double, double> find_coexistence(const Potential& potential, double pr
       const CoexistenceRun run = cell.run(section.size.steps);
       const std::string reason = refusal(run);
       log::detail(
-          "coexistence at {} GPa, attempt {}.{}: {:.1f} K, then {:.1f} K, mean {:.1f} +- {:.1f} K, share of "
+          "coexistence at {} GPa, attempt {}.{}: {:.1f} K, then {:.1f} K, mean {:.1f} +- {:.1f} K, fraction of "
           "crystal {:.2f} ... {:.2f}, by layers {:.2f} ... {:.2f}: {}",
           1e-9 * pressure, attempt, part, run.first_half.value, run.second_half.value, run.whole.value,
           run.whole.error, run.least_share, run.largest_share, run.least_order, run.largest_order,
@@ -257,16 +257,16 @@ std::string refusal(const CoexistenceRun& run) {
   const double sigma =
       std::fmax(std::hypot(run.first_half.error, run.second_half.error), 2.0 * run.whole.error);
   if (froze(run)) {
-    return fmt::format("the melt froze (share of crystal up to {:.2f}, {:.2f} in the least ordered layer)",
+    return fmt::format("the melt froze (fraction of crystal up to {:.2f}, {:.2f} in the least ordered layer)",
                        run.largest_share, run.least_order);
   }
   if (melted(run)) {
     return fmt::format(
-        "the crystal melted (share of crystal down to {:.2f}, {:.2f} in the most ordered layer)",
+        "the crystal melted (fraction of crystal down to {:.2f}, {:.2f} in the most ordered layer)",
         run.least_share, run.largest_order);
   }
   if (std::abs(run.first_share - run.second_share) > largest_accepted_drift) {
-    return fmt::format("the share of crystal drifts from {:.2f} to {:.2f}", run.first_share,
+    return fmt::format("the fraction of crystal drifts from {:.2f} to {:.2f}", run.first_share,
                        run.second_share);
   }
   if (difference > accepted_sigmas * sigma) {

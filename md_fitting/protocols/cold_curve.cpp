@@ -44,7 +44,7 @@ double relax_axial_ratio(Crystal& crystal, double volume_per_cell) {
     ratio += step;
     if (!(std::abs(ratio / ideal - 1.0) < 0.2)) break;
   }
-  throw StateError(fmt::format("hcp has no axial ratio of least energy near {:.3f} at {:.2f} A^3 per atom",
+  throw StateError(fmt::format("hcp has no energy minimum over the axial ratio near {:.3f} at {:.2f} A^3 per atom",
                                ideal, volume_per_cell / 4.0));
 }
 

@@ -17,7 +17,7 @@ struct ColdState {
 
 /// @param structure fcc, bcc or hcp
 /// @param transcript the LAMMPS commands are added to it
-/// @throws StateError if an hcp crystal has no axial ratio of least energy near the ideal one.
+/// @throws StateError if an hcp crystal has no energy minimum over the axial ratio near the ideal one.
 ColdState measure_cold(const Potential& potential, CrystalStructure structure, double specific_volume,
                        std::string& transcript);
 

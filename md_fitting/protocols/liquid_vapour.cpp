@@ -63,7 +63,7 @@ Interface find_interface(std::span<const double> profile, double step) {
   const double liquid = mean(profile.first(std::max<std::size_t>(3, n / 10)));
   const double vapour = mean(profile.last(std::max<std::size_t>(3, n / 5)));
   if (liquid < least_centre_share * *std::max_element(profile.begin(), profile.end())) {
-    throw StateError("the film has torn: it is thinner in its middle than beside it");
+    throw StateError("the film has torn: it is thinner in its middle than elsewhere");
   }
   if (!(liquid > 1.5 * vapour) || liquid <= 0.0) {
     throw StateError("film and vapour do not separate: the temperature is too close to the critical one");
@@ -187,7 +187,7 @@ ReplicaSet measure_liquid_vapour(const Potential& potential, double temperature,
   set.values.erase(vapour_atoms);
   if (atoms < least_vapour_atoms) {
     throw StateError(
-        fmt::format("the vapour holds {:.1f} atoms on average beside an interface of {:.1f} A width: too few "
+        fmt::format("the vapour holds {:.1f} atoms on average next to an interface of {:.1f} A width: too few "
                     "below about 0.7 "
                     "of the critical temperature, or in so small a box",
                     atoms, set.mean("interface_width").value / metal::angstrom));

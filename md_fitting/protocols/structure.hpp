@@ -31,7 +31,7 @@ double neighbour_distance(const Potential& potential, double specific_volume);
 void require_stable(bool solid, const Estimate& energy, double cold_energy, double temperature,
                     const Potential& potential);
 
-/// Between the shares of melts and crystals after their way to the minimum.
+/// Between the crystal fractions of melts and crystals after their way to the minimum.
 inline constexpr double solid_share_limit = 0.5;
 
 }  // namespace whipple::md

@@ -72,7 +72,7 @@ void TaskList::require_box(const PointRequest& request) {
   if (width >= potential_.cutoff()) return;
   fault(fmt::format(
       "a box of {} cells is {:.2f} angstrom wide at V/V0 = {:.3f}, less than the cutoff of {}, {:.2f} "
-      "angstrom: atoms would feel their own images; use cells = {} or more",
+      "angstrom: atoms would interact with their own images; use cells = {} or more",
       cells->second, width, ratio, potential_.name(), potential_.cutoff(),
       static_cast<int>(std::ceil(std::stod(cells->second) * potential_.cutoff() / width))));
 }
@@ -131,9 +131,9 @@ std::string structure_remark(double crystal_share, bool solid, double displaceme
   constexpr double lindemann = 0.2;  // crystals melt at 0.15, overheated ones without surfaces a little above
   constexpr double whole =
       0.9;  // a cavity or a stacking fault takes more than a tenth of a few hundred atoms
-  if (!solid) return fmt::format("the crystal melted (share of crystal {:.2f})", crystal_share);
+  if (!solid) return fmt::format("the crystal melted (fraction of crystal {:.2f})", crystal_share);
   if (crystal_share < whole) {
-    return fmt::format("the crystal has defects or a cavity (share of crystal {:.2f})", crystal_share);
+    return fmt::format("the crystal has defects or a cavity (fraction of crystal {:.2f})", crystal_share);
   }
   if (displacement > lindemann) {
     return fmt::format(

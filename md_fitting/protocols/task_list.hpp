@@ -39,7 +39,7 @@ class TaskList {
   /// Notes an error unless the potential covers the volume ratio.
   void require_range(double volume_ratio);
   /// Adds a point, unless the plan asked for the same one before. Returns its key. Notes an error if its box
-  /// is narrower than the cutoff: atoms would feel their own images.
+  /// is narrower than the cutoff: atoms would interact with their own images.
   std::string add(const PointRequest& request, Compute compute);
   /// Key of the first point of a protocol; empty: there is none yet.
   [[nodiscard]] std::string first_key(const std::string& protocol) const;

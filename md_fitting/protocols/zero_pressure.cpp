@@ -44,7 +44,7 @@ ZeroPressureResult measure_zero_pressure(const Potential& potential, double temp
   }
   const double share = inherent_crystal_share(crystal, potential);
   if (share < solid_share_limit) {
-    throw StateError(fmt::format("the crystal melted at {} K and zero pressure: share of crystal {:.2f}",
+    throw StateError(fmt::format("the crystal melted at {} K and zero pressure: fraction of crystal {:.2f}",
                                  temperature, share));
   }
   const double n = crystal.atoms();

@@ -34,7 +34,7 @@ WorkerSource::WorkerSource(const eos::SimulatedConstants& constants, const std::
   }
   if (tables.size() != 1) {
     throw InputError(fmt::format(
-        "{}: the store holds {} different tables under the name of the potential '{}': take another store",
+        "{}: the store contains {} different tables under the name of the potential '{}': use another store",
         store_.string(), tables.size(), constants_.potential));
   }
 }

@@ -45,7 +45,7 @@ def run(*arguments):
 
 
 def analyse(folder, output):
-    done = subprocess.run([WHIPPLE, "analyse", folder, "--output", output, "--witness", "200 mm"], capture_output=True,
+    done = subprocess.run([WHIPPLE, "analyse", folder, "--output", output, "--witness", "200 mm", "--views", "3"], capture_output=True,
                           text=True)
     require(done.returncode == 0, done.stderr)
 
@@ -83,7 +83,7 @@ def report_of_the_cloud(work):
         "projectile": "disk", "target": "plate", "velocity": 5550.0, "pressure": 105.7e9, "interface_velocity": 3760.0,
         "free_surface_velocity": 7820.0, "states": [{"body": "disk", "material": "copper", "shocked": state,
                                                      "released": None}]}]))
-    result = run(CLOUD, "--output", work / "report", "--figure", f"Hugoniot of <copper>={figure}", "--times", 3)
+    result = run(CLOUD, "--output", work / "report", "--figure", f"Hugoniot of <copper>={figure}")
     require(result.returncode == 0, result.stderr)
     text = (work / "report" / "report.html").read_text()
     checker = Checker()
@@ -138,8 +138,8 @@ def report_of_the_cloud(work):
         mass = data["mass"][:].astype(float)
     debris = velocity[:, 2] > 0.05 * 5550
     order = np.argsort(place[debris, 2])
-    share = np.cumsum(mass[debris][order]) / mass[debris].sum()
-    front = place[debris, 2][order][np.searchsorted(share, 0.999)]
+    fraction = np.cumsum(mass[debris][order]) / mass[debris].sum()
+    front = place[debris, 2][order][np.searchsorted(fraction, 0.999)]
     near(metrics["cloud"]["front"], front, 1e-6, "front")
     outward = place[debris, :2] / np.linalg.norm(place[debris, :2], axis=1)[:, None]
     angle = np.arctan2(abs((outward * velocity[debris, :2]).sum(axis=1)), velocity[debris, 2])
@@ -158,14 +158,14 @@ def incomplete_runs_give_reports(work):
     folder = copy("no_history")
     (folder / "history.csv").unlink()
     analyse(folder, folder / "report")
-    result = run(folder, "--times", 1)
+    result = run(folder)
     require(result.returncode == 0 and "no history.csv" in (folder / "report/report.html").read_text(), result.stderr)
 
     folder = copy("cut_history")
     text = (folder / "history.csv").read_text()
     (folder / "history.csv").write_text(text[:len(text) // 2])
     analyse(folder, folder / "report")
-    require(run(folder, "--times", 1).returncode == 0, "a history cut in a row")
+    require(run(folder).returncode == 0, "a history cut in a row")
 
     folder = copy("few_fields")
     for path in folder.glob("*.particles.*.hdf"):
@@ -175,7 +175,7 @@ def incomplete_runs_give_reports(work):
     toml = (folder / "run.toml").read_text()
     (folder / "run.toml").write_text(toml.replace('"symmetry"', '"outflow"'))
     analyse(folder, folder / "report")
-    result = run(folder, "--times", 1)
+    result = run(folder)
     require(result.returncode == 0, result.stderr)
     metrics = json.loads((folder / "report/metrics.json").read_text())
     require(metrics["multiplicity"] == 1, "no symmetry, one copy")
@@ -188,7 +188,7 @@ def incomplete_runs_give_reports(work):
     (folder / "run.toml").write_text(turned)
     require((folder / "run.toml").read_text() != toml, "the oblique run")
     analyse(folder, folder / "report")
-    require(run(folder, "--times", 1).returncode == 0, "an oblique run")
+    require(run(folder).returncode == 0, "an oblique run")
     with h5py.File(folder / "report/analysis.h5") as file:
         copies = file["frame"].attrs["copies"]
     metrics = json.loads((folder / "report/metrics.json").read_text())
@@ -222,7 +222,7 @@ def other_folders_are_refused(work):
     require(alone.returncode == 2 and "no such folder" in alone.stderr, f"as a program: {alone}")
     folder = work / "other"
     folder.mkdir()
-    refused(folder, "holds no run.toml")
+    refused(folder, "contains no run.toml")
     (folder / "run.toml").write_text("title = \n")
     refused(folder, "run.toml")
     (folder / "run.toml").write_text('title = "x"\n')

@@ -8,8 +8,8 @@ import unittest
 
 import numpy as np
 
-from report import curves, pictures, sensitivity
-from report.analysis import Geometry
+from report import curves, sensitivity
+from report.geometry import Geometry
 from report.errors import NotARun
 from report.history import History
 from report.page import Page
@@ -17,7 +17,7 @@ from report.run import Run
 
 
 def geometry(**more):
-    return Geometry(axis=2, sign=-1.0, up=0, depth=1, centre=np.zeros(3), impact_speed=5000.0, projectile="ball",
+    return Geometry(axis=2, sign=-1.0, up=0, sight=1, centre=np.zeros(3), impact_speed=5000.0, projectile="ball",
                     **more)
 
 
@@ -47,16 +47,9 @@ class Histories(unittest.TestCase):
 
 
 class Frames(unittest.TestCase):
-    def labels(self, geo):
-        return pictures.View(geo, [], 50).labels
-
     def test_an_oblique_impact_has_no_direction_of_flight(self):
-        self.assertEqual(self.labels(geometry()), ("along the flight, -z (mm)", "across, x (mm)"))
-        self.assertEqual(self.labels(geometry(impact_angle=math.radians(30))), ("-z (mm)", "x (mm)"))
-
-    def test_a_picture_is_completed_at_the_planes_of_the_analysis(self):
-        view = pictures.View(geometry(copies=2, planes={1: 0.0}), [], 50)
-        self.assertEqual((view.mirrored, view.depth_copies), (False, 2))
+        self.assertEqual(geometry().labels, ("along the flight, -z (mm)", "across, x (mm)"))
+        self.assertEqual(geometry(impact_angle=math.radians(30)).labels, ("-z (mm)", "x (mm)"))
 
 
 class Sensitivity(unittest.TestCase):
@@ -80,14 +73,14 @@ class Runs(unittest.TestCase):
             Run("/none")
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder)
-            with self.assertRaisesRegex(NotARun, "holds no run.toml"):
+            with self.assertRaisesRegex(NotARun, "contains no run.toml"):
                 Run(folder)
             (path / "run.toml").write_text('title = "made up"\n')
             with self.assertRaisesRegex(NotARun, "neither snapshots nor a history.csv"):
                 Run(folder)
             (path / "history.csv").write_text("time [s]\n0\n")
             run = Run(folder)
-            self.assertEqual((run.title, run.multiplicity, run.spread(6)), ("made up", 1, []))
+            self.assertEqual((run.title, run.multiplicity, run.entries), ("made up", 1, []))
             (path / "x.particles.hdf.series").write_text('{"files": [{"name": "x.hdf", "time": 0}]}')
             with self.assertRaisesRegex(NotARun, "analysis.h5.*whipple analyse"):
                 Run(folder)

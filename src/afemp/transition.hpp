@@ -17,7 +17,7 @@
 /// Transition between finite elements and the grid (docs/theory/afemp.md, section 2).
 namespace whipple::afemp {
 
-/// Faces that belong to one element only, but for those on mirror planes and walls that matter sticks to,
+/// Faces that belong to one element only, but for those on mirror planes and no-slip walls,
 /// behind which the body goes on as its own image. Looked for among the nodes that are marked as on the
 /// surface; those of elements that were taken out have to be marked.
 std::vector<fem::Facet> free_facets(const fem::Mesh& mesh, const grid::Geometry& geometry);

@@ -444,6 +444,7 @@ void analyse(const Run& run, const Options& options, const fs::path& folder) {
   const hdf5::Group group = file.root.create_group("quantities");
   for (const Quantity& value : values) group.set_attribute(value.name, value.value);
   write_radiographs(run, frame, options, file.root);
+  write_views(run, frame, options.views, file.root);
   file.close();
   partial.publish();
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "src/analysis/run.hpp"
+#include "src/analysis/views.hpp"
 
 namespace whipple::analysis {
 
@@ -20,6 +21,7 @@ struct Options {
   std::string peak_decay;         ///< body whose peak pressure is followed; empty: none
   double pixel = 0.0;             ///< of radiographs, m; 0: half the cell size
   double spot = 1e-3;             ///< blur of radiographs, full width at half maximum, m
+  ViewOptions views;              ///< pictures for the page of `whipple report`
   int radiographs = 6;            ///< at so many times, evenly spread over the snapshots
   /// Mass attenuation coefficients by body, m^2/kg; bodies without one take that of aluminium at 150 keV
   /// (Hubbell and Seltzer, NISTIR 5632 (1995)).
@@ -28,7 +30,7 @@ struct Options {
 
 /// Measures a run and writes into `folder`: quantities.csv (final values), series.csv (a row per snapshot),
 /// bodies.csv, fragments.csv, fragment_distribution.csv, profile.csv, peak_pressure.csv, witness_*.csv and
-/// loads_*.csv where asked for, and analysis.h5 with all of them and the radiographs (docs/manual/output.md).
+/// loads_*.csv where asked for, and analysis.h5 with all of them, the radiographs and views (docs/manual/output.md).
 /// @throws InputError if the run has no snapshots, a body of the options is not in it, or the output cannot
 /// be written
 void analyse(const Run& run, const Options& options, const std::filesystem::path& folder);

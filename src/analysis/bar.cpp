@@ -91,7 +91,7 @@ Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_
                     measured("foot_diameter", input.name,
                              n < 3 ? nan : (15.0 * d[n - 1] - 10.0 * d[n - 2] + 3.0 * d[n - 3]) / 8.0)};  // parabola
   if (diameter_at > 0.0) {
-    const double x = diameter_at / size - 0.5;  // in layers from the foot
+    const double x = diameter_at / size - 0.5;  // in layers from the impact end
     const double k = std::clamp(std::floor(x), 0.0, static_cast<double>(n) - 2.0);
     const auto at = static_cast<std::size_t>(k);
     row.push_back(measured("diameter_at", input.name,

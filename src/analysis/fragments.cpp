@@ -208,7 +208,7 @@ std::vector<Fragment> find_fragments(const Snapshot& snapshot, const Frame& fram
 
 Table fragment_table(const std::vector<Fragment>& fragments, const Frame& frame) {
   Table table{.name = "fragments",
-              .meaning = "connected pieces of condensed matter at the last snapshot, by decreasing mass",
+              .meaning = "connected pieces of condensed material at the last snapshot, by decreasing mass",
               .label = {},
               .labels = {},
               .columns = {}};
@@ -218,7 +218,7 @@ Table fragment_table(const std::vector<Fragment>& fragments, const Frame& frame)
         {{"mass", "kg", "of one fragment, completed at mirror planes; in axisymmetry of the whole ring", f.mass},
          {"copies", "1", "such fragments in the full problem", f.copies},
          {"particles", "1", "particles in the model", static_cast<double>(f.particles)},
-         {"body", "1", "body of the largest share of the mass", static_cast<double>(f.body)},
+         {"body", "1", "body of the largest fraction of the mass", static_cast<double>(f.body)},
          {"debris", "1", "1: faster forward than 5 % of the impact speed", f.debris ? 1.0 : 0.0},
          {"axial", "m", "axial coordinate of the centre of mass", frame.axial(offset)},
          {"radius", "m", "distance of the centre of mass from the axis", frame.radius(f.position)},

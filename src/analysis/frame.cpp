@@ -158,7 +158,7 @@ Extent axial_extent(const Snapshot& snapshot, const Frame& frame, std::size_t bo
   return {lower - 0.5 * spacing, upper + 0.5 * spacing};
 }
 
-double weighted_quantile(std::vector<std::pair<double, double>>& value_and_weight, double share) {
+double weighted_quantile(std::vector<std::pair<double, double>>& value_and_weight, double fraction) {
   std::sort(value_and_weight.begin(), value_and_weight.end());
   double total = 0.0;
   for (const auto& [value, weight] : value_and_weight) total += weight;
@@ -166,7 +166,7 @@ double weighted_quantile(std::vector<std::pair<double, double>>& value_and_weigh
   double below = 0.0;
   for (const auto& [value, weight] : value_and_weight) {
     below += weight;
-    if (below >= share * total) return value;
+    if (below >= fraction * total) return value;
   }
   return value_and_weight.back().first;
 }

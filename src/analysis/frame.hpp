@@ -69,7 +69,7 @@ struct Extent {
 };
 Extent axial_extent(const Snapshot& snapshot, const Frame& frame, std::size_t body, double spacing);
 
-/// The value below which `share` of the weight lies; NaN without weight. Sorts its argument.
-double weighted_quantile(std::vector<std::pair<double, double>>& value_and_weight, double share);
+/// Returns the value below which a fraction of the weight lies; NaN without weight. Sorts its argument.
+double weighted_quantile(std::vector<std::pair<double, double>>& value_and_weight, double fraction);
 
 }  // namespace whipple::analysis

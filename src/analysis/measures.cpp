@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 
@@ -66,7 +67,7 @@ constexpr auto table = std::to_array<Measure>({
     {"outflow_mass.BODY", "kg", "mass that has left the domain: counts in mean_velocity.BODY and in nothing else", ""},
     {"axial_length.BODY", "m", "extent along the axis", gone},
     {"front_velocity.BODY", "m/s", "mean axial velocity of the outermost layer of particles ahead", gone},
-    {"pullback.BODY", "m/s", "fall of front_velocity.BODY from its maximum to the following minimum", "the forward surface was not slowed by a tenth after its greatest velocity"},
+    {"pullback.BODY", "m/s", "fall of front_velocity.BODY from its maximum to the following minimum", "the forward surface was not slowed by a tenth after its maximum velocity"},
     {"solid_fraction.BODY", "1", "mass fraction of the particles of the phase solid", no_phases},
     {"melting_fraction.BODY", "1", "mass fraction of the particles of the phase melting", no_phases},
     {"liquid_fraction.BODY", "1", "mass fraction of the particles of the phase liquid", no_phases},
@@ -81,7 +82,7 @@ constexpr auto table = std::to_array<Measure>({
     {"crater_depth_over_diameter.BODY", "1", "depth of the crater over its diameter", no_crater},
     {"penetration_depth.BODY", "m", "depth of the deepest point of a body that flies at the first target below the target's original surface (0.1 % of its mass lies deeper); 0 before it arrives", "the target is perforated or cannot be decided to be whole, or the body has left the domain"},
     {"perforated.BODY", "1", "1: a path leads through the body, 0: connected material of it closes every path", "see the reason given with the value"},
-    {"least_left.BODY", "1", "least fraction of the thickness that connected material keeps along any line through the body", "see perforated.BODY"},
+    {"least_left.BODY", "1", "smallest fraction of the thickness that connected material keeps along any line through the body", "see perforated.BODY"},
     {"left_on_axis.BODY", "1", "fraction of the thickness that connected material keeps where the line of flight meets the body", "see perforated.BODY"},
     {"hole_diameter.BODY", "m", "diameter about the line of flight within which less than half of the thickness is left, of a perforated body", "the body is not perforated"},
     // Bars against a wall.
@@ -134,11 +135,6 @@ Quantity made(const Measure& measure, std::string name, double value, std::strin
   return quantity;
 }
 
-/// Returns a cell of a CSV file: in quotation marks if it holds a comma.
-std::string cell(const std::string& text) {
-  return text.find(',') == std::string::npos ? text : '"' + text + '"';
-}
-
 }  // namespace
 
 std::span<const Measure> measures() { return table; }
@@ -167,7 +163,7 @@ std::string measures_as_markdown() {
 void write_quantities(const Quantities& values, const std::filesystem::path& folder) {
   std::string text = "quantity,value,unit,meaning,reason\n";
   for (const Quantity& q : values) {
-    text += fmt::format("{},{},{},{},{}\n", cell(q.name), q.value, q.unit, cell(q.meaning), cell(q.reason));
+    text += fmt::format("{},{},{},{},{}\n", csv_cell(q.name), q.value, q.unit, csv_cell(q.meaning), csv_cell(q.reason));
   }
   write_text_atomically(folder / "quantities.csv", text);
 }

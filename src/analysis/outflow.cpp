@@ -6,22 +6,14 @@
 #include <fstream>
 #include <map>
 #include <string>
-#include <string_view>
+#include <vector>
+
+#include "src/core/base/csv.hpp"
 
 namespace whipple::analysis {
 namespace {
 
-std::vector<std::string_view> cells_of(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    cells.push_back(line.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return cells;
-}
-
-double number(const std::vector<std::string_view>& cells, std::size_t column) {
+double number(const std::vector<std::string>& cells, std::size_t column) {
   double value = 0.0;
   if (column < cells.size()) {
     std::from_chars(cells[column].data(), cells[column].data() + cells[column].size(), value);
@@ -36,7 +28,7 @@ OutflowHistory::OutflowHistory(const Run& run) {
   std::string line;
   if (!std::getline(file, line)) return;
   std::map<std::string, std::size_t, std::less<>> columns;
-  for (std::size_t c = 0; const std::string_view head : cells_of(line)) {
+  for (std::size_t c = 0; const std::string& head : csv_cells(line)) {
     columns.emplace(head.substr(0, head.find(" [")), c++);
   }
   std::vector<std::array<std::size_t, 4>> of_body;
@@ -53,7 +45,7 @@ OutflowHistory::OutflowHistory(const Run& run) {
   if (time == columns.end()) return;
   double lost = 0.0;
   while (std::getline(file, line)) {
-    const std::vector<std::string_view> cells = cells_of(line);
+    const std::vector<std::string> cells = csv_cells(line);
     Row row{.time = number(cells, time->second), .bodies = {}};
     double all = 0.0;
     for (const auto& [m, x, y, z] : of_body) {

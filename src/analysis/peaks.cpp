@@ -37,7 +37,7 @@ void PeakDecay::add(const Snapshot& snapshot) {
 
 Table PeakDecay::profile(double layer) const {
   Table table{.name = "peak_pressure",
-              .meaning = "highest pressure of the matter that began near the axis, by initial depth",
+              .meaning = "highest pressure of the material that began near the axis, by initial depth",
               .label = {},
               .labels = {},
               .columns = {}};

@@ -4,22 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <unordered_map>
 
 #include "src/analysis/table.hpp"
-#include "src/case/discretization.hpp"
-#include "src/case/domain.hpp"
-#include "src/case/shapes/shape.hpp"
+#include "src/case/case.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
-#include "src/core/base/parameter_table.hpp"
 #include "src/core/hdf5/hdf5.hpp"
-#include "src/core/input/document.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/material/material_file.hpp"
 
@@ -28,17 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct BodyKeys {
-  std::string name, material;
-  Vector3 velocity = Vector3::Zero();
-};
-
-void read_domain(input::Table table, Run& run) {
-  cases::Domain domain;
-  table.read(cases::Domain::parameters(), domain);
-  if (auto boundary = table.optional_table("boundary")) {
-    boundary->read(cases::Faces::parameters(), domain.boundary);
-  }
+void take_domain(const cases::Domain& domain, Run& run) {
   run.cell_size = domain.cell_size;
   run.dimension = domain.dimension;
   run.lower = domain.lower;
@@ -71,30 +59,18 @@ void read_material_traits(const fs::path& file, BodyInput& body) {
   }
 }
 
-void read_bodies(input::Table root, Run& run) {
-  for (input::Table table : root.list("body")) {
-    BodyKeys body;
-    table.read(
-        ParameterTable<BodyKeys>{
-            text("name", &BodyKeys::name, "name of the body"),
-            text("material", &BodyKeys::material, "material file").optional(),
-            vector("velocity", &BodyKeys::velocity, "m/s", range::any(), "initial velocity").optional()},
-        body);
-    cases::Discretization made;
-    if (auto discretization = table.optional_table("discretization")) {
-      discretization->read(cases::Discretization::parameters(), made);
-    }
+void take_bodies(const std::vector<cases::Body>& bodies, Run& run) {
+  for (const cases::Body& body : bodies) {
     // An element counts as the eight particles that it may become.
+    const cases::Discretization& made = body.discretization;
     const double spacing = made.has_particles()
                                ? run.cell_size / std::cbrt(static_cast<double>(made.per_cell))
                                : 0.5 * made.size(run.cell_size);
-    auto holder = table.optional_table("shape");
-    const std::unique_ptr<cases::Shape> shape = holder ? cases::read_only_shape(*holder) : nullptr;
     run.bodies.push_back({.name = body.name,
                           .velocity = body.velocity,
                           .spacing = spacing,
-                          .size = shape ? shape->smallest_extent(body.velocity) : nan});
-    if (!body.material.empty()) read_material_traits(run.folder / body.material, run.bodies.back());
+                          .size = body.shape != nullptr ? body.shape->smallest_extent(body.velocity) : nan});
+    read_material_traits(run.folder / body.material, run.bodies.back());
   }
 }
 
@@ -170,16 +146,14 @@ void require_sound(const Snapshot& snapshot, const SnapshotEntry& entry) {
 Run read_run(const fs::path& folder) {
   if (!fs::is_regular_file(folder / "run.toml")) {
     throw InputError(
-        fmt::format("{}: error: is not the folder of a run: it holds no run.toml", folder.string()));
+        fmt::format("{}: error: is not the folder of a run: it contains no run.toml", folder.string()));
   }
   Run run;
   run.folder = folder;
-  input::Document document = input::Document::from_file(folder / "run.toml");
-  input::Table root = document.root();
-  root.read(ParameterTable<Run>{text("title", &Run::title, "title").optional()}, run);
-  if (auto domain = root.required_table("domain")) read_domain(*domain, run);
-  read_bodies(root, run);
-  document.finish_partly_read();
+  const cases::Case setup = cases::read_written_case(folder / "run.toml");
+  run.title = setup.title;
+  take_domain(setup.domain, run);
+  take_bodies(setup.bodies, run);
   if (run.bodies.empty()) throw InputError(fmt::format("{}: error: run.toml has no bodies", folder.string()));
   run.snapshots = read_index(folder);
   for (SnapshotEntry& entry : run.snapshots) entry.bodies = run.bodies.size();
@@ -247,6 +221,13 @@ void append_elements(const fs::path& path, Snapshot& snapshot) {
   const auto body = data.open_dataset("body").read_all<std::uint16_t>({id.size(), 1});
   if (!std::ranges::all_of(corners, [&](std::int64_t node) { return node >= 0 && node < std::int64_t(nodes); }))
     fail("Connectivity names points that are not there");
+  for (std::int64_t node = 0; node < std::int64_t(nodes); ++node) {
+    snapshot.nodes.push_back(Eigen::Map<const Eigen::Vector3f>(points.data() + 3 * node).cast<double>());
+  }
+  // A node that ranks share is one of them from here on.
+  const auto node_id = vtk.open_group("PointData").open_dataset("node_id").read_all<std::uint64_t>({nodes, 1});
+  std::unordered_map<std::uint64_t, std::uint32_t> first_of_node;
+  for (std::uint32_t node = 0; node < nodes; ++node) first_of_node.emplace(node_id[node], node);
   const std::vector<double> mass = as_reals(data, "mass", order);
   const auto corner = [&](std::size_t k, std::size_t axis) {
     constexpr std::array<std::array<int, 3>, 8> signs = {
@@ -260,6 +241,12 @@ void append_elements(const fs::path& path, Snapshot& snapshot) {
   for (std::size_t e = 0; e < order.size(); ++e) {
     const std::size_t from = corners_from[order[e]];
     parts[e] = types[order[e]] == vtk_line ? 1 : 8;
+    if (parts[e] == 8) {
+      Hexahedron& element = snapshot.hexahedra.emplace_back(Hexahedron{.first = 8 * id[order[e]]});
+      for (std::size_t a = 0; a < 8; ++a) {
+        element.corners[a] = first_of_node[node_id[static_cast<std::size_t>(corners[from + a])]];
+      }
+    }
     for (std::size_t k = 0; k < parts[e]; ++k) {
       Vector3 x = Vector3::Zero(), v = Vector3::Zero();
       const auto add = [&](std::size_t a, double weight) {
@@ -320,8 +307,9 @@ Snapshot read_snapshot(const SnapshotEntry& entry) {
   snapshot.velocity = as_vectors(data.open_dataset("velocity").read_all<float>(vectors), order);
   snapshot.mass = as_reals(data, "mass", order);
   snapshot.body = sorted(data.open_dataset("body").read_all<std::uint16_t>(list), order);
+  constexpr std::array<std::string_view, 3> read_above = {"id", "mass", "body"};
   for (const std::string& name : data.names()) {
-    if (name == "id" || name == "mass" || name == "body") continue;
+    if (std::ranges::find(read_above, name) != read_above.end()) continue;
     if (data.open_dataset(name).shape().size() == 1) snapshot.scalars[name] = as_reals(data, name, order);
   }
   std::string elements = entry.file.filename().string();

@@ -56,8 +56,14 @@ struct Run {
 /// @throws InputError if the folder is not that of a run
 Run read_run(const std::filesystem::path& folder);
 
-/// The particles at one time, in the order of their numbers: results do not depend on ranks and threads that
-/// wrote them.
+/// A finite element of a snapshot, for pictures: its eight points have the numbers from `first` on.
+struct Hexahedron {
+  std::uint64_t first = 0;
+  std::array<std::uint32_t, 8> corners{};  ///< in Snapshot::nodes, in the order of VTK
+};
+
+/// Holds the particles at one time, in the order of their numbers: results do not depend on ranks and threads that
+/// wrote them. An element counts as eight particles, a bar as one.
 struct Snapshot {
   double time = 0.0;
   std::vector<Vector3> position, velocity;
@@ -65,6 +71,8 @@ struct Snapshot {
   std::vector<std::uint16_t> body;
   std::vector<std::uint64_t> id;
   std::map<std::string, std::vector<double>> scalars;  ///< the other fields of one number, as far as written
+  std::vector<Vector3> nodes;                          ///< of the elements, m
+  std::vector<Hexahedron> hexahedra;
 
   [[nodiscard]] std::size_t size() const { return mass.size(); }
   /// A field of one number, nullptr if it was not written.

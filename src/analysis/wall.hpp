@@ -28,7 +28,7 @@ class Wall {
   [[nodiscard]] Quantities measure(const Snapshot& snapshot);
 
  private:
-  /// What is left of the body: the material that closes it, or what hangs on its rim if nothing does.
+  /// Selects what is left of the body: the material that closes it, or what hangs on its rim if nothing does.
   struct Remains {
     bool closed = false;
     std::vector<std::uint8_t> wall;  ///< 1: the particle belongs to it

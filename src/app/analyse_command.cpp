@@ -75,6 +75,7 @@ void run_analysis(const std::filesystem::path& run, const AnalysisWords& words,
   options.diameter_at = length(words.diameter_at, "--diameter-at");
   options.peak_decay = words.peak_decay;
   options.radiographs = words.radiographs;
+  options.views = words.views;
   if (!words.witness.empty()) options.witness = units::parse_quantity(words.witness, "m");
   for (const std::string& word : words.attenuation) {
     const std::size_t equal = word.find('=');
@@ -107,6 +108,10 @@ void add_analyse_command(CLI::App& app) {
   command->add_option("-o,--output", options->output,
                       "Folder of the tables (default: report/ in the run directory)");
   add_analysis_options(*command, options->words);
+  command
+      ->add_option("--views", options->words.views.times,
+                   "Views of the cloud at so many times in analysis.h5, for the page of whipple report")
+      ->check(CLI::Range(1, 1000));
   command->footer(
       "Example:\n  whipple analyse run/disk --witness '200 mm'\n"
       "Writes quantities.csv, series.csv, bodies.csv, fragments.csv and more, and analysis.h5 with all of "

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "src/analysis/views.hpp"
+
 namespace whipple::app {
 
 /// The options of the analysis as words, shared by `analyse` and `report`.
@@ -13,6 +15,7 @@ struct AnalysisWords {
   std::string axis, link, witness, loads, diameter_at, peak_decay, pixel, spot = "1 mm";
   std::vector<std::string> attenuation;
   int radiographs = 6;
+  analysis::ViewOptions views;  ///< of the page
 };
 
 /// Adds the options of the analysis to a command.

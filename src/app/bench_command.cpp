@@ -79,13 +79,13 @@ std::string percent(double part, double whole) { return fmt::format("{:.0f} %", 
 
 /// Stages beside what memory and arithmetic units of these cores would need at least.
 void print(const Measurement& m) {
-  fmt::print("\n{}: {}\n{} particles, of which {:.0f} % rest, {} steps, {} ranks x {} threads; ", m.problem,
+  fmt::print("\n{}: {}\n{} particles, of which {:.0f} % are at rest, {} steps, {} ranks x {} threads; ", m.problem,
              bench::find_problem(m.problem).what, m.particles, 100.0 * m.share_at_rest, m.steps, m.ranks,
              m.threads);
   fmt::print("{:.1f} particles per block of 64 cells; {:.0f} bytes per particle, peak {:.0f} MB\n",
              m.particles_per_block, m.bytes_per_particle, 1e-6 * m.peak_memory);
   std::vector<std::vector<std::string>> rows = {
-      {"  stage", "ns/particle", "share", "bytes", "of bandwidth", "flops", "of arithmetic"}};
+      {"  stage", "ns/particle", "fraction", "bytes", "of bandwidth", "flops", "of arithmetic"}};
   const auto row = [&](const std::string& name, double ns, double bytes, double flops) {
     const double memory_ns = 1e9 * bytes / m.machine.bandwidth, flops_ns = 1e9 * flops / m.machine.arithmetic;
     rows.push_back(
@@ -211,7 +211,7 @@ void add_bench_command(CLI::App& app) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* command = app.add_subcommand(
       "bench",
-      "Time standard problems: nanoseconds per particle and step, by stage, beside the machine's limits");
+      "Time standard problems: nanoseconds per particle and step, by stage, compared with the limits of the machine");
   command->add_option("problems", options->problems, "Which ones (default: all but the largest)")
       ->type_name("NAME");
   command->add_option("--threads", options->threads, "Threads of each rank; several: one after the other")

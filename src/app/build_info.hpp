@@ -5,7 +5,7 @@
 
 namespace whipple::app {
 
-/// What this executable was built from and with.
+/// Describes the sources and the compiler of this executable.
 struct BuildInfo {
   std::string version;
   std::string revision;  ///< git commit, "+changes" if files differed from it, "unknown" outside of git

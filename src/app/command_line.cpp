@@ -47,7 +47,7 @@ std::vector<std::string> subcommand_names(const CLI::App& command) {
 
 std::string list(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
-/// What is wrong with an argument that no option and no subcommand took.
+/// Explains the fault of an argument that no option and no subcommand took.
 std::string unexpected(const CLI::App& command, const std::string& argument) {
   if (argument.starts_with('-')) {
     const std::vector<std::string> names = option_names(command);

@@ -16,6 +16,8 @@
 #include "eos/experiments/comparison.hpp"
 #include "src/app/eos_figure.hpp"
 #include "src/app/eos_options.hpp"
+#include "src/app/eos_table.hpp"
+#include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/text_table.hpp"
@@ -128,17 +130,16 @@ void print_table(const std::vector<Row>& rows) {
   }
 }
 
-void write_csv(const std::vector<Row>& rows, const std::string& path) {
+std::string csv_text(const std::vector<Row>& rows) {
   std::ostringstream file;
-  file << "# whipple compare: measured points beside the equations of state\n"
+  file << "# whipple compare: measured points compared with equations of state\n"
           "experiment,material,abscissa,abscissa_value,abscissa_unit,ordinate,measured,model,ordinate_unit,"
           "deviation,"
           "deviation_unit\n";
   for (const Row& row : rows) {
     const Experiment& experiment = *row.experiment;
     const Style s = style(experiment.kind);
-    const bool comma = experiment.name.find(',') != std::string::npos;
-    const std::string name = comma ? '"' + experiment.name + '"' : experiment.name;
+    const std::string name = csv_cell(experiment.name);
     for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
       file << fmt::format("{},\"{}\",{},{:.8g},{},{},{:.8g},{:.8g},{},{:.6g},{}\n", name, row.label,
                           s.abscissa.name, experiment.abscissa[i] / s.abscissa.size, s.abscissa.unit, s.ordinate.name,
@@ -146,7 +147,7 @@ void write_csv(const std::vector<Row>& rows, const std::string& path) {
                           s.ordinate.unit, row.comparison.deviation[i] / s.deviation_size, s.deviation);
     }
   }
-  write_text_atomically(path, file.str());
+  return file.str();
 }
 
 /// JSON has no NaN: a point out of range becomes null.
@@ -222,7 +223,7 @@ bool belongs_to(const Experiment& experiment, const Material& material) {
 }
 
 void run(const CompareOptions& options) {
-  require_new_file(options.csv, options.force);
+  if (!is_standard_output(options.csv)) require_new_file(options.csv, options.force);
   require_new_figure(options.plot, options.force);
   const std::optional<double> temperature = quantity("--temperature", options.temperature, "K");
   std::vector<Material> materials;
@@ -246,12 +247,12 @@ void run(const CompareOptions& options) {
     }
   }
   if (rows.empty()) throw InputError("none of the data is of one of the materials");
-  print_table(rows);
-  if (!options.csv.empty()) write_csv(rows, options.csv);
-  if (!options.plot.empty()) draw(rows, options.plot);
-  for (const std::string& path : {options.csv, options.plot}) {
-    if (!path.empty()) fmt::print("written: {}\n", path);
-  }
+  const bool csv_alone = is_standard_output(options.csv);
+  if (!csv_alone) print_table(rows);
+  write_output(options.csv, csv_text(rows));
+  if (options.plot.empty()) return;
+  draw(rows, options.plot);
+  if (!csv_alone) fmt::print("written: {}\n", options.plot);
 }
 
 }  // namespace
@@ -268,8 +269,8 @@ void add_compare_command(CLI::App& app) {
                    "material that some of them were measured on is compared with those only")
       ->required();
   command->add_option("--temperature", options->temperature,
-                      "Temperature of the isotherms (default: what the file says)");
-  command->add_option("--csv", options->csv, "Write every point with its deviation");
+                      "Temperature of the isotherms (default: that of the file)");
+  command->add_option("--csv", options->csv, "Write every point with its deviation; -: to standard output, and nothing else");
   command->add_option("--plot", options->plot, "Figure of curves, points and deviations, FILE.png");
   command->add_flag("--force", options->force, "Overwrite existing files");
   command->footer(

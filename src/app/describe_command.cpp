@@ -38,10 +38,6 @@ Topic topic_of(std::string name, std::string title, const Catalogue<Entry>& cata
           [catalogue] { return catalogue.names(); }};
 }
 
-Catalogue<cases::ShapeEntry> shapes() {
-  return {"shape", {cases::shape_catalogue().begin(), cases::shape_catalogue().end()}};
-}
-
 std::string single(const std::string& topic, const std::string& name, const std::string& text) {
   if (!name.empty())
     throw InputError(fmt::format("'{}' has no part \"{}\": whipple describe {}", topic, name, topic));
@@ -53,7 +49,7 @@ const std::vector<Topic>& topics() {
       {"case", "Case files (`whipple run CASE.toml`)",
        [](const std::string& name) { return single("case", name, cases::describe_case()); },
        [] { return std::vector<std::string>(); }},
-      topic_of("shape", "Shapes of bodies", shapes()),
+      topic_of("shape", "Shapes of bodies", cases::shape_catalogue()),
       topic_of("eos", "Equations of state (`[eos]` of a material file)", eos::all_models()),
       topic_of("modifier", "Modifiers of equations of state (`[[eos.modifier]]` of a material file, in order)",
                eos::modifier_catalogue()),

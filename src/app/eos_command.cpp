@@ -101,10 +101,7 @@ Figure figure_of(const CurveTable& table, const Output& output) {
 }
 
 void write(const CurveTable& table, const Output& output) {
-  if (!output.csv.empty()) {
-    write_csv(table, output.csv);
-    fmt::print("written: {}\n", output.csv);
-  }
+  write_output(output.csv, csv_text(table));
   if (!output.plot.empty()) draw(figure_of(table, output), output.plot);
 }
 
@@ -115,7 +112,7 @@ void warn_of_ends(const CurveTable& table) {
   }
 }
 
-/// A model answers wherever its formulas hold; what it says of hotter matter than it describes is no answer.
+/// A model answers wherever its formulas hold; what it says of hotter material than it describes is no answer.
 void warn_beyond_audit(const CurveTable& table, const Subjects& subjects) {
   const auto column = std::ranges::find(table.columns, "T_K", &Column::name);
   if (column == table.columns.end() || table.series.size() != subjects.size()) return;
@@ -144,6 +141,7 @@ enum class Quantity {
   velocity,
   from,
   to,
+  states,
 };
 
 /// The option of a quantity.
@@ -162,12 +160,14 @@ const QuantityOption quantity_options[] = {
     {Quantity::entropy, "--entropy", &EosOptions::entropy, "Specific entropy, e.g. '500 J/(kg K)'"},
     {Quantity::particle_velocity, "--particle-velocity", &EosOptions::particle_velocity, "e.g. '2 km/s'"},
     {Quantity::initial_density, "--initial-density", &EosOptions::initial_density,
-     "Of porous matter ahead of the shock, e.g. '6 g/cm^3'"},
+     "Of porous material ahead of the shock, e.g. '6 g/cm^3'"},
     {Quantity::reflected, "--reflected", &EosOptions::reflected,
      "From the state shocked to this pressure, e.g. '50 GPa'"},
     {Quantity::velocity, "--velocity", &EosOptions::velocity, "Of the impactor, e.g. '5 km/s'"},
     {Quantity::from, "--from", &EosOptions::from, "Begin of the curve, e.g. '10 GPa'"},
     {Quantity::to, "--to", &EosOptions::to, "End of the curve, e.g. '150 GPa'"},
+    {Quantity::states, "--states", &EosOptions::states,
+     "CSV file of states instead of one: columns like 'density [g/cm^3]' and 'temperature [K]'"},
 };
 
 /// One subcommand: which quantities it takes and what it computes.
@@ -185,7 +185,7 @@ struct Query {
 };
 
 CurveTable state_table(const EosOptions& o, const Subjects& subjects) {
-  return eos::curves::state_table(subjects, state_query(o));
+  return eos::curves::state_table(subjects, state_queries(o));
 }
 CurveTable hugoniot_table(const EosOptions& o, const Subjects& subjects) {
   const Variable variable = curve_variable(o, std::array{Variable::pressure, Variable::particle_velocity});
@@ -218,8 +218,11 @@ CurveTable match_table(const EosOptions& o, const Subjects& subjects) {
 const std::vector<Query>& queries() {
   using enum Quantity;
   static const std::vector<Query> all = {
-      {"state", "One state, from two quantities", {density, temperature, energy, pressure, entropy}, nullptr, nullptr,
-       state_table, state_remarks, "whipple eos state copper --density '10 g/cm^3' --temperature '3000 K'", true},
+      {"state", "States, from two quantities each", {density, temperature, energy, pressure, entropy, states}, nullptr,
+       nullptr, state_table, state_remarks,
+       "whipple eos state copper --density '10 g/cm^3' --temperature '3000 K'\n  "
+       "whipple eos state copper --states states.csv --csv -",
+       true},
       {"hugoniot", "Hugoniot: principal, porous or through a shocked state; a curve, or one shocked state",
        {density, pressure, particle_velocity, from, to, initial_density, reflected}, "up_km_s", "us_km_s",
        hugoniot_table, hugoniot_remarks,
@@ -241,7 +244,7 @@ const std::vector<Query>& queries() {
        "whipple eos dome copper"},
       {"cold", "Cold curve over density: pressure, energy, limits", {from, to}, "V_over_V0", "P_GPa", cold_table,
        cold_remarks, "whipple eos cold copper --from '7 g/cm^3' --to '16 g/cm^3'"},
-      {"match", "Impact of the first material on the second, and the shock's way into the others", {velocity}, nullptr,
+      {"match", "Impact of the first material on the second, and the shock transmitted into the others", {velocity}, nullptr,
        nullptr, match_table, match_remarks, "whipple eos match copper aluminium --velocity '5.55 km/s'"},
   };
   return all;
@@ -264,12 +267,9 @@ void run_samples(const Request& request) {
       sample_material(request.materials.front(), request.samples.count, request.samples.seed);
   const eos::curves::SampledHugoniot sampled = eos::curves::sampled_hugoniot(
       subjects_of(drawn.materials), eos::curves::spaced(first, last, o.points), release_pressure);
-  print(sampled.table);
   const Output& output = request.output;
-  if (!output.csv.empty()) {
-    write_csv(sampled.table, output.csv);
-    fmt::print("written: {}\n", output.csv);
-  }
+  if (!is_standard_output(output.csv)) print(sampled.table);
+  write_output(output.csv, csv_text(sampled.table));
   if (!output.plot.empty()) {
     Figure figure = figure_of(sampled.table, output);
     const std::size_t y = column_index(sampled.table, output.y);
@@ -285,6 +285,7 @@ void run_samples(const Request& request) {
     }
     draw(figure, output.plot);
   }
+  if (is_standard_output(output.csv)) return;
   for (const std::string& remark : sample_remarks(sampled, drawn.materials.size())) fmt::print("{}\n", remark);
   if (drawn.refused > 0) {
     fmt::print("{} draws of which the model makes no material were replaced by others\n", drawn.refused);
@@ -296,7 +297,7 @@ void add_query(CLI::App& command, const Query& query) {
   CLI::App* sub = command.add_subcommand(query.name, query.summary);
   sub->add_option("materials", request->materials, "Material files, or names of the library")->required();
   add_quantities(*sub, query.quantities, request->options);
-  sub->add_option("--csv", request->output.csv, "Write the table, units in the names of the columns");
+  sub->add_option("--csv", request->output.csv, "Write the table, units in the names of the columns; -: to standard output, and nothing else");
   if (query.x != nullptr) {
     sub->add_option("--points", request->options.points, "Points of the curve")
         ->check(CLI::Range(2, 100000))
@@ -327,16 +328,18 @@ void add_query(CLI::App& command, const Query& query) {
   sub->footer(fmt::format("Example:\n  {}", query.example));
   sub->callback([request, &query] {
     const Output& output = request->output;
-    require_new_file(output.csv, output.force);
+    if (!is_standard_output(output.csv)) require_new_file(output.csv, output.force);
     require_new_figure(output.plot, output.force);
     if (request->samples.count > 0) return run_samples(*request);
     const Subjects subjects = read_subjects(request->materials);
     const CurveTable table = query.table(request->options, subjects);
     warn_of_ends(table);
-    (query.as_list ? print_list : print)(table);
+    const bool one_each = std::ranges::all_of(table.series, [](const Series& s) { return s.rows.size() == 1; });
+    const bool is_list = query.as_list && one_each;
+    if (!is_standard_output(output.csv)) (is_list ? print_list : print)(table);
     write(table, output);
     warn_beyond_audit(table, subjects);
-    if (query.remarks == nullptr) return;
+    if (query.remarks == nullptr || is_standard_output(output.csv) || !request->options.states.empty()) return;
     for (const std::string& remark : query.remarks(request->options, subjects)) fmt::print("{}\n", remark);
   });
 }

@@ -2,12 +2,19 @@
 #include "src/app/eos_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
+#include <fstream>
 #include <map>
 #include <string_view>
 
+#include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/parameter_table.hpp"
+#include "src/core/base/text.hpp"
 #include "src/core/base/units.hpp"
 
 namespace whipple::app {
@@ -65,6 +72,74 @@ eos::curves::StateQuery state_query(const EosOptions& o) {
   return {quantity("--density", o.density, "kg/m^3"), quantity("--temperature", o.temperature, "K"),
           quantity("--energy", o.energy, "J/kg"), quantity("--pressure", o.pressure, "Pa"),
           quantity("--entropy", o.entropy, "J/(kg K)")};
+}
+
+namespace {
+
+/// A column of a list of states.
+struct StateColumn {
+  const char* name;
+  const char* unit;
+  std::optional<double> eos::curves::StateQuery::* value;
+};
+constexpr std::array<StateColumn, 5> state_columns = {{
+    {"density", "kg/m^3", &eos::curves::StateQuery::density},
+    {"temperature", "K", &eos::curves::StateQuery::temperature},
+    {"energy", "J/kg", &eos::curves::StateQuery::energy},
+    {"pressure", "Pa", &eos::curves::StateQuery::pressure},
+    {"entropy", "J/(kg K)", &eos::curves::StateQuery::entropy},
+}};
+
+/// A column with the unit that the file gives its numbers.
+struct StatedColumn {
+  const StateColumn* column;
+  std::string unit;
+};
+
+StatedColumn column_of(const std::string& head) {
+  const std::size_t bracket = std::min(head.find(" ["), head.size());
+  const std::string name = head.substr(0, bracket);
+  const auto found = std::ranges::find_if(state_columns, [&](const StateColumn& c) { return name == c.name; });
+  if (found == state_columns.end()) {
+    std::vector<std::string> known;
+    for (const StateColumn& column : state_columns) known.emplace_back(column.name);
+    throw InputError(fmt::format("unknown column {}{}; known: {}", toml_string(name), did_you_mean(name, known),
+                                 fmt::join(known, ", ")));
+  }
+  if (bracket == head.size()) return {&*found, found->unit};
+  return {&*found, head.substr(bracket + 2, head.find(']', bracket) - bracket - 2)};
+}
+
+}  // namespace
+
+std::vector<eos::curves::StateQuery> state_queries(const EosOptions& o) {
+  if (o.states.empty()) return {state_query(o)};
+  std::ifstream file(regular_file(o.states));
+  std::vector<StatedColumn> columns;
+  std::vector<eos::curves::StateQuery> queries;
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
+    try {
+      const std::vector<std::string> cells = csv_cells(line);
+      if (columns.empty()) {
+        for (const std::string& cell : cells) columns.push_back(column_of(cell));
+        continue;
+      }
+      if (cells.size() != columns.size())
+        throw InputError(fmt::format("{} cells for {} columns", cells.size(), columns.size()));
+      eos::curves::StateQuery& query = queries.emplace_back();
+      for (std::size_t i = 0; i < cells.size(); ++i) {
+        const StateColumn& column = *columns[i].column;
+        if (!cells[i].empty()) query.*column.value = quantity(column.name, cells[i] + " " + columns[i].unit, column.unit);
+      }
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}:{}: {}", o.states, number, error.what()));
+    }
+  }
+  if (queries.empty()) throw InputError(fmt::format("{}: lists no states", o.states));
+  return queries;
 }
 
 eos::curves::HugoniotStart hugoniot_start(const EosOptions& o) {

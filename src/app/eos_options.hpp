@@ -18,6 +18,7 @@ struct EosOptions {
   std::string initial_density, reflected;
   std::string velocity;
   std::string from, to;
+  std::string states;  ///< file with a list of states
   int points = 21;
 };
 
@@ -29,6 +30,10 @@ std::optional<double> quantity(const char* option, const std::string& text, cons
 // What the options ask of eos/curves.
 // @throws InputError that names the option
 eos::curves::StateQuery state_query(const EosOptions& options);
+/// Reads the states of `--states`, a CSV file with the quantities of the options as columns, "density [g/cm^3]" (no unit:
+/// SI); the one state of the other options without it.
+/// @throws InputError with file and line
+std::vector<eos::curves::StateQuery> state_queries(const EosOptions& options);
 eos::curves::HugoniotStart hugoniot_start(const EosOptions& options);
 eos::curves::ShockQuery shock_query(const EosOptions& options);
 /// The variable of a curve is that of which --to has the unit, the first one without --to.

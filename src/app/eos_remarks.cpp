@@ -25,7 +25,7 @@ Remarks state_remarks(const EosOptions& o, const Subjects& subjects) {
     const State s = eos::curves::state_of(*subject.eos, state_query(o));
     if (s.phase.find("vapour") == std::string_view::npos || !(s.vaporised_fraction < 0.5)) continue;
     remarks.push_back(fmt::format(
-        "{}: \"{}\" names the surface of the model, which goes on beyond the limit of stretched matter. Matter "
+        "{}: \"{}\" names the surface of the model, which continues beyond the limit of stretched material. Material "
         "of this density and energy in equilibrium is condensed, with voids: {:.2g} % of its mass is vapour",
         subject.name, s.phase, 100 * s.vaporised_fraction));
   }
@@ -43,7 +43,7 @@ Remarks hugoniot_remarks(const EosOptions& o, const Subjects& subjects) {
       const eos::ShockState second = eos::reflected_at_wall(eos, shocked);
       remarks.push_back(
           fmt::format("{}: off a rigid wall {:.2f} GPa, {:.0f} K, {:.1f} kg/m^3; back against the "
-                      "shocked matter at {:.4g} km/s",
+                      "shocked material at {:.4g} km/s",
                       subject.name, second.state.pressure / GPa, second.state.temperature,
                       second.state.density, second.shock_velocity * 1e-3));
     } else if (!start.initial_density) {

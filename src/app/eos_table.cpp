@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
+#include "src/core/base/csv.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/text_table.hpp"
 
@@ -50,10 +52,6 @@ double greatest(const CurveTable& table, std::size_t column) {
     }
   }
   return result;
-}
-
-std::string csv_word(const std::string& word) {
-  return word.find(',') == std::string::npos ? word : "\"" + word + "\"";
 }
 
 }  // namespace
@@ -106,7 +104,7 @@ void print_list(const CurveTable& table) {
   fmt::print("{}", text_table(lines, "l" + std::string(table.series.size(), 'r') + "l"));
 }
 
-void write_csv(const CurveTable& table, const std::filesystem::path& path) {
+std::string csv_text(const CurveTable& table) {
   std::ostringstream file;
   const bool several = table.series.size() > 1;
   file << "# " << table.title << '\n' << (several ? "material," : "");
@@ -114,15 +112,30 @@ void write_csv(const CurveTable& table, const std::filesystem::path& path) {
   file << '\n';
   for (const Series& series : table.series) {
     for (const CurveRow& row : series.rows) {
-      if (several) file << csv_word(series.name) << ',';
+      if (several) file << csv_cell(series.name) << ',';
       for (std::size_t i = 0; i < row.size(); ++i) {
         file << (i > 0 ? "," : "")
-             << (known(row[i]) ? csv_word(text(row[i], table.columns[i].size, 10)) : "");
+             << (known(row[i]) ? csv_cell(text(row[i], table.columns[i].size, 10)) : "");
       }
       file << '\n';
     }
   }
-  write_text_atomically(path, file.str());
+  return file.str();
+}
+
+bool is_standard_output(const std::string& name) {
+  constexpr std::string_view dash = "-";
+  return name == dash;
+}
+
+void write_output(const std::string& name, const std::string& text) {
+  if (name.empty()) return;
+  if (is_standard_output(name)) {
+    fmt::print("{}", text);
+    return;
+  }
+  write_text_atomically(name, text);
+  fmt::print("written: {}\n", name);
 }
 
 }  // namespace whipple::app

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
+#include <string>
 
 #include "eos/curves/table.hpp"
 
@@ -13,8 +13,14 @@ void print(const eos::curves::CurveTable& table);
 /// Prints the first row of each series as a list, one quantity a line.
 void print_list(const eos::curves::CurveTable& table);
 
-/// Writes a table as CSV, its title in the first line.
+/// Returns a table as CSV, its title in the first line.
+std::string csv_text(const eos::curves::CurveTable& table);
+
+/// Returns whether the name of an output file, "-", means standard output, which then holds nothing else.
+bool is_standard_output(const std::string& name);
+
+/// Writes the text of an output file, or of standard output; nothing if the name is empty.
 /// @throws InputError if the file cannot be written
-void write_csv(const eos::curves::CurveTable& table, const std::filesystem::path& path);
+void write_output(const std::string& name, const std::string& text);
 
 }  // namespace whipple::app

@@ -139,7 +139,7 @@ void add_eos_tabulate(CLI::App& eos_command) {
   command
       ->add_option(
           "--density-range", o->densities,
-          "Two densities; default: 1e-5 of the reference density to the greatest of the model; with --sesame "
+          "Two densities; default: 1e-5 of the reference density to the maximum of the model; with --sesame "
           "1e-4 to 10 times the reference density")
       ->expected(2);
   command->add_option("--temperature-range", o->temperatures, "Two temperatures; default: '50 K' '50000 K'")

@@ -33,7 +33,7 @@
 namespace {
 
 /// How threads wait for one another is read by libgomp when it is loaded, before `main`: the program starts
-/// itself anew. Threads that wait in a loop keep those they wait for from the cores of a shared machine, and
+/// itself again. Threads that wait in a loop keep those they wait for from the cores of a shared machine, and
 /// a run takes several times as long.
 void wait_passively(char** arguments) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;

@@ -32,7 +32,7 @@ void print_materials() {
   };
   for (const char* group : material_groups) print_group(group, group);
   print_group("", "other");
-  log::info("{} materials; a bare file name is looked up beside the case, then in:", materials.size());
+  log::info("{} materials; a bare file name is searched in the folder of the case, then in:", materials.size());
   for (const std::filesystem::path& folder : library_folders()) log::info("  {}", folder.string());
 }
 
@@ -43,7 +43,7 @@ void add_materials_command(CLI::App& app) {
   command->footer("Example:\n  whipple materials\n  whipple materials --markdown");
   const auto markdown = std::make_shared<bool>(false);
   command->add_flag("--markdown", *markdown,
-                    "Tables of what the equations of state say (docs/manual/materials.md), in Markdown");
+                    "Tables of values computed from the equations of state (docs/manual/materials.md), in Markdown");
   command->callback([markdown] {
     if (*markdown) {
       fmt::print("{}", library_as_markdown());

@@ -37,7 +37,7 @@ std::string range(double from, double to) {
                            : (std::isfinite(from) ? fmt::format("{:.0f}", from) : std::string("-"));
 }
 
-/// What the curve says, or nothing where the model does not go so far.
+/// Returns the text of a curve, or nothing where the model is not valid.
 template <class Curve>
 auto if_defined(const Curve& curve) -> std::optional<decltype(curve())> {
   try {

@@ -30,7 +30,7 @@ struct MdOptions {
   bool adaptive = false;
 };
 
-/// What a shell, and mpirun, returns for a process that a signal ended, less the signal.
+/// Exit code of a process that a signal ended, as a shell and mpirun return it, less the number of the signal.
 constexpr int killed_code = 128;
 
 /// The physical cores, or as many of them as make whole teams of a point's ranks.

@@ -7,7 +7,7 @@
 
 namespace whipple::app {
 
-/// What a planar impact of the fastest body of a case on each other one would do, from their equations of state
+/// Computes what a planar impact of the fastest body of a case on each other one would do, from their equations of state
 /// alone: a list of {projectile, target, velocity (m/s, along the axis), pressure (Pa), interface_velocity,
 /// free_surface_velocity (m/s, of the target; null without one), states: [{body, material, shocked: {...}, released:
 /// {...} or null}]} with density (kg/m^3), temperature (K), melted_fraction, vaporised_fraction. Bodies of the same

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -25,7 +26,6 @@ struct ReportOptions {
   std::string output;
   std::vector<std::string> figures;
   AnalysisWords analysis;
-  int times = 6;
   int dots_per_inch = 180;
 };
 
@@ -44,15 +44,13 @@ int run_report(const ReportOptions& options) {
   const std::filesystem::path output = options.output.empty() ? options.run + "/report" : options.output;
   // A run that has not come to its first snapshot has its input and history to show.
   if (const analysis::Run run = analysis::read_run(options.run); !run.snapshots.empty()) {
-    run_analysis(options.run, options.analysis, output);
+    AnalysisWords words = options.analysis;
+    constexpr double panel_width = 6.6;  // inches, at least that of the widest of several panels
+    words.views.columns = static_cast<std::size_t>(std::lround(panel_width * options.dots_per_inch));
+    run_analysis(options.run, words, output);
     write_planar_impacts(run, output);
   }
-  std::vector<std::string> arguments = {options.run,
-                                        "--times",
-                                        std::to_string(options.times),
-                                        "--dpi",
-                                        std::to_string(options.dots_per_inch),
-                                        "--output",
+  std::vector<std::string> arguments = {options.run, "--dpi", std::to_string(options.dots_per_inch), "--output",
                                         output.string()};
   for (const std::string& figure : options.figures) arguments.insert(arguments.end(), {"--figure", figure});
   return process::run_script("report", arguments);
@@ -70,7 +68,8 @@ void add_report_command(CLI::App& app) {
       ->type_name("TITLE=FILE.png")
       ->allow_extra_args(false);
   add_analysis_options(*command, options->analysis);
-  command->add_option("--times", options->times, "Pictures at so many times")
+  options->analysis.views.times = 6;
+  command->add_option("--times", options->analysis.views.times, "Pictures at so many times")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--dpi", options->dots_per_inch, "Dots per inch of the pictures")

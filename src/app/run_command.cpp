@@ -15,6 +15,7 @@
 #include "src/core/base/units.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/process/mpirun.hpp"
+#include "src/run/restart.hpp"
 #include "src/run/run.hpp"
 
 namespace whipple::app {
@@ -43,10 +44,10 @@ run::RunOptions run_options(const Arguments& arguments) {
       .overrides = {}};
   if (options.restart) {
     if (!arguments.output.empty())
-      throw InputError("--restart DIR goes on in DIR: -o cannot name another one");
+      throw InputError("--restart DIR resumes in DIR: -o cannot name another one");
     if (!arguments.case_file.empty()) {
       throw InputError(
-          "--restart DIR takes the case from DIR/run.toml: leave CASE.toml out, change keys with --set");
+          "--restart DIR reads the case from DIR/run.toml: omit CASE.toml, change keys with --set");
     }
     options.output_directory = arguments.restart;
   } else if (arguments.case_file.empty()) {
@@ -57,10 +58,9 @@ run::RunOptions run_options(const Arguments& arguments) {
     if (equals == std::string::npos || equals == 0) {
       throw InputError(fmt::format("--set {}: expected key=value, for example --set time.end='5 us'", entry));
     }
-    const std::string table = entry.substr(0, std::min(equals, entry.find('.')));
-    if (options.restart && (table == "domain" || table == "body")) {
+    if (options.restart && run::is_fixed(entry.substr(0, equals))) {
       throw InputError(fmt::format(
-          "--set {}: grid and bodies are those of the checkpoint; a run that is to differ there begins anew",
+          "--set {}: grid, bodies and gauges are those of the checkpoint; start over with whipple run CASE.toml",
           entry));
     }
     options.overrides.emplace_back(entry.substr(0, equals), entry.substr(equals + 1));
@@ -68,7 +68,7 @@ run::RunOptions run_options(const Arguments& arguments) {
   return options;
 }
 
-/// The same command on MPI ranks of this machine.
+/// Runs the same command on MPI ranks of this machine.
 int run_on_ranks(const Arguments& arguments) {
   std::vector<std::string> program = {"whipple", "run"};
   if (!arguments.case_file.empty()) program.push_back(arguments.case_file);
@@ -109,7 +109,7 @@ void add_common(CLI::App& command, Arguments& arguments) {
       ->allow_extra_args(false);
   command
       .add_option("--threads", arguments.threads,
-                  "Threads of each rank (default: OMP_NUM_THREADS, SLURM_CPUS_PER_TASK, or its share of the "
+                  "Threads of each rank (default: OMP_NUM_THREADS, SLURM_CPUS_PER_TASK, or its part of the "
                   "processors that "
                   "this process may use)")
       ->check(CLI::Range(1, 4096));
@@ -119,14 +119,14 @@ void add_common(CLI::App& command, Arguments& arguments) {
 
 void add_run_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("run", "Simulate a case, or go on with an interrupted run");
+  CLI::App* command = app.add_subcommand("run", "Simulate a case, or resume an interrupted run");
   add_common(*command, *arguments);
   command->add_option("-o,--output", arguments->output,
                       "Run directory (default: run/NAME); must be new or empty");
   command->add_option("--restart", arguments->restart, "Go on from the latest checkpoint of a run directory")
       ->type_name("DIR");
   command->add_flag("--force", arguments->force,
-                    "Remove the outputs of an earlier run in the run directory; with --restart: go on though "
+                    "Remove the outputs of an earlier run in the run directory; with --restart: resume although "
                     "rows of history.csv are missing");
   command
       ->add_option(
@@ -140,7 +140,7 @@ void add_run_command(CLI::App& app) {
   command->footer(
       "Example:\n  whipple run cases/copper_disk_on_aluminium/case.toml -o run/disk --set time.end='5 us'\n"
       "  whipple run --restart run/disk\n"
-      "Signals: INT and TERM write a checkpoint and end the run, USR1 writes one and goes on.\n"
+      "Signals: INT and TERM write a checkpoint and end the run, USR1 writes one and continues.\n"
       "Exit codes: 0 done, 2 wrong input, 3 the physics left its range, or disk or memory did not suffice\n"
       "  (state saved), 128 + signal when stopped, 124 at the limit of wall time");
   command->callback([arguments] {

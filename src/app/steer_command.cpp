@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,16 +23,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder itself, or the run directories in it, by name.
+/// Returns the folder itself, or the run directories in it at any depth, by name. Run directories are not searched, links
+/// not followed.
 std::vector<fs::path> runs_in(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw InputError(fmt::format("{}: there is no such folder", folder.string()));
-  if (fs::exists(folder / "status.json")) return {folder};
+  const auto is_run = [](const fs::path& path) { return fs::exists(path / "status.json"); };
+  if (is_run(folder)) return {folder};
   std::vector<fs::path> runs;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (fs::exists(entry.path() / "status.json")) runs.push_back(entry.path());
+  constexpr auto passing = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator entry(folder, passing), last; entry != last; ++entry) {
+    if (!entry->is_directory() || !is_run(entry->path())) continue;
+    runs.push_back(entry->path());
+    entry.disable_recursion_pending();
   }
   std::ranges::sort(runs);
-  if (runs.empty()) throw InputError(fmt::format("{}: holds no run with a status.json", folder.string()));
+  if (runs.empty()) throw InputError(fmt::format("{}: contains no run with a status.json", folder.string()));
   return runs;
 }
 
@@ -55,7 +61,7 @@ void add_steer_command(CLI::App& app) {
     std::string run, request, value;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("steer", "Ask something of a run that goes on");
+  CLI::App* command = app.add_subcommand("steer", "Send a request to a running simulation");
   command->add_option("run", arguments->run, "The run directory")->required();
   command->add_option("request", arguments->request, "What is asked")->required();
   command->add_option("value", arguments->value, "The new value, with its unit");
@@ -64,18 +70,22 @@ void add_steer_command(CLI::App& app) {
                   "Example:\n  whipple steer run/disk snapshot\n  whipple steer run/disk end '5 us'");
   command->callback([arguments] {
     constexpr std::chrono::seconds patience(20);
-    const std::string answer = run::steer(arguments->run, arguments->request, arguments->value, patience);
-    if (answer.starts_with("refused") || answer.starts_with("\"refused")) {
-      throw InputError(fmt::format("{}: {}", arguments->run, answer));
+    const std::optional<run::Answer> answer =
+        run::steer(arguments->run, arguments->request, arguments->value, patience);
+    if (!answer) {
+      fmt::print("no answer yet: a step may last long; it will be in steering.csv\n");
+    } else if (answer->verdict == run::Verdict::refused) {
+      throw InputError(fmt::format("{}: refused: {}", arguments->run, answer->detail));
+    } else {
+      fmt::print("accepted{}{}\n", answer->detail.empty() ? "" : ", ", answer->detail);
     }
-    fmt::print("{}\n", answer.empty() ? "no answer yet: a step may last long; it will be in steering.csv" : answer);
   });
 }
 
 void add_status_command(CLI::App& app) {
   auto folder = std::make_shared<std::string>("run");
   CLI::App* command = app.add_subcommand("status", "How far runs are");
-  command->add_option("dir", *folder, "A run directory, or a folder of some (default: run)");
+  command->add_option("dir", *folder, "A run directory, or a folder with some at any depth (default: run)");
   command->footer("Example:\n  whipple status run/disk");
   command->callback([folder] { print_status(*folder); });
 }

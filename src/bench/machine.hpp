@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// What the machine can do, measured in the same call as the problems: speeds of the code are worth something
+/// Limits of the machine, measured in the same call as the problems: speeds of the code are worth something
 /// beside these only.
 namespace whipple::bench {
 

@@ -31,7 +31,7 @@ double peak_memory() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-/// All matter flies on without forces (see Problem::thinning).
+/// All material flies on without forces (see Problem::thinning).
 solver::Simulation thinned(const cases::Case& setup, const solver::Simulation& formed, double time) {
   Particles particles = formed.particles();
   for (std::size_t p = 0; p < particles.size(); ++p) particles.position[p] += time * particles.velocity[p];

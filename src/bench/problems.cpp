@@ -13,7 +13,7 @@ namespace {
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;
 
-/// What most peers compute with, and what their published speeds belong to.
+/// Options that most peers compute with, to which their published speeds refer.
 const Overrides linear_musl = {{"time.scheme", "musl"},
                                {"transfer.particle_update", "flip"},
                                {"transfer.shape_function", "linear"},

@@ -17,7 +17,7 @@ struct Problem {
   std::vector<std::pair<std::string, std::string>> overrides;
   int steps_before = 0;
   int steps = 0;  ///< five parts, in each of which the particles are sorted once (not with --quick)
-  /// s: after the first steps all matter flies on for so long without forces, so that a cloud gets as thin as
+  /// s: after the first steps all material flies on for so long without forces, so that a cloud gets as thin as
   /// late ones are without the cost of getting there; 0: none
   double thinning = 0.0;
   bool only_by_name = false;  ///< needs gigabytes and minutes: not one of those that are timed unasked

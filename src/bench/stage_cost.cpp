@@ -46,7 +46,7 @@ double sums(double n, double inner, double row) {
   return multiply_add * (n * n * n * inner + n * n * row) + 3.0 * n * weights;
 }
 
-/// What the cost of a stage depends on.
+/// Properties of a problem on which the cost of a stage depends.
 struct Method {
   double reach;  ///< nodes that a particle reaches per direction
   bool affine;

@@ -7,7 +7,7 @@
 
 namespace whipple::bench {
 
-/// What a stage of the step costs at least, per particle.
+/// Holds the minimum cost of a stage of the step, per particle.
 struct StageCost {
   double bytes = 0.0;
   double flops = 0.0;

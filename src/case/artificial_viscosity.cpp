@@ -13,8 +13,8 @@ ParameterTable<ArtificialViscosity> ArtificialViscosity::parameters() {
       real("quadratic", &ArtificialViscosity::quadratic, "", range::non_negative(), "c2 of the same")
           .optional(),
       real("expansion", &ArtificialViscosity::expansion, "", range::non_negative(),
-           "c1 of q = -rho l |D| c1 c in expansion, never more than the pressure: damps the overshoot of a "
-           "shock that leaves through a free surface; 0: none")
+           "c1 of q = -rho l |D| c1 c in expansion, limited to the pressure: damps the overshoot of a shock at a free "
+           "surface; 0: none")
           .optional()};
 }
 

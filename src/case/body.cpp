@@ -14,18 +14,18 @@ ParameterTable<Body> Body::parameters() {
   return {text("name", &Body::name, "name of the body in output files"),
           text("material", &Body::material, "material file: a path, or a name in the library"),
           choice("equation_of_state", &Body::equation_of_state,
-                 "how it is evaluated: by the model itself, or by a table of it, faster for costly models")
+                 "evaluation by the model | by a table of it, faster for expensive models")
               .optional(),
           real("table_error", &Body::table_error, "", range::between(1e-8, 0.05),
-               "of the table: relative error of temperature and pressure")
+               "relative error of temperature and pressure of the table")
               .optional(),
           vector("velocity", &Body::velocity, "m/s", range::any(), "initial velocity").optional(),
           vector("angular_velocity", &Body::angular_velocity, "rad/s", range::any(),
                  "initial rotation about the centre of the body's bounding box")
               .optional(),
           text("contact_group", &Body::contact_group,
-               "bodies of one group share a velocity field and are bonded where they meet, those of "
-               "different groups never; empty: contact.method decides")
+               "bodies of one group share a velocity field and are bonded where they meet, those of different "
+               "groups are not; empty: according to contact.method")
               .optional()};
 }
 
@@ -49,7 +49,7 @@ void Body::read_rest(input::Table& table) {
     shape = read_shape(table);
   } else if (table.has("shape")) {
     table.error_at("shape", discretization.is_bars()
-                                ? "a body of bars has no 'shape': its bars stand in [[body.bar]]"
+                                ? "a body of bars has no 'shape': its bars are listed in [[body.bar]]"
                                 : "a body has a 'shape' or a 'discretization.mesh', not both");
   }
 }

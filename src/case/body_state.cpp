@@ -51,7 +51,7 @@ ParameterTable<FailureScatter> FailureScatter::parameters() {
       real("weibull_modulus", &S::weibull_modulus, "", range::positive(), "m of the Weibull distribution"),
       integer("seed", &S::seed, range::between(0, 1e18), "seed of the scatter").optional(),
       real("reference_volume", &S::reference_volume, "m^3", range::positive(),
-           "volume for which the thresholds were measured: larger particles fail earlier")
+           "volume to which the thresholds refer: larger particles fail earlier")
           .optional("no effect of size")};
 }
 

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "src/case/build/bars.hpp"
-#include "src/case/build/seeding.hpp"
+#include "src/case/build/placement.hpp"
 #include "src/case/shapes/mesh_shape.hpp"
 #include "src/core/base/error.hpp"
 #include "src/io/output_fields.hpp"
@@ -16,7 +16,7 @@
 namespace whipple::cases {
 
 ParameterTable<Case> Case::parameters() {
-  return {text("title", &Case::title, "one line that says what is simulated").optional()};
+  return {text("title", &Case::title, "one line: what is simulated").optional()};
 }
 
 /// One line per section.
@@ -133,14 +133,14 @@ void check_planar(const Case& setup, const Faults& faults) {
       of_body.add("angular_velocity", axisymmetric ? "nothing rotates in axisymmetry" : "rotation is about z");
     }
     if (body.discretization.has_elements() || body.discretization.is_bars()) {
-      of_body.add("discretization", "finite elements and bars need three dimensions: take particles");
+      of_body.add("discretization", "finite elements and bars require three dimensions: use particles");
     }
   }
   if (!lies_in_plane(setup.gravity.acceleration)) {
     faults.in("gravity").add("acceleration", fmt::format("'acceleration' must be {}", expected));
   }
   if (setup.splitting.length > 0.0) {
-    faults.in("splitting").add("length", "particles are divided in three dimensions only: leave it out");
+    faults.in("splitting").add("length", "particles are split in three dimensions only: omit it");
   }
 }
 
@@ -158,7 +158,7 @@ std::vector<InputFault> settle(Case& setup) {
   read_materials(setup, bodies);
   const std::size_t of_files = list.size();
   if (setup.bodies.empty()) faults.add("body", "no bodies: expected at least one [[body]]");
-  check_content(setup, setup, faults);
+  input::check_content(setup, setup, faults);
   if (setup.domain.is_planar()) check_planar(setup, faults);
   // Only sound values can be placed.
   if (list.size() > of_files || !can_be_placed(setup)) return list;
@@ -188,7 +188,7 @@ Case read(input::Document document, const std::vector<std::pair<std::string, std
   root.accept("provenance");
   const Domain section = peek_dimension(root);
   if (section.is_planar()) document.set_section(static_cast<int>(index_of(section.axis)));
-  read_content(setup, setup, root);
+  input::read_content(setup, setup, root);
   if (section.is_planar()) {
     setup.domain.boundary = setup.domain.boundary.in_section(static_cast<std::size_t>(index_of(section.axis)));
     setup.domain.axis = Axis::x;
@@ -220,15 +220,25 @@ Case read_case_text(const std::string& text, const std::string& name) {
   return read(input::Document::from_text(text, name), {});
 }
 
+Case read_written_case(const std::filesystem::path& path) {
+  input::Document document = input::Document::from_file(path);
+  Case setup;
+  setup.file = document.path();
+  input::Table root = document.root();
+  input::read_content(setup, setup, root);
+  document.finish_partly_read();
+  return setup;
+}
+
 std::string to_toml(const Case& setup, const std::vector<std::string>& material_of_body) {
   Case copy = setup;
   for (std::size_t b = 0; b < copy.bodies.size(); ++b) copy.bodies[b].material = material_of_body[b];
-  return write_content(copy, "");
+  return input::write_content(copy, "");
 }
 
 std::string describe_case() {
   std::string text = "Case file (TOML). Quantities are texts with a unit, \"6.58 km/s\".\n\n";
-  text += describe_content<Case>("");
+  text += input::describe_content<Case>("");
   for (const ShapeEntry& entry : shape_catalogue()) {
     text +=
         fmt::format("\nshape = {{ {} = {{ ... }} }}: {}\n{}", entry.name, entry.summary, entry.describe());

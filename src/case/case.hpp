@@ -79,6 +79,10 @@ Case read_case(const std::filesystem::path& path,
                const std::vector<std::pair<std::string, std::string>>& overrides);
 Case read_case_text(const std::string& text, const std::string& name);
 
+/// Reads the keys of a case that a run wrote (run.toml), neither checked nor completed: for measures of finished runs.
+/// Keys of other versions of the program are ignored. @throws InputError for a file that is no case
+Case read_written_case(const std::filesystem::path& path);
+
 /// The complete case as TOML, with every default, readable by `read_case`.
 /// @param material_of_body file names to write instead of those of the case (copies in the run directory)
 std::string to_toml(const Case& setup, const std::vector<std::string>& material_of_body);

@@ -12,33 +12,32 @@ ParameterTable<ContactControl> ContactControl::parameters() {
   return {
       choice(
           "method", &ContactControl::method,
-          "bodies have velocity fields of their own where they meet, but for those that touch at the start "
-          "and have the same velocity: they touch, move as one along the normal while they press, slide and part "
-          "| all bodies move in one velocity field, bonded where they meet | all have their own, and impulses "
-          "stop them")
+          "bodies have separate velocity fields where they meet, with unilateral contact along the normal and "
+          "friction, except bodies that initially touch with the same velocity | all bodies share one velocity "
+          "field and are bonded where they meet | all bodies have separate velocity fields")
           .optional(),
       choice("normal", &ContactControl::normal,
-             "normal between two bodies: mean of those of both | of one of them or their mean, along which "
-             "they are farthest apart | of the plane that separates their particles")
+             "contact normal: mean of both bodies | that of either body or their mean, whichever gives the "
+             "largest gap | normal of the plane that separates their particles")
           .optional(),
-      real("friction", &ContactControl::friction, "", range::non_negative(), "Coulomb's coefficient")
+      real("friction", &ContactControl::friction, "", range::non_negative(), "Coulomb friction coefficient")
           .optional(),
       boolean("gap_test", &ContactControl::gap_test,
-              "bodies touch where their surfaces do; false: wherever both reach a node")
+              "contact where the surfaces touch; false: wherever both bodies reach a node")
           .optional(),
       real("gap", &ContactControl::gap, "", range::between(-1.0, 2.0),
-           "of gap_test: distance in cells below which surfaces touch")
+           "gap (in cells) below which surfaces are in contact")
           .optional(),
       boolean("everywhere", &ContactControl::everywhere,
-              "velocity fields of their own for all bodies at all nodes, not only where they meet: for "
-              "comparison of cost")
+              "separate velocity fields of all bodies at all nodes, not only where they meet: for comparison of "
+              "cost")
           .optional()};
 }
 
 void ContactControl::check(const Case& setup, const Faults& faults) const {
   if (method != ContactMethod::multi_field || setup.bodies.empty()) return;
   if (setup.transfer.particle_update == ParticleUpdate::fmpm) {
-    faults.add("method", "'method': the full mass matrix (transfer.particle_update = \"fmpm\") knows no contact; "
+    faults.add("method", "'method': the full mass matrix (transfer.particle_update = \"fmpm\") has no contact; "
                          "take another update");
   }
   const unsigned count = count_of(fields_of_groups(setup.bodies));

@@ -14,32 +14,32 @@ ParameterTable<Discretization> Discretization::parameters() {
   return {
       choice(
           "method", &D::method,
-          "how the body is represented: particles | eight-node hexahedra | hexahedra that become particles "
-          "where they are distorted ([body.conversion]) | bars that carry axial forces and move with the "
-          "matter around ([[body.bar]])")
+          "particles | eight-node hexahedra | hexahedra that become particles when distorted "
+          "([body.conversion]) | trusses (reinforcement bars) that carry axial forces and move with the "
+          "surrounding material ([[body.bar]])")
           .optional(),
       integer("per_cell", &D::per_cell, range::between(1, 1000), "particles per full cell: 1, 8, 27 or 64")
           .optional(),
       boolean("partial_volumes", &D::partial_volumes,
-              "particles at curved or oblique surfaces take the part of their volume that lies in the body")
+              "particles at curved or oblique surfaces have the part of their volume that is inside the body")
           .optional("true"),
       real("element_size", &D::element_size, "m", range::positive(), "edge of the elements, at most 2 cells")
           .optional("cell_size"),
       choice("element", &D::element,
-             "quadrature of the elements: one point with hourglass control | 2 x 2 x 2 points with the "
-             "element's mean volumetric strain")
+             "quadrature: one point with hourglass control | 2 x 2 x 2 points with the mean volumetric strain of "
+             "the element")
           .optional(),
       choice("hourglass", &D::hourglass,
-             "control of the modes that one-point elements do not see: resists their amplitude | their rate")
+             "hourglass control: proportional to the amplitude | to the rate of the modes")
           .optional(),
       real("hourglass_coefficient", &D::hourglass_coefficient, "", range::between(0.0, 1.0),
-           "of the same: share of the greatest stiffness or of the critical damping")
+           "hourglass coefficient: fraction of the largest stiffness or of the critical damping")
           .optional(),
       text("mesh", &D::mesh, "Gmsh file (2.2 or 4.1) with the hexahedra of the body instead of a shape")
           .optional(),
-      real("mesh_unit", &D::mesh_unit, "m", range::positive(), "length of a unit of that file").optional(),
-      text("group", &D::group, "physical group of that file; empty: the only one").optional(),
-      real("bar_diameter", &D::bar_diameter, "m", range::non_negative(), "of bars").optional(),
+      real("mesh_unit", &D::mesh_unit, "m", range::positive(), "length of a unit of the mesh file").optional(),
+      text("group", &D::group, "physical group in the mesh file; empty: the only one").optional(),
+      real("bar_diameter", &D::bar_diameter, "m", range::non_negative(), "diameter of the bars").optional(),
       real("bar_failure_strain", &D::bar_failure_strain, "", range::positive(),
            "plastic strain at which a bar breaks")
           .optional("never")};
@@ -55,29 +55,29 @@ ParameterTable<Conversion> Conversion::parameters() {
                "equivalent plastic strain above which an element becomes particles")
               .optional("never"),
           real("time_step_ratio", &C::time_step_ratio, "", range::between(0.0, 1.0),
-               "the same below this ratio of its stable time step to that of the grid; 0: never")
+               "ratio of its stable time step to that of the grid below which an element becomes particles; 0: never")
               .optional(),
           real("jacobian", &C::jacobian, "", range::between(0.0, 1.0),
-               "the same where its least Jacobian falls below this share of the mean one; 0: never")
+               "ratio of its smallest to its mean Jacobian below which an element becomes particles; 0: never")
               .optional(),
-          boolean("failed", &C::failed, "the same when its material has failed").optional()};
+          boolean("failed", &C::failed, "an element becomes particles when its material has failed").optional()};
 }
 
 ParameterTable<BarRow> BarRow::parameters() {
   using B = BarRow;
-  return {vector("from", &B::from, "m", range::any(), "one end"),
+  return {vector("from", &B::from, "m", range::any(), "first end"),
           vector("to", &B::to, "m", range::any(),
-                 "the other end; on a mirror plane for a bar that goes through it"),
-          integer("count", &B::count, range::between(1, 100000), "how many parallel bars").optional(),
-          vector("step", &B::step, "m", range::any(), "from one of them to the next").optional()};
+                 "second end; on a mirror plane for a bar that continues through it"),
+          integer("count", &B::count, range::between(1, 100000), "number of parallel bars").optional(),
+          vector("step", &B::step, "m", range::any(), "offset from one bar to the next").optional()};
 }
 
 ParameterTable<NodeCondition> NodeCondition::parameters() {
   using N = NodeCondition;
-  return {vector("lower", &N::lower, "m", range::any(), "corner of a box: the nodes in it at the start"),
-          vector("upper", &N::upper, "m", range::any(), "its other corner"),
-          text_list("directions", &N::directions, {"x", "y", "z"}, "directions that are prescribed"),
-          vector("velocity", &N::velocity, "m/s", range::any(), "velocity in those directions").optional()};
+  return {vector("lower", &N::lower, "m", range::any(), "corner of a box that contains the nodes initially"),
+          vector("upper", &N::upper, "m", range::any(), "opposite corner of the box"),
+          text_list("directions", &N::directions, {"x", "y", "z"}, "prescribed directions"),
+          vector("velocity", &N::velocity, "m/s", range::any(), "prescribed velocity").optional()};
 }
 
 void Discretization::read_rest(input::Table& table) {
@@ -102,7 +102,7 @@ void check_elements(const Discretization& control, const Case& setup, const Faul
   }
   if (control.is_bars()) {
     if (!(control.bar_diameter > 0.0)) faults.add("method", "bars need a 'bar_diameter'");
-    if (!control.mesh.empty()) faults.add("mesh", "bars stand in [[body.bar]], not in a 'mesh'");
+    if (!control.mesh.empty()) faults.add("mesh", "bars are listed in [[body.bar]], not in a 'mesh'");
   }
   if (control.partial_volumes) {
     faults.add("partial_volumes", "'partial_volumes' belongs to bodies of particles");

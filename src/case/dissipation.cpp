@@ -9,33 +9,32 @@ namespace whipple::cases {
 
 ParameterTable<Dissipation> Dissipation::parameters() {
   return {choice("losses", &Dissipation::losses,
-                 "kinetic energy that the transfers lose is unresolved motion until viscosity or a closing "
-                 "gap makes it heat; shocks conduct heat | it is heat at once, as in other codes: for "
-                 "comparison. Schemes other than symplectic: \"heat\"")
+                 "kinetic energy lost in transfers is unresolved motion until viscosity or a closing gap converts it "
+                 "to heat, with heat conduction inside shocks | converted to heat immediately, as in other codes, for "
+                 "comparison. Default of schemes other than symplectic: \"heat\"")
               .optional("\"unresolved\""),
           real("heat_share", &Dissipation::heat_share, "", range::non_negative(),
-               "losses of a particle become heat up to this share of the work of its artificial viscosity")
+               "losses of a particle are converted to heat up to this fraction of its artificial viscous work")
               .optional(),
           real("collision_rate", &Dissipation::collision_rate, "", range::non_negative(),
-               "share of the unresolved energy of loose matter that becomes heat, per share of its volume "
+               "fraction of the unresolved energy of fragmented material converted to heat, per fraction of volume "
                "that closes")
               .optional(),
           real("affine_gain", &Dissipation::affine_gain, "", range::non_negative(),
-               "artificial viscosity heats by the rate of closing of the particle's affine field times this, "
-               "the rest of its work is unresolved")
+               "artificial viscosity heats with the closing rate of the affine field of the particle times this "
+               "factor; the remaining work is unresolved")
               .optional(),
           real("affine_compression", &Dissipation::affine_compression, "", range::non_negative(),
-               "compression from the start over which that goes over to all of its work; 0: all of it always "
-               "heats")
+               "compression from the initial state over which the heat increases to all of its work; 0: always all of it")
               .optional(),
           real("shock_conduction", &Dissipation::shock_conduction, "", range::non_negative(),
-               "diffusivity of heat inside shocks over that of the artificial viscosity")
+               "heat diffusivity inside shocks over that of the artificial viscosity")
               .optional(),
           real("conduction_onset", &Dissipation::conduction_onset, "", range::non_negative(),
-               "closing speed over a cell, as a share of the speed of sound, from which on a shock conducts")
+               "closing speed over a cell, as a fraction of the sound speed, above which a shock conducts heat")
               .optional(),
           real("conduction_rise", &Dissipation::conduction_rise, "", range::positive(),
-               "further closing speed over which its conduction grows to the full one")
+               "additional closing speed at which the conduction reaches its full value")
               .optional()};
 }
 

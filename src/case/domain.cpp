@@ -13,8 +13,8 @@ namespace whipple::cases {
 ParameterTable<Faces> Faces::parameters() {
   const auto face = [](const char* name, grid::Boundary Faces::* member) {
     return choice(name, member,
-                  "matter leaves and is counted | frictionless mirror plane | wall that matter sticks to | "
-                  "frictionless wall that pushes but does not hold")
+                  "material leaves the domain and is counted | frictionless mirror plane | no-slip wall | frictionless "
+                  "wall that transmits compression only")
         .optional();
   };
   return {face("x_lower", &Faces::x_lower), face("x_upper", &Faces::x_upper),
@@ -37,13 +37,13 @@ ParameterTable<Domain> Domain::parameters() {
           real("cell_size", &Domain::cell_size, "m", range::positive(),
                "edge of the cells of the background grid"),
           choice("dimension", &Domain::dimension,
-                 "three dimensions | a slice of 1 m of what is the same for all z | x along the axis, y >= 0 the "
-                 "radius, masses are those of whole rings; in two dimensions the section z = 0 counts, and vectors "
-                 "may have two components")
+                 "three dimensions | uniform along z, 1 m thick | x along the axis, y >= 0 the radius, masses of "
+                 "whole rings; in two dimensions bodies are defined by their section z = 0, and vectors may have two "
+                 "components")
               .optional(),
           choice("axis", &Domain::axis,
-                 "in two dimensions: direction of vectors of three components, of faces and of axes that becomes x, "
-                 "the axis of rings; the next one of x, y, z, x becomes y")
+                 "in two dimensions: direction that becomes x, the axis of rings, for vectors of three components, "
+                 "faces and axes; the next one of x, y, z, x becomes y")
               .optional()};
 }
 
@@ -131,7 +131,7 @@ void Domain::check(const Case& setup, const Faults& faults) const {
   if (boundary.any(grid::Boundary::separating) && setup.time.scheme == Scheme::usf) {
     faults.add("boundary",
                "a separating wall is found to be in contact by the forces on the grid, which scheme \"usf\" "
-               "does not know yet where it needs them: take \"symplectic\", \"musl\" or \"usl\"");
+               "does not determine yet where it needs them: take \"symplectic\", \"musl\" or \"usl\"");
   }
 }
 

@@ -13,15 +13,15 @@ namespace whipple::cases {
 ParameterTable<Gauge> Gauge::parameters() {
   return {text("name", &Gauge::name, "name of its columns in gauges.csv"),
           choice("kind", &Gauge::kind,
-                 "fixed in space | moving with the particle nearest to its position at the start")
+                 "fixed in space | moving with the particle that is initially nearest")
               .optional(),
-          vector("position", &Gauge::position, "m", range::any(), "position, at the start")};
+          vector("position", &Gauge::position, "m", range::any(), "initial position")};
 }
 
 ParameterTable<Tracers> Tracers::parameters() {
   return {text("name", &Tracers::name, "name of its gauges, numbered NAME_1, NAME_2, ..."),
-          vector("from", &Tracers::from, "m", range::any(), "first position at the start"),
-          vector("to", &Tracers::to, "m", range::any(), "last position at the start"),
+          vector("from", &Tracers::from, "m", range::any(), "initial position of the first gauge"),
+          vector("to", &Tracers::to, "m", range::any(), "initial position of the last gauge"),
           integer("count", &Tracers::count, range::between(2, 10000), "number of moving gauges on the line")};
 }
 
@@ -84,7 +84,7 @@ void check_places_of_gauges(const Case& setup, const Faults& faults) {
     if (!inside) {
       add("is outside of the domain");
     } else if (gauge.moving() && !in_matter(x)) {
-      add("moves with matter, but no body is there that has some (bars do not count)");
+      add("moves with material, but no body is there that has some (bars do not count)");
     }
   };
   for (std::size_t i = 0; i < setup.gauges.size(); ++i) {

@@ -9,7 +9,7 @@ namespace whipple::cases {
 
 ParameterTable<HeatControl> HeatControl::parameters() {
   return {boolean("conduction", &HeatControl::conduction,
-                  "heat flows between particles by the conductivities of their materials ([thermal])")
+                  "heat conduction between particles with the conductivities of their materials ([thermal])")
               .optional()};
 }
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "eos/audit.hpp"
-#include "src/case/build/seeding.hpp"
+#include "src/case/build/placement.hpp"
 #include "src/fem/structured.hpp"
 
 namespace whipple::cases {
@@ -135,7 +135,7 @@ void remark_on_plane(const Case& setup, const Body& body, std::size_t face,
   across[a] = 0.0;
   if (across.norm() > none * body.angular_velocity.norm()) {
     remarks.push_back(fmt::format(
-        "'{}' {} the symmetry plane {} and turns about an axis that is not the plane's normal {}: its "
+        "'{}' {} the symmetry plane {} and rotates about an axis that is not the plane's normal {}: its "
         "mirror image turns the other way; take the whole body",
         body.name, cut ? "is cut by" : "touches", face_names[face], "xyz"[a]));
   }
@@ -158,7 +158,7 @@ void remark_on_meshes(const Case& setup, std::vector<std::string>& remarks) {
     const std::size_t nodes = mesh ? fem::unmerged_nodes(*mesh) : 0;
     if (nodes == 0) continue;
     remarks.push_back(
-        fmt::format("'{}': {} nodes of its mesh {} lie in the place of another node: parts that meet "
+        fmt::format("'{}': {} nodes of its mesh {} coincide with another node: parts that meet "
                     "there are not joined; Gmsh joins them with 'Coherence Mesh;'",
                     body.name, nodes, body.discretization.mesh));
   }

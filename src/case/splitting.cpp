@@ -12,11 +12,11 @@ namespace whipple::cases {
 ParameterTable<Splitting> Splitting::parameters() {
   return {
       real("length", &Splitting::length, "", range::between(0.0, 2.0),
-           "length in cells of an intact particle along its longest direction beyond which it is divided in "
-           "two; 0: never, 1 to 1.2 keeps stretched matter together")
+           "length (in cells) of an intact particle along its longest direction above which it is split in two; "
+           "0: never; 1 to 1.2 avoids numerical fracture of stretched material")
           .optional(),
       integer("maximum_generations", &Splitting::maximum_generations, range::between(0, 20),
-              "divisions that a particle and its parts may undergo")
+              "largest number of successive splits of a particle")
           .optional()};
 }
 

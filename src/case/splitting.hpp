@@ -7,7 +7,7 @@
 
 namespace whipple::cases {
 
-/// Division of stretched particles; no division at length 0.
+/// Particle splitting; no division at length 0.
 struct Splitting {
   double length = 0.0;  ///< of a particle along its longest direction, in cells
   std::int64_t maximum_generations = 3;

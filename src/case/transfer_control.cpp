@@ -10,36 +10,36 @@ namespace whipple::cases {
 ParameterTable<TransferControl> TransferControl::parameters() {
   return {
       choice("shape_function", &TransferControl::shape_function,
-             "functions that carry fields between particles and nodes")
+             "shape functions of the transfers between particles and nodes")
           .optional(),
       choice("particle_update", &TransferControl::particle_update,
-             "velocity transfer to the particles; schemes other than symplectic take flip by default")
+             "velocity transfer to the particles; default of schemes other than symplectic: flip")
           .optional("\"relaxed_affine\""),
       real("kappa", &TransferControl::kappa, "", range::non_negative(),
            "relaxation of the affine field: beta = 1 - exp(-kappa c dt / dx)")
           .optional(),
       choice(
           "affine_field", &TransferControl::affine_field,
-          "carried on with the deformation of the step: for clouds; or with its rotation only: for rotating "
-          "and vibrating bodies")
+          "affine velocity field convected with the deformation of the step (debris clouds) | corotated only "
+          "(rotating and vibrating bodies)")
           .optional(),
       real("flip_fraction", &TransferControl::flip_fraction, "", range::between(0.0, 1.0),
-           "share of FLIP in particle_update \"blend\", the rest is PIC")
+           "fraction of FLIP in particle_update \"blend\"; the remainder is PIC")
           .optional(),
       integer("fmpm_order", &TransferControl::fmpm_order, range::between(1, 20),
-              "k of particle_update \"fmpm\": terms of the inverse of the full mass matrix")
+              "k of particle_update \"fmpm\": number of terms of the inverse of the full mass matrix")
           .optional(),
       boolean("random_shift", &TransferControl::random_shift,
-              "shift the grid by a random part of a cell in every step, along axes without walls")
+              "shift the grid by a random fraction of a cell in every step, along axes without walls")
           .optional(),
-      integer("random_seed", &TransferControl::random_seed, range::between(0, 1e9), "of random_shift")
+      integer("random_seed", &TransferControl::random_seed, range::between(0, 1e9), "seed of random_shift")
           .optional(),
       boolean("free_flight", &TransferControl::free_flight,
-              "failed particles without stress and neighbours fly on without the grid")
+              "failed particles without stress and neighbours move ballistically, without the grid")
           .optional(),
       real("rest_tolerance", &TransferControl::rest_tolerance, "", range::between(0.0, 1e-6),
-           "blocks of matter slower than this share of its sound speed c, and stressed less than this share "
-           "of rho c^2, are left as they are until a wave reaches them; 0: never")
+           "blocks with velocities below this fraction of the sound speed c and stresses below this fraction of "
+           "rho c^2 are inactive until a wave reaches them; 0: never")
           .optional()};
 }
 

@@ -56,7 +56,7 @@ struct Stop {
     dragged = drag;
   }
 
-  /// Books what the impulses took from the bodies, half of it to either.
+  /// Accounts for what the impulses took from the bodies, half of it to either.
   void heat(Balance& balance) const {
     const Vector3 mean = 0.5 * (b->before() - a->before() + b->after() - a->after());
     const double by_push = -pushed * normal.dot(mean), by_drag = -dragged.dot(mean);

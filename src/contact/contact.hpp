@@ -27,7 +27,7 @@ struct Settings {
   double friction = 0.3;  ///< Coulomb's coefficient
   bool gap_test = true;   ///< only surfaces that touch, or would within the step
   double gap = 0.0;       ///< in cells: surfaces nearer than that touch
-  /// 1/s, of each velocity field: where it relaxes more slowly, its matter is too loose to move as one with
+  /// 1/s, of each velocity field: where it relaxes more slowly, its material is too loose to move as one with
   /// what it meets, and impulses stop it; empty: never
   std::vector<double> least_relaxation_rate;
 };

@@ -128,7 +128,7 @@ void Pressing::solve() {
 }
 
 /// Takes out the pair that pulls most, if one does: surfaces do not hold together. @returns whether others
-/// are to be solved for anew
+/// are to be solved for again
 bool Pressing::drop_tension() {
   if (pairs_.empty()) return false;
   const auto least = std::ranges::min_element(pairs_, {}, &Pair::given);

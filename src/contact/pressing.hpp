@@ -9,7 +9,7 @@
 
 namespace whipple::contact {
 
-/// Bodies that press on one another at a node move as one along the normal between them, for the share of the
+/// Bodies that press on one another at a node move as one along the normal between them, for the fraction of the
 /// step in which they touch; else each is free (docs/theory/contact.md, equations 4.1 to 4.11). It works on
 /// one node at a time and keeps its memory from one to the next. Fields without relaxation (beta = 0) would
 /// keep what they were apart by; they need other impulses.
@@ -18,7 +18,7 @@ class Pressing {
   /// @param friction  Coulomb's coefficient
   explicit Pressing(double friction) : friction_(friction) {}
 
-  /// theta (4.2): share of the step in which two fields touch.
+  /// theta (4.2): fraction of the step in which two fields touch.
   /// @param normal  unit vector from a to b
   /// @param open    m, distance of their surfaces; <= 0: they touch
   [[nodiscard]] static double share(const Side& a, const Side& b, const Vector3& normal, double open,
@@ -26,9 +26,9 @@ class Pressing {
 
   /// Begins with a node where these fields meet; they must outlive `apply`.
   void begin(std::span<Side> sides);
-  /// Two of them, numbers of the sides, touch for a share of the step above 0.
+  /// Two of them, numbers of the sides, touch for a fraction of the step above 0.
   void add(std::size_t a, std::size_t b, const Vector3& normal, double share);
-  /// Changes velocities, increments and relaxations of the fields that press, and books what that takes.
+  /// Changes velocities, increments and relaxations of the fields that press, and accounts for what that takes.
   void apply(Balance& balance);
   /// Returns whether fields are under compression, after `apply`.
   [[nodiscard]] bool presses() const { return !pairs_.empty(); }

@@ -44,7 +44,7 @@ std::vector<std::uint32_t> nodes_of(const Links& links, std::span<const std::uin
 SharedNodes::SharedNodes(std::span<const Mesh> meshes, MPI_Comm communicator)
     : communicator_(communicator), own_(parallel::rank(communicator)) {
   const std::size_t ranks = ranks_of(communicator);
-  // Only nodes on the surface of this rank's share can have copies. The rank that a node's id names is told
+  // Only nodes on the surface of this rank's part can have copies. The rank that a node's id names is told
   // of all copies, and tells those that are not alone.
   std::vector<std::vector<Key>> candidates(ranks);
   std::vector<std::unordered_map<std::uint64_t, std::uint32_t>> node_of(meshes.size());
@@ -259,7 +259,7 @@ std::vector<Mesh> SharedNodes::numbered_together(std::span<const Mesh> meshes) c
 
 namespace {
 
-/// Marks all but this rank's share of n items.
+/// Marks all but this rank's part of n items.
 std::vector<std::uint8_t> those_of_others(std::size_t n, int rank, int ranks) {
   const auto of = static_cast<std::size_t>(ranks), own = static_cast<std::size_t>(rank);
   std::vector<std::uint8_t> marked(n, 1);

@@ -15,7 +15,7 @@
 
 /// Elements on several ranks (docs/theory/fem.md, 10). Every element belongs to one rank. A node whose
 /// elements belong to several ranks has a copy on each of them: place, velocity and marks are the same bit
-/// for bit, mass and force are the shares of the rank's own elements, so that sums over ranks are sums over
+/// for bit, mass and force are the contributions of the rank's own elements, so that sums over ranks are sums over
 /// nodes.
 namespace whipple::fem {
 
@@ -99,7 +99,7 @@ class SharedNodes {
   std::vector<Peer> peers_;        // by rank
 };
 
-/// Keeps the share of this rank of a mesh that all ranks hold: an equal number of consecutive elements.
+/// Keeps the part of this rank of a mesh that all ranks hold: an equal number of consecutive elements.
 void keep_share(Mesh& mesh, int rank, int ranks);
 void keep_share(Bars& bars, int rank, int ranks);
 

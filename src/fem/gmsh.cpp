@@ -377,7 +377,7 @@ Hexahedra GmshFile::hexahedra(const std::string& name) const {
     const Element& other = elements_[group.elements[found->other]];
     throw InputError(fmt::format("{}:{}: error: element {} of group \"{}\" {} element {} (line {})",
                                  path_.string(), element.line, element.tag, name,
-                                 found->same ? "is the same as" : "lies on the same side of a face as",
+                                 found->same ? "is the same as" : "is on the same side of a face as",
                                  other.tag, other.line));
   };
   require_apart(result);

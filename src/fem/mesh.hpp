@@ -48,7 +48,7 @@ constexpr std::uint8_t axis(int a) { return static_cast<std::uint8_t>(1U << stat
 
 struct Nodes {
   std::vector<std::uint64_t> id;          ///< unique, never changes
-  std::vector<double> mass;               ///< kg, lumped: shares of the elements that are left
+  std::vector<double> mass;               ///< kg, lumped: contributions of the remaining elements
   std::vector<Vector3> position;          ///< m
   std::vector<Vector3> velocity;          ///< m/s
   std::vector<Vector3> force;             ///< N, of `internal_forces`

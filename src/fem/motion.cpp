@@ -167,7 +167,7 @@ void add_heat(Mesh& mesh, std::span<const double> node_heat, std::size_t block) 
   if (std::ranges::none_of(nodes, [&](std::uint32_t a) { return node_heat[a] != 0.0; })) return;
   const std::size_t n = points_per_element(mesh.quadrature), begin = block * Blocks::size;
   for (std::size_t e = begin; e < std::min(begin + Blocks::size, mesh.elements.size()); ++e) {
-    double heat = 0.0;  // of the shares of the element in its nodes
+    double heat = 0.0;  // of the contributions of the element to its nodes
     for (std::size_t a = 0; a < 8; ++a) {
       const std::uint32_t node = mesh.elements.corners[e][a];
       if (node_heat[node] != 0.0) heat += node_heat[node] * corner_mass(mesh, e, a) / mesh.nodes.mass[node];

@@ -28,7 +28,7 @@ struct HourglassControl {
     return {{{Kind::stiffness, "stiffness"}, {Kind::viscous, "viscous"}}};
   }
   Kind kind = Kind::stiffness;
-  double coefficient = 0.05;  ///< share of the element's greatest stiffness, or of its critical damping
+  double coefficient = 0.05;  ///< fraction of the element's greatest stiffness, or of its critical damping
 };
 
 /// Coefficients of the artificial viscosity q = rho l |D| (c2 l |D| + c1 c) that enter the time step.
@@ -94,7 +94,7 @@ struct DeformationReport {
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   double work = 0.0;  ///< J, of the stresses, into internal energy
   double hourglass_work =
-      0.0;  ///< J, into hourglass energy (stiffness: heat where matter yields) or heat (viscous)
+      0.0;  ///< J, into hourglass energy (stiffness: heat where material yields) or heat (viscous)
   std::size_t inverted = 0;  ///< elements without positive volume (or Jacobian at a Gauss point)
   std::size_t first_inverted = none;
   DeformationReport& operator+=(const DeformationReport& other);
@@ -109,7 +109,7 @@ using BlockUpdate = std::function<void(std::size_t begin, std::size_t end)>;
 /// the end of the step. The volume that `update_material` makes of a gradient is exactly that of the element.
 /// With `update`, block by block while all of it is in the cache, also the new stresses and their forces at
 /// the end of the step: the next `internal_forces` only sums them. Until then nothing but `move_nodes` may
-/// change positions and stresses (what calls `connect` may: it has forces computed anew).
+/// change positions and stresses (what calls `connect` may: it has forces computed again).
 /// @param velocity_gradient  as many as the mesh has Gauss points
 DeformationReport deform(Mesh& mesh, const Motion& motion, double dt, const HourglassControl& hourglass,
                          VelocityGradients& velocity_gradient, const BlockUpdate& update = {});
@@ -120,7 +120,7 @@ inline void move_nodes(Mesh& mesh, const Motion& motion, double dt) { move_nodes
 
 /// Shares heat given at the nodes (J) among their elements by mass (specific internal energy).
 void add_heat(Mesh& mesh, std::span<const double> node_heat);
-/// The shares of the elements of a block.
+/// The contributions of the elements of a block.
 void add_heat(Mesh& mesh, std::span<const double> node_heat, std::size_t block);
 
 }  // namespace whipple::fem

@@ -84,7 +84,7 @@ void complete(Hexahedra& mesh, std::size_t axes, const Halved& halved, double si
   merge_nodes(mesh, 1e-6 * size);
 }
 
-// Shares of the radius: half-diagonal of the core and half of its width at the middle of a side.
+// Fractions of the radius: half-diagonal of the core and half of its width at the middle of a side.
 constexpr double core_corner = 0.62, core_middle = 0.5;
 constexpr double eighth_turn = 0.25 * std::numbers::pi;
 

@@ -23,17 +23,17 @@ class BlockGrid : public NodeStore {
   /// Finds the block of every particle and lists the particles by block, in the order of their index. Blocks
   /// that rest (`let_rest`) stay off the lists until something comes to them: their particles must not have
   /// moved.
-  /// @param guests other points that work with the nodes (nodes of finite elements): listed apart
-  /// @returns false, on every rank, if the stencil of some particle or guest reaches beyond the active
+  /// @param guests off-grid points that use the nodes (nodes of finite elements): listed apart
+  /// @returns false, on every rank, if the stencil of some particle or off-grid point reaches beyond the active
   /// blocks: then `adapt` and `activate` must follow, and another `bin`. Collective.
   bool bin(std::span<const Vector3> position, Stencil stencil, std::span<const Vector3> guests = {}) {
     return PointBins::bin(position, stencil, guests);
   }
 
   /// Lets the forest follow the particles: finest leaves where stencils reach, now and along the motion over
-  /// `lookahead` seconds, so that it need not be adapted every step; and divides the blocks anew among the
+  /// `lookahead` seconds, so that it need not be adapted every step; and divides the blocks again among the
   /// ranks if their work has drifted apart. Collective.
-  /// @param position of the particles, then of the guests, then of what is work apart from the grid
+  /// @param position of the particles, then of the off-grid points, then of what is work apart from the grid
   /// @param work  by what the blocks are shared out among the ranks
   /// @throws StateError on every rank if a particle is outside of the domain and its outer layer (names the
   /// index)
@@ -43,7 +43,7 @@ class BlockGrid : public NodeStore {
   }
   /// Activates the blocks that the particles of this rank reach, own ones and those that it borrows from
   /// other ranks; drops the others. Collective.
-  /// @param guests how many of the positions, the last ones, are guests
+  /// @param guests number of the positions, the last ones, that are off-grid points
   void activate(std::span<const Vector3> position, std::span<const Vector3> velocity, double lookahead,
                 Stencil stencil, std::size_t guests = 0);
 
@@ -65,7 +65,7 @@ class BlockGrid : public NodeStore {
   [[nodiscard]] Region region(std::size_t slot) const {
     return is_at_border(slot) ? Region::border : Region::interior;
   }
-  /// Calls f(slot) on threads, for all slots with particles or guests, no two at a time whose reaches
+  /// Calls f(slot) on threads, for all slots with particles or off-grid points, no two at a time whose reaches
   /// overlap.
   template <class Function>
   void for_each_apart(Function&& f) const {
@@ -86,12 +86,12 @@ class BlockGrid : public NodeStore {
 
   /// Registers of the nodes that are communicated.
   enum class Part { first, both };
-  /// Adds what this rank's particles brought to borrowed nodes to the nodes of their owners. Collective.
+  /// Adds what this rank's particles brought to ghost nodes to the nodes of their owners. Collective.
   void sum_to_owners(Part part) {
     begin_sum_to_owners(part);
     finish_sum_to_owners(part);
   }
-  /// Replaces the borrowed nodes by those of their owners. Collective.
+  /// Replaces the ghost nodes by those of their owners. Collective.
   void borrow_from_owners(Part part) {
     begin_borrow_from_owners(part);
     finish_borrow_from_owners(part);

@@ -34,7 +34,7 @@ struct BlockSet {
 
 /// p4est forest over the domain with one layer of blocks outside. A leaf at the finest level is a block;
 /// coarser leaves are empty space and carry nothing, so a large domain costs nothing where there is no
-/// matter. The ranks own consecutive parts of the space-filling curve.
+/// material. The ranks own consecutive parts of the space-filling curve.
 class Forest {
  public:
   /// Collective over `communicator`.
@@ -44,7 +44,7 @@ class Forest {
   Forest& operator=(Forest&&) noexcept;
 
   /// Refines and coarsens the forest so that exactly the blocks that any rank wants (and the siblings that
-  /// refinement brings along) are finest leaves; divides the curve anew if the heaviest rank has more than
+  /// refinement brings along) are finest leaves; divides the curve again if the heaviest rank has more than
   /// `imbalance` times the mean weight. Collective.
   /// @param wanted without repetition, any order
   void adapt(std::span<const WantedBlock> wanted, double imbalance = 1.02);

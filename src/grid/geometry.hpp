@@ -42,9 +42,9 @@ using BlockCoordinate = std::array<std::int32_t, 3>;
 
 /// Boundary condition at a face of the domain.
 enum class Boundary : std::uint8_t {
-  outflow,     ///< matter leaves: counted with its mass, momentum and energy
-  symmetry,    ///< mirror plane: frictionless, matter does not pass and does not separate
-  no_slip,     ///< wall that matter sticks to
+  outflow,     ///< material leaves: counted with its mass, momentum and energy
+  symmetry,    ///< mirror plane: frictionless, material does not pass and does not separate
+  no_slip,     ///< no-slip wall
   separating,  ///< frictionless wall that pushes and does not hold
 };
 constexpr std::array<Word<Boundary>, 4> words(Boundary) {

@@ -72,7 +72,7 @@ class NodeStore : public VelocityFields {
   std::vector<MirrorPlane> planes_;
   std::array<std::uint64_t, 6> bonded_{};  // bit per field, of each face
   std::vector<std::uint8_t> outside_;      // of each node: an image across a plane where its field is continuous
-  std::vector<std::uint8_t> awaited_, border_;  // of each slot; empty where nothing is borrowed
+  std::vector<std::uint8_t> awaited_, border_;  // of each slot; empty without ghost blocks
 };
 
 }  // namespace whipple::grid

@@ -49,7 +49,7 @@ bool PointBins::look_up(std::span<const Vector3> position) {
 }
 
 /// Updates the slot of every particle from its former slot; false if a particle left the active set. Where
-/// matter rests all is as it was.
+/// material rests all is as it was.
 bool PointBins::locate(std::span<const Vector3> position, Stencil stencil) {
   place_of_particle_.resize(position.size());
   if (!runs_known_) {

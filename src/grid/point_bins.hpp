@@ -21,12 +21,12 @@ struct PointList {
   }
 };
 
-/// Where the particles and guests of a rank are: the block of each, its place there, the lists of the blocks, and which
-/// of the blocks rest (docs/theory/mpm.md, section 8). Guests are other points that work with the nodes (nodes of finite
+/// Where the particles and off-grid points of a rank are: the block of each, its place there, the lists of the blocks, and which
+/// of the blocks rest (docs/theory/mpm.md, section 8). Guests are off-grid points that use the nodes (nodes of finite
 /// elements): listed apart.
 class PointBins : public Topology {
  public:
-  /// Counts the particles and guests of this rank in every cell, after `bin`.
+  /// Counts the particles and off-grid points of this rank in every cell, after `bin`.
   void count_cells(std::span<const Vector3> position, std::span<const Vector3> guests = {});
   /// Returns whether a particle of this rank is farther than two cells from all other particles, off-grid
   /// points, mirror planes, and blocks shared with other ranks. Call `count_cells` before.
@@ -35,7 +35,7 @@ class PointBins : public Topology {
   /// them.
   void release(std::span<const std::uint32_t> particles);
   /// Finds the blocks at rest and takes their particles off the lists; after `bin` and `release`.
-  /// Awake are blocks that are restless or hold guests, and `layers` of blocks around them, one after the
+  /// Awake are blocks that are restless or hold off-grid points, and `layers` of blocks around them, one after the
   /// other: those that reach nodes of blocks whose nodes an awake one reaches. Collective.
   /// @param is_restless  is_restless(slot): does something in it move? Not asked of blocks that rested before
   /// @returns number of particles of this rank at rest
@@ -48,7 +48,7 @@ class PointBins : public Topology {
   /// Changes whenever particles may have come, gone or changed their order.
   [[nodiscard]] std::size_t arrangement() const { return arrangement_; }
 
-  /// Particles changed their order or number: the next `bin` looks every block up anew.
+  /// Particles changed their order or number: the next `bin` looks every block up again.
   void particles_reordered();
   /// Records a new order of the particles, none of which has left: new[i] = old[order[i]]. On one rank the
   /// blocks remain known.
@@ -61,7 +61,7 @@ class PointBins : public Topology {
   [[nodiscard]] std::span<const std::uint32_t> particles_in(std::size_t slot) const {
     return particles_.in(slot);
   }
-  /// Indices of the guests in a block, ascending.
+  /// Indices of the off-grid points in a block, ascending.
   [[nodiscard]] std::span<const std::uint32_t> guests_in(std::size_t slot) const { return guests_.in(slot); }
   /// Place of the first particle of a slot in `particles_by_block`; of the slot behind the last: how many
   /// there are.

@@ -42,7 +42,7 @@ inline Lanes corner_of(const BlockCoordinate& block, BlockShape shape) {
   return Lanes{static_cast<double>(shape.edge * block[0]), static_cast<double>(shape.edge * block[1]),
                static_cast<double>(shape.edge_z * block[2]), 0.0};
 }
-/// Returns whether a position, in cells from the lower corner of a block, is inside of it.
+/// Returns whether a position, in cells from the lower corner of a block, is inside it.
 /// @param edges  of the block, as of BlockShape::edges
 inline bool is_inside(Lanes local, Lanes edges) {
   return bits((local >= 0.0) & (local < edges)) == all_lanes;

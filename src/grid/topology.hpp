@@ -33,7 +33,7 @@ struct Work {
 };
 
 /// The active blocks of a rank and their neighbours. Slots number them: its own blocks in the order of the forest's
-/// space-filling curve, then those that it borrows from other ranks because its particles reach them.
+/// space-filling curve, then ghost blocks of other ranks, because its particles reach them.
 class Topology {
  public:
   static constexpr std::int32_t no_slot = BlockTable::none;
@@ -53,7 +53,7 @@ class Topology {
   /// Edge of the cells of a slot (m).
   [[nodiscard]] double cell_size(std::size_t /*slot*/) const { return geometry_.cell_size; }
   [[nodiscard]] std::size_t slots() const { return blocks_.coordinate.size(); }
-  /// The first so many slots are blocks of this rank; the others are borrowed.
+  /// The first so many slots are blocks of this rank; the others are ghost blocks.
   [[nodiscard]] std::size_t owned_slots() const { return blocks_.owned; }
   [[nodiscard]] const BlockCoordinate& coordinate(std::size_t slot) const { return blocks_.coordinate[slot]; }
   /// Slots of the 27 blocks around a slot (see neighbour_index), `no_slot` where inactive.

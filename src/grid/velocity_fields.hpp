@@ -10,7 +10,7 @@
 
 namespace whipple::grid {
 
-/// Velocity fields that particles and guests belong to. A slot that points of more than one field reach is a contact
+/// Velocity fields that particles and off-grid points belong to. A slot that points of more than one field reach is a contact
 /// slot and has nodes for each of them; elsewhere all fields share the one set (local multi-mesh: docs/theory/contact.md,
 /// 2). Blocks of nodes are numbered by slot, then come the further ones of the contact slots.
 class VelocityFields : public PointBins {

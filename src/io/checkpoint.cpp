@@ -350,7 +350,7 @@ Checkpoint read_latest_checkpoint(const fs::path& folder, MPI_Comm communicator)
       reasons += std::string("\n  ") + error.what();
     }
   }
-  if (reasons.empty()) throw InputError(fmt::format("{}: holds no checkpoint", folder.string()));
+  if (reasons.empty()) throw InputError(fmt::format("{}: contains no checkpoint", folder.string()));
   throw InputError(fmt::format("{}: no checkpoint is usable:{}", folder.string(), reasons));
 }
 

@@ -47,7 +47,7 @@ struct Checkpoint {
 /// name, forced to disk, renamed; then all but the two newest checkpoints are removed. Collective. Matrices
 /// are stored column by column.
 /// @param values must be the same on every rank
-/// @param meshes of this rank; each rank's share of the nodes and elements is read back as a whole by one
+/// @param meshes of this rank; each rank's part of the nodes and elements is read back as a whole by one
 /// rank
 /// @throws InputError if the file cannot be written
 std::filesystem::path write_checkpoint(const std::filesystem::path& folder, std::int64_t step,
@@ -56,7 +56,7 @@ std::filesystem::path write_checkpoint(const std::filesystem::path& folder, std:
                                        std::span<const fem::Mesh> meshes = {},
                                        std::span<const fem::Bars> bars = {});
 
-/// Reads one checkpoint; every rank gets an equal share of consecutive particles. The digest is compared
+/// Reads one checkpoint; every rank gets an equal number of consecutive particles. The digest is compared
 /// before HDF5 sees the file, so that damage of any kind is recognised. Collective.
 /// @throws InputError naming the file and what is wrong with it: truncated, damaged, of a newer format, no
 ///         checkpoint at all, which field is missing

@@ -8,21 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/io/sealed_file.hpp"
 
 namespace whipple::io {
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += '"';
-    result += c == '\n' ? ' ' : c;
-  }
-  return result + '"';
-}
 
 namespace {
 
@@ -33,22 +24,6 @@ std::string header_of(std::span<const HistoryValue> row) {
     header += csv_cell(value.unit.empty() ? value.name : fmt::format("{} [{}]", value.name, value.unit));
   }
   return header;
-}
-
-/// Cells of a line; quotes may hold commas.
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> cells;
-  bool in_quotes = false;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') in_quotes = !in_quotes;
-    if (line[i] == ',' && !in_quotes) {
-      cells.push_back(line.substr(begin, i - begin));
-      begin = i + 1;
-    }
-  }
-  cells.push_back(line.substr(begin));
-  return cells;
 }
 
 bool read_number(std::string_view cell, double& value) {
@@ -67,10 +42,10 @@ History History::restart(std::filesystem::path path, std::int64_t last_step) {
   const std::string_view all = text;
 
   const std::size_t header_end = all.find('\n');
-  if (header_end == std::string_view::npos) return history;  // killed while it wrote the header: begin anew
+  if (header_end == std::string_view::npos) return history;  // killed while it wrote the header: start over
   history.header_ = all.substr(0, header_end);
   history.continued_ = true;
-  const std::vector<std::string_view> names = split(history.header_);
+  const std::vector<std::string> names = csv_cells(history.header_);
   const auto step = std::find(names.begin(), names.end(), "step");
   if (step == names.end()) {
     throw InputError(
@@ -84,7 +59,7 @@ History History::restart(std::filesystem::path path, std::int64_t last_step) {
     const std::size_t end = all.find('\n', kept);
     if (end == std::string_view::npos) break;  // incomplete last line
     ++line_number;
-    const std::vector<std::string_view> cells = split(all.substr(kept, end - kept));
+    const std::vector<std::string> cells = csv_cells(all.substr(kept, end - kept));
     double value = 0.0;
     if (cells.size() != names.size() || !read_number(cells[step_column], value)) {
       throw InputError(fmt::format("{}:{}: damaged row: {} cells for {} columns, step \"{}\"",
@@ -104,7 +79,7 @@ void History::append(std::span<const HistoryValue> row) {
   if (text != header_) {
     if (continued_) {
       throw InputError(
-          fmt::format("{}: the run to go on with has other columns:\n{}\nthis program writes\n{}",
+          fmt::format("{}: the run to resume has other columns:\n{}\nthis program writes\n{}",
                       path_.string(), header_, text));
     }
     if (!header_.empty())

@@ -16,10 +16,6 @@ struct HistoryValue {
   double value = 0.0;
 };
 
-/// Returns the text as a cell of a CSV file: one with commas or quotes (a body may be called so) is quoted in the
-/// way of RFC 4180.
-std::string csv_cell(const std::string& text);
-
 /// A table in time (history.csv, gauges.csv): the header holds names and SI units, numbers are the shortest
 /// text that reads back to the same double, and every row is handed to the system at once. One process writes
 /// it.

@@ -134,7 +134,7 @@ RunDirectory RunDirectory::create(const fs::path& path, const std::string& name,
     if (force || !holds_anything(path)) return;
     throw InputError(fmt::format(
         "{}: the folder is not empty; choose another with -o, replace the results in it with --force, or "
-        "go on with the run in it with --restart",
+        "resume the run in it with --restart",
         path.string()));
   };
   require_empty();
@@ -162,7 +162,7 @@ RunDirectory RunDirectory::create(const fs::path& path, const std::string& name,
 RunDirectory RunDirectory::open(const fs::path& path, const std::string& name) {
   if (!fs::is_directory(path)) throw InputError(fmt::format("{}: there is no such folder", path.string()));
   if (!fs::is_regular_file(path / "run.toml")) {
-    throw InputError(fmt::format("{}: is not the folder of a run: it holds no run.toml", path.string()));
+    throw InputError(fmt::format("{}: is not the folder of a run: it contains no run.toml", path.string()));
   }
   require_writable(path);
   return {path, name};

@@ -10,7 +10,7 @@
 namespace whipple::material {
 namespace {
 
-/// Pressure that the matter would have if it filled its gap as well.
+/// Pressure that the material would have if it filled its gap as well.
 void fill_gaps(const Chunk& chunk, Lanes& pressure) {
   for (std::size_t k = 0; k < chunk.size; ++k) {
     const double modulus = chunk.density[k] * chunk.bulk_sound_speed[k] * chunk.bulk_sound_speed[k];

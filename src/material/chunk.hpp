@@ -16,7 +16,7 @@
 /// The working set of the constitutive update (update.cpp) and its second half, failure (failing.cpp).
 namespace whipple::material {
 
-constexpr double greatest_bulking = 2.0;         ///< distension of bulked matter
+constexpr double greatest_bulking = 2.0;         ///< distension of bulked material
 constexpr double least_sound_speed_ratio = 0.1;  ///< of the bulk sound speed of the reference state
 
 /// Scratch of one chunk, on the stack; entry k belongs to point `index[k]`.
@@ -37,16 +37,16 @@ struct Chunk {
   bool any_failed = false, any_void = false, any_melted = false;  // any_melted: before the step
   // And what is derived:
   Lanes solid_fraction;
-  Lanes old_volume;                    // m^3 of matter
-  Lanes volume_change;                 // m^3 of matter, on which its pressure does work
+  Lanes old_volume;                    // m^3 of material
+  Lanes volume_change;                 // m^3 of material, on which its pressure does work
   Kinematics motion;                   // its deviator becomes the new one
   SymmetricLanes old_deviator;         // of schemes that integrate the energy
   SymmetricLanes back_stress, strain;  // of materials that need them only
   Lanes solid_modulus, increment;
   Lanes energy, bulk_sound_speed, vaporised;
   Lanes acting_pressure;   // after failure
-  Lanes distension;        // of porous matter only
-  Lanes least_pressure;    // of brittle matter only: the tension at which its gaps open
+  Lanes distension;        // of porous material only
+  Lanes least_pressure;    // of brittle material only: the tension at which its gaps open
   Lanes stored_cold_work;  // of materials that store some only
   Lanes heating_viscosity;  // of points with an affine field only
 
@@ -147,16 +147,16 @@ inline void scale(SymmetricLanes& lanes, std::size_t k, double factor) {
   for (Lanes& lane : lanes) lane[k] *= factor;
 }
 
-/// Share of the stiffness that a point still has: that of the solid, less its damage if that softens; 0
+/// Returns the remaining fraction of the stiffness of a point: that of the solid, less its damage if that softens; 0
 /// failed.
 inline double solid_fraction(const Step& step, const Chunk& chunk, std::size_t k) {
   return chunk.intact[k] * shear_bearing_fraction(chunk.melted[k], chunk.vaporised[k]) *
          (step.material.softens ? 1.0 - chunk.damage[k] : 1.0);
 }
 
-/// Share of a change of the whole volume that goes to the voids of a point: all of it where the point has
-/// failed and of brittle matter, its damage where cracks open in softening matter, and that of the porosity
-/// in porous matter.
+/// Returns the fraction of a change of the total volume that goes to the voids of a point: all of it where the point has
+/// failed and of brittle material, its damage where cracks open in softening material, and that of the porosity
+/// in porous material.
 inline double void_share(const Step& step, const Chunk& chunk, std::size_t k) {
   const double porosity = chunk.void_volume[k] / (chunk.volume[k] + chunk.void_volume[k]);
   const double share = step.material.softens ? chunk.damage[k] : porosity;
@@ -166,7 +166,7 @@ inline double void_share(const Step& step, const Chunk& chunk, std::size_t k) {
 /// Voids grow, criteria are asked: between the equation of state and `finish`.
 void apply_failure(Step& step, Chunk& chunk);
 
-/// Strength, damage and bulking of brittle matter (docs/theory/concrete_and_ceramics.md).
+/// Strength, damage and bulking of brittle material (docs/theory/concrete_and_ceramics.md).
 void relax_brittle(Step& step, Chunk& chunk);
 
 /// Cracks and voids, loss of the deviator by melting and damage, sound speed; writes the new state, all but

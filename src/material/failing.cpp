@@ -10,7 +10,7 @@
 namespace whipple::material {
 namespace {
 
-constexpr double greatest_void_step = 0.1;  ///< |dV/V| of matter beside its void in one step
+constexpr double greatest_void_step = 0.1;  ///< |dV/V| of material beside its void in one step
 
 failure::Components<const double> view(const Chunk& chunk, const SymmetricLanes& lanes) {
   failure::Components<const double> components;
@@ -18,7 +18,7 @@ failure::Components<const double> view(const Chunk& chunk, const SymmetricLanes&
   return components;
 }
 
-/// Porous matter (eq. 20 to 22, 25, 26): the flow stress is that of the end of the step without voids.
+/// Porous material (eq. 20 to 22, 25, 26): the flow stress is that of the end of the step without voids.
 void grow_voids(Step& step, Chunk& chunk, std::span<const double> bulk_modulus,
                 std::span<const double> factor, std::span<double> damage, std::span<std::uint8_t> failed) {
   const failure::Criterion& criterion = *step.material.void_growth;
@@ -67,13 +67,13 @@ using Four = whipple::Lanes;  // points at a time
 /// Points with cracks or voids.
 struct Porous {
   Four pressure;  ///< Pa, that acts
-  Four volume;    ///< m^3 of matter
+  Four volume;    ///< m^3 of material
   Four void_volume;
 };
 
-/// Pressure and division of the volume into matter and void: the share `opening` of what exceeds the volume
+/// Pressure and division of the volume into material and void: the fraction `opening` of what exceeds the volume
 /// of zero pressure, or of the pressure `least` where it is all of it, is void (eq. 12, 13, 18). Tension
-/// opens the void, pressure lets the matter grow into it.
+/// opens the void, pressure lets the material grow into it.
 /// @param modulus  rho c^2 (Pa), bounded from below
 /// @param count    of points: fewer than four at the end of a chunk
 /// @param limited  grows by the number of points that are kept from changing more in one step
@@ -213,7 +213,7 @@ WHIPPLE_KERNEL void finish(Step& step, Chunk& chunk) {
                        least_sound_speed * least_sound_speed);
     squared[k] = bulk[k] + 4.0 / 3.0 * chunk.solid_modulus[k] / chunk.density[k];
   }
-  // What melts or cracks takes its share of the stress with it; what freezes is free of stress.
+  // The deviatoric stress is scaled with what melts or cracks; what freezes is free of stress.
   const bool any_melted = any_positive(chunk.melted, chunk.size);
   if (any_melted || chunk.any_failed || step.material.softens || step.material.brittle) {
     Lanes kept;

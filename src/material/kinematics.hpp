@@ -38,7 +38,7 @@ struct Kinematics {
   MatrixLanes gradient;  ///< L_ij = dv_i/dx_j, 1/s
   Lanes ratio;           ///< J
   Lanes divergence;      ///< tr L, 1/s
-  Lanes modulus;         ///< shear modulus of the step, Pa; 0 where the matter has failed or melted
+  Lanes modulus;         ///< shear modulus of the step, Pa; 0 where the material has failed or melted
   SymmetricLanes
       deviator;  ///< old deviatoric stress (0 where the modulus is 0), Pa; becomes the trial deviator
   SymmetricLanes strain;  ///< strain increment of the step
@@ -51,11 +51,11 @@ void volume_change(std::size_t size, double dt, Kinematics& step);
 /// Strain increment, rotation and elastic trial (eq. 2 to 5). @param size a multiple of `lane_count`
 void elastic_trial(std::size_t size, double dt, StressRotation rule, Kinematics& step);
 
-/// Turns tensors with the matter (eq. 4). @param size a multiple of `lane_count`
+/// Turns tensors with the material (eq. 4). @param size a multiple of `lane_count`
 void turn(std::size_t size, double dt, StressRotation rule, const MatrixLanes& gradient,
           SymmetricLanes& tensor);
 
-/// Strain increment alone (eq. 2, 3), for matter without elastic deviator. @param size as above
+/// Strain increment alone (eq. 2, 3), for material without elastic deviator. @param size as above
 void strain_increment(std::size_t size, double dt, StressRotation rule, const MatrixLanes& gradient,
                       SymmetricLanes& strain);
 

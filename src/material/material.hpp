@@ -23,7 +23,7 @@ struct Measured {
   double boiling_point = std::numeric_limits<double>::quiet_NaN();  ///< K, at 1 atm
 };
 
-/// Equation of state + strength + failure: everything that a point of matter needs to know about itself.
+/// Equation of state + strength + failure: everything that a point of material needs to know about itself.
 /// Immutable after `make_material`; shared by threads.
 struct Material {
   std::string name;
@@ -33,8 +33,8 @@ struct Material {
   std::string note;
   std::string group;  ///< where the library lists it: "metals", "explosives", ...; may be empty
   Measured measured;
-  double conductivity = 0.0;                           ///< W/(m K); used by runs with conduction of heat
-  double taylor_quinney = 1.0;                         ///< share of the plastic work that becomes heat
+  double conductivity = 0.0;                           ///< W/(m K); used by runs with heat conduction
+  double taylor_quinney = 1.0;                         ///< fraction of the plastic work that becomes heat
   std::shared_ptr<const eos::EquationOfState> eos;     ///< never null
   std::shared_ptr<const strength::Strength> strength;  ///< never null
   std::vector<std::shared_ptr<const failure::Criterion>> failure;  ///< in the order of the file; may be empty
@@ -54,7 +54,7 @@ struct Material {
   [[nodiscard]] std::string constants() const;
 };
 
-/// Sets the share of the plastic work that becomes heat, in (0, 1].
+/// Sets the fraction of the plastic work that becomes heat, in (0, 1].
 /// @throws InputError if it is less than 1 and the parts of the material do not count plastic work apart
 void set_taylor_quinney(Material& material, double share);
 
@@ -65,10 +65,10 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
                        std::shared_ptr<const strength::Strength> strength = nullptr,
                        std::vector<std::shared_ptr<const failure::Criterion>> failure = {});
 
-/// The material with another equation of state of the same matter; all else stays.
+/// The material with another equation of state of the same material; all else stays.
 Material with_eos(const Material& material, std::shared_ptr<const eos::EquationOfState> eos);
 
-/// State of matter at the start of a run, from at most two of density (kg/m^3), temperature (K) and pressure
+/// State of material at the start of a run, from at most two of density (kg/m^3), temperature (K) and pressure
 /// (Pa). Without a temperature: the reference temperature, unless density and pressure fix it; without
 /// density and pressure: the density of zero pressure at the temperature. At a pressure and a temperature it
 /// is the condensed phase if there is one (its branch of the isotherm), else the vapour.

@@ -77,12 +77,12 @@ struct ThermalTable {
 ParameterTable<ThermalTable> thermal_constants() {
   return {text("source", &ThermalTable::source, "where the values come from"),
           real("conductivity", &ThermalTable::conductivity, "W/(m K)", range::non_negative(),
-               "heat conductivity, for runs with conduction of heat")
+               "heat conductivity, for runs with heat conduction")
               .optional(),
           real("taylor_quinney", &ThermalTable::taylor_quinney, "",
                Range{.lower = 0.0, .upper = 1.0, .lower_open = true},
-               "share of the plastic work that becomes heat; the rest is stored as cold work until the "
-               "matter melts")
+               "fraction of the plastic work that becomes heat; the rest is stored as cold work until the "
+               "material melts")
               .optional()};
 }
 

@@ -101,7 +101,7 @@ WHIPPLE_KERNEL void gather(Step& step, Chunk& chunk, Energy energy) {
   if (energy == Energy::integrated) chunk.fetch(points.deviatoric_stress, chunk.old_deviator);
 }
 
-/// Volume of matter and void after the step (eq. 1, eq. 11): the total follows J; voids take their share of
+/// Volume of material and void after the step (eq. 1, eq. 11): the total follows J; voids take their part of
 /// the change until they are closed.
 WHIPPLE_KERNEL void advance_volume(Step& step, Chunk& chunk) {
   Lanes limited;
@@ -132,7 +132,7 @@ WHIPPLE_KERNEL void advance_volume(Step& step, Chunk& chunk) {
     }
   }
   if (chunk.any_failed) {
-    // Stress acts on the matter and strains it as the whole; in failed matter, on nothing but itself.
+    // Stress acts on the material and strains it as the whole; in failed material, on nothing but itself.
     for (std::size_t k = 0; k < chunk.size; ++k) {
       const double own = chunk.volume[k] - chunk.old_volume[k];
       chunk.volume_change[k] = chunk.intact[k] == 0.0 ? own : chunk.volume_change[k];
@@ -167,7 +167,7 @@ void viscous_deviator(Step& step, Chunk& chunk) {
   }
 }
 
-/// Matter without elastic deviator: fluids, and chunks where everything has failed or melted.
+/// Material without elastic deviator: fluids, and chunks where everything has failed or melted.
 void advance_without_modulus(Step& step, Chunk& chunk) {
   material::Kinematics& motion = chunk.motion;
   for (Lanes* lane : {&chunk.solid_modulus, &motion.modulus, &motion.trial, &chunk.increment}) {
@@ -209,7 +209,7 @@ void shift_by_back_stress(Step& step, Chunk& chunk, Lanes& modulus) {
   }
 }
 
-/// Books the share of the plastic work per volume (J/m^3) that does not become heat (eq. 24).
+/// Accumulates the fraction of the plastic work per volume (J/m^3) that does not become heat (eq. 24).
 void store_cold_work(const Step& step, Chunk& chunk, std::size_t k, double work) {
   chunk.stored_cold_work[k] += (1.0 - step.material.taylor_quinney) * work * chunk.volume[k] / chunk.mass[k];
 }
@@ -292,7 +292,7 @@ void advance_deviator(Step& step, Chunk& chunk, Energy energy) {
   }
 }
 
-/// Logarithmic strain, turned with the matter (eq. 17).
+/// Logarithmic strain, rotated with the material (eq. 17).
 void advance_strain(Step& step, Chunk& chunk) {
   if (!step.material.needs_strain) return;
   chunk.fetch(step.points.strain, chunk.strain);
@@ -307,8 +307,8 @@ void advance_strain(Step& step, Chunk& chunk) {
 }
 
 /// The part of the artificial viscosity whose work is heat (docs/theory/dissipation.md, eq. 6): all of it in
-/// a shock, whose rate the affine field of the particle follows; where matter meets at first, what the affine
-/// field has of the jump. Loose matter collides: all of it heats.
+/// a shock, whose rate the affine field of the particle follows; where material meets at first, what the affine
+/// field has of the jump. Fragmented material collides: all of it heats.
 WHIPPLE_KERNEL void find_heating_viscosity(const Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
   const double per_initial = 1.0 / settings.initial_density;
@@ -328,7 +328,7 @@ WHIPPLE_KERNEL void find_heating_viscosity(const Step& step, Chunk& chunk) {
   }
 }
 
-/// Density, and artificial viscosity (eq. 8): none in failed or brittle matter beside an open void.
+/// Density, and artificial viscosity (eq. 8): none in failed or brittle material beside an open void.
 WHIPPLE_KERNEL void advance_viscosity(Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
   const auto advance = [&](const auto& length) {

@@ -46,9 +46,9 @@ struct MaterialReport {
   std::size_t first_undefined = none;  ///< index of the first of them
   std::size_t limited_volume_changes =
       0;                          ///< steps with J outside [1/2, 2]: limited, counted (time step too large)
-  std::size_t limited_densities = 0;   ///< steps that would have thinned matter below its least density
-  std::size_t limited_void_steps = 0;  ///< steps in which matter beside a void changed by the most allowed
-  std::size_t limited_bulking = 0;     ///< steps of crushed brittle matter at its greatest bulking
+  std::size_t limited_densities = 0;   ///< steps that would have thinned material below its least density
+  std::size_t limited_void_steps = 0;  ///< steps in which material beside a void changed by the most allowed
+  std::size_t limited_bulking = 0;     ///< steps of crushed brittle material at its greatest bulking
   double compression_rate = 0.0;  ///< 1/s, the largest -tr L of points that come under pressure
   double plastic_work = 0.0;      ///< J
   std::array<std::size_t, failure::code_count> failed{};  ///< points that failed in this step, by code

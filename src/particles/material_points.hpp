@@ -40,17 +40,17 @@ Field(const char*, const char*, std::vector<Value> Points::*, bool, double) -> F
 constexpr double never = -1.0;        ///< time of what has not happened, s
 constexpr double melted_share = 0.5;  ///< melted mass fraction that counts as melted
 
-/// Mass fraction of a solid that bears shear: 1 - melted; 0 beside vapour, which fills the volume even where
+/// Mass fraction of a solid that carries shear: 1 - melted; 0 beside vapour, which fills the volume even where
 /// most of the mass is still solid.
 inline double shear_bearing_fraction(double melted_fraction, double vaporised_fraction) {
   return vaporised_fraction > 0.0 ? 0.0 : 1.0 - melted_fraction;
 }
 
-/// State of matter at points, one array per field (SI): what MPM particles and Gauss points of finite
+/// State of material at points, one array per field (SI): what MPM particles and Gauss points of finite
 /// elements share, so that `update_material` is one code path.
 struct MaterialPoints {
   std::vector<double> mass;                      ///< kg, constant
-  std::vector<double> volume;                    ///< m^3 of matter: density = mass / volume enters the EOS
+  std::vector<double> volume;                    ///< m^3 of material: density = mass / volume enters the EOS
   std::vector<double> void_volume;               ///< m^3 of voids and open cracks (0: none)
   std::vector<double> specific_internal_energy;  ///< J/kg
   std::vector<double> pressure;              ///< Pa, positive in compression, without artificial viscosity
@@ -67,11 +67,11 @@ struct MaterialPoints {
   std::vector<double> maximum_temperature;  ///< K, so far
   std::vector<double>
       melting_time;  ///< s, when half of the mass was first melted; `never` (-1) if it was not
-  /// volume over that of the matter without its pores (1: none); optional
+  /// volume over that of the material without its pores (1: none); optional
   std::vector<double> distension;
   std::vector<double> failure_threshold_factor;  ///< scatter of the failure threshold (1: none); optional
   std::vector<SymmetricTensor> back_stress;      ///< Pa, centre of the yield surface; optional
-  std::vector<SymmetricTensor> strain;           ///< logarithmic strain, turned with the matter; optional
+  std::vector<SymmetricTensor> strain;           ///< logarithmic strain, rotated with the material; optional
   std::vector<double> stored_cold_work;          ///< J/kg, plastic work that did not become heat; optional
   /// Pa, part of the artificial viscosity whose work is heat, the rest makes unresolved energy
   /// (docs/theory/dissipation.md, 3); optional

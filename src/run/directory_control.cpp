@@ -9,10 +9,11 @@
 #include <optional>
 #include <system_error>
 #include <thread>
+#include <vector>
 
+#include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
-#include "src/io/history.hpp"
 #include "src/run/observer.hpp"
 
 namespace whipple::run {
@@ -30,10 +31,24 @@ std::string obstacle(const Request& request, const Moment& moment) {
   return "";
 }
 
-/// Says what a request does, with the number that it replaces.
-std::string result_of(const Request& request, const Schedule& schedule) {
+/// Returns the number that a request replaces, with its unit; empty if it replaces none.
+std::string replaced_by(const Request& request, const Schedule& schedule) {
   const ActEntry& entry = entry_of(request.act);
-  return entry.changes == nullptr ? "accepted" : fmt::format("accepted, was {}", number_of(entry, schedule));
+  return entry.changes == nullptr ? "" : fmt::format("was {}", number_of(entry, schedule));
+}
+
+constexpr const char* header = "time [s],step,file,request,value,answer,detail";
+
+/// Finds the answer to the request of a file in the table; nothing if it holds none.
+std::optional<Answer> find_answer(const fs::path& table, const std::string& file) {
+  std::ifstream rows(table, std::ios::binary);
+  std::optional<Answer> found;
+  for (std::string line; std::getline(rows, line);) {
+    const std::vector<std::string> cells = csv_cells(line);
+    if (cells.size() != 7 || cells[2] != file) continue;
+    if (const std::optional<Verdict> verdict = value_of<Verdict>(cells[5])) found = Answer{*verdict, cells[6]};
+  }
+  return found;
 }
 
 }  // namespace
@@ -71,64 +86,58 @@ Request DirectoryControl::take(const fs::path& file, const Moment& moment) {
   if (fault) return {};  // it has been withdrawn
   RequestWords words;
   Request request;
-  std::string result;
+  std::string reason;
   try {
     words = read_request(taken);
     request = parse_request(words.request, words.value);
-    result = obstacle(request, moment);
-    if (result.empty()) {
-      answer(moment, words, result_of(request, moment.schedule));
-    }
+    reason = obstacle(request, moment);
   } catch (const std::exception& error) {  // whatever is in the file, the run goes on
-    result = error.what();
+    reason = error.what();
   }
+  if (!reason.empty()) request = {};
+  const bool accepted = reason.empty();
+  write(moment, file.filename().string(), words,
+        accepted ? Answer{Verdict::accepted, replaced_by(request, moment.schedule)} : Answer{Verdict::refused, reason});
   fs::remove(taken, fault);
-  if (result.empty()) return request;
-  answer(moment, words, "refused: " + result);
-  return {};
+  return request;
 }
 
-void DirectoryControl::answer(const Moment& moment, const RequestWords& words, const std::string& result) const {
+void DirectoryControl::write(const Moment& moment, const std::string& file, const RequestWords& words,
+                             const Answer& answer) const {
   std::error_code ignored;
   const bool is_new = !fs::exists(table_, ignored);
   std::ofstream table(table_, std::ios::app | std::ios::binary);
-  if (is_new) table << "time [s],step,request,value,result\n";
-  table << fmt::format("{},{},{},{},{}\n", moment.time(), moment.step(), io::csv_cell(words.request),
-                       io::csv_cell(words.value), io::csv_cell(result));
+  if (is_new) table << header << '\n';
+  table << fmt::format("{},{},{},{},{},{},{}\n", moment.time(), moment.step(), csv_cell(file), csv_cell(words.request),
+                       csv_cell(words.value), word_of(answer.verdict), csv_cell(answer.detail));
   table.flush();
   if (!table) log::warning("{}: cannot write the line; is the disk full?", table_.string());  // the run goes on
-  log::info("request {}{}{}: {}", words.request, words.value.empty() ? "" : " ", words.value, result);
+  log::info("request {}{}{}: {}{}{}", words.request, words.value.empty() ? "" : " ", words.value,
+            word_of(answer.verdict), answer.detail.empty() ? "" : ", ", answer.detail);
 }
 
-std::string steer(const fs::path& run, const std::string& word, const std::string& value,
+std::optional<Answer> steer(const fs::path& run, const std::string& word, const std::string& value,
                   std::chrono::duration<double> patience) {
   (void)parse_request(word, value);
   const fs::path folder = run / "control";
   if (!fs::is_regular_file(run / "run.toml"))
-    throw InputError(fmt::format("{}: is not the folder of a run: it holds no run.toml", run.string()));
+    throw InputError(fmt::format("{}: is not the folder of a run: it contains no run.toml", run.string()));
   if (!io::is_running(run) || !fs::is_directory(folder))
-    throw InputError(fmt::format("{}: no run goes on there that could follow a request", run.string()));
+    throw InputError(fmt::format("{}: no run is active there that could follow a request", run.string()));
   // Names in the order of time.
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const fs::path file = folder / fmt::format("{}.toml", std::chrono::nanoseconds(now).count()),
                  table = run / "steering.csv";
   std::error_code missing;
-  const std::uintmax_t former = fs::exists(table) ? fs::file_size(table, missing) : 0;
   io::write_text_atomically(file, request_toml(word, value));
 
   const auto is_waiting = [&] { return fs::exists(file, missing) || fs::exists(file.string() + ".taken", missing); };
   constexpr auto pause = std::chrono::milliseconds(50);
   for (const auto begin = std::chrono::steady_clock::now(); is_waiting();) {
-    if (std::chrono::steady_clock::now() - begin >= patience) return "";
+    if (std::chrono::steady_clock::now() - begin >= patience) return std::nullopt;
     std::this_thread::sleep_for(pause);
   }
-  std::ifstream answers(table, std::ios::binary);
-  answers.seekg(static_cast<std::streamoff>(former));
-  const std::string own = fmt::format(",{},{},", io::csv_cell(word), io::csv_cell(value));
-  for (std::string line; std::getline(answers, line);) {
-    if (const std::size_t at = line.find(own); at != std::string::npos) return line.substr(at + own.size());
-  }
-  return "";
+  return find_answer(table, file.filename().string());
 }
 
 }  // namespace whipple::run

@@ -27,7 +27,7 @@ constexpr int layers_of_blocks = 2;
 
 constexpr double calibration_time = 1.0;  // s
 constexpr int calibration_steps = 5;
-constexpr std::size_t samples = 20000;  // of this rank, for the share that moves
+constexpr std::size_t samples = 20000;  // of this rank, for the fraction that moves
 
 struct Box {
   Vector3 lower = Vector3::Constant(1e300), upper = Vector3::Constant(-1e300);
@@ -74,7 +74,7 @@ double moving_share(const solver::Simulation& s) {
   fastest = extremes.back();
   const auto every = std::max<std::size_t>(1, static_cast<std::size_t>(points) / samples);
   std::size_t seen = 0;
-  std::array<double, 2> sums = {0.0, 0.0};  // share, points
+  std::array<double, 2> sums = {0.0, 0.0};  // fraction, points
   for_each_point([&](const solver::Point& point) {
     if (seen++ % every != 0) return;
     double way = std::numeric_limits<double>::infinity();

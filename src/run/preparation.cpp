@@ -13,7 +13,7 @@
 #include "src/core/base/text.hpp"
 #include "src/core/parallel/address_space.hpp"
 #include "src/core/parallel/threads.hpp"
-#include "src/case/build/seeding.hpp"
+#include "src/case/build/placement.hpp"
 
 namespace whipple::run {
 namespace {

@@ -20,7 +20,7 @@ namespace {
 
 constexpr auto table = std::to_array<ActEntry>({
     {Act::pause, "pause", "wait after the step under way until `resume` or `end`"},
-    {Act::resume, "resume", "go on after `pause`"},
+    {Act::resume, "resume", "continue after `pause`"},
     {Act::snapshot, "snapshot", "write a snapshot more"},
     {Act::checkpoint, "checkpoint", "write a checkpoint more"},
     {Act::end, "end", "end at this simulated time; without a value: after the step under way", &Schedule::end,

@@ -72,11 +72,6 @@ std::map<std::string, std::string> keys_of(std::string_view toml) {
   return keys;
 }
 
-bool is_fixed(std::string_view key) {
-  const std::string_view table = key.substr(0, key.find_first_of(".["));
-  return std::ranges::find(fixed_tables, table) != fixed_tables.end();
-}
-
 // ---- admissible numbers
 
 struct Admissible {
@@ -166,6 +161,11 @@ Range below(double count) { return {.lower = 0.0, .upper = count, .upper_open = 
 
 }  // namespace
 
+bool is_fixed(std::string_view key) {
+  const std::string_view table = key.substr(0, key.find_first_of(".["));
+  return std::ranges::find(fixed_tables, table) != fixed_tables.end();
+}
+
 void remember_input(const cases::Case& setup, io::CheckpointValues& values) {
   values.texts["input"] = text_of(setup);
   for (const auto& [name, digest] : digests(setup)) values.texts[name] = digest;
@@ -176,6 +176,7 @@ std::string require_same_input(const cases::Case& setup, const io::CheckpointVal
   std::set<std::string> keys;
   for (const auto& list : {now, then})
     for (const auto& [key, value] : list) keys.insert(key);
+  keys.erase("title");
   const auto shown = [](const auto& list, const std::string& key) {
     const auto found = list.find(key);
     return found == list.end() ? std::string("absent") : found->second;
@@ -183,7 +184,7 @@ std::string require_same_input(const cases::Case& setup, const io::CheckpointVal
   std::vector<std::string> fixed, free;
   for (const std::string& key : keys) {
     const std::string present = shown(now, key), former = shown(then, key);
-    if (present == former || key == "title") continue;
+    if (present == former) continue;
     (is_fixed(key) ? fixed : free).push_back(fmt::format("{} = {}, was {}", key, present, former));
   }
   for (const auto& [name, digest] : digests(setup)) {
@@ -194,7 +195,7 @@ std::string require_same_input(const cases::Case& setup, const io::CheckpointVal
   if (!fixed.empty()) {
     throw InputError(fmt::format(
         "{}: is a checkpoint of another input than run.toml and its files:\n  {}\n  Grid, bodies, materials and "
-        "gauges are those of the checkpoint: put them back, or begin anew with whipple run CASE.toml -o DIR",
+        "gauges are those of the checkpoint: put them back, or start over with whipple run CASE.toml -o DIR",
         values.source, fmt::join(fixed, "\n  ")));
   }
   return fmt::format("{}", fmt::join(free, "; "));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "src/io/checkpoint.hpp"
 #include "src/case/case.hpp"
@@ -10,6 +11,9 @@
 /// Checks that a checkpoint belongs to a case: it holds the input that it was written with, and only numbers that
 /// a state can have. Its seal detects damage, but neither a checkpoint of another run nor a forged one.
 namespace whipple::run {
+
+/// Returns whether a key of a case, "domain.cell_size", determines what a checkpoint holds: a restart cannot change it.
+bool is_fixed(std::string_view key);
 
 /// Adds the case to the values of a checkpoint: every key, and digests of the material and mesh files.
 void remember_input(const cases::Case& setup, io::CheckpointValues& values);

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "src/core/base/word_list.hpp"
+#include "src/core/base/words.hpp"
 
 namespace whipple::run {
 

@@ -92,7 +92,7 @@ Totals totals_of(const Particles& particles, double affine_inertia);
 Totals totals_of(const Particles& particles, double affine_inertia, std::vector<Totals>& of_chunk,
                  const std::function<bool(std::size_t)>& stays);
 
-/// Books everything that enters and leaves, so that at every time
+/// Accumulates everything that enters and leaves, so that at every time
 /// energy = initial - outflow + external work, momentum = initial - outflow + impulse of walls and external
 /// forces.
 struct Ledger {
@@ -129,7 +129,7 @@ struct Ledger {
   double largest_heating = 0.0;   ///< J, the same of the change of internal energy
   double largest_momentum = 0.0;  ///< kg m/s, the same of the sum of m |v|
 
-  /// Books what happened in a step (its `initial` and what was largest are not used).
+  /// Adds what happened in a step (its `initial` and what was largest are not used).
   void add(const Ledger& step);
   /// Notes what is largest so far.
   void observe(const Totals& now);
@@ -190,11 +190,11 @@ inline constexpr auto limiters = std::to_array<Limiter>({
     {"below_cold_curve", &Ledger::clamped_to_cold_curve, "temperature held at the cold curve, energy kept"},
     {"at_pressure_floor", &Ledger::held_at_pressure_floor, "pressure held at its floor"},
     {"limited_volume_changes", &Ledger::limited_volume_changes, "volume change of a step limited"},
-    {"limited_densities", &Ledger::limited_densities, "density held at the least one"},
-    {"limited_void_steps", &Ledger::limited_void_steps, "change of matter beside its void limited"},
-    {"limited_bulking", &Ledger::limited_bulking, "bulking of crushed brittle matter limited"},
+    {"limited_densities", &Ledger::limited_densities, "density limited to its minimum"},
+    {"limited_void_steps", &Ledger::limited_void_steps, "change of material with a void limited"},
+    {"limited_bulking", &Ledger::limited_bulking, "bulking of crushed brittle material limited"},
     {"limited_domains", &Ledger::limited_domains, "domain of a particle limited"},
-    {"held_time_steps", &Ledger::held_time_steps, "time step kept longer than compression asks for"},
+    {"held_time_steps", &Ledger::held_time_steps, "time step kept longer than the volumetric strain-rate limit"},
 });
 
 /// Replaces every number by its sum over all ranks. Collective.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "src/afemp/transition.hpp"
+#include "src/case/build/placement.hpp"
 #include "src/case/build/seeding.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/parallel/mpi.hpp"

@@ -15,15 +15,15 @@ namespace whipple::solver {
 struct Stages;
 
 /// One simulation in memory: state, carriers of the material and stages of a step. Every rank holds the particles in
-/// its own blocks and a share of the elements; whatever concerns the whole (time step, totals, ledger, errors) is the
+/// its own blocks and a part of the elements; whatever concerns the whole (time step, totals, ledger, errors) is the
 /// same on all ranks. Constructors and `advance` are collective.
 class Simulation {
  public:
   /// Seeds the bodies of the case.
   explicit Simulation(const cases::Case& setup, MPI_Comm communicator);
   /// Goes on from a checkpoint.
-  /// @param particles the share of this rank, any share
-  /// @param meshes of the bodies of elements: on each rank any share of nodes and elements, the corners being
+  /// @param particles the part of this rank, any part
+  /// @param meshes of the bodies of elements: on each rank any part of the nodes and elements, the corners being
   /// numbers of the nodes of all ranks
   /// @param bars   of the bodies of bars, the same
   Simulation(const cases::Case& setup, Particles particles, const RunState& state, MPI_Comm communicator,
@@ -57,7 +57,7 @@ class Simulation {
   [[nodiscard]] std::vector<const Carrier*> carriers() const;
   /// Returns the particles of this rank.
   [[nodiscard]] const Particles& particles() const { return state_->particles; }
-  /// Returns the bodies of elements, as far as they are still elements: the share of this rank, with copies of the
+  /// Returns the bodies of elements, as far as they are still elements: the part of this rank, with copies of the
   /// nodes that it shares with other ranks (src/fem/distribution.hpp).
   [[nodiscard]] const std::vector<fem::Mesh>& meshes() const;
   /// Returns the bodies of bars, the same.

@@ -42,8 +42,8 @@ constexpr std::array<Word<TimeStepBound>, 10> words(TimeStepBound) {
            {sound_speed, "sound speed and velocity in a cell"},
            {diffusion, "diffusion of momentum or heat"},
            {elements, "elements"},
-           {acceleration, "greatest acceleration"},
-           {compression, "greatest rate of compression"},
+           {acceleration, "maximum acceleration"},
+           {compression, "volumetric strain rate"},
            {first_step, "first step"},
            {growth, "growth since the last step"},
            {first_touch, "first touch of bodies"},
@@ -103,9 +103,9 @@ struct State {
 
   /// Finds the ranges of the bodies; particles are sorted by body.
   void find_bodies();
-  /// Books the part of a body that left the domain.
+  /// Counts the part of a body that left the domain.
   void book_outflow(std::size_t body, const Totals& outflow);
-  /// Books the part of a body that left the domain, by the totals of the body before and after.
+  /// Counts the part of a body that left the domain, by the totals of the body before and after.
   void book_outflow(std::size_t body, const Totals& before, Totals after);
   /// Describes a particle at a time (s) for an error message; the step is the one under way.
   [[nodiscard]] std::string describe_particle(std::size_t particle, double time, const std::string& reason) const;

@@ -13,7 +13,7 @@ namespace whipple::transfer {
 /// Constants of conduction of one body.
 struct ThermalConstants {
   double conductivity = 0.0;   ///< W/(m K)
-  double heat_capacity = 0.0;  ///< J/(kg K), weights the share of a particle in the heat of a node
+  double heat_capacity = 0.0;  ///< J/(kg K), weights the contribution of a particle to the heat of a node
 };
 
 /// Predicate: two fields of a contact slot, by their numbers there, touch at a node. Empty: wherever both are
@@ -21,7 +21,7 @@ struct ThermalConstants {
 using TouchAtNode =
     std::function<bool(std::size_t contact_slot, std::size_t node, std::size_t first, std::size_t second)>;
 
-/// One explicit step of the conduction of heat between particles through the grid, with quadratic B-splines
+/// One explicit step of the heat conduction between particles through the grid, with quadratic B-splines
 /// (docs/theory/conduction.md): temperatures to the nodes, Fourier's flux at the particles, heat to the
 /// nodes and back into the specific internal energies. The sum of the heat is zero to round-off; mirror
 /// planes and free surfaces are adiabatic. Particles must be binned; node contents are lost. Collective;

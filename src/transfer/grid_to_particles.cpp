@@ -125,7 +125,7 @@ template <AffineField field, bool planar>
 }
 
 /// Slots that follow one another and hold some `points_of_stretch` particles in all; a fuller slot is alone.
-/// What gather and material read and write of so many particles, some 500 bytes of each, stays in the
+/// Number of particles: what gather and material read and write of these, some 500 bytes of each, stays in the
 /// second-level cache.
 struct Stretch {
   std::size_t first_slot, slots;

@@ -98,7 +98,7 @@ void GridUpdate::remember_nodes_at_planes(const BlockGrid& grid) {
     nodes.push_back(2 * static_cast<std::uint64_t>(node) + only_image);
   };
   for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
-    // Where matter meets its image as another body it may not do so yet.
+    // Where material meets its image as another body it may not do so yet.
     for (const grid::MirrorPair& pair : plane.pairs_apart) add(pair.outside, 1);
     for (const std::uint32_t on_plane : plane.on_plane_apart) add(on_plane, 1);
     for (const grid::MirrorPair& pair : plane.pairs) add(pair.outside, 0);
@@ -125,7 +125,7 @@ void GridUpdate::remember_content(const BlockGrid& grid, Nodes which) {
   });
 }
 
-/// Folds every plane and restricts the nodes on it, where matter is one with its image.
+/// Folds every plane and restricts the nodes on it, where material is one with its image.
 void GridUpdate::fold_planes(BlockGrid& grid, Nodes which, bool with_forces) {
   const std::span<Node> nodes = grid.all_nodes();
   for (const grid::MirrorPlane& plane : grid.mirror_planes()) {
@@ -162,7 +162,7 @@ void GridUpdate::copy_back(BlockGrid& grid, Nodes which) {
   }
 }
 
-/// Contact with the images, then the nodes beyond the planes where matter is one with its image.
+/// Contact with the images, then the nodes beyond the planes where material is one with its image.
 void GridUpdate::meet_images(BlockGrid& grid, Nodes which) {
   mirror_contact_.apply(grid, dt_, [&](std::uint32_t node) { return among(grid, node, which); });
   copy_back(grid, which);

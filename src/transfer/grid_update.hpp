@@ -31,7 +31,7 @@ struct GridBalance {
 /// Mirror planes, walls and the momentum equation on the nodes.
 class GridUpdate {
  public:
-  /// Folds the nodes beyond the mirror planes onto their images where matter is one with its image, adds up
+  /// Folds the nodes beyond the mirror planes onto their images where material is one with its image, adds up
   /// the parts of all ranks, solves m dv/dt = f (equation 3.4), copies the result back to the nodes beyond,
   /// and applies the contact with the images elsewhere. Collective. Nodes hold NodeSums before it, NodeMotion
   /// after it.
@@ -41,12 +41,12 @@ class GridUpdate {
   GridBalance advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation,
                       const std::function<void()>& at_contact = {});
 
-  /// Velocity of mass and momentum in `first`, in place (second pass of MUSL, full mass matrix). Matter and
+  /// Velocity of mass and momentum in `first`, in place (second pass of MUSL, full mass matrix). Material and
   /// image are in contact as the `advance` of the same step found them to be; before it by their approach.
   /// Collective.
   void velocity_from_momentum(grid::BlockGrid& grid);
 
-  /// Contact of matter with its image: surfaces must be found in every step before the nodes are advanced.
+  /// Contact of material with its image: surfaces must be found in every step before the nodes are advanced.
   [[nodiscard]] MirrorContact& mirror_contact() { return mirror_contact_; }
   /// Heat that it made since the last call (J), of this rank.
   double take_contact_heat() { return std::exchange(contact_heat_, 0.0); }
@@ -55,7 +55,7 @@ class GridUpdate {
   /// @{
   /// Sends the owners what the border has brought, before the interior has. May be left out.
   void send(grid::BlockGrid& grid, grid::BlockGrid::Part part);
-  /// As `advance` and `velocity_from_momentum`, but what is borrowed (grid::BlockGrid::is_awaited) may still
+  /// As `advance` and `velocity_from_momentum`, but ghost nodes (grid::BlockGrid::is_awaited) may still
   /// be under way.
   GridBalance begin_advance(grid::BlockGrid& grid, double dt, const Relaxation& relaxation,
                             const std::function<void()>& at_contact = {});

@@ -14,7 +14,7 @@ namespace whipple::transfer {
 struct Losses {
   bool kept = false;            ///< false: it is heat at once
   double heat_share = 0.0;      ///< f: of the work of the artificial viscosity that heats
-  double collision_rate = 0.0;  ///< r: share of the unresolved energy per share of the volume that closes
+  double collision_rate = 0.0;  ///< r: fraction of the unresolved energy per fraction of the volume that closes
   std::span<const double> initial_density;  ///< kg/m^3, of each body
 };
 
@@ -27,7 +27,7 @@ struct Booking {
   double of_contact = 0.0;  ///< of contact: internal energy
 };
 
-/// Matter with gaps, as far as a particle knows: failed, beside a void, in tension, or thinner than at the
+/// Material with gaps, as far as a particle knows: failed, beside a void, in tension, or thinner than at the
 /// start.
 inline bool is_loose(const Particles& particles, std::size_t p, double initial_density) {
   return particles.failed[p] != 0 || particles.void_volume[p] > 0.0 || particles.pressure[p] <= 0.0 ||
@@ -35,10 +35,10 @@ inline bool is_loose(const Particles& particles, std::size_t p, double initial_d
 }
 
 /// Divides the loss of the transfers (J/kg, >= 0 but for round-off) and the work of the artificial viscosity
-/// between internal and unresolved energy (eq. 3 to 5). In matter without gaps the loss is heat as far as the
-/// viscosity that heats does work, which measures what of the motion is a shock. Where gaps close, matter
-/// collides: all of the loss is heat, and so is the share of what had been kept before that the volume loses.
-/// Contact heats, but for loose matter that expands, whose fragments hit those of another body as they hit
+/// between internal and unresolved energy (eq. 3 to 5). In material without gaps the loss is heat as far as the
+/// viscosity that heats does work, which measures what of the motion is a shock. Where gaps close, material
+/// collides: all of the loss is heat, and so is the fraction of what had been kept before that the volume loses.
+/// Contact heats, but for fragmented material that expands, whose fragments hit those of another body as they hit
 /// one another.
 /// @param contact       J/kg, what contact of bodies and walls took
 /// @param viscous_work  J/kg, of the artificial viscosity in the step

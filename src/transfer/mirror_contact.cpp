@@ -15,7 +15,7 @@ using grid::Node;
 using grid::nodes_per_block;
 
 constexpr double no_mass = 1e-300;  // kg
-/// Matter that comes as near as this (cells) to a wall that it sticks to has arrived.
+/// Material that comes as near as this (cells) to a wall that it sticks to has arrived.
 constexpr double sticking_gap = 0.04;
 
 /// 1 for the components that reflection reverses, in lanes 0 to 2.
@@ -27,7 +27,7 @@ Lanes reversed(const grid::MirrorPlane& plane) {
   return lanes;
 }
 
-/// Share of the step in which two surfaces touch that close with a speed (m/s) at its end (3.9).
+/// Returns the fraction of the step in which two surfaces touch that close with a speed (m/s) at its end (3.9).
 double share_in_touch(double gap, double closing_speed, double dt) {
   if (gap <= 0.0) return 1.0;
   if (!(closing_speed > 0.0)) return 0.0;
@@ -173,7 +173,7 @@ void MirrorContact::tell_others(BlockGrid& grid) {
   if (!planes_.empty() && grid.is_shared()) grid.borrow_from_owners(own_);
 }
 
-/// Between matter and image at a couple of nodes, m: as between two bodies whose surfaces are found at one
+/// Between material and image at a couple of nodes, m: as between two bodies whose surfaces are found at one
 /// node each.
 double MirrorContact::gap(const Plane& plane, const Couple& couple) const {
   const auto upper = static_cast<std::size_t>(plane.of.face % 2);
@@ -213,8 +213,8 @@ void MirrorContact::join_relaxation_at_corners(std::span<Node> nodes, const Amon
   }
 }
 
-/// Matter at a node meets its image there, and the matter at the mirror node its own (3.8) to (3.12).
-/// @returns the share of the step in which they touch
+/// Material at a node meets its image there, and the material at the mirror node its own (3.8) to (3.12).
+/// @returns the fraction of the step in which they touch
 double MirrorContact::meet(const Plane& plane, const Couple& couple, std::span<Node> nodes, double dt) {
   Lanes* const own = &own_.values[place(couple.node)];
   Lanes* const own_of_mirror = &own_.values[place(couple.mirror)];

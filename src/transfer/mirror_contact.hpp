@@ -14,9 +14,9 @@
 
 namespace whipple::transfer {
 
-/// Contact of matter with its own image beyond mirror planes and walls, where it is not one with it
+/// Contact of material with its own image beyond mirror planes and walls, where it is not one with it
 /// (grid::BlockGrid::bond_at_planes): the image is another body with the reflected nodes (docs/theory/mpm.md,
-/// equations 3.7 to 3.12). Matter that flies towards a plane does not act on it before it touches.
+/// equations 3.7 to 3.12). Material that flies towards a plane does not act on it before it touches.
 ///
 /// A node and its mirror node may belong to different ranks. Every rank that works with either has both
 /// active, and computes the contact of the two as the others do, from what their owners tell it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far matter reaches at the nodes near mirror planes (docs/theory/mpm.md, equation 3.7).
+// How far material reaches at the nodes near mirror planes (docs/theory/mpm.md, equation 3.7).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -111,7 +111,7 @@ void MirrorContact::extend(const Particles& particles, std::span<const Vector3> 
                           extend_by(slot, field, BlockGrid::Points::particles, particles, members,
                                     [&](std::uint32_t p) { return half_thickness(geometry, particles, p); });
                         });
-    if constexpr (CarriesAffineField<Shape>) {  // guests work with B-splines only
+    if constexpr (CarriesAffineField<Shape>) {  // off-grid points use B-splines only
       grid.for_each_field(BlockGrid::Points::guests, slot,
                           [&](std::span<const std::uint32_t> members, unsigned field) {
                             extend_by(slot, field, BlockGrid::Points::guests, Positions{guests}, members,

@@ -98,7 +98,7 @@ void gather(BlockGrid& grid, Function&& f) {
 
 /// Adds what particles brought beyond the mirror planes to the images. Scalars of the nodes beyond the planes
 /// are those of their images.
-/// @param apart_too  also of matter that meets its image as another body; else its nodes beyond are its own
+/// @param apart_too  also of material that meets its image as another body; else its nodes beyond are its own
 inline void fold(BlockGrid& grid, bool apart_too = true) {
   const std::span<Node> nodes = grid.all_nodes();
   for (const grid::MirrorPlane& plane : grid.mirror_planes()) {

@@ -156,7 +156,7 @@ struct Gimp {
   }
 };
 
-/// GIMP with domains that deform with the matter (convected particle GIMP: Wallstedt & Guilkey, J. Comput.
+/// GIMP with domains that deform with the material (convected particle GIMP: Wallstedt & Guilkey, J. Comput.
 /// Phys. 227 (2008) 9628): four nodes per direction, domains of up to one cell on either side of the
 /// particle.
 struct ConvectedGimp {

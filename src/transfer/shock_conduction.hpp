@@ -19,7 +19,7 @@ struct ShockConductivity {
 /// Amount of conduction within shocks, for all bodies (docs/theory/dissipation.md, eq. 8).
 struct ShockConduction {
   double scale = 1.0;  ///< diffusivity of heat over that of the artificial viscosity
-  double onset = 0.0;  ///< closing speed over a cell, per speed of sound, where it begins
+  double onset = 0.0;  ///< closing speed over a cell, per sound speed, where it begins
   double rise = 1.0;   ///< further closing speed over which it grows to the full one
   std::span<const ShockConductivity> of_body;
 };

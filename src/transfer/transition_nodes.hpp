@@ -12,7 +12,7 @@ namespace whipple::transfer {
 
 /// Nodes of finite elements that move with the grid (docs/theory/afemp.md, section 2): like particles they
 /// have mass, velocity and affine field, but instead of a stress the force that their elements exert on them.
-/// They are the guests of the grid, in the order in which `BlockGrid::bin` was given them.
+/// They are the off-grid points of the grid, in the order in which `BlockGrid::bin` was given them.
 struct TransitionNodes {
   /// The first so many carry no affine field, and no node of the grid that they reach relaxes anybody
   /// (docs/theory/afemp.md, 2); the others are relaxed as particles are.

@@ -6,7 +6,7 @@ compares with experiments, and writes the tables of docs/generated/results_md.md
 Usage: studies/md_results/md_results.py [--bin build/release/bin] [--stores run/md] [--ranks N] [--metal NAME ...]
                                         [-o docs/generated/results_md.md]
 
-Models of OpenKIM need scripts/install_deps.sh --kim. With --metal only the sections of these metals are written anew.
+Models of OpenKIM need scripts/install_deps.sh --kim. With --metal only the sections of these metals are written again.
 """
 import argparse
 import pathlib
@@ -47,18 +47,8 @@ METALS = {
     "tungsten": ({"tungsten_zhou": "Zhou et al. 2004"}, ["w_isotherm_298K_dewaele2004"]),
 }
 
-# V0 cm3/g, C km/s, S, gamma0, a, T_m0 K: the rows that `whipple fit` prints below its own.
-PUBLISHED = {
-    "copper": {
-        "experiment (Liu et al. 2013)": (0.1118, 3.94, 1.489, 1.97, 1.5, 1790),
-        "molecular dynamics (Liu et al. 2013)": (0.1119, 3.98, 1.301, 1.86, 1.7, 2006),
-    },
-    "aluminium": {"experiment (Steinberg 1996)": (1 / 2.707, 5.386, 1.339, 1.97, 1.5, 1220)},
-    "lead": {"experiment (Anderson et al. 1990; Steinberg 1996)": (1 / 11.34, 2.092, 1.45, 2.74, 2.2, 760)},
-    "nickel": {"experiment (Steinberg 1996)": (1 / 8.9, 4.65, 1.445, 1.93, 1.4, 2330)},
-    "tantalum": {"experiment (Steinberg 1996)": (1 / 16.69, 3.41, 1.2, 1.67, 1.3, 4340)},
-    "tungsten": {"experiment (Steinberg 1996)": (1 / 19.3, 4.03, 1.237, 1.67, 1.3, 4520)},
-}
+# A row of published constants below those of `whipple fit`: name, then V0 cm3/g, C km/s, S, gamma0, a, g, T_m0 K.
+PUBLISHED = re.compile(r"^((?:experiment|MD) \(.*?\))" + r"\s+([\d.]+)" * 7, re.MULTILINE)
 
 CONSTANTS = [  # key of the material, its unit there, heading, factor from SI for the errors, decimals
     ("reference_specific_volume", "V0 cm^3/g", 1e3, 5),
@@ -83,6 +73,15 @@ def number(text):
     return float(str(text).split()[0])
 
 
+def published_rows(report):
+    """Reads the published constants of a report of `whipple fit`: name -> (V0, C, S, gamma0, a, T_m0)."""
+    rows = {}
+    for name, *numbers in PUBLISHED.findall(report):
+        volume, intercept, slope, gruneisen, gruneisen_slope, _, melting = map(float, numbers)
+        rows[name] = (volume, intercept, slope, gruneisen, gruneisen_slope, melting)
+    return rows
+
+
 class Fitted:
     """One potential: constants, errors, and how far C and S move with the window of particle velocities."""
 
@@ -90,7 +89,7 @@ class Fitted:
         self.name, self.label = name, label
         store = stores / f"{name}.md.h5"
         self.material = stores / f"{name}.toml"
-        self.values, self.errors, self.noise = {}, {}, {}
+        self.values, self.errors, self.noise, self.published = {}, {}, {}, {}
         if not store.exists():
             self.fault = "its plan was not run"
             return
@@ -110,6 +109,7 @@ class Fitted:
         found = re.search(r"over the windows: C ([\d.]+) \.\.\. ([\d.]+) km/s, S ([\d.]+) \.\.\. ([\d.]+)", result.stdout)
         self.windows = tuple(map(float, found.groups()))
         self.left_out = int(re.search(r"(\d+) isochore states above", result.stdout + "0 isochore states above").group(1))
+        self.published = published_rows(result.stdout)
         self.deviations = {}
 
     def cell(self, key, factor_decimals):
@@ -155,7 +155,8 @@ def metal_section(metal, fits, experiments):
             rows.append([fit.label, f"no fit: {fit.fault.removeprefix('whipple fit: ')}"] + [""] * len(CONSTANTS))
             continue
         rows.append([fit.label] + [fit.cell(key, decimals) for key, _, _, decimals in CONSTANTS] + [f"{fit.reduced:.1f}"])
-    for name, row in PUBLISHED[metal].items():
+    published = next((fit.published for fit in fits if not fit.fault), {})
+    for name, row in published.items():
         rows.append([name, f"{row[0]:.5f}", *[f"{value:g}" for value in row[1:5]], "", f"{row[5]:g}", "", ""])
     text.append(table(["", *[heading for _, heading, _, _ in CONSTANTS], "chi^2/dof"], rows))
     good = [fit for fit in fits if not fit.fault]
@@ -176,7 +177,7 @@ def metal_section(metal, fits, experiments):
                          f"{error:.3f}", f"{noise:.4f}", f"{spread / noise:.0f}"])
         text.append(table(["over the potentials", "range", "standard deviation", "mean total error", "mean noise",
                            "spread/noise"], rows))
-        for name, row in PUBLISHED[metal].items():
+        for name, row in published.items():
             ordered = sorted(good, key=lambda fit: distance(fit, row))
             text.append(f"Nearest to {name}, by the rms of the relative deviations of C, S, gamma0 and a: "
                         + ", ".join(f"{fit.label} ({100 * distance(fit, row):.1f} %)" for fit in ordered) + ".\n")

@@ -17,7 +17,7 @@
 #include "src/core/base/log.hpp"
 #include "src/io/run_directory.hpp"
 #include "src/core/parallel/mpi.hpp"
-#include "src/case/build/seeding.hpp"
+#include "src/case/build/placement.hpp"
 #include "src/solver/simulation.hpp"
 
 namespace whipple {

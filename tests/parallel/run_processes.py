@@ -174,7 +174,7 @@ def little_memory():
 
 def steered():
     """A run on two ranks is paused, goes on, is asked nonsense and ends, from another process; then it is restarted."""
-    run = FOLDER / "steered"
+    run = FOLDER / "group" / "steered"  # whipple status searches at any depth
     launcher = start(CASE, "-o", run, "--ranks", "2", "--set", "time.end='1 s'")
 
     def steer(*request):
@@ -208,7 +208,7 @@ def steered():
     require(steer("end").returncode == 0, "a request is refused")
     code, message = finish(launcher)
     require(code == 0 and status()["state"] == "done", f"ended by request: {code}, {message}, {status()}")
-    results = [row["result"].split()[0].rstrip(":,") for row in answers()]
+    results = [row["answer"] for row in answers()]
     require(results == ["accepted", "refused", "refused", "accepted", "accepted"], f"answers: {answers()}")
     require(steer("snapshot").returncode == 2, "a run that has ended takes requests")
     before = last_step(run)

@@ -59,7 +59,7 @@ velocity = ["150 m/s", "0 m/s", "0 m/s"]
 )";
 }
 
-/// Adaptive sphere on an adaptive layer beside a plate of particles, half model; matter leaves the domain.
+/// Adaptive sphere on an adaptive layer beside a plate of particles, half model; material leaves the domain.
 std::string impact(const std::string& more = {}) {
   return R"(
 [domain]

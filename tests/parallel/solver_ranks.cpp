@@ -245,7 +245,7 @@ TEST_F(SolverRanks, AgreeWithOneRankInContact) {
   }
 }
 
-// The velocity fields are found anew in every step: a checkpoint needs nothing of them.
+// The velocity fields are found again in every step: a checkpoint needs nothing of them.
 TEST_F(SolverRanks, GoOnFromACheckpointInContact) {
   const Overrides contact = {{"contact.method", "\"auto\""}, {"contact.friction", "0.3"}};
   Simulation together(read(contact), MPI_COMM_WORLD);

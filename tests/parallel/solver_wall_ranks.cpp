@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact of matter with its image on several ranks: a node and its mirror node may belong to different
+// Contact of material with its image on several ranks: a node and its mirror node may belong to different
 // ranks.
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The audit: every material of the library is usable, in milliseconds; constants that contradict matter are
+// The audit: every material of the library is usable, in milliseconds; constants that contradict physics are
 // found, each by its own check.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ TEST(EosAudit, FindsExplosivesThatDoNotExist) {
   EXPECT_EQ(audit(ModelEquationOfState<Jwl>(tetryl(1730, 586.83e9, 4.4))).verdict(), Verdict::sound);
   const Audit dense = audit(ModelEquationOfState<Jwl>(tetryl(1.73e6, 586.83e9, 4.4)));
   EXPECT_EQ(dense.verdict(), Verdict::not_usable);
-  EXPECT_THAT(dense.summary(), AllOf(HasSubstr("no matter at rest has more"), HasSubstr("detonates with 0.25")));
+  EXPECT_THAT(dense.summary(), AllOf(HasSubstr("no material at rest has more"), HasSubstr("detonates with 0.25")));
   EXPECT_EQ(audit(ModelEquationOfState<Jwl>(tetryl(17.3, 586.83e9, 4.4))).verdict(), Verdict::not_usable);
   // Searches end where there is no detonation to find.
   EXPECT_THROW(ModelEquationOfState<Jwl>(tetryl(1730, 0.1, 0.999999999)), InputError);
@@ -133,7 +133,7 @@ TEST(EosAudit, ALargeGruneisenParameterEndsTheHugoniot) {
   const Audit a = audit_of(c);
   EXPECT_EQ(a.verdict(), Verdict::reservations);
   EXPECT_THAT(a.summary(), HasSubstr("the Hugoniot ends at 14.8"));
-  EXPECT_THAT(a.range.end_of_shocks, HasSubstr("beyond the greatest density of model mie_gruneisen (3196"));
+  EXPECT_THAT(a.range.end_of_shocks, HasSubstr("beyond the maximum density of model mie_gruneisen (3196"));
   EXPECT_LT(a.range.strongest_shock.particle_velocity, 900);
 }
 
@@ -146,7 +146,7 @@ TEST(EosAudit, MeltingAndBoilingPointsAreHeldAgainstTheReference) {
   refractory.melting_temperature = 10500;
   refractory.vapour_attraction = 1800;
   EXPECT_THAT(audit(GrayEos(refractory), AuditDepth::brief).summary(),
-              HasSubstr("at zero pressure: above 5000 K, as no known matter"));
+              HasSubstr("at zero pressure: above 5000 K, as no known material"));
   GrayConstants volatile_metal = copper();
   volatile_metal.vapour_attraction = 200;
   EXPECT_THAT(audit(GrayEos(volatile_metal), AuditDepth::brief).summary(),

@@ -133,7 +133,7 @@ TEST(Invariance, RowsOfElementsAreOnlyAnOrder) {
   }
 }
 
-/// The forces that `deform` leaves for the next step are those that a mesh which is put together anew
+/// The forces that `deform` leaves for the next step are those that a mesh which is put together again
 /// computes from its positions and stresses, to the last bit: a restart changes nothing.
 TEST(Invariance, ForcesOfTheStepAreThoseOfTheState) {
   for (const Quadrature quadrature : both) {

@@ -80,7 +80,7 @@ TEST(FitModels, WeightsAreTheErrorsOfTheDataCarriedThroughTheResiduals) {
     const Eigen::VectorXd& p = least_squares.start;
     Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(problem.size(), problem.size());
 
-    // Change of the residuals by one error of a value. `anew`: what a problem makes of the data when it is
+    // Change of the residuals by one error of a value. `again`: what a problem makes of the data when it is
     // built (its window of shock states, its melting curve) is made again.
     const auto carried = [&](md::Estimate& value, bool anew) -> Eigen::VectorXd {
       if (value.error == 0.0) return Eigen::VectorXd::Zero(problem.size());

@@ -240,7 +240,7 @@ TEST(JohnsonHolmquist2, BulkingTurnsTheLostShearEnergyIntoCompression) {
     EXPECT_NEAR(body.points.volume[0], volume, 1e-11 * volume);
     const double lost = yield * yield / (6 * c.stiffness()) * volume;  // J
     EXPECT_NEAR(body.p(), std::sqrt(p * p + 2 * beta * K1 * lost / volume), 1e-4 * p);
-    // The rest is heat; energy that the compression of the matter takes is that of its own equation of state.
+    // The rest is heat; energy that the compression of the material takes is that of its own equation of state.
     const double mass = body.points.mass[0], alpha = material.porous ? body.points.distension[0] : 1.0;
     const auto cold_energy = [&](double density) {
       return material.eos->state_at_temperature(density, 300.0);
@@ -249,9 +249,9 @@ TEST(JohnsonHolmquist2, BulkingTurnsTheLostShearEnergyIntoCompression) {
                                   cold_energy(mass / volume).specific_internal_energy);
     const double heat = mass * 880 * (body.points.temperature[0] - cold);
     EXPECT_NEAR(stored + heat, lost, 2e-3 * lost) << beta;
-    EXPECT_NEAR(stored, beta * lost, 0.01 * beta * lost) << beta;  // the pressure of the matter is alpha P
+    EXPECT_NEAR(stored, beta * lost, 0.01 * beta * lost) << beta;  // the pressure of the material is alpha P
     EXPECT_EQ(alpha == 1.0, beta == 0.0);
-    // Fragments need more room than the intact matter did.
+    // Fragments need more room than the intact material did.
     const double room = std::cbrt(1.0 / (1.0 - (body.p() - p) / K1));
     body.strain_to(diagonal(room * 1.0005, room * 1.0005, room * 1.0005), 200);
     EXPECT_EQ(body.p(), 0.0);

@@ -234,7 +234,7 @@ TEST(GradyKipp, NoFlawGrowsBelowTheStrainAtWhichThePointHoldsOne) {
   }
 }
 
-/// Half damaged matter that bears tension without more damage (its flaws are too strong).
+/// Half damaged material that carries tension without more damage (its flaws are too strong).
 MaterialPoints half_damaged(const Material& material) {
   MaterialPoints points = points_of(material, 1);
   points.damage[0] = 0.5;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elastic matter, kinematic hardening and viscous fluid: closed solutions of homogeneous motions.
+// Elastic material, kinematic hardening and viscous fluid: closed solutions of homogeneous motions.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -406,7 +406,7 @@ TEST(Viscosity, ActsInCompressionOnlyWithThePublishedForm) {
   EXPECT_EQ(points.artificial_viscosity[1], 0.0);
 }
 
-// What bounds the next time step: matter that ends the step in tension, or expands, does not count.
+// What bounds the next time step: material that ends the step in tension, or expands, does not count.
 TEST(Report, NamesTheFastestCompressionOfMatterUnderPressure) {
   const Material material = with(taylor_copper());
   MaterialPoints points = points_of(material, 4);

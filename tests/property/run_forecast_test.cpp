@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The forecast of `whipple check` against runs: steps inside the range, and the share of matter that moves.
+// The forecast of `whipple check` against runs: steps inside the range, and the share of material that moves.
 #include "src/run/forecast.hpp"
 
 #include <gtest/gtest.h>

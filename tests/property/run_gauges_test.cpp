@@ -36,7 +36,7 @@ shape = { box = { lower = ["0 mm", "0 mm", "0 mm"], upper = ["3 mm", "3 mm", "10
 name = "place"
 position = ["1 mm", "1 mm", "5 mm"]
 [[gauge]]
-name = "matter"
+name = "material"
 kind = "moving"
 position = ["0.3 mm", "0.3 mm", "1.2 mm"]
 )";
@@ -56,9 +56,9 @@ TEST(Gauges, SeeElements) {
   auto now = values(recorder, simulation);
   EXPECT_NEAR(now["place.density"], density, 1e-9 * density);
   EXPECT_NEAR(now["place.velocity_z"], 100.0, 1e-9);
-  EXPECT_NEAR(now["matter.z"], 1.25e-3, 1e-12);  // a quarter of the element, as its particle would be
-  EXPECT_NEAR(now["matter.x"], 0.25e-3, 1e-12);
-  EXPECT_NEAR(now["matter.density"], density, 1e-9 * density);
+  EXPECT_NEAR(now["material.z"], 1.25e-3, 1e-12);  // a quarter of the element, as its particle would be
+  EXPECT_NEAR(now["material.x"], 0.25e-3, 1e-12);
+  EXPECT_NEAR(now["material.density"], density, 1e-9 * density);
 }
 
 TEST(Gauges, FollowMatterThroughItsConversion) {
@@ -66,16 +66,16 @@ TEST(Gauges, FollowMatterThroughItsConversion) {
   solver::Simulation simulation(setup, parallel::world());
   const GaugeRecorder recorder(setup.all_gauges(), simulation);
   const std::size_t elements = simulation.element_count();
-  double before = values(recorder, simulation)["matter.z"];
+  double before = values(recorder, simulation)["material.z"];
   while (simulation.state().time < setup.time.end) {
     simulation.advance(setup.time.end);
     auto now = values(recorder, simulation);
-    ASSERT_TRUE(std::isfinite(now["matter.pressure"]) && std::isfinite(now["place.pressure"]));
-    EXPECT_LT(std::abs(now["matter.z"] - before), 2.0 * 250.0 * simulation.state().time_step + 0.05e-3);
-    before = now["matter.z"];
+    ASSERT_TRUE(std::isfinite(now["material.pressure"]) && std::isfinite(now["place.pressure"]));
+    EXPECT_LT(std::abs(now["material.z"] - before), 2.0 * 250.0 * simulation.state().time_step + 0.05e-3);
+    before = now["material.z"];
   }
   EXPECT_LT(simulation.element_count(), elements);  // some have become particles, that of the gauge among them
-  EXPECT_GT(values(recorder, simulation)["matter.plastic_strain"], 0.05);
+  EXPECT_GT(values(recorder, simulation)["material.plastic_strain"], 0.05);
 }
 
 /// A block of 4 x 3 x 2 mm that turns about z at 1e4 rad/s and flies along x, off the axis.

@@ -96,7 +96,7 @@ double total_energy(const Particles& q, ShapeFunction shape) {
 
 /// One symplectic transfer cycle; checks the exact identities of section 4 of docs/theory/mpm.md.
 /// @param bonded  as of BlockGrid::bond_at_planes
-/// @returns heat of the contact with images, as a share of the energies
+/// @returns heat of the contact with images, as a fraction of the energies
 template <class Shape>
 double check_energy_identities(const Relaxation& relaxation, AffineField affine,
                                std::array<grid::Boundary, 6> boundary, const Vector3& lower,
@@ -129,7 +129,7 @@ double check_energy_identities(const Relaxation& relaxation, AffineField affine,
     EXPECT_NEAR(balance.kinetic_energy_after - balance.kinetic_energy_before, -transfer.work, 1e-12 * scale);
   }
   const double heat = update.take_contact_heat();
-  // (Where a wall that matter sticks to meets another plane, both mix the same components.)
+  // (Where a no-slip wall meets another plane, both mix the same components.)
   EXPECT_GE(heat, std::ranges::count(boundary, grid::Boundary::no_slip) > 0 ? -1e-4 * scale : -1e-14 * scale);
   EXPECT_GE(transfer.heat, 0.0);
   EXPECT_LT((momentum_after - momentum_before - balance.wall_impulse).norm(), 1e-10 * scale);
@@ -222,7 +222,7 @@ TYPED_TEST(Transfer, EnergyAndMomentumAreExactAtPlanesWallsAndCorners) {
   check({}, AffineField::none, {symmetry, outflow, no_slip, outflow, symmetry, outflow});
   check({}, affine, {separating, outflow, outflow, outflow, outflow, outflow});
   check({}, affine, {separating, outflow, symmetry, outflow, separating, outflow});
-  // Contact with images, near (where matter overlaps them) and as far as the particles fly in the step.
+  // Contact with images, near (where material overlaps them) and as far as the particles fly in the step.
   double heat = 0.0;
   for (const double away : {0.0, 0.05, 0.3, 0.6}) {
     const Vector3 lower = corner + Vector3::Constant(away * dx);

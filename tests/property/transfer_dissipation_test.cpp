@@ -91,7 +91,7 @@ TEST_P(ShockConductionOf, IsQuietWithoutAShockOrADifference) {
     }
     q = conducting_particles(8);
     for (double& rate : q.closing_rate)
-      rate = 0.5 * 0.01 / dx;  // below the onset: the speed of sound is 1 to 2
+      rate = 0.5 * 0.01 / dx;  // below the onset: the sound speed is 1 to 2
     EXPECT_EQ(conduct_in_shocks(Shape::kind, q, grid, dt, conduction()), 0.0);
     EXPECT_EQ(q.specific_internal_energy, before);
   });

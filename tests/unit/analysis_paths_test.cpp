@@ -26,7 +26,7 @@ void add(Snapshot& snapshot, const Vector3& position, const Vector3& velocity, s
   snapshot.scalars["failed"].push_back(0.0);
 }
 
-/// A plate of 30 mm by 20 mm, 2 mm thick, without the matter within `radius` of a point, where only `left` of
+/// A plate of 30 mm by 20 mm, 2 mm thick, without the material within `radius` of a point, where only `left` of
 /// the thickness stays.
 Snapshot plate(const Vector3& centre, double radius, double left, double lower_x = 0.0) {
   Snapshot snapshot;
@@ -215,7 +215,7 @@ double size_of(const std::string& shape) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "run.toml")
       << "title = \"sizes\"\n[domain]\nlower = [0, 0, 0]\nupper = [\"1 mm\", \"1 mm\", \"1 mm\"]\n"
-         "cell_size = \"0.1 mm\"\n[[body]]\nname = \"ball\"\nvelocity = [0, 0, \"-3 km/s\"]\nshape = { "
+         "cell_size = \"0.1 mm\"\n[time]\nend = \"1 us\"\n[[body]]\nname = \"ball\"\nmaterial = \"copper\"\nvelocity = [0, 0, \"-3 km/s\"]\nshape = { "
       << shape << " }\n";
   return read_run(folder.path()).bodies.at(0).size;
 }

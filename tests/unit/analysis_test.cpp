@@ -1,89 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measures of made-up particle sets whose answers are known exactly.
+// Measures of bodies and targets in made-up particle sets whose answers are known exactly.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <numbers>
 #include <numeric>
 #include <random>
 #include <set>
 
-#include "src/analysis/arrivals.hpp"
 #include "src/analysis/bar.hpp"
 #include "src/analysis/cloud.hpp"
 #include "src/analysis/columns.hpp"
 #include "src/analysis/fragments.hpp"
 #include "src/analysis/measures.hpp"
-#include "src/analysis/peaks.hpp"
-#include "src/analysis/radiograph.hpp"
 #include "src/analysis/surfaces.hpp"
-#include "src/analysis/witness.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "tests/unit/analysis_support.hpp"
 
 namespace whipple::analysis {
 namespace {
-
-constexpr double density = 2700.0;
-constexpr double pi = std::numbers::pi;
-
-/// Particles of one spacing; fields are filled as they are added.
-struct Maker {
-  Snapshot snapshot;
-  double spacing;
-
-  explicit Maker(double distance) : spacing(distance) {
-    for (const char* name : {"density", "phase", "temperature", "melted_fraction"})
-      snapshot.scalars[name] = {};
-  }
-  void add(const Vector3& position, const Vector3& velocity, std::uint16_t body = 0, double phase = 0.0,
-           double temperature = 300.0) {
-    snapshot.id.push_back(snapshot.id.size());
-    snapshot.position.push_back(position);
-    snapshot.velocity.push_back(velocity);
-    snapshot.mass.push_back(density * spacing * spacing * spacing);
-    snapshot.body.push_back(body);
-    snapshot.scalars["density"].push_back(density);
-    snapshot.scalars["phase"].push_back(phase);
-    snapshot.scalars["temperature"].push_back(temperature);
-    snapshot.scalars["melted_fraction"].push_back(phase > 0.0 ? 1.0 : 0.0);
-  }
-  /// All lattice points (i + 1/2) spacing inside.
-  void fill(const Vector3& lower, const Vector3& upper, const std::function<bool(const Vector3&)>& inside,
-            const Vector3& velocity, std::uint16_t body = 0, double phase = 0.0) {
-    const auto first = [&](double x) { return static_cast<long>(std::floor(x / spacing)); };
-    for (long i = first(lower.x()); i <= first(upper.x()); ++i) {
-      for (long j = first(lower.y()); j <= first(upper.y()); ++j) {
-        for (long k = first(lower.z()); k <= first(upper.z()); ++k) {
-          const Vector3 p =
-              spacing * (Vector3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) +
-                         Vector3::Constant(0.5));
-          if ((p.array() < lower.array()).any() || (p.array() > upper.array()).any() || !inside(p)) continue;
-          add(p, velocity, body, phase);
-        }
-      }
-    }
-  }
-};
-
-/// A quarter model that flies up along z.
-Frame quarter(double impact_speed = 6000.0) {
-  Frame frame;
-  frame.planes = {{0, 0.0}, {1, 0.0}};
-  frame.impact_speed = impact_speed;
-  return frame;
-}
-
-double value(const Quantities& row, const std::string& name) {
-  const auto found = std::ranges::find(row, name, &Quantity::name);
-  if (found == row.end()) ADD_FAILURE() << "no quantity " << name;
-  return found == row.end() ? 0.0 : found->value;
-}
 
 TEST(Fragments, TwoSpheresOfAWholeModel) {
   Maker maker(0.5e-3);
@@ -225,7 +166,7 @@ TEST(Cloud, BodiesPartsAndPhases) {
 }
 
 TEST(Surfaces, CraterOfAParaboloid) {
-  // Block of 30 mm with a crater z = depth (1 - r^2 / R^2), a lip above the surface and loose matter inside.
+  // Block of 30 mm with a crater z = depth (1 - r^2 / R^2), a lip above the surface and fragmented material inside.
   constexpr double depth = 13.1e-3, radius = 12.4e-3, cell = 1e-3;
   Maker maker(0.5 * cell);
   maker.fill(
@@ -465,178 +406,6 @@ TEST(Frame, AHalfModelIsSeenAcrossItsMirrorPlane) {
   EXPECT_EQ(half.copies(), 2.0);
   rod.mirror_planes[2] = 0.0;
   EXPECT_EQ(find_frame(rod, maker.snapshot).transverse, (std::array<int, 2>{1, 2}));
-}
-
-TEST(Radiograph, ArealDensityOfASlabAndTheMassOfAll) {
-  // Slab of 4 mm in the line of sight (y), quarter model cut at x = 0 and y = 0: 2 mm of it are in the model.
-  Maker maker(0.25e-3);
-  maker.fill({0, 0, 0}, {10e-3, 2e-3, 20e-3}, [](const Vector3&) { return true; }, Vector3::Zero());
-  const Frame frame = quarter();
-  PictureLimits limits;
-  limits.include(maker.snapshot, frame);
-  const double attenuation = 0.05;
-  const Radiograph picture = take_radiograph(maker.snapshot, frame, limits,
-                                             {.pixel = 0.5e-3, .spot = 1e-3, .attenuation = {attenuation}});
-  const double total =
-      std::accumulate(picture.areal_density[0].begin(), picture.areal_density[0].end(), 0.0) * 0.25e-6;
-  EXPECT_NEAR(total, density * 20e-3 * 4e-3 * 20e-3, 1e-6 * total);
-  const auto row = static_cast<std::size_t>((0.0 - picture.lower_up) / picture.pixel);
-  const auto column = static_cast<std::size_t>((10e-3 - picture.lower_axial) / picture.pixel);
-  const double middle = picture.areal_density[0][row * picture.columns + column];
-  EXPECT_NEAR(middle, density * 4e-3, 1e-3 * middle);
-  EXPECT_NEAR(picture.transmission[row * picture.columns + column], std::exp(-attenuation * middle), 1e-12);
-  EXPECT_EQ(picture.transmission[0], 1.0);
-}
-
-TEST(Radiograph, AParticleOfVapourFillsItsVolume) {
-  Maker maker(1e-3);
-  maker.add(Vector3(0.3e-3, 0.1e-3, 0.2e-3), Vector3::Zero());
-  maker.snapshot.scalars["density"][0] = density / 64;  // a cube of 4 mm
-  Frame frame;
-  PictureLimits limits{.lower_axial = -3e-3, .upper_axial = 3e-3, .lower_up = -3e-3, .upper_up = 3e-3};
-  const Radiograph picture =
-      take_radiograph(maker.snapshot, frame, limits, {.pixel = 0.25e-3, .spot = 0.0, .attenuation = {1.0}});
-  const double m = density * 1e-9;
-  const std::vector<double>& image = picture.areal_density[0];
-  EXPECT_NEAR(std::accumulate(image.begin(), image.end(), 0.0) * 0.25e-3 * 0.25e-3, m, 1e-9 * m);
-  EXPECT_NEAR(*std::ranges::max_element(image), m / (4e-3 * 4e-3), 1e-9 * m / 16e-6);
-}
-
-TEST(Radiograph, TheImageBeyondAMirrorPlaneLooksTheSame) {
-  Maker maker(1e-3);
-  maker.add(Vector3(3e-3, 1e-3, 0), Vector3::Zero());
-  maker.snapshot.scalars["density"][0] = density / 27;  // a cube of 3 mm
-  PictureLimits limits{.lower_axial = -4e-3, .upper_axial = 4e-3, .lower_up = -6e-3, .upper_up = 6e-3};
-  const Radiograph picture = take_radiograph(maker.snapshot, quarter(), limits,
-                                             {.pixel = 0.5e-3, .spot = 0.0, .attenuation = {1.0}});
-  const std::vector<double>& image = picture.areal_density[0];
-  EXPECT_NEAR(std::accumulate(image.begin(), image.end(), 0.0) * 0.25e-6, 4 * density * 1e-9, 1e-15);
-  for (std::size_t row = 0; row < picture.rows; ++row) {
-    for (std::size_t column = 0; column < picture.columns; ++column) {
-      EXPECT_NEAR(image[row * picture.columns + column],
-                  image[(picture.rows - 1 - row) * picture.columns + column], 1e-12);
-    }
-  }
-}
-
-TEST(Radiograph, BlurOfALineHasTheWidthOfTheSpot) {
-  // A thin rod across the picture: after the blur it is a Gaussian of the given full width at half maximum.
-  Maker maker(0.1e-3);
-  for (int i = -200; i < 200; ++i) maker.add({1e-4 * (i + 0.5), 0, 0}, Vector3::Zero());
-  Frame frame;  // a whole model
-  PictureLimits limits;
-  limits.include(maker.snapshot, frame);
-  const Radiograph picture =
-      take_radiograph(maker.snapshot, frame, limits, {.pixel = 0.1e-3, .spot = 2e-3, .attenuation = {1.0}});
-  const std::size_t row = picture.rows / 2;
-  double sum = 0, moment = 0, mean = 0;
-  for (std::size_t c = 0; c < picture.columns; ++c) {
-    const double x = (static_cast<double>(c) + 0.5) * picture.pixel + picture.lower_axial;
-    const double s = picture.areal_density[0][row * picture.columns + c];
-    sum += s;
-    mean += s * x;
-    moment += s * x * x;
-  }
-  EXPECT_NEAR(mean / sum, 0.0, 1e-6);
-  // The pixels themselves add a little to the variance.
-  EXPECT_NEAR(std::sqrt(moment / sum) * 2.3548, 2e-3, 0.02e-3);
-}
-
-TEST(Witness, FreeFlightToARingAtAKnownTime) {
-  Maker maker(1e-3);
-  const double m = density * 1e-9;
-  maker.add({1e-3, 0, 10e-3}, {500, 0, 2000});   // 90 mm in 45 us, lands at 1 + 22.5 mm
-  maker.add({0, 2e-3, 110e-3}, {0, 100, 1000});  // beyond: was there 10 us before, at 1 mm
-  maker.add({0, 0, 0}, {0, 0, 10});              // no debris
-  maker.snapshot.time = 20e-6;
-  const Loads witness = witness_plate(maker.snapshot, quarter(), {.position = 100e-3, .ring = 2e-3});
-  EXPECT_DOUBLE_EQ(value(witness.totals, "witness_mass"), 4 * 2 * m);
-  EXPECT_DOUBLE_EQ(value(witness.totals, "witness_momentum"), 4 * m * 3000);
-  EXPECT_NEAR(value(witness.totals, "witness_first"), 10e-6, 1e-15);
-  EXPECT_NEAR(value(witness.totals, "witness_last"), 65e-6, 1e-15);
-  ASSERT_EQ(witness.rings.rows(), 12U);
-  EXPECT_NEAR(witness.rings["mass_per_area"][0], 4 * m / (pi * 4e-6), 1e-9);
-  EXPECT_NEAR(witness.rings["energy_per_area"][11] * pi * (24e-3 * 24e-3 - 22e-3 * 22e-3),
-              4 * 0.5 * m * (500.0 * 500 + 2000.0 * 2000), 1e-9);
-  const std::vector<double>& flux = witness.flux["mass_flux"];
-  EXPECT_NEAR(std::accumulate(flux.begin(), flux.end(), 0.0) * 1.1e-6, 8 * m, 1e-12);
-}
-
-TEST(Arrivals, CountWhatPassesThePlaneOnceWithItsMotionBefore) {
-  const double m = density * 1e-9;
-  const auto at = [](double time, const std::vector<std::pair<std::uint64_t, Vector3>>& places, double speed) {
-    Maker maker(1e-3);
-    for (const auto& [id, place] : places) {
-      maker.add(place, {0, 0, speed}, id == 9 ? 1 : 0);
-      maker.snapshot.id.back() = id;
-    }
-    maker.snapshot.time = time;
-    return maker.snapshot;
-  };
-  Arrivals arrivals(quarter(), 10e-3, 1);
-  // 1 passes in the middle of an interval and is slowed behind; 2 returns and passes again; 3 has left the domain beyond
-  // the plane; 4 is under way; 5 begins beyond; 9 is of the wall.
-  arrivals.add(at(0.0, {{1, {3e-3, 0, 9e-3}}, {2, {0, 1e-3, 9e-3}}, {3, {5e-3, 0, 8e-3}}, {4, {0, 0, -9e-3}},
-                        {5, {0, 0, 11e-3}}, {9, {0, 0, 9e-3}}},
-                  2000));
-  arrivals.add(at(1e-6, {{1, {5e-3, 0, 11e-3}}, {2, {0, 1e-3, 10.5e-3}}, {3, {5e-3, 0, 9e-3}}, {4, {0, 0, -7e-3}},
-                         {5, {0, 0, 9e-3}}, {9, {0, 0, 11e-3}}},
-                  1000));
-  arrivals.add(at(3e-6, {{1, {5e-3, 0, 12e-3}}, {2, {0, 1e-3, 9.5e-3}}, {4, {0, 0, -5e-3}}}, 1000));
-  arrivals.add(at(4e-6, {{2, {0, 1e-3, 10.5e-3}}, {4, {0, 0, -4e-3}}}, 1000));
-  const Loads loads = arrivals.loads(2e-3);
-  EXPECT_DOUBLE_EQ(value(loads.totals, "loads_mass"), 4 * 3 * m);
-  EXPECT_DOUBLE_EQ(value(loads.totals, "loads_momentum"), 4 * m * (2000 + 2000 + 1000));
-  EXPECT_NEAR(value(loads.totals, "loads_energy"), 4 * 0.5 * m * (2 * 4e6 + 1e6), 1e-9);
-  EXPECT_NEAR(value(loads.totals, "loads_first"), 0.5e-6, 1e-15);
-  EXPECT_NEAR(value(loads.totals, "loads_last"), 2e-6, 1e-15);
-  EXPECT_DOUBLE_EQ(value(loads.totals, "loads_under_way"), 4 * m);
-  ASSERT_EQ(loads.rings.rows(), 3U);
-  EXPECT_DOUBLE_EQ(loads.rings["mass"][0], 4 * m);      // 2, at 1 mm
-  EXPECT_NEAR(loads.rings["mass"][2], 4 * 2 * m, 1e-18);  // 1 and 3, at 4 and 5 mm
-  EXPECT_NEAR(loads.rings["momentum_per_area"][0], 4 * m * 2000 / (pi * 4e-6), 1e-9);
-  EXPECT_TRUE(std::isnan(value(Arrivals(quarter(), 1.0).loads(1e-3).totals, "loads_first")));
-}
-
-TEST(PeakDecay, PowerLawFront) {
-  // A front that passes with P = 40 GPa (depth / 10 mm)^-1.3: every snapshot holds the peak of one layer.
-  Maker maker(1e-3);
-  for (int k = 0; k < 60; ++k) maker.add({0.5e-3, 0.5e-3, (k + 0.5) * 1e-3}, Vector3::Zero(), 1);
-  PeakDecay peaks(maker.snapshot, quarter(), 1, 1e-3, 0.0);
-  for (int k = 0; k < 60; ++k) {
-    std::vector<double>& pressure = maker.snapshot.scalars["pressure"];
-    pressure.assign(60, 1e8);
-    pressure[static_cast<std::size_t>(k)] = 40e9 * std::pow((k + 0.5) / 10.0, -1.3);
-    peaks.add(maker.snapshot);
-  }
-  const Quantities row = peaks.measures(10e-3);
-  EXPECT_NEAR(value(row, "peak_pressure_exponent"), 1.3, 1e-9);
-  EXPECT_NEAR(value(row, "peak_pressure_4_diameters"), 40e9 * std::pow(4.0, -1.3), 1.0);
-  const Table profile = peaks.profile(1e-3);
-  ASSERT_EQ(profile.rows(), 60U);
-  EXPECT_NEAR(profile["peak_pressure"][20], 40e9 * std::pow(2.05, -1.3), 1.0);
-  const auto mean_of = [](int layers) {
-    double sum = 0.0;
-    for (int k = 0; k < layers; ++k) sum += 40e9 * std::pow((k + 0.5) / 10.0, -1.3);
-    return sum / layers;
-  };
-  EXPECT_NEAR(value(row, "peak_pressure_contact"), mean_of(3), 1.0);
-  EXPECT_NEAR(value(row, "peak_pressure_contact_wide"), mean_of(6), 1.0);
-}
-
-TEST(PeakDecay, FrontBetweenTwoSnapshots) {
-  // The front has passed every layer before the only snapshot: the pressure is back to 0.1 GPa, the greatest
-  // of all steps still tells the peak.
-  Maker maker(1e-3);
-  for (int k = 0; k < 60; ++k) maker.add({0.5e-3, 0.5e-3, (k + 0.5) * 1e-3}, Vector3::Zero(), 1);
-  PeakDecay peaks(maker.snapshot, quarter(), 1, 1e-3, 0.0);
-  maker.snapshot.scalars["pressure"].assign(60, 1e8);
-  std::vector<double>& greatest = maker.snapshot.scalars["maximum_pressure"];
-  for (int k = 0; k < 60; ++k) greatest.push_back(40e9 * std::pow((k + 0.5) / 10.0, -1.3));
-  peaks.add(maker.snapshot);
-  const Quantities row = peaks.measures(10e-3);
-  EXPECT_NEAR(value(row, "peak_pressure_exponent"), 1.3, 1e-9);
-  EXPECT_NEAR(value(row, "peak_pressure_4_diameters"), 40e9 * std::pow(4.0, -1.3), 1.0);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 
 #include "src/core/base/parameter_table.hpp"
 #include "src/core/base/units.hpp"
-#include "src/core/base/word_list.hpp"
+#include "src/core/base/words.hpp"
 
 namespace whipple {
 namespace {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/progress.hpp"
 #include "src/core/base/tensor.hpp"
@@ -123,6 +124,16 @@ TEST(Progress, WithoutWorkDoneNothingIsSaid) {
     progress.start_from(4.0);
   }
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Csv, CellsSurviveARow) {
+  const std::vector<std::string> cells = {"plain", "", "a, b", "the \"steel\" plate", ",\"", ""};
+  std::string line;
+  for (const std::string& cell : cells) line += (&cell == cells.data() ? "" : ",") + csv_cell(cell);
+  EXPECT_EQ(csv_cells(line), cells);
+  EXPECT_EQ(csv_cells(line + "\r"), cells);
+  EXPECT_EQ(csv_cell("two\nlines"), "\"two lines\"");
+  EXPECT_EQ(csv_cells("").size(), 1U);
 }
 
 TEST(SymmetricTensor, KeepsTheOrderOfTheOutputFiles) {

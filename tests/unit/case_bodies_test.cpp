@@ -2,10 +2,14 @@
 // Bodies become particles and elements with the right mass and state; those that cannot are refused.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <numbers>
+#include <numeric>
 
+#include "src/case/build/placement.hpp"
 #include "src/case/build/seeding.hpp"
 #include "src/io/run_directory.hpp"
 #include "tests/unit/case_support.hpp"
@@ -53,7 +57,7 @@ TEST(Bodies, TouchPlanesWhereTheirShapesDo) {
   EXPECT_EQ(ball("3.04"), x_lower);
   EXPECT_EQ(ball("3.06"), 0);
   EXPECT_EQ(ball("3.3"), 0);
-  EXPECT_EQ(ball("9"), 0);  // touches a face through which matter leaves
+  EXPECT_EQ(ball("9"), 0);  // touches a face through which material leaves
   EXPECT_EQ(
       faces(
           "{ box = { lower = [\"0 mm\", \"0.04 mm\", \"0 mm\"], upper = [\"2 mm\", \"3 mm\", \"1 mm\"] } }"),
@@ -331,6 +335,60 @@ TEST(FailureScatter, IsTheSameForAnyNumberOfRanksAndIsReadAndWritten) {
   EXPECT_FALSE(again.bodies[0].initial.given());
   expect_error(domain + sphere + "failure_scatter = { seed = 5 }\n", {"missing key 'weibull_modulus'"});
   expect_error(domain + sphere + "failure_scatter = { weibull_modulus = 0 }\n", {"'weibull_modulus'", "> 0"});
+}
+
+// The mass of a sphere: whole particles meet it to per cents, partial ones to some 1e-4, and none of those is
+// much lighter than its neighbours.
+TEST(PartialVolumes, MeetTheMassOfACurvedBody) {
+  const auto error = [](bool partial) {
+    const Case setup = read_case_text(
+        "[time]\nend = 1\n[domain]\nlower = [-0.01, -0.01, -0.01]\nupper = [0.01, 0.01, 0.01]\ncell_size = "
+        "0.001\n[[body]]\nname "
+        "= \"sphere\"\nmaterial = \"copper.toml\"\ndiscretization = { partial_volumes = " +
+            std::string(partial ? "true" : "false") +
+            " }\nshape = { sphere = { center = [0.0002, 0.0003, 0.0001], radius = 0.0037 } }\n",
+        "case.toml");
+    const Seeding seeding = seed(setup);
+    Vector3 center = Vector3::Zero();
+    double mass = 0, second = 0;
+    const auto [lightest, heaviest] = std::ranges::minmax(seeding.particles.mass);
+    EXPECT_GE(lightest, 0.125 * heaviest);
+    for (std::size_t p = 0; p < seeding.particles.size(); ++p) {
+      const double m = seeding.particles.mass[p];
+      const SymmetricTensor& e = seeding.particles.extent[p];
+      const Vector3 r = seeding.particles.position[p] - Vector3(0.0002, 0.0003, 0.0001);
+      mass += m;
+      center += m * r;
+      second += m * (r.squaredNorm() + (e.xx + e.yy + e.zz) / 3);
+    }
+    EXPECT_NEAR(mass, seeding.bodies[0].mass, 1e-12 * mass);
+    EXPECT_LT((center / mass).norm(), 1e-6);
+    const double of_mass = mass / seeding.bodies[0].shape_mass - 1;
+    const double exact = 0.6 * 0.0037 * 0.0037;  // mean square radius of a sphere
+    std::printf("partial volumes %d: mass %+.2e, second moment %+.2e\n", partial, of_mass,
+                second / mass / exact - 1);
+    return std::pair(std::abs(of_mass), std::abs(second / mass / exact - 1));
+  };
+  const auto whole = error(false), partial = error(true);
+  EXPECT_GT(whole.first, 2e-3);
+  EXPECT_LT(partial.first, 1e-3);
+  EXPECT_LT(partial.second, 1e-3);
+}
+
+// An oblique plate of a third of a particle has slivers in many cells, and keeps its mass whichever of them
+// become particles.
+TEST(PartialVolumes, KeepAPlateThinnerThanAParticle) {
+  const Case setup = read_case_text(
+      "[time]\nend = 1\n[domain]\nlower = [-0.01, -0.01, -0.01]\nupper = [0.01, 0.01, 0.01]\ncell_size = "
+      "0.001\n[[body]]\nname = \"plate\"\nmaterial = \"copper.toml\"\ndiscretization = { partial_volumes = true }\n"
+      "shape = { moved = { angle = \"20 deg\", axis = [0, 1, 0], shape = { box = { lower = [-0.005, -0.004, 0], "
+      "upper = [0.005, 0.004, 0.00017] } } } }\n",
+      "case.toml");
+  const Seeding seeding = seed(setup);
+  const double mass = std::reduce(seeding.particles.mass.begin(), seeding.particles.mass.end());
+  EXPECT_GT(seeding.particles.size(), 100U);
+  EXPECT_NEAR(mass, seeding.bodies[0].mass, 1e-12 * mass);
+  EXPECT_NEAR(mass, seeding.bodies[0].shape_mass, 0.1 * mass);  // sampled every 0.125 mm or less
 }
 
 }  // namespace

@@ -231,7 +231,7 @@ TEST(Contact, OptionsAndWhatTheyExclude) {
                {"Accepted: collinear, separating, logistic_regression"});
   expect_error(replaced(domain, "end =", "scheme = \"usl\"\nend =") + on +
                    "[transfer]\nparticle_update = \"fmpm\"\n" + sphere + second,
-               {"'method'", "knows no contact"});
+               {"'method'", "has no contact"});
   expect_error(domain + "[gravity]\nacceleration = [0, 0, -9.81]\n[transfer]\nfree_flight = true\n" + sphere,
                {"'acceleration'", "free_flight"});
 }

@@ -75,7 +75,7 @@ TEST(Remarks, NameMotionAgainstASymmetryPlane) {
             std::string::npos);
   const std::string turning = "angular_velocity = [\"0 rad/s\", \"0 rad/s\", \"1e3 rad/s\"]\n";
   EXPECT_NE(moving("[\"0 m/s\", \"0 m/s\", \"5.55 km/s\"]", turning)
-                .find("turns about an axis that is not the plane's normal x"),
+                .find("rotates about an axis that is not the plane's normal x"),
             std::string::npos);
   // A body that only touches may move into the plane: it meets its image. Off it, it may not.
   const auto bar = [&](const char* velocity) {

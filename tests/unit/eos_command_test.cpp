@@ -70,6 +70,30 @@ TEST_F(EosCommand, StateTakesEveryPairOfQuantities) {
   EXPECT_THAT(output(), HasSubstr("below the coldest state of model gray"));
 }
 
+TEST_F(EosCommand, AListOfStatesIsTheStatesOneByOne) {
+  const auto rows = [&] {
+    std::vector<std::string> all;
+    std::istringstream lines(output());
+    for (std::string line; std::getline(lines, line);) all.push_back(line);
+    return all;
+  };
+  std::ofstream(folder.path() / "states.csv")
+      << "# two columns of each row\ndensity [g/cm^3],temperature [K],pressure\r\n10,1000,\n\n,300,5e10\n";
+  ASSERT_EQ(run("state copper --states states.csv --csv -"), 0) << output();
+  const std::vector<std::string> list = rows();
+  ASSERT_EQ(list.size(), 4U) << "title, names and two states, nothing else: " << output();
+  ASSERT_EQ(run("state copper --density '10 g/cm^3' --temperature '1000 K' --csv -"), 0) << output();
+  EXPECT_EQ(rows()[2], list[2]);
+  ASSERT_EQ(run("state copper --pressure '50 GPa' --temperature '300 K' --csv -"), 0) << output();
+  EXPECT_EQ(rows()[2], list[3]);
+  std::ofstream(folder.path() / "bad.csv") << "density [g/cm^3],temprature\n";
+  EXPECT_EQ(run("state copper --states bad.csv"), 2);
+  EXPECT_THAT(output(), AllOf(HasSubstr("bad.csv:1:"), HasSubstr("did you mean \"temperature\"?")));
+  std::ofstream(folder.path() / "bad.csv") << "density [g/cm^3],temperature\n9,-3\n";
+  EXPECT_EQ(run("state copper --states bad.csv"), 2);
+  EXPECT_THAT(output(), AllOf(HasSubstr("bad.csv:2:"), HasSubstr("temperature")));
+}
+
 TEST_F(EosCommand, QuantitiesThatNoMatterHasAreInput) {
   for (const char* arguments :
        {"state copper --density '-1 kg/m^3' --temperature '300 K'", "match copper copper --velocity '0 m/s'",
@@ -109,7 +133,7 @@ TEST_F(EosCommand, PorousAndReflectedHugoniots) {
 TEST_F(EosCommand, ACurveEndsWhereItsModelEnds) {
   ASSERT_EQ(run("hugoniot aluminium --to '4000 GPa' --points 6"), 0) << output();
   EXPECT_THAT(output(),
-              HasSubstr("the curve ends after 2 points: Hugoniot at the pressure: beyond the greatest "
+              HasSubstr("the curve ends after 2 points: Hugoniot at the pressure: beyond the maximum "
                         "density of model gray"));
   EXPECT_EQ(run("hugoniot aluminium --pressure '4000 GPa'"), 3);
 }

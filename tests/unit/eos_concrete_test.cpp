@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Crushing of pores: the three regions of Holmquist, Johnson and Cook, the power of RHT, bulked matter.
+// Crushing of pores: the three regions of Holmquist, Johnson and Cook, the power of RHT, bulked material.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -117,7 +117,7 @@ TEST_F(Gmsh, ElementsMustNotLieInOneAnother) {
       HasSubstr("overlap.msh:26: error: element 2 of group \"1\" is the same as element 1 (line 25)"));
   // The same nodes from another corner on, and nodes of its own in the same places.
   EXPECT_THAT(message(two_parts(first + "2 5 2 1 1 2 3 4 1 6 7 8 5\n")), HasSubstr("is the same as"));
-  EXPECT_THAT(message(two_parts(first + second, "0")), HasSubstr("lies on the same side of a face as"));
+  EXPECT_THAT(message(two_parts(first + second, "0")), HasSubstr("is on the same side of a face as"));
 }
 
 TEST_F(Gmsh, NamesFileLineAndElement) {

@@ -92,7 +92,7 @@ TEST_F(CheckpointFile, the_latest_falls_back_to_the_one_before) {
       message_of<InputError>([&] { (void)read_latest_checkpoint(folder_, MPI_COMM_SELF); }),
       AllOf(HasSubstr("no checkpoint is usable"), HasSubstr(newest.string()), HasSubstr(read.path.string())));
   EXPECT_THAT(message_of<InputError>([&] { (void)read_latest_checkpoint(folder_ / "none", MPI_COMM_SELF); }),
-              HasSubstr("holds no checkpoint"));
+              HasSubstr("contains no checkpoint"));
 }
 
 TEST_F(CheckpointFile, a_run_killed_while_writing_leaves_the_one_before) {

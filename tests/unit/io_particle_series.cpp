@@ -237,7 +237,7 @@ TEST_F(Series, a_second_snapshot_at_one_time_replaces_the_first) {
 }
 
 /// Killed between the data file and the index: the old index is whole, the new file is not in it, and the
-/// restarted run writes that file anew.
+/// restarted run writes that file again.
 TEST_F(Series, survives_a_kill_between_data_file_and_index) {
   ParticleSeries series(options(), MPI_COMM_SELF);
   series.write(ramp(2), 0.0);

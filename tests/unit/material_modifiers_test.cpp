@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Modifiers of the equation of state in material files, and porous matter in the constitutive update.
+// Modifiers of the equation of state in material files, and porous material in the constitutive update.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -165,7 +165,7 @@ TEST(ZerilliArmstrong, GivesThePublishedFormulaForBothStructures) {
   EXPECT_NEAR(iron.flow_stress(0.1, 1.0, 300.0), 263.99e6, 0.1e6);
 }
 
-/// Trial stresses from far below to far above yield, fresh and hardened matter, cold and hot, solid and
+/// Trial stresses from far below to far above yield, fresh and hardened material, cold and hot, solid and
 /// nearly molten, steps from 1 ns to 1 us. `flow(strain, rate, density, pressure, temperature)` is the
 /// model's formula.
 template <class Flow>

@@ -126,7 +126,7 @@ TEST_F(Campaign, FullDiskIsNamedAndLosesNothing) {
     EXPECT_EQ(stopped.code, static_cast<int>(ExitCode::state));
     EXPECT_EQ(stopped.computed, 1);
     EXPECT_NE(words.find("the work stopped before its end: cannot write"), std::string::npos) << words;
-    EXPECT_NE(words.find("the greatest size of a file is reached; the points stored so far are safe"),
+    EXPECT_NE(words.find("the maximum size of a file is reached; the points stored so far are safe"),
               std::string::npos)
         << words;
     EXPECT_EQ(read_store(store).size(), 1U);
@@ -236,7 +236,7 @@ TEST(Coexistence, AcceptsOnlyTwoPhasesAtRest) {
   EXPECT_NE(refusal(run).find("the crystal melted"), std::string::npos);
   run = good;
   run.second_share = 0.70;
-  EXPECT_NE(refusal(run).find("the share of crystal drifts"), std::string::npos);
+  EXPECT_NE(refusal(run).find("the fraction of crystal drifts"), std::string::npos);
   run = good;
   run.second_half.value = 1340.0;
   EXPECT_NE(refusal(run).find("the temperature drifts"), std::string::npos);

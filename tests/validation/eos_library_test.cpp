@@ -367,7 +367,7 @@ TEST(LibraryAll, ShocksGetFasterAndStrongerFromSoundOn) {
     SCOPED_TRACE(entry.file.stem().string());
     const Material material = read_material(entry.file);
     const Hugoniot hugoniot(*material.eos);
-    // A weak shock travels with sound, stronger ones faster, subsonically against the matter behind them.
+    // A weak shock travels with sound, stronger ones faster, subsonically against the material behind them.
     ShockState before = hugoniot.at_particle_velocity(1.0);
     // Crushing pores are slower than sound; a pressure without energy may be concave (ceramics with K2 < 0).
     const bool ramps = material.eos->initial_distension() > 1.0 || material.reference.gruneisen == 0.0;

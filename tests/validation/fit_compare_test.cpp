@@ -198,7 +198,7 @@ TEST(Compare, NamesTheRowsThatItLeavesOut) {
       experiment_of("us_km_s,up_km_s\n4.7,0.5\n3.9,0\n4.5,-0.4\n5,nan\n,0.3\n4,5\n");
   using Lines = std::vector<int>;
   EXPECT_EQ(experiment.lines, Lines{2});
-  const std::map<std::string, Lines> expected = {{"at rest (up = 0: a speed of sound, no shock)", {3}},
+  const std::map<std::string, Lines> expected = {{"at rest (up = 0: a sound speed, no shock)", {3}},
                                                  {"up is negative", {4}},
                                                  {"a value is missing or no number", {5, 6}},
                                                  {"Us is not above up", {7}}};

@@ -81,7 +81,7 @@ TEST(DebrisCloud, ConservesMeltsTheAluminiumAndLeavesTheCopperSolid) {
       static_cast<long long>(simulation.state().step));
   EXPECT_LT(watch.worst, 1e-10);
   EXPECT_LT(momentum_error, 1e-11);
-  // On the way as well as at the end. The matter within a cell of the rear surface leaves at the overshoot of
+  // On the way as well as at the end. The material within a cell of the rear surface leaves at the overshoot of
   // the shock (docs/theory/mpm.md, 7.4).
   EXPECT_LT(fastest, 1.10 * surface);
   EXPECT_GT(fastest, 0.95 * surface);

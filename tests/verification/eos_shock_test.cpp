@@ -27,7 +27,7 @@ std::string message_of(const Function& function) {
   return "no error";
 }
 
-/// p_H and B of Mie-Grueneisen matter with rho Gamma constant (docs/theory/equations_of_state.md, M1, M2).
+/// p_H and B of Mie-Grueneisen material with rho Gamma constant (docs/theory/equations_of_state.md, M1, M2).
 struct ClosedForm {
   MieGruneisenConstants c = aluminium_2024();
   double V0 = 1 / c.reference_density;

@@ -39,7 +39,7 @@ constexpr Bound gas_bounds[] = {
     {"Sedov", "L1 pressure", 0, {0.17, 0.14, 0.14}},
     {"Sedov", "radius of the shock over exact", 1, {0.036, 0.031, 0.034}},
     {"Sedov", "largest density of a shell over that behind the shock", 1, {0.74, 0.67, 0.6}},
-    {"Sedov", "kinetic share of the energy", 0.2187, {0.022, 0.028, 0.044}},
+    {"Sedov", "kinetic fraction of the energy", 0.2187, {0.022, 0.028, 0.044}},
     {"Sedov", "energy error", 0, {1e-12, 1e-12, 1e-12}},
 };
 constexpr Order gas_orders[] = {

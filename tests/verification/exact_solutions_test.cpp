@@ -68,7 +68,7 @@ TEST(ExactSolutions, NohKeepsMassAndEnergy) {
   }
 }
 
-// Jump conditions of the whole: wall force = momentum that the fronts stop; work of the moving matter =
+// Jump conditions of the whole: wall force = momentum that the fronts stop; work of the moving material =
 // energy.
 TEST(ExactSolutions, TwoWavesObeyTheJumpConditions) {
   const Material material = read_material(aluminium("two_waves", "1 GPa"));

@@ -54,7 +54,7 @@ struct PlanarGap {
   }
 };
 
-/// Calls f(position, pressure, mass, volume) for the matter of a body of particles or elements.
+/// Calls f(position, pressure, mass, volume) for the material of a body of particles or elements.
 template <class Function>
 void for_each_point(const solver::Simulation& s, std::uint32_t body, Function&& f) {
   const Particles& q = s.particles();

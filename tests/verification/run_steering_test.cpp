@@ -260,11 +260,11 @@ TEST_F(Steering, RequestsInFilesAreAnsweredOneByOne) {
   EXPECT_EQ(steered.snapshots.size(), 3U);
   const std::vector<std::string> answers = lines_of(steered.folder / "steering.csv");
   ASSERT_EQ(answers.size(), 5U);
-  EXPECT_EQ(answers[0], "time [s],step,request,value,result");
-  EXPECT_THAT(answers[1], HasSubstr(",1,snapshot,,accepted"));
-  EXPECT_THAT(answers[2], HasSubstr(",2,history_every,3,\"accepted, was 1\""));
-  EXPECT_THAT(answers[3], HasSubstr(",3,pause,,accepted"));
-  EXPECT_THAT(answers[4], HasSubstr(",3,resume,,accepted"));
+  EXPECT_EQ(answers[0], "time [s],step,file,request,value,answer,detail");
+  EXPECT_THAT(answers[1], HasSubstr(",1,1.toml,snapshot,,accepted,"));
+  EXPECT_THAT(answers[2], HasSubstr(",2,2.toml,history_every,3,accepted,was 1"));
+  EXPECT_THAT(answers[3], HasSubstr(",3,3.toml,pause,,accepted,"));
+  EXPECT_THAT(answers[4], HasSubstr(",3,4.toml,resume,,accepted,"));
   std::vector<std::string> left;
   for (const auto& entry : fs::directory_iterator(steered.folder / "control")) left.push_back(entry.path().filename());
   EXPECT_THAT(left, ElementsAre("notes.txt"));

@@ -274,7 +274,7 @@ TEST(ElementContact, ObliqueImpactOfElasticSpheresBesideHertz) {
   EXPECT_LT(watch.momentum, 1e-12);
 }
 
-// Contact finds everything anew in each step; the checkpoint holds nothing of it.
+// Contact finds everything again in each step; the checkpoint holds nothing of it.
 TEST(ElementContact, ARestartIsBitwiseTheRunThatGoesOn) {
   const TemporaryFolder folder;
   const cases::Case setup = impact({.friction = 0.3}, ball).read();

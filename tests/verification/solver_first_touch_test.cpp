@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time step lands on the first touch of bodies and begins anew (docs/theory/mpm.md, section 6).
+// The time step lands on the first touch of bodies and starts over (docs/theory/mpm.md, section 6).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -40,7 +40,7 @@ TEST(Gap, BodiesThatTouchAreAsOneFieldWhileTheyPress) {
   }
 }
 
-// Matter under pressure fills its cells; in one velocity field it meets across voids that never close.
+// Material under pressure fills its cells; in one velocity field it meets across voids that never close.
 TEST(Gap, MatterUnderPressureFillsItsCells) {
   const auto fill = [](double speed, double gap, const char* contact) {
     const PlanarGap set{.speed = speed, .gap = gap, .contact = contact, .after = 0.25e-6};

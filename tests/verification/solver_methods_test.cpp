@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Properties that every scheme, shape function and particle update must have, and the options of the method:
-// separating walls, division of particles, free flight, partial volumes, random shifts of the grid.
+// separating walls, particle splitting, free flight, random shifts of the grid.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <numeric>
 #include <random>
 #include <set>
 
@@ -81,7 +80,7 @@ std::vector<Method> all_methods() {
 
 std::string name_of(const Method& m) { return m.scheme + " " + m.shape_function + " " + m.particle_update; }
 
-// Bodies that touch at the start meet in small steps, and no step compresses matter by more than the limit,
+// Bodies that touch at the start meet in small steps, and no step compresses material by more than the limit,
 // at the rate of the step before.
 /// A slab that flies at 5 km/s onto one that it touches.
 cases::Case touching_slabs(const std::string& method, double first_step, double limit) {
@@ -104,7 +103,7 @@ TEST(TimeStep, KeepsAnEighthOfTheStableStepAndCountsIt) {
     solver::Simulation simulation(touching_slabs(method, 1.0, 1e-7), parallel::world());
     const double stable = simulation.accurate_time_step();
     for (int step = 0; step < 20; ++step) simulation.advance(1.0);
-    EXPECT_GT(simulation.state().time_step, 0.06 * stable) << method;  // shocked matter is faster, elements are shorter
+    EXPECT_GT(simulation.state().time_step, 0.06 * stable) << method;  // shocked material is faster, elements are shorter
     EXPECT_LT(simulation.state().time_step, 0.3 * stable) << method;
     EXPECT_GT(simulation.state().ledger.held_time_steps, 10.0) << method;
     solver::Simulation followed(touching_slabs(method, 0.05, 0.5), parallel::world());
@@ -454,62 +453,6 @@ TEST(RandomShift, LeavesFreeMotionAndConservationExact) {
     EXPECT_LT(std::abs(q.pressure[p]), 1.0);  // Pa
   }
   EXPECT_LT(simulation.state().ledger.momentum_error(simulation.totals()), 1e-13);
-}
-
-// The mass of a sphere: whole particles meet it to per cents, partial ones to some 1e-4, and none of those is
-// much lighter than its neighbours.
-TEST(PartialVolumes, MeetTheMassOfACurvedBody) {
-  const auto error = [](bool partial) {
-    const cases::Case setup = read(
-        Method{}, 1.0, "",
-        "[domain]\nlower = [-0.01, -0.01, -0.01]\nupper = [0.01, 0.01, 0.01]\ncell_size = "
-        "0.001\n[[body]]\nname "
-        "= \"sphere\"\nmaterial = \"" +
-            elastic_aluminium() + "\"\ndiscretization = { partial_volumes = " + (partial ? "true" : "false") +
-            " }\nshape = { sphere = { center = [0.0002, 0.0003, 0.0001], radius = 0.0037 } }\n");
-    const cases::Seeding seeding = cases::seed(setup);
-    Vector3 center = Vector3::Zero();
-    double mass = 0, second = 0;
-    const auto [lightest, heaviest] = std::ranges::minmax(seeding.particles.mass);
-    EXPECT_GE(lightest, 0.125 * heaviest);
-    for (std::size_t p = 0; p < seeding.particles.size(); ++p) {
-      const double m = seeding.particles.mass[p];
-      const SymmetricTensor& e = seeding.particles.extent[p];
-      const Vector3 r = seeding.particles.position[p] - Vector3(0.0002, 0.0003, 0.0001);
-      mass += m;
-      center += m * r;
-      second += m * (r.squaredNorm() + (e.xx + e.yy + e.zz) / 3);
-    }
-    EXPECT_NEAR(mass, seeding.bodies[0].mass, 1e-12 * mass);
-    EXPECT_LT((center / mass).norm(), 1e-6);
-    const double of_mass = mass / seeding.bodies[0].shape_mass - 1;
-    const double exact = 0.6 * 0.0037 * 0.0037;  // mean square radius of a sphere
-    std::printf("partial volumes %d: mass %+.2e, second moment %+.2e\n", partial, of_mass,
-                second / mass / exact - 1);
-    return std::pair(std::abs(of_mass), std::abs(second / mass / exact - 1));
-  };
-  const auto whole = error(false), partial = error(true);
-  EXPECT_GT(whole.first, 2e-3);
-  EXPECT_LT(partial.first, 1e-3);
-  EXPECT_LT(partial.second, 1e-3);
-}
-
-// An oblique plate of a third of a particle has slivers in many cells, and keeps its mass whichever of them
-// become particles.
-TEST(PartialVolumes, KeepAPlateThinnerThanAParticle) {
-  const cases::Case setup = read(
-      Method{}, 1.0, "",
-      "[domain]\nlower = [-0.01, -0.01, -0.01]\nupper = [0.01, 0.01, 0.01]\ncell_size = "
-      "0.001\n[[body]]\nname = \"plate\"\nmaterial = \"" +
-          elastic_aluminium() +
-          "\"\ndiscretization = { partial_volumes = true }\nshape = { moved = { angle = \"20 deg\", axis = "
-          "[0, 1, 0], shape = { box = { lower = [-0.005, -0.004, 0], upper = [0.005, 0.004, 0.00017] } } } "
-          "}\n");
-  const cases::Seeding seeding = cases::seed(setup);
-  const double mass = std::reduce(seeding.particles.mass.begin(), seeding.particles.mass.end());
-  EXPECT_GT(seeding.particles.size(), 100U);
-  EXPECT_NEAR(mass, seeding.bodies[0].mass, 1e-12 * mass);
-  EXPECT_NEAR(mass, seeding.bodies[0].shape_mass, 0.1 * mass);  // sampled every 0.125 mm or less
 }
 
 }  // namespace

@@ -147,7 +147,7 @@ class SimpleWave : public ExactMotion {
   }
   [[nodiscard]] double largest_speed() const override { return sound(peak) + peak; }
   [[nodiscard]] Vector3 position(const Vector3& X, double t) const override {
-    // From matter at rest on the right: x = X - integral of (F - 1) over [X, 1], by Simpson's rule.
+    // From material at rest on the right: x = X - integral of (F - 1) over [X, 1], by Simpson's rule.
     const auto [known, is_new] = positions_.try_emplace({X[0], t}, 0.0);
     if (is_new) {
       constexpr int intervals = 200;

@@ -61,7 +61,7 @@ shape = { box = { lower = [0, 0, 0], upper = [%.9g, 0.00015, 0.00015] } }
   EnergyWatch watch;
   const double us = c0 + s * up;
   const double pressure = rho0 * us * up, density = rho0 * us / (us - up);
-  // Matter that the two shocks have swept: it grows by rho0 Us per area and time.
+  // Material that the two shocks have swept: it grows by rho0 Us per area and time.
   const auto swept = [&] {
     const Particles& q = simulation.particles();
     double mass = 0;
@@ -139,8 +139,8 @@ TEST(PlanarImpact, RandomShiftOfTheGridKeepsJumpAndEnergy) {
   EXPECT_LT(result.energy_error, 1e-12);
 }
 
-/// Largest velocity against the direction of the impact, relative to it, of matter between 20 and 60 % of the
-/// depth of a slab while the shock crosses it: exactly zero, the matter comes to rest behind the shock.
+/// Largest velocity against the direction of the impact, relative to it, of material between 20 and 60 % of the
+/// depth of a slab while the shock crosses it: exactly zero, the material comes to rest behind the shock.
 double front_overshoot(double up, double linear_viscosity) {
   Method method;
   method.linear_viscosity = linear_viscosity;
@@ -180,7 +180,7 @@ shape = { box = { lower = [-0.0039, 0, 0], upper = [0.0001, 0.0001, 0.0001] } }
 }
 
 // Section 7.4: the default viscosity damps the front less than critically, which a free surface makes lasting
-// (matter that leaves at the peak); c1 = 1 damps it fully.
+// (material that leaves at the peak); c1 = 1 damps it fully.
 TEST(ShockFront, OvershootsWithTheDefaultViscosityAndNotWithCriticalDamping) {
   const double standard = front_overshoot(3760.0, Method{}.linear_viscosity);
   EXPECT_GT(standard, 0.05);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Matter that flies towards mirror planes and walls: it does not act on them before it touches, and then as
+// Material that flies towards mirror planes and walls: it does not act on them before it touches, and then as
 // strongly as if it had touched from the start (docs/theory/mpm.md, section 3).
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double dx = 1e-4;                 // m
 constexpr double cells = 20.0;              // of the slab
-constexpr double sticking_distance = 0.02;  // cells before a wall that matter sticks to: half of its gap
+constexpr double sticking_distance = 0.02;  // cells before a no-slip wall: half of its gap
 
 /// Pressure of aluminium that a wall stops, exact.
 double wall_pressure(double speed) { return 2785.0 * (5328.0 + 1.338 * speed) * speed; }
@@ -66,7 +66,7 @@ struct Hit {
   double peak = 0.0;     // largest pressure / exact
   double early = 0.0;    // cells of approach left at the beginning of the step with the first pressure
   double step = 0.0;     // cells of approach in that step
-  double plateau = 0.0;  // mean pressure of the middle of the shocked matter / exact
+  double plateau = 0.0;  // mean pressure of the middle of the shocked material / exact
   double before = 0.0;   // largest impulse on the body before it touches / its momentum
   double impulse_error = 0.0, energy_error = 0.0;
   double contact_heat = 0.0;  // share of the kinetic energy
@@ -105,7 +105,7 @@ Hit hit(const Column& column) {
   int count = 0;
   const Particles& q = simulation.particles();
   for (std::size_t p = 0; p < q.size(); ++p) {
-    // Matter keeps its order: by its mass from the front.
+    // Material keeps its order: by its mass from the front.
     const double depth = -q.position[p][0] / dx * (us / (us - column.speed));
     if (depth < 3.0 || depth > 12.0) continue;
     sum += q.pressure[p];
@@ -201,7 +201,7 @@ double rebound(const std::string& wall, double gap) {
 }
 
 // A bar that was before the plane leaves it without sticking; one that touched it at the start is one with
-// its image, and a wall that matter sticks to holds both.
+// its image, and a no-slip wall holds both.
 TEST(WallContact, LetsABodyGoThatCame) {
   const double lets_go = rebound("separating", 0.0);
   std::printf("rebound: separating wall, touching %.4f\n", lets_go);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conduction of heat on the grid: exact decay in a rod with measured order, energy to round-off, insulation,
+// Heat conduction on the grid: exact decay in a rod with measured order, energy to round-off, insulation,
 // stability at the bound of the time step.
 #include <gtest/gtest.h>
 

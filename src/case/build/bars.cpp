@@ -67,8 +67,8 @@ std::optional<std::string> fault_of_bars(const Case& setup, const Body& bars) {
     });
     if (!inside) continue;
     return fmt::format(
-        "body \"{}\": its bars lie in body \"{}\" of elements, whose inner nodes are not on the grid and "
-        "would not feel them: bars reinforce bodies of particles (discretization.method = \"particles\")",
+        "body \"{}\": its bars are in body \"{}\" of elements, whose inner nodes are not on the grid and "
+        "would not interact with them: bars reinforce bodies of particles (discretization.method = \"particles\")",
         bars.name, body.name);
   }
   return std::nullopt;
@@ -101,7 +101,7 @@ fem::BarMaterial bar_material(const Material& material, const Body& body) {
     refuse(fmt::format("their strength is elastic or von_mises, not {}", strength.model()));
   }
   if (!material.failure.empty()) {
-    refuse("they know no failure criteria of a material: give discretization.bar_failure_strain");
+    refuse("they do not use the failure criteria of a material: set discretization.bar_failure_strain");
   }
   const std::array density = {material.reference.density}, temperature = {material.reference.temperature};
   const std::array pressure = {0.0}, rate = {0.0};

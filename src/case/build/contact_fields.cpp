@@ -84,7 +84,7 @@ void join_bars(const Case& setup, Bonds& bonds, ContactFields& found) {
       bonds.join(b, *around);
     } else {
       found.warnings.push_back(
-          fmt::format("body \"{}\": its bars lie in no body, and bars have no surface of their own: no body "
+          fmt::format("body \"{}\": its bars are in no body, and bars have no surface of their own: no body "
                       "touches them; contact_group names what they reinforce",
                       bars.name));
     }
@@ -102,7 +102,7 @@ void join_layers(const Case& setup, Bonds& bonds, ContactFields& found) {
       if (!touch_and_move_alike(setup, bodies[a], bodies[b])) continue;
       found.remarks.push_back(
           fmt::format("contact: bodies \"{}\" and \"{}\" touch at the start and have the same velocity: they "
-                      "are bonded; a contact_group of its own for each lets them part",
+                      "are bonded; a separate contact_group for each allows them to separate",
                       bodies[a].name, bodies[b].name));
       bonds.join(a, b);
     }
@@ -154,7 +154,7 @@ ContactFields find_contact_fields(const Case& setup) {
     }
   } else if (method == ContactMethod::automatic && !possible && setup.bodies.size() > 1) {
     found.warnings.push_back(
-        "the full mass matrix (transfer.particle_update = \"fmpm\") knows no contact: all bodies move in one "
+        "the full mass matrix (transfer.particle_update = \"fmpm\") has no contact: all bodies move in one "
         "velocity field, bonded where they meet");
   }
   warn_of_gaps(setup, found);

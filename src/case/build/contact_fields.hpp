@@ -28,7 +28,7 @@ std::vector<std::uint8_t> fields_of_groups(const std::vector<Body>& bodies);
 /// Returns the number of different fields.
 unsigned count_of(const std::vector<std::uint8_t>& fields);
 
-/// Lets the particles of curved bodies take the part of their volume that lies in the body, unless the case
+/// Lets the particles of curved bodies have the part of their volume that is inside the body, unless the case
 /// file says otherwise: mass and surfaces follow from them.
 void choose_volumes(Case& setup);
 

@@ -62,7 +62,7 @@ void cut(fem::Hexahedra& mesh, const Plane& plane, double tolerance, const std::
     }
     if (before && beyond) {
       throw InputError(
-          fmt::format("body \"{}\": the mirror plane {} = {} m cuts through element {}: nodes must lie on it",
+          fmt::format("body \"{}\": the mirror plane {} = {} m cuts through element {}: nodes must be on it",
                       body, "xyz"[plane.axis], plane.coordinate, e));
     }
     if (before) kept.push_back(mesh.elements[e]);
@@ -88,7 +88,7 @@ void drop_unused_nodes(fem::Hexahedra& mesh) {
   }
 }
 
-/// Nodes on mirror planes keep to them, those on walls that material sticks to stay there.
+/// Constrains nodes on mirror planes to them, and fixes those on no-slip walls.
 void hold_at_planes(const Case& setup, fem::Mesh& mesh, Vector3& wall_impulse) {
   fem::Nodes& nodes = mesh.nodes;
   std::vector<double> heat(nodes.size(), 0.0);
@@ -125,7 +125,7 @@ void apply(const NodeCondition& condition, const std::string& body, fem::Mesh& m
     }
   }
   if (inside.empty()) {
-    throw InputError(fmt::format("body \"{}\": a node_condition holds no node of its mesh", body));
+    throw InputError(fmt::format("body \"{}\": a node_condition contains no node of its mesh", body));
   }
   fem::constrain(mesh, inside, directions, condition.velocity);
 }

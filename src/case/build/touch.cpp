@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "src/case/build/seeding.hpp"
+#include "src/case/build/placement.hpp"
 
 namespace whipple::cases {
 namespace {

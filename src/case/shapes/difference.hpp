@@ -14,7 +14,7 @@ class Difference final : public Shape {
  public:
   static constexpr const char* name = "difference";
   static constexpr const char* summary =
-      "a shape without others: difference = { from = { ... }, minus = [{ ... }, ...] }";
+      "a shape minus others: difference = { from = { ... }, minus = [{ ... }, ...] }";
   static std::string describe() { return {}; }
   static std::unique_ptr<Shape> read(input::Table& holder, const std::string& key) {
     auto table = holder.required_table(key);

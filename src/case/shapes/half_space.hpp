@@ -20,7 +20,7 @@ class HalfSpace final : public Shape {
   static ParameterTable<HalfSpace> parameters() {
     return {
         vector("point", &HalfSpace::point_, "m", range::any(), "a point of the face"),
-        vector("normal", &HalfSpace::normal_, "", range::any(), "direction out of the matter, any length")};
+        vector("normal", &HalfSpace::normal_, "", range::any(), "outward direction, any length")};
   }
   [[nodiscard]] bool contains(const Vector3& point) const override {
     return normal_.dot(point - point_) < 0.0;

@@ -11,7 +11,7 @@ namespace whipple::cases {
 class Intersection final : public Shape {
  public:
   static constexpr const char* name = "intersection";
-  static constexpr const char* summary = "what several shapes have in common: intersection = [{ sphere = ... }, ...]";
+  static constexpr const char* summary = "intersection of several shapes: intersection = [{ sphere = ... }, ...]";
   static std::string describe() { return {}; }
   static std::unique_ptr<Shape> read(input::Table& holder, const std::string& key) {
     return read_list<Intersection>(holder, key);

@@ -36,7 +36,7 @@ class Moved final : public Shape {
  public:
   static constexpr const char* name = "moved";
   static constexpr const char* summary =
-      "a shape turned and displaced: moved = { shape = { ... }, angle = \"30 degree\", ... }";
+      "a shape rotated and displaced: moved = { shape = { ... }, angle = \"30 degree\", ... }";
   static std::string describe() { return describe_table(Motion::parameters()); }
   static std::unique_ptr<Shape> read(input::Table& holder, const std::string& key) {
     auto table = holder.required_table(key);

@@ -24,7 +24,7 @@ class Ogive final : public Shape, public Revolution {
       : Revolution{base, axis}, radius_(radius), nose_(nose_length), shank_(shank_length) {}
 
   static ParameterTable<Ogive> parameters() {
-    ParameterTable<Ogive> table = Revolution::parameters<Ogive>("centre of the plane where the nose begins");
+    ParameterTable<Ogive> table = Revolution::parameters<Ogive>("centre of the base of the nose");
     table.push_back(real("radius", &Ogive::radius_, "m", range::positive(), "R, radius of the shank"));
     table.push_back(
         real("nose_length", &Ogive::nose_, "m", range::positive(), "L, along the axis; at least R"));

@@ -2,9 +2,7 @@
 #include "src/case/shapes/shape.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
+#include <fmt/ranges.h>
 
 #include "src/case/shapes/box.hpp"
 #include "src/case/shapes/cone.hpp"
@@ -40,27 +38,35 @@ ShapeEntry entry() {
 
 }  // namespace
 
-/// One line per shape.
-std::span<const ShapeEntry> shape_catalogue() {
-  static const std::array all = {entry<Sphere>(), entry<Box>(), entry<Cylinder>(), entry<Tube>(),
-                                 entry<Cone>(), entry<Ogive>(), entry<HalfSpace>(),
-                                 // made of others
-                                 entry<Union>(), entry<Intersection>(), entry<Difference>(), entry<Moved>()};
+const Catalogue<ShapeEntry>& shape_catalogue() {
+  static const Catalogue<ShapeEntry> all("shape", {
+      entry<Sphere>(),
+      entry<Box>(),
+      entry<Cylinder>(),
+      entry<Tube>(),
+      entry<Cone>(),
+      entry<Ogive>(),
+      entry<HalfSpace>(),
+      // Combinations of other shapes.
+      entry<Union>(),
+      entry<Intersection>(),
+      entry<Difference>(),
+      entry<Moved>(),
+  });
   return all;
 }
 
 std::unique_ptr<Shape> read_only_shape(input::Table& holder) {
   std::unique_ptr<Shape> shape;
-  std::string names;
   int found = 0;
   for (const ShapeEntry& entry : shape_catalogue()) {
-    names += (names.empty() ? "" : ", ") + entry.name;
     if (!holder.has(entry.name)) continue;
     shape = entry.read(holder, entry.name);
     ++found;
   }
   if (found == 1) return shape;
-  holder.error(fmt::format("'{}' must hold exactly one of: {}", holder.name(), names));
+  holder.error(fmt::format("'{}' must hold exactly one of: {}", holder.name(),
+                           fmt::join(shape_catalogue().names(), ", ")));
   return nullptr;
 }
 

@@ -4,10 +4,9 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
-#include <vector>
 
+#include "src/core/base/catalogue.hpp"
 #include "src/core/base/tensor.hpp"
 #include "src/core/input/document.hpp"
 #include "src/fem/mesh.hpp"
@@ -53,8 +52,8 @@ struct ShapeEntry {
   /// Reads the key `name` of a table. Reports errors in the document and returns null then.
   std::unique_ptr<Shape> (*read)(input::Table& holder, const std::string& name);
 };
-/// Everything that `shape = { NAME = ... }` may hold.
-std::span<const ShapeEntry> shape_catalogue();
+/// All shapes that `shape = { NAME = ... }` may hold, one line each.
+const Catalogue<ShapeEntry>& shape_catalogue();
 
 /// Reads the one shape that a table `{ NAME = ... }` holds. Reports errors in the document and returns null
 /// then.

@@ -11,7 +11,7 @@ namespace whipple::cases {
 class Union final : public Shape {
  public:
   static constexpr const char* name = "union";
-  static constexpr const char* summary = "all of several shapes: union = [{ sphere = ... }, ...]";
+  static constexpr const char* summary = "union of several shapes: union = [{ sphere = ... }, ...]";
   static std::string describe() { return {}; }
   static std::unique_ptr<Shape> read(input::Table& holder, const std::string& key) {
     return read_list<Union>(holder, key);

@@ -62,7 +62,7 @@ void write_info(const std::string& message) {
 void write_warning(const std::string& message) {
   latest = message;
   show(Kind::warning, message);
-  write_to_file(spdlog::level::warn, "warning: " + message);
+  write_to_file(spdlog::level::warn, message);  // the pattern of the file names the level
 }
 void write_detail(const std::string& message) {
   show(Kind::detail, message);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -67,9 +68,7 @@ template <class Enum>
 ChoiceTarget choice_target(Enum& value) {
   return {&value, [](const void* from) { return std::string(word_of(*static_cast<const Enum*>(from))); },
           [](void* to, std::string_view text) {
-            for (const Word<Enum>& word : words(Enum{})) {
-              if (word.text == text) *static_cast<Enum*>(to) = word.value;
-            }
+            if (const std::optional<Enum> value = value_of<Enum>(text)) *static_cast<Enum*>(to) = *value;
           }};
 }
 
@@ -88,7 +87,7 @@ struct Parameter {
   using Member =
       std::variant<double Owner::*, std::int64_t Owner::*, bool Owner::*, std::string Owner::*,
                    Vector3 Owner::*, std::vector<double> Owner::*, std::vector<std::string> Owner::*,
-                   std::function<ChoiceTarget(Owner&)>>;
+                   std::function<ParameterTarget(Owner&)>>;
   ParameterInfo info;
   Member member;
 
@@ -146,10 +145,8 @@ Parameter<Owner> choice(std::string name, std::string Owner::* member, std::vect
 template <class Owner, class Enum>
   requires std::is_enum_v<Enum>
 Parameter<Owner> choice(std::string name, Enum Owner::* member, std::string meaning) {
-  std::vector<std::string> choices;
-  for (const Word<Enum>& word : words(Enum{})) choices.emplace_back(word.text);
-  return {{std::move(name), "", {}, std::move(meaning), true, std::move(choices)},
-          std::function<ChoiceTarget(Owner&)>([member](Owner& owner) { return choice_target(owner.*member); })};
+  return {{std::move(name), "", {}, std::move(meaning), true, word_list<Enum>()},
+          std::function<ParameterTarget(Owner&)>([member](Owner& owner) { return choice_target(owner.*member); })};
 }
 /// Three components, each with a unit; the range holds for every component.
 template <class Owner>
@@ -169,25 +166,38 @@ Parameter<Owner> text_list(std::string name, std::vector<std::string> Owner::* m
   return {{std::move(name), "", {}, std::move(meaning), true, std::move(choices)}, member};
 }
 
+/// Returns where the value of a parameter goes in an object.
+template <class Owner>
+ParameterTarget target_of(const Parameter<Owner>& parameter, Owner& owner) {
+  return std::visit(
+      [&](const auto& member) -> ParameterTarget {
+        if constexpr (requires { member(owner); }) {
+          return member(owner);
+        } else {
+          return &(owner.*member);
+        }
+      },
+      parameter.member);
+}
+
 /// Ties a table to an object.
 template <class Owner>
 std::vector<BoundParameter> bind(const ParameterTable<Owner>& table, Owner& owner) {
   std::vector<BoundParameter> bound;
   bound.reserve(table.size());
-  for (const Parameter<Owner>& parameter : table) {
-    bound.push_back(
-        {parameter.info,
-         std::visit(
-             [&](const auto& member) -> ParameterTarget {
-               if constexpr (requires { member(owner); }) {
-                 return member(owner);
-               } else {
-                 return &(owner.*member);
-               }
-             },
-             parameter.member)});
-  }
+  for (const Parameter<Owner>& parameter : table) bound.push_back({parameter.info, target_of(parameter, owner)});
   return bound;
+}
+
+/// Returns a table with the parameters of a part of its owner at its end.
+template <class Owner, class Part>
+ParameterTable<Owner> with_part(ParameterTable<Owner> table, Part Owner::* part, const ParameterTable<Part>& added) {
+  for (const Parameter<Part>& parameter : added) {
+    table.push_back({parameter.info, std::function<ParameterTarget(Owner&)>([part, parameter](Owner& owner) {
+                       return target_of(parameter, owner.*part);
+                     })});
+  }
+  return table;
 }
 
 /// The value as it stands in an input file: `"6580 m/s"`, `3`, `true`, `"text"`, `["1 m", "2 m", "3 m"]`.

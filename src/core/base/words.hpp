@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace whipple {
 
@@ -22,6 +25,23 @@ constexpr std::string_view word_of(Enum value) {
     if (word.value == value) return word.text;
   }
   return {};
+}
+
+/// Returns the value of a word; none if the enumeration does not have it.
+template <class Enum>
+constexpr std::optional<Enum> value_of(std::string_view text) {
+  for (const Word<Enum>& word : words(Enum{})) {
+    if (word.text == text) return word.value;
+  }
+  return std::nullopt;
+}
+
+/// Lists the words of an enumeration in the order in which they are declared.
+template <class Enum>
+std::vector<std::string> word_list() {
+  std::vector<std::string> list;
+  for (const Word<Enum>& word : words(Enum{})) list.emplace_back(word.text);
+  return list;
 }
 
 }  // namespace whipple

@@ -119,7 +119,7 @@ class BlockField {
   };
   [[nodiscard]] WHIPPLE_INLINE OfGroup of(const Group& group) { return OfGroup(*this, group); }
 
-  /// Adds the corners' shares of a field given by its modes.
+  /// Adds the corners' parts of a field given by its modes.
   WHIPPLE_INLINE void add(const Group& group, const Modes<Vector>& field) {
     const std::array<Triple<Vector>, 8> corners = corners_of(field);
     add_component(at_[0], group, [&](std::size_t a) WHIPPLE_INLINE { return corners[a].x; });

@@ -44,10 +44,10 @@ struct State {
   double time_step;                           ///< s
   std::span<const double> pressure;           ///< Pa, positive in compression, of the equation of state
   std::span<const double> temperature;        ///< K
-  std::span<const double> density;            ///< kg/m^3, of the matter
+  std::span<const double> density;            ///< kg/m^3, of the material
   std::span<const double> bulk_modulus;       ///< Pa, rho c^2
   std::span<const double> shear_modulus;      ///< Pa, of the solid
-  std::span<const double> volume;             ///< m^3, of matter and void
+  std::span<const double> volume;             ///< m^3, of material and void
   std::span<const double> plastic_strain;     ///< equivalent plastic strain
   std::span<const double> plastic_increment;  ///< its increment in this step
   std::span<const double> melted_fraction;    ///< mass fraction of liquid and vapour
@@ -57,20 +57,20 @@ struct State {
 };
 
 /// A chunk of points between the equation of state and the criteria, for models in which voids grow while the
-/// matter still bears stress (SI). Volume and stress are those of the matter between the voids.
+/// material still carries stress (SI). Volume and stress are those of the material between the voids.
 struct PorousState {
   double time_step;                         ///< s
   std::span<const double> bulk_modulus;     ///< Pa, rho c^2
   std::span<const double> shear_modulus;    ///< Pa, with melting
   std::span<const double> melted_fraction;  ///< mass fraction of liquid and vapour
-  std::span<const double> flow_stress;  ///< Pa, of the matter between the voids, with melting, if asked for
+  std::span<const double> flow_stress;  ///< Pa, of the material between the voids, with melting, if asked for
   std::span<const double> trial;        ///< Pa, equivalent trial stress of the deviator
   std::span<const double> threshold_factor;  ///< scatter of the failure threshold (1: none)
   std::span<double> equivalent;              ///< Pa, equivalent stress: out
   std::span<double> pressure;                ///< Pa, in and out
-  std::span<double> plastic_increment;       ///< in: of matter without voids; out
+  std::span<double> plastic_increment;       ///< in: of material without voids; out
   std::span<double> plastic_strain;          ///< in: with that increment; out
-  std::span<double> volume;                  ///< m^3, of the matter, in and out
+  std::span<double> volume;                  ///< m^3, of the material, in and out
   std::span<double> void_volume;             ///< m^3, in and out
 };
 
@@ -82,22 +82,22 @@ class Criterion {
   /// Advances the damage of the points and sets the code of those that are intact and break the criterion.
   /// @param damage  `MaterialPoints::damage`; only criteria that accumulate change it
   virtual void mark(const State& state, std::span<double> damage, std::span<std::uint8_t> failed) const = 0;
-  /// Lets voids grow and relaxes the stress of the matter between them; sets damage and code.
+  /// Lets voids grow and relaxes the stress of the material between them; sets damage and code.
   virtual void grow_voids(const PorousState& /*state*/, std::span<double> /*damage*/,
                           std::span<std::uint8_t> /*failed*/) const {}
-  /// Does `grow_voids` do anything?
+  /// Returns whether `grow_voids` does anything.
   [[nodiscard]] virtual bool grows_voids() const { return false; }
-  /// Does `grow_voids` return the deviator to a yield surface of its own, from the flow stress of the matter?
+  /// Returns whether `grow_voids` returns the deviator to a separate yield surface, from the flow stress of the material.
   [[nodiscard]] virtual bool returns_deviator() const { return false; }
   /// The code that points lose again once pressure has closed their void; `intact`: they stay failed.
   [[nodiscard]] virtual Code healing_code() const { return intact; }
   /// Volume fraction of the voids at the start.
   [[nodiscard]] virtual double initial_porosity() const { return 0.0; }
-  /// Does it keep its past in `MaterialPoints::damage`? One criterion of a material may.
+  /// Returns whether it keeps its history in `MaterialPoints::damage`. One criterion of a material may.
   [[nodiscard]] virtual bool accumulates() const { return false; }
-  /// Does the damage take stress away before it is complete (docs/theory/material.md, eq. 18, 19)?
+  /// Returns whether the damage reduces the stress before it is complete (docs/theory/material.md, eq. 18, 19).
   [[nodiscard]] virtual bool softens() const { return false; }
-  /// Does it ask for `State::strain`?
+  /// Returns whether it requires `State::strain`.
   [[nodiscard]] virtual bool needs_strain() const { return false; }
   /// All constants with units as TOML lines (provenance in output files).
   [[nodiscard]] virtual std::string constants() const = 0;
@@ -154,7 +154,7 @@ class CriterionModel final : public Criterion {
   Law law_;
 };
 
-/// What a law is unless it says otherwise: a threshold of the present state.
+/// Defaults of a law: a threshold of the present state.
 struct Threshold {
   static constexpr bool accumulates = false;
   static constexpr bool softens = false;

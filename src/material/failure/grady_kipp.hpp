@@ -14,8 +14,8 @@ namespace whipple::failure {
 /// strain eps, each relieving the stress of a sphere around it that widens with the crack speed c_g. In the
 /// explicit form,
 ///   d(D^(1/3))/dt = (m+3)/3 alpha^(1/3) eps^(m/3),  alpha = 8 pi c_g^3 k / ((m+1)(m+2)(m+3)),
-/// with eps = sigma_1 / (K + 4/3 G), sigma_1 the greatest principal stress of the matter between the cracks,
-/// and c_g a share of the longitudinal sound speed. No flaw grows below eps_0 = (k V)^(-1/m) times the
+/// with eps = sigma_1 / (K + 4/3 G), sigma_1 the largest principal stress of the material between the cracks,
+/// and c_g a fraction of the longitudinal sound speed. No flaw grows below eps_0 = (k V)^(-1/m) times the
 /// scatter of the threshold: at that strain the volume V of the point holds one flaw. Damage takes the stress
 /// away as docs/theory/material.md, eq. 18 and 19. Source: D. E. Grady, M. E. Kipp, Int. J. Rock Mech. Min.
 /// Sci. 17 (1980) 147; explicit form: H. J. Melosh, E. V. Ryan, E. Asphaug, J. Geophys. Res. 97 (1992) 14735;
@@ -47,7 +47,7 @@ struct GradyKipp {
       "brittle fragmentation: growth of Weibull flaws, damage that softens (Grady-Kipp)";
   static constexpr const char* theory =
       "d(D^(1/3))/dt = (m+3)/3 alpha^(1/3) eps^(m/3), alpha = 8 pi c_g^3 k/((m+1)(m+2)(m+3)),\n"
-      "eps = sigma_1/(K + 4/3 G) of the matter between the cracks, above (k V)^(-1/m) * scatter factor;\n"
+      "eps = sigma_1/(K + 4/3 G) of the material between the cracks, above (k V)^(-1/m) * scatter factor;\n"
       "tension and deviator are multiplied by 1 - D; failed (code 6) at D = 0.999.\n"
       "Source: Grady and Kipp, Int. J. Rock Mech. Min. Sci. 17 (1980) 147; Melosh, Ryan and Asphaug,\n"
       "J. Geophys. Res. 97 (1992) 14735.";

@@ -12,7 +12,7 @@ namespace whipple::failure {
 
 /// Growth, nucleation and coalescence of voids in a plastic matrix, with the yield surface
 ///   g = (Q/Y)^2 + 2 q1 f* cosh(3 q2 P/(2 Y)) - 1 - (q1 f*)^2 = 0
-/// of the porous matter: Q, P equivalent stress and pressure on matter and voids together, Y flow stress of
+/// of the porous material: Q, P equivalent stress and pressure on material and voids together, Y flow stress of
 /// the matrix (of the strength model), f volume fraction of the voids,
 ///   f* = f for f <= f_c,  f_c + (1/q1 - f_c)(f - f_c)/(f_F - f_c) above;
 ///   df = (1 - f) d(volumetric plastic strain) + f_N/(s_N sqrt(2 pi)) exp(-((ep - eps_N)/s_N)^2/2) dep,
@@ -46,7 +46,7 @@ struct Gurson {
                  "f_c at which voids begin to coalesce (at f_F or above: no coalescence)")
                 .optional(),
             real("failure_porosity", &P::failure_porosity, "", range::open_between(0.0, 1.0),
-                 "f_F at which the matter parts"),
+                 "f_F at which the material parts"),
             real("nucleated_porosity", &P::nucleated_porosity, "",
                  Range{.lower = 0.0, .upper = 1.0, .upper_open = true},
                  "f_N: volume fraction of the voids that can nucleate")
@@ -79,7 +79,7 @@ struct Gurson {
       throw InputError("'initial_porosity' must be below 'failure_porosity'");
     }
     if (q1 * effective(failure_porosity) > 1.0 + 1e-12) {
-      throw InputError("'failure_porosity' times 'q1' exceeds 1: the matter has no strength left before it");
+      throw InputError("'failure_porosity' times 'q1' exceeds 1: the material has no strength left before it");
     }
   }
   /// f*
@@ -94,7 +94,7 @@ struct Gurson {
     return q * q + 2.0 * a * std::cosh(1.5 * q2 * pressure / flow) - 1.0 - a * a;
   }
 
-  /// Stress on matter and voids together, and the plastic strain increments of a return.
+  /// Stress on material and voids together, and the plastic strain increments of a return.
   struct Return {
     double equivalent, pressure;     ///< Pa
     double equivalent_strain = 0.0;  ///< work-conjugate to the equivalent stress
@@ -103,7 +103,7 @@ struct Gurson {
   /// Along the normal of the surface from the trial stress. With the pressure P as the unknown, the normal
   /// gives the multiplier lambda = (P_t - P)/(2 K a b sinh(b P)) and Q = Q_t/(1 + 6 G lambda/Y^2); g falls
   /// monotonically from the trial pressure to P = 0, where it is -(1 - a)^2. Regula falsi (Illinois) between.
-  /// @param bulk, shear  moduli of matter and voids together, Pa
+  /// @param bulk, shear  moduli of material and voids together, Pa
   [[nodiscard]] Return return_to_surface(double trial, double trial_pressure, double bulk, double shear,
                                          double flow, double porosity) const {
     const double a = q1 * effective(porosity), b = 1.5 * q2 / flow;
@@ -158,7 +158,7 @@ struct Gurson {
                                (share * state.flow_stress[i]);
       double grown = porosity + share * r.volumetric_strain;
       if (r.pressure < 0.0) grown += nucleation_rate(old_strain) * increment;
-      constexpr double greatest_step = 0.1;  // of the matter's volume
+      constexpr double greatest_step = 0.1;  // of the material's volume
       grown = std::clamp(grown, std::max(0.0, porosity - greatest_step), porosity + greatest_step * share);
       const double volume = total * (1.0 - grown);
       state.pressure[i] += state.bulk_modulus[i] * (state.volume[i] - volume) / state.volume[i];

@@ -6,9 +6,9 @@
 
 namespace whipple::failure {
 
-/// Failure by the greatest principal strain (Saint-Venant's hypothesis): a point fails where the greatest
+/// Failure by the largest principal strain (Saint-Venant's hypothesis): a point fails where the greatest
 /// principal value of its logarithmic strain exceeds eps_f k. The strain is the sum of the increments of the
-/// steps, turned with the matter (docs/theory/material.md, eq. 17); elastic and plastic parts count alike, so
+/// steps, rotated with the material (docs/theory/material.md, eq. 17); elastic and plastic parts count alike, so
 /// the limit is a value for the loading path at hand.
 struct PrincipalStrain : Threshold {
   static constexpr bool needs_strain = true;
@@ -16,15 +16,15 @@ struct PrincipalStrain : Threshold {
 
   static ParameterTable<PrincipalStrain> parameters() {
     return {real("failure_strain", &PrincipalStrain::failure_strain, "", range::positive(),
-                 "greatest principal logarithmic strain eps_f at failure")};
+                 "largest principal logarithmic strain eps_f at failure")};
   }
   static constexpr const char* name = "principal_strain";
   static constexpr Code code = failure::principal_strain;
   static constexpr const char* cause = "principal strain";
-  static constexpr const char* summary = "failure: greatest principal strain beyond a limit";
+  static constexpr const char* summary = "failure: largest principal strain beyond a limit";
   static constexpr const char* theory =
-      "Fails (code 4) where the greatest principal value of the logarithmic strain (sum of the increments,\n"
-      "turned with the matter; elastic and plastic) exceeds failure_strain * scatter factor.\n"
+      "Fails (code 4) where the largest principal value of the logarithmic strain (sum of the increments,\n"
+      "rotated with the material; elastic and plastic) exceeds failure_strain * scatter factor.\n"
       "Source: Barre de Saint-Venant's hypothesis; S. P. Timoshenko, History of Strength of Materials "
       "(1953).";
 

@@ -9,7 +9,7 @@
 
 namespace whipple::failure {
 
-/// What a point loses at the spall strength.
+/// Response of a point at the spall strength.
 enum class SpallResponse : std::uint8_t { failure, opening, cut_off };
 constexpr std::array<Word<SpallResponse>, 3> words(SpallResponse) {
   return {{{SpallResponse::failure, "failure"},
@@ -19,8 +19,8 @@ constexpr std::array<Word<SpallResponse>, 3> words(SpallResponse) {
 
 /// Spall at a constant tensile pressure p_cut (1 - f) k (Pa), with the melted fraction f and the scatter k of
 /// the threshold; the tensile strength vanishes with the solid. What happens there is the `response`:
-///   failure  p < -p_cut: the point fails for good; it keeps its pressure, but neither tension nor deviator.
-///            Fully melted matter fails as soon as p < 0: it parts into drops.
+///   failure  p < -p_cut: the point fails permanently; it keeps its pressure, but neither tension nor deviator.
+///            Fully melted material fails as soon as p < 0: it parts into drops.
 ///   opening  the same, but once pressure has closed its void the point is whole again: pressure, tension and,
 ///            from zero on, the deviator.
 ///   cut_off  the pressure is held at -p_cut, the rest of the volume is void; the deviator stays and nothing
@@ -38,7 +38,7 @@ struct TensilePressure : Threshold {
     return {real("spall_strength", &P::spall_strength, "Pa", range::non_negative(),
                  "tensile pressure p_cut at which the solid parts"),
             choice("response", &P::response,
-                   "what the point loses: tension and deviator for good, both while it is open, or only the "
+                   "what the point loses: tension and deviator permanently, both while it is open, or only the "
                    "tension beyond p_cut")
                 .optional()};
   }
@@ -48,7 +48,7 @@ struct TensilePressure : Threshold {
   static constexpr const char* summary = "spall: tensile pressure beyond the spall strength";
   static constexpr const char* theory =
       "At p < -p_cut, p_cut = spall_strength (1 - melted fraction) * scatter factor, the response is\n"
-      "failure: fails (code 1) for good, without tension and deviator;\n"
+      "failure: fails (code 1) permanently, without tension and deviator;\n"
       "opening: the same, but healed once pressure has closed the void;\n"
       "cut_off: p = -p_cut, the deviator stays, nothing fails (a pressure cut-off that keeps the deviator).\n"
       "Source: Curran, Seaman and Shockey, Phys. Rep. 147 (1987) 253 (constant spall strength; linear loss "
@@ -65,10 +65,10 @@ struct TensilePressure : Threshold {
       if (failed[i] == intact && state.pressure[i] < -strength) failed[i] = tensile;
     }
   }
-  /// Holds the pressure at the cut-off: matter and void share the volume so that p = -p_cut beside a void.
+  /// Holds the pressure at the cut-off: material and void share the volume so that p = -p_cut beside a void.
   void grow_voids(const PorousState& state, std::span<double> /*damage*/,
                   std::span<std::uint8_t> failed) const {
-    constexpr double greatest_step = 0.1;  // of the matter's volume
+    constexpr double greatest_step = 0.1;  // of the material's volume
     for (std::size_t i = 0; i < failed.size(); ++i) {
       const double least = -spall_strength * (1.0 - state.melted_fraction[i]) * state.threshold_factor[i];
       const bool is_open = state.void_volume[i] > 0.0;

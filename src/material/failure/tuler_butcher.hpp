@@ -22,7 +22,7 @@ constexpr std::array<Word<Tension>, 2> words(Tension) {
 /// the criterion integral of (sigma - sigma_0)^lambda dt = K of the source with K = sigma_0^lambda tau
 /// (Pa^lambda s): under a constant tension of 2 sigma_0 it takes the time tau. sigma is the greatest
 /// principal stress, the stress across the spall plane of the source, or the mean stress -p (both objective).
-/// sigma_0 is multiplied by the solid fraction and by the scatter of the threshold; fully melted matter fails
+/// sigma_0 is multiplied by the solid fraction and by the scatter of the threshold; fully melted material fails
 /// where p < 0 (code 1). Damage is the integral over tau and acts on nothing before it is complete. With
 /// `healing` a point that has failed is whole again, without damage and deviator, once pressure has closed
 /// its void. Source: F. R. Tuler, B. M. Butcher, Int. J. Fract. Mech. 4 (1968) 431-437.
@@ -46,7 +46,7 @@ struct TulerButcher {
         real("time", &P::time, "s", range::positive(),
              "tau = K/sigma_0^lambda: time to failure under twice the threshold"),
         choice("measure", &P::measure,
-               "the tension sigma: the greatest principal stress or -p")
+               "the tension sigma: the largest principal stress or -p")
             .optional(),
         boolean("healing", &P::healing, "points whose void pressure has closed are whole again").optional()};
   }
@@ -57,9 +57,9 @@ struct TulerButcher {
   static constexpr const char* theory =
       "Fails (code 8) where the integral of (sigma/sigma_0 - 1)^exponent dt over sigma > sigma_0 reaches "
       "time;\n"
-      "sigma_0 = threshold (1 - melted fraction) * scatter factor, sigma the greatest principal stress or "
+      "sigma_0 = threshold (1 - melted fraction) * scatter factor, sigma the largest principal stress or "
       "-p;\n"
-      "melted matter fails (code 1) where p < 0. Constants K of the literature: time = "
+      "melted material fails (code 1) where p < 0. Constants K of the literature: time = "
       "K/threshold^exponent.\n"
       "Source: Tuler and Butcher, Int. J. Fract. Mech. 4 (1968) 431.";
   void require_consistent() const {}  // the ranges of the constants say it all

@@ -8,7 +8,7 @@
 
 namespace whipple::failure {
 
-/// Ductile spall by voids that grow at a rate: with the distension alpha = alpha_0 + V_v/V of the matter V
+/// Ductile spall by voids that grow at a rate: with the distension alpha = alpha_0 + V_v/V of the material V
 /// beside its voids V_v (m^3) and the mean pressure P = p/alpha on both (Pa, positive in compression),
 ///   d(alpha)/dt = -(alpha_0 - 1)^(2/3)/eta alpha (alpha - 1)^(1/3) (P + P_s)  where P < -P_s,
 ///   the same with P - P_s                                                      where P > +P_s,
@@ -18,9 +18,9 @@ namespace whipple::failure {
 /// from which the voids grow and to which they close (no void is stored for them, they have no weight), f the
 /// melted fraction, k the scatter of the threshold. The static spall strength is a_s ln(alpha_0/(alpha_0 -
 /// 1)), to a few parts in 1e4; above it the tension that the growth cannot relax rises with the rate. Growth
-/// takes tension off, not the deviator of the matter, which acts on the share V of the volume; compression
+/// takes tension off, not the deviator of the material, which acts on the fraction V of the volume; compression
 /// closes the voids. Where the porosity V_v/(V + V_v) reaches `failure_porosity` the voids have met: the
-/// point fails (code 7); melted matter where p < 0 or with voids (code 1). With `healing` a failed point is
+/// point fails (code 7); melted material where p < 0 or with voids (code 1). With `healing` a failed point is
 /// whole again once pressure has closed its void. The step is implicit in alpha and p at a fixed V + V_v.
 /// Source: J. N. Johnson, J. Appl. Phys. 52 (1981) 2812-2825; M. M. Carroll, A. C. Holt, J. Appl. Phys. 43
 /// (1972) 1626. Nuclei apart from V_v and the factors k and 1 - f are this project's choice.
@@ -41,7 +41,7 @@ struct ViscousVoidGrowth : Threshold {
              "alpha_0 - 1: volume of the nuclei over that of the solid")
             .optional(),
         real("failure_porosity", &P::failure_porosity, "", range::open_between(0.0, 1.0),
-             "volume fraction of the voids at which the matter parts")
+             "volume fraction of the voids at which the material parts")
             .optional(),
         boolean("healing", &P::healing, "points whose void pressure has closed are whole again").optional()};
   }
@@ -53,10 +53,10 @@ struct ViscousVoidGrowth : Threshold {
       "d(alpha)/dt = -nuclei^(2/3)/viscosity alpha (alpha - 1)^(1/3) (P +- P_s) beyond P_s = "
       "resistance/alpha "
       "ln(alpha/(alpha - 1)),\n"
-      "P = p/alpha, alpha = 1 + nuclei + void/matter; resistance times (1 - melted fraction) * scatter "
+      "P = p/alpha, alpha = 1 + nuclei + void/material; resistance times (1 - melted fraction) * scatter "
       "factor. "
       "The deviator of the\n"
-      "matter stays, compression closes the voids; fails (code 7) at failure_porosity, melted matter (code "
+      "material stays, compression closes the voids; fails (code 7) at failure_porosity, melted material (code "
       "1) "
       "where p < 0.\n"
       "Source: Johnson, J. Appl. Phys. 52 (1981) 2812; Carroll and Holt, J. Appl. Phys. 43 (1972) 1626.";
@@ -67,7 +67,7 @@ struct ViscousVoidGrowth : Threshold {
   [[nodiscard]] static double static_pressure(double resistance, double alpha) {
     return resistance / alpha * std::log(alpha / (alpha - 1.0));
   }
-  /// A point in the step: what moves from the matter to the void changes both alpha and the pressure.
+  /// A point in the step: what moves from the material to the void changes both alpha and the pressure.
   struct Point {
     double volume, void_volume;  ///< m^3
     double pressure, modulus;    ///< Pa
@@ -78,7 +78,7 @@ struct ViscousVoidGrowth : Threshold {
     return 1.0 + nuclei + (point.void_volume + moved) / (point.volume - moved);
   }
   /// Excess of the growth (of alpha) over what the rate allows; 0 at the end of the step.
-  /// @param moved  m^3, from matter to void
+  /// @param moved  m^3, from material to void
   /// @param sign   1: in tension, -1: in compression
   [[nodiscard]] double excess(const Point& point, double moved, double sign, double time_step) const {
     const double alpha = distension(point, moved);
@@ -87,9 +87,9 @@ struct ViscousVoidGrowth : Threshold {
     const double rate = std::cbrt(nuclei * nuclei * (alpha - 1.0)) * alpha / point.viscosity * drive;
     return alpha - distension(point, 0.0) - time_step * rate;
   }
-  /// Volume (m^3) that moves from matter to void in the step; negative: the void closes.
+  /// Volume (m^3) that moves from material to void in the step; negative: the void closes.
   [[nodiscard]] double moved_volume(const Point& point, double time_step) const {
-    constexpr double greatest_step = 0.1;  // of the matter's volume
+    constexpr double greatest_step = 0.1;  // of the material's volume
     const double sign = point.pressure < 0.0 ? 1.0 : -1.0;
     const double at_rest = excess(point, 0.0, sign, time_step);
     if (sign * at_rest >= 0.0) return 0.0;  // within the static pressures

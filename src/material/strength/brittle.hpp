@@ -11,7 +11,7 @@
 #include "src/material/strength/elastic_constants.hpp"
 #include "src/material/strength/strength.hpp"
 
-/// Brittle matter: strength that follows the pressure and falls with damage (docs/theory/
+/// Brittle material: strength that follows the pressure and falls with damage (docs/theory/
 /// concrete_and_ceramics.md).
 namespace whipple::strength {
 
@@ -97,7 +97,7 @@ inline BrittleReturn brittle_return(double trial, double stiffness, const Brittl
 ///   surface(point) -> BrittleSurface              strength and failure strain at point.pressure, point.rate
 ///   least_pressure(point) -> double               Pa, <= 0, at point.damage
 ///   crushed_strain(point) -> double               strain that crushed pores add to the damage
-/// and, where it does more, bulking (share of the lost shear energy that becomes pressure), or
+/// and, where it does more, bulking (fraction of the lost shear energy that becomes pressure), or
 /// hardening(trial, stiffness, surface, point) -> BrittleReturn (strain hardening before any damage).
 template <class Law>
 class BrittleModel final : public Strength, public Brittle {
@@ -164,7 +164,7 @@ class BrittleModel final : public Strength, public Brittle {
       const BrittleReturn r = step(state.trial[i], stiffness, y, point);
       increment = r.increment;
       point.damage = r.damage;
-      // Broken matter lies on its surface to the last bit: without strength it has no stress at all.
+      // Broken material lies on its surface to the last bit: without strength it has no stress at all.
       const bool broken = increment > 0.0 && r.damage == 1.0;
       state.equivalent[i] =
           broken ? std::min(state.trial[i], y.strength(1.0)) : state.trial[i] - stiffness * increment;

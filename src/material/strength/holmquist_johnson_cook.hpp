@@ -34,8 +34,8 @@ struct HolmquistJohnsonCook : ElasticConstants {
         {real("compressive_strength", &P::compressive_strength, "Pa", range::positive(),
               "f_c, quasi-static, uniaxial"),
          real("tensile_strength", &P::tensile_strength, "Pa", range::positive(),
-              "T: tensile pressure that undamaged matter bears"),
-         real("cohesion", &P::cohesion, "", range::non_negative(), "A, over f_c: what damage takes away"),
+              "T: tensile strength of undamaged material, a pressure"),
+         real("cohesion", &P::cohesion, "", range::non_negative(), "A, over f_c: the part lost by damage"),
          real("pressure_coefficient", &P::pressure_coefficient, "", range::non_negative(), "B"),
          real("pressure_exponent", &P::pressure_exponent, "", range::positive(), "N"),
          real("maximum_strength", &P::maximum_strength, "", range::positive(), "S_max, over f_c").optional(),
@@ -57,7 +57,7 @@ struct HolmquistJohnsonCook : ElasticConstants {
       "dD = (dep + dmu_p)/max(D1 (P* + T*)^D2, EF_min), mu_p of crushed pores; tension ends at T (1 - D) (a "
       "gap "
       "opens).\n"
-      "Stresses over f_c, rate that of the total strain; fully damaged matter keeps B P*^N.\n"
+      "Stresses over f_c, rate that of the total strain; fully damaged material keeps B P*^N.\n"
       "Source: Holmquist, Johnson and Cook, 14th Int. Symp. Ballistics (1993) 591.";
 
   void require_consistent() const {}  // the ranges of the constants say it all

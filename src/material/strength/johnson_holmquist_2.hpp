@@ -12,7 +12,7 @@ namespace whipple::strength {
 /// Johnson-Holmquist 2, ceramics and glass. Strength over sigma_HEL = 3/2 (HEL - P_HEL), pressure over P_HEL:
 ///   Y* = Yi* - D (Yi* - Yf*),  Yi* = A (P* + T*)^N f,  Yf* = min(B P*^M f, bound),  f = 1 + C ln max(1,
 ///   rate/rate_0), dD = dep/eps_f,  eps_f = D1 (P* + T*)^D2,  P >= -T (1 - D);
-/// the share beta of the shear energy that damage sets free becomes pressure (bulking). Source: G. R.
+/// the fraction beta of the shear energy that damage sets free becomes pressure (bulking). Source: G. R.
 /// Johnson, T. J. Holmquist, in High-Pressure Science and Technology 1993, AIP Conf. Proc. 309 (1994)
 /// 981-984; input and constants: D. S. Cronin et al., 4th European LS-DYNA Users Conf. (2003). docs/theory/
 /// concrete_and_ceramics.md, section 4.
@@ -38,13 +38,13 @@ struct JohnsonHolmquist2 : ElasticConstants {
          real("pressure_at_elastic_limit", &P::pressure_at_elastic_limit, "Pa", range::positive(),
               "P_HEL: pressure at the Hugoniot elastic limit"),
          real("tensile_strength", &P::tensile_strength, "Pa", range::non_negative(),
-              "T: tensile pressure that undamaged matter bears"),
+              "T: tensile strength of undamaged material, a pressure"),
          real("intact_coefficient", &P::intact_coefficient, "", range::positive(), "A"),
          real("intact_exponent", &P::intact_exponent, "", range::non_negative(), "N"),
          real("fractured_coefficient", &P::fractured_coefficient, "", range::non_negative(), "B"),
          real("fractured_exponent", &P::fractured_exponent, "", range::positive(), "M"),
          real("maximum_fractured_strength", &P::maximum_fractured_strength, "", range::non_negative(),
-              "bound of the strength of fractured matter, over 3/2 (HEL - P_HEL)")
+              "bound of the strength of fractured material, over 3/2 (HEL - P_HEL)")
              .optional(),
          real("rate_coefficient", &P::rate_coefficient, "", range::non_negative(), "C").optional(),
          real("reference_rate", &P::reference_rate, "1/s", range::positive(),
@@ -54,7 +54,7 @@ struct JohnsonHolmquist2 : ElasticConstants {
               "D1; 0: breaks at once where it yields"),
          real("damage_exponent", &P::damage_exponent, "", range::non_negative(), "D2"),
          real("bulking", &P::bulking, "", range::between(0.0, 1.0),
-              "beta: share of the lost shear energy that becomes pressure")
+              "beta: fraction of the lost shear energy that becomes pressure")
              .optional()});
   }
   static constexpr const char* name = "johnson_holmquist_2";

@@ -8,7 +8,7 @@
 
 namespace whipple::strength {
 
-/// Matter without deviatoric stress (gas, liquid, or solids far above their strength).
+/// Material without deviatoric stress (gas, liquid, or solids far above their strength).
 struct None {
   static ParameterTable<None> parameters() { return {}; }
   static constexpr const char* name = "none";

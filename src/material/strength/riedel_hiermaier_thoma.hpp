@@ -73,7 +73,7 @@ struct RiedelHiermaierThoma : ElasticConstants {
               "g_t: elastic limit over strength, in tension"),
          real("hardening_modulus_ratio", &P::hardening_modulus_ratio, "",
               Range{.lower = 0.0, .upper = 1.0, .lower_open = true},
-              "xi: share of the shear modulus in the hardening"),
+              "xi: fraction of the shear modulus in the hardening"),
          real("damage_coefficient", &P::damage_coefficient, "", range::non_negative(), "D1"),
          real("damage_exponent", &P::damage_exponent, "", range::non_negative(), "D2").optional(),
          real("least_failure_strain", &P::least_failure_strain, "", range::positive(),
@@ -101,7 +101,7 @@ struct RiedelHiermaierThoma : ElasticConstants {
   void require_consistent() const {
     if (!(relative_tensile_strength * shear_meridian() < relative_shear_strength * lode_ratio)) {
       throw InputError(
-          "'relative_shear_strength' is too small beside 'relative_tensile_strength': the failure surface "
+          "'relative_shear_strength' is too small compared with 'relative_tensile_strength': the failure surface "
           "would not "
           "close in tension");
     }

@@ -30,7 +30,7 @@ class Strength {
 
   [[nodiscard]] virtual std::string_view model() const = 0;
 
-  /// False for matter without deviatoric stress: the update skips strain and return altogether.
+  /// False for material without deviatoric stress: the update skips strain and return altogether.
   [[nodiscard]] virtual bool carries_deviator() const { return true; }
 
   /// Slope H of the back stress over the plastic strain in uniaxial tension (Pa), linear kinematic hardening;

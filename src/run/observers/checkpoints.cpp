@@ -30,7 +30,7 @@ void Checkpoints::end(const Moment& moment, Outcome& outcome) {
   } else if (outcome.kind == Outcome::Kind::out_of_resources) {
     outcome.message += io::list_checkpoints(directory_.checkpoint_folder()).empty()
                            ? "; no checkpoint had been written"
-                           : fmt::format("; once there is room go on from the last checkpoint with: whipple run "
+                           : fmt::format("; once space is available resume from the last checkpoint with: whipple run "
                                          "--restart {}",
                                          directory_.path().string());
   }

@@ -57,7 +57,7 @@ void Summary::end(const Moment& moment, Outcome& outcome) {
   ranks_.on_root([&] {
     io::write_text_atomically(directory_.profile_file(), profile_as_json(moment, profile_));
     if (outcome.kind == Outcome::Kind::stopped) {
-      log::info("{} at step {}, t = {:.6g} s; go on with: whipple run --restart {}", outcome.message, moment.step(),
+      log::info("{} at step {}, t = {:.6g} s; resume with: whipple run --restart {}", outcome.message, moment.step(),
                 moment.time(), directory_.path().string());
     }
     tell(moment);

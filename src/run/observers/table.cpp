@@ -18,7 +18,7 @@ void Table::resume(const Moment& moment, const io::CheckpointValues& values) {
     const std::int64_t expected = values.integer(options_.rows_name);
     if (table_->rows() == expected || options_.accept_missing_rows) return;
     throw InputError(fmt::format(
-        "{}: has {} rows up to step {} of the checkpoint, but {} were written; bring the file back, or go on "
+        "{}: has {} rows up to step {} of the checkpoint, but {} were written; restore the file, or resume "
         "without them: whipple run --restart {} --force",
         options_.file.string(), table_->rows(), moment.step(), expected, options_.file.parent_path().string()));
   });

@@ -43,7 +43,7 @@ struct Point {
   std::size_t body;
   const Vector3 &position, &velocity;  ///< m, m/s
   double sound_speed;                  ///< m/s, of nodes that of the reference state
-  bool is_stressed;                    ///< its pressure is more than a millionth of rho c^2; nodes bear none
+  bool is_stressed;                    ///< its pressure is more than a millionth of rho c^2; nodes carry none
 };
 
 /// Interface of what carries the material of bodies: particles, hexahedra, trusses; on each rank its part of them.
@@ -71,7 +71,7 @@ class Carrier {
   /// Moves nodes by themselves or as the grid moved them, and updates strain, work, heat and stress of their elements.
   /// @returns an error that ends the run, or nothing
   virtual std::string advance() { return {}; }
-  /// Removes and books what is outside of the domain. Collective.
+  /// Removes what is outside of the domain and counts it as outflow. Collective.
   virtual void remove_outside() = 0;
   /// @}
 
@@ -93,7 +93,7 @@ class Carrier {
 
   /// @name Ranks and files
   /// @{
-  /// Keeps the share of this rank of what all ranks hold at the start. Collective.
+  /// Keeps the part of this rank of what all ranks hold at the start. Collective.
   virtual void keep_share() {}
   /// Gathers what this rank needs after each has read any part of a checkpoint. Collective.
   virtual void gather() {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Domains of the particles: deformation with the material, division of stretched particles (docs/theory/mpm.md,
+// Domains of the particles: deformation with the material, particle splitting (docs/theory/mpm.md,
 // section 2).
 #include "src/solver/carriers/domains.hpp"
 

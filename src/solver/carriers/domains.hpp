@@ -7,7 +7,7 @@
 
 #include "src/solver/carriers/particle_carrier.hpp"
 
-/// Domains of the particles: deformation with the material, division of stretched particles (docs/theory/mpm.md,
+/// Domains of the particles: deformation with the material, particle splitting (docs/theory/mpm.md,
 /// section 2).
 namespace whipple::solver::domains {
 

@@ -6,7 +6,7 @@
 #include "src/case/case.hpp"
 #include "src/fem/step.hpp"
 
-/// What a case says about elements, as the functions of elements take it.
+/// Collects the options of a case about elements for the functions of elements.
 namespace whipple::solver {
 
 /// Returns the resistance to hourglass modes.

@@ -71,7 +71,7 @@ std::string Hexahedra::advance() {
     if (error.empty()) error = of_mesh;
   }
   const std::vector<double>& of_contact = state_.transition.contact_heat;
-  for (std::size_t i = 0; i < count_; ++i) state_.booked.transfer_heat -= of_contact[i];  // booked by contact
+  for (std::size_t i = 0; i < count_; ++i) state_.booked.transfer_heat -= of_contact[i];  // counted by contact
   return error;
 }
 
@@ -144,7 +144,7 @@ std::string Hexahedra::deform(std::size_t m, bool heated) {
           : "is inverted: discretization.method = \"adaptive\" turns such elements into particles");
 }
 
-/// Elements that lie outside of the domain as a whole are gone, and their shares of the nodes.
+/// Elements that lie outside of the domain as a whole are gone, and their contributions to the nodes.
 void Hexahedra::remove_outside() {
   bool gone_any = false;
   for (fem::Mesh& mesh : meshes_) {

@@ -19,7 +19,7 @@ class Hexahedra : public Carrier {
  public:
   Hexahedra(State& state, const Loads& loads, std::vector<fem::Mesh> meshes);
 
-  /// Returns the share of this rank, with copies of the nodes that it shares with other ranks
+  /// Returns the part of this rank, with copies of the nodes that it shares with other ranks
   /// (src/fem/distribution.hpp).
   [[nodiscard]] const std::vector<fem::Mesh>& meshes() const { return meshes_; }
   /// Returns the faces of each mesh that belong to one element of all ranks only. Collective.

@@ -18,7 +18,7 @@ inline void add_loads(const Loads& loads, double time, fem::Nodes& nodes, std::v
   for (std::size_t a = 0; a < acceleration.size(); ++a) nodes.force[a] += nodes.mass[a] * acceleration[a];
 }
 
-/// Books momentum and work of these accelerations in a step of `dt` (s).
+/// Accumulates momentum and work of these accelerations in a step of `dt` (s).
 inline void book_loads(const std::vector<Vector3>& acceleration, const fem::Nodes& nodes, const fem::Motion& motion,
                        double dt, Ledger& booked) {
   for (std::size_t a = 0; a < acceleration.size(); ++a) {

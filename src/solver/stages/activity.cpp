@@ -15,7 +15,7 @@ namespace whipple::solver {
 namespace {
 
 constexpr std::int64_t look_for_rest_every = 20;  // steps
-/// Has the blocks distributed over the ranks anew once the material at rest is less than this part of what it was then.
+/// Has the blocks distributed over the ranks again once the material at rest is less than this part of what it was then.
 constexpr double rest_of_old_shares = 0.8;
 
 /// Returns the first time (s), from the given one on, at which a material changes although it is at rest.

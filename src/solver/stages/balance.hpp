@@ -10,7 +10,7 @@ class Balance {
  public:
   Balance(State& state, const Carriers& carriers) : state_(state), carriers_(carriers) {}
 
-  /// Sums totals, numbers and what the step booked over all ranks. Collective.
+  /// Sums totals, numbers and what the step accumulated over all ranks. Collective.
   void sum();
   /// Checks the total energy at the end of a step.
   /// @throws StateError if its error exceeds the limit of the case

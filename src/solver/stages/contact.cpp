@@ -31,7 +31,7 @@ ContactStage::ContactStage(State& state, Hexahedra& hexahedra, transfer::GridUpd
 /// softer.
 std::vector<double> ContactStage::least_relaxation_rates() const {
   constexpr double share_of_tight_matter = 0.25;
-  // Others relax by no speed of sound.
+  // Others relax by no sound speed.
   if (state_.setup.transfer.particle_update != cases::ParticleUpdate::relaxed_affine) return {};
   const std::vector<std::uint8_t>& field_of_body = state_.setup.contact_fields.of_body;
   std::vector<double> rates(*std::ranges::max_element(field_of_body) + std::size_t{1},

@@ -29,7 +29,7 @@ class ContactStage {
 
   /// Separates the velocity fields where bodies are near one another, after particles were binned. Collective.
   void separate_fields();
-  /// Finds the surfaces of bodies at nodes, once in a step: conduction of heat may ask for them before the transfer to
+  /// Finds the surfaces of bodies at nodes, once in a step: heat conduction may ask for them before the transfer to
   /// the grid. Collective.
   void find_surfaces(bool after_transfer);
   /// Finds the surfaces at mirror planes and walls. Collective.

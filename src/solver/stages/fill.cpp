@@ -46,7 +46,7 @@ void FillWatch::look() {
     warned_ = true;
     if (parallel::rank(state_.communicator) != 0) return;
     log::warning(
-        "step {}, t = {:.4g} us: {:.3g} g of intact matter are under high pressure in cells that they do not "
+        "step {}, t = {:.4g} us: {:.3g} g of intact material are under high pressure in cells that they do not "
         "fill: "
         "where bodies or layers meet across a gap in one velocity field, pressures come out too high",
         state_.run.step, 1e6 * state_.run.time, 1e3 * mass[0]);

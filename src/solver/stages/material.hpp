@@ -27,7 +27,7 @@ class MaterialStage {
  public:
   MaterialStage(State& state, const Activity& activity) : state_(state), activity_(activity) {}
 
-  /// What makes the internal energy of a particle.
+  /// Source of the internal energy of a particle.
   enum class Energy { by_work_identity, by_constitutive_model };
 
   /// Updates the material of all particles.

@@ -35,7 +35,7 @@ void Partition::bin_particles() {
   if (!bin()) follow_particles();
 }
 
-/// Particles, and nodes of elements as guests.
+/// Particles, and nodes of elements as off-grid points.
 bool Partition::bin() {
   return state_.grid.bin(state_.particles.position, transfer::stencil(state_.shape), state_.transition.position);
 }
@@ -45,7 +45,7 @@ void Partition::share_out_elements() {
   for (Carrier* carrier : carriers_) carrier->share_out();
 }
 
-/// Blocks where the particles and guests are and will be; particles on the rank that owns their block.
+/// Blocks where the particles and off-grid points are and will be; particles on the rank that owns their block.
 void Partition::follow_particles() {
   const double lookahead = lookahead_steps * state_.run.time_step;
   const Particles& particles = state_.particles;
@@ -66,7 +66,7 @@ void Partition::follow_particles() {
 void Partition::adapt(std::span<const Vector3> positions, std::span<const Vector3> velocities, double lookahead) {
   const grid::Stencil stencil = transfer::stencil(state_.shape);
   elements_astray_ = state_.is_parallel();
-  if (!state_.is_parallel()) {  // one rank has nothing to share out
+  if (!state_.is_parallel()) {  // one rank has nothing to distribute
     state_.grid.adapt(positions, velocities, lookahead, stencil, {work_, work_of_block});
     return;
   }

@@ -19,7 +19,7 @@ class Partition {
   /// Assigns particles and nodes of elements to blocks, which follow them, and sorts the particles every 20 steps.
   /// Collective.
   void bin_particles();
-  /// Sends elements to the ranks that own the blocks of their centres, if the forest was divided anew. Collective.
+  /// Sends elements to the ranks that own the blocks of their centres, if the forest was divided again. Collective.
   void share_out_elements();
 
  private:
@@ -31,8 +31,8 @@ class Partition {
   const Carriers& carriers_;
   ParticleCarrier& particles_;
   Activity& activity_;
-  std::vector<double> work_;     // of the particles (and elements) for the shares of the ranks
-  bool elements_astray_ = false;  // the forest was divided anew since elements were
+  std::vector<double> work_;     // of the particles (and elements) for the parts of the ranks
+  bool elements_astray_ = false;  // the forest was divided again since elements were
 };
 
 }  // namespace whipple::solver

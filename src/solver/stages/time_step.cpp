@@ -58,7 +58,7 @@ double TimeStep::accurate() {
 void TimeStep::begin(double until) {
   state_.profile.time("time step", [&] {
     if (state_.particle_count == 0 && state_.element_count == 0) {
-      throw StateError("all matter has left the domain");
+      throw StateError("all material has left the domain");
     }
     const cases::TimeControl& control = state_.setup.time;
     accurate_step_ = accurate();
@@ -96,7 +96,7 @@ void TimeStep::require_positive() const {
   for (std::size_t p = 0; p < particles.size(); ++p) {
     if (std::isfinite(particles.sound_speed[p] + particles.velocity[p].sum())) continue;
     throw StateError(state_.describe_particle(
-        p, state_.run.time, fmt::format("{}; speed of sound {} m/s", reason, particles.sound_speed[p])));
+        p, state_.run.time, fmt::format("{}; sound speed {} m/s", reason, particles.sound_speed[p])));
   }
   throw StateError(fmt::format("step {}, t = {} s: {}", state_.run.step, state_.run.time, reason));
 }

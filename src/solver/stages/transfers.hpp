@@ -24,7 +24,7 @@ class Transfers {
 
   [[nodiscard]] transfer::GridUpdate& grid_update() { return grid_update_; }
 
-  /// Evaluates the accelerations of particles by loads in this step, and books their impulse.
+  /// Evaluates the accelerations of particles by loads in this step, and accumulates their impulse.
   void evaluate_loads();
   /// Conducts heat inside shocks.
   void conduct_in_shocks();

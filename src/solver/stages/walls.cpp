@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/case/build/seeding.hpp"
+#include "src/case/build/placement.hpp"
 #include "src/solver/stages/contact.hpp"
 
 namespace whipple::solver {

@@ -114,7 +114,7 @@ WHIPPLE_INLINE inline Vector advect_affine_field(std::array<Vector, 3>& c,
 /// Gathers from the nodes: `of` sums over the nodes of a group, of which it reads `Content`; `advance`, if
 /// present, computes the new values of the points from the sums.
 ///
-/// Velocity and affine field (4.3), heat of the transfer (4.5).
+/// Velocity and affine field (4.3), transfer dissipation (4.5).
 template <AffineField field>
 struct TransferSums {
   using Content = grid::Node;

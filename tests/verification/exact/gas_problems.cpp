@@ -95,7 +95,7 @@ shape = {{ box = {{ lower = [{}, 0, 0], upper = [{}, {}, {}] }} }}
       return std::log(pressure / std::pow(rho, gamma));
     };
     entropy.add(entropy_of(q.pressure[p], density), entropy_of(state.pressure, state.density), q.volume[p]);
-    // By the matter, not by the place: the entropy that two cells on either side of the contact have.
+    // By the material, not by the place: the entropy that two cells on either side of the contact have.
     const double depth = std::abs(start[q.id[p]][0] - 0.5);
     if (depth > 2 * dx) continue;
     const GasState beside = exact.at(exact.star_velocity() + (start[q.id[p]][0] < 0.5 ? -1e-9 : 1e-9));
@@ -269,7 +269,7 @@ shape = {{ box = {{ lower = [0, 0, 0], upper = [{}, {}, {}] }} }}
   errors.report(result, false);
   result.add("radius of the shock over exact", 1, radius / front);
   result.add("largest density of a shell over that behind the shock", 1, densest);
-  result.add("kinetic share of the energy", exact.kinetic_share(),
+  result.add("kinetic fraction of the energy", exact.kinetic_share(),
              (simulation.totals().kinetic_energy + simulation.totals().affine_kinetic_energy) / (energy / 8));
   result.add("energy error", 0, simulation.state().ledger.energy_error(simulation.totals()));
   return result;

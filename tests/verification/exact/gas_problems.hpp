@@ -20,7 +20,7 @@ Result noh_planar(int cells);
 Result noh_spherical(int cells);
 
 /// Sedov's blast in an octant between mirror planes, gas with 1.4, at 1 s, when the shock is 1 m from the
-/// centre; the energy starts in the matter within two cells of it.
+/// centre; the energy starts in the material within two cells of it.
 /// @param cells  along the edge of 1.2 m
 Result sedov(int cells);
 

@@ -93,7 +93,7 @@ velocity = [{}, 0, 0]
   result.add("change of the angular momentum over that at the start", 0,
              (at_end.total() - at_start).dot(at_start) / at_start.squaredNorm());
   result.add("largest change on the way", 0, worst);
-  result.add("share of the affine fields at the end", 0,
+  result.add("fraction of the affine fields at the end", 0,
              at_end.of_fields.dot(at_start) / at_start.squaredNorm());
   result.add("particles lost", 0, static_cast<double>(count - simulation.particles().size()));
   result.add("largest momentum error", 0, momentum);

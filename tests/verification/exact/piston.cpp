@@ -11,7 +11,7 @@
 namespace whipple::verification::exact {
 namespace {
 
-/// State behind a front in matter of a stress, by the Hugoniot equation of energy at a density.
+/// State behind a front in material of a stress, by the Hugoniot equation of energy at a density.
 PlateauState behind(const eos::EquationOfState& eos, const PlateauState& before, double density,
                     double yield) {
   const double change = 1 / before.density - 1 / density;

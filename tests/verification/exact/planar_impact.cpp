@@ -19,7 +19,7 @@ namespace whipple::verification::exact {
 namespace {
 
 /// The material without its strength: what is left has an exact solution. It parts at the tension of soft
-/// aluminium and makes no heat by that (voids that grow do): else released matter would swing in tension.
+/// aluminium and makes no heat by that (voids that grow do): else released material would swing in tension.
 std::string hydrodynamic(const std::string& material) {
   static std::map<std::string, std::string> written;
   const auto [known, is_new] = written.try_emplace(material);
@@ -239,8 +239,8 @@ shape = {{ box = {{ lower = [0, 0, {:.9g}], upper = [{:.9g}, {:.9g}, {:.9g}] }} 
     result.add(of + "e, plateau, first release", 1, f.plateau_first_release.value());
     result.add(of + "T max, K", released.temperature, f.hottest);
     if (!released.phase.empty()) {
-      result.add(of + "share not solid", released.melted_fraction > 0 ? 1.0 : 0.0, f.not_solid / f.mass);
-      result.add(of + "melted share", released.melted_fraction, f.melted.value());
+      result.add(of + "fraction not solid", released.melted_fraction > 0 ? 1.0 : 0.0, f.not_solid / f.mass);
+      result.add(of + "melted fraction", released.melted_fraction, f.melted.value());
     }
     result.add(of + "p behind the shock", 1, f.shock_pressure.value());
     result.add(of + "rho behind the shock", 1, f.shock_density.value());
@@ -252,7 +252,7 @@ shape = {{ box = {{ lower = [0, 0, {:.9g}], upper = [{:.9g}, {:.9g}, {:.9g}] }} 
   }
   double released_energy = 0;  // J, exact
   for (const BodyFigures& f : bodies) released_energy += f.mass * f.exact_energy.value();
-  result.add("heat of the transfers over exact released e", std::nan(""),
+  result.add("transfer dissipation over exact released e", std::nan(""),
              simulation.state().ledger.transfer_heat / released_energy);
   result.add("largest energy error", 0, energy_watch.worst);
   return result;

@@ -39,9 +39,9 @@ class ShockedAndReleased {
 
   [[nodiscard]] const eos::ShockState& shocked() const { return shocked_; }
   /// Where the release first has zero pressure, on the model's own surface (not the equilibrium of liquid and
-  /// vapour, which boiling matter does not reach in such times); without phase if it has none.
+  /// vapour, which boiling material does not reach in such times); without phase if it has none.
   [[nodiscard]] const eos::State& released() const { return released_; }
-  /// Specific internal energy on the release isentrope (J/kg, above that of the matter at the start), at the
+  /// Specific internal energy on the release isentrope (J/kg, above that of the material at the start), at the
   /// density, at least that at zero pressure.
   [[nodiscard]] double energy(double density) const;
   [[nodiscard]] double initial_energy() const { return initial_energy_; }

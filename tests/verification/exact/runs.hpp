@@ -102,7 +102,7 @@ class Layers {
   std::vector<Mean> layers_;
 };
 
-/// Absolute deviation from the exact solution, weighted by the volume of the matter: the L1 norm over the
+/// Absolute deviation from the exact solution, weighted by the volume of the material: the L1 norm over the
 /// space that it fills, relative to the same norm of a scale.
 class L1 {
  public:

@@ -10,9 +10,9 @@
 
 #include "src/core/base/error.hpp"
 
-namespace whipple::cases {
+namespace whipple::input {
 
-/// Collects what is wrong with a case, under the key of one of its sections. Cheap to copy; valid while the
+/// Collects what is wrong with the values of an input, under the key of one of its sections. Cheap to copy; valid while the
 /// list lives.
 class Faults {
  public:
@@ -38,4 +38,4 @@ class Faults {
   std::string section_;
 };
 
-}  // namespace whipple::cases
+}  // namespace whipple::input

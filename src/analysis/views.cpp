@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/analysis/views.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "src/analysis/canvas.hpp"
+#include "src/analysis/radiograph.hpp"
+
+namespace whipple::analysis {
+namespace {
+
+constexpr const char* density = "density";
+
+/// A field of the views. Its values are those of the points; of an element the mean of its points.
+struct ShownField {
+  const char* name;
+  bool on_scale = false;  ///< coloured by a scale, whose ends are quantiles; else by classes
+  std::vector<double> (*made)(const Snapshot&) = nullptr;  ///< null: the field of this name in the snapshot
+
+  /// Returns nothing if the snapshot does not have the field.
+  [[nodiscard]] std::optional<std::vector<double>> values(const Snapshot& snapshot) const {
+    if (made != nullptr) return made(snapshot);
+    const std::vector<double>* stored = snapshot.scalar(name);
+    return stored == nullptr ? std::nullopt : std::optional(*stored);
+  }
+};
+
+const ShownField fields[] = {
+    {"body", false, [](const Snapshot& s) { return std::vector<double>(s.body.begin(), s.body.end()); }},
+    {"phase"},
+    {"failed"},
+    {"temperature", true},
+    {"pressure", true},
+    {"speed", true,
+     [](const Snapshot& s) {
+       std::vector<double> speeds;
+       for (const Vector3& v : s.velocity) speeds.push_back(v.norm());
+       return speeds;
+     }},
+    {"plastic_strain", true},
+    {"damage", true},
+};
+
+/// Reads a snapshot and keeps what views show of it.
+Snapshot read_shown(const SnapshotEntry& entry) {
+  Snapshot snapshot = read_snapshot(entry);
+  std::erase_if(snapshot.scalars, [](const auto& scalar) {
+    return scalar.first != density && std::ranges::find(fields, scalar.first, &ShownField::name) == std::end(fields);
+  });
+  return snapshot;
+}
+
+/// Lists what a snapshot shows: points, then elements, whose values are those of their first of eight points.
+struct Scene {
+  const Snapshot& snapshot;
+  std::vector<std::size_t> points;    ///< that are no parts of elements
+  std::vector<std::size_t> elements;  ///< first point of each
+
+  explicit Scene(const Snapshot& of) : snapshot(of) {
+    std::vector<bool> is_part(of.size(), false);
+    for (const Hexahedron& element : of.hexahedra) {
+      const auto first = static_cast<std::size_t>(std::ranges::lower_bound(of.id, element.first) - of.id.begin());
+      elements.push_back(first);
+      for (std::size_t k = 0; k < 8; ++k) is_part[first + k] = true;
+    }
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      if (!is_part[i]) points.push_back(i);
+    }
+  }
+  [[nodiscard]] std::size_t size() const { return points.size() + elements.size(); }
+  /// Returns the mean of the values at the points of an item.
+  template <class Value>
+  [[nodiscard]] Value mean(const std::vector<Value>& values, std::size_t item) const {
+    if (item < points.size()) return values[points[item]];
+    const std::size_t first = elements[item - points.size()];
+    Value sum = values[first];
+    for (std::size_t k = 1; k < 8; ++k) sum += values[first + k];
+    return sum / 8.0;
+  }
+};
+
+/// The projection of all views: limits common to all times, so that growth is seen.
+struct Projection {
+  const Frame& frame;
+  PictureLimits limits;
+  double pixel = 0.0;  ///< m
+  std::size_t rows = 0, columns = 0;
+
+  [[nodiscard]] bool is_mirrored() const {
+    return frame.mirrored(frame.transverse[0]) || frame.dimension == grid::Dimension::axisymmetric;
+  }
+  /// Returns the axial coordinate, the one upward, and the one toward the viewer, m from the axis.
+  [[nodiscard]] Vector3 coordinates(const Vector3& position) const {
+    const Vector3 offset = position - frame.centre;
+    return {frame.axial(offset), offset[frame.transverse[0]], -offset[frame.transverse[1]]};
+  }
+  /// Returns the place in the picture (pixels). @param side  -1: of the image below the axis
+  [[nodiscard]] Vector3 place(const Vector3& coordinates, double side, bool from_outside) const {
+    const bool both = from_outside && frame.mirrored(frame.transverse[1]);
+    return {(coordinates[0] - limits.lower_axial) / pixel, (side * coordinates[1] - limits.lower_up) / pixel,
+            (both ? std::abs(coordinates[2]) : coordinates[2]) / pixel};
+  }
+};
+
+Projection projection_of(const Frame& frame, const std::vector<Snapshot>& snapshots, std::size_t columns) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Projection projection{.frame = frame, .limits = {infinity, -infinity, 0.0, 0.0}};
+  PictureLimits& limits = projection.limits;
+  for (const Snapshot& snapshot : snapshots) limits.include(snapshot, frame);
+  if (!std::isfinite(limits.lower_axial)) limits = {0.0, 1.0, projection.is_mirrored() ? -1.0 : 0.0, 1.0};
+  const double pad = 0.04 * std::max(limits.upper_axial - limits.lower_axial, 1e-12);
+  limits.lower_axial -= pad;
+  limits.upper_axial += pad;
+  limits.lower_up -= pad;
+  limits.upper_up += pad;
+  projection.columns = columns;
+  projection.pixel = (limits.upper_axial - limits.lower_axial) / static_cast<double>(columns);
+  projection.rows = static_cast<std::size_t>(std::ceil((limits.upper_up - limits.lower_up) / projection.pixel));
+  return projection;
+}
+
+/// Draws a scene; labels are the numbers of its items. @param outside  from outside; else cut along the plane of sight
+/// through the axis
+Canvas draw(const Scene& scene, const Projection& projection, bool outside) {
+  const Snapshot& snapshot = scene.snapshot;
+  const Frame& frame = projection.frame;
+  const bool whole = outside || frame.is_planar();
+  Canvas canvas(projection.rows, projection.columns);
+  std::vector<Corners> shown;
+  std::vector<std::uint32_t> number;  // of the items of the elements shown
+  for (std::size_t e = 0; e < scene.elements.size(); ++e) {
+    const std::size_t item = scene.points.size() + e;
+    if (!whole && projection.coordinates(scene.mean(snapshot.position, item))[2] > 0.0) continue;
+    shown.push_back(snapshot.hexahedra[e].corners);
+    number.push_back(static_cast<std::uint32_t>(item));
+  }
+  const std::vector<Face> faces = surface_faces(shown);
+  const std::vector<double>* densities = snapshot.scalar(density);
+  for (const double side : {1.0, -1.0}) {
+    if (side < 0.0 && !projection.is_mirrored()) break;
+    std::vector<std::array<Vector3, 4>> corners;
+    std::vector<std::uint32_t> labels;
+    for (const Face& face : faces) {
+      std::array<Vector3, 4>& places = corners.emplace_back();
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Vector3& node = snapshot.nodes[face.corners[k]];
+        places[k] = projection.place(projection.coordinates(node), side, outside);
+      }
+      labels.push_back(number[face.element]);
+    }
+    canvas.faces(corners, labels);
+    for (std::size_t item = 0; item < scene.points.size(); ++item) {
+      const std::size_t i = scene.points[item];
+      const Vector3 coordinates = projection.coordinates(snapshot.position[i]);
+      if (!whole && coordinates[2] > 0.0) continue;
+      const double edge =
+          densities == nullptr
+              ? 0.0
+              : frame.edge(snapshot.mass[i] / std::max((*densities)[i], 1e-3), snapshot.position[i]);
+      canvas.sphere(projection.place(coordinates, side, outside), 0.5 * edge / projection.pixel,
+                    static_cast<std::uint32_t>(item));
+    }
+  }
+  return canvas;
+}
+
+/// Writes a picture: `light`, `seen` (0: nothing, else the number of an item, from 1 on, in the lists of the fields).
+void write_picture(const Canvas& canvas, const Scene& scene, std::span<const ShownField> shown,
+                   const hdf5::Group& group) {
+  constexpr int deflate = 4;
+  const hdf5::Slab all = hdf5::Slab::whole(canvas.rows());
+  const hdf5::Storage image{.columns = canvas.columns(), .deflate = deflate};
+  group.write<float>("light", canvas.light(), all, image);
+  std::vector<std::uint32_t> items = canvas.seen();
+  std::ranges::sort(items);
+  items.erase(std::ranges::unique(items).begin(), items.end());
+  if (!items.empty() && items.back() == Canvas::nothing) items.pop_back();
+  std::vector<std::uint32_t> seen;
+  for (const std::uint32_t label : canvas.seen()) {
+    const auto found = std::ranges::lower_bound(items, label);
+    seen.push_back(label == Canvas::nothing ? 0 : static_cast<std::uint32_t>(found - items.begin()) + 1);
+  }
+  group.write<std::uint32_t>("seen", seen, all, image);
+  for (const ShownField& field : shown) {
+    const auto values = field.values(scene.snapshot);
+    if (!values) continue;
+    std::vector<float> of_items;
+    for (const std::uint32_t item : items) of_items.push_back(static_cast<float>(scene.mean(*values, item)));
+    group.write<float>(field.name, of_items, hdf5::Slab::whole(of_items.size()), {.deflate = deflate});
+  }
+}
+
+/// Writes the ends of the scale of a field: the values that all but 0.2 % of the mass is above or below, of the mass that
+/// moves, in all snapshots but the first, which is before the impact. A field that is zero everywhere has no scale.
+void write_scale(const ShownField& field, const std::vector<Snapshot>& snapshots, const Frame& frame,
+                 const hdf5::Group& group) {
+  std::vector<std::pair<double, double>> value_and_mass;
+  bool is_zero = true;
+  for (std::size_t k = 0; k < snapshots.size(); ++k) {
+    const Snapshot& snapshot = snapshots[k];
+    const auto values = field.values(snapshot);
+    if (!values) return;
+    is_zero = is_zero && std::ranges::all_of(*values, [](double value) { return value == 0.0; });
+    if (k == 0 && snapshots.size() > 1) continue;
+    const auto moves = [&](std::size_t i) { return snapshot.velocity[i].norm() > 0.05 * frame.impact_speed; };
+    bool any = false;  // cold walls at rest set no scale, unless there is nothing else
+    for (std::size_t i = 0; i < snapshot.size() && !any; ++i) any = moves(i);
+    for (std::size_t i = 0; i < snapshot.size(); ++i) {
+      if (!any || moves(i)) value_and_mass.emplace_back((*values)[i], snapshot.mass[i]);
+    }
+  }
+  if (is_zero || value_and_mass.empty()) return;
+  const std::vector<double> ends = {weighted_quantile(value_and_mass, 0.002), weighted_quantile(value_and_mass, 0.998)};
+  group.write<double>(field.name, ends, hdf5::Slab::whole(2));
+}
+
+}  // namespace
+
+std::vector<std::size_t> shown_snapshots(const std::vector<SnapshotEntry>& entries, int at_most) {
+  std::vector<std::size_t> numbers;
+  const auto count = std::min(entries.size(), static_cast<std::size_t>(std::max(at_most, 0)));
+  for (std::size_t k = 0; k < count; ++k) {
+    const double part = count == 1 ? 0.0 : static_cast<double>(k) / static_cast<double>(count - 1);
+    const double first = entries.front().time, wanted = first + (entries.back().time - first) * std::pow(part, 1.5);
+    const auto nearest = std::ranges::min_element(
+        entries, {}, [&](const SnapshotEntry& entry) { return std::abs(entry.time - wanted); });
+    numbers.push_back(static_cast<std::size_t>(nearest - entries.begin()));
+  }
+  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+  return numbers;
+}
+
+void write_views(const Run& run, const Frame& frame, const ViewOptions& options, const hdf5::Group& root) {
+  std::vector<Snapshot> snapshots;
+  for (const std::size_t number : shown_snapshots(run.snapshots, options.times)) {
+    snapshots.push_back(read_shown(run.snapshots[number]));
+  }
+  if (snapshots.empty()) return;
+  const Projection projection = projection_of(frame, snapshots, options.columns);
+  const hdf5::Group group = root.create_group("views");
+  group.set_attribute("lower_axial", projection.limits.lower_axial);
+  group.set_attribute("upper_axial", projection.limits.upper_axial);
+  group.set_attribute("lower_up", projection.limits.lower_up);
+  group.set_attribute("upper_up", projection.limits.upper_up);
+  const hdf5::Group scales = group.create_group("scales");
+  for (const ShownField& field : fields) {
+    if (field.on_scale) write_scale(field, snapshots, frame, scales);
+  }
+  const hdf5::Group times = group.create_group("times");
+  for (std::size_t k = 0; k < snapshots.size(); ++k) {
+    const Scene scene(snapshots[k]);
+    const hdf5::Group at = times.create_group(fmt::format("{:04}", k));
+    at.set_attribute("time", snapshots[k].time);
+    at.set_attribute("items", static_cast<std::int64_t>(scene.size()));
+    write_picture(draw(scene, projection, false), scene, fields, at.create_group("section"));
+    if (frame.is_planar()) continue;
+    write_picture(draw(scene, projection, true), scene, std::span(fields).first(1), at.create_group("outside"));
+  }
+}
+
+}  // namespace whipple::analysis

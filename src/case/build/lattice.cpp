@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/case/build/lattice.hpp"
+
+namespace whipple::cases {
+namespace {
+
+bool inside_domain(const Case& setup, const Vector3& point) {
+  for (int a = 0; a < 3; ++a) {
+    if (point[a] < setup.geometry.lower[a] || point[a] > setup.geometry.upper(a)) return false;
+  }
+  return true;
+}
+
+/// A whole cell of the lattice: its centre decides whether it belongs to the body.
+std::optional<Site> whole_site(const Case& setup, const Body& body, const Lattice& lattice,
+                               const Vector3& point) {
+  if (!inside_domain(setup, point) || !setup.holds(body, point)) return std::nullopt;
+  const Vector3 half = 0.5 * lattice.spacing;
+  return Site{point, 1.0, {half[0] * half[0], half[1] * half[1], half[2] * half[2], 0, 0, 0}};
+}
+
+/// The part of a cell that lies in the body, by the points of a lattice four times as fine, in two dimensions twelve
+/// times: its volume, centroid and second moments.
+std::optional<Site> partial_site(const Case& setup, const Body& body, const Lattice& lattice,
+                                 const Vector3& point) {
+  const int parts = setup.geometry.is_planar() ? 12 : 4, parts_z = setup.geometry.is_planar() ? 1 : parts;
+  const double all = parts * parts * parts_z;
+  const Vector3 part(lattice.spacing[0] / parts, lattice.spacing[1] / parts, lattice.spacing[2] / parts_z);
+  const Vector3 middle(0.5 * (parts - 1), 0.5 * (parts - 1), 0.5 * (parts_z - 1));
+  double count = 0;
+  Vector3 first = Vector3::Zero();
+  Matrix3 second = Matrix3::Zero();
+  for (int i = 0; i < parts; ++i) {
+    for (int j = 0; j < parts; ++j) {
+      for (int k = 0; k < parts_z; ++k) {
+        const Vector3 offset = part.cwiseProduct(Vector3(i, j, k) - middle);
+        if (!inside_domain(setup, point + offset) || !setup.holds(body, point + offset)) continue;
+        count += 1;
+        first += offset;
+        second += offset * offset.transpose();
+      }
+    }
+  }
+  if (count == 0) return std::nullopt;
+  if (count == all) first.setZero();  // exactly the whole cell
+  const Vector3 center = first / count;
+  // A domain with half-edges r has the covariance sum r r^T / 3; every part brings that of its own box.
+  Matrix3 extent = 3.0 * (second / count - center * center.transpose());
+  extent += (0.5 * part).cwiseAbs2().asDiagonal();
+  return Site{point + center, count / all, SymmetricTensor::from(extent)};
+}
+
+}  // namespace
+
+bool is_mirror(const Case& setup, int face) {
+  return setup.geometry.boundary[static_cast<std::size_t>(face)] != grid::Boundary::outflow;
+}
+
+double wanted_spacing(const Case& setup, const Body& body) {
+  return setup.geometry.cell_size / std::cbrt(static_cast<double>(body.discretization.per_cell));
+}
+
+Shape::Bounds bounds_of(const Case& setup, const Body& body) {
+  Shape::Bounds bounds = body.shape->bounds();
+  if (setup.geometry.is_planar()) {
+    const double half = 0.5 * wanted_spacing(setup, body);
+    bounds.lower[2] = setup.geometry.lower[2] - half;
+    bounds.upper[2] = setup.geometry.lower[2] + half;
+  }
+  return bounds;
+}
+
+Shape::Bounds common_part(const Shape::Bounds& a, const Shape::Bounds& b) {
+  return {a.lower.cwiseMax(b.lower), a.upper.cwiseMin(b.upper)};
+}
+
+Shape::Bounds domain_of(const Case& setup) {
+  const grid::Geometry& g = setup.geometry;
+  Shape::Bounds domain{g.lower, Vector3(g.upper(0), g.upper(1), g.upper(2))};
+  if (g.is_planar()) domain.lower[2] -= g.cell_size;
+  return domain;
+}
+
+double lattice_size(const Case& setup, const Body& body) {
+  const Shape::Bounds inside = common_part(bounds_of(setup, body), domain_of(setup));
+  return ((inside.upper - inside.lower).cwiseMax(0.0) / wanted_spacing(setup, body)).prod();
+}
+
+Lattice lattice_of(const Case& setup, const Body& body) {
+  const Shape::Bounds bounds = bounds_of(setup, body);
+  const double wanted = wanted_spacing(setup, body);
+  Lattice lattice;
+  lattice.lower = bounds.lower;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<Eigen::Index>(a);
+    const double length = bounds.upper[axis] - bounds.lower[axis];
+    const double middle = 0.5 * (bounds.upper[axis] + bounds.lower[axis]);
+    const bool halved = (is_mirror(setup, static_cast<int>(2 * a)) &&
+                         std::abs(middle - setup.geometry.lower[axis]) < 1e-9 * length) ||
+                        (is_mirror(setup, static_cast<int>(2 * a + 1)) &&
+                         std::abs(middle - setup.geometry.upper(static_cast<int>(a))) < 1e-9 * length);
+    const double part = halved ? 0.5 * length : length;
+    const long n = std::max(1L, std::lround(part / wanted)) * (halved ? 2 : 1);
+    lattice.count[a] = n;
+    lattice.halvings += halved ? 1 : 0;
+    lattice.spacing[axis] = length / static_cast<double>(n);
+  }
+  return lattice;
+}
+
+std::optional<Site> site_at(const Case& setup, const Body& body, const Lattice& lattice, const Vector3& point) {
+  return body.discretization.partial_volumes ? partial_site(setup, body, lattice, point)
+                                             : whole_site(setup, body, lattice, point);
+}
+
+}  // namespace whipple::cases

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/case/build/placement.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "src/case/build/bars.hpp"
+#include "src/case/build/lattice.hpp"
+#include "src/case/build/meshing.hpp"
+#include "src/core/base/error.hpp"
+
+namespace whipple::cases {
+namespace {
+
+/// Why the particles or elements of a body are too many to be made.
+std::optional<std::string> too_many(const Case& setup, const Body& body) {
+  constexpr double most_particles = 1e9;  // some 500 GB
+  constexpr double most_elements = 2e7;   // some 10 GB: every rank makes the whole mesh
+  constexpr double longest_edge = 1e12;   // beyond it round-off joins neighbours
+  const bool elements = body.discretization.has_elements();
+  const Vector3 edges =
+      (bounds_of(setup, body).upper - bounds_of(setup, body).lower) /
+      (elements ? body.discretization.size(setup.domain.cell_size) : wanted_spacing(setup, body));
+  const double count = elements ? edges.prod() : lattice_size(setup, body);
+  const double most = elements ? most_elements : most_particles;
+  if (count <= most && edges.maxCoeff() <= longest_edge) return std::nullopt;
+  return fmt::format(
+      "body \"{}\" takes a lattice of {:.2g} {}, {:.2g} along an edge; at most {:.0e} and {:.0e}: "
+      "enlarge 'cell_size' or reduce 'per_cell'",
+      body.name, count, elements ? "elements" : "particles", edges.maxCoeff(), most, longest_edge);
+}
+
+/// Volume of the particles of a body over that of the part of its shape inside the domain, less 1; 0 where a
+/// mirror plane cuts the body elsewhere than in its middle, so that this part is not known.
+double excess_volume(const Case& setup, const Body& body) {
+  if (setup.geometry.is_planar()) return 0.0;
+  const Lattice lattice = lattice_of(setup, body);
+  const Shape::Bounds bounds = body.shape->bounds(), domain = domain_of(setup);
+  const double tolerance = 1e-9 * setup.geometry.cell_size;
+  int cuts = 0;
+  for (int a = 0; a < 3; ++a) {
+    if (bounds.lower[a] < domain.lower[a] - tolerance || bounds.upper[a] > domain.upper[a] + tolerance) {
+      ++cuts;
+    }
+  }
+  if (cuts != lattice.halvings) return 0.0;
+  double sites = 0.0;
+  for_each_site(setup, body, lattice, [&](const Site& site) { sites += site.fraction; });
+  return std::ldexp(sites * lattice.spacing.prod(), cuts) / body.shape->volume() - 1.0;
+}
+
+bool boxes_meet(const Shape::Bounds& a, const Shape::Bounds& b) {
+  return (a.lower.array() < b.upper.array()).all() && (b.lower.array() < a.upper.array()).all();
+}
+
+/// A fault where a particle of one of two bodies lies in the other: the one may lie between the particles of
+/// the other.
+std::optional<std::string> overlap(const Case& setup, const Body& body, const Body& former) {
+  const Shape::Bounds bounds = bounds_of(setup, body), theirs = bounds_of(setup, former);
+  if (!boxes_meet(bounds, theirs)) return std::nullopt;
+  const Shape::Bounds both = common_part(bounds, theirs);
+  Vector3 at;
+  const auto lies_in = [&](const Shape& shape) {
+    return [&](const Site& site) {
+      at = site.position;
+      return shape.contains(site.position);
+    };
+  };
+  if (!any_site(setup, body, lattice_of(setup, body), both, lies_in(*former.shape)) &&
+      (former.discretization.is_bars() ||
+       !any_site(setup, former, lattice_of(setup, former), both, lies_in(*body.shape)))) {
+    return std::nullopt;
+  }
+  return fmt::format("body \"{}\" overlaps body \"{}\" at ({:.6g}, {:.6g}, {:.6g}) m", body.name, former.name,
+                     at[0], at[1], at[2]);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> faces_touched(const Case& setup) {
+  const grid::Geometry& g = setup.geometry;
+  const double near = 0.05 * g.cell_size;
+  std::vector<std::uint8_t> faces(setup.bodies.size(), 0);
+  for (std::size_t b = 0; b < faces.size(); ++b) {
+    const Body& body = setup.bodies[b];
+    if (body.discretization.is_bars()) continue;  // they share the field of the material around
+    const Shape::Bounds bounds = bounds_of(setup, body);
+    const Lattice lattice = lattice_of(setup, body);
+    for (int face = 0; face < 6; ++face) {
+      const int a = face / 2;
+      const double plane = face % 2 == 0 ? g.lower[a] : g.upper(a);
+      if (!is_mirror(setup, face)) continue;
+      if (face % 2 == 0 ? bounds.lower[a] > plane + near : bounds.upper[a] < plane - near) continue;
+      // The box may be larger than the shape, and the lattice may have left out what the plane cuts.
+      Shape::Bounds layer = domain_of(setup);
+      const double depth = lattice.spacing[a] + near;
+      (face % 2 == 0 ? layer.upper[a] : layer.lower[a]) = face % 2 == 0 ? plane + depth : plane - depth;
+      const auto is_in_layer = [&](const Site& site) { return std::abs(site.position[a] - plane) <= depth; };
+      if (any_site(setup, body, lattice, layer, is_in_layer))
+        faces[b] |= static_cast<std::uint8_t>(1U << face);
+    }
+  }
+  return faces;
+}
+
+double expected_memory(const Case& setup) {
+  constexpr double bytes_per_particle = 500.0;  // in full blocks: docs/manual/performance.md
+  double particles = 0.0;
+  for (const Body& body : setup.bodies) {
+    if (!body.discretization.is_bars()) particles += lattice_size(setup, body);
+  }
+  return bytes_per_particle * particles;
+}
+
+std::vector<PlacementFault> placement_faults(const Case& setup) {
+  std::vector<PlacementFault> faults;
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    if (setup.bodies[b].discretization.is_bars()) continue;
+    if (const auto fault = too_many(setup, setup.bodies[b])) faults.push_back({b, *fault});
+  }
+  if (!faults.empty()) return faults;
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const Body& body = setup.bodies[b];
+    const Shape::Bounds bounds = bounds_of(setup, body);
+    const double tolerance = 1e-9 * setup.geometry.cell_size;
+    for (int face = 0; face < (setup.geometry.is_planar() ? 4 : 6); ++face) {
+      const int a = face / 2;
+      const bool beyond = face % 2 == 0 ? bounds.lower[a] < setup.geometry.lower[a] - tolerance
+                                        : bounds.upper[a] > setup.geometry.upper(a) + tolerance;
+      if (beyond && !is_mirror(setup, face)) {
+        faults.push_back(
+            {b, fmt::format("body \"{}\" reaches {} = {} m, outside of the domain, which goes from {} m "
+                            "to {} m",
+                            body.name, "xyz"[a], face % 2 == 0 ? bounds.lower[a] : bounds.upper[a],
+                            setup.geometry.lower[a], setup.geometry.upper(a))});
+      }
+    }
+    if (body.discretization.is_bars()) {
+      if (const auto fault = fault_of_bars(setup, body)) faults.push_back({b, *fault});
+      continue;
+    }
+    if (body.discretization.has_elements()) {
+      try {
+        static_cast<void>(hexahedra_of(setup, body));
+      } catch (const InputError& error) {
+        faults.push_back({b, error.what()});
+      }
+    }
+    const Lattice lattice = lattice_of(setup, body);
+    if (setup.transfer.shape_function == transfer::ShapeFunction::gimp &&
+        lattice.spacing.maxCoeff() > (1.0 + 1e-9) * setup.geometry.cell_size) {
+      faults.push_back({b, fmt::format("body \"{}\": its particles are {:.3g} cells wide, and "
+                                       "shape_function = \"gimp\" takes particles of one cell at most: raise "
+                                       "'per_cell' to 8, or take \"convected_gimp\" or a B-spline",
+                                       body.name, lattice.spacing.maxCoeff() / setup.geometry.cell_size)});
+    }
+    for (std::size_t other = 0; other < b; ++other) {
+      if (const auto fault = overlap(setup, body, setup.bodies[other])) faults.push_back({b, *fault});
+    }
+    if (!any_site(setup, body, lattice, bounds, [](const Site&) { return true; })) {
+      faults.push_back(
+          {b, fmt::format("body \"{}\" holds no particle: it is outside of the domain or thinner than a "
+                          "particle spacing",
+                          body.name)});
+    }
+  }
+  return faults;
+}
+
+std::vector<std::string> placement_warnings(const Case& setup) {
+  std::vector<std::string> warnings;
+  const double cell = setup.geometry.cell_size;
+  for (const Body& body : setup.bodies) {
+    if (body.discretization.is_bars() || body.discretization.has_elements()) continue;
+    Eigen::Index axis = 0;
+    const Shape::Bounds bounds = bounds_of(setup, body);
+    const double thickness =
+        (bounds.upper - bounds.lower).head(setup.geometry.is_planar() ? 2 : 3).minCoeff(&axis);
+    if (thickness < (1.0 - 1e-9) * cell) {
+      warnings.push_back(fmt::format(
+          "body \"{}\" is thinner than a cell: {:.4g} mm along {}, cells of {:.4g} mm; the grid sees "
+          "no wave that crosses it",
+          body.name, 1e3 * thickness, "xyz"[axis], 1e3 * cell));
+    }
+    constexpr double tolerance = 0.01;
+    if (const double excess = excess_volume(setup, body); std::abs(excess) > tolerance) {
+      warnings.push_back(fmt::format(
+          "body \"{}\": its particles have {:.2g} % {} volume and mass than its shape; {}", body.name,
+          100.0 * std::abs(excess), excess > 0.0 ? "more" : "less",
+          body.discretization.partial_volumes
+              ? "smaller cells or a larger 'per_cell' meet it more closely"
+              : "discretization.partial_volumes = true gives those at its surface the part that lies in it"));
+    }
+  }
+  return warnings;
+}
+
+std::vector<Shape::Bounds> particle_boxes(const Case& setup, const Body& body, const Shape::Bounds& near) {
+  std::vector<Shape::Bounds> boxes;
+  if (too_many(setup, body)) return boxes;  // a fault that is reported elsewhere
+  Body whole = body;
+  whole.discretization.partial_volumes = false;
+  const Lattice lattice = lattice_of(setup, whole);
+  const Vector3 half = 0.5 * lattice.spacing;
+  any_site(setup, whole, lattice, near, [&](const Site& site) {
+    boxes.push_back({site.position - half, site.position + half});
+    return false;
+  });
+  return boxes;
+}
+
+}  // namespace whipple::cases
