@@ -105,8 +105,10 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
   } else {
     spread.maxCoeff(&frame.axis);
   }
-  frame.sign = fastest[frame.axis] >= 0.0 ? 1.0 : -1.0;
-  const Vector3 approach = run.bodies.size() > 1 ? Vector3(fastest - velocity[slowest]) : fastest;
+  // Where nothing moves initially there is no flight to point along: the axis is that of the domain.
+  frame.sign = at_rest || fastest[frame.axis] >= 0.0 ? 1.0 : -1.0;
+  Vector3 approach = run.bodies.size() > 1 ? Vector3(fastest - velocity[slowest]) : fastest;
+  if (at_rest && approach[frame.axis] < 0.0) approach = -approach;
   (at_rest ? frame.parting_speed : frame.impact_speed) = approach.norm();
   if (approach[frame.axis] != 0.0) {
     frame.direction = approach / std::abs(approach[frame.axis]);

@@ -154,6 +154,11 @@ void remark_on_symmetry(const Case& setup, std::vector<std::string>& remarks) {
 void remark_on_meshes(const Case& setup, std::vector<std::string>& remarks) {
   for (const Body& body : setup.bodies) {
     if (body.discretization.mesh.empty()) continue;
+    const Shape::Bounds bounds = body.shape->bounds();
+    if (const double size = (bounds.upper - bounds.lower).maxCoeff(); size < setup.geometry.cell_size) {
+      remarks.push_back(fmt::format("the mesh of '{}' is {:.3g} mm long, less than a cell: is 'mesh_unit' right?", body.name,
+                                    1e3 * size));
+    }
     const auto mesh = body.shape->hexahedra(setup.geometry.cell_size, body.shape->bounds());
     const std::size_t nodes = mesh ? fem::unmerged_nodes(*mesh) : 0;
     if (nodes == 0) continue;

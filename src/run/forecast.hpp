@@ -15,7 +15,8 @@ struct Forecast {
 
 /// Predicts steps and wall time of a case from a few measured steps. Collective.
 ///
-/// Steps: the end time over the time step that the initial state allows, without `time.first_step`; hot material
+/// Steps: the end time over the time step that the initial state allows, after steps that grow from `time.first_step`, at
+/// the beginning and again where bodies may touch for the first time, and ends at the times of snapshots; hot material
 /// with a higher sound speed shortens the step, decelerated material lengthens it. Time: inactive blocks cost
 /// next to nothing; a particle becomes active once sound, or the fastest material, can have reached it from the
 /// moving bodies.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -61,6 +62,33 @@ TEST(Forecast, OfACraterInABlockThatRestsAtFirst) {
 
 TEST(Forecast, OfAProjectileThatFliesFirst) {
   expect_foreseen(case_of("whipple_shield", {{"domain.cell_size", "2.5 mm"}}));
+}
+
+TEST(Forecast, OfSectionsWithFewSteps) {
+  const std::vector<std::pair<std::string, std::string>> section = {{"domain.dimension", "axisymmetric"}};
+  auto lead = section, disk = section;
+  lead.insert(lead.end(), {{"domain.axis", "x"}, {"domain.cell_size", "3 mm"}});
+  expect_foreseen(case_of("lead_sphere_on_plate_gray", lead));
+  disk.insert(disk.end(), {{"domain.axis", "z"}, {"domain.cell_size", "1 mm"}});
+  expect_foreseen(case_of("copper_disk_on_aluminium", disk));
+}
+
+// The ball meets the plate in the run: steps grow twice from a twentieth of the allowed one.
+TEST(Forecast, OfAGapAndManySnapshots) {
+  const std::string file = WHIPPLE_SOURCE_DIR "/tests/data/small_impact.toml";
+  for (const char* every : {"0.5 us", "0.02 us", "0.002 us"}) {
+    const cases::Case setup = cases::read_case(file, {{"output.snapshot_every", every}});
+    solver::Simulation foreseen(setup, parallel::world()), run(setup, parallel::world());
+    const Forecast steps = forecast(foreseen);
+    double taken = 0.0, next = setup.output.snapshot_every;
+    for (; run.state().time < (1.0 - 1e-9) * setup.time.end; taken += 1.0) {
+      if (run.state().time >= (1.0 - 1e-9) * next) next += setup.output.snapshot_every;
+      run.advance(std::min(next, setup.time.end));
+    }
+    EXPECT_LE(steps.least_steps, taken) << every;
+    EXPECT_GE(steps.most_steps, taken) << every;
+    EXPECT_LT(steps.most_steps, 3.0 * steps.least_steps) << every;  // it is not known whether they will meet
+  }
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST(Remarks, NameMotionAgainstASymmetryPlane) {
 // Two cubes side by side whose common face has nodes twice.
 TEST(Remarks, NamePartsOfAMeshThatAreNotJoined) {
   const TemporaryFolder folder;
-  const auto remarks_of_gap = [&](const std::string& gap) {
+  const auto remarks_of_gap = [&](const std::string& gap, const std::string& unit = "1 mm") {
     std::ofstream mesh(folder.path() / "parts.msh");
     mesh << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n16\n";
     int node = 0;
@@ -108,11 +108,13 @@ TEST(Remarks, NamePartsOfAMeshThatAreNotJoined) {
     return remarks_of(free_domain +
                       "[[body]]\nname = \"cubes\"\nmaterial = \"copper.toml\"\ndiscretization = { method = "
                       "\"finite_elements\", mesh = \"" +
-                      (folder.path() / "parts.msh").string() + "\", mesh_unit = \"1 mm\" }\n");
+                      (folder.path() / "parts.msh").string() + "\", mesh_unit = \"" + unit + "\" }\n");
   };
   EXPECT_NE(remarks_of_gap("1").find("'cubes': 4 nodes of its mesh"), std::string::npos)
       << remarks_of_gap("1");
   EXPECT_EQ(remarks_of_gap("1.1"), "");
+  EXPECT_NE(remarks_of_gap("1.1", "1 um").find("is 'mesh_unit' right?"), std::string::npos);
+  EXPECT_THROW(remarks_of_gap("1.1", "10 km"), InputError);
 }
 
 }  // namespace
