@@ -173,7 +173,7 @@ TEST(Potential, TakesTheStructureOfLeastEnergy) {
   EXPECT_EQ(tantalum.structure(), CrystalStructure::bcc);
   EXPECT_NEAR(tantalum.lattice_constant(), 3.303, 0.002);
   EXPECT_NEAR(tantalum.crystal_energy(tantalum.lattice_constant()), -8.09, 0.001);
-  EXPECT_NE(tantalum.remark().find("the header gives Ta the structure 'fcc', but bcc has the least energy"),
+  EXPECT_NE(tantalum.remark().find("the header gives Ta the structure 'fcc', but bcc has the lowest energy"),
             std::string::npos)
       << tantalum.remark();
   const Potential stated = Potential::load("CuTa.eam.alloy", "Ta", {}, CrystalStructure::fcc);
