@@ -27,7 +27,7 @@ enum Code : std::uint8_t {
   void_growth = 7,       ///< growth and coalescence of voids
   spalled = 8,           ///< accumulated tension
 };
-constexpr std::size_t code_count = 9;
+constexpr std::size_t code_count = 16;  ///< that there is room for: a law may take the next free one, `Code{9}`
 
 /// Components xx, yy, zz, xy, yz, zx of a symmetric tensor, one entry per point.
 template <class Number>
@@ -80,7 +80,7 @@ class Criterion {
   virtual ~Criterion() = default;
   [[nodiscard]] virtual std::string_view model() const = 0;
   /// Advances the damage of the points and sets the code of those that are intact and break the criterion.
-  /// @param damage  `MaterialPoints::damage`; only criteria that accumulate change it
+  /// @param damage  history field `damage`; only criteria that accumulate change it
   virtual void mark(const State& state, std::span<double> damage, std::span<std::uint8_t> failed) const = 0;
   /// Lets voids grow and relaxes the stress of the matter between them; sets damage and code.
   virtual void grow_voids(const PorousState& /*state*/, std::span<double> /*damage*/,
@@ -93,7 +93,7 @@ class Criterion {
   [[nodiscard]] virtual Code healing_code() const { return intact; }
   /// Volume fraction of the voids at the start.
   [[nodiscard]] virtual double initial_porosity() const { return 0.0; }
-  /// Does it keep its past in `MaterialPoints::damage`? One criterion of a material may.
+  /// Does it keep its past in the history field `damage`? One criterion of a material may.
   [[nodiscard]] virtual bool accumulates() const { return false; }
   /// Does the damage take stress away before it is complete (docs/theory/material.md, eq. 18, 19)?
   [[nodiscard]] virtual bool softens() const { return false; }
