@@ -36,6 +36,7 @@ COUNTED = (("below_cold_curve", "points clamped to the cold curve"),
 # What took kinetic energy from the motion, and where it is (docs/theory/dissipation.md).
 DISSIPATION = (("viscous_work", "artificial viscosity", "internal energy"),
                ("plastic_work", "plastic work", "internal energy (and stored cold work)"),
+               ("dissipation", "material models in all: plastic, viscous, lost strength", "internal energy"),
                ("contact_heat", "contact, normal", "internal energy"),
                ("friction_heat", "contact, friction", "internal energy"),
                ("transfer_heat", "transfers between particles and grid", "internal energy"),

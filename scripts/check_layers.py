@@ -110,8 +110,6 @@ WORDS_ALLOWED = {
 # A source file has at most so many lines, except these, which may only become shorter.
 MOST_LINES = 500
 LONG = {
-    "src/material/update.cpp": 577,
-    "tests/property/material_update_test.cpp": 544,
 }
 OWN_FOLDERS = ("src", "eos", "md_fitting", "tests", "report", "scripts", "studies", "examples")
 OWN_ENDINGS = {".hpp", ".cpp", ".inl", ".h", ".py", ".sh", ".cmake"}

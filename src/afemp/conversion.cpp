@@ -183,12 +183,13 @@ Conversion convert(const fem::Mesh& mesh, std::size_t element, double affine_ine
 void write_particles(const fem::Mesh& mesh, std::size_t element, const Conversion& conversion,
                      std::size_t first, Particles& particles) {
   const std::size_t rows = fem::points_per_element(mesh.quadrature);
+  const MaterialPoints& material_points = mesh.points;
   const double heat = (conversion.heat + mesh.elements.hourglass_energy[element]) / fem::mass(mesh, element);
   for (std::size_t k = 0; k < corner_count; ++k) {
     const std::size_t p = first + k, row = element * rows + (rows == corner_count ? k : 0);
-    for_each_field<MaterialPoints>([&](const auto& field) {
-      const auto& from = mesh.points.*(field.values);
-      if (!from.empty()) (particles.*(field.values))[p] = from[row];
+    for_each_field(material_points, [&](const auto& field) {
+      const auto& from = field.of(material_points);
+      if (!from.empty()) field.of(particles)[p] = from[row];
     });
     if (!particles.heating_viscosity.empty()) {  // that of elements heats as a whole
       particles.heating_viscosity[p] = particles.artificial_viscosity[p];
@@ -241,8 +242,9 @@ ConversionBalance convert_elements(fem::Mesh& mesh, std::span<const std::uint8_t
   if (list.empty()) return balance;
   const std::size_t before = particles.size();
   resize(particles, before + corner_count * list.size());
-  for_each_field<MaterialPoints>([&](const auto& field) {  // optional ones that no particle needed so far
-    if (!(mesh.points.*(field.values)).empty()) field.resize(particles, particles.size());
+  const MaterialPoints& material_points = mesh.points;
+  for_each_field(material_points, [&](const auto& field) {  // optional ones that no particle needed so far
+    if (!field.of(material_points).empty()) field.resize(particles, particles.size());
   });
   particles.affine_velocity.resize(particles.size());
   particles.extent.resize(particles.size());

@@ -15,6 +15,7 @@
 #include "src/core/base/catalogue.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/text.hpp"
+#include "src/material/constitutive_catalogue.hpp"
 #include "src/material/failure/catalogue.hpp"
 #include "src/material/strength/catalogue.hpp"
 #include "src/case/case.hpp"
@@ -55,6 +56,8 @@ const std::vector<Topic>& topics() {
                eos::modifier_catalogue()),
       topic_of("strength", "Strength models (`[strength]` of a material file)", strength::catalogue()),
       topic_of("failure", "Failure criteria (`[[failure]]` of a material file)", failure::catalogue()),
+      topic_of("constitutive", "Constitutive models (`[constitutive]` of a material file, in place of strength and failure)",
+               material::catalogue()),
       {"md", "Plans of molecular dynamics (`whipple md PLAN.toml`)",
        [](const std::string& name) { return single("md", name, md::describe_plan()); },
        [] { return std::vector<std::string>(); }},

@@ -33,7 +33,7 @@ constexpr double node = sizeof(grid::Node);
 constexpr double material_state =
     bytes_of(&M::volume, &M::void_volume, &M::specific_internal_energy, &M::pressure,
              &M::artificial_viscosity, &M::deviatoric_stress, &M::temperature, &M::sound_speed,
-             &M::plastic_strain, &M::melted_fraction, &M::vaporised_fraction, &M::damage, &M::failed,
+             &M::plastic_strain, &M::melted_fraction, &M::vaporised_fraction, &M::failed,
              &M::maximum_pressure, &M::maximum_temperature, &M::melting_time);
 
 /// One multiplication and one addition per component of a vector of four.

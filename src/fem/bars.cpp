@@ -166,8 +166,8 @@ void remove_bars(Bars& bars, std::span<const std::uint8_t> removed) {
     kept_nodes.push_back(a);
   }
   const auto keep = [](auto& points, const std::vector<std::uint32_t>& kept) {
-    for_each_field<std::decay_t<decltype(points)>>([&](const auto& field) {
-      auto& values = points.*(field.values);
+    for_each_field(points, [&](const auto& field) {
+      auto& values = field.of(points);
       for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
       values.resize(kept.size());
     });

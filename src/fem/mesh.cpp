@@ -166,8 +166,8 @@ void make_blocks(Mesh& mesh) {
 
 template <class Points>
 void keep(Points& points, std::span<const std::uint32_t> kept, std::size_t rows_per_item) {
-  for_each_field<Points>([&](const auto& field) {
-    auto& values = points.*(field.values);
+  for_each_field(points, [&](const auto& field) {
+    auto& values = field.of(points);
     if (field.optional && values.empty()) return;
     std::size_t to = 0;
     for (const std::size_t item : kept) {  // ascending: never overwrites what is still to be read

@@ -15,6 +15,7 @@
 #include "src/core/hdf5/hdf5.hpp"
 #include "src/io/ranks.hpp"
 #include "src/io/sealed_file.hpp"
+#include "src/material/constitutive_catalogue.hpp"
 
 namespace whipple::io {
 namespace {
@@ -68,8 +69,8 @@ void write_points(const hdf5::Group& group, const Points& points, const Ranks& r
   const std::uint64_t n = points.size();
   const hdf5::Slab slab = ranks.slab(n);
   group.set_attribute("count", static_cast<std::int64_t>(slab.total));
-  for_each_field<Points>([&](const auto& field) {
-    const auto& values = points.*(field.values);
+  for_each_field(points, [&](const auto& field) {
+    const auto& values = field.of(points);
     using Value = typename std::decay_t<decltype(values)>::value_type;
     using Number = typename Numbers<Value>::Type;
     if (field.optional) {  // in use on some rank: on all, those without particles included
@@ -85,16 +86,21 @@ void write_points(const hdf5::Group& group, const Points& points, const Ranks& r
   });
 }
 
-/// The fields of the file must be those of the program: one that is missing has no value (optional ones were
-/// not in use), one that is unknown would be lost.
+/// Brings the fields of material models into use that the file has. All others must be those of the program: one that is
+/// missing has no value (optional ones were not in use), one that is unknown would be lost.
 template <class Points>
-void require_fields(const hdf5::Group& group) {
+void require_fields(const hdf5::Group& group, Points& points) {
   const std::vector<std::string> found = group.names();
   std::set<std::string> unknown(found.begin(), found.end());
   std::vector<std::string> missing;
   for_each_field<Points>([&](const auto& field) {
     if (unknown.erase(field.name) == 0 && !field.optional) missing.emplace_back(field.name);
   });
+  if constexpr (requires { points.history; }) {
+    for (const HistoryField& field : material::history_fields()) {
+      if (unknown.erase(field.name) != 0) points.history.add(field);
+    }
+  }
   if (missing.empty() && unknown.empty()) return;
   std::string message = group.name() + ": was written by another version of the program:";
   if (!missing.empty()) message += fmt::format(" missing fields: {};", fmt::join(missing, ", "));
@@ -105,14 +111,14 @@ void require_fields(const hdf5::Group& group) {
 
 template <class Points>
 void read_points(const hdf5::Group& group, Points& points, const Ranks& ranks) {
-  require_fields<Points>(group);
+  require_fields(group, points);
   const std::int64_t declared = group.integer_attribute("count");
   if (declared < 0) throw InputError(fmt::format("{}: is declared to hold {} points", group.name(), declared));
   const auto total = static_cast<std::uint64_t>(declared);
   const std::vector<std::string> found = group.names();
   // Before any room is made: what the file declares, it must hold.
-  for_each_field<Points>([&](const auto& field) {
-    using Value = typename std::decay_t<decltype(points.*(field.values))>::value_type;
+  for_each_field(points, [&](const auto& field) {
+    using Value = typename std::decay_t<decltype(field.of(points))>::value_type;
     if (std::ranges::find(found, field.name) == found.end()) return;
     group.open_dataset(field.name).require_shape({total, width<Value>()});
   });
@@ -121,8 +127,8 @@ void read_points(const hdf5::Group& group, Points& points, const Ranks& ranks) {
   const std::uint64_t first = total * rank / count;
   const hdf5::Slab slab{first, total * (rank + 1) / count - first, total};
   resize(points, slab.count);
-  for_each_field<Points>([&](const auto& field) {
-    auto& values = points.*(field.values);
+  for_each_field(points, [&](const auto& field) {
+    auto& values = field.of(points);
     if (field.optional) {
       if (std::ranges::find(found, field.name) == found.end()) return;
       values.resize(slab.count);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 
 namespace whipple::io {
 namespace {
@@ -22,6 +23,10 @@ Value mean_of(const std::vector<Value>& values, std::size_t first, std::size_t c
     Matrix3 sum = Matrix3::Zero();
     for (std::size_t i = first; i < first + count; ++i) sum += values[i].matrix();
     return SymmetricTensor::from(sum / static_cast<double>(count));
+  } else if constexpr (!std::is_arithmetic_v<Value>) {  // vectors and tensors
+    Value sum = Value::Zero();
+    for (std::size_t i = first; i < first + count; ++i) sum += values[i];
+    return sum / static_cast<double>(count);
   } else {
     return *std::max_element(values.begin() + static_cast<std::ptrdiff_t>(first),
                              values.begin() + static_cast<std::ptrdiff_t>(first + count));
@@ -58,13 +63,18 @@ Particles elements_as_points(std::span<const fem::Mesh> meshes, std::span<const 
   for (const fem::Mesh& mesh : meshes) count += mesh.elements.size();
   for (const fem::Bars& of_body : bars) count += of_body.elements.size();
   resize(points, count);
+  for (const fem::Mesh& mesh : meshes) {
+    for (const History& history : mesh.points.history) points.history.declare(history.field, count);
+  }
   std::size_t p = 0;
   for (const fem::Mesh& mesh : meshes) {
     const std::size_t rows = fem::points_per_element(mesh.quadrature);
+    const MaterialPoints& material_points = mesh.points;
     for (std::size_t e = 0; e < mesh.elements.size(); ++e, ++p) {
-      for_each_field<MaterialPoints>([&](const auto& field) {
-        if (!field.optional) {
-          (points.*(field.values))[p] = mean_of(mesh.points.*(field.values), e * rows, rows);
+      for_each_field(material_points, [&](const auto& field) {
+        const auto& of_points = field.of(material_points);
+        if (!of_points.empty() && !field.of(std::as_const(points)).empty()) {
+          field.of(points)[p] = mean_of(of_points, e * rows, rows);
         }
       });
       for (auto* extensive : {&points.mass, &points.volume, &points.void_volume}) {

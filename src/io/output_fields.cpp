@@ -9,6 +9,7 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/text.hpp"
+#include "src/material/constitutive_catalogue.hpp"
 #include "src/material/failure/catalogue.hpp"
 
 namespace whipple::io {
@@ -30,8 +31,7 @@ double void_fraction(const Source& s, std::size_t i) {
 }
 
 // clang-format off
-const auto& table() {
-  static const auto fields = std::to_array<OutputField>({
+const auto table_of_state = std::to_array<OutputField>({
     {"velocity", "m/s", "velocity", true,
      [](const Source& s, std::size_t i) { return s.particles.velocity[i]; }},
     {"mass", "kg", "mass of the particle", true,
@@ -60,8 +60,6 @@ const auto& table() {
      [](const Source& s, std::size_t i) { return s.particles.plastic_strain[i]; }},
     {"failed", "", failure::code_meanings(), true,
      [](const Source& s, std::size_t i) { return s.particles.failed[i]; }},
-    {"damage", "1", "of failure criteria with a past: 0 none, 1 failed", false,
-     [](const Source& s, std::size_t i) { return s.particles.damage[i]; }},
     {"maximum_pressure", "Pa", "maximum pressure so far", false,
      [](const Source& s, std::size_t i) { return s.particles.maximum_pressure[i]; }},
     {"maximum_temperature", "K", "maximum temperature so far", false,
@@ -69,8 +67,6 @@ const auto& table() {
     {"melting_time", "s", "when half of the mass was first melted; -1: never", false,
      [](const Source& s, std::size_t i) { return s.particles.melting_time[i]; }},
     {"void_fraction", "1", "volume of voids and open cracks over the whole", false, void_fraction},
-    {"distension", "1", "volume over that of the material without its pores", false,
-     [](const Source& s, std::size_t i) { return s.particles.distension.empty() ? 1.0 : s.particles.distension[i]; }},
     {"failure_threshold_factor", "1", "scatter of the failure threshold", false,
      [](const Source& s, std::size_t i) {
        const auto& factor = s.particles.failure_threshold_factor;
@@ -93,9 +89,18 @@ const auto& table() {
     {"id", "", "number of the particle, kept for its life", true,
      [](const Source& s, std::size_t i) { return s.particles.id[i]; }},
 });
+// clang-format on
+
+const std::vector<OutputField>& table() {
+  static const std::vector<OutputField> fields = [] {
+    std::vector<OutputField> all(table_of_state.begin(), table_of_state.end());
+    for (const HistoryField& field : material::history_fields()) {
+      all.push_back({field.name, field.unit, field.meaning, false, &field});
+    }
+    return all;
+  }();
   return fields;
 }
-// clang-format on
 
 }  // namespace
 

@@ -48,7 +48,8 @@ using FieldFunction = std::variant<double (*)(const FieldSource&, std::size_t), 
                                    SymmetricTensor (*)(const FieldSource&, std::size_t),  //
                                    std::uint8_t (*)(const FieldSource&, std::size_t),
                                    std::uint16_t (*)(const FieldSource&, std::size_t),
-                                   std::uint64_t (*)(const FieldSource&, std::size_t)>;
+                                   std::uint64_t (*)(const FieldSource&, std::size_t),
+                                   const HistoryField*>;  ///< a field that a material model declares
 
 /// A quantity that snapshots may carry.
 struct OutputField {
@@ -59,7 +60,7 @@ struct OutputField {
   FieldFunction value;
 };
 
-/// The table of all quantities: one line each.
+/// All quantities: the table of output_fields.cpp, one line each, then the fields that material models declare.
 std::span<const OutputField> output_fields();
 
 /// Names of the table, in its order: the accepted words of `output.fields` in a case file.

@@ -64,6 +64,23 @@ void UnstructuredGrid::write(const std::filesystem::path& path, const Ranks& ran
   file.close();
 }
 
+namespace {
+
+/// A field that a material model declares; neutral where no material of the particles does.
+Array history_array(const HistoryField& field, const Particles& particles, const hdf5::Slab& slab) {
+  const History* found = particles.history.find(field.name);
+  return std::visit(
+      [&]<class Value>(const std::vector<Value>&) {
+        const auto* values = found == nullptr ? nullptr : &std::get<std::vector<Value>>(found->values);
+        return Array(field.name, slab, [values, neutral = neutral_value<Value>(field.neutral)](std::size_t i) {
+          return values == nullptr || values->empty() ? neutral : (*values)[i];
+        });
+      },
+      History(field).values);
+}
+
+}  // namespace
+
 std::vector<Array> arrays_of(std::span<const OutputField> fields, const FieldSource& source,
                              const hdf5::Slab& slab) {
   for (const std::uint32_t body : source.particles.body) {
@@ -75,8 +92,12 @@ std::vector<Array> arrays_of(std::span<const OutputField> fields, const FieldSou
   for (const OutputField& field : fields) {
     std::visit(
         [&](auto value) {
-          arrays.emplace_back(std::string(field.name), slab,
-                              [value, source](std::size_t i) { return value(source, i); });
+          if constexpr (std::is_same_v<decltype(value), const HistoryField*>) {
+            arrays.push_back(history_array(*value, source.particles, slab));
+          } else {
+            arrays.emplace_back(std::string(field.name), slab,
+                                [value, source](std::size_t i) { return value(source, i); });
+          }
         },
         field.value);
     arrays.back().set_attribute("unit", field.unit);

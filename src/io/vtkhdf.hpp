@@ -48,6 +48,14 @@ struct Row<SymmetricTensor> {
     std::transform(parts.begin(), parts.end(), row, [](double part) { return static_cast<float>(part); });
   }
 };
+template <>
+struct Row<Matrix3> {
+  using Number = float;
+  static constexpr std::uint64_t columns = 9;  ///< xx xy xz yx yy yz zx zy zz
+  static void put(const Matrix3& value, float* row) {
+    Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>{row} = value.cast<float>();
+  }
+};
 template <class Integer>
   requires std::is_integral_v<Integer>
 struct Row<Integer> {

@@ -29,7 +29,7 @@ void Chunk::find_failed() {
   any_failed = codes != 0;
 }
 
-void Chunk::fetch(const std::vector<SymmetricTensor>& from, SymmetricLanes& to) const {
+void Chunk::fetch(const std::vector<SymmetricTensor>& from, std::span<Lanes, 6> to) const {
   std::size_t k = 0;
   for (; k + 4 <= size; k += 4) {
     std::array<const double*, 4> at;
@@ -45,7 +45,7 @@ void Chunk::fetch(const std::vector<SymmetricTensor>& from, SymmetricLanes& to) 
   }
 }
 
-void Chunk::deposit(const SymmetricLanes& from, std::vector<SymmetricTensor>& to) const {
+void Chunk::deposit(std::span<const Lanes, 6> from, std::vector<SymmetricTensor>& to) const {
   std::size_t k = 0;
   for (; k + 4 <= size; k += 4) {
     const auto lane = [&](std::size_t j) { return load(&from[j][k]); };
@@ -57,7 +57,33 @@ void Chunk::deposit(const SymmetricLanes& from, std::vector<SymmetricTensor>& to
       store(at + 2, back[n]);
     }
   }
-  for (; k < size; ++k) to[index[k]] = tensor(from, k);
+  for (; k < size; ++k) {
+    for (std::size_t j = 0; j < 6; ++j) to[index[k]].*components[j] = from[j][k];
+  }
+}
+
+void Chunk::fetch(const std::vector<Vector3>& from, std::span<Lanes, 3> to) const {
+  for (std::size_t k = 0; k < size; ++k) {
+    for (std::size_t j = 0; j < 3; ++j) to[j][k] = from[index[k]][static_cast<Eigen::Index>(j)];
+  }
+}
+
+void Chunk::deposit(std::span<const Lanes, 3> from, std::vector<Vector3>& to) const {
+  for (std::size_t k = 0; k < size; ++k) to[index[k]] = {from[0][k], from[1][k], from[2][k]};
+}
+
+void Chunk::fetch(const std::vector<Matrix3>& from, std::span<Lanes, 9> to) const {
+  for (std::size_t k = 0; k < size; ++k) {
+    const double* columns = from[index[k]].data();
+    for (std::size_t e = 0; e < 9; ++e) to[e % 3 * 3 + e / 3][k] = columns[e];
+  }
+}
+
+void Chunk::deposit(std::span<const Lanes, 9> from, std::vector<Matrix3>& to) const {
+  for (std::size_t k = 0; k < size; ++k) {
+    double* columns = to[index[k]].data();
+    for (std::size_t e = 0; e < 9; ++e) columns[e] = from[e % 3 * 3 + e / 3][k];
+  }
 }
 
 }  // namespace whipple::material

@@ -7,17 +7,36 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "src/core/base/vector_math.hpp"
 #include "src/material/kinematics.hpp"
+#include "src/material/material.hpp"
 #include "src/material/update.hpp"
 
-/// The working set of the constitutive update (update.cpp) and its second half, failure (failing.cpp).
+/// The working set of the constitutive update: what a step starts from, and the chunk that it makes of it.
 namespace whipple::material {
 
-constexpr double greatest_bulking = 2.0;         ///< distension of bulked material
-constexpr double least_sound_speed_ratio = 0.1;  ///< of the bulk sound speed of the reference state
+/// How the internal energy of a step is known: from the exact work identity of the grid, or from the work of the
+/// stresses.
+enum class Energy : std::uint8_t { from_grid, integrated };
+
+constexpr std::size_t most_history = 32;  ///< components of the history fields of a material
+
+/// What a chunk starts from; a model only reads it.
+struct Step {
+  const Material& material;
+  const MaterialPoints& points;               // as they were before the step
+  std::span<const Matrix3> gradient;          // of this chunk, or
+  GradientComponents components;              // the same by components
+  std::span<const double> affine_divergence;  // of this chunk, or empty
+  const UpdateSettings& settings;
+  Energy energy;
+
+  /// Returns whether the points distinguish the viscosity that heats.
+  [[nodiscard]] bool keeps_losses() const { return !points.heating_viscosity.empty(); }
+};
 
 /// Scratch of one chunk, on the stack; entry k belongs to point `index[k]`.
 struct Chunk {
@@ -29,50 +48,72 @@ struct Chunk {
   };
   std::array<Run, chunk_size> runs;
   std::size_t run_count = 0;
+  MaterialReport report;  // of all chunks so far
   // Of the points, as they were before the step until they are replaced:
   Lanes mass, volume, void_volume, specific_internal_energy, artificial_viscosity, sound_speed;
-  Lanes density, pressure, temperature, plastic_strain, melted, damage;
+  Lanes pressure, temperature, plastic_strain;
+  Lanes melted = {}, vaporised = {};  // zero unless the model has phases and fetches them
   std::array<std::uint8_t, chunk_size> failed;
   Lanes intact;                                                   // 1, or 0 of what has failed
   bool any_failed = false, any_void = false, any_melted = false;  // any_melted: before the step
+  bool codes_changed = false;                                     // some `failed` is new
+  std::array<Lanes, most_history> history;                        // fields that the model declares, convected
   // And what is derived:
-  Lanes solid_fraction;
-  Lanes old_volume;                    // m^3 of material
-  Lanes volume_change;                 // m^3 of material, on which its pressure does work
-  Kinematics motion;                   // its deviator becomes the new one
-  SymmetricLanes old_deviator;         // of schemes that integrate the energy
-  SymmetricLanes back_stress, strain;  // of materials that need them only
-  Lanes solid_modulus, increment;
-  Lanes energy, bulk_sound_speed, vaporised;
-  Lanes acting_pressure;   // after failure
-  Lanes distension;        // of porous material only
-  Lanes least_pressure;    // of brittle material only: the tension at which its gaps open
-  Lanes stored_cold_work;  // of materials that store some only
+  Lanes old_volume, old_density;
+  Lanes density;
+  Lanes volume_change;      // m^3 of material, on which its pressure does work
   Lanes heating_viscosity;  // of points with an affine field only
+  Kinematics motion;        // its deviator becomes the new one
+  Lanes acting_pressure;    // Pa, of the end of the step, after failure
+  // Scratch of the models:
+  Lanes solid_fraction;          // of the stiffness that a point still has
+  SymmetricLanes old_deviator;   // of schemes that integrate the energy
+  Lanes solid_modulus, increment;
+  Lanes elastic_energy;          // J/m^3, of the deviator
+  Lanes energy, half_change;     // J/kg and m^3/kg, given to the equation of state
+  Lanes bulk_sound_speed, bulk_modulus;
+  Lanes least_pressure;          // of brittle material only: the tension at which its gaps open
+  Lanes threshold_factor;        // scatter of the failure threshold
+  Lanes whole_volume;            // of material and void, before voids grow
+  std::array<std::uint8_t, chunk_size> old_failed;
+  Lanes kept;                    // fraction of the deviator, where the chunk loses some
+  bool loses = false;
+  Lanes old_distension;          // of porous material only
 
   template <class Array>
   auto view(Array& array) {
     return std::span(array.data(), size);
   }
-  strength::State strength_state() {
-    return {view(density), view(pressure), view(temperature), view(plastic_strain)};
+  strength::State strength_state(Lanes& at_density) {
+    return {view(at_density), view(pressure), view(temperature), view(plastic_strain)};
+  }
+  /// Lanes of a history field.
+  template <std::size_t components>
+  [[nodiscard]] std::span<Lanes, components> field(std::size_t lane) {
+    return std::span<Lanes, components>(&history[lane], components);
   }
 
   /// One field of the points into the chunk, and back.
   template <class Value, class To>
+    requires std::is_arithmetic_v<Value>
   void fetch(const std::vector<Value>& from, To& to) const {
     for (const Run& run : std::span(runs).first(run_count)) {
       copy(from.data() + index[run.begin], to.data() + run.begin, run.end - run.begin);
     }
   }
   template <class Value, class From>
+    requires std::is_arithmetic_v<Value>
   void deposit(const From& from, std::vector<Value>& to) const {
     for (const Run& run : std::span(runs).first(run_count)) {
       copy(from.data() + run.begin, to.data() + index[run.begin], run.end - run.begin);
     }
   }
-  void fetch(const std::vector<SymmetricTensor>& from, SymmetricLanes& to) const;
-  void deposit(const SymmetricLanes& from, std::vector<SymmetricTensor>& to) const;
+  void fetch(const std::vector<SymmetricTensor>& from, std::span<Lanes, 6> to) const;
+  void deposit(std::span<const Lanes, 6> from, std::vector<SymmetricTensor>& to) const;
+  void fetch(const std::vector<Vector3>& from, std::span<Lanes, 3> to) const;
+  void deposit(std::span<const Lanes, 3> from, std::vector<Vector3>& to) const;
+  void fetch(const std::vector<Matrix3>& from, std::span<Lanes, 9> to) const;
+  void deposit(std::span<const Lanes, 9> from, std::vector<Matrix3>& to) const;
 
   /// The scatter of the failure threshold: 1 where no point has any.
   void fetch_threshold_factor(const MaterialPoints& points, Lanes& factor) const {
@@ -122,19 +163,6 @@ inline bool any_positive(const Lanes& values, std::size_t size) {
   return positive != 0;
 }
 
-struct Step {
-  const Material& material;
-  MaterialPoints& points;
-  std::span<const Matrix3> gradient;  // of this chunk, or
-  GradientComponents components;      // the same by components
-  std::span<const double> affine_divergence;  // of this chunk, or empty
-  const UpdateSettings& settings;
-  MaterialReport& report;
-
-  /// Returns whether the points distinguish the viscosity that heats.
-  [[nodiscard]] bool keeps_losses() const { return !points.heating_viscosity.empty(); }
-};
-
 constexpr std::array<double SymmetricTensor::*, 6> components = {&SymmetricTensor::xx, &SymmetricTensor::yy,
                                                                  &SymmetricTensor::zz, &SymmetricTensor::xy,
                                                                  &SymmetricTensor::yz, &SymmetricTensor::zx};
@@ -143,34 +171,10 @@ inline SymmetricTensor tensor(const SymmetricLanes& s, std::size_t k) {
   return {s[0][k], s[1][k], s[2][k], s[3][k], s[4][k], s[5][k]};
 }
 
-inline void scale(SymmetricLanes& lanes, std::size_t k, double factor) {
-  for (Lanes& lane : lanes) lane[k] *= factor;
+/// Notes which points the equation of state could not serve.
+inline void book(Chunk& chunk, eos::RangeReport range) {
+  if (range.first != eos::RangeReport::none) range.first = chunk.index[range.first];
+  chunk.report.equation_of_state.merge(range);
 }
-
-/// Returns the remaining fraction of the stiffness of a point: that of the solid, less its damage if that softens; 0
-/// failed.
-inline double solid_fraction(const Step& step, const Chunk& chunk, std::size_t k) {
-  return chunk.intact[k] * shear_bearing_fraction(chunk.melted[k], chunk.vaporised[k]) *
-         (step.material.softens ? 1.0 - chunk.damage[k] : 1.0);
-}
-
-/// Returns the fraction of a change of the total volume that goes to the voids of a point: all of it where the point has
-/// failed and of brittle material, its damage where cracks open in softening material, and that of the porosity
-/// in porous material.
-inline double void_share(const Step& step, const Chunk& chunk, std::size_t k) {
-  const double porosity = chunk.void_volume[k] / (chunk.volume[k] + chunk.void_volume[k]);
-  const double share = step.material.softens ? chunk.damage[k] : porosity;
-  return chunk.intact[k] == 0.0 || step.material.brittle ? 1.0 : share;
-}
-
-/// Voids grow, criteria are asked: between the equation of state and `finish`.
-void apply_failure(Step& step, Chunk& chunk);
-
-/// Strength, damage and bulking of brittle material (docs/theory/concrete_and_ceramics.md).
-void relax_brittle(Step& step, Chunk& chunk);
-
-/// Cracks and voids, loss of the deviator by melting and damage, sound speed; writes the new state, all but
-/// the energy.
-void finish(Step& step, Chunk& chunk);
 
 }  // namespace whipple::material

@@ -14,7 +14,8 @@ struct Matrix {
   double xx, xy, xz, yx, yy, yz, zx, zy, zz;
 };
 
-inline Matrix load(const MatrixLanes& lanes, std::size_t k) {
+template <class NineLanes>
+inline Matrix load_matrix(const NineLanes& lanes, std::size_t k) {
   return {lanes[0][k], lanes[1][k], lanes[2][k], lanes[3][k], lanes[4][k],
           lanes[5][k], lanes[6][k], lanes[7][k], lanes[8][k]};
 }
@@ -71,11 +72,13 @@ struct Symmetric {
   double xx, yy, zz, xy, yz, zx;
 };
 
-inline Symmetric load(const SymmetricLanes& lanes, std::size_t k) {
+template <class SixLanes>
+inline Symmetric load(const SixLanes& lanes, std::size_t k) {
   return {lanes[0][k], lanes[1][k], lanes[2][k], lanes[3][k], lanes[4][k], lanes[5][k]};
 }
 
-inline void store(const Symmetric& s, SymmetricLanes& lanes, std::size_t k) {
+template <class SixLanes>
+inline void store(const Symmetric& s, SixLanes&& lanes, std::size_t k) {
   lanes[0][k] = s.xx;
   lanes[1][k] = s.yy;
   lanes[2][k] = s.zz;
@@ -134,7 +137,7 @@ inline Motion motion_of(const Matrix& l, double dt) {
 
 void volume_change(std::size_t size, double dt, Kinematics& step) {
   for (std::size_t k = 0; k < size; ++k) {
-    const Matrix l = load(step.gradient, k);
+    const Matrix l = load_matrix(step.gradient, k);
     step.ratio[k] = determinant(identity_plus(dt, l));
     step.divergence[k] = l.xx + l.yy + l.zz;
   }
@@ -145,7 +148,7 @@ namespace {
 template <StressRotation rule>
 void elastic_trial_by(std::size_t size, double dt, Kinematics& step) {
   for (std::size_t k = 0; k < size; ++k) {
-    const Motion motion = motion_of<rule>(load(step.gradient, k), dt);
+    const Motion motion = motion_of<rule>(load_matrix(step.gradient, k), dt);
     const Symmetric& e = motion.strain;
     const Symmetric t = turned(load(step.deviator, k), motion.rotation);
     const double twice = 2.0 * step.modulus[k], mean = (e.xx + e.yy + e.zz) / 3.0;
@@ -161,16 +164,16 @@ void elastic_trial_by(std::size_t size, double dt, Kinematics& step) {
 }
 
 template <StressRotation rule>
-void turn_by(std::size_t size, double dt, const MatrixLanes& gradient, SymmetricLanes& tensor) {
+void turn_by(std::size_t size, double dt, const MatrixLanes& gradient, std::span<Lanes, 6> tensor) {
   for (std::size_t k = 0; k < size; ++k) {
-    store(turned(load(tensor, k), motion_of<rule>(load(gradient, k), dt).rotation), tensor, k);
+    store(turned(load(tensor, k), motion_of<rule>(load_matrix(gradient, k), dt).rotation), tensor, k);
   }
 }
 
 template <StressRotation rule>
 void strain_increment_by(std::size_t size, double dt, const MatrixLanes& gradient, SymmetricLanes& strain) {
   for (std::size_t k = 0; k < size; ++k) {
-    store(motion_of<rule>(load(gradient, k), dt).strain, strain, k);
+    store(motion_of<rule>(load_matrix(gradient, k), dt).strain, strain, k);
   }
 }
 
@@ -183,9 +186,18 @@ WHIPPLE_KERNEL void elastic_trial(std::size_t size, double dt, StressRotation ru
 }
 
 WHIPPLE_KERNEL void turn(std::size_t size, double dt, StressRotation rule, const MatrixLanes& gradient,
-                         SymmetricLanes& tensor) {
+                         std::span<Lanes, 6> tensor) {
   rule == polar ? turn_by<polar>(size, dt, gradient, tensor)
                 : turn_by<hughes_winget>(size, dt, gradient, tensor);
+}
+
+WHIPPLE_KERNEL void deform(std::size_t size, double dt, const MatrixLanes& gradient,
+                           std::span<Lanes, 9> deformation) {
+  for (std::size_t k = 0; k < size; ++k) {
+    const Matrix f = multiply(identity_plus(dt, load_matrix(gradient, k)), load_matrix(deformation, k));
+    const double parts[9] = {f.xx, f.xy, f.xz, f.yx, f.yy, f.yz, f.zx, f.zy, f.zz};
+    for (std::size_t e = 0; e < 9; ++e) deformation[e][k] = parts[e];
+  }
 }
 
 WHIPPLE_KERNEL void strain_increment(std::size_t size, double dt, StressRotation rule,

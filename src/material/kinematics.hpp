@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "src/core/base/tensor.hpp"
 #include "src/core/base/words.hpp"
@@ -53,7 +54,10 @@ void elastic_trial(std::size_t size, double dt, StressRotation rule, Kinematics&
 
 /// Turns tensors with the material (eq. 4). @param size a multiple of `lane_count`
 void turn(std::size_t size, double dt, StressRotation rule, const MatrixLanes& gradient,
-          SymmetricLanes& tensor);
+          std::span<Lanes, 6> tensor);
+
+/// Advances deformation gradients, rows one after the other: F becomes (I + dt L) F. @param size as above
+void deform(std::size_t size, double dt, const MatrixLanes& gradient, std::span<Lanes, 9> deformation);
 
 /// Strain increment alone (eq. 2, 3), for material without elastic deviator. @param size as above
 void strain_increment(std::size_t size, double dt, StressRotation rule, const MatrixLanes& gradient,

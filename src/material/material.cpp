@@ -11,6 +11,7 @@
 #include "eos/modifiers/distended.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/text.hpp"
+#include "src/material/eos_strength/eos_strength.hpp"
 #include "src/material/strength/brittle.hpp"
 #include "src/material/strength/none.hpp"
 
@@ -109,21 +110,15 @@ namespace {
 Material completed(Material material) {
   require_parts_agree(material);
   for (const auto& criterion : material.failure) {
-    material.softens |= criterion->softens();
-    material.needs_strain |= criterion->needs_strain();
-    material.keeps_damage |= criterion->accumulates();
-    material.heals |= criterion->healing_code() != failure::intact;
     if (criterion->grows_voids()) material.void_growth = criterion.get();
   }
   if (const strength::Brittle* brittle = material.strength->brittle()) {
-    material.brittle = material.keeps_damage = true;
     if (brittle->bulks()) material.eos = std::make_shared<const eos::Distended>(material.eos);
-    material.porous = brittle->bulks();
   }
-  material.porous |= material.eos->initial_distension() > 1.0;
   material.reference = initial_state(material);
   const double sound_speed = material.reference.sound_speed;
   material.reference_bulk_modulus = material.reference.density * sound_speed * sound_speed;
+  material.constitutive = material.constitutive->adapted(material);
   return material;
 }
 
@@ -137,25 +132,37 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
   material.eos = std::move(eos);
   material.strength = strength ? std::move(strength) : std::make_shared<const strength::NoneModel>();
   material.failure = std::move(failure);
+  material.constitutive = std::make_shared<const material::EosStrength>();
+  return completed(std::move(material));
+}
+
+Material make_material(std::string name, std::shared_ptr<const eos::EquationOfState> eos,
+                       std::shared_ptr<const material::Constitutive> constitutive) {
+  Material material;
+  material.name = std::move(name);
+  material.eos = std::move(eos);
+  material.strength = std::make_shared<const strength::NoneModel>();
+  material.constitutive = std::move(constitutive);
   return completed(std::move(material));
 }
 
 Material with_eos(const Material& material, std::shared_ptr<const eos::EquationOfState> eos) {
   Material result = material;
   result.eos = std::move(eos);
-  result.porous = false;
   return completed(std::move(result));
 }
 
 void set_taylor_quinney(Material& material, double share) {
   const bool returns_deviator = material.void_growth != nullptr && material.void_growth->returns_deviator();
-  if (share < 1.0 && (material.brittle || returns_deviator || !material.strength->carries_deviator())) {
+  const bool brittle = material.strength->brittle() != nullptr;
+  if (share < 1.0 && (brittle || returns_deviator || !material.strength->carries_deviator())) {
     const std::string_view model =
         returns_deviator ? material.void_growth->model() : material.strength->model();
     throw InputError(fmt::format(
         "'taylor_quinney' below 1 needs the plastic work of a metal, not that of model \"{}\"", model));
   }
   material.taylor_quinney = share;
+  material.constitutive = material.constitutive->adapted(material);
 }
 
 eos::State initial_state(const Material& material, std::optional<double> density,
@@ -181,11 +188,9 @@ double body_density(const Material& material, const eos::State& state) {
 }
 
 void use_fields(const Material& material, MaterialPoints& points) {
-  const std::size_t n = points.mass.size();
-  if (material.strength->kinematic_modulus() > 0.0) points.back_stress.resize(n);
-  if (material.needs_strain) points.strain.resize(n);
-  if (material.stores_cold_work()) points.stored_cold_work.resize(n);
-  if (material.porous) points.distension.resize(n, 1.0);
+  for (const auto& [field, lane] : material.constitutive->history()) {
+    points.history.declare(field, points.mass.size());
+  }
 }
 
 void initialise(const Material& material, MaterialPoints& points, std::size_t begin, std::size_t end) {
@@ -195,12 +200,7 @@ void initialise(const Material& material, MaterialPoints& points, std::size_t be
 void initialise(const Material& material, MaterialPoints& points, std::size_t begin, std::size_t end,
                 const eos::State& state) {
   const auto carried = [](double value) { return std::isnan(value) ? 0.0 : value; };
-  const std::array rho = {state.density}, p = {state.pressure}, kelvin = {state.temperature}, strain = {0.0};
-  std::array<double, 1> modulus = {};
-  material.strength->shear_modulus({rho, p, kelvin, strain}, modulus);
-  const double solid = shear_bearing_fraction(state.melted_fraction, state.vaporised_fraction);
-  const double sound =
-      std::sqrt(state.sound_speed * state.sound_speed + 4.0 / 3.0 * solid * modulus[0] / state.density);
+  const double sound = material.constitutive->sound_speed(material, state);
   const double porosity = initial_porosity(material);
   use_fields(material, points);
   for (std::size_t i = begin; i < end; ++i) {
@@ -215,25 +215,31 @@ void initialise(const Material& material, MaterialPoints& points, std::size_t be
     points.plastic_strain[i] = 0.0;
     points.melted_fraction[i] = state.melted_fraction;
     points.vaporised_fraction[i] = state.vaporised_fraction;
-    points.damage[i] = 0.0;
     points.failed[i] = failure::intact;
     points.maximum_pressure[i] = state.pressure;
     points.maximum_temperature[i] = points.temperature[i];
     points.melting_time[i] = state.melted_fraction >= melted_share ? 0.0 : never;
-    if (!points.distension.empty()) points.distension[i] = state.distension;
     if (!points.failure_threshold_factor.empty()) points.failure_threshold_factor[i] = 1.0;
-    if (!points.back_stress.empty()) points.back_stress[i] = {};
-    if (!points.strain.empty()) points.strain[i] = {};
-    if (!points.stored_cold_work.empty()) points.stored_cold_work[i] = 0.0;
   }
+  for (History& history : points.history) {
+    std::visit(
+        [&]<class Value>(std::vector<Value>& values) {
+          if (!values.empty()) {
+            std::fill(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                      values.begin() + static_cast<std::ptrdiff_t>(end), neutral_value<Value>(history.field.neutral));
+          }
+        },
+        history.values);
+  }
+  material.constitutive->start(state, points, begin, end);
 }
 
 std::string Material::constants() const {
   std::string text = file.empty() ? "" : fmt::format("# read from {}\n", file.string());
   text += fmt::format("name = {}\nsource = {}\n", toml_string(name), toml_string(source));
   if (!note.empty()) text += fmt::format("note = {}\n", toml_string(note));
-  text += fmt::format("[eos]\nmodel = {}\n{}\n[strength]\n{}", toml_string(eos->model()), eos->constants(),
-                      strength->constants());
+  text += fmt::format("[eos]\nmodel = {}\n{}", toml_string(eos->model()), eos->constants());
+  text += constitutive->constants(*this);
   if (conductivity > 0.0 || stores_cold_work()) {
     text += fmt::format("\n[thermal]\nsource = {}\nconductivity = \"{} W/(m K)\"\ntaylor_quinney = {}\n",
                         toml_string(source), conductivity, taylor_quinney);

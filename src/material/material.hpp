@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "eos/equation_of_state.hpp"
+#include "src/material/constitutive.hpp"
 #include "src/material/failure/criterion.hpp"
 #include "src/material/strength/strength.hpp"
 #include "src/particles/material_points.hpp"
@@ -23,7 +24,8 @@ struct Measured {
   double boiling_point = std::numeric_limits<double>::quiet_NaN();  ///< K, at 1 atm
 };
 
-/// Equation of state + strength + failure: everything that a point of material needs to know about itself.
+/// Everything that a point of material needs to know about itself: equation of state, and the constitutive model that
+/// makes its stress, by default of strength and failure.
 /// Immutable after `make_material`; shared by threads.
 struct Material {
   std::string name;
@@ -38,12 +40,7 @@ struct Material {
   std::shared_ptr<const eos::EquationOfState> eos;     ///< never null
   std::shared_ptr<const strength::Strength> strength;  ///< never null
   std::vector<std::shared_ptr<const failure::Criterion>> failure;  ///< in the order of the file; may be empty
-  bool softens = false;       ///< some criterion takes stress away before it fails (eq. 18, 19)
-  bool needs_strain = false;  ///< some criterion asks for the strain
-  bool heals = false;         ///< some criterion makes failed points whole again under pressure
-  bool keeps_damage = false;  ///< criterion or strength has a past: `MaterialPoints::damage` may grow
-  bool brittle = false;       ///< the strength follows the pressure of the step (strength/brittle.hpp)
-  bool porous = false;        ///< the equation of state takes the distension of the points
+  std::shared_ptr<const material::Constitutive> constitutive;      ///< never null; of all the parts above
   double reference_bulk_modulus = 0.0;              ///< Pa, rho c^2 of the reference state
   const failure::Criterion* void_growth = nullptr;  ///< the one of `failure` that grows voids; null: none
   eos::State reference;  ///< the state that bodies start from: p = 0 at the reference temperature
@@ -65,6 +62,11 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
                        std::shared_ptr<const strength::Strength> strength = nullptr,
                        std::vector<std::shared_ptr<const failure::Criterion>> failure = {});
 
+/// Puts the parts together, with a constitutive model in place of strength and failure.
+/// @throws InputError as above
+Material make_material(std::string name, std::shared_ptr<const eos::EquationOfState> eos,
+                       std::shared_ptr<const material::Constitutive> constitutive);
+
 /// The material with another equation of state of the same material; all else stays.
 Material with_eos(const Material& material, std::shared_ptr<const eos::EquationOfState> eos);
 
@@ -80,12 +82,12 @@ eos::State initial_state(const Material& material, std::optional<double> density
 /// Density of a body that starts from a state: with the voids of its failure model.
 double body_density(const Material& material, const eos::State& state);
 
-/// Brings the optional fields that the material needs into use.
+/// Brings the history fields that the material declares into use.
 void use_fields(const Material& material, MaterialPoints& points);
 
 /// Sets every field of the points [begin, end) but mass to a state, intact and without scatter, without
 /// deviatoric stress: volume = mass / density, specific internal energy of the equation of state, sound speed
-/// longitudinal; brings the optional fields that the material needs into use.
+/// longitudinal; brings the history fields that the material declares into use.
 void initialise(const Material& material, MaterialPoints& points, std::size_t begin, std::size_t end,
                 const eos::State& state);
 /// Initialises points with the reference state.

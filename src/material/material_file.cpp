@@ -17,6 +17,7 @@
 #include "src/core/base/catalogue.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/input/document.hpp"
+#include "src/material/constitutive_catalogue.hpp"
 #include "src/material/failure/catalogue.hpp"
 #include "src/material/material_samples.hpp"
 #include "src/material/strength/catalogue.hpp"
@@ -139,7 +140,8 @@ struct Declared {
   eos::ModelEntry::Declared eos;
   strength::ModelEntry::Declared strength;
   std::vector<failure::CriterionEntry::Declared> failure;
-  std::string eos_line, strength_line;
+  material::ConstitutiveEntry::Declared constitutive;
+  std::string eos_line, strength_line, constitutive_line;
   /// Modifiers of the equation of state, each with its place in the file.
   std::vector<std::pair<eos::ModifierEntry::Declared, std::string>> modifiers;
 };
@@ -165,6 +167,13 @@ Declared declare_file(const fs::path& file,
   }
   for (input::Table& table : root.list("failure"))
     declared.failure.push_back(declare(failure::catalogue(), table));
+  if (auto table = root.optional_table("constitutive")) {
+    declared.constitutive = declare(material::catalogue(), *table);
+    declared.constitutive_line = table->where();
+    if (declared.strength.build || !declared.failure.empty()) {
+      table->error("takes the place of [strength] and [[failure]]: leave them out");
+    }
+  }
   if (auto table = root.optional_table("measured")) table->read(measured_values(), declared.measured);
   if (auto table = root.optional_table("thermal")) table->read(thermal_constants(), declared.thermal);
   document.finish();
@@ -226,7 +235,10 @@ Material read_changed_material(const fs::path& file,
   for (const auto& criterion : declared.failure) failure.push_back(criterion.build());
   try {
     Material material =
-        make_material(declared.head.name, std::move(eos), std::move(strength), std::move(failure));
+        declared.constitutive.build
+            ? make_material(declared.head.name, std::move(eos),
+                            build(declared.constitutive.build, declared.constitutive_line, "constitutive"))
+            : make_material(declared.head.name, std::move(eos), std::move(strength), std::move(failure));
     material.file = file;
     material.companions = declared.eos.companions;
     material.source = declared.head.source;

@@ -51,6 +51,9 @@ struct MaterialReport {
   std::size_t limited_bulking = 0;     ///< steps of crushed brittle material at its greatest bulking
   double compression_rate = 0.0;  ///< 1/s, the largest -tr L of points that come under pressure
   double plastic_work = 0.0;      ///< J
+  /// J, >= 0: what the models made irreversible: plastic and viscous work, elastic energy of the deviator that was lost
+  /// with the strength; without artificial viscosity
+  double dissipation = 0.0;
   std::array<std::size_t, failure::code_count> failed{};  ///< points that failed in this step, by code
 
   /// Nothing that ends a run: `undefined` and `equation_of_state.out_of_range` are 0.

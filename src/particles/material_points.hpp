@@ -9,6 +9,7 @@
 
 #include "src/core/base/prefetch.hpp"
 #include "src/core/base/tensor.hpp"
+#include "src/particles/history.hpp"
 
 namespace whipple {
 
@@ -21,6 +22,11 @@ struct Field {
   bool optional = false;  ///< empty unless a material or method of the run needs it
   double neutral = 0.0;   ///< of optional numbers: what points have that do not need them
 
+  /// Values of a set of points.
+  template <class Set>
+  [[nodiscard]] auto& of(Set& points) const {
+    return points.*values;
+  }
   /// More or fewer points; those that are new have no value yet, or the neutral one.
   void resize(Points& points, std::size_t n) const {
     if constexpr (std::is_same_v<Value, double>) {
@@ -61,21 +67,16 @@ struct MaterialPoints {
   std::vector<double> plastic_strain;      ///< equivalent plastic strain
   std::vector<double> melted_fraction;     ///< mass fraction of liquid and vapour
   std::vector<double> vaporised_fraction;  ///< mass fraction of vapour
-  std::vector<double> damage;              ///< of criteria with a past, 0 to 1 (failed)
   std::vector<std::uint8_t> failed;  ///< 0 intact, else what made it fail: src/material/failure/criterion.hpp
   std::vector<double> maximum_pressure;     ///< Pa, so far
   std::vector<double> maximum_temperature;  ///< K, so far
   std::vector<double>
       melting_time;  ///< s, when half of the mass was first melted; `never` (-1) if it was not
-  /// volume over that of the material without its pores (1: none); optional
-  std::vector<double> distension;
   std::vector<double> failure_threshold_factor;  ///< scatter of the failure threshold (1: none); optional
-  std::vector<SymmetricTensor> back_stress;      ///< Pa, centre of the yield surface; optional
-  std::vector<SymmetricTensor> strain;           ///< logarithmic strain, rotated with the material; optional
-  std::vector<double> stored_cold_work;          ///< J/kg, plastic work that did not become heat; optional
   /// Pa, part of the artificial viscosity whose work is heat, the rest makes unresolved energy
   /// (docs/theory/dissipation.md, 3); optional
   std::vector<double> heating_viscosity;
+  Histories history;  ///< what the material models declare
 
   static constexpr auto fields() {
     using P = MaterialPoints;
@@ -87,21 +88,35 @@ struct MaterialPoints {
         Field{"deviatoric_stress", "Pa", &P::deviatoric_stress}, Field{"temperature", "K", &P::temperature},
         Field{"sound_speed", "m/s", &P::sound_speed}, Field{"plastic_strain", "1", &P::plastic_strain},
         Field{"melted_fraction", "1", &P::melted_fraction},
-        Field{"vaporised_fraction", "1", &P::vaporised_fraction}, Field{"damage", "1", &P::damage},
-        Field{"failed", "1", &P::failed}, Field{"maximum_pressure", "Pa", &P::maximum_pressure},
+        Field{"vaporised_fraction", "1", &P::vaporised_fraction}, Field{"failed", "1", &P::failed},
+        Field{"maximum_pressure", "Pa", &P::maximum_pressure},
         Field{"maximum_temperature", "K", &P::maximum_temperature},
-        Field{"melting_time", "s", &P::melting_time}, Field{"distension", "1", &P::distension, true, 1.0},
+        Field{"melting_time", "s", &P::melting_time},
         Field{"failure_threshold_factor", "1", &P::failure_threshold_factor, true, 1.0},
-        Field{"back_stress", "Pa", &P::back_stress, true}, Field{"strain", "1", &P::strain, true},
-        Field{"stored_cold_work", "J/kg", &P::stored_cold_work, true},
         Field{"heating_viscosity", "Pa", &P::heating_viscosity, true});
   }
 };
 
-/// Calls f(field) for every field of a set of points.
+/// Calls f(field) for every field that all sets of a kind have: those of their models are left out.
 template <class Points, class Function>
 void for_each_field(Function&& f) {
   std::apply([&](const auto&... field) { (f(field), ...); }, Points::fields());
+}
+
+/// Calls f(field) for every field of a set of points, then for those that its models declare; `field.of(set)` are the
+/// values of this set or of another one.
+template <class Points, class Function>
+void for_each_field(Points& points, Function&& f) {
+  for_each_field<std::remove_const_t<Points>>(f);
+  if constexpr (requires { points.history; }) {
+    for (const History& history : std::as_const(points).history) {
+      std::visit(
+          [&]<class Value>(const std::vector<Value>&) {
+            f(HistoryOf<Value>{history.field, history.field.name.c_str(), history.field.unit.c_str()});
+          },
+          history.values);
+    }
+  }
 }
 
 /// Prefetches the state of some points from `first` on into the second-level cache.
@@ -110,13 +125,18 @@ WHIPPLE_INLINE inline void prefetch_state(const MaterialPoints& points, std::siz
     const auto& values = points.*(field.values);
     if (!field.optional || !values.empty()) prefetch(first, values);
   });
+  for (const History& history : points.history) {
+    if (const auto* numbers = std::get_if<std::vector<double>>(&history.values)) prefetch(first, *numbers);
+    if (const auto* tensors = std::get_if<std::vector<SymmetricTensor>>(&history.values)) prefetch(first, *tensors);
+    if (const auto* tensors = std::get_if<std::vector<Matrix3>>(&history.values)) prefetch(first, *tensors);
+  }
 }
 
 /// Optional fields that are not in use stay empty.
 template <class Points>
 void resize(Points& points, std::size_t n) {
-  for_each_field<Points>([&](const auto& field) {
-    const auto& values = points.*(field.values);
+  for_each_field(points, [&](const auto& field) {
+    const auto& values = field.of(points);
     if (!field.optional || !values.empty()) field.resize(points, n);
   });
 }

@@ -80,8 +80,8 @@ bool migrate(Particles& particles, std::span<const int> destination, MPI_Comm co
   append_rows(newcomers, send_rows(particles.body, leaving, communicator));
   const Rearrangement change =
       rearrange(particles.body, [&](std::uint32_t p) { return destination[p] != own; }, newcomers);
-  for_each_field<Particles>([&](const auto& field) {
-    auto& values = particles.*(field.values);
+  for_each_field(particles, [&](const auto& field) {
+    auto& values = field.of(particles);
     std::decay_t<decltype(values)> moved, arrived;
     append_rows(arrived, send_rows(values, leaving, communicator));
     // Optional fields are empty on all ranks; one without particles learns from the newcomers which are not.

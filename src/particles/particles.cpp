@@ -15,8 +15,8 @@ namespace {
 /// Every field in use whose numbers are of one type.
 template <class Value, class Function>
 void for_each_field_of(Particles& particles, Function&& f) {
-  for_each_field<Particles>([&](const auto& field) {
-    auto& values = particles.*(field.values);
+  for_each_field(particles, [&](const auto& field) {
+    auto& values = field.of(particles);
     if constexpr (std::is_same_v<std::remove_reference_t<decltype(values)>, std::vector<Value>>) {
       if (!field.optional || !values.empty()) f(values);
     }
@@ -77,8 +77,8 @@ void reorder(Particles& particles, std::span<const std::uint32_t> order, SortBuf
 }
 
 void remove(Particles& particles, std::span<const Move> moves, std::size_t size) {
-  for_each_field<Particles>([&](const auto& field) {
-    auto& values = particles.*(field.values);
+  for_each_field(particles, [&](const auto& field) {
+    auto& values = field.of(particles);
     if (!field.optional || !values.empty()) close_gaps(values, moves, size);
   });
 }

@@ -18,8 +18,8 @@ namespace whipple {
 /// new[i] = old[order[i]] in every field in use; `order` may be shorter or longer than the points.
 template <class Points>
 void select_rows(Points& points, std::span<const std::uint32_t> order) {
-  for_each_field<Points>([&](const auto& field) {
-    auto& values = points.*(field.values);
+  for_each_field(points, [&](const auto& field) {
+    auto& values = field.of(points);
     if (field.optional && values.empty()) return;  // not in use
     std::remove_reference_t<decltype(values)> selected;
     selected.reserve(order.size());
@@ -61,8 +61,8 @@ void append_rows(std::vector<Value>& values, const std::vector<std::vector<std::
 template <class Points>
 void exchange_rows(Points& points, std::span<const std::uint32_t> staying,
                    const std::vector<std::vector<std::uint32_t>>& leaving, MPI_Comm communicator) {
-  for_each_field<Points>([&](const auto& field) {
-    auto& values = points.*(field.values);
+  for_each_field(points, [&](const auto& field) {
+    auto& values = field.of(points);
     const auto incoming = send_rows(values, leaving, communicator);
     std::remove_reference_t<decltype(values)> now;
     now.reserve(staying.size());

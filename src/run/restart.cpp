@@ -17,7 +17,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/hash.hpp"
 #include "src/core/base/log.hpp"
-#include "src/material/failure/criterion.hpp"
+#include "src/material/failure/catalogue.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/run/checkpointing.hpp"
 
@@ -79,7 +79,7 @@ struct Admissible {
   Range range;
 };
 constexpr double most = 1.0 + 1e-9;  // of fractions, with their round-off
-constexpr std::array admissible = {
+const std::array admissible = {
     Admissible{"mass", {.lower = 0.0, .lower_open = true}},
     Admissible{"volume", {.lower = 0.0, .lower_open = true}},
     Admissible{"void_volume", {.lower = 0.0}},
@@ -88,10 +88,8 @@ constexpr std::array admissible = {
     Admissible{"plastic_strain", {.lower = 0.0}},
     Admissible{"melted_fraction", {.lower = 0.0, .upper = most}},
     Admissible{"vaporised_fraction", {.lower = 0.0, .upper = most}},
-    Admissible{"damage", {.lower = 0.0, .upper = most}},
-    Admissible{"failed", {.lower = 0.0, .upper = failure::code_count - 1.0}},
+    Admissible{"failed", {.lower = 0.0, .upper = static_cast<double>(failure::greatest_code())}},
     Admissible{"melting_time", {.lower = never}},
-    Admissible{"distension", {.lower = 0.0, .lower_open = true}},
     Admissible{"failure_threshold_factor", {.lower = 0.0}},
     Admissible{"length", {.lower = 0.0, .lower_open = true}},
     Admissible{"reference_length", {.lower = 0.0, .lower_open = true}},
@@ -130,11 +128,12 @@ class Checker {
   template <class Points>
   void require_points(const std::string& group, const Points& points,
                       const std::map<std::string, Range>& indices = {}) const {
-    for_each_field<Points>([&](const auto& field) {
-      const auto& values = points.*(field.values);
+    for_each_field(points, [&](const auto& field) {
+      const auto& values = field.of(points);
       using Value = typename std::decay_t<decltype(values)>::value_type;
       const auto index = indices.find(field.name);
-      const Range range = index == indices.end() ? range_of(field.name) : index->second;
+      Range range = index == indices.end() ? range_of(field.name) : index->second;
+      if constexpr (requires { field.declared; }) range = field.declared.range;
       const std::string name = group + "/" + field.name;
       if constexpr (std::is_arithmetic_v<Value>) {
         require(name, values, range);

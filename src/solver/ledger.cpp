@@ -123,6 +123,7 @@ void Ledger::add(const Ledger& step) {
   work += step.work;
   viscous_work += step.viscous_work;
   plastic_work += step.plastic_work;
+  dissipation += step.dissipation;
   transfer_heat += step.transfer_heat;
   unresolved_kept += step.unresolved_kept;
   unresolved_returned += step.unresolved_returned;

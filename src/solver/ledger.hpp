@@ -104,6 +104,7 @@ struct Ledger {
   double work = 0.0;                           ///< J, stress on strain, into internal energy
   double viscous_work = 0.0;                   ///< J, part of it: of the artificial viscosity
   double plastic_work = 0.0;                   ///< J, part of it: of the strength on plastic strain
+  double dissipation = 0.0;                    ///< J, part of it that the material models made irreversible
   double transfer_heat = 0.0;        ///< J, kinetic energy lost in transfers that became internal at once
   double unresolved_kept = 0.0;      ///< J, the rest of it, into unresolved energy
   double unresolved_returned = 0.0;  ///< J, unresolved energy that became internal
@@ -156,6 +157,7 @@ void for_each_number(L& ledger, Function&& f) {
   f("work", ledger.work);
   f("viscous_work", ledger.viscous_work);
   f("plastic_work", ledger.plastic_work);
+  f("dissipation", ledger.dissipation);
   f("transfer_heat", ledger.transfer_heat);
   f("unresolved_kept", ledger.unresolved_kept);
   f("unresolved_returned", ledger.unresolved_returned);

@@ -24,8 +24,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 # Group -> sources to change, test executables, what of them to run.
 GROUPS = {
-    "material": (["src/material/update.cpp", "src/material/failing.cpp", "src/material/brittle.cpp",
-                  "src/material/kinematics.cpp", "src/material/strength/*.cpp", "src/material/failure/*.hpp"],
+    "material": (["src/material/common.cpp", "src/material/gather.cpp", "src/material/neo_hookean.hpp",
+                  "src/material/eos_strength/*.cpp", "src/material/kinematics.cpp", "src/material/strength/*.cpp", "src/material/failure/*.hpp"],
                  {"test_material": "*"}),
     "transfer": (["src/transfer/*.cpp", "src/transfer/kernels.inl"], {"test_transfer": "*"}),
     "contact": (["src/contact/*.cpp"], {"test_contact": "*", "test_solver": "Contact*:WallContact*"}),

@@ -22,6 +22,7 @@
 #include "src/core/base/progress.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/io/checkpoint.hpp"
+#include "src/material/constitutive_catalogue.hpp"
 #include "src/case/case.hpp"
 #include "src/run/restart.hpp"
 #include "src/run/run.hpp"
@@ -335,7 +336,13 @@ TEST_F(Restart, WithNumbersThatNoStateHasIsRefused) {
   using Forgery = std::function<void(io::Checkpoint&)>;
   const std::vector<std::pair<const char*, Forgery>> forgeries = {
       {"particles/body", [](io::Checkpoint& c) { c.particles.body[5] = 255; }},
-      {"particles/damage", [](io::Checkpoint& c) { c.particles.damage[0] = nan; }},
+      {"particles/damage",
+       [](io::Checkpoint& c) {
+         const auto& fields = material::history_fields();
+         const auto damage = std::ranges::find(fields, "damage", &HistoryField::name);
+         c.particles.history.declare(*damage, c.particles.size());
+         c.particles.history.scalar("damage")[0] = 1.5;
+       }},
       {"particles/failed", [](io::Checkpoint& c) { c.particles.failed[7] = 200; }},
       {"particles/maximum_pressure", [](io::Checkpoint& c) { c.particles.maximum_pressure[9] = nan; }},
       {"particles/melting_time", [](io::Checkpoint& c) { c.particles.melting_time[1] = -2.0; }},

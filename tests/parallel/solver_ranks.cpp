@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A copper disk through an aluminium plate, quarter model, in a domain so short that matter leaves it.
+/// A copper disk through an aluminium plate, quarter model, in a domain so short that material leaves it.
 const char* const debris_head = R"(
 [domain]
 lower = ["0 mm", "0 mm", "-6 mm"]
@@ -84,8 +84,8 @@ TEST_F(SolverRanks, GiveTheSameBitsEveryTime) {
   advance_to(first, 1e-6);
   advance_to(second, 1e-6);
   ASSERT_EQ(first.particles().size(), second.particles().size());
-  for_each_field<Particles>([&](const auto& field) {
-    const auto &a = first.particles().*(field.values), &b = second.particles().*(field.values);
+  for_each_field(first.particles(), [&](const auto& field) {
+    const auto &a = field.of(first.particles()), &b = field.of(second.particles());
     EXPECT_TRUE(a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0) << field.name;
   });
 }
@@ -159,8 +159,8 @@ TEST_F(SolverRanks, MigrateWithAllFieldsAndStandByBody) {
     parallel::sum(MPI_COMM_WORLD, now);
     EXPECT_EQ(now, sums) << "round " << round;
     EXPECT_TRUE(std::ranges::is_sorted(particles.body));
-    for_each_field<Particles>([&](const auto& field) {
-      const auto& values = particles.*(field.values);
+    for_each_field(particles, [&](const auto& field) {
+      const auto& values = field.of(particles);
       EXPECT_TRUE(values.size() == particles.size() || (field.optional && values.empty())) << field.name;
     });
   }

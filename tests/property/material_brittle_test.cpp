@@ -241,7 +241,7 @@ TEST(JohnsonHolmquist2, BulkingTurnsTheLostShearEnergyIntoCompression) {
     const double lost = yield * yield / (6 * c.stiffness()) * volume;  // J
     EXPECT_NEAR(body.p(), std::sqrt(p * p + 2 * beta * K1 * lost / volume), 1e-4 * p);
     // The rest is heat; energy that the compression of the material takes is that of its own equation of state.
-    const double mass = body.points.mass[0], alpha = material.porous ? body.points.distension[0] : 1.0;
+    const double mass = body.points.mass[0], alpha = body.points.history.find("distension") != nullptr ? body.points.history.scalar("distension")[0] : 1.0;
     const auto cold_energy = [&](double density) {
       return material.eos->state_at_temperature(density, 300.0);
     };
@@ -356,12 +356,12 @@ TEST(Brittle, ChunksAndSinglePointsAreBitwiseTheSame) {
     std::size_t open = 0, broken = 0;
     for (std::size_t i = 0; i < n; ++i) {
       ASSERT_EQ(all.pressure[i], single.pressure[i]) << name;
-      ASSERT_EQ(all.damage[i], single.damage[i]);
-      ASSERT_EQ(all.distension[i], single.distension[i]);
+      ASSERT_EQ(all.history.scalar("damage")[i], single.history.scalar("damage")[i]);
+      ASSERT_EQ(all.history.scalar("distension")[i], single.history.scalar("distension")[i]);
       ASSERT_EQ(all.void_volume[i], single.void_volume[i]);
       ASSERT_EQ(all.deviatoric_stress[i].xy, single.deviatoric_stress[i].xy);
       open += all.void_volume[i] > 0.0 ? 1 : 0;
-      broken += all.damage[i] == 1.0 ? 1 : 0;
+      broken += all.history.scalar("damage")[i] == 1.0 ? 1 : 0;
     }
     EXPECT_GT(open, 10U) << name;
     EXPECT_GT(broken, 10U) << name;

@@ -96,7 +96,7 @@ TEST(HolmquistJohnsonCook, BothSchemesOfTheEnergyAgree) {
   }
   EXPECT_GT(body.damage(), 0.5);
   EXPECT_NEAR(other.pressure[0], body.p(), 1e-6 * body.p());
-  EXPECT_NEAR(other.damage[0], body.damage(), 1e-6);
+  EXPECT_NEAR(other.history.scalar("damage")[0], body.damage(), 1e-6);
   EXPECT_NEAR(other.specific_internal_energy[0], body.points.specific_internal_energy[0],
               2e-3 * body.points.specific_internal_energy[0]);
 }
@@ -155,7 +155,7 @@ double peak_of_uniaxial_stress(const Material& material, double last, int steps)
     lateral = 0.5 * (low + high);
     residual(lateral, points);
     peak = std::max(peak, std::abs(points.deviatoric_stress[0].xx - points.pressure[0]));
-    if (points.damage[0] > 0.3) break;
+    if (points.history.scalar("damage")[0] > 0.3) break;
   }
   return peak;
 }

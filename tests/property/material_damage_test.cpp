@@ -94,7 +94,7 @@ TEST(PrincipalStress, FailsAtTheStrengthInEveryDirection) {
 TEST(PrincipalStrain, FailsAtTheLogarithmicStrainWhileTheMatterTurns) {
   const Material material = with(taylor_copper(), {criterion(failure::PrincipalStrain{{}, 0.3})});
   MaterialPoints points = points_of(material, 1);
-  ASSERT_EQ(points.strain.size(), 1U);
+  ASSERT_EQ(points.history.symmetric("strain").size(), 1U);
   double stretch = 1.0, angle = 0.0;
   Matrix3 before = Matrix3::Identity();
   while (points.failed[0] == failure::intact) {
@@ -166,13 +166,13 @@ TEST(JohnsonCookDamage, ShearFailsWhereTheDamageOfItsStrainsIsOne) {
     gradient(0, 1) = 2e-3 / dt;
     double damage = 0.0;
     while (points.failed[0] == failure::intact) {
-      ASSERT_GE(points.damage[0], damage);
-      damage = points.damage[0];
+      ASSERT_GE(points.history.scalar("damage")[0], damage);
+      damage = points.history.scalar("damage")[0];
       step_with_work(material, points, gradient, settings);
       ASSERT_LT(points.plastic_strain[0], 2.0);
     }
     EXPECT_EQ(points.failed[0], failure::fractured);
-    EXPECT_EQ(points.damage[0], 1.0);
+    EXPECT_EQ(points.history.scalar("damage")[0], 1.0);
     EXPECT_NEAR(points.plastic_strain[0], scatter * 1.0, 0.002);
   }
 }
@@ -225,7 +225,7 @@ TEST(GradyKipp, NoFlawGrowsBelowTheStrainAtWhichThePointHoldsOne) {
     MaterialPoints points = points_of(material, 1);
     points.failure_threshold_factor.assign(points.mass.size(), scatter);
     double strain = 0.0;
-    while (points.damage[0] == 0.0) {
+    while (points.history.scalar("damage")[0] == 0.0) {
       step_with_work(material, points, uniaxial(1e-6 / dt), settings);
       strain += 1e-6;
       ASSERT_LT(strain, 0.1);
@@ -237,7 +237,7 @@ TEST(GradyKipp, NoFlawGrowsBelowTheStrainAtWhichThePointHoldsOne) {
 /// Half damaged material that carries tension without more damage (its flaws are too strong).
 MaterialPoints half_damaged(const Material& material) {
   MaterialPoints points = points_of(material, 1);
-  points.damage[0] = 0.5;
+  points.history.scalar("damage")[0] = 0.5;
   points.failure_threshold_factor.assign(points.mass.size(), 1e6);
   return points;
 }
@@ -271,7 +271,7 @@ TEST(SofteningMatter, BearsHalfTheTensionAndAllThePressureAndClosesItsCracksWith
   go(-strain / steps);  // compressed: cracks closed, full bulk stiffness
   EXPECT_EQ(points.void_volume[0], 0.0);
   EXPECT_NEAR(points.pressure[0], bulk * strain, 0.01 * bulk * strain);
-  EXPECT_EQ(points.damage[0], 0.5);
+  EXPECT_EQ(points.history.scalar("damage")[0], 0.5);
 }
 
 TEST(SofteningMatter, SchemeWithoutWorkIdentityBooksTheSameEnergy) {
@@ -422,7 +422,7 @@ TEST(Gurson, VoidsNucleateCoalesceAndPartTheMatterAndCloseUnderPressure) {
   }
   EXPECT_GT(at_nucleation, 0.035);  // all nucleated by then
   EXPECT_EQ(points.failed[0], failure::void_growth);
-  EXPECT_EQ(points.damage[0], 1.0);
+  EXPECT_EQ(points.history.scalar("damage")[0], 1.0);
   EXPECT_GE(points.pressure[0], 0.0);
   EXPECT_EQ(points.deviatoric_stress[0].squared_norm(), 0.0);
   EXPECT_GT(points.void_volume[0] / (points.void_volume[0] + points.volume[0]), 0.19);

@@ -59,7 +59,7 @@ TEST(KinematicHardening, BauschingerEffectIsTwiceTheInitialYieldStress) {
   constants.kinematic_modulus = 2e9;
   const Material material = of<strength::VonMisesModel>(constants);
   MaterialPoints points = points_of(material, 1);
-  ASSERT_EQ(points.back_stress.size(), 1U);
+  ASSERT_EQ(points.history.symmetric("back_stress").size(), 1U);
   const double forward = stretch(material, points, 0.05, 500);
   const double ep = points.plastic_strain[0];
   EXPECT_NEAR(ep, (3 * 40e9 * 0.05 - 200e6) / (3 * 40e9 + 2e9), 1e-7);
@@ -95,7 +95,7 @@ TEST(KinematicHardening, StressAndBackStressTurnWithTheMatter) {
   const Material material = of<strength::VonMisesModel>(constants);
   MaterialPoints points = points_of(material, 1);
   stretch(material, points, 0.02, 100);
-  const Matrix3 stress = points.deviatoric_stress[0].matrix(), back = points.back_stress[0].matrix();
+  const Matrix3 stress = points.deviatoric_stress[0].matrix(), back = points.history.symmetric("back_stress")[0].matrix();
   ASSERT_GT(back.norm(), 1e7);
   EXPECT_NEAR(back.trace(), 0.0, 1e-6);
   const Vector3 axis = Vector3(1, -2, 0.5).normalized();
@@ -103,7 +103,7 @@ TEST(KinematicHardening, StressAndBackStressTurnWithTheMatter) {
   const Matrix3 gradient = (turn - Matrix3::Identity()) / dt;
   for (int n = 0; n < 40; ++n) update_material(material, points, 0, 1, std::span(&gradient, 1), settings);
   const Matrix3 whole = Eigen::AngleAxisd(2.0, axis).toRotationMatrix();
-  EXPECT_LT((points.back_stress[0].matrix() - whole * back * whole.transpose()).norm(), 1e-10 * back.norm());
+  EXPECT_LT((points.history.symmetric("back_stress")[0].matrix() - whole * back * whole.transpose()).norm(), 1e-10 * back.norm());
   EXPECT_LT((points.deviatoric_stress[0].matrix() - whole * stress * whole.transpose()).norm(),
             1e-10 * stress.norm());
 }
@@ -136,7 +136,7 @@ TEST(KinematicHardening, YieldConditionHoldsBesideTheBackStressForEveryHardening
       const double y =
           k == 0 ? power.flow_stress(points.plastic_strain[0]) : voce.flow_stress(points.plastic_strain[0]);
       SymmetricTensor shifted =
-          SymmetricTensor::from(points.deviatoric_stress[0].matrix() - points.back_stress[0].matrix());
+          SymmetricTensor::from(points.deviatoric_stress[0].matrix() - points.history.symmetric("back_stress")[0].matrix());
       ASSERT_NEAR(equivalent_stress(shifted), y, 1e-6 * y) << n;
     }
     EXPECT_GT(points.plastic_strain[0], 0.1);
@@ -152,13 +152,13 @@ TEST(KinematicHardening, MeltingTakesTheBackStressAlong) {
   const Material material = with(constants, {}, eos);
   MaterialPoints points = points_of(material, 1);
   stretch(material, points, 0.02, 100);
-  const double back = equivalent_stress(points.back_stress[0]);
+  const double back = equivalent_stress(points.history.symmetric("back_stress")[0]);
   const Matrix3 rest = Matrix3::Zero();
   for (const auto& [energy, solid] : {std::pair{500e3, 0.5}, {700e3, 0.0}}) {
     points.specific_internal_energy[0] = energy;
     points.pressure[0] = 0.0;
     update_material(material, points, 0, 1, std::span(&rest, 1), settings);
-    EXPECT_NEAR(equivalent_stress(points.back_stress[0]), solid * back, 0.01 * back);
+    EXPECT_NEAR(equivalent_stress(points.history.symmetric("back_stress")[0]), solid * back, 0.01 * back);
   }
 }
 

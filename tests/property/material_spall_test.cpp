@@ -97,7 +97,7 @@ TEST(TulerButcher, ConstantTensionFailsAtTheExactTime) {
           step_with_work(material, points, rest, settings);
           ++steps;
           if (points.failed[0] == failure::intact) {
-            ASSERT_NEAR(points.damage[0], steps * dt / exact, 1e-9);
+            ASSERT_NEAR(points.history.scalar("damage")[0], steps * dt / exact, 1e-9);
             ASSERT_NEAR(points.pressure[0], -times * sigma_0, 1.0);  // nothing softens before it is complete
           }
         }
@@ -146,7 +146,7 @@ TEST(TulerButcher, HealsOnlyIfAskedTo) {
     strain_to(material, points, 0.99e-9, 100);
     EXPECT_GT(points.pressure[0], 1e9);
     EXPECT_EQ(points.failed[0] == failure::intact, healing);
-    EXPECT_EQ(points.damage[0], healing ? 0.0 : 1.0);
+    EXPECT_EQ(points.history.scalar("damage")[0], healing ? 0.0 : 1.0);
     shear(material, points);
     EXPECT_NEAR(equivalent_stress(points.deviatoric_stress[0]), healing ? 158e6 : 0.0, 10e6);
   }

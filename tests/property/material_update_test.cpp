@@ -19,10 +19,6 @@ namespace {
 
 using namespace material_test;
 
-constexpr UpdateSettings without_viscosity(double dt) {
-  return {.time_step = dt, .cell_size = 1e-3, .linear_viscosity = 0.0, .quadratic_viscosity = 0.0};
-}
-
 Matrix3 rotation(double angle, const Vector3& axis) {
   return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
 }
@@ -226,7 +222,7 @@ Cycle shear_cycle(const Material& material, double amplitude, int steps, StepFun
   cycle.elastic_energy = points.deviatoric_stress[0].squared_norm() / (4.0 * taylor_copper().shear_modulus) *
                          points.volume[0] / points.mass[0];
   cycle.pressure = points.pressure[0];
-  if (!points.stored_cold_work.empty()) cycle.stored_cold_work = points.stored_cold_work[0];
+  if (points.history.find("stored_cold_work") != nullptr) cycle.stored_cold_work = points.history.scalar("stored_cold_work")[0];
   return cycle;
 }
 
@@ -301,19 +297,19 @@ TEST(ColdWork, BecomesHeatInWhatMelts) {
   MaterialPoints points = points_of(material, 1);
   const Matrix3 rest = Matrix3::Zero();
   const auto heat_to = [&](double energy) {  // of the equation of state
-    points.specific_internal_energy[0] = energy + points.stored_cold_work[0];
+    points.specific_internal_energy[0] = energy + points.history.scalar("stored_cold_work")[0];
     update_material(material, points, 0, 1, std::span(&rest, 1), without_viscosity(1e-7));
   };
-  points.stored_cold_work[0] = 20e3;
+  points.history.scalar("stored_cold_work")[0] = 20e3;
   heat_to(300e3);
   EXPECT_NEAR(points.temperature[0], 300.0 + 300e3 / eos.heat_capacity, 1e-9);
-  EXPECT_EQ(points.stored_cold_work[0], 20e3);
+  EXPECT_EQ(points.history.scalar("stored_cold_work")[0], 20e3);
   heat_to(450e3);
-  EXPECT_NEAR(points.stored_cold_work[0], 15e3, 1e-6);
+  EXPECT_NEAR(points.history.scalar("stored_cold_work")[0], 15e3, 1e-6);
   heat_to(420e3);  // what freezes has none
-  EXPECT_NEAR(points.stored_cold_work[0], 15e3, 1e-6);
+  EXPECT_NEAR(points.history.scalar("stored_cold_work")[0], 15e3, 1e-6);
   heat_to(700e3);
-  EXPECT_EQ(points.stored_cold_work[0], 0.0);
+  EXPECT_EQ(points.history.scalar("stored_cold_work")[0], 0.0);
 }
 
 TEST(Melting, TakesYieldStressAndShearModulusLinearlyAndStressWithIt) {
@@ -330,7 +326,7 @@ TEST(Melting, TakesYieldStressAndShearModulusLinearlyAndStressWithIt) {
     Matrix3 gradient = Matrix3::Zero();
     update_material(material, points, 0, 1, std::span(&gradient, 1), without_viscosity(dt));
     ASSERT_NEAR(points.melted_fraction[0], melted, 1e-12);
-    // sound speed: only the solid share of the shear modulus
+    // sound speed: only the solid fraction of the shear modulus
     const double bulk = eos.sound_squared(eos.rho0, points.specific_internal_energy[0]);
     const double shear = 4.0 / 3.0 * (1.0 - melted) * constants.shear_modulus / eos.rho0;
     EXPECT_NEAR(points.sound_speed[0], std::sqrt(bulk + shear), 1e-9 * std::sqrt(bulk + shear));
@@ -390,22 +386,6 @@ TEST(Melting, WhatIsSolidBesideVapourBearsNoShear) {
             600.0);  // a tenth of that of the metal, the least that the time step counts on
 }
 
-TEST(Viscosity, ActsInCompressionOnlyWithThePublishedForm) {
-  const Material material = with(taylor_copper());
-  MaterialPoints points = points_of(material, 2);
-  const double sound = points.sound_speed[0];
-  const UpdateSettings settings{
-      .time_step = 1e-12, .cell_size = 2e-3, .linear_viscosity = 0.3, .quadratic_viscosity = 1.5};
-  std::array<Matrix3, 2> gradients = {Matrix3::Zero(), Matrix3::Zero()};
-  gradients[0](0, 0) = -1e5;
-  gradients[1](0, 0) = 1e5;
-  update_material(material, points, 0, 2, gradients, settings);
-  const double closing = 2e-3 * 1e5;
-  EXPECT_NEAR(points.artificial_viscosity[0], 8930.0 * closing * (1.5 * closing + 0.3 * sound),
-              1e3);  // of 3 GPa
-  EXPECT_EQ(points.artificial_viscosity[1], 0.0);
-}
-
 // What bounds the next time step: material that ends the step in tension, or expands, does not count.
 TEST(Report, NamesTheFastestCompressionOfMatterUnderPressure) {
   const Material material = with(taylor_copper());
@@ -422,56 +402,6 @@ TEST(Report, NamesTheFastestCompressionOfMatterUnderPressure) {
   EXPECT_DOUBLE_EQ(report.compression_rate, 2e5);
   report.merge(update_material(material, points, 0, 1, gradients, without_viscosity(1e-12)));
   EXPECT_DOUBLE_EQ(report.compression_rate, 2e5);
-}
-
-/// It takes energy out of the flow and never turns pressure into tension.
-TEST(Viscosity, InExpansionActsWhereAskedForAndNeverExceedsThePressure) {
-  const Material material = with(taylor_copper());
-  MaterialPoints points = points_of(material, 4);
-  const double sound = points.sound_speed[0];
-  points.pressure = {20e9, 1e8, 0.0, -1e9};
-  const UpdateSettings settings{
-      .time_step = 1e-12, .cell_size = 2e-3, .linear_viscosity = 0.3, .expansion_viscosity = 0.5};
-  std::vector<Matrix3> gradients(4, Matrix3::Zero());
-  for (Matrix3& gradient : gradients) gradient(1, 1) = 1e5;
-  update_material(material, points, 0, 4, gradients, settings);
-  EXPECT_NEAR(points.artificial_viscosity[0], -8930.0 * 2e-3 * 1e5 * 0.5 * sound, 1e3);  // of 4 GPa
-  EXPECT_EQ(points.artificial_viscosity[1], -1e8);
-  EXPECT_EQ(points.artificial_viscosity[2], 0.0);
-  EXPECT_EQ(points.artificial_viscosity[3], 0.0);
-
-  MaterialPoints closing = points_of(material, 1), usual = closing;
-  gradients[0](1, 1) = -1e5;
-  UpdateSettings without = settings;
-  without.expansion_viscosity = 0.0;
-  update_material(material, closing, 0, 1, gradients, settings);
-  update_material(material, usual, 0, 1, gradients, without);
-  EXPECT_EQ(closing.artificial_viscosity[0], usual.artificial_viscosity[0]);
-}
-
-/// A length for every point of the set takes the place of the cell size, in ranges and in lists.
-TEST(Viscosity, TakesTheLengthOfEachPoint) {
-  const Material material = with(taylor_copper());
-  const std::size_t n = 300;
-  std::vector<double> lengths(n);
-  for (std::size_t i = 0; i < n; ++i) lengths[i] = 1e-3 + 1e-6 * static_cast<double>(i);
-  const std::vector<Matrix3> gradients(n, Matrix3(Vector3(-1e4, 0.0, 0.0).asDiagonal()));
-  MaterialPoints range = points_of(material, n), list = range;
-  UpdateSettings settings{.time_step = 1e-8};
-  settings.lengths = lengths;
-  update_material(material, range, 10, n, std::span(gradients).subspan(10), settings);
-  const std::vector<std::uint32_t> indices = {299, 3, 150};
-  update_material(material, list, indices, std::span(gradients).first(3), settings);
-  for (const std::uint32_t i : {3U, 150U, 299U}) {
-    MaterialPoints one = points_of(material, n);
-    update_material(material, one, i, i + 1, std::span(gradients).first(1),
-                    {.time_step = 1e-8, .cell_size = lengths[i]});
-    EXPECT_GT(one.artificial_viscosity[i], 0.0);
-    EXPECT_EQ(list.artificial_viscosity[i], one.artificial_viscosity[i]);
-    if (i >= 10) {
-      EXPECT_EQ(range.artificial_viscosity[i], one.artificial_viscosity[i]);
-    }
-  }
 }
 
 TEST(Ranges, ListsChunksAndThreadsGiveBitwiseTheSamePoints) {
@@ -497,47 +427,13 @@ TEST(Ranges, ListsChunksAndThreadsGiveBitwiseTheSamePoints) {
     first.join();
     update_material(material, list, indices, shuffled, settings);
   }
-  for_each_field<MaterialPoints>([&](const auto& field) {
-    const auto& expected = whole.*(field.values);
+  for_each_field(whole, [&](const auto& field) {
+    const auto& expected = field.of(whole);
     const auto bytes = expected.size() * sizeof(expected[0]);
     if (bytes == 0) return;  // optional, not in use
-    EXPECT_EQ(std::memcmp(expected.data(), (parts.*(field.values)).data(), bytes), 0) << field.name;
-    EXPECT_EQ(std::memcmp(expected.data(), (list.*(field.values)).data(), bytes), 0) << field.name;
+    EXPECT_EQ(std::memcmp(expected.data(), field.of(parts).data(), bytes), 0) << field.name;
+    EXPECT_EQ(std::memcmp(expected.data(), field.of(list).data(), bytes), 0) << field.name;
   });
-}
-
-/// Viscosity that heats over the whole of it, of one step of uniform closing in a point at `density`.
-/// @param of_field  rate of the affine field over that of the grid
-double share_that_heats(double density, double of_field, std::uint8_t failed = 0) {
-  const Material material = make_material("fluid", std::make_shared<LinearInEnergy>());
-  MaterialPoints points = points_of(material, 1);
-  points.volume[0] = points.mass[0] / density;
-  points.failed[0] = failed;
-  points.heating_viscosity.assign(1, 0.0);
-  const double rate = 1e5;  // 1/s
-  const Matrix3 gradient = -rate / 3.0 * Matrix3::Identity();
-  const std::vector<double> affine = {-of_field * rate};
-  const UpdateSettings settings{.time_step = 1e-9,
-                                .cell_size = 1e-3,
-                                .linear_viscosity = 0.0,
-                                .affine_divergence = affine,
-                                .affine_gain = 1.5,
-                                .affine_compression = 0.25,
-                                .initial_density = material.reference.density};
-  update_material(material, points, 0, 1, std::span(&gradient, 1), settings);
-  EXPECT_GT(points.artificial_viscosity[0], 0.0);
-  return points.heating_viscosity[0] / points.artificial_viscosity[0];
-}
-
-// docs/theory/dissipation.md, eq. 5, 6; with c1 = 0 the viscosity goes with the square of the rate.
-TEST(HeatingViscosity, FollowsTheAffineFieldWhereMatterMeetsAndIsAllOfItInShocks) {
-  const double start = make_material("fluid", std::make_shared<LinearInEnergy>()).reference.density;
-  EXPECT_NEAR(share_that_heats(1.0001 * start, 0.0), 0.0, 1e-6);
-  EXPECT_NEAR(share_that_heats(1.0001 * start, 0.4), 0.36, 1e-3);
-  EXPECT_EQ(share_that_heats(1.0001 * start, 1.0), 1.0);  // uniform compression
-  EXPECT_NEAR(share_that_heats(1.125 * start, 0.0), 0.25, 1e-3);
-  EXPECT_EQ(share_that_heats(1.3 * start, 0.0), 1.0);
-  EXPECT_EQ(share_that_heats(0.99 * start, 0.0), 1.0);  // thinner than at the start: gaps close
 }
 
 }  // namespace

@@ -258,9 +258,9 @@ TYPED_TEST(Transfer, MirrorPlaneEqualsATransferOfRealImages) {
   resize(full, 2 * half.size());
   for (std::size_t p = 0; p < half.size(); ++p) {
     const std::size_t image = half.size() + p;
-    for_each_field<Particles>([&](const auto& field) {
-      const auto& from = half.*(field.values);
-      if (!from.empty()) (full.*(field.values))[image] = from[p];
+    for_each_field(half, [&](const auto& field) {
+      const auto& from = field.of(half);
+      if (!from.empty()) field.of(full)[image] = from[p];
     });
     const Matrix3 mirror = Vector3(-1, 1, 1).asDiagonal();
     full.position[image][0] = -4 - half.position[p][0];
@@ -316,9 +316,9 @@ TYPED_TEST(Transfer, PlanesOneCellApartEqualRealImages) {
     const Matrix3 mirror = Vector3(1, mirrored ? -1 : 1, 1).asDiagonal();
     for (std::size_t p = 0; p < thin.size(); ++p) {
       const std::size_t image = static_cast<std::size_t>(copy) * thin.size() + p;
-      for_each_field<Particles>([&](const auto& field) {
-        const auto& from = thin.*(field.values);
-        if (!from.empty()) (full.*(field.values))[image] = from[p];
+      for_each_field(thin, [&](const auto& field) {
+        const auto& from = field.of(thin);
+        if (!from.empty()) field.of(full)[image] = from[p];
       });
       const double depth = thin.position[p][1] + 1;
       full.position[image][1] = -1 + shift * dx + (mirrored ? dx - depth : depth);

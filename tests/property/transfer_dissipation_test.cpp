@@ -103,10 +103,10 @@ TEST(ShockConduction, DoesNotDependOnWhatElseTheGridHolds) {
   Particles near = random_particles(300, {-1.5, -0.5, 3.5}, {-0.5, 0.5, 4.5}, 3), all = near;
   const Particles far = random_particles(100, {7.0, 6.0, 10.0}, {8.5, 7.0, 12.0}, 4);
   resize(all, near.size() + far.size());
-  for_each_field<Particles>([&](const auto& field) {
-    const auto& from = far.*(field.values);
+  for_each_field(far, [&](const auto& field) {
+    const auto& from = field.of(far);
     if (!from.empty())
-      std::ranges::copy(from, (all.*(field.values)).begin() + static_cast<std::ptrdiff_t>(near.size()));
+      std::ranges::copy(from, field.of(all).begin() + static_cast<std::ptrdiff_t>(near.size()));
   });
   const auto run = [](Particles& q, std::size_t hot) {
     use_stores(q);

@@ -78,7 +78,7 @@ struct Body {
   }
   [[nodiscard]] double p() const { return points.pressure[0]; }
   [[nodiscard]] double q() const { return equivalent_stress(points.deviatoric_stress[0]); }
-  [[nodiscard]] double damage() const { return points.damage[0]; }
+  [[nodiscard]] double damage() const { return points.history.scalar("damage")[0]; }
   [[nodiscard]] double energy() const { return points.specific_internal_energy[0] * points.mass[0]; }
 };
 

@@ -6,6 +6,7 @@
 #include <random>
 #include <string>
 
+#include "src/material/constitutive_catalogue.hpp"
 #include "src/particles/particles.hpp"
 #include "tests/unit/folder_test.hpp"
 
@@ -18,8 +19,9 @@ inline Particles random_bits(std::size_t n, unsigned seed) {
   std::mt19937_64 random(seed);
   Particles particles;
   resize(particles, n);
-  for_each_field<Particles>([&](const auto& field) {
-    auto& values = particles.*(field.values);
+  for (const HistoryField& field : material::history_fields()) particles.history.add(field);
+  for_each_field(particles, [&](const auto& field) {
+    auto& values = field.of(particles);
     if (field.optional && seed % 2 == 1) values.resize(n);
     auto* bytes = reinterpret_cast<unsigned char*>(values.data());
     for (std::size_t i = 0; i < values.size() * sizeof(values[0]); ++i)
@@ -32,9 +34,9 @@ inline Particles random_bits(std::size_t n, unsigned seed) {
 /// Names of the fields that differ in any bit.
 inline std::string differing_fields(const Particles& a, const Particles& b) {
   std::string names;
-  for_each_field<Particles>([&](const auto& field) {
-    const auto& x = a.*(field.values);
-    const auto& y = b.*(field.values);
+  for_each_field(a, [&](const auto& field) {
+    const auto& x = field.of(a);
+    const auto& y = field.of(b);
     if (x.size() != y.size() ||
         (!x.empty() && std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) != 0)) {
       names += std::string(field.name) + " ";

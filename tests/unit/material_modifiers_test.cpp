@@ -117,11 +117,11 @@ TEST_F(Modifiers, PorousMatterIsCrushedForGoodInTheUpdate) {
   resize(points, 1);
   points.mass[0] = material.reference.density * 1e-9;
   initialise(material, points, 0, 1);
-  EXPECT_EQ(points.distension[0], 1.25);
+  EXPECT_EQ(points.history.scalar("distension")[0], 1.25);
   EXPECT_NEAR(points.volume[0], 1e-9, 1e-18);
 
   drive(material, points, 0.9, 400);  // on the crush curve
-  const double crushed = points.distension[0], pressure = points.pressure[0];
+  const double crushed = points.history.scalar("distension")[0], pressure = points.pressure[0];
   EXPECT_GT(crushed, 1.05);
   EXPECT_LT(crushed, 1.2);
   EXPECT_GT(pressure, 1e8);
@@ -130,11 +130,11 @@ TEST_F(Modifiers, PorousMatterIsCrushedForGoodInTheUpdate) {
   EXPECT_NEAR(crushed, by_curve, 2e-4);  // the pressure is half a secant step beside that of the distension
 
   drive(material, points, 1.004, 100);  // unloads elastically
-  EXPECT_EQ(points.distension[0], crushed);
+  EXPECT_EQ(points.history.scalar("distension")[0], crushed);
   EXPECT_LT(points.pressure[0], pressure);
 
   drive(material, points, 0.85, 400);  // closes
-  EXPECT_EQ(points.distension[0], 1.0);
+  EXPECT_EQ(points.history.scalar("distension")[0], 1.0);
   EXPECT_GT(points.pressure[0], 1e9);
   const double energy = points.specific_internal_energy[0];
   EXPECT_GT(energy, 0.5 * 1e8 * (1 / material.reference.density - 1 / 8930.0));
@@ -144,7 +144,7 @@ TEST_F(Modifiers, PorousMatterIsCrushedForGoodInTheUpdate) {
   EXPECT_NEAR(points.temperature[0], matrix.temperature, 1e-3);
 
   drive(material, points, 1.02, 100);  // releases along the matrix: no pores come back
-  EXPECT_EQ(points.distension[0], 1.0);
+  EXPECT_EQ(points.history.scalar("distension")[0], 1.0);
 }
 
 TEST_F(Modifiers, MatterWithoutPoresCarriesNoDistension) {
@@ -154,7 +154,7 @@ TEST_F(Modifiers, MatterWithoutPoresCarriesNoDistension) {
   points.mass[0] = material.reference.density * 1e-9;
   initialise(material, points, 0, 1);
   drive(material, points, 0.8, 50);
-  EXPECT_TRUE(points.distension.empty());
+  EXPECT_TRUE(points.history.find("distension") == nullptr);
 }
 
 }  // namespace

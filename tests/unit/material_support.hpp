@@ -21,7 +21,7 @@ namespace whipple::material_test {
 /// p = A(rho) + B(rho) e on a linear Hugoniot, with a melted fraction that rises linearly between two
 /// energies: a stand-in whose pressure, sound speed and melting are known in closed form (written down here
 /// independently of eos/models).
-struct LinearInEnergy final : eos::EquationOfState {
+struct LinearInEnergy : eos::EquationOfState {
   double rho0 = 8930.0, c0 = 3940.0, s = 1.49, gamma = 1.96, heat_capacity = 383.0;
   double melting_starts = 1e30, melting_ends = 2e30;  // J/kg
 
@@ -132,6 +132,11 @@ inline MaterialPoints points_of(const Material& material, std::size_t n) {
   for (double& mass : points.mass) mass = material.reference.density * 1e-9;
   initialise(material, points, 0, n);
   return points;
+}
+
+/// Settings of a step without artificial viscosity.
+constexpr UpdateSettings without_viscosity(double dt) {
+  return {.time_step = dt, .cell_size = 1e-3, .linear_viscosity = 0.0, .quadratic_viscosity = 0.0};
 }
 
 /// Velocity gradient that takes the configuration F0 to F1 in dt: x1 = (I + dt L) x0.

@@ -17,9 +17,9 @@ namespace whipple::verification {
 
 template <class Points>
 void expect_same(const Points& a, const Points& b) {
-  for_each_field<Points>([&](const auto& field) {
-    const auto& x = a.*(field.values);
-    const auto& y = b.*(field.values);
+  for_each_field(a, [&](const auto& field) {
+    const auto& x = field.of(a);
+    const auto& y = field.of(b);
     ASSERT_EQ(x.size(), y.size()) << field.name;
     EXPECT_TRUE(x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0) << field.name;
   });

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 
@@ -45,6 +46,12 @@ const Catalogue<CriterionEntry>& catalogue() {
       entry<Gurson>(),
   });
   return all;
+}
+
+Code greatest_code() {
+  Code greatest = intact;
+  for (const CriterionEntry& entry : catalogue()) greatest = std::max(greatest, entry.code);
+  return greatest;
 }
 
 const std::string& code_meanings() {

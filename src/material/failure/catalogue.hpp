@@ -17,6 +17,9 @@ struct CriterionEntry : CatalogueEntry<const Criterion> {
 /// All failure criteria, one line each.
 const Catalogue<CriterionEntry>& catalogue();
 
+/// Returns the greatest code that a criterion gives to its failed points.
+Code greatest_code();
+
 /// Returns what the codes of failed points mean: "0 intact; failed by 1 tension, 2 plastic strain, ...".
 const std::string& code_meanings();
 

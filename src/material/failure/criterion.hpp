@@ -27,7 +27,7 @@ enum Code : std::uint8_t {
   void_growth = 7,       ///< growth and coalescence of voids
   spalled = 8,           ///< accumulated tension
 };
-constexpr std::size_t code_count = 9;
+constexpr std::size_t code_count = 16;  ///< that there is room for: a law may take the next free one, `Code{9}`
 
 /// Components xx, yy, zz, xy, yz, zx of a symmetric tensor, one entry per point.
 template <class Number>
@@ -80,24 +80,24 @@ class Criterion {
   virtual ~Criterion() = default;
   [[nodiscard]] virtual std::string_view model() const = 0;
   /// Advances the damage of the points and sets the code of those that are intact and break the criterion.
-  /// @param damage  `MaterialPoints::damage`; only criteria that accumulate change it
+  /// @param damage  history field `damage`; only criteria that accumulate change it
   virtual void mark(const State& state, std::span<double> damage, std::span<std::uint8_t> failed) const = 0;
   /// Lets voids grow and relaxes the stress of the material between them; sets damage and code.
   virtual void grow_voids(const PorousState& /*state*/, std::span<double> /*damage*/,
                           std::span<std::uint8_t> /*failed*/) const {}
-  /// Returns whether `grow_voids` does anything.
+  /// Does `grow_voids` do anything?
   [[nodiscard]] virtual bool grows_voids() const { return false; }
-  /// Returns whether `grow_voids` returns the deviator to a separate yield surface, from the flow stress of the material.
+  /// Does `grow_voids` return the deviator to a yield surface of its own, from the flow stress of the material?
   [[nodiscard]] virtual bool returns_deviator() const { return false; }
   /// The code that points lose again once pressure has closed their void; `intact`: they stay failed.
   [[nodiscard]] virtual Code healing_code() const { return intact; }
   /// Volume fraction of the voids at the start.
   [[nodiscard]] virtual double initial_porosity() const { return 0.0; }
-  /// Returns whether it keeps its history in `MaterialPoints::damage`. One criterion of a material may.
+  /// Does it keep its past in the history field `damage`? One criterion of a material may.
   [[nodiscard]] virtual bool accumulates() const { return false; }
-  /// Returns whether the damage reduces the stress before it is complete (docs/theory/material.md, eq. 18, 19).
+  /// Does the damage take stress away before it is complete (docs/theory/material.md, eq. 18, 19)?
   [[nodiscard]] virtual bool softens() const { return false; }
-  /// Returns whether it requires `State::strain`.
+  /// Does it ask for `State::strain`?
   [[nodiscard]] virtual bool needs_strain() const { return false; }
   /// All constants with units as TOML lines (provenance in output files).
   [[nodiscard]] virtual std::string constants() const = 0;
@@ -154,7 +154,7 @@ class CriterionModel final : public Criterion {
   Law law_;
 };
 
-/// Defaults of a law: a threshold of the present state.
+/// What a law is unless it says otherwise: a threshold of the present state.
 struct Threshold {
   static constexpr bool accumulates = false;
   static constexpr bool softens = false;

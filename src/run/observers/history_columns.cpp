@@ -70,6 +70,8 @@ const auto always = std::to_array<Column>({
      [](const Source& s) { return s.totals.angular_momentum[2]; }},
     {"viscous_work", "J", "work of the artificial viscosity", [](const Source& s) { return s.ledger.viscous_work; }},
     {"plastic_work", "J", "plastic work that became heat", [](const Source& s) { return s.ledger.plastic_work; }},
+    {"dissipation", "J", "work that the material models made irreversible: plastic, viscous, lost with the strength",
+     [](const Source& s) { return s.ledger.dissipation; }},
     {"transfer_heat", "J", "kinetic energy lost in transfers that became internal at once",
      [](const Source& s) { return s.ledger.transfer_heat; }},
     {"unresolved_kept", "J", "kinetic energy that became unresolved",

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "src/core/base/gaps.hpp"
@@ -50,6 +51,22 @@ std::vector<std::uint32_t> outside_of(const grid::Geometry& g, std::span<const V
   return all;
 }
 
+/// Mirrors the tensors of a particle, and the vectors and tensors that its material declares; the velocity and its
+/// affine field depend on the kind of wall.
+void mirror_tensors(Particles& particles, std::size_t p, const Matrix3& mirror) {
+  for_each_field(particles, [&](const auto& field) {
+    auto& values = field.of(particles);
+    using Value = typename std::decay_t<decltype(values)>::value_type;
+    if (values.empty()) return;  // optional, not in use
+    if constexpr (std::is_same_v<Value, SymmetricTensor>) {
+      values[p] = SymmetricTensor::from(mirror * values[p].matrix() * mirror);
+    } else if constexpr (std::is_same_v<std::decay_t<decltype(field)>, HistoryOf<Value>>) {
+      if constexpr (std::is_same_v<Value, Matrix3>) values[p] = (mirror * values[p] * mirror).eval();
+      if constexpr (std::is_same_v<Value, Vector3>) values[p] = (mirror * values[p]).eval();
+    }
+  });
+}
+
 }  // namespace
 
 /// Reflects particles at mirror planes and walls, and removes those beyond faces of outflow.
@@ -82,11 +99,7 @@ void ParticleCarrier::remove_outside() {
       if (!state_.particles.affine_velocity.empty()) {
         state_.particles.affine_velocity[p] = image * state_.particles.affine_velocity[p] * mirror;
       }
-      for (auto* tensors : {&state_.particles.deviatoric_stress, &state_.particles.back_stress,
-                            &state_.particles.strain, &state_.particles.extent}) {
-        if (tensors->empty()) continue;  // optional, not in use
-        (*tensors)[p] = SymmetricTensor::from(mirror * (*tensors)[p].matrix() * mirror);
-      }
+      mirror_tensors(state_.particles, p, mirror);
     }
     if (leaves) leaving.push_back(p);
   }

@@ -69,8 +69,8 @@ double divide(Particles& particles, std::size_t p, std::size_t other, const Vect
     (particles.unresolved_energy.empty() ? particles.specific_internal_energy
                                          : particles.unresolved_energy)[p] += heat;
   }
-  for_each_field<Particles>([&](const auto& field) {
-    auto& values = particles.*(field.values);
+  for_each_field(particles, [&](const auto& field) {
+    auto& values = field.of(particles);
     if (!values.empty()) values[other] = values[p];  // optional fields may not be in use
   });
   particles.position[p] -= offset;

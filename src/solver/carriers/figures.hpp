@@ -26,16 +26,19 @@ inline void add_state(const MaterialPoints& points, Figures& figures) {
   };
   figures.pressure = largest(points.pressure, figures.pressure);
   figures.temperature = largest(points.temperature, figures.temperature);
-  figures.stored_cold_work += parallel::sum<double>(
-      points.stored_cold_work.size(), [&](std::size_t p) { return points.mass[p] * points.stored_cold_work[p]; });
+  if (const History* stored = points.history.find("stored_cold_work")) {
+    const auto& energy = std::get<std::vector<double>>(stored->values);
+    figures.stored_cold_work +=
+        parallel::sum<double>(energy.size(), [&](std::size_t p) { return points.mass[p] * energy[p]; });
+  }
 }
 
 /// Returns the memory of all fields.
 template <class Points>
 std::size_t bytes_of(const Points& points) {
   std::size_t bytes = 0;
-  for_each_field<Points>([&](const auto& field) {
-    const auto& values = points.*(field.values);
+  for_each_field(points, [&](const auto& field) {
+    const auto& values = field.of(points);
     bytes += values.size() * sizeof(values[0]);
   });
   return bytes;

@@ -43,10 +43,10 @@ void Hexahedra::elements_removed() {
   if (!state_.is_parallel()) return;
   shared_nodes_.elements_removed(meshes_);
   // Optional fields are in use on all ranks or on none.
-  for_each_field<Particles>([&](const auto& field) {
+  for_each_field(state_.particles, [&](const auto& field) {
     if (!field.optional) return;
-    auto& values = state_.particles.*(field.values);
-    if (parallel::any(state_.communicator, !values.empty())) values.resize(state_.particles.size());
+    const bool in_use = parallel::any(state_.communicator, !field.of(state_.particles).empty());
+    if (in_use) field.resize(state_.particles, state_.particles.size());
   });
 }
 

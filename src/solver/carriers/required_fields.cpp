@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "src/core/base/error.hpp"
 #include "src/solver/carriers/particle_carrier.hpp"
@@ -25,8 +26,8 @@ void ParticleCarrier::require_fields(bool extent) const {
     needed.heating_viscosity.resize(state_.particles.size());
   }
   std::string missing;
-  for_each_field<Particles>([&](const auto& field) {
-    if (field.optional && (needed.*(field.values)).size() > (state_.particles.*(field.values)).size()) {
+  for_each_field(needed, [&](const auto& field) {
+    if (field.optional && field.of(needed).size() > field.of(std::as_const(state_.particles)).size()) {
       missing = field.name;
     }
   });

@@ -46,6 +46,7 @@ std::string book(State& state, const MaterialReport& report, const Material& mat
   state.booked.clamped_to_cold_curve += static_cast<double>(report.equation_of_state.below_cold_curve);
   state.booked.held_at_pressure_floor += static_cast<double>(report.equation_of_state.at_pressure_floor);
   state.booked.plastic_work += report.plastic_work;
+  state.booked.dissipation += report.dissipation;
   state.booked.limited_volume_changes += static_cast<double>(report.limited_volume_changes);
   state.booked.limited_densities += static_cast<double>(report.limited_densities);
   state.booked.limited_void_steps += static_cast<double>(report.limited_void_steps);
@@ -66,6 +67,7 @@ void MaterialStage::update(std::string_view stage, Energy energy,
   std::vector<UpdateSettings> settings;
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) settings.push_back(update_settings(state_, b));
   std::vector<MaterialReport> reports(state_.bodies.size());
+  std::vector<std::pair<std::uint32_t, double>> dissipations;  // J, by the first particle of each list
   std::size_t limited_domains = 0;
   Clock::duration in_material{};  // of all threads
   std::mutex mutex;
@@ -89,8 +91,10 @@ void MaterialStage::update(std::string_view stage, Energy energy,
                                   ? whipple::update_material(material, state_.particles, list, of_list, of_body)
                                   : update_material_and_energy(material, state_.particles, list, of_list, of_body);
       plastic_work += std::exchange(report.plastic_work, 0.0);
+      const double dissipated = std::exchange(report.dissipation, 0.0);
       const std::lock_guard lock(mutex);
       reports[body].merge(report);
+      if (dissipated != 0.0) dissipations.emplace_back(list.front(), dissipated);
     }
     const std::lock_guard lock(mutex);
     limited_domains += limited;
@@ -105,6 +109,8 @@ void MaterialStage::update(std::string_view stage, Energy energy,
       take(std::span(flying).subspan(begin, end - begin), none);  // without strain, so without plastic work
     });
     state_.booked.limited_domains += static_cast<double>(limited_domains);
+    std::ranges::sort(dissipations);  // so that the sum does not depend on the order of threads
+    for (const auto& [first, dissipated] : dissipations) state_.booked.dissipation += dissipated;
     for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
       state_.rates.compression = std::max(state_.rates.compression, reports[b].compression_rate);
       const std::string of_body =

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/material/chunk.hpp"
+#include "src/material/eos_strength/parts.hpp"
 #include "src/material/principal.hpp"
 
-namespace whipple::material {
+namespace whipple::material::parts {
 namespace {
+
+constexpr double greatest_bulking = 2.0;  ///< distension of bulked material
 
 /// Pressure that the material would have if it filled its gap as well.
 void fill_gaps(const Chunk& chunk, Lanes& pressure) {
@@ -31,20 +33,22 @@ void equivalent_rate(const Step& step, const Chunk& chunk, Lanes& rate) {
 
 }  // namespace
 
-void relax_brittle(Step& step, Chunk& chunk) {
+void relax_brittle(const EosStrength& model, const Step& step, Chunk& chunk) {
   const strength::Brittle& law = *step.material.strength->brittle();
   const double grains = step.material.eos->initial_distension();
-  Lanes pressure, rate, lode, compaction, crush, factor, equivalent, gained, before;
+  Lanes& damage = chunk.history[model.damage];
+  Lanes& distension = chunk.history[model.distension];
+  Lanes pressure, rate, lode, compaction, crush, factor, equivalent, gained;
   fill_gaps(chunk, pressure);
   equivalent_rate(step, chunk, rate);
   chunk.fetch_threshold_factor(step.points, factor);
   std::fill_n(compaction.data(), chunk.size, 0.0);
   std::fill_n(crush.data(), chunk.size, std::numeric_limits<double>::infinity());
   if (grains > 1.0) {
-    chunk.fetch(step.points.distension, before);
-    for (std::size_t k = 0; k < chunk.size; ++k)
-      compaction[k] = grains / chunk.distension[k] - grains / before[k];
-    step.material.eos->crush_pressure(chunk.view(chunk.distension), chunk.view(crush));
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      compaction[k] = grains / distension[k] - grains / chunk.old_distension[k];
+    }
+    step.material.eos->crush_pressure(chunk.view(distension), chunk.view(crush));
   }
   if (law.needs_lode_angle()) {
     for (std::size_t k = 0; k < chunk.size; ++k) lode[k] = lode_cosine(tensor(chunk.motion.deviator, k));
@@ -66,23 +70,24 @@ void relax_brittle(Step& step, Chunk& chunk) {
              .equivalent = chunk.view(equivalent),
              .plastic_increment = chunk.view(chunk.increment),
              .plastic_strain = chunk.view(chunk.plastic_strain),
-             .damage = chunk.view(chunk.damage),
+             .damage = chunk.view(damage),
              .least_pressure = chunk.view(chunk.least_pressure),
              .bulking_pressure = chunk.view(gained)});
+  const double work_before = chunk.report.plastic_work;
   for (std::size_t k = 0; k < chunk.size; ++k) {
     if (chunk.failed[k] != failure::intact) continue;
     if (equivalent[k] < chunk.motion.trial[k]) {
-      step.report.plastic_work += equivalent[k] * chunk.increment[k] * chunk.volume[k];
-      scale(chunk.motion.deviator, k, equivalent[k] / chunk.motion.trial[k]);
+      chunk.report.plastic_work += equivalent[k] * chunk.increment[k] * chunk.volume[k];
+      for (Lanes& lane : chunk.motion.deviator) lane[k] *= equivalent[k] / chunk.motion.trial[k];
     }
     if (gained[k] > 0.0) {  // (12): 1/alpha falls by the gain over K1
-      const double closeness = 1.0 / chunk.distension[k] - gained[k] / step.material.reference_bulk_modulus;
-      step.report.limited_bulking += closeness <= 1.0 / greatest_bulking ? 1 : 0;
-      chunk.distension[k] = std::min(greatest_bulking, 1.0 / std::max(closeness, 1.0 / greatest_bulking));
+      const double closeness = 1.0 / distension[k] - gained[k] / step.material.reference_bulk_modulus;
+      chunk.report.limited_bulking += closeness <= 1.0 / greatest_bulking ? 1 : 0;
+      distension[k] = std::min(greatest_bulking, 1.0 / std::max(closeness, 1.0 / greatest_bulking));
       chunk.acting_pressure[k] += gained[k];
     }
   }
-  chunk.deposit(chunk.damage, step.points.damage);
+  chunk.report.dissipation += chunk.report.plastic_work - work_before;
 }
 
-}  // namespace whipple::material
+}  // namespace whipple::material::parts

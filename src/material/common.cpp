@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/material/common.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/core/base/vector_math.hpp"
+
+namespace whipple::material {
+namespace {
+
+constexpr double least_volume_ratio = 0.5;  ///< limits of J in one step; named in the report
+constexpr double greatest_volume_ratio = 2.0;
+/// Least density as a fraction of the reference density. Thinner material does not expand further: long
+/// before, it fills more than the nodes on which its pressure acts, and without a bound isolated vapour would
+/// grow by the same factor in every step.
+constexpr double least_density_ratio = 1e-9;
+
+}  // namespace
+
+WHIPPLE_KERNEL void advance_volume(const Step& step, Chunk& chunk) {
+  Lanes limited;
+  volume_change(padded(chunk.size), step.settings.time_step, chunk.motion);
+  const double per_least_density = 1.0 / (least_density_ratio * step.material.reference.density);
+  std::size_t beyond = 0, undefined = 0, thinnest = 0;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double ratio = chunk.motion.ratio[k];
+    const double room = std::max(chunk.old_density[k] * per_least_density, 1.0);
+    limited[k] = std::min(std::clamp(ratio, least_volume_ratio, greatest_volume_ratio), room);
+    beyond += ratio < least_volume_ratio || ratio > greatest_volume_ratio ? 1 : 0;
+    thinnest += std::min(ratio, greatest_volume_ratio) > room ? 1 : 0;
+    chunk.volume_change[k] = chunk.old_volume[k] * (limited[k] - 1.0);
+    chunk.volume[k] = chunk.old_volume[k] * limited[k];
+  }
+  chunk.report.limited_volume_changes += beyond;
+  chunk.report.limited_densities += thinnest;
+  if (chunk.any_void) {
+    Lanes share;
+    step.material.constitutive->void_share(chunk, share);
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      const bool open = chunk.void_volume[k] > 0.0;
+      const double before = chunk.old_volume[k] + chunk.void_volume[k], total = before * limited[k];
+      const double matter = std::min(chunk.old_volume[k] + (1.0 - share[k]) * (total - before), total);
+      chunk.volume[k] = open ? matter : chunk.volume[k];
+      chunk.void_volume[k] = open ? total - matter : chunk.void_volume[k];
+    }
+  }
+  if (chunk.any_failed) {
+    // Stress acts on the material and strains it as the whole; in failed material, on nothing but itself.
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      const double own = chunk.volume[k] - chunk.old_volume[k];
+      chunk.volume_change[k] = chunk.intact[k] == 0.0 ? own : chunk.volume_change[k];
+    }
+  }
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double sum = chunk.specific_internal_energy[k] + chunk.volume[k];
+    undefined += !(chunk.volume[k] > 0.0) || !std::isfinite(sum) ? 1 : 0;
+  }
+  if (undefined == 0) return;
+  chunk.report.undefined += undefined;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double sum = chunk.specific_internal_energy[k] + chunk.volume[k];
+    if (chunk.volume[k] > 0.0 && std::isfinite(sum)) continue;
+    chunk.report.first_undefined = std::min(chunk.report.first_undefined, chunk.index[k]);
+  }
+}
+
+namespace {
+
+/// The part of the artificial viscosity whose work is heat (docs/theory/dissipation.md, eq. 6): all of it in
+/// a shock, whose rate the affine field of the particle follows; where material meets at first, what the affine
+/// field has of the jump. Loose material collides: all of it heats.
+WHIPPLE_KERNEL void find_heating_viscosity(const Step& step, Chunk& chunk) {
+  const UpdateSettings& settings = step.settings;
+  const double per_initial = 1.0 / settings.initial_density;
+  const double per_range = 1.0 / settings.affine_compression;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double of_grid = std::max(-chunk.motion.divergence[k], 0.0) * settings.cell_size;
+    const double of_field = std::max(-step.affine_divergence[k], 0.0) * settings.cell_size;
+    const double compression = chunk.density[k] * per_initial - 1.0;
+    const double share = std::clamp(1.0 - compression * per_range, 0.0, 1.0);
+    const double closing = of_grid - share * std::max(of_grid - settings.affine_gain * of_field, 0.0);
+    const double viscosity =
+        chunk.density[k] * closing *
+        (settings.quadratic_viscosity * closing + settings.linear_viscosity * chunk.sound_speed[k]);
+    const bool tight = chunk.intact[k] != 0.0 && compression >= 0.0;
+    const double whole = chunk.artificial_viscosity[k];
+    chunk.heating_viscosity[k] = tight && whole > 0.0 ? std::min(viscosity, whole) : whole;
+  }
+}
+
+}  // namespace
+
+WHIPPLE_KERNEL void advance_viscosity(const Step& step, Chunk& chunk) {
+  const UpdateSettings& settings = step.settings;
+  const auto advance = [&](const auto& length) {
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      const double closing = -chunk.motion.divergence[k] * length(k);  // l |D|, m/s
+      chunk.density[k] = chunk.mass[k] / chunk.volume[k];
+      const double viscosity =
+          chunk.density[k] * closing *
+          (settings.quadratic_viscosity * closing + settings.linear_viscosity * chunk.sound_speed[k]);
+      chunk.artificial_viscosity[k] = closing > 0.0 ? viscosity : 0.0;
+    }
+    if (settings.expansion_viscosity == 0.0) return;
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      const double opening = std::max(chunk.motion.divergence[k], 0.0) * length(k);
+      const double viscosity =
+          chunk.density[k] * opening * settings.expansion_viscosity * chunk.sound_speed[k];
+      chunk.artificial_viscosity[k] -= std::min(viscosity, std::max(chunk.pressure[k], 0.0));
+    }
+  };
+  if (settings.lengths.empty()) {
+    advance([&](std::size_t) { return settings.cell_size; });
+  } else {
+    advance([&](std::size_t k) { return settings.lengths[chunk.index[k]]; });
+  }
+  if (step.keeps_losses()) {
+    if (step.affine_divergence.empty()) {
+      chunk.heating_viscosity = chunk.artificial_viscosity;
+    } else {
+      find_heating_viscosity(step, chunk);
+    }
+  }
+}
+
+WHIPPLE_KERNEL void work_without_new_pressure(const Step&, Chunk& chunk) {
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    double strain_work = 0.0;  // mean stress : strain increment
+    for (std::size_t j = 0; j < 6; ++j) {
+      const double mean = 0.5 * (chunk.motion.deviator[j][k] + chunk.old_deviator[j][k]);
+      strain_work += (j < 3 ? 1.0 : 2.0) * mean * chunk.motion.strain[j][k];
+    }
+    const double per_mass = 1.0 / chunk.mass[k];
+    const double work = strain_work * 0.5 * (chunk.volume[k] + chunk.old_volume[k]) -
+                        chunk.volume_change[k] * (0.5 * chunk.pressure[k] + chunk.artificial_viscosity[k]);
+    chunk.half_change[k] = 0.5 * chunk.volume_change[k] * per_mass;
+    chunk.energy[k] = chunk.specific_internal_energy[k] + work * per_mass;
+  }
+}
+
+namespace {
+
+WHIPPLE_KERNEL void energy_ahead_of_elastic(const Step& step, Chunk& chunk) {
+  energy_ahead(step, chunk, [&](std::size_t k, const SymmetricTensor&, double gained) {
+    return gained - chunk.elastic_energy[k];
+  });
+}
+
+}  // namespace
+
+void solve_energy(const Step& step, Chunk& chunk) {
+  if (step.energy == Energy::from_grid) {
+    energy_ahead_of_elastic(step, chunk);
+    evaluate_equation_of_state<false>(step, chunk);
+    return;
+  }
+  chunk.fetch(step.points.deviatoric_stress, chunk.old_deviator);
+  strain_increment(padded(chunk.size), step.settings.time_step, step.settings.rotation, chunk.motion.gradient,
+                   chunk.motion.strain);
+  work_without_new_pressure(step, chunk);
+  for (std::size_t k = 0; k < chunk.size; ++k) chunk.energy[k] -= chunk.elastic_energy[k] / chunk.density[k];
+  evaluate_equation_of_state<false>(step, chunk);
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    chunk.specific_internal_energy[k] = chunk.energy[k] + chunk.elastic_energy[k] / chunk.density[k];
+  }
+}
+
+WHIPPLE_KERNEL void find_compression_rate(const Step&, Chunk& chunk) {
+  const Lanes& divergence = chunk.motion.divergence;
+  double rate = chunk.report.compression_rate;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    rate = std::max(rate, chunk.acting_pressure[k] > 0.0 ? -divergence[k] : 0.0);
+  }
+  chunk.report.compression_rate = rate;
+}
+
+}  // namespace whipple::material

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/material/constitutive_catalogue.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "src/material/eos_strength/eos_strength.hpp"
+#include "src/material/neo_hookean.hpp"
+
+namespace whipple::material {
+namespace {
+
+/// `Model` has fields() and Constants, which have name, summary, theory and parameters(); it is made from them.
+template <class Model>
+ConstitutiveEntry entry() {
+  using Constants = typename Model::Constants;
+  auto made = catalogue_entry<ConstitutiveEntry>(
+      Constants::name, Constants::summary, Constants::theory, &Constants::parameters,
+      [](const Constants& constants) { return std::make_unique<const Model>(constants); });
+  made.fields = Model::fields();
+  return made;
+}
+
+}  // namespace
+
+const Catalogue<ConstitutiveEntry>& catalogue() {
+  static const Catalogue<ConstitutiveEntry> all("constitutive model", {
+      entry<NeoHookeanModel>(),
+  });
+  return all;
+}
+
+const std::vector<HistoryField>& history_fields() {
+  static const std::vector<HistoryField> all = [] {
+    std::vector<HistoryField> fields = EosStrength::fields();
+    for (const ConstitutiveEntry& model : catalogue()) {
+      for (const HistoryField& field : model.fields) {  // models may share a field
+        if (std::ranges::find(fields, field.name, &HistoryField::name) == fields.end()) fields.push_back(field);
+      }
+    }
+    return fields;
+  }();
+  return all;
+}
+
+}  // namespace whipple::material

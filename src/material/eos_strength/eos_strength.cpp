@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/material/eos_strength/eos_strength.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/core/base/text.hpp"
+#include "src/material/eos_strength/parts.hpp"
+#include "src/material/strength/brittle.hpp"
+
+namespace whipple::material {
+namespace {
+
+const HistoryField damage_field = {"damage", "1", "of failure criteria with a past: 0 none, 1 failed", Rank::scalar,
+                                   Convection::kept, 0.0, {.lower = 0.0, .upper = 1.0 + 1e-9}};
+const HistoryField distension_field = {"distension", "1", "volume over that of the material without its pores",
+                                       Rank::scalar, Convection::kept, 1.0, {.lower = 0.0, .lower_open = true}};
+const HistoryField back_stress_field = {"back_stress", "Pa", "centre of the yield surface, xx yy zz xy yz zx",
+                                        Rank::symmetric_tensor, Convection::corotated};
+const HistoryField strain_field = {"strain", "1", "logarithmic strain, turned with the material, xx yy zz xy yz zx",
+                                   Rank::symmetric_tensor, Convection::corotated};
+const HistoryField cold_work_field = {"stored_cold_work", "J/kg", "plastic work that did not become heat"};
+
+void share_of_damage(const EosStrength& model, const Chunk& chunk, Lanes& share) {
+  const Lanes& damage = chunk.history[model.damage];
+  for (std::size_t k = 0; k < chunk.size; ++k) share[k] = chunk.intact[k] == 0.0 ? 1.0 : damage[k];
+}
+
+void whole_share(const EosStrength&, const Chunk& chunk, Lanes& share) { std::fill_n(share.data(), chunk.size, 1.0); }
+
+template <class Property>
+bool any_criterion(const Material& material, Property property) {
+  return std::ranges::any_of(material.failure, [&](const auto& criterion) { return property(*criterion); });
+}
+bool softens(const Material& material) {
+  return any_criterion(material, [](const failure::Criterion& c) { return c.softens(); });
+}
+bool is_brittle(const Material& material) { return material.strength->brittle() != nullptr; }
+
+}  // namespace
+
+std::vector<HistoryField> EosStrength::fields() {
+  return {damage_field, distension_field, back_stress_field, strain_field, cold_work_field};
+}
+
+EosStrength::EosStrength(const Material& material) {
+  if (is_brittle(material) || any_criterion(material, [](const auto& c) { return c.accumulates(); })) {
+    damage = declare(damage_field);
+  }
+  if (material.eos->initial_distension() > 1.0 || (is_brittle(material) && material.strength->brittle()->bulks())) {
+    distension = declare(distension_field);
+  }
+  if (material.strength->kinematic_modulus() > 0.0) back_stress = declare(back_stress_field);
+  if (any_criterion(material, [](const auto& c) { return c.needs_strain(); })) strain = declare(strain_field);
+  if (material.stores_cold_work()) stored_cold_work = declare(cold_work_field);
+  if (is_brittle(material)) {
+    share_ = whole_share;
+  } else if (softens(material)) {
+    share_ = share_of_damage;
+  }
+  from_grid_ = parts_of(material, Energy::from_grid);
+  integrated_ = parts_of(material, Energy::integrated);
+}
+
+std::vector<EosStrength::Part> EosStrength::parts_of(const Material& material, Energy energy) const {
+  using namespace parts;
+  const bool integrates = energy == Energy::integrated, has_phases = material.eos->has_phases();
+  const bool stores = stored_cold_work != undeclared, kinematic = back_stress != undeclared;
+  const bool brittle = is_brittle(material), damages = softens(material), strained = strain != undeclared;
+  const bool viscous = material.strength->viscosity() > 0.0;
+  std::vector<Part> all;
+  const auto take = [&](Part part) { all.push_back(part); };
+  const auto take_if = [&](bool condition, Part part) {
+    if (condition) all.push_back(part);
+  };
+  take_if(has_phases, fetch_phases);
+  take_if(integrates, fetch_old_deviator);
+  take(damages ? find_damaged_solid_fraction : find_solid_fraction);
+  if (material.strength->carries_deviator()) {
+    take(strained ? elastic_trial_and_strain : parts::elastic_trial);
+    if (kinematic) {
+      take(stores ? return_kinematically_and_store : return_kinematically);
+    } else {
+      take(return_radially);
+      take_if(stores, store_cold_work);
+    }
+  } else {
+    take(viscous ? viscous_deviator : strained ? strain_alone : no_deviator);
+  }
+  take_if(strained, advance_strain);
+  take(brittle ? free_brittle : free_failed);
+  take(integrates ? energy_by_work : energy_from_grid);
+  take_if(stores, take_cold_work);
+  if (distension != undeclared) {
+    take(has_phases ? evaluate_porous_phases : evaluate_porous);
+  } else {
+    take(has_phases ? evaluate_phases : evaluate_simple);
+  }
+  take_if(integrates, accept_energy);
+  take_if(integrates && stores, return_cold_work);
+  take_if(brittle, relax_brittle);
+  if (!material.failure.empty()) {
+    take(prepare_failure);
+    take_if(any_criterion(material, [](const auto& c) { return c.healing_code() != failure::intact; }), heal);
+    take_if(material.void_growth != nullptr, grow_voids);
+    take(strained ? mark_failed_by_strain : mark_failed);
+  }
+  if (viscous) {
+    take(damages ? lose_in_damaged_viscous : lose_in_viscous);
+  } else {
+    take(brittle ? lose_in_brittle : damages ? lose_in_damaged : lose_in_failed);
+  }
+  take_if(kinematic, lose_back_stress);
+  take_if(stores, release_cold_work);
+  take_if(integrates, correct_work_beside_voids);
+  return all;
+}
+
+std::string EosStrength::constants(const Material& material) const {
+  return fmt::format("\n[strength]\n{}", material.strength->constants());
+}
+
+std::shared_ptr<const Constitutive> EosStrength::adapted(const Material& material) const {
+  return std::make_shared<const EosStrength>(material);
+}
+
+double EosStrength::sound_speed(const Material& material, const eos::State& state) const {
+  const std::array rho = {state.density}, p = {state.pressure}, kelvin = {state.temperature}, strain_of = {0.0};
+  std::array<double, 1> modulus = {};
+  material.strength->shear_modulus({rho, p, kelvin, strain_of}, modulus);
+  const double solid = shear_bearing_fraction(state.melted_fraction, state.vaporised_fraction);
+  return std::sqrt(state.sound_speed * state.sound_speed + 4.0 / 3.0 * solid * modulus[0] / state.density);
+}
+
+void EosStrength::start(const eos::State& state, MaterialPoints& points, std::size_t begin, std::size_t end) const {
+  if (distension == undeclared) return;
+  std::vector<double>& values = points.history.scalar(distension_field.name);
+  for (std::size_t i = begin; i < end; ++i) values[i] = state.distension;
+}
+
+void EosStrength::void_share(const Chunk& chunk, Lanes& share) const {
+  share_ != nullptr ? share_(*this, chunk, share) : Constitutive::void_share(chunk, share);
+}
+
+void EosStrength::update(const Step& in, Chunk& out) const {
+  for (const Part part : in.energy == Energy::from_grid ? from_grid_ : integrated_) part(*this, in, out);
+}
+
+}  // namespace whipple::material

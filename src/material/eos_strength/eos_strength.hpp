@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "src/material/common.hpp"
+#include "src/material/constitutive.hpp"
+
+/// Equation of state, strength and failure as one constitutive model (docs/theory/material.md).
+namespace whipple::material {
+
+/// The update is a list of parts, each a function of the chunk, chosen once from what the material has.
+class EosStrength final : public Constitutive {
+ public:
+  using Part = void (*)(const EosStrength& model, const Step& in, Chunk& out);
+
+  EosStrength() = default;  ///< without parts: for `adapted`
+  /// Chooses the parts of the update and declares their history fields.
+  explicit EosStrength(const Material& material);
+
+  [[nodiscard]] std::string_view model() const override { return "eos_strength"; }
+  [[nodiscard]] std::string constants(const Material& material) const override;
+  [[nodiscard]] std::shared_ptr<const Constitutive> adapted(const Material& material) const override;
+  [[nodiscard]] double sound_speed(const Material& material, const eos::State& state) const override;
+  void start(const eos::State& state, MaterialPoints& points, std::size_t begin, std::size_t end) const override;
+  void void_share(const Chunk& chunk, Lanes& share) const override;
+  void update(const Step& in, Chunk& out) const override;
+
+  /// All fields that it may declare.
+  static std::vector<HistoryField> fields();
+
+  /// First lanes of the history fields; of a field that is not declared: a lane that nobody else uses.
+  static constexpr std::size_t undeclared = most_history - 1;
+  std::size_t damage = undeclared, distension = undeclared, back_stress = undeclared, strain = undeclared,
+              stored_cold_work = undeclared;
+
+ private:
+  using Share = void (*)(const EosStrength& model, const Chunk& chunk, Lanes& share);
+
+  std::vector<Part> parts_of(const Material& material, Energy energy) const;
+
+  std::vector<Part> from_grid_, integrated_;
+  Share share_ = nullptr;  ///< null: that of `Constitutive`
+};
+
+}  // namespace whipple::material

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "src/core/base/simd.hpp"
+#include "src/core/base/vector_math.hpp"
+#include "src/material/eos_strength/parts.hpp"
+
+namespace whipple::material::parts {
+namespace {
+
+constexpr double greatest_void_step = 0.1;       ///< |dV/V| of material beside its void in one step
+constexpr double least_sound_speed_ratio = 0.1;  ///< of the bulk sound speed of the reference state
+
+using Four = whipple::Lanes;  // points at a time
+
+/// Points with cracks or voids.
+struct Porous {
+  Four pressure;  ///< Pa, that acts
+  Four volume;    ///< m^3 of material
+  Four void_volume;
+};
+
+/// Pressure and division of the volume into material and void: the share `opening` of what exceeds the volume
+/// of zero pressure, or of the pressure `least` where it is all of it, is void (eq. 12, 13, 18). Tension
+/// opens the void, pressure lets the material grow into it.
+/// @param modulus  rho c^2 (Pa), bounded from below
+/// @param count    of points: fewer than four at the end of a chunk
+/// @param limited  grows by the number of points that are kept from changing more in one step
+Porous share_volume(const Porous& points, Four modulus, Four opening, Four least, std::size_t count,
+                    std::size_t& limited) {
+  const Four pressure = points.pressure, volume = points.volume, total = volume + points.void_volume;
+  const Four limit = broadcast(greatest_void_step);
+  const Four wanted = (pressure - least) / modulus;
+  const Four strain = minimum(maximum(wanted, -limit), limit);
+  const Four relaxed = volume + strain * volume, excess = total - relaxed;
+  const LanesMask whole = opening == 1.0, open = excess > 0.0;
+  const LanesMask beyond = (opening > 0.0) & open & (strain != wanted);
+  limited += static_cast<std::size_t>(std::popcount(bits(beyond) & ((1U << std::min<std::size_t>(count, 4)) - 1U)));
+  const Four matter = select(whole, relaxed, total - opening * excess);
+  const Four cracked = minimum(pressure + modulus * (volume - matter) / volume, Four{});
+  const Four closed = maximum(pressure - modulus * points.void_volume / volume, least);
+  return {select(open, select(whole, least, cracked), closed), select(open, matter, total),
+          select(open, total - matter, Four{})};
+}
+
+/// What opens voids in points that have not failed: nothing, damage, or a tension beyond that of `least_pressure`.
+enum class Opening : std::uint8_t { none, damage, tension };
+
+/// Reduces stress and energy of points that have failed, melt, or contain opening cracks or gaps; `kept` is
+/// the fraction of the deviator that they keep.
+/// @param squared  of the sound speed
+template <Opening kind, bool viscous>
+inline void lose_strength(const EosStrength& model, Chunk& chunk, const Lanes& bulk, double least_sound_speed,
+                          Lanes& squared) {
+  const double least_squared = least_sound_speed * least_sound_speed;
+  constexpr bool brittle = kind == Opening::tension;
+  const LanesMask all = Four{} == Four{}, none = ~all;
+  const Lanes& damages = chunk.history[model.damage];
+  for (std::size_t k = 0; k < chunk.size; k += 4) {
+    const auto of = [k](const Lanes& lanes) { return load(&lanes[k]); };
+    const LanesMask failed = of(chunk.intact) == 0.0, loose = brittle ? all : failed;
+    const Four damage = kind == Opening::damage ? of(damages) : Four{};
+    const Four melted = of(chunk.melted), density = of(chunk.density), softest = broadcast(least_squared);
+    const Four bearing = select(of(chunk.vaporised) > 0.0, Four{}, 1.0 - melted) * (1.0 - damage);
+    const Four solid = select(failed, Four{}, bearing), solid_before = of(chunk.solid_fraction);
+
+    const Four opening = select(loose, broadcast(1.0), damage);
+    const Four least = brittle ? select(failed, Four{}, of(chunk.least_pressure)) : Four{};
+    const Porous before = {of(chunk.acting_pressure), of(chunk.volume), of(chunk.void_volume)};
+    const Porous shared =
+        share_volume(before, density * of(bulk), opening, least, chunk.size - k, chunk.report.limited_void_steps);
+    const LanesMask parts = opening > 0.0;
+    const Four pressure = select(parts, shared.pressure, before.pressure);
+    const Four void_volume = select(parts, shared.void_volume, before.void_volume);
+    store(&chunk.acting_pressure[k], pressure);
+    store(&chunk.volume[k], select(parts, shared.volume, before.volume));
+    store(&chunk.void_volume[k], void_volume);
+
+    const LanesMask gaping = loose & (void_volume > 0.0);  // opened in this step, or before
+    store(&chunk.artificial_viscosity[k], select(gaping, Four{}, of(chunk.artificial_viscosity)));
+    const Four of_solid = of(bulk) + 4.0 / 3.0 * solid * of(chunk.solid_modulus) / density;
+    const LanesMask slack = (failed & (pressure <= 0.0)) | (~failed & gaping);
+    store(&squared[k], select(slack, softest, select(failed, of(bulk), of_solid)));
+    const LanesMask melts = viscous ? none : solid < solid_before;
+    const Four of_intact = select(melts, solid / solid_before, broadcast(1.0));
+    const Four of_failed = viscous ? select(gaping, Four{}, broadcast(1.0)) : Four{};
+    store(&chunk.kept[k], select(failed, of_failed, of_intact));
+  }
+}
+
+void scale(std::span<Lanes, 6> tensors, const Chunk& chunk) {
+  for (Lanes& lane : tensors) {
+    for (std::size_t k = 0; k < chunk.size; ++k) lane[k] *= chunk.kept[k];
+  }
+}
+
+/// Elastic energy of the deviator (J) that points lose with their strength.
+double lost_energy(const Chunk& chunk) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double lost = 1.0 - chunk.kept[k] * chunk.kept[k], modulus = chunk.motion.modulus[k];
+    const double energy = tensor(chunk.motion.deviator, k).squared_norm() / (4.0 * (modulus > 0.0 ? modulus : 1.0));
+    sum += modulus > 0.0 ? lost * energy * chunk.volume[k] : 0.0;
+  }
+  return sum;
+}
+
+/// Sound speed, and the loss of strength where there may be one.
+template <Opening kind, bool viscous>
+inline void lose(const EosStrength& model, const Step& step, Chunk& chunk) {
+  const double least_sound_speed = least_sound_speed_ratio * step.material.reference.sound_speed;
+  Lanes bulk, squared;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    bulk[k] = std::max(chunk.bulk_sound_speed[k] * chunk.bulk_sound_speed[k],
+                       least_sound_speed * least_sound_speed);
+    squared[k] = bulk[k] + 4.0 / 3.0 * chunk.solid_modulus[k] / chunk.density[k];
+  }
+  // What melts or cracks takes its fraction of the stress with it; what freezes is free of stress.
+  chunk.loses = kind != Opening::none || chunk.any_failed || any_positive(chunk.melted, chunk.size);
+  if (chunk.loses) {
+    lose_strength<kind, viscous>(model, chunk, bulk, least_sound_speed, squared);
+    chunk.report.dissipation += lost_energy(chunk);
+    scale(chunk.motion.deviator, chunk);
+    chunk.any_void = true;
+  }
+  for (std::size_t k = 0; k < chunk.size; ++k) chunk.sound_speed[k] = std::sqrt(squared[k]);
+}
+
+}  // namespace
+
+WHIPPLE_KERNEL void lose_in_failed(const EosStrength& model, const Step& in, Chunk& out) {
+  lose<Opening::none, false>(model, in, out);
+}
+
+WHIPPLE_KERNEL void lose_in_damaged(const EosStrength& model, const Step& in, Chunk& out) {
+  lose<Opening::damage, false>(model, in, out);
+}
+
+WHIPPLE_KERNEL void lose_in_brittle(const EosStrength& model, const Step& in, Chunk& out) {
+  lose<Opening::tension, false>(model, in, out);
+}
+
+WHIPPLE_KERNEL void lose_in_viscous(const EosStrength& model, const Step& in, Chunk& out) {
+  lose<Opening::none, true>(model, in, out);
+}
+
+WHIPPLE_KERNEL void lose_in_damaged_viscous(const EosStrength& model, const Step& in, Chunk& out) {
+  lose<Opening::damage, true>(model, in, out);
+}
+
+void lose_back_stress(const EosStrength& model, const Step&, Chunk& out) {
+  if (out.loses) scale(out.field<6>(model.back_stress), out);
+}
+
+void release_cold_work(const EosStrength& model, const Step& in, Chunk& out) {
+  Lanes& stored = out.history[model.stored_cold_work];
+  for (std::size_t k = 0; k < out.size; ++k) {
+    const double solid_before = 1.0 - in.points.melted_fraction[out.index[k]], solid = 1.0 - out.melted[k];
+    if (solid < solid_before) stored[k] *= solid / solid_before;
+  }
+}
+
+}  // namespace whipple::material::parts
