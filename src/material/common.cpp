@@ -69,7 +69,7 @@ namespace {
 
 /// The part of the artificial viscosity whose work is heat (docs/theory/dissipation.md, eq. 6): all of it in
 /// a shock, whose rate the affine field of the particle follows; where material meets at first, what the affine
-/// field has of the jump. Loose material collides: all of it heats.
+/// field has of the jump. Fragmented material collides: all of it heats.
 WHIPPLE_KERNEL void find_heating_viscosity(const Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
   const double per_initial = 1.0 / settings.initial_density;

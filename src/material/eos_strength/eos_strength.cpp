@@ -19,7 +19,7 @@ const HistoryField distension_field = {"distension", "1", "volume over that of t
                                        Rank::scalar, Convection::kept, 1.0, {.lower = 0.0, .lower_open = true}};
 const HistoryField back_stress_field = {"back_stress", "Pa", "centre of the yield surface, xx yy zz xy yz zx",
                                         Rank::symmetric_tensor, Convection::corotated};
-const HistoryField strain_field = {"strain", "1", "logarithmic strain, turned with the material, xx yy zz xy yz zx",
+const HistoryField strain_field = {"strain", "1", "logarithmic strain, rotated with the material, xx yy zz xy yz zx",
                                    Rank::symmetric_tensor, Convection::corotated};
 const HistoryField cold_work_field = {"stored_cold_work", "J/kg", "plastic work that did not become heat"};
 
