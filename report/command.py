@@ -28,12 +28,13 @@ def main(words: list[str] | None = None) -> int:
     parser.add_argument("--output", metavar="DIR", help="folder of the report (default: RUN_DIR/report)")
     parser.add_argument("--figure", metavar="TITLE=FILE.png", action="append", default=[], type=parse_figure,
                         help="a figure to show before the pictures (Hugoniot, isotherm, ...); may be repeated")
+    parser.add_argument("--view", metavar="FILE.html", type=pathlib.Path, help="page of `whipple view` to show in this one")
     parser.add_argument("--dpi", metavar="N", type=int, default=180, help="dots per inch of the pictures (default 180)")
     arguments = parser.parse_args(words)
     try:
         run = Run(arguments.run, arguments.output)
         report = Report(run, max(arguments.dpi, 20))
-        report.add_all(arguments.figure)
+        report.add_all(arguments.figure, arguments.view)
         print(report.write())
     except (NotARun, OSError) as error:
         print(f"report: error: {error}", file=sys.stderr)

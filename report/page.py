@@ -64,6 +64,10 @@ class Page:
         self.parts.append(f'<figure><img src="data:image/png;base64,{data}" alt="{escape(caption)}">'
                           f"<figcaption>{escape(caption)}</figcaption></figure>")
 
+    def frame(self, page: str, title: str) -> None:
+        """Adds a page that stands by itself, loaded when it comes into sight."""
+        self.parts.append(f'<iframe class=view loading=lazy title="{escape(title)}" srcdoc="{escape(page)}"></iframe>')
+
     def text(self) -> str:
         """Returns the HTML of the page."""
         style = (TEMPLATES / "style.css").read_text(encoding="utf-8")

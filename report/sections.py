@@ -68,12 +68,14 @@ class Report:
         self.page = Page(run.title, " · ".join(map(str, [run.folder.resolve(), *facts])))
         self.metrics = {"title": run.title, "multiplicity": run.multiplicity}
 
-    def add_all(self, figures: list[tuple[str, pathlib.Path]]) -> None:
-        """Adds all sections. `figures`: titles and PNG files to show before the pictures."""
+    def add_all(self, figures: list[tuple[str, pathlib.Path]], view: pathlib.Path | None = None) -> None:
+        """Adds all sections. `figures`: titles and PNG files to show before the pictures; `view`: page of the view in
+        three dimensions."""
         self._summary()
         self._input()
         self._given_figures(figures)
         self._cloud()
+        self._view(view)
         self._curves()
         self._dissipation()
         self._gauges()
@@ -183,6 +185,14 @@ class Report:
         planar.add_to(self.page, self.output, analysis, run.history)
         self._add_figure("loads.png", "Loads on the plane in the course of the run: what has passed it until the end.",
                          curves.loads_figure(analysis, "loads"))
+
+    def _view(self, view):
+        if view is None:
+            return
+        self.page.heading("In three dimensions")
+        self.page.frame(view.read_text(encoding="utf-8"), "The run in three dimensions")
+        self.page.paragraph(f"The same as {view.name}. Drag to turn, with Shift to shift, wheel to come nearer; a click "
+                            "on a particle shows its fields.")
 
     def _extent(self, analysis):
         columns = analysis.series

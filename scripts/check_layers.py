@@ -45,6 +45,8 @@ MAY_USE = {
     "src/bench": ["src/core/base", "src/core/parallel", "src/core/process", "src/particles", "src/grid", "src/transfer", "src/io", "src/case", "src/solver"],
     # Reads what runs wrote, with the keys of a case; knows no solver.
     "src/analysis": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/grid", "src/material", "src/case"],
+    # Packs what runs wrote for the browser.
+    "src/view": ["src/core/base", "src/grid", "src/io", "src/analysis"],
     "md_fitting/plan": ["src/core/base", "src/core/input"],
     "md_fitting/lammps": ["src/core/base", "md_fitting/data_set"],
     "md_fitting/protocols": ["src/core/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],
@@ -55,7 +57,8 @@ MAY_USE = {
     # whipple-md for states.
     "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/curves", "eos/experiments", "eos/files",
                 "src/particles", "src/grid", "src/material",
-                "src/transfer", "src/io", "src/analysis", "src/case", "src/solver", "src/run", "src/bench", "md_fitting/plan",
+                "src/transfer", "src/io", "src/analysis", "src/view", "src/case", "src/solver", "src/run", "src/bench",
+                "md_fitting/plan",
                 "md_fitting/simulated_crystal"],
 }
 

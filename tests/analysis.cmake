@@ -1,5 +1,5 @@
 # Measures of finished runs.
-whipple_test(test_analysis SOURCES unit/analysis_test.cpp unit/analysis_instruments_test.cpp unit/analysis_paths_test.cpp DEPENDS whipple_analysis LABELS fast)
+whipple_test(test_analysis SOURCES unit/analysis_test.cpp unit/analysis_instruments_test.cpp unit/analysis_paths_test.cpp unit/view_test.cpp DEPENDS whipple_view whipple_analysis LABELS fast)
 if(WHIPPLE_PYTHON)
   foreach(part expectations uncertainty provenance)
     add_test(NAME results_${part}
@@ -7,4 +7,21 @@ if(WHIPPLE_PYTHON)
                      $<TARGET_FILE:whipple>)
     set_tests_properties(results_${part} PROPERTIES LABELS fast TIMEOUT 120)
   endforeach()
+endif()
+
+# The viewer: its modules with node, its shaders with the system's OpenGL ES, its page with both. What is absent is said.
+set(viewer_tests ${PROJECT_SOURCE_DIR}/web/viewer/tests)
+find_program(WHIPPLE_NODE node)
+if(WHIPPLE_NODE)
+  add_test(NAME viewer_modules COMMAND ${WHIPPLE_NODE} --test ${viewer_tests}/logic.test.js)
+else()
+  add_test(NAME viewer_modules COMMAND ${CMAKE_COMMAND} -E echo "SKIPPED: node is absent: the viewer's modules were not tested")
+endif()
+add_test(NAME viewer_shaders COMMAND /usr/bin/python3 ${viewer_tests}/shaders.py ${PROJECT_SOURCE_DIR}/web/viewer/shaders.js)
+set_tests_properties(viewer_modules PROPERTIES LABELS "fast;browser" TIMEOUT 300 SKIP_REGULAR_EXPRESSION "SKIPPED")
+set_tests_properties(viewer_shaders PROPERTIES LABELS "fast;browser" TIMEOUT 300 SKIP_RETURN_CODE 77)
+if(WHIPPLE_PYTHON)
+  add_test(NAME viewer_page COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/view_page.py $<TARGET_FILE:whipple>
+           ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${PROJECT_SOURCE_DIR})
+  set_tests_properties(viewer_page PROPERTIES LABELS "fast;browser" TIMEOUT 600 SKIP_REGULAR_EXPRESSION "SKIPPED")
 endif()

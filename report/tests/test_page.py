@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The page is whole and holds what it was given as text; files appear as a whole."""
+import html
 import pathlib
+import re
 import tempfile
 import unittest
 
@@ -27,6 +29,14 @@ class Pages(unittest.TestCase):
             page.image(picture, "a picture")
         self.assertIn('<img src="data:image/png;base64,UE5H" alt="a picture">', page.text())
         self.assertNotIn("http", page.text())
+
+
+    def test_a_page_within_the_page_keeps_its_text(self):
+        page = Page("t", "s")
+        page.frame('<p class="a">1 < 2 && "x"</p>', 'the "view"')
+        found = re.search(r'<iframe class=view loading=lazy title="([^"]*)" srcdoc="([^"]*)"></iframe>', page.text())
+        self.assertEqual(html.unescape(found.group(1)), 'the "view"')
+        self.assertEqual(html.unescape(found.group(2)), '<p class="a">1 < 2 && "x"</p>')
 
 
 class Files(unittest.TestCase):

@@ -28,6 +28,7 @@
 #include "src/app/steer_command.hpp"
 #include "src/app/units_command.hpp"
 #include "src/app/version_command.hpp"
+#include "src/app/view_command.hpp"
 #include "src/core/base/error.hpp"
 
 namespace {
@@ -45,7 +46,7 @@ void wait_passively(char** arguments) {
 
 /// Subcommands with threads.
 bool has_threads(std::string_view command) {
-  constexpr std::array<std::string_view, 5> commands = {"run", "check", "analyse", "report", "bench"};
+  constexpr std::array<std::string_view, 6> commands = {"run", "check", "analyse", "report", "view", "bench"};
   return std::ranges::find(commands, command) != commands.end();
 }
 
@@ -69,6 +70,7 @@ int whipple_main(int argc, char** argv) {
   add_compare_command(app);
   add_analyse_command(app);
   add_report_command(app);
+  add_view_command(app);
   add_eos_command(app);
   add_describe_command(app);
   add_materials_command(app);

@@ -15,8 +15,11 @@
 #include "src/app/analyse_command.hpp"
 #include "src/app/planar_impact.hpp"
 #include "src/core/base/error.hpp"
-#include "src/io/run_directory.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/process/paths.hpp"
 #include "src/core/process/scripts.hpp"
+#include "src/io/run_directory.hpp"
+#include "src/view/page.hpp"
 
 namespace whipple::app {
 namespace {
@@ -27,7 +30,23 @@ struct ReportOptions {
   std::vector<std::string> figures;
   AnalysisWords analysis;
   int dots_per_inch = 180;
+  double view_megabytes = 12.0;
 };
+
+/// Writes view.html for the page, if it can be made of this run. Returns its path, empty without one.
+std::string write_view(const analysis::Run& run, double megabytes, const std::filesystem::path& output) {
+  if (megabytes <= 0.0) return "";
+  try {
+    view::PageOptions options;
+    options.most_bytes = 1e6 * megabytes;
+    const std::filesystem::path file = output / "view.html";
+    io::write_text_atomically(file, view::make_page(run, options, process::find_data("web/viewer")).html);
+    return file.string();
+  } catch (const InputError& error) {
+    log::warning("no view in three dimensions: {}", error.what());
+    return "";
+  }
+}
 
 /// planar_impact.json, for the page.
 void write_planar_impacts(const analysis::Run& run, const std::filesystem::path& output) {
@@ -42,6 +61,7 @@ int run_report(const ReportOptions& options) {
         fmt::format("{}: error: is not a folder; expected the output of whipple run", options.run));
   }
   const std::filesystem::path output = options.output.empty() ? options.run + "/report" : options.output;
+  std::string view;
   // A run that has not come to its first snapshot has its input and history to show.
   if (const analysis::Run run = analysis::read_run(options.run); !run.snapshots.empty()) {
     AnalysisWords words = options.analysis;
@@ -49,9 +69,11 @@ int run_report(const ReportOptions& options) {
     words.views.columns = static_cast<std::size_t>(std::lround(panel_width * options.dots_per_inch));
     run_analysis(options.run, words, output);
     write_planar_impacts(run, output);
+    view = write_view(run, options.view_megabytes, output);
   }
   std::vector<std::string> arguments = {options.run, "--dpi", std::to_string(options.dots_per_inch), "--output",
                                         output.string()};
+  if (!view.empty()) arguments.insert(arguments.end(), {"--view", view});
   for (const std::string& figure : options.figures) arguments.insert(arguments.end(), {"--figure", figure});
   return process::run_script("report", arguments);
 }
@@ -74,6 +96,11 @@ void add_report_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--dpi", options->dots_per_inch, "Dots per inch of the pictures")
       ->check(CLI::Range(20, 1200))
+      ->capture_default_str();
+  command
+      ->add_option("--view-megabytes", options->view_megabytes,
+                   "Greatest size of the view in three dimensions (0: none)")
+      ->check(CLI::Range(0.0, 2000.0))
       ->capture_default_str();
   command->footer("Example:\n  whipple report run/copper_disk_on_aluminium --figure Hugoniot=compare.png");
   command->callback([options] {

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/view/cloud.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <variant>
+
+#include "src/core/base/error.hpp"
+#include "src/core/base/text.hpp"
+#include "src/core/base/words.hpp"
+#include "src/io/output_fields.hpp"
+
+namespace whipple::view {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the planes of a cloud are little endian");
+
+/// 16 bits of a field: its range in equal steps, and one value for what is no finite number.
+constexpr std::uint16_t steps = 65534, missing = 65535;
+constexpr std::uint16_t position_steps = 65535;
+
+struct FieldOfCloud {
+  std::string name, unit, meaning;
+  bool codes = false;  ///< numbers that stand for words, kept as they are
+  std::function<double(std::size_t)> value;
+};
+
+bool is_code(const io::FieldFunction& function) {
+  return std::holds_alternative<std::uint8_t (*)(const io::FieldSource&, std::size_t)>(function) ||
+         std::holds_alternative<std::uint16_t (*)(const io::FieldSource&, std::size_t)>(function);
+}
+
+void add_velocity(const io::OutputField& field, const analysis::Snapshot& snapshot, std::vector<FieldOfCloud>& fields) {
+  const auto& velocity = snapshot.velocity;
+  const std::string unit(field.unit);
+  fields.push_back({"speed", unit, "magnitude of the velocity", false,
+                    [&velocity](std::size_t i) { return velocity[i].norm(); }});
+  for (const Eigen::Index axis : {0, 1, 2}) {
+    const char letter = "xyz"[axis];
+    fields.push_back({fmt::format("{}_{}", field.name, letter), unit, fmt::format("{} along {}", field.name, letter), false,
+                      [&velocity, axis](std::size_t i) { return velocity[i][axis]; }});
+  }
+}
+
+std::vector<FieldOfCloud> fields_of(const analysis::Snapshot& snapshot) {
+  std::map<std::string, const std::vector<double>*, std::less<>> left = {{"mass", &snapshot.mass}};
+  for (const auto& [name, values] : snapshot.scalars) left[name] = &values;
+  std::vector<FieldOfCloud> fields;
+  const auto add = [&](const std::string& name, std::string unit, std::string meaning, bool codes, const auto* values) {
+    fields.push_back({name, std::move(unit), std::move(meaning), codes, [values](std::size_t i) { return (*values)[i]; }});
+  };
+  for (const io::OutputField& field : io::output_fields()) {
+    if (std::holds_alternative<Vector3 (*)(const io::FieldSource&, std::size_t)>(field.value)) {
+      add_velocity(field, snapshot, fields);
+    } else if (const auto found = left.find(field.name); found != left.end()) {
+      add(found->first, std::string(field.unit), std::string(field.meaning), is_code(field.value), found->second);
+      left.erase(found);
+    }
+  }
+  for (const auto& [name, values] : left) add(name, "", "field that this program does not know", false, values);
+  return fields;
+}
+
+std::vector<FieldOfCloud> chosen_fields(const analysis::Snapshot& snapshot, const std::vector<std::string>& names) {
+  std::vector<FieldOfCloud> fields = fields_of(snapshot);
+  if (names.empty()) return fields;
+  const std::vector<std::string> known = cloud_fields(snapshot);
+  for (const std::string& name : names) {
+    if (std::ranges::find(known, name) == known.end()) {
+      throw InputError(fmt::format("the snapshots have no field {}{}\nknown: {}", toml_string(name),
+                                   did_you_mean(name, known), fmt::join(known, ", ")));
+    }
+  }
+  std::erase_if(fields, [&](const FieldOfCloud& field) { return std::ranges::find(names, field.name) == names.end(); });
+  return fields;
+}
+
+/// Spreads the numbers of particles evenly over 64 bits (Steele, Lea and Flood, OOPSLA 2014: finaliser of SplitMix):
+/// neighbours in a lattice have consecutive numbers, and every k-th of them would show as stripes.
+std::uint64_t scattered(std::uint64_t number) {
+  number += 0x9e3779b97f4a7c15U;
+  number = (number ^ (number >> 30U)) * 0xbf58476d1ce4e5b9U;
+  number = (number ^ (number >> 27U)) * 0x94d049bb133111ebU;
+  return number ^ (number >> 31U);
+}
+
+std::vector<std::size_t> kept_particles(const analysis::Snapshot& snapshot, std::uint64_t one_of) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    if (scattered(snapshot.id[i]) % one_of == 0) kept.push_back(i);
+  }
+  if (kept.empty()) kept.push_back(0);
+  return kept;
+}
+
+template <class Number>
+void append_number(std::string& bytes, Number number) {
+  const auto raw = std::bit_cast<std::array<char, sizeof(Number)>>(number);
+  bytes.append(raw.data(), raw.size());
+}
+
+/// The header and the planes as they come into being.
+struct CloudFile {
+  nlohmann::ordered_json header;
+  std::string planes;
+
+  /// Every plane begins at a multiple of four bytes, so that arrays of a browser can lie on it.
+  void end_plane() { planes.append((4 - planes.size() % 4) % 4, '\0'); }
+};
+
+void append_positions(const analysis::Snapshot& snapshot, const std::vector<std::size_t>& kept, CloudFile& file) {
+  Vector3 lower = snapshot.position[kept.front()], upper = lower;
+  for (const std::size_t i : kept) {
+    lower = lower.cwiseMin(snapshot.position[i]);
+    upper = upper.cwiseMax(snapshot.position[i]);
+  }
+  file.header["lower"] = {lower.x(), lower.y(), lower.z()};
+  file.header["upper"] = {upper.x(), upper.y(), upper.z()};
+  for (const Eigen::Index axis : {0, 1, 2}) {
+    const double size = upper[axis] - lower[axis];
+    for (const std::size_t i : kept) {
+      const double share = size > 0.0 ? (snapshot.position[i][axis] - lower[axis]) / size : 0.0;
+      append_number(file.planes, static_cast<std::uint16_t>(std::lround(share * position_steps)));
+    }
+    file.end_plane();
+  }
+}
+
+void append_codes(const FieldOfCloud& field, const std::vector<std::size_t>& kept, CloudFile& file) {
+  double greatest = 0.0;
+  for (const std::size_t i : kept) greatest = std::max(greatest, field.value(i));
+  const bool narrow = greatest <= std::numeric_limits<std::uint8_t>::max();
+  for (const std::size_t i : kept) {
+    if (narrow) {
+      append_number(file.planes, static_cast<std::uint8_t>(field.value(i)));
+    } else {
+      append_number(file.planes, static_cast<std::uint16_t>(field.value(i)));
+    }
+  }
+  file.end_plane();
+  file.header["fields"].push_back({{"name", field.name}, {"unit", field.unit}, {"meaning", field.meaning},
+                                   {"type", narrow ? "u8" : "u16"}, {"codes", true}});
+}
+
+void append_reals(const FieldOfCloud& field, const std::vector<std::size_t>& kept, CloudFile& file) {
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for (const std::size_t i : kept) {
+    const double value = field.value(i);
+    if (!std::isfinite(value)) continue;
+    lowest = std::min(lowest, value);
+    highest = std::max(highest, value);
+  }
+  if (lowest > highest) lowest = highest = 0.0;
+  const double size = highest - lowest;
+  for (const std::size_t i : kept) {
+    const double value = field.value(i);
+    const double share = size > 0.0 ? (value - lowest) / size : 0.0;
+    append_number(file.planes,
+                  std::isfinite(value) ? static_cast<std::uint16_t>(std::lround(share * steps)) : missing);
+  }
+  file.end_plane();
+  file.header["fields"].push_back({{"name", field.name}, {"unit", field.unit}, {"meaning", field.meaning},
+                                   {"type", "u16"}, {"lo", lowest}, {"hi", highest}});
+}
+
+/// Appends the increments of the numbers, which are ascending: zeros and ones that vanish in compression.
+void append_ids(const analysis::Snapshot& snapshot, const std::vector<std::size_t>& kept, CloudFile& file) {
+  std::uint64_t last = 0;
+  for (const std::size_t i : kept) {
+    const std::uint64_t step = snapshot.id[i] - last;
+    if (step > std::numeric_limits<std::uint32_t>::max()) {
+      throw InputError(fmt::format("the number of particle {} is too far from that of the next", snapshot.id[i]));
+    }
+    append_number(file.planes, static_cast<std::uint32_t>(step));
+    last = snapshot.id[i];
+  }
+  file.end_plane();
+  file.header["fields"].push_back({{"name", "id"}, {"unit", ""}, {"meaning", "number of the particle, kept for its life"},
+                                   {"type", "u32"}, {"increments", true}});
+}
+
+nlohmann::ordered_json header_of(const analysis::Run& run, const analysis::Snapshot& snapshot, std::size_t kept,
+                                 std::uint64_t one_of) {
+  nlohmann::ordered_json header = {{"n", kept}, {"of", snapshot.size()}, {"one_of", one_of}, {"time", snapshot.time},
+                                   {"title", run.title}, {"dimension", std::string(word_of(run.dimension))}};
+  for (const std::optional<double>& plane : run.mirror_planes) {
+    header["mirrors"].push_back(plane ? nlohmann::ordered_json(*plane) : nlohmann::ordered_json());
+  }
+  for (const analysis::BodyInput& body : run.bodies) {
+    header["bodies"].push_back({{"name", body.name}, {"spacing", body.spacing}});
+  }
+  header["missing"] = missing;
+  header["fields"] = nlohmann::ordered_json::array();
+  return header;
+}
+
+}  // namespace
+
+std::vector<std::string> cloud_fields(const analysis::Snapshot& snapshot) {
+  std::vector<std::string> names;
+  for (const FieldOfCloud& field : fields_of(snapshot)) names.push_back(field.name);
+  return names;
+}
+
+std::string pack_cloud(const analysis::Run& run, const analysis::Snapshot& snapshot, const CloudOptions& options) {
+  if (snapshot.size() == 0) throw InputError(fmt::format("the snapshot at {} s has no particles", snapshot.time));
+  const std::vector<std::size_t> kept = kept_particles(snapshot, std::max<std::uint64_t>(options.one_of, 1));
+  CloudFile file;
+  file.header = header_of(run, snapshot, kept.size(), std::max<std::uint64_t>(options.one_of, 1));
+  append_positions(snapshot, kept, file);
+  append_ids(snapshot, kept, file);
+  const FieldOfCloud body = {"body", "", "number of the body in the case, from 0", true,
+                             [&](std::size_t i) { return snapshot.body[i]; }};
+  append_codes(body, kept, file);
+  for (const FieldOfCloud& field : chosen_fields(snapshot, options.fields)) {
+    field.codes ? append_codes(field, kept, file) : append_reals(field, kept, file);
+  }
+  std::string header = file.header.dump();
+  header.append((4 - header.size() % 4) % 4, ' ');
+  std::string bytes = "WPV1";
+  append_number(bytes, static_cast<std::uint32_t>(header.size()));
+  return bytes + header + file.planes;
+}
+
+}  // namespace whipple::view
