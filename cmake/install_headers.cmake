@@ -3,7 +3,7 @@
 set(target $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/${headers})
 message(STATUS "Installing: ${target}")
 file(GLOB_RECURSE paths RELATIVE ${source} ${source}/src/*.hpp ${source}/src/*.inl ${source}/eos/*.hpp)
-list(FILTER paths EXCLUDE REGEX "^src/(app|bench|core/process)/")
+list(FILTER paths EXCLUDE REGEX "^src/(app|bench|core/process|decks)/")
 foreach(path IN LISTS paths)
   file(READ ${source}/${path} text)
   string(REGEX REPLACE "#include \"(src/)?([^\"]+)\"" "#include <whipple/\\2>" text "${text}")

@@ -47,6 +47,8 @@ MAY_USE = {
     "src/analysis": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/grid", "src/material", "src/case"],
     # Packs what runs wrote for the browser.
     "src/view": ["src/core/base", "src/grid", "src/io", "src/analysis"],
+    # Writes cases from the decks of other codes, as text; looks heat capacities up in the material library.
+    "src/decks": ["src/core/base", "src/core/input", "src/material"],
     "md_fitting/plan": ["src/core/base", "src/core/input"],
     "md_fitting/lammps": ["src/core/base", "md_fitting/data_set"],
     "md_fitting/protocols": ["src/core/base", "eos", "md_fitting/data_set", "md_fitting/plan", "md_fitting/lammps"],
@@ -57,7 +59,7 @@ MAY_USE = {
     # whipple-md for states.
     "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/curves", "eos/experiments", "eos/files",
                 "src/particles", "src/grid", "src/material",
-                "src/transfer", "src/io", "src/analysis", "src/view", "src/case", "src/solver", "src/run", "src/bench",
+                "src/transfer", "src/io", "src/analysis", "src/view", "src/decks", "src/case", "src/solver", "src/run", "src/bench",
                 "md_fitting/plan",
                 "md_fitting/simulated_crystal"],
 }
@@ -96,6 +98,7 @@ WORD_COMPARISON = re.compile(r'[=!]=\s*"|"\s*[=!]=')
 WORDS_ALLOWED = {
     "src/case": "keys and words of case files",
     "src/core": "reads and checks words",
+    "src/decks": "grammars of other codes' decks",
     "eos/experiments/measured_table.cpp": "heads and empty cells of tables of measurements",
     "md_fitting/fit/bootstrap.cpp": "names of results in the store",
     "md_fitting/fit/constant_list.cpp": "the unit 1",

@@ -21,6 +21,7 @@
 #include "src/app/describe_command.hpp"
 #include "src/app/eos_command.hpp"
 #include "src/app/fit_command.hpp"
+#include "src/app/import_command.hpp"
 #include "src/app/materials_command.hpp"
 #include "src/app/md_command.hpp"
 #include "src/app/report_command.hpp"
@@ -65,6 +66,7 @@ int whipple_main(int argc, char** argv) {
   add_check_command(app);
   add_status_command(app);
   add_steer_command(app);
+  add_import_command(app);
   add_md_command(app);
   add_fit_command(app);
   add_compare_command(app);

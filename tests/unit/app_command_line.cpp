@@ -59,7 +59,8 @@ class CommandLine : public ::testing::Test {
 };
 
 TEST_F(CommandLine, EverySubcommandHasHelpWithAnExample) {
-  for (const char* command : {"run", "check", "status", "steer", "eos", "md", "fit", "compare", "analyse", "report", "describe",
+  for (const char* command : {"run", "check", "status", "steer", "import", "eos", "md", "fit", "compare", "analyse",
+      "report", "describe",
                               "materials", "units", "bench", "version"}) {
     const Result result = whipple(std::string(command) + " --help");
     EXPECT_EQ(result.code, 0) << command;
@@ -251,6 +252,35 @@ TEST_F(CommandLine, NothingIsOverwrittenWithoutForce) {
   EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.err, HasSubstr("--force"));
   EXPECT_EQ(text_of(folder_ / "points.csv"), "precious\n");
+}
+
+TEST_F(CommandLine, AnImportedDeckIsCheckedAndRuns) {
+  const std::string decks = WHIPPLE_SOURCE_DIR "/tests/data/decks/";
+  const Result imported = whipple("import " + decks + "sphere_on_plate.mpm -o sphere");
+  ASSERT_EQ(imported.code, 0) << imported.err;
+  for (const char* list : {"exact (", "converted (", "dropped (", "missing (0)"}) EXPECT_THAT(imported.out,
+      HasSubstr(list));
+  EXPECT_EQ(text_of(folder_ / "sphere" / "import.txt"), imported.out);
+  const Result checked = whipple("check sphere/case.toml --threads 1");
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  const Result run = whipple("run sphere/case.toml -o run --threads 1 --set time.end='0.3 us'");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / "history.csv"));
+  EXPECT_EQ(whipple("import " + decks + "sphere_on_plate.mpm -o sphere").code, 2) << "nothing is overwritten";
+}
+
+TEST_F(CommandLine, WhatADeckMakesMissingIsRefused) {
+  const std::string deck = WHIPPLE_SOURCE_DIR "/tests/data/decks/missing.mpm";
+  const Result refused = whipple("import " + deck + " -o case");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.out, HasSubstr("missing ("));
+  EXPECT_THAT(refused.err, HasSubstr("missing.mpm:8:1: error: missing: mate hiex: material 1: programmed burn"));
+  EXPECT_THAT(refused.err, HasSubstr("--allow-missing"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "case"));
+  EXPECT_EQ(whipple("import " + deck + " -o case --allow-missing").code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "case" / "case.toml"));
+  EXPECT_THAT(whipple("import " + deck + " -o other --units 'mm g'").err, HasSubstr("--units 'mm g ms'"));
+  EXPECT_THAT(whipple("import " + deck + " -o other --format mpm3d").err, HasSubstr("did you mean \"mpm3d_f90\"?"));
 }
 
 }  // namespace

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/app/import_command.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "src/case/case.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/log.hpp"
+#include "src/core/base/text.hpp"
+#include "src/decks/import.hpp"
+
+namespace whipple::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string deck, folder, format, units;
+  bool allow_missing = false, case_only = false, same_method = false, old_mass = false;
+};
+
+decks::ImportOptions import_options(const Arguments& arguments) {
+  decks::ImportOptions options{.same_method = arguments.same_method, .old_mass = arguments.old_mass};
+  if (!arguments.format.empty()) {
+    std::vector<std::string> known;
+    for (const Word<decks::Format>& format : words(decks::Format{})) {
+      known.emplace_back(format.text);
+      if (format.text == arguments.format) options.format = format.value;
+    }
+    if (!options.format) {
+      throw InputError(fmt::format("--format is \"{}\"{}; known: {}", arguments.format, did_you_mean(arguments.format,
+          known), fmt::join(known, ", ")));
+    }
+  }
+  if (!arguments.units.empty()) {
+    options.units = decks::parse_unit_system(arguments.units);
+    if (!options.units) {
+      throw InputError(fmt::format("--units is \"{}\", expected units of length, mass and time, as in --units 'mm g ms'", arguments.units));
+    }
+  }
+  return options;
+}
+
+void require_complete(const fs::path& deck, const decks::Import& import) {
+  std::vector<InputFault> faults;
+  for (const decks::Remark& remark : import.remarks) {
+    if (remark.outcome == decks::Outcome::missing) {
+      faults.push_back({.file = deck.string(), .line = remark.line, .column = 1,
+          .text = fmt::format("missing: {}: {}", remark.keyword, remark.text)});
+    }
+  }
+  if (faults.empty()) return;
+  faults.back().text += "\n--allow-missing writes the case without that";
+  throw InputError(std::move(faults));
+}
+
+/// Reads the case as `whipple run` will; its faults are named by the place where the user will look for it.
+void require_readable(const decks::CaseFolder& written, const fs::path& folder) {
+  try {
+    static_cast<void>(cases::read_case(written.case_file(), {}));
+  } catch (const InputError& error) {
+    std::vector<InputFault> faults = error.faults();
+    const std::string partial = written.case_file().parent_path().string();
+    for (InputFault& fault : faults) {
+      for (std::string* text : {&fault.file, &fault.text}) {
+        for (std::size_t at = text->find(partial); at != std::string::npos; at = text->find(partial, at + 1)) {
+          text->replace(at, partial.size(), folder.string());
+        }
+      }
+    }
+    faults.back().text += "\nthe deck makes no valid case: nothing was written";
+    throw InputError(std::move(faults));
+  }
+}
+
+void import_case(const Arguments& arguments) {
+  const decks::Import import = decks::import_deck(arguments.deck, import_options(arguments));
+  fmt::print("{}", import.report());
+  if (!arguments.allow_missing) require_complete(arguments.deck, import);
+  if (arguments.case_only) {
+    decks::write_case_only(import, arguments.folder);
+  } else {
+    decks::CaseFolder folder(import, arguments.folder);
+    require_readable(folder, arguments.folder);
+    folder.publish();
+  }
+  log::info("wrote {}", (fs::path(arguments.folder) / "case.toml").string());
+}
+
+}  // namespace
+
+void add_import_command(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("import",
+      "Turn the input deck of another code into a case with its materials");
+  command->add_option("deck", arguments->deck, "The deck (MPM3D-F90: NAME.mpm)")->required();
+  command->add_option("-o,--output", arguments->folder, "Folder of the case, which must not exist")->required();
+  command->add_option("--format", arguments->format, "mpm3d_f90 (default: by the content of the deck)");
+  command->add_option("--units", arguments->units, "Units of length, mass and time of the deck, as in 'mm g ms'");
+  command->add_flag("--allow-missing", arguments->allow_missing,
+      "Write the case though physics of the deck is missing in it");
+  command->add_flag("--case-only", arguments->case_only,
+      "Write case.toml alone, into a folder with the materials of an earlier import");
+  command->add_flag("--same-method", arguments->same_method,
+      "Keep scheme, shape functions and time step factor of the deck");
+  command->add_flag("--old-mass", arguments->old_mass,
+      "MPM3D-F90 before 2013-12: take the density of particles for their mass");
+  command->footer(
+      "Every statement of the deck is listed as exact, converted, dropped or missing; the list is kept in import.txt.\n"
+      "Example:\n  whipple import deck.mpm -o cases/deck --units 'mm g ms'");
+  command->callback([arguments] { import_case(*arguments); });
+}
+
+}  // namespace whipple::app

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/decks/import.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
+#include "src/decks/mpm3d_case.hpp"
+#include "src/decks/mpm3d_deck.hpp"
+
+namespace whipple::decks {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t largest_deck = std::uintmax_t{1} << 30;
+
+std::string content_of(const fs::path& deck) {
+  std::ifstream stream(regular_file(deck, largest_deck), std::ios::binary);
+  if (!stream) throw InputError(fmt::format("{}: cannot be read", deck.string()));
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return std::move(text).str();
+}
+
+[[noreturn]] void refuse(const fs::path& deck, std::string why) {
+  throw InputError(std::vector<InputFault>{{.file = deck.string(), .line = 1, .column = 1, .text = std::move(why)}});
+}
+
+/// Tells the codes apart by what their decks contain: several use the same endings.
+Format format_of(const fs::path& deck, std::string_view text) {
+  if (mpm3d::recognise(text)) return Format::mpm3d_f90;
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  const std::string_view start = text.substr(std::min(begin, text.size()));
+  if (start.empty()) refuse(deck, "the deck is empty");
+  if (start.front() == '<') refuse(deck, "an XML file: decks of the C++ version of MPM3D are not read");
+  if (start.front() == '*' || start.front() == '$') {
+    refuse(deck, "a keyword deck (LS-DYNA, Abaqus): these are not read");
+  }
+  const auto has = [&](std::string_view command) { return text.find(command) != std::string_view::npos; };
+  if (start.front() == '#' || has("region(") || has("solid(")) {
+    refuse(deck, "an input of Karamelo or another language of commands, not of MPM3D-F90, which uses the ending .mpm, "
+                 "too: variables and formulas are not read");
+  }
+  refuse(deck, "a deck of no code that is known here; read are decks of MPM3D-F90");
+}
+
+void write_file(const fs::path& path, std::string_view text) {
+  std::ofstream stream(path, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw InputError(fmt::format("{}: cannot be written", path.string()));
+}
+
+}  // namespace
+
+Import import_deck(const fs::path& deck, const ImportOptions& options) {
+  const std::string text = content_of(deck);
+  switch (options.format ? *options.format : format_of(deck, text)) {
+    case Format::mpm3d_f90:
+      return mpm3d::to_case(mpm3d::parse(deck, text), options);
+  }
+  throw InternalError("a format of decks without a reader");
+}
+
+CaseFolder::CaseFolder(const Import& import, fs::path folder) : folder_(std::move(folder)) {
+  if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "cases/new/"
+  if (fs::exists(folder_)) throw InputError(fmt::format("{}: exists; nothing is overwritten", folder_.string()));
+  partial_ = folder_;
+  partial_ += fmt::format(".{}.partial", getpid());
+  try {
+    std::error_code fault;
+    fs::create_directories(partial_, fault);
+    if (fault) throw InputError(fmt::format("{}: cannot be written: {}", folder_.string(), fault.message()));
+    write_file(case_file(), import.case_text);
+    for (const CaseFile& file : import.files) {
+      fs::create_directories((partial_ / file.path).parent_path(), fault);
+      write_file(partial_ / file.path, file.text);
+    }
+    write_file(partial_ / "import.txt", import.report());
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(partial_, ignored);
+    throw;
+  }
+}
+
+CaseFolder::~CaseFolder() {
+  std::error_code ignored;
+  if (!partial_.empty()) fs::remove_all(partial_, ignored);
+}
+
+void CaseFolder::publish() {
+  std::error_code fault;
+  fs::rename(partial_, folder_, fault);
+  if (fault) throw InputError(fmt::format("{}: cannot be written: {}", folder_.string(), fault.message()));
+  partial_.clear();
+}
+
+void write_case_only(const Import& import, const fs::path& folder) {
+  for (const CaseFile& file : import.files) {
+    if (fs::exists(folder / file.path)) continue;
+    throw InputError(fmt::format("{}: has no {}; without --case-only the import writes it", folder.string(), file.path));
+  }
+  require_new_file(folder / "case.toml", false);
+  write_text_atomically(folder / "case.toml", import.case_text);
+}
+
+}  // namespace whipple::decks

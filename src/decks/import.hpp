@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "src/core/base/words.hpp"
+#include "src/decks/report.hpp"
+#include "src/decks/unit_system.hpp"
+
+namespace whipple::decks {
+
+/// Codes whose decks are read.
+enum class Format { mpm3d_f90 };
+constexpr std::array<Word<Format>, 1> words(Format /*of*/) { return {{{Format::mpm3d_f90, "mpm3d_f90"}}}; }
+
+struct ImportOptions {
+  std::optional<Format> format = {};     ///< not given: by the content of the deck
+  std::optional<UnitSystem> units = {};  ///< not given: those that the deck names
+  bool same_method = false;              ///< keep scheme, shape functions and time step of the other code
+  /// MPM3D-F90 before 2013-12: the mass of a particle stands where now its density does.
+  bool old_mass = false;
+};
+
+/// Reads a deck and turns it into a case.
+/// @throws InputError with all faults of the deck, each with its line; if the deck is of no known code; if its units are
+///         neither in the deck nor given
+Import import_deck(const std::filesystem::path& deck, const ImportOptions& options);
+
+/// Writes case.toml, materials/ and import.txt into a new folder, which appears only when it is complete.
+/// @throws InputError if the folder exists or can not be written
+class CaseFolder {
+ public:
+  CaseFolder(const Import& import, std::filesystem::path folder);
+  CaseFolder(const CaseFolder&) = delete;
+  CaseFolder& operator=(const CaseFolder&) = delete;
+  ~CaseFolder();
+
+  /// Returns the case file in the folder as long as that has a name of its own.
+  [[nodiscard]] std::filesystem::path case_file() const { return partial_ / "case.toml"; }
+  /// Gives the folder its name.
+  void publish();
+
+ private:
+  std::filesystem::path folder_, partial_;
+};
+
+/// Writes case.toml alone into a folder with the materials of an earlier import.
+/// @throws InputError if the folder has no materials, lacks one that the case names, or has a case.toml
+void write_case_only(const Import& import, const std::filesystem::path& folder);
+
+}  // namespace whipple::decks

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/decks/mpm3d_material.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "src/core/base/error.hpp"
+#include "src/decks/nearest_heat.hpp"
+#include "src/decks/toml_text.hpp"
+
+namespace whipple::decks::mpm3d {
+namespace {
+
+/// Particles of MPM3D-F90 start at 293, whatever the scale of a deck's temperatures.
+constexpr double start_temperature = 293.0;
+/// Below it a reference temperature is one in degrees Celsius: nobody tests at 200 K, and decks write 20 or 25.
+constexpr double least_kelvin = 200.0;
+
+class MaterialBuilder {
+ public:
+  MaterialBuilder(const Deck& deck, const UnitSystem& units, Import& import, const Statement& material,
+      const Statement* state)
+      : deck_(deck), units_(units), import_(import), material_(material), state_(state), n_(material.numbers) {}
+
+  CaseMaterial build() {
+    const int index = whole(n_[0]);
+    CaseMaterial result{.file = fmt::format("materials/material_{}.toml", index), .density = n_[1]};
+    if (!(n_[1] > 0.0)) fail(material_, "the density must be > 0");
+    toml_.comment(fmt::format("Written by 'whipple import' from {}; constants in the units of the deck.",
+        deck_.file.filename().string()));
+    toml_.text_entry("name", fmt::format("material {} ({})", index, material_.kind));
+    toml_.text_entry("source", source(material_));
+    toml_.table("[eos]");
+    equation_of_state(result);
+    toml_.table("[strength]");
+    strength();
+    if (material_.kind == "sjcf" || material_.kind == "jcf") failure();
+    import_.files.push_back({result.file, toml_.text()});
+    return result;
+  }
+
+ private:
+  [[noreturn]] void fail(const Statement& statement, std::string text) const {
+    throw InputError(std::vector<InputFault>{
+        {.file = deck_.file.string(), .line = statement.line, .column = 1, .text = fmt::format("{}: {}",
+            statement.name(), text)}});
+  }
+  [[nodiscard]] std::string source(const Statement& statement) const {
+    return fmt::format("{}, line {}", deck_.file.filename().string(), statement.line);
+  }
+  void remark(Outcome outcome, const Statement& statement, std::string text) {
+    import_.remark(outcome, statement.line, statement.name(), fmt::format("material {}: {}", n_[0], text));
+  }
+  void quantity(const char* key, double value, const Dimension& dimension, std::string_view note = {}) {
+    toml_.entry(key, units_.quantity(value, dimension), note);
+  }
+  void begin(const char* model, const Statement& statement) {
+    toml_.entry("model", fmt::format("\"{}\"", model));
+    toml_.text_entry("source", source(statement));
+  }
+
+  /// The heat capacity of `john` and `jcf`; other decks give none.
+  void heat_capacity(const char* model) {
+    if (material_.kind == "john" || material_.kind == "jcf") {
+      quantity("heat_capacity", n_[11], dimension::heat_capacity);
+    } else {
+      const LibraryHeat heat = nearest_heat(units_.in_si(n_[1], dimension::density), model);
+      toml_.entry("heat_capacity", fmt::format("\"{} J/(kg K)\"", number(heat.value)),
+          "not in the deck: that of " + heat.material);
+      remark(Outcome::converted, material_,
+             fmt::format("no heat capacity in the deck: that of {}, {} J/(kg K); temperatures depend on it",
+                 heat.material, number(heat.value)));
+    }
+  }
+
+  void equation_of_state(CaseMaterial& result) {
+    if (state_ == nullptr) {
+      elastic_volume();
+      return;
+    }
+    const std::vector<double>& c = state_->numbers;  // from the third on
+    switch (static_cast<int>(c[1])) {
+      case 1:
+        polynomial();
+        break;
+      case 2:
+        begin("mie_gruneisen", *state_);
+        quantity("reference_density", n_[1], dimension::density);
+        quantity("hugoniot_intercept", c[2], dimension::velocity);
+        quantity("hugoniot_slope", c[3], dimension::none);
+        quantity("gruneisen", c[4], dimension::none);
+        heat_capacity("mie_gruneisen");
+        quantity("reference_temperature", start_temperature, {.temperature = 1});
+        result.initial_pressure = c[4] * c[5];
+        if (c[5] != 0.0) {
+          remark(Outcome::converted, *state_,
+              "the initial energy E0 becomes the pressure of the body at the start, gamma0 E0");
+        } else {
+          remark(Outcome::exact, *state_, "mie_gruneisen");
+        }
+        break;
+      case 3:
+        begin("jwl", *state_);
+        quantity("reference_density", n_[1], dimension::density);
+        quantity("pressure_1", c[2], dimension::pressure);
+        quantity("pressure_2", c[3], dimension::pressure);
+        quantity("exponent_1", c[4], dimension::none);
+        quantity("exponent_2", c[5], dimension::none);
+        quantity("gruneisen", c[6], dimension::none);
+        quantity("detonation_energy", c[7], dimension::pressure);
+        heat_capacity("jwl");
+        if (material_.kind == "hiex" && n_[2] > 0.0) quantity("detonation_velocity", n_[2], dimension::velocity);
+        remark(Outcome::exact, *state_, "jwl");
+        break;
+      default:
+        begin("polynomial", *state_);
+        quantity("reference_density", n_[1], dimension::density);
+        quantity("C1", n_[1] * c[2] * c[2], dimension::pressure, "density times the square of the sound speed");
+        quantity("C4", 0.0, dimension::none);
+        heat_capacity("mie_gruneisen");
+        quantity("reference_temperature", start_temperature, {.temperature = 1});
+        remark(Outcome::converted, *state_, "polynomial with C1 = rho c^2: equal in compressions of some per cent");
+    }
+  }
+
+  void polynomial() {
+    const std::vector<double>& c = state_->numbers;
+    begin("polynomial", *state_);
+    quantity("reference_density", n_[1], dimension::density);
+    for (std::size_t i = 0; i < 7; ++i) {
+      quantity(fmt::format("C{}", i).c_str(), c[2 + i], i < 4 ? dimension::pressure : dimension::none);
+    }
+    if (c[9] != 0.0) quantity("reference_energy", c[9] / n_[1], dimension::specific_energy, "E0 over the density");
+    heat_capacity("mie_gruneisen");
+    quantity("reference_temperature", start_temperature, {.temperature = 1});
+    remark(Outcome::exact, *state_, "polynomial");
+  }
+
+  /// Without `seos` MPM3D-F90 takes pressure from the elastic law, too.
+  void elastic_volume() {
+    begin("polynomial", material_);
+    quantity("reference_density", n_[1], dimension::density);
+    double bulk_modulus = 0.0;
+    if (material_.kind == "null") {
+      bulk_modulus = n_[2];
+    } else if (material_.kind == "hiex") {
+      fail(material_, "an explosive needs 'seos' with type 3 (JWL)");
+    } else {
+      if (!(n_[3] < 0.5)) fail(material_, "Poisson's ratio must be < 0.5 without 'seos'");
+      bulk_modulus = n_[2] / (3.0 * (1.0 - 2.0 * n_[3]));
+    }
+    if (!(bulk_modulus > 0.0)) fail(material_, "the bulk modulus must be > 0");
+    quantity("C1", bulk_modulus, dimension::pressure, "bulk modulus");
+    quantity("C4", 0.0, dimension::none);
+    heat_capacity("mie_gruneisen");
+    quantity("reference_temperature", start_temperature, {.temperature = 1});
+    remark(Outcome::converted, material_,
+        "no 'seos': pressure by the bulk modulus, p = K (rho/rho0 - 1), equal at small strains");
+  }
+
+  void elastic_constants() {
+    quantity("youngs_modulus", n_[2], dimension::pressure);
+    quantity("poisson_ratio", n_[3], dimension::none);
+  }
+
+  void strength() {
+    if (material_.kind == "elas") {
+      begin("elastic", material_);
+      elastic_constants();
+      remark(Outcome::exact, material_, "elastic");
+    } else if (material_.kind == "pla1" || material_.kind == "pla2") {
+      begin("von_mises", material_);
+      elastic_constants();
+      quantity("yield_stress", n_[4], dimension::pressure);
+      if (material_.kind == "pla2") {
+        if (!(n_[5] < n_[2])) fail(material_, "the tangent modulus must be less than Young's modulus");
+        quantity("hardening_modulus", n_[2] * n_[5] / (n_[2] - n_[5]), dimension::pressure, "E Et / (E - Et)");
+      }
+      remark(Outcome::exact, material_, "von_mises");
+    } else if (material_.kind == "john" || material_.kind == "jcf") {
+      johnson_cook();
+    } else if (material_.kind == "sjc" || material_.kind == "sjcf") {
+      johnson_cook_without_softening();
+    } else if (material_.kind == "null" && n_[3] > 0.0) {
+      begin("viscous_fluid", material_);
+      quantity("viscosity", n_[3], dimension::viscosity);
+      remark(Outcome::exact, material_, "viscous_fluid");
+    } else {
+      begin("none", material_);
+      if (material_.kind == "null") {
+        remark(Outcome::exact, material_, "a fluid without viscosity");
+      } else if (material_.kind == "hiex") {
+        remark(Outcome::missing, material_, "programmed burn: the body starts as detonation products");
+      } else {
+        remark(Outcome::missing, material_,
+               material_.kind == "dpm" ? "Drucker-Prager plasticity: no strength in the case"
+                   : "neo-Hookean elasticity: no strength in the case");
+      }
+    }
+  }
+
+  void johnson_cook() {
+    begin("johnson_cook", material_);
+    elastic_constants();
+    quantity("yield_stress", n_[4], dimension::pressure);
+    quantity("hardening_coefficient", n_[5], dimension::pressure);
+    quantity("hardening_exponent", n_[6], dimension::none);
+    quantity("rate_coefficient", n_[7], dimension::none);
+    quantity("reference_rate", n_[12], dimension::rate);
+    quantity("thermal_exponent", n_[8], dimension::none);
+    const char* scale = n_[9] < least_kelvin ? "degC" : "K";
+    toml_.entry("reference_temperature", fmt::format("\"{} {}\"", number(n_[9]), scale));
+    toml_.entry("melting_temperature", fmt::format("\"{} {}\"", number(n_[10]), scale));
+    if (n_[9] < least_kelvin) {
+      remark(Outcome::converted, material_,
+             fmt::format("johnson_cook; its room temperature {} is taken for degrees Celsius, while MPM3D-F90 starts particles at 293", number(n_[9])));
+    } else {
+      remark(Outcome::exact, material_, "johnson_cook");
+    }
+  }
+
+  void johnson_cook_without_softening() {
+    if (n_[7] == 0.0 && (n_[6] == 1.0 || n_[5] == 0.0)) {
+      begin("von_mises", material_);
+      elastic_constants();
+      quantity("yield_stress", n_[4], dimension::pressure);
+      quantity("hardening_modulus", n_[5], dimension::pressure, "n = 1 and C = 0");
+      remark(Outcome::exact, material_, "von_mises: n = 1 and C = 0");
+      return;
+    }
+    begin(n_[7] == 0.0 ? "power_law" : "johnson_cook", material_);
+    elastic_constants();
+    quantity("yield_stress", n_[4], dimension::pressure);
+    quantity("hardening_coefficient", n_[5], dimension::pressure);
+    quantity("hardening_exponent", n_[6], dimension::none);
+    if (n_[7] == 0.0) {
+      remark(Outcome::exact, material_, "power_law: C = 0");
+      return;
+    }
+    quantity("rate_coefficient", n_[7], dimension::none);
+    quantity("reference_rate", n_[8], dimension::rate);
+    quantity("thermal_exponent", 1.0, dimension::none);
+    toml_.entry("reference_temperature", "\"1e8 K\"", "no thermal softening in the deck: none below this temperature");
+    toml_.entry("melting_temperature", "\"2e8 K\"");
+    remark(Outcome::converted, material_, "johnson_cook with temperatures of softening that nothing reaches");
+  }
+
+  void failure() {
+    toml_.table("[[failure]]");
+    begin("plastic_strain", material_);
+    quantity("failure_strain", n_.back(), dimension::none);
+    remark(Outcome::exact, material_, "failure at a plastic strain");
+  }
+
+  const Deck& deck_;
+  const UnitSystem& units_;
+  Import& import_;
+  const Statement& material_;
+  const Statement* state_;
+  const std::vector<double>& n_;  ///< number, density, then the constants of the model
+  TomlText toml_;
+};
+
+}  // namespace
+
+std::map<int, CaseMaterial> materials_of(const Deck& deck, const UnitSystem& units, Import& import) {
+  std::vector<InputFault> faults;
+  const auto fault = [&](const Statement& statement, std::string text) {
+    faults.push_back({.file = deck.file.string(), .line = statement.line, .column = 1, .text = std::move(text)});
+  };
+  std::map<int, const Statement*> states;
+  for (const Statement* state : deck.all(Keyword::equation_of_state)) states[whole(state->numbers[0])] = state;
+  std::map<int, CaseMaterial> materials;
+  for (const Statement* material : deck.all(Keyword::material)) {
+    const int index = whole(material->numbers[0]);
+    if (materials.contains(index)) {
+      fault(*material, fmt::format("material {} is defined twice", index));
+      continue;
+    }
+    const auto state = states.find(index);
+    try {
+      materials[index] = MaterialBuilder(deck, units, import, *material, state == states.end() ? nullptr
+          : state->second).build();
+    } catch (const InputError& error) {
+      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+    }
+  }
+  for (const auto& [index, state] : states) {
+    if (!materials.contains(index) && faults.empty()) fault(*state,
+        fmt::format("material {} is not among those of 'mate'", index));
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+  return materials;
+}
+
+}  // namespace whipple::decks::mpm3d

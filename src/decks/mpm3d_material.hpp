@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "src/decks/mpm3d_deck.hpp"
+#include "src/decks/report.hpp"
+
+namespace whipple::decks::mpm3d {
+
+/// A material of a deck as a material file.
+struct CaseMaterial {
+  std::string file;              ///< "materials/material_1.toml"
+  double density = 0.0;          ///< in the units of the deck
+  double initial_pressure = 0.0; ///< of an initial energy in Mie-Grueneisen; in the units of the deck
+};
+
+/// Builds the material files of a deck, by number, and remarks upon every `mate` and `seos`.
+/// @throws InputError for constants that no material has, and for equations of state of materials that are not defined
+std::map<int, CaseMaterial> materials_of(const Deck& deck, const UnitSystem& units, Import& import);
+
+}  // namespace whipple::decks::mpm3d

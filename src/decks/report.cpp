@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/decks/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "src/core/base/text_table.hpp"
+
+namespace whipple::decks {
+
+std::size_t Import::count(Outcome outcome) const {
+  return static_cast<std::size_t>(std::ranges::count(remarks, outcome, &Remark::outcome));
+}
+
+std::string Import::report() const {
+  std::string text = fmt::format("{}: {}, units {}\n\n", deck, grammar, units);
+  std::vector<std::vector<std::string>> rows = {{"body", "particles of the deck", "mass g", "shape"}};
+  for (const BodyRow& body : bodies) {
+    rows.push_back({body.name, fmt::format("{:.0f}", body.particles), fmt::format("{:.6g}", 1e3 * body.mass),
+        body.shape});
+  }
+  text += text_table(rows, "lrrl");
+  for (const Word<Outcome>& word : words(Outcome{})) {
+    text += fmt::format("\n{} ({})\n", word.text, count(word.value));
+    rows.clear();
+    for (const Remark& remark : remarks) {
+      if (remark.outcome != word.value) continue;
+      rows.push_back({"", remark.line == 0 ? "-" : fmt::format("line {}", remark.line), remark.keyword, remark.text});
+    }
+    text += text_table(rows, "llll");
+  }
+  return text;
+}
+
+}  // namespace whipple::decks
