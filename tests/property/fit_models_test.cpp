@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "md_fitting/fit/laws.hpp"
 #include "md_fitting/fit/solid_models.hpp"
 #include "md_fitting/fit/solid_problem.hpp"
 #include "md_fitting/fit/vapour_fit.hpp"
@@ -124,21 +123,6 @@ TEST(FitModels, WeightsAreTheErrorsOfTheDataCarriedThroughTheResiduals) {
 
 // GRAY: eight constants over eight seeds, within the stated covariance, and chi^2 of the data within its
 // scatter.
-// Data made with a law do not tell whether it is that of its constants.
-TEST(FitModels, SlopeOfTheBulkModulusIsThatOfTheIsotherm) {
-  SolidConstants constants;
-  constants.gray.reference_specific_volume = 1.1e-4;
-  constants.bulk_modulus = 140e9;
-  constants.bulk_modulus_slope = 5.2;
-  const double V0 = constants.gray.reference_specific_volume;
-  const auto P = [&](double V) { return isotherm_pressure(constants, V); };
-  const auto K = [&](double V) { return -V * (P(V + 1e-5 * V0) - P(V - 1e-5 * V0)) / (2e-5 * V0); };
-  EXPECT_EQ(P(V0), 0.0);
-  EXPECT_NEAR(K(V0), constants.bulk_modulus, 1e-6 * constants.bulk_modulus);
-  const double below = 0.998 * V0, above = 1.002 * V0;
-  EXPECT_NEAR((K(below) - K(above)) / (P(below) - P(above)), constants.bulk_modulus_slope, 1e-3);
-}
-
 TEST(FitModels, GrayIsRecoveredWithinItsCovariance) {
   const eos::GrayConstants truth = true_constants();
   const std::vector<double> expected = testing::values(truth);
