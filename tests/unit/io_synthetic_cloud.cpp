@@ -234,7 +234,7 @@ int write_cloud(int argc, char** argv) {
   values.integers = {{"step", 1000}};
   write_checkpoint(path / "checkpoint", 1000, now, values, world);
   if (ranks.is_root()) {
-    History history(path / "history.csv");
+    io::History history(path / "history.csv");
     for (int step = 0; step <= 1000; step += 4)
       history.append(history_row(step, end_time * step / 1000, sums, all.size()));
   }
