@@ -2,6 +2,7 @@
 #include "src/app/import_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <memory>

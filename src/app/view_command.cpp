@@ -60,7 +60,7 @@ void add_view_command(CLI::App& app) {
       ->type_name("NAME,...")
       ->delimiter(',');
   command->add_option("--megabytes", options->megabytes, "Greatest size of the page: particles are left out beyond it")
-      ->check(CLI::Range(0.01, 2000.0))
+      ->check(CLI::Range(0.1, 2000.0))
       ->capture_default_str();
   command->add_option("--wpv", options->clouds, "Also every snapshot in full detail, to be opened in the page")
       ->type_name("FOLDER");

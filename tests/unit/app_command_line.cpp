@@ -280,7 +280,7 @@ TEST_F(CommandLine, WhatADeckMakesMissingIsRefused) {
   EXPECT_EQ(whipple("import " + deck + " -o case --allow-missing").code, 0);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "case" / "case.toml"));
   EXPECT_THAT(whipple("import " + deck + " -o other --units 'mm g'").err, HasSubstr("--units 'mm g ms'"));
-  EXPECT_THAT(whipple("import " + deck + " -o other --format mpm3d").err, HasSubstr("did you mean \"mpm3d_f90\"?"));
+  EXPECT_THAT(whipple("import " + deck + " -o other --format mpm3d").err, HasSubstr("known: mpm3d_f90"));
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST(Lattice, FindsTheBoxesOfItsPoints) {
 TEST(Mpm3dDeck, BecomesACaseWithUnits) {
   const Import import = import_text(deck_text("sphere_on_plate.mpm"));
   EXPECT_EQ(import.units, "mm g ms");
-  EXPECT_EQ(import.count(Outcome::missing), 0);
+  EXPECT_EQ(import.count(Outcome::missing), 0U);
   EXPECT_THAT(import.case_text, HasSubstr("title = \"Sphere on plate\""));
   EXPECT_THAT(import.case_text, HasSubstr("cell_size = \"1 mm\""));
   EXPECT_THAT(import.case_text, HasSubstr("upper = [\"12 mm\", \"8 mm\", \"8 mm\"]")) << "16.2 cells are 16";
@@ -97,13 +97,13 @@ TEST(Mpm3dDeck, BecomesACaseWithUnits) {
   EXPECT_THAT(import.case_text, HasSubstr("fields = [\"von_mises_stress\"]"));
   EXPECT_THAT(import.case_text, HasSubstr("[[gauge]]"));
   EXPECT_THAT(import.case_text, Not(HasSubstr("scheme")));
-  ASSERT_EQ(import.files.size(), 2);
+  ASSERT_EQ(import.files.size(), 2U);
   EXPECT_THAT(import.files[0].text, HasSubstr("hardening_modulus = \"125 MPa\""));
   EXPECT_THAT(import.files[0].text, HasSubstr("failure_strain = 3"));
   EXPECT_THAT(import.files[0].text, HasSubstr("heat_capacity = \"124 J/(kg K)\"")) << "that of lead, by its density";
   EXPECT_THAT(import.files[1].text, HasSubstr("melting_temperature = \"1356 K\""));
   EXPECT_THAT(import.files[1].text, HasSubstr("heat_capacity = \"383 J/(kg K)\""));
-  ASSERT_EQ(import.bodies.size(), 2);
+  ASSERT_EQ(import.bodies.size(), 2U);
   EXPECT_EQ(import.bodies[0].particles, 136) << "centres within three spacings";
   EXPECT_EQ(import.bodies[1].particles, 1024);
   EXPECT_NEAR(import.bodies[1].mass, 2e-3 * 8e-3 * 8e-3 * 8930.0, 1e-12);
@@ -126,7 +126,7 @@ TEST(Mpm3dDeck, EveryStatementHasItsRemark) {
 
 TEST(Mpm3dDeck, ShapesAndLawsOfEveryKind) {
   const Import import = import_text(deck_text("columns_of_water.mpm"), in_si);
-  EXPECT_EQ(import.count(Outcome::missing), 0) << import.report();
+  EXPECT_EQ(import.count(Outcome::missing), 0U) << import.report();
   EXPECT_THAT(import.case_text, HasSubstr("boundary = { x_lower = \"no_slip\", y_lower = \"symmetry\", z_lower = \"symmetry\" }"));
   EXPECT_THAT(import.case_text, HasSubstr("box = { lower = [\"0 m\", \"0 m\", \"0 m\"], upper = [\"1 m\", \"1 m\", \"1 m\"] }")) << "of eight points";
   EXPECT_THAT(import.case_text, HasSubstr("difference"));
@@ -164,10 +164,10 @@ TEST(Mpm3dDeck, TheSameMethodIsKeptOnRequest) {
 TEST(Mpm3dDeck, MassesOfTheOldFormatAreNotTakenInSilence) {
   const std::string old = sphere_deck("1 1 11.35e-3 0.5", "1 1 1.419e-3 0.5");
   const Import as_read = import_text(old);
-  EXPECT_EQ(as_read.count(Outcome::missing), 1);
+  EXPECT_EQ(as_read.count(Outcome::missing), 1U);
   EXPECT_THAT(as_read.report(), HasSubstr("--old-mass"));
   const Import converted = import_text(old, {.old_mass = true});
-  EXPECT_EQ(converted.count(Outcome::missing), 0);
+  EXPECT_EQ(converted.count(Outcome::missing), 0U);
   EXPECT_NEAR(converted.bodies[0].mass, 136 * 1.419e-6, 1e-12);
 }
 
@@ -236,7 +236,7 @@ TEST_F(ImportFolder, TheFolderAppearsWholeAndReadsAsACase) {
   {
     CaseFolder written(import, target);
     const cases::Case setup = cases::read_case(written.case_file(), {});
-    EXPECT_EQ(setup.bodies.size(), 2);
+    EXPECT_EQ(setup.bodies.size(), 2U);
     EXPECT_DOUBLE_EQ(setup.domain.cell_size, 1e-3);
     EXPECT_DOUBLE_EQ(setup.time.end, 2e-6);
     EXPECT_DOUBLE_EQ(setup.bodies[0].velocity[0], 3000.0);
@@ -256,7 +256,7 @@ TEST_F(ImportFolder, TheFolderAppearsWholeAndReadsAsACase) {
 TEST_F(ImportFolder, ADeckOfEveryShapeReadsAsACase) {
   const Import import = import_deck(folder_of_decks / "columns_of_water.mpm", in_si);
   const CaseFolder written(import, folder_ / "case");
-  EXPECT_EQ(cases::read_case(written.case_file(), {}).bodies.size(), 4);
+  EXPECT_EQ(cases::read_case(written.case_file(), {}).bodies.size(), 4U);
 }
 
 /// Decks with bytes changed, words exchanged and parts cut out: read or refused, nothing else.
@@ -285,7 +285,7 @@ TEST(Mpm3dDeck, DamagedDecksAreReadOrRefused) {
           break;
         }
         default:
-          text.insert(at, text.substr(random() % text.size(), 30));
+          text.insert(at, text.substr(random() % text.size(), 30U));
       }
       if (text.empty()) text = " ";
     }
