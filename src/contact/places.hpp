@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/contact/surface_points.hpp"
+#include "src/core/base/simd.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/particles/particles.hpp"
@@ -91,7 +92,11 @@ class Reach {
     const grid::PlaceInStencil in_stencil = grid::StencilPlaces(Shape::stencil)(
         grid::position_in_block(geometry.in_cells(points.position[p]), grid::corner_of(block, shape),
                                  shape.edges()));
-    const std::array<int, 3> node = in_stencil.first_node(Shape::stencil);
+    // With divisors that the compiler knows: PlaceInStencil::first_node(Stencil) is a call here.
+    constexpr int edge = Shape::stencil.edge(), edge_z = Shape::stencil.edge_z(), before = Shape::stencil.before();
+    const int number = in_stencil.first_node();
+    const std::array<int, 3> node = {number / (edge * edge_z) - before, number / edge_z % edge - before,
+                                     number % edge_z - Shape::stencil.before_z()};
     const std::array<std::size_t, 3> first = {static_cast<std::size_t>(node[0] + 1),
                                               static_cast<std::size_t>(node[1] + 1),
                                               static_cast<std::size_t>(node[2] + 1)};
@@ -162,7 +167,10 @@ class Reach {
   static FoldedAxis folded(const grid::BlockGrid& grid, std::size_t axis, int block, unsigned field) {
     static constexpr std::array<LayersOfNodes, 2> layers_by_shape = {layers_of_nodes(false), layers_of_nodes(true)};
     const auto& layers = layers_by_shape[grid.geometry().is_planar() ? 1 : 0][axis];
+    static constexpr grid::ReachMap of_four = grid::reach_map(4), of_eight = grid::reach_map(8),
+                                    of_one = grid::reach_map(1);
     const int edge = grid.block_shape().along(axis), cells = grid.geometry().cells[axis];
+    const grid::ReachMap& map = edge == 4 ? of_four : edge == 8 ? of_eight : of_one;
     const bool lower = grid.is_bonded_at(2 * axis, field), upper = grid.is_bonded_at(2 * axis + 1, field);
     FoldedAxis all;
     for (std::size_t n = 0; n < static_cast<std::size_t>(grid::reach_edge(edge)); ++n) {
@@ -176,15 +184,15 @@ class Reach {
       if ((lower && place == 0) || (upper && place == cells)) all[n].off_plane = 0.0;
       const int from_corner = place - block * edge + 1;
       if (from_corner < 0 || from_corner >= grid::reach_edge(edge)) continue;  // no stencil comes there
-      const int shifted = from_corner - 1 + edge;
-      all[n].block = shifted / edge;
-      all[n].nodes = layers[static_cast<std::size_t>(shifted % edge)];
+      const auto m = static_cast<std::size_t>(from_corner);
+      all[n].block = map.block[m];
+      all[n].nodes = layers[static_cast<std::size_t>(map.node[m])];
     }
     return all;
   }
 
   /// Finds which of the nodes that matter the stencil reaches, by block around; returns whether any.
-  [[nodiscard]] bool reaches(const std::array<std::size_t, 3>& first, const std::array<int, 3>& count,
+  [[nodiscard]] WHIPPLE_INLINE bool reaches(const std::array<std::size_t, 3>& first, const std::array<int, 3>& count,
                              std::array<std::uint64_t, 27>& reached) const {
     std::array<std::array<std::uint64_t, 3>, 3> layers{};
     for (std::size_t a = 0; a < 3; ++a) {
