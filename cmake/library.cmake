@@ -15,6 +15,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 # Contraction into fused multiply-adds is part of the speed; errno and traps of the mathematical functions are not needed.
 target_compile_options(whipple_flags INTERFACE -fno-math-errno -fno-trapping-math -fopenmp)
+# Position-independent code that calls and inlines as other code: nobody replaces a function of ours at load time.
+target_compile_options(whipple_flags INTERFACE -fno-semantic-interposition)
 target_link_options(whipple_flags INTERFACE -fopenmp)
 # The C interface of MPI only: Open MPI's C++ bindings do not pass our warnings.
 target_compile_definitions(whipple_flags INTERFACE OMPI_SKIP_MPICXX)

@@ -92,11 +92,7 @@ class Reach {
     const grid::PlaceInStencil in_stencil = grid::StencilPlaces(Shape::stencil)(
         grid::position_in_block(geometry.in_cells(points.position[p]), grid::corner_of(block, shape),
                                  shape.edges()));
-    // With divisors that the compiler knows: PlaceInStencil::first_node(Stencil) is a call here.
-    constexpr int edge = Shape::stencil.edge(), edge_z = Shape::stencil.edge_z(), before = Shape::stencil.before();
-    const int number = in_stencil.first_node();
-    const std::array<int, 3> node = {number / (edge * edge_z) - before, number / edge_z % edge - before,
-                                     number % edge_z - Shape::stencil.before_z()};
+    const std::array<int, 3> node = in_stencil.first_node(Shape::stencil);
     const std::array<std::size_t, 3> first = {static_cast<std::size_t>(node[0] + 1),
                                               static_cast<std::size_t>(node[1] + 1),
                                               static_cast<std::size_t>(node[2] + 1)};

@@ -72,7 +72,7 @@ constexpr std::size_t lanes_of_normals = 3, lanes_of_extents = 2;
 /// of its followed domain), scaled to its present volume.
 class HalfThickness {
  public:
-  HalfThickness(const grid::Geometry& geometry, const Particles& particles, std::size_t p)
+  WHIPPLE_INLINE HalfThickness(const grid::Geometry& geometry, const Particles& particles, std::size_t p)
       : extent_(particles.extent[p].matrix()) {
     if (geometry.is_planar()) {
       set_planar(geometry, particles, p);
@@ -86,7 +86,7 @@ class HalfThickness {
   }
   /// Not less than along any direction.
   [[nodiscard]] double largest() const { return largest_; }
-  [[nodiscard]] Lanes along(const Normals& n) const {
+  [[nodiscard]] WHIPPLE_INLINE Lanes along(const Normals& n) const {
     const Matrix3& e = extent_;
     const Lanes square = n.x * (e(0, 0) * n.x + 2.0 * (e(0, 1) * n.y + e(0, 2) * n.z)) +
                          n.y * (e(1, 1) * n.y + 2.0 * e(1, 2) * n.z) + e(2, 2) * n.z * n.z;

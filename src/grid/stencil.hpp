@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "src/core/base/simd.hpp"
 #include "src/core/base/vector_math.hpp"
 #include "src/grid/geometry.hpp"
 
@@ -93,7 +94,7 @@ class PlaceInStencil {
     return stencil.before() == 0 ? first_node() % (edge + 1) : first_node() % reach_edge(edge) - 1;
   }
   /// Returns the first node counted from the lower corner of the block, by direction.
-  [[nodiscard]] std::array<int, 3> first_node(Stencil stencil) const {
+  [[nodiscard]] WHIPPLE_INLINE std::array<int, 3> first_node(Stencil stencil) const {
     const int edge = stencil.edge(), edge_z = stencil.edge_z(), before = stencil.before(), first = first_node();
     return {first / (edge * edge_z) - before, first / edge_z % edge - before, first % edge_z - stencil.before_z()};
   }
@@ -106,7 +107,7 @@ class PlaceInStencil {
 /// Makes the places of a kind of stencil.
 class StencilPlaces {
  public:
-  explicit StencilPlaces(Stencil stencil) : shift_(broadcast(stencil.shift)) {
+  WHIPPLE_INLINE explicit StencilPlaces(Stencil stencil) : shift_(broadcast(stencil.shift)) {
     const double edge = stencil.edge(), edge_z = stencil.edge_z();
     strides_ = Lanes{edge * edge_z, edge_z, stencil.planar ? 0.0 : 1.0, 0.0};
     origin_ = Lanes{integer, 0.0, 0.0, 0.0} + stencil.before() * strides_;
@@ -114,9 +115,9 @@ class StencilPlaces {
   /// First node of the stencil, in cells like `local`.
   /// @param local  position in cells from the block's lower corner, inside the block
   [[nodiscard]] Lanes first_node(Lanes local) const { return floor(local - shift_); }
-  [[nodiscard]] PlaceInStencil operator()(Lanes local) const { return at(local, first_node(local)); }
+  [[nodiscard]] WHIPPLE_INLINE PlaceInStencil operator()(Lanes local) const { return at(local, first_node(local)); }
   /// @param first  as of `first_node`
-  [[nodiscard]] PlaceInStencil at(Lanes local, Lanes first) const {
+  [[nodiscard]] WHIPPLE_INLINE PlaceInStencil at(Lanes local, Lanes first) const {
     const Lanes parts = multiply_add(first, strides_, origin_);
     const Lanes pairs = parts + __builtin_shufflevector(parts, parts, 2, 3, 0, 1);
     const Lanes sum = pairs + __builtin_shufflevector(pairs, pairs, 1, 0, 3, 2);
