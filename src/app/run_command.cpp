@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "src/app/build_info.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
+#include "src/core/base/simd.hpp"
 #include "src/core/base/units.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/process/mpirun.hpp"
@@ -21,6 +23,8 @@
 namespace whipple::app {
 namespace {
 
+enum class Device { cpu, reference };
+
 struct Arguments {
   std::string case_file;
   std::string output;
@@ -29,6 +33,7 @@ struct Arguments {
   std::string wall_time;
   int threads = 0;
   int ranks = 0;
+  Device device = Device::cpu;
   bool force = false;
 };
 
@@ -80,6 +85,7 @@ int run_on_ranks(const Arguments& arguments) {
   pass("--wall-time", arguments.wall_time);
   for (const std::string& entry : arguments.set) pass("--set", entry);
   if (arguments.threads > 0) pass("--threads", std::to_string(arguments.threads));
+  if (arguments.device == Device::reference) pass("--device", "reference");
   if (arguments.force) program.emplace_back("--force");
   if (log::level() == log::Level::quiet) program.emplace_back("--quiet");
   if (log::level() == log::Level::verbose) program.emplace_back("--verbose");
@@ -89,6 +95,7 @@ int run_on_ranks(const Arguments& arguments) {
 /// Runs the case on the ranks that this process belongs to.
 int run_here(const Arguments& arguments) {
   try {
+    if (arguments.device == Device::reference) kernel_set() = KernelSet::plain;
     return run::run_case(run_options(arguments), parallel::world());
   } catch (const std::exception& error) {
     log::record_error(error.what());  // also into log.txt, if the run directory is there
@@ -133,6 +140,13 @@ void add_run_command(CLI::App& app) {
           "--ranks", arguments->ranks,
           "Start this command on so many MPI ranks of this machine (elsewhere: mpirun whipple run …)")
       ->check(CLI::Range(1, 4096));
+  command
+      ->add_option("--device", arguments->device,
+                   "cpu: kernels for the registers of the processor (default) | reference: plain loops over single "
+                   "numbers, five times slower, to compare with")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Device>{{"cpu", Device::cpu}, {"reference", Device::reference}}))
+      ->type_name("NAME");
   command
       ->add_option("--wall-time", arguments->wall_time,
                    "Write a checkpoint and end after this time, e.g. '2 hour'")

@@ -178,7 +178,7 @@ WHIPPLE_INLINE inline std::array<Vector, 4> columns(const std::array<Lanes, widt
 template <class Function>
 void with_kernels(Function&& f) {
 #if WHIPPLE_WIDE_KERNELS
-  if (wide_registers()) return f(wide::Kernels{});
+  if (kernel_set() == KernelSet::wide) return f(wide::Kernels{});
 #endif
   f(narrow::Kernels{});
 }

@@ -6,62 +6,23 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "src/core/base/error.hpp"
-#include "src/fem/hexahedron.hpp"
 #include "src/core/parallel/mpi.hpp"
 
 namespace whipple::run {
 namespace {
 
-/// Describes a particle, or one of the eight that an element may become.
-struct Part {
-  std::uint64_t id;
-  Vector3 position, velocity;
-  double mass, volume;
-  const MaterialPoints& points;  // its state, at `p`
-  std::size_t p;
-};
+using solver::Part;
 
-/// Calls f(part) for all particles of this rank and for the parts of those elements for which
-/// `seen(element, centre, half its diagonal)` is true.
-template <class Seen, class F>
-void for_each_part(const solver::Simulation& simulation, const Seen& seen, const F& f) {
-  const Particles& particles = simulation.particles();
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    f(Part{particles.id[p], particles.position[p], particles.velocity[p], particles.mass[p], particles.volume[p],
-           particles, p});
-  }
-  constexpr std::size_t corners = 8;
-  for (const fem::Mesh& mesh : simulation.meshes()) {
-    const std::size_t rows = fem::points_per_element(mesh.quadrature);
-    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-      const auto& nodes = mesh.elements.corners[e];
-      Vector3 centre = Vector3::Zero();
-      for (const std::uint32_t a : nodes) centre += mesh.nodes.position[a] / corners;
-      double reach = 0.0;
-      for (const std::uint32_t a : nodes) reach = std::max(reach, (mesh.nodes.position[a] - centre).norm());
-      if (!seen(mesh.elements.id[e], centre, reach)) continue;
-      for (std::size_t k = 0; k < corners; ++k) {
-        const std::size_t row = e * rows + (rows == corners ? k : 0);
-        const double share = rows == corners ? 1.0 : 1.0 / corners;
-        Part part{corners * mesh.elements.id[e] + k, Vector3::Zero(), Vector3::Zero(),
-                  share * mesh.points.mass[row], share * mesh.points.volume[row], mesh.points, row};
-        for (std::size_t a = 0; a < corners; ++a) {
-          double weight = 1.0 / corners;
-          for (std::size_t i = 0; i < 3; ++i) {
-            weight *= 1.0 + 0.5 * fem::corner_coordinates[a][i] * fem::corner_coordinates[k][i];
-          }
-          part.position += weight * mesh.nodes.position[nodes[a]];
-          part.velocity += weight * mesh.nodes.velocity[nodes[a]];
-        }
-        f(part);
-      }
-    }
-  }
+/// Visits all particles of this rank and the parts of selected elements.
+void for_each_part(const solver::Simulation& simulation, const solver::SelectElement& select,
+                   const std::function<void(const Part&)>& visit) {
+  for (const solver::Carrier* carrier : simulation.carriers()) carrier->for_each_part(select, visit);
 }
 
 /// Defines a quantity of the state at a gauge, and whether volume or mass weights it in a mean over particles.

@@ -177,9 +177,11 @@ TransferBalance gather_particles(BlockGrid& grid, const TakeGradients& take,
       gather(kernels, slot, balance, &gradients[grid.place_of(slot) - begin]);
       of_slot[slot] = balance;
     }
-    if (take && size > 0) {
-      of_slot[first_slot].plastic_work +=
-          take(grid.particles_by_block().subspan(begin, size), std::span(gradients).first(size));
+    if (!take) return;
+    const std::size_t batch = kernel_set() == KernelSet::plain ? 1 : size;  // the reference knows single points only
+    for (std::size_t first = 0; first < size; first += batch) {
+      of_slot[first_slot].plastic_work += take(grid.particles_by_block().subspan(begin + first, batch),
+                                               std::span(gradients).subspan(first, batch));
     }
   };
   with_kernels<Shape>([&](auto kernels) {

@@ -225,6 +225,71 @@ TEST_F(SolverRanks, AgreeWithOneRankInAxisymmetry) {
 
 // Fields that only other ranks see at a shared block, nodes that several ranks have in contact, mirror planes
 // through the contact, three bodies.
+// Deformation gradients, a history field of a constitutive model, follow their particles from rank to rank: the block
+// crosses their borders while it rebounds.
+TEST_F(SolverRanks, DeformationGradientsMoveWithTheirParticles) {
+  ranks_.on_root([&] {
+    std::ofstream(folder_ / "rubber.toml") << R"(
+name = "rubber"
+source = "test"
+[eos]
+model = "mie_gruneisen"
+source = "test"
+reference_density = "1 g/cm^3"
+hugoniot_intercept = "0.1 km/s"
+hugoniot_slope = 1.5
+gruneisen = 0.001
+heat_capacity = "1500 J/(kg K)"
+reference_temperature = "300 K"
+[constitutive]
+model = "neo_hookean"
+source = "test"
+shear_modulus = "2 MPa"
+)";
+    std::ofstream(folder_ / "bounce.toml") << R"(
+[domain]
+lower = ["0 mm", "-4 mm", "-4 mm"]
+upper = ["24 mm", "8 mm", "8 mm"]
+cell_size = "1 mm"
+boundary = { x_lower = "separating" }
+[time]
+end = "400 us"
+[[body]]
+name = "block"
+material = "rubber.toml"
+velocity = ["-25 m/s", "0 m/s", "0 m/s"]
+shape = { box = { lower = ["5 mm", "0 mm", "0 mm"], upper = ["15 mm", "4 mm", "4 mm"] } }
+)";
+  });
+  MPI_Barrier(MPI_COMM_WORLD);
+  const cases::Case setup = cases::read_case(folder_ / "bounce.toml", {});
+  const double end = 4e-4;
+  Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
+  advance_to(together, end);
+  advance_on_root(alone, end);
+  expect_agreement(together, alone, 1e-11);
+  // Sums in which every component of every particle has a weight of its own.
+  const auto sums = [](const Particles& q) {
+    std::vector<double> sum(2, 0.0);
+    const auto& deformation = q.history.values<Matrix3>("deformation_gradient");
+    for (std::size_t p = 0; p < q.size(); ++p) {
+      for (int i = 0; i < 9; ++i) {
+        const double weight = std::sin(static_cast<double>(9 * q.id[p]) + i);
+        sum[0] += weight * (deformation[p] - Matrix3::Identity()).eval().data()[i];
+        sum[1] += std::abs(deformation[p].data()[i] - Matrix3::Identity().eval().data()[i]);
+      }
+    }
+    return sum;
+  };
+  std::vector<double> of_all = sums(together.particles());
+  parallel::sum(MPI_COMM_WORLD, of_all);
+  if (is_root()) {
+    const std::vector<double> of_one = sums(alone.particles());
+    EXPECT_NEAR(of_all[0], of_one[0], 1e-10 * of_one[1]);
+    EXPECT_GT(of_one[1], 0.05 * static_cast<double>(alone.particle_count()));  // it is deformed
+  }
+}
+
 TEST_F(SolverRanks, AgreeWithOneRankInContact) {
   for (const auto& [method, normal] :
        {std::pair("\"auto\"", "\"separating\""), std::pair("\"auto\"", "\"collinear\""),

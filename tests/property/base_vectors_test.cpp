@@ -45,14 +45,14 @@ TEST(RoughLog, IsTheLogarithmTo4em8) {
               4e-8);
 }
 
-TEST(ArrayFunctions, AreExponentialAndLogarithmInBothRegisters) {
+TEST(ArrayFunctions, AreExponentialAndLogarithmInEveryKernelSet) {
   std::mt19937_64 generator(9);
   std::uniform_real_distribution<double> uniform(-700.0, 700.0);
   std::vector<double> x(800);
   for (double& value : x) value = uniform(generator);
-  const bool has_wide = wide_registers();
-  for (const bool wide : {false, has_wide}) {
-    wide_registers() = wide;
+  const KernelSet widest = kernel_set();
+  for (const KernelSet set : {KernelSet::plain, KernelSet::narrow, widest}) {
+    kernel_set() = set;
     std::vector<double> raised = x;
     exponentials(raised.data(), raised.size());
     std::vector<double> back = raised;
@@ -62,7 +62,7 @@ TEST(ArrayFunctions, AreExponentialAndLogarithmInBothRegisters) {
       EXPECT_NEAR(back[i], std::log(raised[i]), 1e-15 * std::abs(x[i])) << x[i];
     }
   }
-  wide_registers() = has_wide;
+  kernel_set() = widest;
 }
 
 TEST(Marks, AreFoundInTheirOrder) {

@@ -57,10 +57,10 @@ TEST(Invariance, BitwiseTheSameWithAnyNumberOfThreads) {
 /// Twenty steps with kernels for either set of registers; 27 elements fill three groups of eight and a part,
 /// 729 are rows of four and five.
 TEST(Invariance, WideRegistersGiveTheSameNumbers) {
-  if (!wide_registers()) GTEST_SKIP() << "this processor has no AVX-512";
+  if (kernel_set() != KernelSet::wide) GTEST_SKIP() << "this processor has no AVX-512";
   const auto numbers_after_steps = [](Quadrature quadrature, const fem::HourglassControl& hourglass,
                                       const std::array<std::size_t, 3>& cells, bool wide) {
-    wide_registers() = wide;
+    kernel_set() = wide ? KernelSet::wide : KernelSet::narrow;
     Body body = shaken(quadrature, hourglass, 0.25, cells);
     const double dt = 0.3 * body.critical_time_step();
     for (int n = 0; n < 20; ++n) body.step(dt);
@@ -77,7 +77,7 @@ TEST(Invariance, WideRegistersGiveTheSameNumbers) {
     take(body.mesh.nodes.force);
     for (const auto component : fem::Elements::hourglass_components()) take(body.mesh.elements.*component);
     for (const auto& component : body.gradients.component) take(component);
-    wide_registers() = true;
+    kernel_set() = KernelSet::wide;
     return numbers;
   };
   for (const Quadrature quadrature : both) {

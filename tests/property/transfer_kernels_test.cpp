@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
+#include <utility>
 
 #include "src/core/parallel/mpi.hpp"
 #include "src/transfer/grid_to_particles.hpp"
@@ -66,8 +68,8 @@ TYPED_TEST(TransferKernels, GradientsComeOnceEachAndRight) {
 /// What a cycle of all transfers makes of particles and nodes of elements, some of which carry no affine
 /// field: every number of it.
 template <class Shape>
-std::vector<double> numbers_after_all_transfers(bool wide) {
-  wide_registers() = wide;
+std::vector<double> numbers_after_all_transfers(KernelSet set, AffineField affine = AffineField::deformed) {
+  const KernelSet in_use = std::exchange(kernel_set(), set);
   constexpr double dt = 0.05;
   Particles q = random_particles(701, Vector3(-1.2, -0.3, 4), Vector3(8, 6.5, 11.8), 21);
   const Particles guests = random_particles(93, Vector3(0, 0, 4.5), Vector3(4, 5, 9), 22);
@@ -115,7 +117,7 @@ std::vector<double> numbers_after_all_transfers(bool wide) {
   take(at_particles);
   advance();
   const TransferBalance balance = grid_to_particles(
-      Shape::kind, q, grid, dt, CarriesAffineField<Shape> ? AffineField::deformed : AffineField::none, {},
+      Shape::kind, q, grid, dt, CarriesAffineField<Shape> ? affine : AffineField::none, {},
       into(gradient));
   take(std::array{balance.work, balance.heat});
   take(gradient);
@@ -124,26 +126,37 @@ std::vector<double> numbers_after_all_transfers(bool wide) {
   take(q.affine_velocity);
   take(q.specific_internal_energy);
   if (nodes.size() > 0) {
-    grid_to_nodes(Shape::kind, nodes, grid, dt, AffineField::deformed);
+    grid_to_nodes(Shape::kind, nodes, grid, dt, affine);
     take(nodes.velocity);
     take(nodes.affine_velocity);
     take(nodes.new_velocity);
     take(nodes.heat);
     for (std::size_t n = 0; n < nodes.unrelaxed; ++n) EXPECT_EQ(nodes.affine_velocity[n].norm(), 0.0) << n;
   }
+  kernel_set() = in_use;
   return numbers;
 }
 
 TYPED_TEST(TransferKernels, WideRegistersGiveTheSameNumbers) {
-  const bool wide = wide_registers();
-  if (!wide) GTEST_SKIP() << "needs a processor with AVX-512, and an optimised build";
-  const std::vector<double> of_wide = numbers_after_all_transfers<TypeParam>(true);
-  const std::vector<double> of_narrow = numbers_after_all_transfers<TypeParam>(false);
-  wide_registers() = wide;
+  if (kernel_set() != KernelSet::wide) GTEST_SKIP() << "needs a processor with AVX-512, and an optimised build";
+  const std::vector<double> of_wide = numbers_after_all_transfers<TypeParam>(KernelSet::wide);
+  const std::vector<double> of_narrow = numbers_after_all_transfers<TypeParam>(KernelSet::narrow);
   ASSERT_EQ(of_wide.size(), of_narrow.size());
   std::size_t different = 0;  // a zero may have another sign
   for (std::size_t i = 0; i < of_wide.size(); ++i) different += of_wide[i] == of_narrow[i] ? 0 : 1;
   EXPECT_EQ(different, 0) << "of " << of_wide.size();
+}
+
+/// The numbers of one point are compared together: their differences in units of the largest of them.
+TYPED_TEST(TransferKernels, PlainLoopsGiveTheSameNumbers) {
+  for (const AffineField affine : {AffineField::deformed, AffineField::turned}) {
+    const std::vector<double> fast = numbers_after_all_transfers<TypeParam>(KernelSet::narrow, affine);
+    const std::vector<double> plain = numbers_after_all_transfers<TypeParam>(KernelSet::plain, affine);
+    ASSERT_EQ(fast.size(), plain.size());
+    for (std::size_t i = 0; i < fast.size(); ++i) {
+      ASSERT_NEAR(plain[i], fast[i], 1e-13 * (10.0 + std::abs(fast[i]))) << i;
+    }
+  }
 }
 
 }  // namespace

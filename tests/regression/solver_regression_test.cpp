@@ -5,6 +5,9 @@
 // them.
 #include <gtest/gtest.h>
 
+#include <utility>
+
+#include "src/core/base/simd.hpp"
 #include "tests/verification/solver_problems.hpp"
 
 namespace whipple::verification {
@@ -27,6 +30,44 @@ TEST(Regression, DebrisCloudKeepsItsSums) {
   expect(ledger.transfer_heat, 38.248250160373765);
   expect(ledger.wall_impulse[0], 0.7725832768283504);
   EXPECT_EQ(simulation.state().step, 101);
+}
+
+/// Steps of a case with either device. Differences are measured against the largest value of each field; those of
+/// earlier steps add up.
+void expect_the_same_steps(const char* name, const std::vector<std::pair<std::string, std::string>>& overrides, int steps) {
+  const cases::Case setup =
+      cases::read_case(std::string(WHIPPLE_SOURCE_DIR) + "/cases/" + name + "/case.toml", overrides);
+  const auto after_steps = [&](KernelSet set) {
+    const KernelSet in_use = std::exchange(kernel_set(), set);
+    solver::Simulation simulation(setup, parallel::world());
+    for (int n = 0; n < steps; ++n) simulation.advance(setup.time.end);
+    kernel_set() = in_use;
+    return simulation.particles();
+  };
+  const Particles fast = after_steps(kernel_set()), plain = after_steps(KernelSet::plain);
+  ASSERT_EQ(fast.id, plain.id);
+  const auto expect = [&](const char* field, auto&& value) {
+    double largest = 0.0, difference = 0.0;
+    for (std::size_t p = 0; p < fast.size(); ++p) {
+      largest = std::max(largest, std::abs(value(fast, p)));
+      difference = std::max(difference, std::abs(value(fast, p) - value(plain, p)));
+    }
+    EXPECT_LE(difference, 1e-13 * steps * largest) << name << ", " << field;
+  };
+  expect("position", [](const Particles& q, std::size_t p) { return q.position[p].sum(); });
+  expect("velocity", [](const Particles& q, std::size_t p) { return q.velocity[p].sum(); });
+  expect("affine velocity", [](const Particles& q, std::size_t p) { return q.affine_velocity[p].sum(); });
+  expect("energy", [](const Particles& q, std::size_t p) { return q.specific_internal_energy[p]; });
+  expect("pressure", [](const Particles& q, std::size_t p) { return q.pressure[p]; });
+  expect("stress", [](const Particles& q, std::size_t p) { return q.deviatoric_stress[p].matrix().sum(); });
+  expect("plastic strain", [](const Particles& q, std::size_t p) { return q.plastic_strain[p]; });
+}
+
+TEST(ReferenceDevice, GivesTheSameStepsWithEquationsOfStateAndStrength) {
+  expect_the_same_steps("copper_disk_on_aluminium", {{"domain.cell_size", "1 mm"}}, 10);  // GRAY, contact, conduction
+  expect_the_same_steps("taylor_bar", {{"domain.cell_size", "1.52 mm"}}, 10);             // Mie-Grueneisen, von Mises
+  expect_the_same_steps("taylor_bar", {{"domain.cell_size", "1.52 mm"}, {"body.0.material", "copper_johnson_cook.toml"}},
+                        10);
 }
 
 }  // namespace

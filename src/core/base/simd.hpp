@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+
 /// A kernel that is compiled twice, with AVX2 and with AVX-512, whose 32 names of vector registers (16
 /// before) spare many moves; the loader takes what the processor has. Everything it calls is inlined into
 /// both. Once only where the whole program is built for the machine, and under sanitizers, which cannot
@@ -13,7 +15,7 @@
 #endif
 
 /// Kernels whose source is included twice, for the registers of AVX2 and of AVX-512:
-/// src/transfer/kernels.hpp, src/fem/element_kernels.hpp. Sanitizers, which take minutes for functions of
+/// src/transfer/register_kernels.hpp, src/fem/element_kernels.hpp. Sanitizers, which take minutes for functions of
 /// that size, get those for AVX2 in pieces.
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define WHIPPLE_WIDE_KERNELS 1
@@ -36,16 +38,25 @@
 
 namespace whipple {
 
-/// Tells whether the kernels for AVX-512 are in use: where the processor has it, until a test sets otherwise.
-inline bool& wide_registers() {
+/// Sets of kernels of the transfers and of the vector functions. They agree to round-off; those for registers bit for
+/// bit.
+enum class KernelSet : std::uint8_t {
+  plain,   ///< loops over single numbers: the reference
+  narrow,  ///< for AVX2
+  wide,    ///< for AVX-512
+};
+/// Returns the set in use: the widest that the processor has, until the program or a test selects another.
+inline KernelSet& kernel_set() {
 #if WHIPPLE_WIDE_KERNELS
-  static bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                     __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-                     __builtin_cpu_supports("avx512cd");
+  static KernelSet set = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                                 __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+                                 __builtin_cpu_supports("avx512cd")
+                             ? KernelSet::wide
+                             : KernelSet::narrow;
 #else
-  static bool wide = false;
+  static KernelSet set = KernelSet::narrow;
 #endif
-  return wide;
+  return set;
 }
 
 /// Four doubles that compute together: the compiler's vector extension, one register under AVX2. The kernels

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/core/base/vector_math.hpp"
 
+#include <cmath>
+
 namespace whipple {
 namespace libmvec {
 extern "C" {
@@ -13,6 +15,11 @@ extern "C" {
 
 namespace {
 
+template <double (*function)(double)>
+void one_by_one(double* x, std::size_t size) {
+  for (std::size_t k = 0; k < size; ++k) x[k] = function(x[k]);
+}
+
 #if WHIPPLE_WIDE_KERNELS
 template <auto function>
 [[gnu::target("avx512f")]] void wide(double* x, std::size_t size) {
@@ -23,15 +30,17 @@ template <auto function>
 }  // namespace
 
 void exponentials(double* x, std::size_t size) {
+  if (kernel_set() == KernelSet::plain) return one_by_one<std::exp>(x, size);
 #if WHIPPLE_WIDE_KERNELS
-  if (wide_registers()) return wide<libmvec::_ZGVeN8v_exp>(x, size);
+  if (kernel_set() == KernelSet::wide) return wide<libmvec::_ZGVeN8v_exp>(x, size);
 #endif
   for (std::size_t k = 0; k < size; k += 4) store(x + k, exp(load(x + k)));
 }
 
 void logarithms(double* x, std::size_t size) {
+  if (kernel_set() == KernelSet::plain) return one_by_one<std::log>(x, size);
 #if WHIPPLE_WIDE_KERNELS
-  if (wide_registers()) return wide<libmvec::_ZGVeN8v_log>(x, size);
+  if (kernel_set() == KernelSet::wide) return wide<libmvec::_ZGVeN8v_log>(x, size);
 #endif
   for (std::size_t k = 0; k < size; k += 4) store(x + k, natural_log(load(x + k)));
 }

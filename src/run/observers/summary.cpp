@@ -7,6 +7,7 @@
 #include <string>
 
 #include "src/core/base/log.hpp"
+#include "src/core/base/simd.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
@@ -25,6 +26,7 @@ std::string profile_as_json(const Moment& moment, const solver::Profile& profile
   return nlohmann::json({{"wall_seconds", moment.wall_time},
                          {"ranks", parallel::size(simulation.communicator())},
                          {"threads", parallel::threads()},
+                         {"device", kernel_set() == KernelSet::plain ? "reference" : "cpu"},
                          {"steps", moment.step()},
                          {"particles", simulation.particle_count()},
                          {"elements", simulation.element_count()},

@@ -46,6 +46,17 @@ struct Point {
   bool is_stressed;                    ///< its pressure is more than a millionth of rho c^2; nodes carry none
 };
 
+/// A particle, or one of the eight that an element may become: what gauges sample.
+struct Part {
+  std::uint64_t id;
+  Vector3 position, velocity;     ///< m, m/s
+  double mass, volume;            ///< kg, m^3
+  const MaterialPoints& points;   ///< its state, at `p`
+  std::size_t p;
+};
+/// Selects elements by number, centre (m) and largest distance of a corner from it (m).
+using SelectElement = std::function<bool(std::uint64_t element, const Vector3& centre, double reach)>;
+
 /// Interface of what carries the material of bodies: particles, hexahedra, trusses; on each rank its part of them.
 /// Stages loop over the carriers of a run, which are those that the case has.
 class Carrier {
@@ -87,6 +98,9 @@ class Carrier {
   [[nodiscard]] virtual std::size_t bytes() const = 0;
   /// Visits every particle or node.
   virtual void for_each_point(const std::function<void(const Point& point)>& visit) const = 0;
+  /// Visits all particles, or the parts of the selected elements.
+  virtual void for_each_part(const SelectElement& /*select*/,
+                             const std::function<void(const Part& part)>& /*visit*/) const {}
   /// Describes the part of a body by its numbers over all ranks, empty if it has none. Collective.
   [[nodiscard]] virtual std::string count_text(std::size_t body) const = 0;
   /// @}

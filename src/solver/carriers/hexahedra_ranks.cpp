@@ -7,6 +7,7 @@
 
 #include "src/afemp/transition.hpp"
 #include "src/core/parallel/mpi.hpp"
+#include "src/fem/hexahedron.hpp"
 #include "src/solver/carriers/element_totals.hpp"
 #include "src/solver/carriers/figures.hpp"
 #include "src/solver/carriers/hexahedra.hpp"
@@ -154,6 +155,36 @@ std::size_t Hexahedra::bytes() const {
 
 void Hexahedra::for_each_point(const std::function<void(const Point& point)>& visit) const {
   for (const fem::Mesh& mesh : meshes_) visit_nodes(mesh.nodes, mesh.body, state_, visit);
+}
+
+void Hexahedra::for_each_part(const SelectElement& select, const std::function<void(const Part& part)>& visit) const {
+  constexpr std::size_t corners = 8;
+  for (const fem::Mesh& mesh : meshes_) {
+    const std::size_t rows = fem::points_per_element(mesh.quadrature);
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+      const auto& nodes = mesh.elements.corners[e];
+      Vector3 centre = Vector3::Zero();
+      for (const std::uint32_t a : nodes) centre += mesh.nodes.position[a] / corners;
+      double reach = 0.0;
+      for (const std::uint32_t a : nodes) reach = std::max(reach, (mesh.nodes.position[a] - centre).norm());
+      if (!select(mesh.elements.id[e], centre, reach)) continue;
+      for (std::size_t k = 0; k < corners; ++k) {
+        const std::size_t row = e * rows + (rows == corners ? k : 0);
+        const double fraction = rows == corners ? 1.0 : 1.0 / corners;
+        Part part{corners * mesh.elements.id[e] + k, Vector3::Zero(), Vector3::Zero(),
+                  fraction * mesh.points.mass[row], fraction * mesh.points.volume[row], mesh.points, row};
+        for (std::size_t a = 0; a < corners; ++a) {
+          double weight = 1.0 / corners;
+          for (std::size_t i = 0; i < 3; ++i) {
+            weight *= 1.0 + 0.5 * fem::corner_coordinates[a][i] * fem::corner_coordinates[k][i];
+          }
+          part.position += weight * mesh.nodes.position[nodes[a]];
+          part.velocity += weight * mesh.nodes.velocity[nodes[a]];
+        }
+        visit(part);
+      }
+    }
+  }
 }
 
 std::string Hexahedra::count_text(std::size_t body) const {

@@ -103,6 +103,13 @@ void ParticleCarrier::for_each_point(const std::function<void(const Point& point
   }
 }
 
+void ParticleCarrier::for_each_part(const SelectElement&, const std::function<void(const Part& part)>& visit) const {
+  const Particles& q = state_.particles;
+  for (std::size_t p = 0; p < q.size(); ++p) {
+    visit({q.id[p], q.position[p], q.velocity[p], q.mass[p], q.volume[p], q, p});
+  }
+}
+
 std::string ParticleCarrier::count_text(std::size_t body) const {
   if (state_.setup.bodies[body].discretization.has_elements() || state_.setup.bodies[body].discretization.is_bars()) {
     return {};

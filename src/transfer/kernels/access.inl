@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The nodes that the points of a block reach, and the two ways to them (part of src/transfer/kernels.hpp)
+// The nodes that the points of a block reach, and the two ways to them (part of src/transfer/register_kernels.hpp)
 
 /// Blocks with fewer particles than this use direct access: that costs by the stencil, of which linear
 /// functions have one for all particles of a cell.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The entries (part of src/transfer/kernels.hpp)
+// The entries (part of src/transfer/register_kernels.hpp)
 
 /// The entries. Everything they call is inlined into them.
 struct Kernels {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What points take from their nodes (part of src/transfer/kernels.hpp)
+// What points take from their nodes (part of src/transfer/register_kernels.hpp)
 
 /// D = a_p(x_i) - v_i is the difference of the particle's affine field and the grid's velocity at node i.
 template <bool affine, class Group>

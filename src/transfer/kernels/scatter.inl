@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What points bring to their nodes (part of src/transfer/kernels.hpp)
+// What points bring to their nodes (part of src/transfer/register_kernels.hpp)
 
 constexpr std::size_t ahead = 8;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums over the nodes of a stencil, built up direction by direction (part of src/transfer/kernels.hpp)
+// Sums over the nodes of a stencil, built up direction by direction (part of src/transfer/register_kernels.hpp)
 
 /// Points that take something at a time; if there are fewer, the last stands for the others.
 using PointsOfGroup = std::array<std::uint32_t, together>;

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "src/transfer/register_kernels.hpp"
+
+/// The transfers as plain loops over points and their nodes, one number at a time, as docs/theory/mpm.md, 3 to 5,
+/// writes them: the reference that the kernels for registers are compared with (`--device reference`).
+namespace whipple::transfer::plain {
+
+inline Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
+inline Lanes lanes(const Vector3& v, double fourth = 0.0) { return Lanes{v[0], v[1], v[2], fourth}; }
+inline std::array<Lanes, 3> columns(const Matrix3& m) {
+  return {lanes(m.col(0)), lanes(m.col(1)), lanes(m.col(2))};
+}
+
+/// Shape function N of a node at a point, its gradient (1/m) and the vector r from the point to the node (m).
+struct AtNode {
+  double n;
+  Vector3 gradient, r;
+};
+
+/// Returns N, dN/dx and r of the nodes that a point reaches along a direction.
+template <class Shape, class Points>
+AxisWeights<Shape::count> along_axis(const Points& points, std::size_t p, const grid::PlaceInStencil& place,
+                                     std::size_t direction, double cell_size) {
+  if constexpr (Planar<Shape>) {
+    if (direction == 2) return {.weight = {1.0}, .derivative = {}, .distance = {}};
+  }
+  const double from_first = place.from_first(direction);
+  if constexpr (Sized<Shape>) {
+    const Vector3 h = half_sizes(points.extent[p], cell_size);
+    return Shape::weights(from_first, h[static_cast<Eigen::Index>(direction)], cell_size);
+  } else {
+    return Shape::weights(from_first, cell_size);
+  }
+}
+
+/// Calls f(node, AtNode) for the nodes of a point.
+template <class Shape, class Points, class Function>
+void for_each_node(const Points& points, std::size_t p, const grid::PlaceInStencil& place, double cell_size,
+                   narrow::DirectAccess<Shape>& access, Function&& f) {
+  const auto x = along_axis<Shape>(points, p, place, 0, cell_size);
+  const auto y = along_axis<Shape>(points, p, place, 1, cell_size);
+  const auto z = along_axis<Shape>(points, p, place, 2, cell_size);
+  const auto nodes = access.stencil(place.first_node());
+  for (std::size_t i = 0; i < Shape::count; ++i) {
+    for (std::size_t j = 0; j < Shape::count; ++j) {
+      for (std::size_t k = 0; k < count_z<Shape>; ++k) {
+        f(nodes(i, j, k), AtNode{.n = x.weight[i] * y.weight[j] * z.weight[k],
+                                 .gradient = {x.derivative[i] * y.weight[j] * z.weight[k],
+                                              x.weight[i] * y.derivative[j] * z.weight[k],
+                                              x.weight[i] * y.weight[j] * z.derivative[k]},
+                                 .r = {x.distance[i], y.distance[j], z.distance[k]}});
+      }
+    }
+  }
+}
+
+/// Convects an affine field with a step (4.8). @returns its loss of |C|^2
+inline double convect(Matrix3& c, const Matrix3& gradient, double dt) {
+  const Matrix3 deformation = Matrix3::Identity() + dt * gradient;
+  if (deformation.determinant() <= 0.1) return 0.0;
+  const Matrix3 carried = c * deformation.inverse();
+  const double before = c.squaredNorm(), after = carried.squaredNorm();
+  const double cap = after > before ? std::sqrt(before / after) : 1.0;
+  c = cap * carried;
+  return before - c.squaredNorm();
+}
+
+/// What a point takes of the advanced nodes in the symplectic scheme (4.1 to 4.5, 4.8).
+template <AffineField field>
+struct Transfer {
+  static constexpr bool affine = field != AffineField::none;
+  double dt;
+
+  template <class Shape, class Points, class ForEachNode>
+  Advance<> of(const Points& points, std::size_t p, double cell_size, const ForEachNode& for_each) const {
+    const Vector3 velocity = points.velocity[p];
+    Matrix3 c = Matrix3::Zero();
+    if constexpr (affine) c = points.affine_velocity[p];
+    Vector3 v = Vector3::Zero(), d = v, change = v;                        // sum N v', N d, N (d - beta D)
+    Matrix3 grad_v = Matrix3::Zero(), grad_d = grad_v, change_r = grad_v;  // the same with grad N, or with N r^T
+    double loss = 0.0, contact_heat = 0.0;
+    for_each([&](const grid::Node& node, const AtNode& at) {
+      const Vector3 v_i = vector(node.registers.first), d_i = vector(node.registers.second);
+      const double beta = node.registers.first[3];
+      const Vector3 difference = velocity + c * at.r - v_i, change_i = d_i - beta * difference;
+      v += at.n * (v_i + d_i);
+      grad_v += (v_i + d_i) * at.gradient.transpose();
+      d += at.n * d_i;
+      grad_d += d_i * at.gradient.transpose();
+      change += at.n * change_i;
+      change_r += at.n * change_i * at.r.transpose();
+      loss += at.n * (0.5 * d_i.squaredNorm() + beta * difference.dot(difference - d_i));
+      contact_heat += at.n * node.registers.second[3];
+    });
+    loss -= 0.5 * change.squaredNorm();
+    if constexpr (affine) {
+      const double inertia = Shape::second_moment * cell_size * cell_size;
+      if (carries_field(points, p)) {
+        loss -= 0.5 * change_r.squaredNorm() / inertia;
+        c += change_r / inertia;
+      }
+      if constexpr (field == AffineField::deformed) loss += 0.5 * inertia * convect(c, grad_v, dt);
+    }
+    return {.grid_velocity = {lanes(v), columns(grad_v)},
+            .increment = {lanes(d, contact_heat), columns(grad_d)},
+            .velocity = lanes(velocity + change),
+            .affine = columns(c),
+            .heat = broadcast(loss)};
+  }
+
+ private:
+  /// Some nodes of elements carry no affine field.
+  template <class Points>
+  static bool carries_field(const Points& points, std::size_t p) {
+    if constexpr (requires { points.unrelaxed; }) return p >= points.unrelaxed;
+    return true;
+  }
+};
+
+/// New velocity of the grid and its increment (5.1).
+struct Update {
+  template <class Shape, class Points, class ForEachNode>
+  VelocityUpdate<> of(const Points&, std::size_t, double, const ForEachNode& for_each) const {
+    VelocityUpdate<> sums{};
+    for_each([&](const grid::Node& node, const AtNode& at) {
+      const Lanes after = node.registers.first + node.registers.second;
+      sums.after.value += at.n * after;
+      for (std::size_t a = 0; a < 3; ++a) sums.after.gradient[a] += at.gradient[static_cast<Eigen::Index>(a)] * after;
+      sums.increment += at.n * node.registers.second;
+    });
+    return sums;
+  }
+};
+
+/// Sums of the first register of the nodes.
+struct First {
+  template <class Shape, class Points, class ForEachNode>
+  ValueAndGradient<> of(const Points&, std::size_t, double, const ForEachNode& for_each) const {
+    ValueAndGradient<> sums{};
+    for_each([&](const grid::Node& node, const AtNode& at) {
+      sums.value += at.n * node.registers.first;
+      for (std::size_t a = 0; a < 3; ++a) {
+        sums.gradient[a] += at.gradient[static_cast<Eigen::Index>(a)] * node.registers.first;
+      }
+    });
+    return sums;
+  }
+};
+
+/// The entries, as those of the kernels for registers (src/transfer/kernels/entries.inl).
+struct Kernels {
+  template <AffineField field>
+  using Transfer = plain::Transfer<field>;
+  using Update = plain::Update;
+  using First = plain::First;
+
+  template <class Shape, class Sums, class Points, class Take>
+  static void gather(const Points& points, grid::BlockGrid& grid, grid::BlockGrid::Points kind, std::size_t slot,
+                     const Sums& sums, const Take& take) {
+    const std::span<const grid::PlaceInStencil> places = grid.places(kind);
+    const std::uint32_t* const list = grid.members(kind, slot).data();
+    const double cell_size = grid.cell_size(slot);
+    grid.for_each_field(kind, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
+      narrow::DirectAccess<Shape> access(grid, slot, field);
+      for (const std::uint32_t& p : members) {
+        take(static_cast<std::size_t>(&p - list), p,
+             sums.template of<Shape>(points, p, cell_size, [&](auto&& f) {
+               for_each_node<Shape>(points, p, places[p], cell_size, access, f);
+             }));
+      }
+    });
+  }
+
+  template <class Shape, class What>
+  static void scatter(const What& what, grid::BlockGrid& grid, std::size_t slot) {
+    const std::span<const grid::PlaceInStencil> places = grid.places(What::kind);
+    const double cell_size = grid.cell_size(slot);
+    grid.for_each_field(What::kind, slot, [&](std::span<const std::uint32_t> members, unsigned field) {
+      narrow::DirectAccess<Shape> access(grid, slot, field);
+      for (const std::uint32_t p : members) {
+        const auto load = what.template load<CarriesAffineField<Shape>>(p);
+        for_each_node<Shape>(what.points, p, places[p], cell_size, access, [&](grid::Node& node, const AtNode& at) {
+          add(load, at, node);
+        });
+      }
+    });
+  }
+
+ private:
+  /// Adds mass, momentum, sound speed and force of a point to a node (3.1 to 3.3).
+  static void add(const Payload& load, const AtNode& at, grid::Node& node) {
+    node.registers.first += at.n * (load.a0 + at.r[0] * load.ax + at.r[1] * load.ay + at.r[2] * load.az);
+    node.registers.second +=
+        at.n * load.b0 + at.gradient[0] * load.bx + at.gradient[1] * load.by + at.gradient[2] * load.bz;
+  }
+  /// Adds mass and momentum only.
+  static void add(Lanes load, const AtNode& at, grid::Node& node) { node.registers.first += at.n * load; }
+};
+
+}  // namespace whipple::transfer::plain
