@@ -111,7 +111,7 @@ const analysis::Run& Folder::snapshots_of(const std::string& name) {
   Known& entry = known(name);
   const fs::path folder = run(name);
   std::error_code missing;
-  fs::file_time_type written{};
+  fs::file_time_type written = fs::file_time_type::min();
   for (fs::directory_iterator file(folder, missing), last; file != last; file.increment(missing)) {
     if (file->path().extension().string().starts_with(".series")) written = std::max(written, file->last_write_time(missing));
   }

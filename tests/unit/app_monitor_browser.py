@@ -45,7 +45,7 @@ class Browser:
         self.session = ""
         arguments = ["--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
                      "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                     "--window-size=1400,1000", f"--user-data-dir={profile}"]
+                     "--window-size=1200,800", f"--user-data-dir={profile}"]
         options = {"browserName": "chrome", "goog:chromeOptions": {"binary": browser, "args": arguments},
                    "goog:loggingPrefs": {"browser": "ALL"}, "unhandledPromptBehavior": "ignore"}
         self.session = "/session/" + self.do("POST", "/session", {"capabilities": {"alwaysMatch": options}})["sessionId"]
@@ -142,7 +142,7 @@ def check_run(browser, address, key):
     require(browser.js("return location.hash") == "", "the key is out of the address bar")
     browser.click("nav details summary")
     browser.type("nav details input", "ball")
-    browser.type("nav textarea", "domain.cell_size='0.3 mm'\ntime.end='2 us'")
+    browser.type("nav textarea", "domain.cell_size='0.5 mm'\ntime.end='6 us'\noutput.snapshot_every='0.04 us'")
     browser.click("nav form button")
     browser.wait(f"return {running} === 'running'", "the run")
     browser.wait("return document.querySelectorAll('.plot li').length > 5", "the curves")
@@ -164,9 +164,8 @@ def check_run(browser, address, key):
     browser.wait("return /snapshot_every 0.01 us.*accepted/s.test(document.querySelector('[aria-label=Answers]').innerText)", "the answer")
     browser.click("[data-act=resume]")
     browser.wait(f"return {running} === 'running'", "the run after the pause")
-    browser.click("[data-act=end]")
-    browser.do("POST", "/alert/accept")
-    browser.wait("return document.querySelector('[data-act=restart]') !== null", "the end")
+    browser.click("[data-act=stop]")
+    browser.wait("return document.querySelector('[data-act=restart]') !== null", "the stop")
     browser.click("[data-act=restart]")
     browser.wait(f"return {running} === 'running'", "the run continued")
     browser.click("[data-act=end]")
