@@ -110,6 +110,7 @@ bool Desk::is_from_here(const Question& question) const {
 }
 
 std::string Desk::file_of(const std::string& path, std::string& type) const {
+  if (!path.starts_with('/')) return {};
   const std::string name = path.size() == 1 ? "/index.html" : path;
   const bool of_view = name.starts_with("/viewer/");
   const std::string own = name.substr(of_view ? 8 : 1);

@@ -21,7 +21,7 @@ struct RunOptions {
                                            ///< restart: continue although rows of its tables are missing
   int threads = 0;                         ///< of each rank; 0: its part of the cores
   double wall_time = 0.0;                  ///< s, then a checkpoint is written and the run ends; 0: no limit
-  std::filesystem::path replay;            ///< steering.csv whose requests are repeated; empty: none
+  std::filesystem::path replay = {};       ///< steering.csv whose requests are repeated; empty: none
   std::string program = "whipple";         ///< name and version, for provenance
   std::vector<std::pair<std::string, std::string>> overrides;  ///< --set
 };

@@ -143,14 +143,15 @@ def check_run(monitor, folder):
     wait_for(lambda: any(entry["name"] == "ball" and entry["step"] > 3 for entry in monitor.get("/runs")["runs"]), "steps of the run")
     require(monitor.post("/start", {"case": "small_impact", "run": "ball", "set": []})[0] == 400, "not twice")
 
-    require(monitor.post("/steer", {"run": "ball", "request": "pause", "value": ""})[0] == 202, "pause")
+    answer = monitor.post("/steer", {"run": "ball", "request": "pause", "value": ""})
+    require(answer[0] == 202, f"pause: {answer}")
     wait_for(lambda: monitor.get(run)["status"]["state"] == "paused", "the pause")
     step = monitor.get(run)["status"]["step"]
     time.sleep(0.5)
     wait_for(lambda: monitor.get(run)["answers"], "the answer to it")
     described = monitor.get(run)
     rows = described["rows"]
-    require(described["status"]["step"] == step and rows > 1, "no step in the pause")
+    require(described["status"]["step"] == step and rows > 1, f"no step in the pause: {step}, {described['status']}, {rows} rows")
     require(described["answers"][-1]["request"] == "pause" and described["answers"][-1]["answer"] == "accepted", f"{described['answers']}")
     require("A ball" not in described["title"] and described["log"], "title and log")
     status, body = monitor.post("/steer", {"run": "ball", "request": "snapshot_every", "value": "3 s/m"})
@@ -172,8 +173,7 @@ def check_run(monitor, folder):
     wait_for(lambda: monitor.get(run)["rows"] > rows, "further steps")
     require(monitor.post("/steer", {"run": "ball", "request": "checkpoint", "value": ""})[0] == 202, "a checkpoint")
     wait_for(lambda: monitor.get(run)["answers"][-1]["request"] == "checkpoint", "the checkpoint")
-    holder = [int(pid.name) for pid in pathlib.Path("/proc").iterdir() if pid.name.isdigit()
-              and str(folder / "ball").encode() in read_arguments(pid)]
+    holder = runs_in(folder)
     require(len(holder) == 1, f"one process: {holder}")
     os.kill(holder[0], signal.SIGKILL)
     begin = time.monotonic()
@@ -187,10 +187,15 @@ def check_run(monitor, folder):
     require(monitor.post("/steer", {"run": "ball", "request": "pause", "value": ""})[0] == 400, "a run that has ended takes no request")
 
 
-def read_arguments(pid):
-    with contextlib.suppress(OSError):
-        return (pid / "cmdline").read_bytes()
-    return b""
+def runs_in(folder):
+    """Processes that have the folder among their arguments, but for monitors."""
+    found = []
+    for pid in pathlib.Path("/proc").iterdir():
+        with contextlib.suppress(OSError):
+            arguments = (pid / "cmdline").read_bytes() if pid.name.isdigit() else b""
+            if str(folder).encode() in arguments and b"\0run\0" in arguments:
+                found.append(int(pid.name))
+    return found
 
 
 def main():
@@ -215,4 +220,8 @@ def main():
     require(refused.returncode == 2 and "no such folder" in refused.stderr, f"a missing folder: {refused}")
 
 
-main()
+try:
+    main()
+finally:
+    for left in runs_in(FOLDER):
+        os.kill(left, signal.SIGKILL)
