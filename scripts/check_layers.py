@@ -47,6 +47,8 @@ MAY_USE = {
     "src/analysis": ["src/core/base", "src/core/parallel", "src/core/hdf5", "src/grid", "src/material", "src/case"],
     # Packs what runs wrote for the browser.
     "src/view": ["src/core/base", "src/grid", "src/io", "src/analysis"],
+    # The page of running simulations and its server.
+    "src/monitor": ["src/core/base", "src/core/process", "src/io", "src/analysis", "src/view", "src/run"],
     # Writes cases from the decks of other codes, as text; looks heat capacities up in the material library.
     "src/decks": ["src/core/base", "src/core/input", "src/material"],
     "md_fitting/plan": ["src/core/base", "src/core/input"],
@@ -59,7 +61,7 @@ MAY_USE = {
     # whipple-md for states.
     "src/app": ["src/core/base", "src/core/input", "src/core/parallel", "src/core/process", "eos", "eos/curves", "eos/experiments", "eos/files",
                 "src/particles", "src/grid", "src/material",
-                "src/transfer", "src/io", "src/analysis", "src/view", "src/decks", "src/case", "src/solver", "src/run", "src/bench",
+                "src/transfer", "src/io", "src/analysis", "src/view", "src/monitor", "src/decks", "src/case", "src/solver", "src/run", "src/bench",
                 "md_fitting/plan",
                 "md_fitting/simulated_crystal"],
 }
@@ -89,6 +91,7 @@ CONFINED = [
     ("LAMMPS", re.compile(r"^\s*#\s*include\s*[<\"](lammps/|library\.h)"), ["md_fitting/lammps"]),
     ("HDF5", re.compile(r"^\s*#\s*include\s*[<\"](hdf5|H5\w+)\.h"), ["src/core/hdf5", VERSION_QUERY]),
     ("p4est", re.compile(r"^\s*#\s*include\s*[<\"](p[48]est\w*|sc(_\w+)?)\.h"), ["src/grid", VERSION_QUERY]),
+    ("network", re.compile(r"^\s*#\s*include\s*[<\"]boost/(asio|beast)"), ["src/monitor"]),
     ("UDUNITS2", re.compile(r"^\s*#\s*include\s*[<\"]udunits2\.h"), ["src/core/base"]),
 ]
 
@@ -109,6 +112,7 @@ WORDS_ALLOWED = {
     "src/app/materials_table.cpp": "groups of the material library, which are folders",
     "src/fem/gmsh.cpp": "grammar of Gmsh",
     "src/material/material_file.cpp": "endings of file names",
+    "src/monitor/answers.cpp": "heads of HTTP and what browsers write into them",
     "src/run/directory_control.cpp": "endings of file names",
     "src/run/run.cpp": "the file name case.toml",
 }

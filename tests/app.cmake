@@ -2,7 +2,7 @@
 whipple_test(process_test SOURCES unit/process_run.cpp DEPENDS whipple_process LABELS fast)
 whipple_test(bench_test SOURCES unit/bench_reference_kernel_test.cpp DEPENDS whipple_bench LABELS fast)
 whipple_test(app_command_line_test SOURCES unit/app_command_line.cpp DEPENDS GTest::gmock nlohmann_json::nlohmann_json LABELS fast)
-whipple_test(app_planar_impact_test SOURCES unit/app_planar_impact_test.cpp DEPENDS whipple_app nlohmann_json::nlohmann_json LABELS fast)
+whipple_test(app_planar_impact_test SOURCES unit/app_planar_impact_test.cpp unit/monitor_table_test.cpp DEPENDS whipple_app nlohmann_json::nlohmann_json LABELS fast)
 whipple_test(foreign_files_test SOURCES fuzz/foreign_files.cpp DEPENDS whipple_app GTest::gmock LABELS fast)
 whipple_test(decks_import_test SOURCES unit/decks_import_test.cpp DEPENDS whipple_decks whipple_case GTest::gmock LABELS fast)
 add_dependencies(app_command_line_test whipple whipple-md whipple-fit)
@@ -22,6 +22,12 @@ if(WHIPPLE_PYTHON)
   add_test(NAME app_surroundings COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_surroundings.py
            ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml)
   set_tests_properties(app_surroundings PROPERTIES LABELS fast TIMEOUT 300)
+  add_test(NAME app_monitor COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_monitor.py $<TARGET_FILE:whipple>
+           ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/app_monitor)
+  add_test(NAME app_monitor_browser COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_monitor_browser.py
+           $<TARGET_FILE:whipple> ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/app_monitor_browser)
+  set_tests_properties(app_monitor PROPERTIES LABELS fast TIMEOUT 300)
+  set_tests_properties(app_monitor_browser PROPERTIES LABELS browser TIMEOUT 300 SKIP_RETURN_CODE 77)
 endif()
 
 # The library as another program finds it; the libraries of a build with sanitizers need their flags.

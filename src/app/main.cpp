@@ -24,6 +24,7 @@
 #include "src/app/import_command.hpp"
 #include "src/app/materials_command.hpp"
 #include "src/app/md_command.hpp"
+#include "src/app/monitor_command.hpp"
 #include "src/app/report_command.hpp"
 #include "src/app/run_command.hpp"
 #include "src/app/steer_command.hpp"
@@ -73,6 +74,7 @@ int whipple_main(int argc, char** argv) {
   add_analyse_command(app);
   add_report_command(app);
   add_view_command(app);
+  add_monitor_command(app);
   add_eos_command(app);
   add_describe_command(app);
   add_materials_command(app);

@@ -31,6 +31,7 @@ struct Arguments {
   std::string restart;
   std::vector<std::string> set;
   std::string wall_time;
+  std::string replay;
   int threads = 0;
   int ranks = 0;
   Device device = Device::cpu;
@@ -45,9 +46,11 @@ run::RunOptions run_options(const Arguments& arguments) {
       .force = arguments.force,
       .threads = arguments.threads,
       .wall_time = arguments.wall_time.empty() ? 0.0 : units::parse_quantity(arguments.wall_time, "s"),
+      .replay = arguments.replay,
       .program = fmt::format("whipple {} ({})", build_info().version, build_info().revision),
       .overrides = {}};
   if (options.restart) {
+    if (!arguments.replay.empty()) throw InputError("--replay repeats a run from its start: it cannot join --restart");
     if (!arguments.output.empty())
       throw InputError("--restart DIR resumes in DIR: -o cannot name another one");
     if (!arguments.case_file.empty()) {
@@ -83,6 +86,7 @@ int run_on_ranks(const Arguments& arguments) {
   pass("--output", arguments.output);
   pass("--restart", arguments.restart);
   pass("--wall-time", arguments.wall_time);
+  pass("--replay", arguments.replay);
   for (const std::string& entry : arguments.set) pass("--set", entry);
   if (arguments.threads > 0) pass("--threads", std::to_string(arguments.threads));
   if (arguments.device == Device::reference) pass("--device", "reference");
@@ -151,6 +155,10 @@ void add_run_command(CLI::App& app) {
       ->add_option("--wall-time", arguments->wall_time,
                    "Write a checkpoint and end after this time, e.g. '2 hour'")
       ->type_name("TIME");
+  command
+      ->add_option("--replay", arguments->replay,
+                   "Repeat the requests to an earlier run (its steering.csv) after the same steps; others are ignored")
+      ->type_name("FILE");
   command->footer(
       "Example:\n  whipple run cases/copper_disk_on_aluminium/case.toml -o run/disk --set time.end='5 us'\n"
       "  whipple run --restart run/disk\n"

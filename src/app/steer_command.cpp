@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -23,28 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the folder itself, or the run directories in it at any depth, by name. Run directories are not searched, links
-/// not followed.
-std::vector<fs::path> runs_in(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw InputError(fmt::format("{}: there is no such folder", folder.string()));
-  const auto is_run = [](const fs::path& path) { return fs::exists(path / "status.json"); };
-  if (is_run(folder)) return {folder};
-  std::vector<fs::path> runs;
-  constexpr auto passing = fs::directory_options::skip_permission_denied;
-  for (fs::recursive_directory_iterator entry(folder, passing), last; entry != last; ++entry) {
-    if (!entry->is_directory() || !is_run(entry->path())) continue;
-    runs.push_back(entry->path());
-    entry.disable_recursion_pending();
-  }
-  std::ranges::sort(runs);
-  if (runs.empty()) throw InputError(fmt::format("{}: contains no run with a status.json", folder.string()));
-  return runs;
-}
-
 void print_status(const fs::path& folder) {
   std::vector<std::vector<std::string>> rows = {
       {"run", "state", "done", "step", "t [us]", "end [us]", "left", "message"}};
-  for (const fs::path& path : runs_in(folder)) {
+  const std::vector<fs::path> runs = run::find_runs(folder);
+  if (runs.empty()) throw InputError(fmt::format("{}: contains no run with a status.json", folder.string()));
+  for (const fs::path& path : runs) {
     const run::RunStatus s = run::read_status(path);
     rows.push_back({path.string(), std::string(word_of(s.state)), fmt::format("{:.1f} %", s.end > 0.0 ? 100.0 * s.time / s.end : 0.0),
                     fmt::format("{}", s.step), fmt::format("{:.4g}", 1e6 * s.time), fmt::format("{:.4g}", 1e6 * s.end),

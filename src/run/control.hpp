@@ -15,7 +15,7 @@ struct Requests {
   Request steering;
 
   /// Returns whether the run ends before its time.
-  [[nodiscard]] bool stop() const { return signal != 0 || out_of_time; }
+  [[nodiscard]] bool stop() const { return signal != 0 || out_of_time || steering.act == Act::stop; }
 };
 
 /// Asks things of a run. The loop calls it on every rank after each step, and again and again while the run is

@@ -37,8 +37,6 @@ std::string replaced_by(const Request& request, const Schedule& schedule) {
   return entry.changes == nullptr ? "" : fmt::format("was {}", number_of(entry, schedule));
 }
 
-constexpr const char* header = "time [s],step,file,request,value,answer,detail";
-
 /// Finds the answer to the request of a file in the table; nothing if it holds none.
 std::optional<Answer> find_answer(const fs::path& table, const std::string& file) {
   std::ifstream rows(table, std::ios::binary);

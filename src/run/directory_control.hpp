@@ -38,6 +38,9 @@ class DirectoryControl : public RunControl {
 
   void ask(const Moment& moment, Requests& requests) override;
 
+  /// The head of the table of answers, steering.csv.
+  static constexpr const char* header = "time [s],step,file,request,value,answer,detail";
+
  private:
   void look();
   /// Removes a file of the folder, answers it, and returns what is to be done.

@@ -23,6 +23,7 @@ constexpr auto table = std::to_array<ActEntry>({
     {Act::resume, "resume", "continue after `pause`"},
     {Act::snapshot, "snapshot", "write a snapshot more"},
     {Act::checkpoint, "checkpoint", "write a checkpoint more"},
+    {Act::stop, "stop", "write a checkpoint and stop; `whipple run --restart` continues"},
     {Act::end, "end", "end at this simulated time; without a value: after the step under way", &Schedule::end,
      "time.end"},
     {Act::snapshot_every, "snapshot_every", "simulated time between snapshots", &Schedule::snapshot_every,

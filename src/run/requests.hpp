@@ -31,6 +31,7 @@ enum class Act : std::uint8_t {
   resume,
   snapshot,
   checkpoint,
+  stop,
   end,
   snapshot_every,
   checkpoint_every,

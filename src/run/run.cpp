@@ -30,6 +30,7 @@
 #include "src/run/observers/status_file.hpp"
 #include "src/run/observers/summary.hpp"
 #include "src/run/preparation.hpp"
+#include "src/run/replay_control.hpp"
 #include "src/run/restart.hpp"
 #include "src/run/runner.hpp"
 #include "src/run/signal_control.hpp"
@@ -105,17 +106,23 @@ Observers observers_of(solver::Simulation& simulation, const io::RunDirectory& d
 }
 
 /// Makes the steps while signals and files of the run directory steer them. @returns the exit code
-int run_with_controls(Runner& runner, const io::RunDirectory& directory, const io::Ranks& ranks) {
+/// @param replay  the requests that are repeated; null: those in the run directory are followed
+int run_with_controls(Runner& runner, const io::RunDirectory& directory, const io::Ranks& ranks,
+                      ReplayControl* replay = nullptr) {
   SignalControl signals;
   std::vector<RunControl*> controls = {&signals};
   std::optional<DirectoryControl> requests;
-  ranks.on_root([&] { controls.push_back(&requests.emplace(directory)); });
+  ranks.on_root([&] {
+    controls.push_back(replay != nullptr ? static_cast<RunControl*>(replay) : &requests.emplace(directory));
+  });
   return runner.run(controls);
 }
 
 /// Runs a case from its start. @returns the exit code
 int begin(const RunOptions& options, MPI_Comm communicator) {
   const io::Ranks ranks(communicator);
+  std::optional<ReplayControl> replay;
+  if (!options.replay.empty()) replay.emplace(options.replay);  // on every rank, which all see what is wrong
   cases::Case setup = cases::read_case(options.case_file, options.overrides);
   require_memory(setup, communicator);
   cases::tabulate_materials(setup, ranks);
@@ -127,7 +134,7 @@ int begin(const RunOptions& options, MPI_Comm communicator) {
   solver::Simulation simulation(setup, communicator);
   Runner runner(simulation, observers_of(simulation, directory, options, ranks), options.wall_time);
   runner.begin();
-  return run_with_controls(runner, directory, ranks);
+  return run_with_controls(runner, directory, ranks, replay ? &*replay : nullptr);
 }
 
 /// Continues a run from its latest checkpoint. @returns the exit code

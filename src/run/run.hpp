@@ -21,13 +21,15 @@ struct RunOptions {
                                            ///< restart: continue although rows of its tables are missing
   int threads = 0;                         ///< of each rank; 0: its part of the cores
   double wall_time = 0.0;                  ///< s, then a checkpoint is written and the run ends; 0: no limit
+  std::filesystem::path replay = {};       ///< steering.csv whose requests are repeated; empty: none
   std::string program = "whipple";         ///< name and version, for provenance
   std::vector<std::pair<std::string, std::string>> overrides;  ///< --set
 };
 
 /// Runs a case from its file to its last snapshot on the ranks of a communicator; docs/manual/output.md lists the files
 /// that it writes. Collective.
-/// Signals (`SignalControl`) and files in the run directory (`DirectoryControl`) steer it.
+/// Signals (`SignalControl`) and files in the run directory (`DirectoryControl`), or the requests to an earlier run
+/// (`ReplayControl`), steer it.
 /// @returns 0; 128 + number of the signal that ended the run; 124 at the limit of wall time
 /// @throws InputError before any work and before anything is written if the input is wrong;
 ///         StateError if the physics leaves its range: the state is saved in the folder failed/ of the run

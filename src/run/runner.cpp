@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <new>
 #include <thread>
 #include <utility>
@@ -126,7 +127,8 @@ Outcome Runner::outcome() const {
   if (requests_.signal != 0) {
     return {Outcome::Kind::stopped, 128 + requests_.signal, fmt::format("stopped by signal {}", requests_.signal)};
   }
-  return {Outcome::Kind::stopped, out_of_time_code, "stopped by the limit of wall time"};
+  if (requests_.out_of_time) return {Outcome::Kind::stopped, out_of_time_code, "stopped by the limit of wall time"};
+  return {Outcome::Kind::stopped, 128 + SIGTERM, "stopped on request"};
 }
 
 /// Tells the observers of a failure. @returns what the user is told

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "src/core/base/error.hpp"
 #include "src/io/run_directory.hpp"
@@ -53,6 +55,24 @@ RunStatus read_status(const std::filesystem::path& run) {
   }
   if (goes_on(status.state) && !io::is_running(run)) status.state = Activity::lost;
   return status;
+}
+
+std::vector<std::filesystem::path> find_runs(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  if (!fs::is_directory(folder)) throw InputError(fmt::format("{}: there is no such folder", folder.string()));
+  const auto is_run = [](const fs::path& path) { return fs::exists(path / "status.json"); };
+  if (is_run(folder)) return {folder};
+  std::vector<fs::path> runs;
+  std::error_code changed;  // a folder that is removed meanwhile
+  constexpr auto passing = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator entry(folder, passing, changed), last; entry != last; entry.increment(changed)) {
+    if (changed) break;
+    if (!entry->is_directory(changed) || !is_run(entry->path())) continue;
+    runs.push_back(entry->path());
+    entry.disable_recursion_pending();
+  }
+  std::ranges::sort(runs);
+  return runs;
 }
 
 }  // namespace whipple::run

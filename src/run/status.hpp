@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "src/core/base/words.hpp"
 
@@ -44,5 +45,9 @@ void write_status(const std::filesystem::path& file, const RunStatus& status);
 /// Reads the file of a run directory. A run that says it goes on, but is held by no process, is lost.
 /// @throws InputError if there is no such file or it is damaged
 RunStatus read_status(const std::filesystem::path& run);
+
+/// Returns the folder itself, if it is a run directory, or those in it at any depth, by name. Run directories are not
+/// searched, links not followed. @throws InputError if there is no such folder
+std::vector<std::filesystem::path> find_runs(const std::filesystem::path& folder);
 
 }  // namespace whipple::run

@@ -28,6 +28,7 @@
 #include "src/run/observers/input_record.hpp"
 #include "src/run/observers/snapshots.hpp"
 #include "src/run/observers/status_file.hpp"
+#include "src/run/replay_control.hpp"
 #include "src/run/runner.hpp"
 #include "src/run/status.hpp"
 #include "tests/unit/temporary_folder.hpp"
@@ -119,7 +120,7 @@ class Steering : public ::testing::Test {
 
   /// Runs the case in a new folder; `files` are put into its folder control/ before.
   Result run(std::multimap<std::int64_t, Request> script,
-             const std::vector<std::pair<std::string, std::string>>& files = {}) {
+             const std::vector<std::pair<std::string, std::string>>& files = {}, RunControl* replay = nullptr) {
     Result result;
     result.folder = temporary_.path() / std::to_string(++runs_);
     const cases::Case setup = ball_on_plate();
@@ -140,7 +141,8 @@ class Steering : public ::testing::Test {
     Script control(std::move(script));
     DirectoryControl requests(directory, std::chrono::seconds(0));
     for (const auto& [name, content] : files) std::ofstream(directory.control_folder() / name) << content;
-    const std::vector<RunControl*> controls = {&control, &requests};
+    std::vector<RunControl*> controls = {&control, &requests};
+    if (replay != nullptr) controls.push_back(replay);
     result.code = runner.run(controls);
     result.time = simulation.state().time;
     result.steps = simulation.state().step;
@@ -217,6 +219,50 @@ TEST_F(Steering, EndNowEndsAsAWholeRunDoes) {
   EXPECT_EQ(result.snapshots.size(), 2U);
   EXPECT_EQ(result.checkpoints, 1U);
   EXPECT_EQ(read_status(result.folder).state, Activity::done);
+}
+
+TEST_F(Steering, StopCanBeContinued) {
+  const Result result = run({{6, {Act::stop}}});
+  EXPECT_EQ(result.code, 128 + 15);
+  EXPECT_EQ(result.steps, 6);
+  EXPECT_EQ(result.checkpoints, 1U);
+  EXPECT_EQ(read_status(result.folder).state, Activity::stopped);
+}
+
+TEST_F(Steering, AReplayIsTheSteeredRunBitForBit) {
+  const Result free = run({});
+  const Result steered = run({}, {{"1.toml", "request = \"snapshot_every\"\nvalue = \"0.07 us\"\n"},
+                                  {"2.toml", "request = \"pause\"\n"},
+                                  {"3.toml", "request = \"nonsense\"\n"},
+                                  {"4.toml", "request = \"history_every\"\nvalue = \"2\"\n"},
+                                  {"5.toml", "request = \"resume\"\n"},
+                                  {"6.toml", "request = \"end\"\nvalue = \"0.31 us\"\n"}});
+  ReplayControl replay(steered.folder / "steering.csv");
+  const Result again = run({}, {}, &replay);
+  expect_same_particles(steered, again);
+  EXPECT_NE(steered.steps, free.steps);  // the requests changed something
+  EXPECT_EQ(text_of(steered.folder / "history.csv"), text_of(again.folder / "history.csv"));
+  EXPECT_EQ(steered.snapshots, again.snapshots);
+}
+
+TEST_F(Steering, ATableThatCannotBeRepeatedIsRefused) {
+  const fs::path table = temporary_.path() / "steering.csv";
+  const auto refused = [&](const std::string& content) {
+    std::ofstream(table) << content;
+    try {
+      ReplayControl replay(table);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string head = std::string(DirectoryControl::header) + "\n";
+  EXPECT_EQ(refused(head), "");
+  EXPECT_THAT(refused("step\n"), HasSubstr("is no steering.csv"));
+  EXPECT_THAT(refused(head + "0,1,a,pause,,accepted\n"), HasSubstr("steering.csv:2: error: expected 7 cells"));
+  EXPECT_THAT(refused(head + "0,x,a,pause,,accepted,\n"), HasSubstr("number of a step"));
+  EXPECT_THAT(refused(head + "0,5,a,pause,,accepted,\n0,4,b,resume,,accepted,\n"), HasSubstr(":3: error: step 4 after step 5"));
+  EXPECT_THAT(refused(head + "0,5,a,end,1 kg,accepted,\n"), HasSubstr(":2: error: "));
 }
 
 /// A signal that comes while a run is paused.

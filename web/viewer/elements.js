@@ -6,6 +6,7 @@ export function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === 'function') made.addEventListener(name, value);
+    else if (name === 'style') made.style.cssText = value;  // as an attribute, the policy of a page may refuse it
     else if (value !== undefined && value !== false) made.setAttribute(name, value === true ? '' : value);
   }
   made.append(...children);

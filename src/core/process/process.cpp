@@ -138,6 +138,11 @@ pid_t start(std::vector<std::string> arguments, const Environment& environment, 
   return pid;
 }
 
+/// Takes notice of the ends of programs started in the background, which would stay as zombies.
+void forget_ended(std::vector<pid_t>& started) {
+  std::erase_if(started, [](pid_t pid) { return waitpid(pid, nullptr, WNOHANG) != 0; });
+}
+
 /// Tells whether a program has a child that has ended and that it has not taken notice of.
 bool has_dead_child(pid_t pid) {
   std::error_code gone;
@@ -197,6 +202,31 @@ int run_process(const std::vector<std::string>& arguments, const Environment& en
   if (signal == last_forwarded || supervision.may_be_killed) return 128 + signal;
   throw InternalError(
       fmt::format("'{}' was ended by signal {} ({})", arguments.front(), signal, strsignal(signal)));
+}
+
+void start_in_background(const std::vector<std::string>& arguments, const std::filesystem::path& output) {
+  static std::vector<pid_t> started;
+  forget_ended(started);
+  std::vector<std::string> program = arguments, variables = merged_environment({});
+  constexpr mode_t readable = 0644;
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_APPEND, readable);
+  posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+  pid_t pid = 0;
+  const int fault = posix_spawnp(&pid, program.front().c_str(), &files, &attributes, pointers(program).data(),
+                                 pointers(variables).data());
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&files);
+  if (fault != 0) {
+    throw InputError(fmt::format("cannot start '{}' with its output in {}: {}", arguments.front(), output.string(),
+                                 std::strerror(fault)));
+  }
+  started.push_back(pid);
 }
 
 int last_signal() { return last_forwarded; }

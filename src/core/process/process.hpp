@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,11 @@ struct Supervision {
 /// @throws InputError if the program cannot be started, InternalError if another signal ended it
 int run_process(const std::vector<std::string>& arguments, const Environment& environment = {},
                 const Supervision& supervision = {});
+
+/// Starts a program that goes on when this process ends or its terminal is closed, and does not wait for it. Standard
+/// input is empty; what it prints is appended to a file.
+/// @throws InputError if the program cannot be started or the file cannot be written
+void start_in_background(const std::vector<std::string>& arguments, const std::filesystem::path& output);
 
 /// The signal that was passed on last to the program that `run_process` started last; 0: none.
 int last_signal();

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/monitor/folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <system_error>
+
+#include "src/core/base/csv.hpp"
+#include "src/core/base/error.hpp"
+#include "src/run/requests.hpp"
+#include "src/run/status.hpp"
+#include "src/view/cloud.hpp"
+#include "src/view/page.hpp"
+
+namespace whipple::monitor {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json status_json(const run::RunStatus& status) {
+  return {{"state", word_of(status.state)},
+          {"goes_on", run::goes_on(status.state)},
+          {"time", number(status.time)},
+          {"step", status.step},
+          {"time_step", number(status.time_step)},
+          {"end", number(status.end)},
+          {"wall_time", number(status.wall_time)},
+          {"time_left", status.time_left ? number(*status.time_left) : json(nullptr)},
+          {"message", status.message},
+          {"written", status.written}};
+}
+
+json acts_json() {
+  json list = json::array();
+  for (const run::ActEntry& act : run::acts()) {
+    list.push_back({{"word", act.word},
+                    {"meaning", act.meaning},
+                    {"value", act.changes != nullptr},
+                    {"optional", act.act == run::Act::end},
+                    {"key", act.key}});
+  }
+  return list;
+}
+
+/// Returns the last lines of a text file, at most so many bytes of it.
+json last_lines(const fs::path& file, std::size_t lines) {
+  constexpr std::streamoff most = 16 * 1024;
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  json list = json::array();
+  if (!in) return list;
+  const std::streamoff size = in.tellg();
+  in.seekg(std::max<std::streamoff>(size - most, 0));
+  std::vector<std::string> all;
+  for (std::string line; std::getline(in, line);) all.push_back(line);
+  if (size > most && !all.empty()) all.erase(all.begin());  // the rest of a line
+  for (std::size_t i = all.size() > lines ? all.size() - lines : 0; i < all.size(); ++i) list.push_back(all[i]);
+  return list;
+}
+
+json answers_json(const fs::path& file) {
+  json list = json::array();
+  std::ifstream in(file, std::ios::binary);
+  std::string line;
+  std::getline(in, line);  // heads
+  while (std::getline(in, line)) {
+    const std::vector<std::string> cells = csv_cells(line);
+    if (cells.size() != 7) continue;
+    list.push_back({{"time", cells[0]}, {"step", cells[1]}, {"request", cells[3]}, {"value", cells[4]},
+                    {"answer", cells[5]}, {"detail", cells[6]}});
+  }
+  return list;
+}
+
+}  // namespace
+
+fs::path Folder::run(const std::string& name) const {
+  for (const fs::path& path : run::find_runs(path_)) {
+    if (path.lexically_relative(path_).generic_string() == name) return path;
+  }
+  throw InputError(fmt::format("no run \"{}\" in {}", name, path_.string()));
+}
+
+Folder::Known& Folder::known(const std::string& name) {
+  const fs::path path = run(name);
+  return known_.try_emplace(name, path).first->second;
+}
+
+json Folder::runs() const {
+  json list = json::array();
+  for (const fs::path& path : run::find_runs(path_)) {
+    json entry = {{"name", path.lexically_relative(path_).generic_string()}};
+    try {
+      entry.update(status_json(run::read_status(path)));
+    } catch (const InputError& error) {  // half written, or damaged: the others are shown
+      entry.update({{"state", "unknown"}, {"goes_on", false}, {"message", error.what()}});
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+json Folder::started() const { return last_lines(output_of_started(), 12); }
+
+const analysis::Run& Folder::snapshots_of(const std::string& name) {
+  Known& entry = known(name);
+  const fs::path folder = run(name);
+  std::error_code missing;
+  fs::file_time_type written = fs::file_time_type::min();
+  for (fs::directory_iterator file(folder, missing), last; file != last; file.increment(missing)) {
+    if (file->path().extension().string().starts_with(".series")) written = std::max(written, file->last_write_time(missing));
+  }
+  if (!entry.run || written != entry.index_written) {
+    entry.run = std::make_unique<analysis::Run>(analysis::read_run(folder));
+    entry.index_written = written;
+  }
+  return *entry.run;
+}
+
+json Folder::describe(const std::string& name) {
+  const fs::path path = run(name);
+  Known& entry = known(name);
+  entry.history.look();
+  entry.gauges.look();
+  json answer = {{"name", name},
+                 {"folder", fs::absolute(path).string()},
+                 {"title", ""},
+                 {"status", status_json(run::read_status(path))},
+                 {"acts", acts_json()},
+                 {"tables", {{"history", entry.history.heads()}, {"gauges", entry.gauges.heads()}}},
+                 {"rows", entry.history.rows()},
+                 {"snapshots", json::array()},
+                 {"answers", answers_json(path / "steering.csv")},
+                 {"log", last_lines(path / "log.txt", 40)}};
+  try {
+    const analysis::Run& run = snapshots_of(name);
+    answer["title"] = run.title;
+    for (const analysis::SnapshotEntry& snapshot : run.snapshots) answer["snapshots"].push_back(number(snapshot.time));
+  } catch (const InputError& error) {
+    answer["no_snapshots"] = error.what();
+  }
+  return answer;
+}
+
+json Folder::curves(const std::string& name, Table table, const std::string& x,
+                    const std::vector<std::string>& columns, std::size_t points) {
+  Known& entry = known(name);
+  GrowingTable& rows = table == Table::gauges ? entry.gauges : entry.history;
+  rows.look();
+  const auto place = [&](const std::string& head) {
+    const auto found = std::ranges::find(rows.heads(), head);
+    if (found == rows.heads().end()) throw InputError(fmt::format("no column \"{}\" in the {} of {}", head, word_of(table), name));
+    return static_cast<std::size_t>(found - rows.heads().begin());
+  };
+  json answer = json::object();
+  const std::size_t abscissa = place(x);
+  for (const std::string& head : columns) {
+    const std::size_t ordinate = place(head);
+    json of_x = json::array(), of_y = json::array();
+    for (const std::size_t row : rows.rows_to_draw(ordinate, points)) {
+      of_x.push_back(number(rows.column(abscissa)[row]));
+      of_y.push_back(number(rows.column(ordinate)[row]));
+    }
+    answer[head] = {{"x", std::move(of_x)}, {"y", std::move(of_y)}};
+  }
+  return answer;
+}
+
+std::string Folder::cloud(const std::string& name, std::size_t index, std::size_t most) {
+  const analysis::Run& run = snapshots_of(name);
+  if (index >= run.snapshots.size()) throw InputError(fmt::format("{} has {} snapshots", name, run.snapshots.size()));
+  const analysis::Snapshot snapshot = analysis::read_snapshot(run.snapshots[index]);
+  const std::size_t one_of = std::max<std::size_t>((snapshot.size() + most - 1) / std::max<std::size_t>(most, 1), 1);
+  return view::gzipped(view::pack_cloud(run, snapshot, {.fields = {}, .one_of = one_of}));
+}
+
+}  // namespace whipple::monitor

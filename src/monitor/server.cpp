@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/monitor/server.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>  // Boost 1.74 needs it and does not include it
+
+#include <boost/asio.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <random>
+
+#include "src/core/base/error.hpp"
+
+namespace whipple::monitor {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using tcp = asio::ip::tcp;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+constexpr std::size_t most_connections = 64, most_body = 64 * 1024, most_head = 16 * 1024;
+constexpr std::chrono::seconds silence(30), look(1);
+
+using Request = http::request<http::string_body>;
+using Response = http::response<http::string_body>;
+
+std::string text(beast::string_view view) { return {view.data(), view.size()}; }
+
+}  // namespace
+
+std::string random_token() {
+  std::random_device random;
+  std::string token;
+  for (int i = 0; i < 4; ++i) token += fmt::format("{:08x}", random());
+  return token;
+}
+
+struct Server::Connections {
+  asio::io_context io{1};
+  tcp::acceptor acceptor{io};
+  asio::steady_timer timer{io};
+  asio::signal_set signals{io};
+  std::size_t open = 0;
+  Clock::time_point asked = Clock::now();
+  Desk* desk = nullptr;
+
+  void accept();
+  void wait(std::chrono::seconds patience, const std::function<bool()>& may_end);
+};
+
+namespace {
+
+/// One connection: reads a question, writes the answer, and so on.
+class Session : public std::enable_shared_from_this<Session> {
+ public:
+  Session(Server::Connections& all, tcp::socket socket) : all_(all), stream_(std::move(socket)) { ++all_.open; }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  ~Session() { --all_.open; }
+
+  void read() {
+    parser_.emplace();
+    parser_->body_limit(most_body);
+    parser_->header_limit(most_head);
+    stream_.expires_after(silence);
+    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      if (error == http::error::body_limit) return self->write({413, "text/plain", "too long\n"}, false);
+      if (error == http::error::header_limit) return self->write({431, "text/plain", "too long\n"}, false);
+      if (!error) self->answer(self->parser_->release());
+    });
+  }
+
+ private:
+  void answer(const Request& request) {
+    all_.asked = Clock::now();
+    const bool changes = request.method() == http::verb::post;
+    if (!changes && request.method() != http::verb::get) return write({405, "text/plain", "GET or POST\n"}, false);
+    const Question question{.changes = changes,
+                            .target = text(request.target()),
+                            .host = text(request[http::field::host]),
+                            .origin = text(request[http::field::origin]),
+                            .site = text(request["Sec-Fetch-Site"]),
+                            .token = text(request["X-Whipple-Token"]),
+                            .content_type = text(request[http::field::content_type]),
+                            .body = request.body()};
+    Answer made;
+    try {
+      made = all_.desk->answer(question);
+    } catch (const std::exception& error) {  // a file that cannot be read, say: the server goes on
+      made = {500, "text/plain; charset=utf-8", std::string(error.what()) + "\n"};
+    }
+    write(made, request.keep_alive());
+  }
+
+  void write(const Answer& answer, bool keep) {
+    auto response = std::make_shared<Response>(static_cast<http::status>(answer.status), 11);
+    response->set(http::field::content_type, answer.type);
+    response->set(http::field::cache_control, "no-store");
+    response->set("X-Content-Type-Options", "nosniff");
+    response->set("Cross-Origin-Resource-Policy", "same-origin");
+    response->set("Referrer-Policy", "no-referrer");
+    response->set("Content-Security-Policy",
+                  "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
+                  "img-src 'self' data: blob:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
+    response->keep_alive(keep);
+    response->body() = answer.body;
+    response->prepare_payload();
+    stream_.expires_after(silence);
+    http::async_write(stream_, *response,
+                      [self = shared_from_this(), response, keep](beast::error_code error, std::size_t) {
+                        if (!error && keep) return self->read();
+                        beast::error_code closed;
+                        self->stream_.socket().shutdown(tcp::socket::shutdown_send, closed);
+                      });
+  }
+
+  Server::Connections& all_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_;
+  std::optional<http::request_parser<http::string_body>> parser_;
+};
+
+}  // namespace
+
+void Server::Connections::accept() {
+  acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
+    if (!acceptor.is_open()) return;
+    if (!error && open < most_connections) std::make_shared<Session>(*this, std::move(socket))->read();
+    accept();
+  });
+}
+
+void Server::Connections::wait(std::chrono::seconds patience, const std::function<bool()>& may_end) {
+  timer.expires_after(look);
+  timer.async_wait([this, patience, &may_end](beast::error_code error) {
+    if (error) return;
+    if (patience.count() > 0 && Clock::now() - asked > patience && may_end()) return io.stop();
+    wait(patience, may_end);
+  });
+}
+
+Server::Server(std::uint16_t port) : connections_(std::make_unique<Connections>()) {
+  beast::error_code error;
+  const tcp::endpoint here(asio::ip::address_v4::loopback(), port);
+  tcp::acceptor& acceptor = connections_->acceptor;
+  acceptor.open(here.protocol(), error);
+  if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
+  if (!error) acceptor.bind(here, error);
+  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+  if (error) throw InputError(fmt::format("port {} of this machine cannot be used: {}", port, error.message()));
+}
+
+Server::~Server() = default;
+
+std::string Server::host() const {
+  return fmt::format("127.0.0.1:{}", connections_->acceptor.local_endpoint().port());
+}
+
+void Server::serve(Desk& desk, std::chrono::seconds patience, const std::function<bool()>& may_end) {
+  connections_->desk = &desk;
+  for (const int signal : {SIGINT, SIGTERM}) connections_->signals.add(signal);
+  connections_->signals.async_wait([this](beast::error_code error, int) {
+    if (!error) connections_->io.stop();
+  });
+  connections_->accept();
+  connections_->wait(patience, may_end);
+  connections_->io.run();
+}
+
+}  // namespace whipple::monitor

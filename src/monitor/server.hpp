@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "src/monitor/answers.hpp"
+
+namespace whipple::monitor {
+
+/// Returns 128 random bits of the operating system as text.
+std::string random_token();
+
+/// Serves questions over HTTP on this machine's own address 127.0.0.1 and no other, on one thread. At most 64
+/// connections, 64 KiB of a question's body, 16 KiB of its head; a connection that is silent for 30 s is closed.
+class Server {
+ public:
+  /// @param port  0: any that is free
+  /// @throws InputError if the port is in use
+  explicit Server(std::uint16_t port);
+  ~Server();
+
+  /// Returns address and port, as browsers name them in the head Host.
+  [[nodiscard]] std::string host() const;
+
+  /// Serves until SIGINT or SIGTERM, or until nobody has asked for `patience` and `may_end()` is true.
+  /// @param patience  0: for ever
+  void serve(Desk& desk, std::chrono::seconds patience, const std::function<bool()>& may_end);
+
+  struct Connections;  ///< the network's part, known where it is implemented
+
+ private:
+  std::unique_ptr<Connections> connections_;
+};
+
+}  // namespace whipple::monitor

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <utility>
+
+#include "src/run/control.hpp"
+
+namespace whipple::run {
+
+/// Repeats what a run was asked for: the accepted requests of its steering.csv, each after the step after which it was
+/// followed. The same case on the same ranks and threads then gives the same bits. Of the first rank.
+class ReplayControl : public RunControl {
+ public:
+  /// @throws InputError naming file and line if the table is damaged, or if its steps decrease: the run was continued
+  /// from a checkpoint earlier than a request, and what it did then cannot be told from the table
+  explicit ReplayControl(const std::filesystem::path& table);
+
+  void ask(const Moment& moment, Requests& requests) override;
+
+ private:
+  std::deque<std::pair<std::int64_t, Request>> rows_;  // step, request
+};
+
+}  // namespace whipple::run

@@ -1,0 +1,205 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The monitor's page in Chromium: a run is started, watched, paused, changed, ended and continued by the controls of the
+page; a page of another origin can neither read nor change anything. Skipped without Chromium and its driver.
+
+Usage: app_monitor_browser.py WHIPPLE CASE.toml FOLDER
+"""
+import base64
+import contextlib
+import http.client
+import http.server
+import json
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+SKIPPED = 77
+WHIPPLE, CASE, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # key of the WebDriver protocol
+
+
+def require(condition, message):
+    if not condition:
+        raise SystemExit(f"FAILED: {message}")
+
+
+class Browser:
+    """Chromium without a window, by the WebDriver protocol of W3C."""
+
+    def __init__(self, driver, browser, profile):
+        self.process = subprocess.Popen([driver, "--port=0"], stdout=subprocess.PIPE, text=True)
+        port = None
+        for line in self.process.stdout:
+            if found := re.search(r"started successfully on port (\d+)", line):
+                port = int(found[1])
+                break
+        require(port, "the driver of Chromium does not start")
+        threading.Thread(target=self.process.stdout.read, daemon=True).start()
+        self.connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120)
+        self.session = ""
+        arguments = ["--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
+                     "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                     "--window-size=1200,800", f"--user-data-dir={profile}"]
+        options = {"browserName": "chrome", "goog:chromeOptions": {"binary": browser, "args": arguments},
+                   "goog:loggingPrefs": {"browser": "ALL"}, "unhandledPromptBehavior": "ignore"}
+        self.session = "/session/" + self.do("POST", "/session", {"capabilities": {"alwaysMatch": options}})["sessionId"]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        with contextlib.suppress(Exception):
+            self.do("DELETE", "")
+        self.process.terminate()
+
+    def do(self, method, path, body=None):
+        text = None if method != "POST" else json.dumps(body or {})
+        self.connection.request(method, self.session + path, text, {"Content-Type": "application/json"})
+        answer = json.loads(self.connection.getresponse().read())["value"]
+        if isinstance(answer, dict) and "error" in answer:
+            raise RuntimeError(f"{answer['error']}: {answer['message'][:300]}")
+        return answer
+
+    def open(self, url):
+        self.do("POST", "/url", {"url": url})
+
+    def js(self, script, *arguments):
+        return self.do("POST", "/execute/sync", {"script": script, "args": list(arguments)})
+
+    def find(self, selector):
+        return "/element/" + self.do("POST", "/element", {"using": "css selector", "value": selector})[ELEMENT]
+
+    def click(self, selector):
+        self.do("POST", self.find(selector) + "/click")
+
+    def type(self, selector, text):
+        self.do("POST", self.find(selector) + "/value", {"text": text})
+
+    def text(self, selector):
+        return self.js("return document.querySelector(arguments[0])?.textContent ?? ''", selector)
+
+    def wait(self, script, what, seconds=60):
+        deadline = time.monotonic() + seconds
+        while not (found := self.js(script)):
+            require(time.monotonic() < deadline, f"waited in vain for {what}; the page says: {self.js('return document.body.innerText')[:1500]}")
+            time.sleep(0.2)
+        return found
+
+    def picture(self, name):
+        (FOLDER / name).write_bytes(base64.b64decode(self.do("GET", "/screenshot")))
+
+    def complaints(self):
+        return [entry["message"] for entry in self.do("POST", "/se/log", {"type": "browser"}) if entry["level"] == "SEVERE"]
+
+
+FOREIGN = """<!doctype html><title>foreign</title><script>
+async function tries(base, key) {
+  const results = [];
+  for (const [path, options] of [['/runs', { headers: { 'X-Whipple-Token': key } }], ['/', {}], ['/runs', { mode: 'no-cors' }],
+    ['/steer', { method: 'POST', mode: 'no-cors', body: '{"run": "ball", "request": "pause", "value": ""}' }],
+    ['/steer', { method: 'POST', headers: { 'X-Whipple-Token': key, 'Content-Type': 'application/json' }, body: '{"run": "ball", "request": "pause", "value": ""}' }]]) {
+    try { const answer = await fetch(base + path, options); results.push(answer.type === 'opaque' ? 'opaque' : 'read ' + await answer.text()); }
+    catch (error) { results.push('refused'); }
+  }
+  return results;
+}
+</script>"""
+
+
+class ForeignPage(http.server.BaseHTTPRequestHandler):
+    def do_GET(self):
+        self.send_response(200)
+        self.send_header("Content-Type", "text/html")
+        self.end_headers()
+        self.wfile.write(FOREIGN.encode())
+
+    def log_message(self, *_):
+        pass
+
+
+def check_foreign_page(browser, address, key):
+    server = http.server.HTTPServer(("127.0.0.1", 0), ForeignPage)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    browser.open(f"http://127.0.0.1:{server.server_port}/")
+    browser.js("tries(arguments[0], arguments[1]).then((all) => { window.tried = all; })", address, key)
+    browser.wait("return window.tried !== undefined", "the foreign page")
+    tried = browser.js("return window.tried")
+    require(not any(result.startswith("read") for result in tried), f"a foreign page reads: {tried}")
+    server.shutdown()
+    browser.complaints()  # its own refusals are no fault
+
+
+def check_run(browser, address, key):
+    running = "document.querySelector('#run .state')?.textContent"
+    browser.open(f"{address}/#{key}")
+    browser.wait("return document.querySelector('details summary') !== null", "the form of cases")
+    require(browser.js("return location.hash") == "", "the key is out of the address bar")
+    browser.click("nav details summary")
+    browser.type("nav details input", "ball")
+    browser.type("nav textarea", "domain.cell_size='0.5 mm'\ntime.end='6 us'\noutput.snapshot_every='0.04 us'")
+    browser.click("nav form button")
+    browser.wait(f"return {running} === 'running'", "the run")
+    browser.wait("return document.querySelectorAll('.plot li').length > 5", "the curves")
+    energy = browser.text(".plot li")
+    browser.wait(f"return document.querySelector('.plot li').textContent !== {json.dumps(energy)}", "a curve that moves")
+    browser.wait("return /particles in three dimensions/i.test(document.querySelector('#viewer canvas')?.getAttribute('aria-label') ?? '')", "the snapshots")
+    at = browser.text("#viewer footer output")
+    browser.wait(f"return document.querySelector('#viewer footer output').textContent !== {json.dumps(at)}", "a later snapshot")
+    browser.click("[data-act=pause]")
+    browser.wait(f"return {running} === 'paused'", "the pause")
+    browser.picture("paused.png")
+    browser.js("const select = document.querySelector('header select'); select.value = 'snapshot_every'; select.dispatchEvent(new Event('change'))")
+    browser.type("header form input", "3 kg")
+    browser.click("header form button")
+    browser.wait("return /Not asked:.*unit/.test(document.querySelector('header').innerText)", "the refusal of a wrong unit")
+    browser.js("document.querySelector('header form input').value = ''")
+    browser.type("header form input", "0.01 us")
+    browser.click("header form button")
+    browser.wait("return /snapshot_every 0.01 us.*accepted/s.test(document.querySelector('[aria-label=Answers]').innerText)", "the answer")
+    browser.click("[data-act=resume]")
+    browser.wait(f"return {running} === 'running'", "the run after the pause")
+    browser.click("[data-act=stop]")
+    browser.wait("return document.querySelector('[data-act=restart]') !== null", "the stop")
+    browser.click("[data-act=restart]")
+    browser.wait(f"return {running} === 'running'", "the run continued")
+    browser.click("[data-act=end]")
+    browser.do("POST", "/alert/accept")
+    browser.wait(f"return {running} === 'stopped' || {running} === 'done'", "its end")
+    browser.picture("ended.png")
+    unnamed = browser.js("""return [...document.querySelectorAll('button, input, select, textarea, canvas')].filter((one) =>
+      !(one.labels?.length || one.getAttribute('aria-label') || one.textContent.trim() || one.type === 'file')).map((one) => one.outerHTML)""")
+    require(not unnamed, f"controls without a name: {unnamed}")
+    complaints = [line for line in browser.complaints() if "status of 400" not in line]  # that of the wrong unit
+    require(not complaints, f"the console complains: {complaints}")
+
+
+def main():
+    driver, chromium = shutil.which("chromedriver"), shutil.which("chromium")
+    if not driver or not chromium:
+        print("SKIPPED: no Chromium here (Debian's packages chromium and chromium-driver)")
+        return SKIPPED
+    shutil.rmtree(FOLDER, ignore_errors=True)
+    cases, runs = FOLDER / "cases", FOLDER / "runs"
+    (cases / "small_impact").mkdir(parents=True)
+    shutil.copy(CASE, cases / "small_impact" / "case.toml")
+    runs.mkdir()
+    monitor = subprocess.Popen([WHIPPLE, "monitor", str(runs), "--cases", str(cases)], stdout=subprocess.PIPE, text=True)
+    try:
+        address, key = re.search(r"(http://[0-9.:]+)/#([0-9a-f]+) ", monitor.stdout.readline()).groups()
+        with Browser(driver, chromium, FOLDER / "profile") as browser:
+            check_run(browser, address, key)
+            check_foreign_page(browser, address, key)
+    finally:
+        subprocess.run(["pkill", "-KILL", "-f", f"run .*{runs}"], check=False)
+        monitor.send_signal(signal.SIGTERM)
+        monitor.wait(10)
+    return 0
+
+
+sys.exit(main())
