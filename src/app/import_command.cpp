@@ -15,6 +15,7 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/text.hpp"
+#include "src/core/base/units.hpp"
 #include "src/decks/import.hpp"
 
 namespace whipple::app {
@@ -23,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-  std::string deck, folder, format, units;
+  std::string deck, folder, format, units, cell_size;
   bool allow_missing = false, case_only = false, same_method = false, old_mass = false;
 };
 
@@ -45,6 +46,10 @@ decks::ImportOptions import_options(const Arguments& arguments) {
     if (!options.units) {
       throw InputError(fmt::format("--units is \"{}\", expected units of length, mass and time, as in --units 'mm g ms'", arguments.units));
     }
+  }
+  if (!arguments.cell_size.empty()) {
+    options.cell_size = units::parse_quantity(arguments.cell_size, "m");
+    if (!(options.cell_size > 0.0)) throw InputError("--cell-size must be > 0");
   }
   return options;
 }
@@ -101,10 +106,11 @@ void add_import_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("import",
       "Turn the input deck of another code into a case with its materials");
-  command->add_option("deck", arguments->deck, "The deck (MPM3D-F90: NAME.mpm)")->required();
+  command->add_option("deck", arguments->deck, "The deck (MPM3D-F90: NAME.mpm, LS-DYNA: NAME.k)")->required();
   command->add_option("-o,--output", arguments->folder, "Folder of the case, which must not exist")->required();
-  command->add_option("--format", arguments->format, "mpm3d_f90 (default: by the content of the deck)");
+  command->add_option("--format", arguments->format, "mpm3d_f90 or ls_dyna (default: by the content of the deck)");
   command->add_option("--units", arguments->units, "Units of length, mass and time of the deck, as in 'mm g ms'");
+  command->add_option("--cell-size", arguments->cell_size, "Edge of the cells of the grid, for decks without one (LS-DYNA)");
   command->add_flag("--allow-missing", arguments->allow_missing,
       "Write the case though physics of the deck is missing in it");
   command->add_flag("--case-only", arguments->case_only,

@@ -12,6 +12,8 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
+#include "src/decks/dyna_case.hpp"
+#include "src/decks/dyna_deck.hpp"
 #include "src/decks/mpm3d_case.hpp"
 #include "src/decks/mpm3d_deck.hpp"
 
@@ -37,19 +39,20 @@ std::string content_of(const fs::path& deck) {
 /// Tells the codes apart by what their decks contain: several use the same endings.
 Format format_of(const fs::path& deck, std::string_view text) {
   if (mpm3d::recognise(text)) return Format::mpm3d_f90;
+  if (dyna::recognise(text)) return Format::ls_dyna;
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   const std::string_view start = text.substr(std::min(begin, text.size()));
   if (start.empty()) refuse(deck, "the deck is empty");
   if (start.front() == '<') refuse(deck, "an XML file: decks of the C++ version of MPM3D are not read");
   if (start.front() == '*' || start.front() == '$') {
-    refuse(deck, "a keyword deck (LS-DYNA, Abaqus): these are not read");
+    refuse(deck, "a keyword deck, but not of LS-DYNA: those of Abaqus are not read");
   }
   const auto has = [&](std::string_view command) { return text.find(command) != std::string_view::npos; };
   if (start.front() == '#' || has("region(") || has("solid(")) {
     refuse(deck, "an input of Karamelo or another language of commands, not of MPM3D-F90, which uses the ending .mpm, "
                  "too: variables and formulas are not read");
   }
-  refuse(deck, "a deck of no code that is known here; read are decks of MPM3D-F90");
+  refuse(deck, "a deck of no code that is known here; read are decks of MPM3D-F90 and LS-DYNA");
 }
 
 void write_file(const fs::path& path, std::string_view text) {
@@ -66,6 +69,8 @@ Import import_deck(const fs::path& deck, const ImportOptions& options) {
   switch (options.format ? *options.format : format_of(deck, text)) {
     case Format::mpm3d_f90:
       return mpm3d::to_case(mpm3d::parse(deck, text), options);
+    case Format::ls_dyna:
+      return dyna::to_case(dyna::parse(deck, text), options);
   }
   throw InternalError("a format of decks without a reader");
 }

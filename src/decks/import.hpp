@@ -13,8 +13,10 @@
 namespace whipple::decks {
 
 /// Codes whose decks are read.
-enum class Format { mpm3d_f90 };
-constexpr std::array<Word<Format>, 1> words(Format /*of*/) { return {{{Format::mpm3d_f90, "mpm3d_f90"}}}; }
+enum class Format { mpm3d_f90, ls_dyna };
+constexpr std::array<Word<Format>, 2> words(Format /*of*/) {
+  return {{{Format::mpm3d_f90, "mpm3d_f90"}, {Format::ls_dyna, "ls_dyna"}}};
+}
 
 struct ImportOptions {
   std::optional<Format> format = {};     ///< not given: by the content of the deck
@@ -22,6 +24,7 @@ struct ImportOptions {
   bool same_method = false;              ///< keep scheme, shape functions and time step of the other code
   /// MPM3D-F90 before 2013-12: the mass of a particle stands where now its density does.
   bool old_mass = false;
+  double cell_size = 0.0;  ///< of the grid, m; for decks without one
 };
 
 /// Reads a deck and turns it into a case.

@@ -9,6 +9,8 @@
 
 #include "src/case/case.hpp"
 #include "src/core/base/error.hpp"
+#include "src/decks/dyna_case.hpp"
+#include "src/decks/dyna_deck.hpp"
 #include "src/decks/import.hpp"
 #include "src/decks/lattice.hpp"
 #include "src/decks/mpm3d_case.hpp"
@@ -220,7 +222,7 @@ TEST_F(ImportFolder, DecksOfOtherCodesAreRecognised) {
   EXPECT_THAT(refusal("# two disks\nE=1e3\nregion(box, block, 0, 1)\n"), HasSubstr("Karamelo"));
   EXPECT_THAT(refusal("dimension(2, -1, 1)\nregion(box, block, 0, 1)\n"), HasSubstr("Karamelo"));
   EXPECT_THAT(refusal("<OpenMPM3D>\n</OpenMPM3D>\n"), HasSubstr("XML"));
-  EXPECT_THAT(refusal("*HEADING\nx\n"), HasSubstr("keyword deck"));
+  EXPECT_THAT(refusal("*HEADING\nx\n*NODE, NSET=all\n"), HasSubstr("keyword deck"));
   EXPECT_THAT(refusal(""), HasSubstr("empty"));
   EXPECT_THAT(refusal("hello world"), HasSubstr("of no code that is known"));
 }
@@ -257,6 +259,67 @@ TEST_F(ImportFolder, ADeckOfEveryShapeReadsAsACase) {
   const Import import = import_deck(folder_of_decks / "columns_of_water.mpm", in_si);
   const CaseFolder written(import, folder_ / "case");
   EXPECT_EQ(cases::read_case(written.case_file(), {}).bodies.size(), 4U);
+}
+
+const ImportOptions in_gpa = {.units = UnitSystem{"mm", "kg", "ms"}, .cell_size = 0.5e-3};
+
+std::string bar_deck(const std::string& from = "", const std::string& to = "") {
+  std::string text = deck_text("bar_on_plate.k");
+  return from.empty() ? text : text.replace(text.find(from), from.size(), to);
+}
+Import import_keywords(const std::string& text, const ImportOptions& options = in_gpa) {
+  return dyna::to_case(dyna::parse("deck.k", text), options);
+}
+
+TEST(DynaDeck, BecomesACaseWithMeshesAndBoxes) {
+  const Import import = import_keywords(bar_deck());
+  EXPECT_EQ(import.count(Outcome::missing), 0U) << import.report();
+  EXPECT_THAT(import.case_text, HasSubstr("title = \"Bar on plate\""));
+  EXPECT_THAT(import.case_text, HasSubstr("end = \"0.002 ms\""));
+  EXPECT_THAT(import.case_text, HasSubstr("velocity = [\"0 m/s\", \"0 m/s\", \"-200 m/s\"]")) << "of a parameter";
+  EXPECT_THAT(import.case_text, HasSubstr("friction = 0.2"));
+  EXPECT_THAT(import.case_text, HasSubstr("mesh = \"meshes/part_1.msh\", mesh_unit = \"1 mm\""));
+  EXPECT_THAT(import.case_text, HasSubstr("box = { lower = [\"-2 mm\", \"-2 mm\", \"-1 mm\"], upper = [\"2 mm\", \"2 mm\", \"0 mm\"] }"));
+  ASSERT_EQ(import.files.size(), 3U);
+  const std::string& copper = import.files[0].text;
+  EXPECT_THAT(copper, HasSubstr("reference_rate = \"0.001 1/ms\"")) << "of a field that touches its neighbour";
+  EXPECT_THAT(copper, HasSubstr("spall_strength = \"3 GPa\"")) << "of a typographic minus";
+  EXPECT_THAT(copper, HasSubstr("reference_density = \"8.96e-06 kg/mm^3\"")) << "of an exponent without its letter";
+  EXPECT_THAT(copper, HasSubstr("gruneisen_slope = 0.47"));
+  EXPECT_THAT(copper, HasSubstr("d5 = 1.12"));
+  ASSERT_EQ(import.bodies.size(), 2U);
+  EXPECT_NEAR(import.bodies[0].mass, 2 * 8.96e-6, 1e-12);
+  EXPECT_NEAR(import.bodies[1].mass, 16 * 7.85e-6, 1e-12);
+}
+
+TEST(DynaDeck, WhatIsNotReadIsMissingByNameAndNumber) {
+  const Import import = import_keywords(bar_deck("*CONTROL_ENERGY\n", "*RIGIDWALL_PLANAR\n         0\n*RIGIDWALL_PLANAR\n"));
+  EXPECT_THAT(import.report(), HasSubstr("*RIGIDWALL_PLANAR  not read, 2 times"));
+  EXPECT_EQ(import.count(Outcome::missing), 1U);
+  const Import foam = import_keywords(bar_deck("*MAT_PLASTIC_KINEMATIC", "*MAT_LOW_DENSITY_FOAM"));
+  EXPECT_THAT(foam.report(), HasSubstr("part_2: this material law"));
+}
+
+TEST(DynaDeck, FaultsAreNamedWithTheirPlace) {
+  const auto fault = [](const std::string& from, const std::string& to) {
+    return message_of<InputError>([&] { static_cast<void>(import_keywords(bar_deck(from, to))); });
+  };
+  EXPECT_THAT(fault("       1.09    1356.0", "       1.09    13x6.0"), HasSubstr("'13x6.0' in field 6 is no number"));
+  EXPECT_THAT(fault("&speed", "&spead"), HasSubstr("is no parameter"));
+  EXPECT_THAT(fault("         2         2         2\n", "         2         2         5\n"), HasSubstr("there is no *MAT 5"));
+  EXPECT_THAT(fault("         7         1       0.0", "         8         1       0.0"), HasSubstr("there is no set 8"));
+  EXPECT_THAT(fault("      12            -0.5", "      13            -0.5"), HasSubstr("there is no node 12"));
+  EXPECT_THAT(fault("         1   8.960-6", "         1          "), HasSubstr("field 2, the density, is blank"));
+  EXPECT_THAT(fault("*CONTROL_TERMINATION\n     0.002\n", ""), HasSubstr("no *CONTROL_TERMINATION"));
+  EXPECT_THAT(message_of<InputError>([&] { static_cast<void>(import_keywords(bar_deck(), {})); }),
+              ::testing::AllOf(HasSubstr("--units"), HasSubstr("--cell-size")));
+}
+
+TEST_F(ImportFolder, AKeywordDeckReadsAsACase) {
+  const Import import = import_deck(folder_of_decks / "bar_on_plate.k", in_gpa);
+  const CaseFolder written(import, folder_ / "case");
+  EXPECT_EQ(cases::read_case(written.case_file(), {}).bodies.size(), 2U);
+  EXPECT_THAT(refusal("*HEADING\nx\n*NODE, NSET=all\n"), HasSubstr("Abaqus"));
 }
 
 /// Decks with bytes changed, words exchanged and parts cut out: read or refused, nothing else.

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/core/base/error.hpp"
+
+/// Keyword decks of LS-DYNA.
+namespace whipple::decks::dyna {
+
+inline constexpr const char* grammar = "LS-DYNA keywords";
+
+/// A line of data below a keyword.
+struct Card {
+  unsigned line = 0;
+  std::string text;
+};
+
+/// A keyword with its cards.
+struct Block {
+  std::string keyword;  ///< upper case, without the asterisk and _TITLE
+  std::string file;     ///< the deck or a file that it includes
+  unsigned line = 0;
+  std::string title;    ///< of a keyword with _TITLE
+  bool wide = false;    ///< long format: fields of twenty characters
+  std::vector<Card> cards;
+};
+
+struct Deck {
+  std::filesystem::path file;
+  std::vector<Block> blocks;
+  std::map<std::string, double> parameters;  ///< of *PARAMETER, by name in upper case
+};
+
+/// Widths of the fields of a card in characters.
+inline constexpr int usual_widths[] = {10, 10, 10, 10, 10, 10, 10, 10};
+inline constexpr int node_widths[] = {8, 16, 16, 16, 8, 8};
+inline constexpr int solid_widths[] = {8, 8, 8, 8, 8, 8, 8, 8, 8, 8};
+inline constexpr int sph_widths[] = {8, 8, 16, 8};
+
+/// The fields of a card: by columns, or between commas if it has one. Those beyond its end are blank.
+class Fields {
+ public:
+  Fields(const Deck& deck, const Block& block, const Card& card, std::span<const int> widths = usual_widths);
+
+  /// Returns the number of a field; nothing if it is blank. Accepts "1.5-3" for 1.5e-3, typographic minus signs and
+  /// the name of a parameter, "&name".
+  /// @throws InputError with file, line and column if it is no number
+  [[nodiscard]] std::optional<double> number(std::size_t field) const;
+  /// Returns the number of a field that must not be blank.
+  /// @throws InputError that names the field by `what`
+  [[nodiscard]] double required(std::size_t field, std::string_view what) const;
+  /// Returns the number of a field, 0 where it is blank, as LS-DYNA does.
+  [[nodiscard]] double real(std::size_t field) const { return number(field).value_or(0.0); }
+  /// Returns a field as the number of a node, part, set or the like; 0 where it is blank.
+  [[nodiscard]] std::int64_t id(std::size_t field) const;
+  [[nodiscard]] std::size_t size() const { return texts_.size(); }
+
+ private:
+  [[noreturn]] void fail(std::size_t field, std::string text) const;
+
+  const Deck& deck_;
+  const Block& block_;
+  unsigned line_;
+  std::vector<std::string> texts_;
+  std::vector<unsigned> columns_;
+};
+
+/// Returns whether the first keyword of a text is one of LS-DYNA.
+bool recognise(std::string_view text);
+
+/// Reads a deck with the files that it includes.
+/// @throws InputError with all faults
+Deck parse(const std::filesystem::path& file, std::string_view text);
+
+/// Throws the fault of a keyword.
+[[noreturn]] void fail(const Block& block, std::string text);
+
+}  // namespace whipple::decks::dyna
