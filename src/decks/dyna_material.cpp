@@ -312,11 +312,11 @@ class MaterialWriter {
     } else if (spall == 3.0) {
       begin("tensile_pressure", material_);
       quantity("spall_strength", strength, dimension::pressure);
-      remark(Outcome::converted, material_, "spall by pressure: tension and deviator are lost for good");
+      remark(Outcome::converted, material_, "spall by pressure: tension and deviator are lost permanently");
     } else {
       begin("principal_stress", material_);
       quantity("tensile_strength", strength, dimension::pressure);
-      remark(Outcome::converted, material_, "spall by the greatest principal stress: tension and deviator are lost for good");
+      remark(Outcome::converted, material_, "spall by the greatest principal stress: tension and deviator are lost permanently");
     }
   }
   void failure_strain(double strain) {

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/decks/dyna_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace whipple::decks::dyna {
+namespace {
+
+/// Keywords without influence on the physics of the case.
+constexpr std::array harmless = {"KEYWORD", "END", "COMMENT", "CONTROL_ENERGY", "CONTROL_OUTPUT", "CONTROL_CPU", "CONTROL_HOURGLASS",
+                                 "HOURGLASS", "CONTROL_BULK_VISCOSITY", "CONTROL_SOLUTION", "CONTROL_TIMESTEP", "CONTROL_CONTACT",
+                                 "CONTROL_SPH", "CONTROL_ACCURACY", "CONTROL_SOLID", "CONTROL_PARALLEL", "SECTION_SOLID", "SECTION_SPH"};
+
+class ModelReader {
+ public:
+  ModelReader(const Deck& deck, Import& import, FaultList& faults) : deck_(deck), import_(import), faults_(faults) {
+    model_.title = import.deck;
+  }
+
+  Model read() {
+    collect();
+    model_.starts = starts();
+    return std::move(model_);
+  }
+
+ private:
+  void remark(Outcome outcome, const Block& block, std::string text) {
+    import_.remark(outcome, block.line, "*" + block.keyword, std::move(text));
+  }
+
+  void collect() {
+    std::map<std::string, std::pair<const Block*, std::size_t>> unknown;
+    for (const Block& block : deck_.blocks) {
+      faults_.guarded([&] {
+        if (read(block)) return;
+        auto& [first, count] = unknown[block.keyword];
+        if (count++ == 0) first = &block;
+      });
+    }
+    for (const auto& [keyword, entry] : unknown) {
+      remark(Outcome::missing, *entry.first, fmt::format("not read, {} time{}", entry.second, entry.second == 1 ? "" : "s"));
+    }
+  }
+
+  /// Reads a keyword; false if it is none of those that are read.
+  bool read(const Block& block) {
+    const std::string& key = block.keyword;
+    if (key == "NODE") {
+      nodes(block);
+    } else if (key == "ELEMENT_SOLID" || key == "ELEMENT_SPH") {
+      elements(block);
+    } else if (key == "PART") {
+      part(block);
+    } else if (key.starts_with("MAT_") && !key.starts_with("MAT_ADD")) {
+      model_.materials[first_id(block)] = &block;
+    } else if (key.starts_with("EOS_")) {
+      model_.states[first_id(block)] = &block;
+    } else if (key.starts_with("SET_NODE") || key.starts_with("SET_PART")) {
+      set(block);
+    } else if (key == "INITIAL_VELOCITY" || key == "INITIAL_VELOCITY_NODE" || key == "INITIAL_VELOCITY_GENERATION") {
+      starts_.push_back(&block);
+    } else if (key == "CONTROL_TERMINATION") {
+      model_.end = first(block).required(0, "the end time");
+      if (!(model_.end > 0.0)) fail(block, "the end time must be > 0");
+      remark(Outcome::exact, block, "time.end");
+    } else if (key == "DATABASE_BINARY_D3PLOT") {
+      model_.snapshots = first(block).real(0);
+      remark(Outcome::exact, block, "output.snapshot_every");
+    } else if (key.starts_with("CONTACT_")) {
+      contact(block);
+    } else if (key == "TITLE") {
+      if (!block.cards.empty()) model_.title = block.cards[0].text.substr(0, block.cards[0].text.find_last_not_of(" \t\r") + 1);
+      remark(Outcome::exact, block, "title");
+    } else if (key == "INCLUDE" || key == "PARAMETER") {
+      remark(Outcome::exact, block, "read");
+    } else if (std::ranges::find(harmless, key) != harmless.end() || key.starts_with("DATABASE_") || key.empty()) {
+      remark(Outcome::dropped, block, "of the methods and output of that code");
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] Fields first(const Block& block) const {
+    if (block.cards.empty()) fail(block, "has no card");
+    return {deck_, block, block.cards[0]};
+  }
+  [[nodiscard]] Id first_id(const Block& block) const { return static_cast<Id>(first(block).required(0, "its number")); }
+
+  void nodes(const Block& block) {
+    for (const Card& card : block.cards) {
+      faults_.guarded([&] {
+        const Fields fields(deck_, block, card, node_widths);
+        model_.nodes[static_cast<Id>(fields.required(0, "the number of a node"))] = Vector3(fields.real(1), fields.real(2), fields.real(3));
+      });
+    }
+    remark(Outcome::exact, block, fmt::format("{} nodes", block.cards.size()));
+  }
+
+  void elements(const Block& block) {
+    const bool solids = block.keyword == "ELEMENT_SOLID";
+    for (std::size_t i = 0; i < block.cards.size(); ++i) {
+      faults_.guarded([&] {
+        const Fields fields(deck_, block, block.cards[i], solids ? std::span<const int>(solid_widths) : sph_widths);
+        const Id part = fields.id(1);
+        if (!solids) {
+          model_.parts[part].points.push_back({fields.id(0), fields.required(2, "the mass")});
+          return;
+        }
+        Solid solid{.line = block.cards[i].line};
+        // Element and part stand on a card of their own in the format of ten nodes.
+        const bool two_cards = fields.id(2) == 0 && i + 1 < block.cards.size();
+        const Fields list = two_cards ? Fields(deck_, block, block.cards[++i], solid_widths) : fields;
+        for (std::size_t k = 0; k < 8; ++k) solid.nodes[k] = list.id(k + (two_cards ? 0 : 2));
+        model_.parts[part].solids.push_back(solid);
+      });
+    }
+    remark(solids ? Outcome::exact : Outcome::converted, block, fmt::format("{} elements", block.cards.size()));
+  }
+
+  /// A heading and a card for each part.
+  void part(const Block& block) {
+    for (std::size_t i = 0; i + 1 < block.cards.size(); i += 2) {
+      faults_.guarded([&] {
+        const Fields fields(deck_, block, block.cards[i + 1]);
+        const Id number = static_cast<Id>(fields.required(0, "the number of the part"));
+        Part& part = model_.parts[number];
+        part.block = &block;
+        part.name = fmt::format("part_{}", number);
+        part.section = fields.id(1);
+        part.material = fields.id(2);
+        part.state = fields.id(3);
+        remark(Outcome::exact, block, fmt::format("{}: {}", part.name, block.cards[i].text));
+      });
+    }
+  }
+
+  void set(const Block& block) {
+    const bool generated = block.keyword.ends_with("_GENERATE");
+    std::set<Id>& members = (block.keyword.starts_with("SET_NODE") ? node_sets_ : part_sets_)[first_id(block)];
+    for (std::size_t i = 1; i < block.cards.size(); ++i) {
+      const Fields fields(deck_, block, block.cards[i]);
+      for (std::size_t k = 0; k < fields.size(); k += generated ? 2 : 1) {
+        const Id from = fields.id(k), to = generated ? fields.id(k + 1) : from;
+        if (from == 0) continue;
+        constexpr Id most = 5'000'000;  // members of a set: what fits into memory
+        if (to < from || to - from + static_cast<Id>(members.size()) > most) fail(block, fmt::format("the range {} to {} is none", from, to));
+        for (Id member = from; member <= to; ++member) members.insert(member);
+      }
+    }
+    remark(Outcome::exact, block, fmt::format("{} members", members.size()));
+  }
+
+  void contact(const Block& block) {
+    std::size_t card = 1;  // behind the card that says which parts
+    if (block.keyword.ends_with("_ID")) card = 2;
+    const double friction = card < block.cards.size() ? Fields(deck_, block, block.cards[card]).real(0) : 0.0;
+    if (model_.friction && *model_.friction != friction) {
+      remark(Outcome::missing, block, "friction that differs between contacts");
+      return;
+    }
+    model_.friction = std::max(friction, 0.0);
+    remark(Outcome::converted, block, "contact of all bodies with this friction");
+  }
+
+  /// Velocities refer to sets, which may come after them.
+  [[nodiscard]] std::vector<Start> starts() {
+    std::vector<Start> found;
+    for (const Block* block : starts_) {
+      faults_.guarded([&] {
+        const auto members = [&](const std::map<Id, std::set<Id>>& sets, Id number) {
+          const auto set = sets.find(number);
+          if (set == sets.end()) fail(*block, fmt::format("there is no set {}", number));
+          return set->second;
+        };
+        const Fields fields = first(*block);
+        Start start{block, Vector3::Zero(), {}, {}};
+        if (block->keyword == "INITIAL_VELOCITY_NODE") {
+          for (const Card& card : block->cards) {
+            const Fields each(deck_, *block, card);
+            found.push_back({block, Vector3(each.real(1), each.real(2), each.real(3)), {each.id(0)}, {}});
+          }
+          return;
+        }
+        if (block->keyword == "INITIAL_VELOCITY") {
+          if (fields.id(0) != 0) start.nodes = members(node_sets_, fields.id(0));
+          if (block->cards.size() < 2) fail(*block, "has no card with a velocity");
+          const Fields second(deck_, *block, block->cards[1]);
+          start.velocity = Vector3(second.real(0), second.real(1), second.real(2));
+        } else {
+          const Id number = fields.id(0), kind = fields.id(1);
+          if (kind == 1 && number != 0) start.parts = members(part_sets_, number);
+          if (kind == 2) start.parts = {number};
+          if (kind == 3) start.nodes = members(node_sets_, number);
+          if (kind < 1 || kind > 3) fail(*block, fmt::format("STYP is {}, read are 1, 2 and 3", kind));
+          if (fields.real(2) != 0.0) remark(Outcome::missing, *block, "angular velocity");
+          start.velocity = Vector3(fields.real(3), fields.real(4), fields.real(5));
+        }
+        found.push_back(std::move(start));
+      });
+    }
+    return found;
+  }
+
+  const Deck& deck_;
+  Import& import_;
+  FaultList& faults_;
+  Model model_;
+  std::map<Id, std::set<Id>> node_sets_, part_sets_;
+  std::vector<const Block*> starts_;
+};
+
+}  // namespace
+
+Model read_model(const Deck& deck, Import& import, FaultList& faults) { return ModelReader(deck, import, faults).read(); }
+
+}  // namespace whipple::decks::dyna
