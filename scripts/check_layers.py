@@ -113,6 +113,7 @@ WORDS_ALLOWED = {
     "src/fem/gmsh.cpp": "grammar of Gmsh",
     "src/material/material_file.cpp": "endings of file names",
     "src/monitor/answers.cpp": "heads of HTTP and what browsers write into them",
+    "src/monitor/folder.cpp": "endings of file names",
     "src/run/directory_control.cpp": "endings of file names",
     "src/run/run.cpp": "the file name case.toml",
 }

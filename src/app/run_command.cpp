@@ -4,21 +4,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
+#include "src/analysis/run.hpp"
 #include "src/app/build_info.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/simd.hpp"
 #include "src/core/base/units.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/process/mpirun.hpp"
+#include "src/core/process/paths.hpp"
 #include "src/run/restart.hpp"
 #include "src/run/run.hpp"
+#include "src/view/page.hpp"
 
 namespace whipple::app {
 namespace {
@@ -111,6 +118,45 @@ int run_here(const Arguments& arguments) {
   }
 }
 
+/// A folder for what is made and read again at once, removed at the end.
+class PassingFolder {
+ public:
+  PassingFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "whipple_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw InputError(fmt::format("cannot make a folder {}", name));
+    path_ = name;
+  }
+  PassingFolder(const PassingFolder&) = delete;
+  PassingFolder& operator=(const PassingFolder&) = delete;
+  ~PassingFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Writes a page that shows the bodies of a case as a run starts with them: the first snapshot of a run of one tiny step.
+void write_preview(const Arguments& arguments, const std::string& page_file) {
+  require_new_file(page_file, arguments.force);
+  const PassingFolder folder;
+  run::RunOptions options = run_options(arguments);
+  options.output_directory = folder.path() / "start";
+  options.overrides.insert(options.overrides.end(), {{"time.end", "1e-15 s"}, {"output.snapshot_every", "0 s"}});
+  const log::Level level = log::level();
+  log::set_level(log::Level::quiet);  // the remarks have been printed
+  run::run_case(options, parallel::world());
+  log::set_level(level);
+  analysis::Run start = analysis::read_run(options.output_directory);
+  start.snapshots.resize(1);
+  const view::Page page = view::make_page(start, {}, process::find_data("web/viewer"));
+  write_text_atomically(page_file, page.html);
+  fmt::print("wrote {}: {}\n", page_file,
+             page.one_of == 1 ? "all particles" : fmt::format("about one of {} particles", page.one_of));
+}
+
 void add_common(CLI::App& command, Arguments& arguments) {
   command.add_option("case", arguments.case_file, "The case (CASE.toml)");
   command
@@ -176,10 +222,17 @@ void add_check_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "check", "Validate a case; print what would run: bodies, particles, memory, steps, time");
   add_common(*command, *arguments);
-  command->footer("Example:\n  whipple check cases/copper_disk_on_aluminium/case.toml --threads 2");
-  command->callback([arguments] {
+  auto preview = std::make_shared<std::string>();
+  command->add_option("--preview", *preview, "Write a page that shows the bodies at the start in three dimensions")
+      ->type_name("FILE.html");
+  command->add_flag("--force", arguments->force, "Replace the page");
+  command->footer(
+      "Example:\n  whipple check cases/copper_disk_on_aluminium/case.toml --threads 2\n"
+      "  whipple check cases/copper_disk_on_aluminium/case.toml --preview disk.html");
+  command->callback([arguments, preview] {
     if (arguments->case_file.empty()) throw InputError("expected a case file (CASE.toml)");
     fmt::print("{}", run::check_case(run_options(*arguments), parallel::world()));
+    if (!preview->empty()) write_preview(*arguments, *preview);
   });
 }
 

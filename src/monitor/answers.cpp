@@ -22,7 +22,15 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-enum Status { ok = 200, accepted = 202, bad_request = 400, unauthorized = 401, forbidden = 403, not_found = 404, unsupported = 415 };
+enum Status {
+  ok = 200,
+  accepted = 202,
+  bad_request = 400,
+  unauthorized = 401,
+  forbidden = 403,
+  not_found = 404,
+  unsupported = 415
+};
 
 Answer text(int status, std::string body) { return {status, "text/plain; charset=utf-8", std::move(body) + "\n"}; }
 Answer data(const json& body, int status = ok) {
@@ -114,10 +122,13 @@ std::string Desk::file_of(const std::string& path, std::string& type) const {
   const std::string name = path.size() == 1 ? "/index.html" : path;
   const bool of_view = name.starts_with("/viewer/");
   const std::string own = name.substr(of_view ? 8 : 1);
-  const auto is_plain = [](char letter) { return std::islower(static_cast<unsigned char>(letter)) != 0 || letter == '_'; };
+  const auto is_plain = [](char letter) {
+    return std::islower(static_cast<unsigned char>(letter)) != 0 || letter == '_';
+  };
   const std::size_t dot = own.find('.');
   if (dot == std::string::npos || dot == 0 || !std::ranges::all_of(own.substr(0, dot), is_plain)) return {};
-  const auto found = std::ranges::find(types, std::string_view(own).substr(dot), [](const auto& entry) { return entry.first; });
+  const std::string_view ending = std::string_view(own).substr(dot);
+  const auto found = std::ranges::find(types, ending, [](const auto& entry) { return entry.first; });
   const fs::path file = (of_view ? view_ : page_) / own;
   if (found == types.end() || !fs::is_regular_file(file)) return {};
   type = found->second;
@@ -126,8 +137,9 @@ std::string Desk::file_of(const std::string& path, std::string& type) const {
 
 std::vector<std::string> Desk::cases() const {
   std::vector<std::string> names;
+  if (cases_.empty()) return names;
   std::error_code missing;
-  for (fs::directory_iterator entry(cases_, missing), last; !cases_.empty() && entry != last; entry.increment(missing)) {
+  for (fs::directory_iterator entry(cases_, missing), last; entry != last; entry.increment(missing)) {
     if (fs::is_regular_file(entry->path() / "case.toml")) names.push_back(entry->path().filename().string());
   }
   std::ranges::sort(names);
@@ -209,7 +221,8 @@ Answer Desk::begin(const json& wish) {
   std::vector<std::string> arguments = {(cases_ / name / "case.toml").string(), "-o", folder.string()};
   for (const json& entry : wish.at("set")) {
     const auto set = entry.get<std::string>();
-    if (set.empty() || std::islower(static_cast<unsigned char>(set.front())) == 0 || set.find('=') == std::string::npos) {
+    const bool is_key = !set.empty() && std::islower(static_cast<unsigned char>(set.front())) != 0;
+    if (!is_key || set.find('=') == std::string::npos) {
       throw InputError(fmt::format("{}: expected key=value, for example time.end='5 us'", set));
     }
     arguments.insert(arguments.end(), {"--set", set});

@@ -113,7 +113,7 @@ const analysis::Run& Folder::snapshots_of(const std::string& name) {
   std::error_code missing;
   fs::file_time_type written = fs::file_time_type::min();
   for (fs::directory_iterator file(folder, missing), last; file != last; file.increment(missing)) {
-    if (file->path().extension().string().starts_with(".series")) written = std::max(written, file->last_write_time(missing));
+    if (file->path().extension() == ".series") written = std::max(written, file->last_write_time(missing));
   }
   if (!entry.run || written != entry.index_written) {
     entry.run = std::make_unique<analysis::Run>(analysis::read_run(folder));
@@ -154,7 +154,9 @@ json Folder::curves(const std::string& name, Table table, const std::string& x,
   rows.look();
   const auto place = [&](const std::string& head) {
     const auto found = std::ranges::find(rows.heads(), head);
-    if (found == rows.heads().end()) throw InputError(fmt::format("no column \"{}\" in the {} of {}", head, word_of(table), name));
+    if (found == rows.heads().end()) {
+      throw InputError(fmt::format("no column \"{}\" in the {} of {}", head, word_of(table), name));
+    }
     return static_cast<std::size_t>(found - rows.heads().begin());
   };
   json answer = json::object();

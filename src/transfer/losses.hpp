@@ -28,10 +28,12 @@ struct Booking {
 };
 
 /// Material with gaps, as far as a particle knows: failed, beside a void, in tension, or thinner than at the
-/// start.
+/// start. Material in its initial state has none, and what round-off makes of its pressure and volume does not matter.
 inline bool is_loose(const Particles& particles, std::size_t p, double initial_density) {
-  return particles.failed[p] != 0 || particles.void_volume[p] > 0.0 || particles.pressure[p] <= 0.0 ||
-         particles.mass[p] < initial_density * particles.volume[p];
+  constexpr double round_off = 1e-9;  // of rho c^2 and of the density
+  const double mass = particles.mass[p], volume = particles.volume[p], c = particles.sound_speed[p];
+  return particles.failed[p] != 0 || particles.void_volume[p] > 0.0 ||
+         particles.pressure[p] * volume < -round_off * mass * c * c || mass < (1.0 - round_off) * initial_density * volume;
 }
 
 /// Divides the loss of the transfers (J/kg, >= 0 but for round-off) and the work of the artificial viscosity

@@ -229,7 +229,7 @@ TEST_F(SolverRanks, AgreeWithOneRankInAxisymmetry) {
 // crosses their borders while it rebounds.
 TEST_F(SolverRanks, DeformationGradientsMoveWithTheirParticles) {
   ranks_.on_root([&] {
-    std::ofstream(folder_ / "rubber.toml") << R"(
+    std::ofstream(folder_ / "rubber.toml") << R"toml(
 name = "rubber"
 source = "test"
 [eos]
@@ -245,7 +245,7 @@ reference_temperature = "300 K"
 model = "neo_hookean"
 source = "test"
 shear_modulus = "2 MPa"
-)";
+)toml";
     std::ofstream(folder_ / "bounce.toml") << R"(
 [domain]
 lower = ["0 mm", "-4 mm", "-4 mm"]

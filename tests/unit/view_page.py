@@ -110,6 +110,13 @@ def main():
         require(len(files) == len(series), f"{len(files)} files of clouds")
         require(cloud_of(gzip.decompress(files[-1].read_bytes()))[0]["time"] == series[-1]["time"], "time of a file")
 
+        # The bodies of a case before it runs.
+        whipple("check", CASE, "--preview", folder / "start.html")
+        start = clouds_of((folder / "start.html").read_text(encoding="utf-8"))
+        require(len(start) == 1 and start[0][0]["time"] == 0, "one time, the start")
+        require(start[0][0]["n"] == clouds[0][0]["n"] and np.array_equal(start[0][1]["x"], clouds[0][1]["x"]), "the same bodies")
+        require("--force overwrites it" in whipple("check", CASE, "--preview", folder / "start.html", code=2), "a preview is overwritten")
+
         # What is asked for wrongly.
         require("did you mean \"pressure\"" in whipple("view", run, "--fields", "presure", code=2), "unknown field")
         require("--force overwrites it" in whipple("view", run, "-o", folder / "same.html", code=2), "a page is overwritten")
