@@ -12,4 +12,7 @@ namespace whipple::python {
 /// the module.
 void add_loci(pybind11::module_& module, pybind11::class_<Material>& material);
 
+/// Declares detonation products: a method of the material, what it returns, and Gurney's speeds.
+void add_explosives(pybind11::module_& module, pybind11::class_<Material>& material);
+
 }  // namespace whipple::python

@@ -15,17 +15,6 @@ namespace {
 
 constexpr double unknown = eos::State::unknown;
 
-/// A result of points with room for its further columns.
-template <class Kind>
-Kind make(std::shared_ptr<const eos::EquationOfState> eos, const Points& points, std::size_t further) {
-  Kind result;
-  result.eos = std::move(eos);
-  result.shape = points.shape;
-  result.states.resize(points.size);
-  result.further.assign(further, std::vector<double>(points.size, unknown));
-  return result;
-}
-
 /// Stores that a point has no state.
 template <class Kind>
 auto refusal(Kind& result) {
@@ -205,14 +194,6 @@ py::dict thresholds(const Material& material, double pressure) {
   return result;
 }
 
-/// What meets at an interface, over an array of velocities.
-struct Impact {
-  Shape shape;
-  std::vector<double> pressure, velocity;
-  States left, right;
-  std::vector<double> right_shock_velocity;
-};
-
 Impact impact(const Material& projectile, const Material& target, const Numbers& velocity, bool skip_invalid) {
   const Points points = broadcast({velocity});
   const std::vector<double> none(points.size, unknown);
@@ -279,16 +260,17 @@ Mixtures mixture(const std::vector<std::pair<Material, double>>& parts, const Op
   return result;
 }
 
+using eos::experiments::Experiment;
+
 /// An experiment with the curve of a model at its points.
-struct ComparedExperiment {
-  eos::experiments::Experiment experiment;
+struct ComparedExperiment : Experiment {
   eos::experiments::Comparison comparison;
 };
 
 std::vector<ComparedExperiment> compare(const Material& material, const std::filesystem::path& file,
                                         std::optional<double> temperature) {
   std::vector<ComparedExperiment> compared;
-  for (eos::experiments::Experiment& experiment : eos::experiments::read_experiments(file, temperature)) {
+  for (Experiment& experiment : eos::experiments::read_experiments(file, temperature)) {
     if (!eos::experiments::belongs_to(experiment, material.name) && experiment.only_its_material) continue;
     auto comparison = eos::experiments::compare(*material.eos, material.reference, experiment);
     compared.push_back({std::move(experiment), std::move(comparison)});
@@ -296,9 +278,6 @@ std::vector<ComparedExperiment> compare(const Material& material, const std::fil
   return compared;
 }
 
-py::object array_of(const Shape& shape, const std::vector<double>& values) {
-  return number_or_array(Numbers(shape, values.data()));
-}
 Numbers list_of(const std::vector<double>& values) {
   return Numbers(static_cast<py::ssize_t>(values.size()), values.data());
 }
@@ -332,25 +311,31 @@ void add_results(py::module_& module) {
       .value("shock_pressure", ExperimentKind::shock_pressure, "Shock pressure (Pa) over V/V0.")
       .value("isotherm", ExperimentKind::isotherm, "Pressure (Pa) over V/V0 at constant temperature.")
       .value("melting", ExperimentKind::melting, "Melting temperature (K) over pressure (Pa).");
-  py::class_<ComparedExperiment>(module, "Comparison", "Measured points beside the curve of a material.")
-      .def_property_readonly("name", [](const ComparedExperiment& c) { return c.experiment.name; },
-                             "Name of the data set.")
-      .def_property_readonly("source", [](const ComparedExperiment& c) { return c.experiment.source; },
-                             "Source of the data set.")
-      .def_property_readonly("kind", [](const ComparedExperiment& c) { return c.experiment.kind; },
-                             "Which quantities were measured.")
-      .def_property_readonly("abscissa", [](const ComparedExperiment& c) { return list_of(c.experiment.abscissa); },
+  py::class_<Experiment>(module, "Measurements", "Measured points of a text table, in SI units.")
+      .def_readonly("name", &Experiment::name, "Name of the data set.")
+      .def_readonly("source", &Experiment::source, "Source of the data set.")
+      .def_readonly("kind", &Experiment::kind, "Which quantities were measured.")
+      .def_readonly("temperature", &Experiment::temperature, "Temperature of an isotherm, K.")
+      .def_property_readonly("abscissa", [](const Experiment& e) { return list_of(e.abscissa); },
                              "Measured up (m/s), V/V0 or pressure (Pa).")
-      .def_property_readonly("measured", [](const ComparedExperiment& c) { return list_of(c.experiment.ordinate); },
+      .def_property_readonly("measured", [](const Experiment& e) { return list_of(e.ordinate); },
                              "Measured Us (m/s), pressure (Pa) or temperature (K).")
+      .def_property_readonly("initial_density", [](const Experiment& e) { return list_of(e.initial_density); },
+                             "Density of the sample, kg/m^3; NaN where it is not stated.");
+  py::class_<ComparedExperiment, Experiment>(module, "Comparison", "Measured points and the curve of a material.")
       .def_property_readonly("model", [](const ComparedExperiment& c) { return list_of(c.comparison.model); },
-                             "The same quantity of the material; NaN outside its range.")
+                             "The measured quantity of the material; NaN outside its range.")
       .def_property_readonly("deviation", [](const ComparedExperiment& c) { return list_of(c.comparison.deviation); },
                              "Model less measurement, in percent of the measured Us or temperature, or in Pa.")
       .def_property_readonly("rms", [](const ComparedExperiment& c) { return c.comparison.rms; },
                              "Root mean square of the deviations.")
       .def_property_readonly("points", [](const ComparedExperiment& c) { return c.comparison.points; },
                              "Number of points inside the range of the material.");
+  module.def("measurements", &eos::experiments::read_experiments, py::arg("file"), py::kw_only(),
+             py::arg("temperature") = py::none(),
+             "Read the Hugoniots, isotherms and melting lines of a text table.\n\n"
+             "Columns with units in their headings, as for `whipple compare`. temperature: of an isotherm (K), where\n"
+             "the file does not state it. Raises InputError with file and line.");
 }
 
 }  // namespace

@@ -237,6 +237,14 @@ void add_library(py::module_& module) {
       .def("__repr__", [](const LibraryMaterial& m) { return fmt::format("<{}: {}>", m.file.stem().string(),
                                                                          m.note); });
   module.def("materials", &library_materials, "List the materials of the library.");
+  module.def("samples",
+             [](const std::filesystem::path& name, int count, std::uint64_t seed) {
+               py::gil_scoped_release unlocked;
+               return sample_material(name, count, seed).materials;
+             },
+             py::arg("name"), py::arg("count"), py::arg("seed") = 1,
+             "Draw materials from the covariance of a fitted one, written by `whipple fit`.\n\n"
+             "Raises InputError if the file has no covariance.");
   module.def("material", &read, py::arg("name"), py::arg("changes") = std::map<std::string, std::string>(),
              "Read a material.\n\n"
              "name: of the library (\"copper\"), or the path of a material file.\n"
@@ -257,5 +265,6 @@ PYBIND11_MODULE(eos, module) {
   add_material(module, material);
   add_library(module);
   add_loci(module, material);
+  add_explosives(module, material);
   pass_messages_to_python();
 }

@@ -99,6 +99,10 @@ py::object number_or_array(const py::array& array) {
   return array.attr("__getitem__")(py::tuple());
 }
 
+py::object array_of(const Shape& shape, const std::vector<double>& values) {
+  return number_or_array(Numbers(shape, values.data()));
+}
+
 const eos::State& States::single() const {
   if (states.size() != 1) {
     throw InputError(fmt::format("expected one state, not {}: choose one by its index", states.size()));

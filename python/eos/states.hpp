@@ -62,7 +62,29 @@ struct Shocks : States {};      ///< further: shock velocity, particle velocity
 struct Isentropes : States {};  ///< further: Riemann velocity
 struct Releases : States {};    ///< further: Riemann velocity, 1 where the end is in equilibrium
 
-/// Declares the classes above.
+/// What meets at an interface, over an array of velocities.
+struct Impact {
+  Shape shape;
+  std::vector<double> pressure, velocity;
+  States left, right;
+  std::vector<double> right_shock_velocity;
+};
+
+/// A result of points with room for its further columns.
+template <class Kind>
+Kind make(std::shared_ptr<const eos::EquationOfState> eos, const Points& points, std::size_t further) {
+  Kind result;
+  result.eos = std::move(eos);
+  result.shape = points.shape;
+  result.states.resize(points.size);
+  result.further.assign(further, std::vector<double>(points.size, eos::State::unknown));
+  return result;
+}
+
+/// Numbers as an array of a shape, or as a number.
+py::object array_of(const Shape& shape, const std::vector<double>& values);
+
+/// Declares the classes of states above.
 void add_states(py::module_& module);
 
 /// Gives Python the chance to end a long loop by Ctrl-C; called without the interpreter's lock.

@@ -44,6 +44,10 @@ class Library(unittest.TestCase):
         self.assertGreater(stiffer.hugoniot(**at).pressure, COPPER.hugoniot(**at).pressure)
         self.assertEqual(eos.material(pathlib.Path(COPPER.file)).name, "copper")
 
+    def test_samples_need_a_covariance(self):
+        with self.assertRaisesRegex(eos.InputError, "covariance"):
+            eos.samples("copper", 3)
+
     def test_validity(self):
         audit = COPPER.audit()
         self.assertTrue(audit.usable)
@@ -275,6 +279,37 @@ class Loci(unittest.TestCase):
         self.assertEqual(len(comparison.model), len(comparison.measured))
         with self.assertRaises(eos.InputError):
             COPPER.compare("nowhere.csv")
+
+    def test_a_fit_to_own_data(self):
+        up = np.linspace(300, 2500, 12)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "mine.csv"
+            rows = "".join(f"{a / 1e3},{(4000 + 1.5 * a) / 1e3}\n" for a in up)
+            file.write_text("# a Hugoniot of my own\nup [km/s],us [km/s]\n" + rows, encoding="utf-8")
+            [data] = eos.measurements(file)
+        np.testing.assert_allclose(data.abscissa, up, rtol=1e-12)
+        slope, intercept = np.polyfit(data.abscissa, data.measured, 1)
+        fitted = eos.material("copper_ofhc_mie_gruneisen", {"eos.hugoniot_intercept": f"{intercept} m/s",
+                                                            "eos.hugoniot_slope": f"{slope}"})
+        np.testing.assert_allclose(fitted.hugoniot(particle_velocity=up).shock_velocity, 4000 + 1.5 * up, rtol=1e-6)
+
+
+class Explosives(unittest.TestCase):
+    def test_detonation_and_what_it_drives(self):
+        explosive = eos.material("composition_b")
+        detonation = explosive.detonation()
+        self.assertAlmostEqual(detonation.wave.shock_velocity, 7980, delta=1)
+        self.assertAlmostEqual(detonation.wave.pressure / 1e9, 29.5, delta=0.01)
+        products = detonation.expansion([detonation.volume, 1.0, 7.0, 100.0])
+        np.testing.assert_allclose(products.energy[1:] / explosive.states().energy, [0.868, 0.194, 0.078], atol=6e-4)
+        contact = detonation.contact(SIMPLE)
+        self.assertAlmostEqual(contact.pressure / 1e9, 47.79, delta=0.02)
+        wall = detonation.cylinder([6e-3, 19e-3])
+        np.testing.assert_allclose(wall["radial_speed"], [1399, 1626], atol=1)
+        speeds = eos.gurney_speed(eos.GurneyShape.sphere, detonation.gurney_velocity(), [0.5, 1.0])
+        np.testing.assert_allclose(speeds, 2826 / np.sqrt([1.1, 1.6]), rtol=1e-3)
+        with self.assertRaisesRegex(eos.InputError, "no explosive"):
+            COPPER.detonation()
 
 
 class Manual(unittest.TestCase):
