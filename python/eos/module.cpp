@@ -88,6 +88,29 @@ States states(const Material& material, const OptionalNumbers& density, const Op
                    });
 }
 
+/// Collects the sources of a table and of the tables in it.
+/// @param name  of the table; empty: the file
+void add_sources(py::dict& sources, const std::string& name, const py::handle& item) {
+  const std::string prefix = name.empty() ? "" : name + ".";
+  if (py::isinstance<py::dict>(item)) {
+    for (const auto& [key, value] : py::reinterpret_borrow<py::dict>(item)) {
+      const std::string word = py::str(key);
+      if (word == "source") sources[py::str(name.empty() ? "file" : name)] = value;
+      add_sources(sources, prefix + word, value);
+    }
+  } else if (py::isinstance<py::list>(item)) {
+    std::size_t i = 0;
+    for (const py::handle& value : item) add_sources(sources, fmt::format("{}{}", prefix, i++), value);
+  }
+}
+
+py::dict sources(const Material& material) {
+  const py::object text = py::module_::import("pathlib").attr("Path")(material.file).attr("read_text")("utf-8");
+  py::dict result;
+  add_sources(result, "", py::module_::import("tomllib").attr("loads")(text));
+  return result;
+}
+
 States reference(const Material& material) {
   return {material.eos, {}, {material.reference}};
 }
@@ -183,6 +206,8 @@ void add_material(py::module_& module, py::class_<Material>& material) {
       .def_property_readonly("file", [](const Material& m) { return m.file.string(); },
                              "The file that it was read from.")
       .def_readonly("source", &Material::source, "Where its constants come from.")
+      .def_property_readonly("sources", &sources,
+                             "Sources of the file and of each of its tables: \"file\", \"eos\", \"strength\", \"failure.0\".")
       .def_readonly("note", &Material::note, "Purpose or limits in one line.")
       .def_readonly("group", &Material::group, "Where the library lists it: \"metals\", \"explosives\", ...")
       .def_property_readonly("model", [](const Material& m) { return std::string(m.eos->model()); },

@@ -33,6 +33,8 @@ class Library(unittest.TestCase):
     def test_a_material_tells_its_sources_and_constants(self):
         self.assertEqual((COPPER.name, COPPER.model, COPPER.group), ("copper", "gray", "metals"))
         self.assertIn("Liu, Wang and Zhang", COPPER.source)
+        self.assertIn("Johnson and Cook", COPPER.sources["strength"])
+        self.assertEqual(set(COPPER.sources), {"file", "eos", "measured", "strength", "failure.0"})
         constants = tomllib.loads(COPPER.constants)
         self.assertEqual(constants["eos"]["hugoniot_slope"], 1.489)
         self.assertEqual(COPPER.measured_melting_point, 1357.77)
