@@ -54,7 +54,7 @@ BANNED = tuple((re.compile(pattern, re.IGNORECASE), term) for pattern, term in (
     (r"\b(laid|lay|lays|set|sets|stands?) beside\b", "compared with, next to"),
     (r"\basks? (the|an) (equation of state|EOS)\b", "evaluates the equation of state"),
 ))
-LANGUAGE_OF = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs", "cases", "src", "eos", "md_fitting", "report", "scripts",
+LANGUAGE_OF = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs", "cases", "src", "eos", "md_fitting", "python", "report", "scripts",
                "studies")
 QUOTES_THE_GLOSSARY = ("docs/decisions/0005_language.md", "scripts/check_documents.py")
 SPOKEN = re.compile(r'//[^\n]*|"(?:\\.|[^"\\\n])*"')  # comments and texts of a line of C++

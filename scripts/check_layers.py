@@ -64,6 +64,8 @@ MAY_USE = {
                 "src/transfer", "src/io", "src/analysis", "src/view", "src/monitor", "src/decks", "src/case", "src/solver", "src/run", "src/bench",
                 "md_fitting/plan",
                 "md_fitting/simulated_crystal"],
+    # The Python module whipple.eos: no MPI, no grid.
+    "python": ["src/core/base", "eos", "eos/curves", "eos/experiments", "eos/files", "src/material"],
 }
 
 # CMake library -> module, where the name is not the last part of the folder.
@@ -92,6 +94,7 @@ CONFINED = [
     ("HDF5", re.compile(r"^\s*#\s*include\s*[<\"](hdf5|H5\w+)\.h"), ["src/core/hdf5", VERSION_QUERY]),
     ("p4est", re.compile(r"^\s*#\s*include\s*[<\"](p[48]est\w*|sc(_\w+)?)\.h"), ["src/grid", VERSION_QUERY]),
     ("network", re.compile(r"^\s*#\s*include\s*[<\"]boost/(asio|beast)"), ["src/monitor"]),
+    ("pybind11", re.compile(r"^\s*#\s*include\s*<pybind11/"), ["python"]),
     ("UDUNITS2", re.compile(r"^\s*#\s*include\s*[<\"]udunits2\.h"), ["src/core/base"]),
 ]
 
@@ -99,6 +102,7 @@ CONFINED = [
 # by comparing with a text. Where texts of others are read or written, they are compared:
 WORD_COMPARISON = re.compile(r'[=!]=\s*"|"\s*[=!]=')
 WORDS_ALLOWED = {
+    "python/eos/module.cpp": "keys of material files",
     "src/case": "keys and words of case files",
     "src/core": "reads and checks words",
     "src/decks": "grammars of other codes' decks",
@@ -120,7 +124,7 @@ WORDS_ALLOWED = {
 
 # A source file has at most so many lines.
 MOST_LINES = 500
-OWN_FOLDERS = ("src", "eos", "md_fitting", "tests", "report", "scripts", "studies", "examples")
+OWN_FOLDERS = ("src", "eos", "md_fitting", "python", "tests", "report", "scripts", "studies", "examples")
 OWN_ENDINGS = {".hpp", ".cpp", ".inl", ".h", ".py", ".sh", ".cmake"}
 
 PYTHON_IMPORT = re.compile(rf"^\s*(?:from|import)\s+({'|'.join(PYTHON_MAY_USE)})\b")
@@ -144,7 +148,7 @@ def code_lines(text):
 
 
 def sources(root):
-    for folder in ("src", "eos", "md_fitting"):
+    for folder in ("src", "eos", "md_fitting", "python"):
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in SOURCE_ENDINGS and path.is_file():
                 yield path.relative_to(root)
@@ -297,6 +301,7 @@ def self_test():
         "src/app/lammps.cpp": ("#include <lammps/library.h>\n", "LAMMPS outside of"),
         "src/solver/hdf5.cpp": ("#include <hdf5.h>\n", "HDF5 outside of"),
         "src/solver/forest.cpp": ("#include <p8est_bits.h>\n", "p4est outside of"),
+        "src/material/binds.cpp": ("#include <pybind11/numpy.h>\n", "pybind11 outside of"),
         "src/core/base/relative.cpp": ('#include "upward.hpp"\n', '"upward.hpp" is no file of a layer'),
         "src/solver/words.cpp": ('bool f(S s) { return s == "musl"; }\n', "compares with a text"),
         "eos/models/words.cpp": ('bool f(S s) { return "band" != s; }\n', "compares with a text"),

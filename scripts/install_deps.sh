@@ -20,7 +20,7 @@ packages=(
   libeigen3-dev libgsl-dev libboost-dev
   libcli11-dev libspdlog-dev libfmt-dev libtomlplusplus-dev libudunits2-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
-  python3-numpy python3-h5py python3-matplotlib
+  python3-numpy python3-h5py python3-matplotlib python3-dev pybind11-dev
 )
 list=false
 for argument in "$@"; do

@@ -14,7 +14,8 @@ whipple_test(eos_curves_test SOURCES unit/eos_curves_test.cpp unit/eos_experimen
 whipple_test(eos_library_test
   SOURCES property/eos_inversions_test.cpp property/eos_audit_test.cpp validation/eos_library_test.cpp
           unit/eos_table_file_test.cpp unit/eos_sesame_test.cpp verification/eos_table_metals_test.cpp
-  DEPENDS whipple_material GTest::gmock LABELS fast)
+          verification/eos_explosives_test.cpp
+  DEPENDS whipple_material whipple_eos_curves GTest::gmock LABELS fast)
 add_test(NAME eos_table_error.at_a_million_states COMMAND eos_test --gtest_filter=EosTableError*:-*Isochoric*)
 set_tests_properties(eos_table_error.at_a_million_states PROPERTIES
   ENVIRONMENT "WHIPPLE_TABLE_STATES=1000000;OMP_NUM_THREADS=1" LABELS long)
@@ -50,6 +51,20 @@ add_test(NAME eos_command.audit_of_an_explosive COMMAND whipple eos audit tnt)
 set_tests_properties(eos_command.audit_of_an_explosive PROPERTIES
   PASS_REGULAR_EXPRESSION "Chapman-Jouguet: 6\\.9[0-9]* km/s, 2[01][.0-9]* GPa.*verdict: sound")
 set_tests_properties(eos_command.less_energy_than_the_coldest_state eos_command.audit_of_an_explosive PROPERTIES LABELS fast)
+# Composition B meets copper and water; its cylinder test; what is no explosive.
+add_test(NAME eos_command.contact COMMAND whipple eos contact composition_b copper_ofhc_mie_gruneisen water_linear_mie_gruneisen)
+set_tests_properties(eos_command.contact PROPERTIES PASS_REGULAR_EXPRESSION "shock +0\\.98[0-9]+ .* 47\\.[0-9]+ .*expansion +2\\.[0-9]+")
+add_test(NAME eos_command.cylinder COMMAND whipple eos cylinder composition_b --from "6 mm" --to "19 mm" --points 2)
+set_tests_properties(eos_command.cylinder PROPERTIES PASS_REGULAR_EXPRESSION "6 +1\\.398.*19 +1\\.626")
+add_test(NAME eos_command.gurney COMMAND whipple eos gurney composition_b --volume 7 --points 3)
+set_tests_properties(eos_command.gurney PROPERTIES PASS_REGULAR_EXPRESSION "\n *1 +2\\.307")
+add_test(NAME eos_command.products COMMAND whipple eos products composition_b --to "1 GPa" --points 3)
+add_test(NAME eos_command.detonation_of_copper COMMAND whipple eos detonation tnt copper)
+set_tests_properties(eos_command.products PROPERTIES PASS_REGULAR_EXPRESSION "29\\.49[0-9]+ ")
+set_tests_properties(eos_command.detonation_of_copper PROPERTIES PASS_REGULAR_EXPRESSION "error: model gray describes no explosive")
+foreach(query contact cylinder gurney products detonation_of_copper)
+  set_tests_properties(eos_command.${query} PROPERTIES LABELS fast)
+endforeach()
 foreach(query isotherm isentrope dome)
   add_test(NAME eos_command.${query} COMMAND whipple eos ${query} copper --points 5)
 endforeach()
@@ -122,4 +137,16 @@ add_test(NAME eos_command.table_needs_one_file
   WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
 foreach(query sesame sesame_refuses_to_overwrite hugoniot_of_a_sesame_table table_needs_one_file)
   set_property(TEST eos_command.${query} PROPERTY LABELS fast)
+endforeach()
+
+# The material library on the command line: what a word finds, a file with its sources and its validity.
+add_test(NAME materials_command.search COMMAND whipple materials search STEINBERG tantalum)
+set_tests_properties(materials_command.search PROPERTIES PASS_REGULAR_EXPRESSION "tantalum_mie_gruneisen  ")
+add_test(NAME materials_command.search_without_result COMMAND whipple materials search unobtainium)
+set_tests_properties(materials_command.search_without_result PROPERTIES PASS_REGULAR_EXPRESSION "error: no material of the library")
+add_test(NAME materials_command.show COMMAND whipple materials show copper)
+set_tests_properties(materials_command.show PROPERTIES
+  PASS_REGULAR_EXPRESSION "source = .GRAY: Liu, Wang and Zhang.*hugoniot_intercept = .3.94 km/s.*valid +density .*verdict: sound")
+foreach(query search search_without_result show)
+  set_tests_properties(materials_command.${query} PROPERTIES LABELS fast)
 endforeach()

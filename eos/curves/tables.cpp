@@ -17,6 +17,9 @@ constexpr double GPa = 1e9;  // Pa
 Column pressure_column() { return quantity_column("P_GPa", "GPa", "Pa", "pressure"); }
 Column particle_velocity_column() { return quantity_column("up_km_s", "km/s", "m/s", "particle velocity"); }
 Column shock_velocity_column() { return quantity_column("us_km_s", "km/s", "m/s", "shock velocity"); }
+Column speed_column(std::string name, std::string meaning) {
+  return quantity_column(std::move(name), "km/s", "m/s", std::move(meaning));
+}
 Column riemann_column() { return quantity_column("u_km_s", "km/s", "m/s", "Riemann velocity"); }
 
 /// Makes a table without rows.
@@ -243,6 +246,103 @@ CurveTable match_table(const Subjects& subjects, double velocity) {
         row_of(*subjects[i].eos, m.left, {subjects[i].name + arrow, m.velocity, m.left_shock_velocity}));
     table.series[0].rows.push_back(row_of(*subjects[i + 1].eos, m.right,
                                           {subjects[i + 1].name + " (shocked)", m.velocity, m.right_shock_velocity}));
+  }
+  return table;
+}
+
+CurveTable detonation_table(const Subjects& explosives) {
+  CurveTable table = table_of("Chapman-Jouguet state", explosives,
+                              before_state({quantity_column("D_km_s", "km/s", "m/s", "detonation velocity"),
+                                            particle_velocity_column(), plain_column("exponent", "adiabatic exponent"),
+                                            speed_column("gurney_km_s", "Gurney velocity, sevenfold volume")}));
+  for (std::size_t i = 0; i < explosives.size(); ++i) {
+    const DetonationProducts products(*explosives[i].eos);
+    const ChapmanJouguet& cj = products.chapman_jouguet();
+    table.series[i].rows.push_back(
+        row_of(*explosives[i].eos, cj.state, {cj.detonation_velocity, cj.particle_velocity,
+                                              products.adiabatic_exponent(), products.gurney_velocity()}));
+  }
+  return table;
+}
+
+CurveTable products_table(const Subjects& explosives, Variable variable, const CurveRange& range) {
+  if (variable == Variable::particle_velocity) throw InputError("an isentrope runs over pressure or density");
+  constexpr double greatest_volume = 100;
+  CurveTable table = table_of("Isentrope of detonation products", explosives,
+                              before_state({riemann_column(), plain_column("energy_left",
+                                                                           "fraction of the energy left")}));
+  for (std::size_t i = 0; i < explosives.size(); ++i) {
+    const EquationOfState& eos = *explosives[i].eos;
+    const DetonationProducts products(eos);
+    const State& cj = products.chapman_jouguet().state;
+    double last = eos.reference_density() / greatest_volume;
+    if (range.to) last = variable == Variable::density ? *range.to : isentrope_at_pressure(eos, cj,
+        *range.to).state.density;
+    std::vector<double> volumes;
+    for (const double x : spaced(std::log(cj.density), std::log(last), range.points)) {
+      volumes.push_back(eos.reference_density() / std::exp(x));
+    }
+    for (const IsentropeState& s : products.expansion(volumes)) {
+      const double left = 1 - products.energy_given_off(s.state) / eos.reference_energy();
+      table.series[i].rows.push_back(row_of(eos, s.state, {s.riemann_velocity, left}));
+    }
+  }
+  return table;
+}
+
+CurveTable contact_table(const Subjects& subjects) {
+  if (subjects.size() < 2) throw InputError("a contact has an explosive, and an inert material at least");
+  const DetonationProducts products(*subjects[0].eos);
+  CurveTable table;
+  table.title = fmt::format("Detonation of {} meets", subjects[0].name);
+  table.columns = before_state({plain_column("material", "material"), plain_column("wave",
+      "wave back into the products"),
+                                quantity_column("u_km_s", "km/s", "m/s", "velocity of the interface"),
+                                shock_velocity_column()});
+  table.series.push_back({"", {}});
+  for (std::size_t i = 1; i < subjects.size(); ++i) {
+    const ImpedanceMatch m = products.contact(Hugoniot(*subjects[i].eos));
+    table.series[0].rows.push_back(
+        row_of(*subjects[i].eos, m.right,
+               {subjects[i].name, std::isnan(m.left_shock_velocity) ? "expansion" : "shock", m.velocity,
+                m.right_shock_velocity}));
+  }
+  return table;
+}
+
+CurveTable gurney_table(const Subjects& explosives, double volume, int points) {
+  CurveTable table = table_of(fmt::format("Gurney speeds at {:.6g} volumes", volume), explosives,
+                              {plain_column("metal_over_explosive", "mass of metal over that of explosive")});
+  for (const auto& [word, shape] : gurney_shapes) {
+    table.columns.push_back(speed_column(std::string(word) + "_km_s", std::string("speed of the metal, ") + word));
+  }
+  for (std::size_t i = 0; i < explosives.size(); ++i) {
+    const double velocity = DetonationProducts(*explosives[i].eos).gurney_velocity(volume);
+    for (const double x : spaced(std::log(0.1), std::log(10.0), points)) {
+      CurveRow row = {std::exp(x)};
+      for (const auto& [word, shape] : gurney_shapes) row.emplace_back(gurney_speed(shape, velocity, std::exp(x)));
+      table.series[i].rows.push_back(std::move(row));
+    }
+  }
+  return table;
+}
+
+CurveTable cylinder_table(const Subjects& explosives, const CylinderTest& test, const CurveRange& range) {
+  CurveTable table = table_of(
+      fmt::format("Cylinder test, bore {:.4g} mm, wall {:.4g} mm of {:.6g} kg/m^3", 2e3 * test.inner_radius,
+                  1e3 * test.wall, test.wall_density),
+      explosives,
+      {quantity_column("R_R0_mm", "mm", "m", "displacement of the outer surface"),
+       speed_column("radial_km_s", "radial speed of the outer surface"),
+       speed_column("wall_km_s", "speed of the wall"), quantity_column("angle_degree", "degree", "rad",
+                                                                       "angle of the wall"),
+       plain_column("v", "relative volume of the products"), pressure_column()});
+  for (std::size_t i = 0; i < explosives.size(); ++i) {
+    const DetonationProducts products(*explosives[i].eos);
+    const std::vector<double> displacements = spaced(range.from.value_or(1e-3), range.to.value_or(25e-3), range.points);
+    for (const CylinderWall& w : cylinder_test(products, test, displacements)) {
+      table.series[i].rows.push_back({w.displacement, w.radial_speed, w.material_speed, w.angle, w.volume, w.pressure});
+    }
   }
   return table;
 }

@@ -6,6 +6,7 @@
 
 #include "eos/curves/queries.hpp"
 #include "eos/curves/table.hpp"
+#include "eos/loci/detonation_products.hpp"
 
 namespace whipple::eos::curves {
 
@@ -48,5 +49,20 @@ CurveTable melt_table(const Subjects& subjects, const CurveRange& range);
 CurveTable dome_table(const Subjects& subjects, const CurveRange& range);
 /// Impact of the first subject on the second with a velocity (m/s), and the shock transmitted into the others.
 CurveTable match_table(const Subjects& subjects, double velocity);
+
+// Explosives: equations of state of detonation products; InputError for others.
+
+/// The Chapman-Jouguet state of each, with detonation velocity, adiabatic exponent and Gurney velocity.
+CurveTable detonation_table(const Subjects& explosives);
+/// Isentropes of products from the Chapman-Jouguet state down to a pressure or density (the hundredfold volume of the
+/// explosive), with the part of the energy of the explosive that they still hold.
+CurveTable products_table(const Subjects& explosives, Variable variable, const CurveRange& range);
+/// The detonation wave of the first subject meets each of the others at normal incidence.
+CurveTable contact_table(const Subjects& explosive_and_inert);
+/// Gurney's speeds of driven metal over the ratio of masses M/C, from 0.1 to 10 at equal ratios.
+/// @param volume  relative volume to which the products drive
+CurveTable gurney_table(const Subjects& explosives, double volume, int points);
+/// Wall of a cylinder test over its displacement, from 1 to 25 mm.
+CurveTable cylinder_table(const Subjects& explosives, const CylinderTest& test, const CurveRange& range);
 
 }  // namespace whipple::eos::curves

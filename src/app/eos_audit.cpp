@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "eos/audit.hpp"
 #include "eos/detonation.hpp"
 #include "eos/models/jwl.hpp"
 #include "src/core/base/error.hpp"
@@ -72,8 +71,8 @@ void add_identities(Lines& lines, const Audit& audit) {
 
 }  // namespace
 
-void print_audit(const Material& material) {
-  const Audit audit = eos::audit(*material.eos);
+void print_audit(const Material& material, eos::AuditDepth depth) {
+  const Audit audit = eos::audit(*material.eos, depth);
   fmt::print("Audit: {} ({})\n", material.name, audit.model);
   Lines lines = {{"reference", reference_text(audit.reference)}};
   if (audit.cold) lines.push_back({"cold curve", cold_text(*audit.cold)});

@@ -142,6 +142,7 @@ enum class Quantity {
   from,
   to,
   states,
+  volume,
 };
 
 /// The option of a quantity.
@@ -168,6 +169,8 @@ const QuantityOption quantity_options[] = {
     {Quantity::to, "--to", &EosOptions::to, "End of the curve, e.g. '150 GPa'"},
     {Quantity::states, "--states", &EosOptions::states,
      "CSV file of states instead of one: columns like 'density [g/cm^3]' and 'temperature [K]'"},
+    {Quantity::volume, "--volume", &EosOptions::volume,
+     "Volume of the products over that of the explosive to which they drive (default 7)"},
 };
 
 /// One subcommand: which quantities it takes and what it computes.
@@ -215,6 +218,22 @@ CurveTable match_table(const EosOptions& o, const Subjects& subjects) {
   return eos::curves::match_table(subjects, impact_velocity(o));
 }
 
+CurveTable detonation_table(const EosOptions&, const Subjects& subjects) {
+  return eos::curves::detonation_table(subjects);
+}
+CurveTable products_table(const EosOptions& o, const Subjects& subjects) {
+  const Variable variable = curve_variable(o, std::array{Variable::pressure, Variable::density});
+  return eos::curves::products_table(subjects, variable, curve_range(o, variable));
+}
+CurveTable contact_table(const EosOptions&, const Subjects& subjects) { return eos::curves::contact_table(subjects); }
+CurveTable gurney_table(const EosOptions& o, const Subjects& subjects) {
+  return eos::curves::gurney_table(subjects, quantity("--volume", o.volume, "").value_or(7.0), o.points);
+}
+CurveTable cylinder_table(const EosOptions& o, const Subjects& subjects) {
+  return eos::curves::cylinder_table(subjects, {},
+                                     {quantity("--from", o.from, "m"), quantity("--to", o.to, "m"), o.points});
+}
+
 const std::vector<Query>& queries() {
   using enum Quantity;
   static const std::vector<Query> all = {
@@ -246,6 +265,16 @@ const std::vector<Query>& queries() {
        cold_remarks, "whipple eos cold copper --from '7 g/cm^3' --to '16 g/cm^3'"},
       {"match", "Impact of the first material on the second, and the shock transmitted into the others", {velocity}, nullptr,
        nullptr, match_table, match_remarks, "whipple eos match copper aluminium --velocity '5.55 km/s'"},
+      {"detonation", "Explosives: Chapman-Jouguet state, detonation velocity, Gurney velocity", {}, nullptr, nullptr,
+       detonation_table, nullptr, "whipple eos detonation tnt composition_b pbx_9404"},
+      {"products", "Explosives: isentrope of the products from the Chapman-Jouguet state on", {to}, "V_over_V0", "P_GPa",
+       products_table, nullptr, "whipple eos products composition_b --to '1 bar' --plot products.png --log xy"},
+      {"contact", "Detonation of the first material meets each of the others: pressure and velocity", {}, nullptr,
+       nullptr, contact_table, nullptr, "whipple eos contact composition_b copper aluminium_6061_t6 water"},
+      {"gurney", "Explosives: Gurney's speeds of driven metal over the ratio of masses", {volume},
+       "metal_over_explosive", "cylinder_km_s", gurney_table, nullptr, "whipple eos gurney composition_b --points 5"},
+      {"cylinder", "Explosives: wall of the copper cylinder test, by steady flow", {from, to}, "R_R0_mm", "radial_km_s",
+       cylinder_table, nullptr, "whipple eos cylinder tnt --from '6 mm' --to '19 mm' --points 2"},
   };
   return all;
 }
@@ -350,7 +379,7 @@ void add_audit(CLI::App& command) {
       "audit", "Is the equation of state sound, and where: limits, stability, identities, verdict");
   audit->add_option("material", *name, "Material file, or name of the library")->required();
   audit->footer("Example:\n  whipple eos audit copper");
-  audit->callback([name] { print_audit(read_material(*name)); });
+  audit->callback([name] { print_audit(read_material(*name), eos::AuditDepth::full); });
 }
 
 void add_plot(CLI::App& command) {

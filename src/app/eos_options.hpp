@@ -19,6 +19,7 @@ struct EosOptions {
   std::string velocity;
   std::string from, to;
   std::string states;  ///< file with a list of states
+  std::string volume;  ///< relative, of detonation products
   int points = 21;
 };
 

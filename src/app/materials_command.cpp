@@ -4,10 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <fstream>
 #include <memory>
+#include <sstream>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "src/app/eos_audit.hpp"
 #include "src/app/materials_table.hpp"
+#include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/material/material_file.hpp"
 
@@ -36,15 +43,61 @@ void print_materials() {
   for (const std::filesystem::path& folder : library_folders()) log::info("  {}", folder.string());
 }
 
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// The material files with all words in their names or texts, in which sources, models and notes are.
+void search_materials(const std::vector<std::string>& words) {
+  std::vector<LibraryMaterial> found = library_materials();
+  std::erase_if(found, [&](const LibraryMaterial& material) {
+    const std::string text = lower(material.file.stem().string() + "\n" + text_of(material.file));
+    return !std::ranges::all_of(words, [&](const std::string& word) { return text.find(lower(word)) != text.npos; });
+  });
+  if (found.empty()) throw InputError("no material of the library holds all of these words");
+  std::size_t width = 0;
+  for (const LibraryMaterial& material : found) width = std::max(width, material.file.stem().string().size());
+  for (const LibraryMaterial& material : found) {
+    fmt::print("{:<{}}  {}\n", material.file.stem().string(), width, material.note);
+  }
+}
+
+/// The file itself, which holds constants and sources, and where its equation of state is valid.
+void show_material(const std::string& name) {
+  const Material material = read_material(name);
+  fmt::print("# {}\n{}\n", material.file.string(), text_of(material.file));
+  print_audit(material, eos::AuditDepth::brief);
+}
+
 }  // namespace
 
 void add_materials_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("materials", "List the material library");
-  command->footer("Example:\n  whipple materials\n  whipple materials --markdown");
+  CLI::App* command = app.add_subcommand("materials", "List the material library, search it, show a material");
+  command->footer(
+      "Examples:\n  whipple materials\n  whipple materials search steinberg copper\n  whipple materials show copper");
+  const auto words = std::make_shared<std::vector<std::string>>();
+  CLI::App* search = command->add_subcommand(
+      "search", "List the materials whose names, notes, models or sources hold all words, in any case");
+  search->add_option("words", *words, "e.g. steinberg aluminium")->required();
+  search->callback([words] { search_materials(*words); });
+  const auto name = std::make_shared<std::string>();
+  CLI::App* show = command->add_subcommand(
+      "show", "Print a material file with its constants and sources, what follows from them, and where it is valid");
+  show->add_option("material", *name, "Material file, or name of the library")->required();
+  show->callback([name] { show_material(*name); });
   const auto markdown = std::make_shared<bool>(false);
   command->add_flag("--markdown", *markdown,
                     "Tables of values computed from the equations of state (docs/manual/materials.md), in Markdown");
-  command->callback([markdown] {
+  command->callback([command, markdown] {
+    if (!command->get_subcommands().empty()) return;
     if (*markdown) {
       fmt::print("{}", library_as_markdown());
     } else {

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "eos/equation_of_state.hpp"
+#include "src/core/base/error.hpp"
+
+/// Points of numpy arrays and the states computed of them, for the bindings of this folder.
+namespace whipple::python {
+
+namespace py = pybind11;
+
+/// Any sequence of numbers that numpy converts, as doubles side by side.
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using OptionalNumbers = std::optional<Numbers>;
+using Shape = std::vector<py::ssize_t>;
+
+/// Arrays of one shape.
+struct Points {
+  std::vector<Numbers> columns;  ///< in the order given, without those that were not given
+  Shape shape;
+  std::size_t size = 1;
+
+  /// Values of all points of a column.
+  [[nodiscard]] std::span<const double> column(std::size_t place) const {
+    return {columns[place].data(), size};
+  }
+};
+
+/// Brings arrays to their common shape by the rules of numpy.
+/// @throws ValueError of numpy if there is none
+Points broadcast(std::initializer_list<OptionalNumbers> given);
+
+/// A number if the shape is that of one, else the array itself.
+py::object number_or_array(const py::array& array);
+
+/// States of an equation of state over an array of points. Each property is an array on these states, without a copy.
+struct States {
+  std::shared_ptr<const eos::EquationOfState> eos;  ///< owns the names of phases
+  Shape shape;
+  std::vector<eos::State> states;
+  /// What the points have besides a state: velocities of shocks, Riemann velocities.
+  std::vector<std::vector<double>> further = {};
+
+  /// The only state.
+  /// @throws InputError if there are several
+  [[nodiscard]] const eos::State& single() const;
+};
+struct Shocks : States {};      ///< further: shock velocity, particle velocity
+struct Isentropes : States {};  ///< further: Riemann velocity
+struct Releases : States {};    ///< further: Riemann velocity, 1 where the end is in equilibrium
+
+/// What meets at an interface, over an array of velocities.
+struct Impact {
+  Shape shape;
+  std::vector<double> pressure, velocity;
+  States left, right;
+  std::vector<double> right_shock_velocity;
+};
+
+/// A result of points with room for its further columns.
+template <class Kind>
+Kind make(std::shared_ptr<const eos::EquationOfState> eos, const Points& points, std::size_t further) {
+  Kind result;
+  result.eos = std::move(eos);
+  result.shape = points.shape;
+  result.states.resize(points.size);
+  result.further.assign(further, std::vector<double>(points.size, eos::State::unknown));
+  return result;
+}
+
+/// Numbers as an array of a shape, or as a number.
+py::object array_of(const Shape& shape, const std::vector<double>& values);
+
+/// Declares the classes of states above.
+void add_states(py::module_& module);
+
+/// Gives Python the chance to end a long loop by Ctrl-C; called without the interpreter's lock.
+void check_signals();
+
+/// Computes a result for each of the points, without the interpreter's lock.
+/// @param keep    keep(i, inputs of the point) computes and stores one result
+/// @param refuse  stores the absence of a result; null: the StateError of the point is thrown, with its index
+template <class Keep, class Refuse>
+void for_each_point(const Points& points, const Keep& keep, const Refuse* refuse) {
+  constexpr std::size_t between_signals = 1024;
+  py::gil_scoped_release unlocked;
+  std::vector<double> inputs(points.columns.size());
+  for (std::size_t i = 0; i < points.size; ++i) {
+    if (i % between_signals == 0) check_signals();
+    try {
+      for (std::size_t k = 0; k < inputs.size(); ++k) {
+        inputs[k] = points.column(k)[i];
+        if (!std::isfinite(inputs[k])) throw StateError(fmt::format("no state of a quantity that is {}", inputs[k]));
+      }
+      keep(i, inputs);
+    } catch (const StateError& error) {
+      if (refuse == nullptr) {
+        throw StateError(points.size == 1 ? error.what() : fmt::format("point {} of {}: {}", i, points.size,
+                                                                       error.what()));
+      }
+      (*refuse)(i);
+    }
+  }
+}
+
+/// Computes the states of points by a function of their inputs.
+template <class Function>
+States states_of(std::shared_ptr<const eos::EquationOfState> eos, const Points& points, bool skip_invalid,
+                 const Function& function) {
+  States result{std::move(eos), points.shape, std::vector<eos::State>(points.size)};
+  const auto keep = [&](std::size_t i, const std::vector<double>& inputs) { result.states[i] = function(inputs); };
+  const auto refuse = [&](std::size_t i) { result.states[i].melted_fraction = result.states[i].vaporised_fraction =
+      eos::State::unknown; };
+  for_each_point(points, keep, skip_invalid ? &refuse : nullptr);
+  return result;
+}
+
+}  // namespace whipple::python
