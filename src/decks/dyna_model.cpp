@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
+#include <string_view>
 #include <utility>
 
 namespace whipple::decks::dyna {
@@ -22,7 +25,7 @@ class ModelReader {
 
   Model read() {
     collect();
-    model_.starts = starts();
+    for (const auto& [block, reader] : starts_) faults_.guarded([&] { (this->*reader)(*block); });
     return std::move(model_);
   }
 
@@ -45,44 +48,54 @@ class ModelReader {
     }
   }
 
+  using Reader = void (ModelReader::*)(const Block& block);
+  using Readers = std::span<const std::pair<std::string_view, Reader>>;
+  /// Readers of keywords, and of all keywords with a beginning: the first that fits.
+  static Readers of_keywords();
+  static Readers of_beginnings();
+
   /// Reads a keyword; false if it is none of those that are read.
   bool read(const Block& block) {
-    const std::string& key = block.keyword;
-    if (key == "NODE") {
-      nodes(block);
-    } else if (key == "ELEMENT_SOLID" || key == "ELEMENT_SPH") {
-      elements(block);
-    } else if (key == "PART") {
-      part(block);
-    } else if (key.starts_with("MAT_") && !key.starts_with("MAT_ADD")) {
-      model_.materials[first_id(block)] = &block;
-    } else if (key.starts_with("EOS_")) {
-      model_.states[first_id(block)] = &block;
-    } else if (key.starts_with("SET_NODE") || key.starts_with("SET_PART")) {
-      set(block);
-    } else if (key == "INITIAL_VELOCITY" || key == "INITIAL_VELOCITY_NODE" || key == "INITIAL_VELOCITY_GENERATION") {
-      starts_.push_back(&block);
-    } else if (key == "CONTROL_TERMINATION") {
-      model_.end = first(block).required(0, "the end time");
-      if (!(model_.end > 0.0)) fail(block, "the end time must be > 0");
-      remark(Outcome::exact, block, "time.end");
-    } else if (key == "DATABASE_BINARY_D3PLOT") {
-      model_.snapshots = first(block).real(0);
-      remark(Outcome::exact, block, "output.snapshot_every");
-    } else if (key.starts_with("CONTACT_")) {
-      contact(block);
-    } else if (key == "TITLE") {
-      if (!block.cards.empty()) model_.title = block.cards[0].text.substr(0, block.cards[0].text.find_last_not_of(" \t\r") + 1);
-      remark(Outcome::exact, block, "title");
-    } else if (key == "INCLUDE" || key == "PARAMETER") {
-      remark(Outcome::exact, block, "read");
-    } else if (std::ranges::find(harmless, key) != harmless.end() || key.starts_with("DATABASE_") || key.empty()) {
-      remark(Outcome::dropped, block, "of the methods and output of that code");
-    } else {
-      return false;
+    const std::string_view key = block.keyword;
+    Reader reader = std::ranges::find(harmless, key) != harmless.end() || key.empty() ? &ModelReader::dropped : nullptr;
+    const auto whole = std::ranges::find(of_keywords(), key, [](const auto& entry) { return entry.first; });
+    const auto start = std::ranges::find_if(of_beginnings(), [&](const auto& entry) { return key.starts_with(entry.first); });
+    if (whole != of_keywords().end()) {
+      reader = whole->second;
+    } else if (reader == nullptr && start != of_beginnings().end()) {
+      reader = start->second;
     }
+    if (reader == nullptr) return false;
+    (this->*reader)(block);
     return true;
   }
+
+  void dropped(const Block& block) { remark(Outcome::dropped, block, "of the methods and output of that code"); }
+  void taken(const Block& block) { remark(Outcome::exact, block, "read"); }
+  void material(const Block& block) { model_.materials[first_id(block)] = &block; }
+  void state(const Block& block) { model_.states[first_id(block)] = &block; }
+  void node_set(const Block& block) { set(block, node_sets_); }
+  void part_set(const Block& block) { set(block, part_sets_); }
+  void title(const Block& block) {
+    if (!block.cards.empty()) {
+      const std::string& text = block.cards[0].text;
+      model_.title = text.substr(0, text.find_last_not_of(" \t\r") + 1);
+    }
+    remark(Outcome::exact, block, "title");
+  }
+  void end(const Block& block) {
+    model_.end = first(block).required(0, "the end time");
+    if (!(model_.end > 0.0)) fail(block, "the end time must be > 0");
+    remark(Outcome::exact, block, "time.end");
+  }
+  void snapshots(const Block& block) {
+    model_.snapshots = first(block).real(0);
+    remark(Outcome::exact, block, "output.snapshot_every");
+  }
+  /// Velocities refer to sets, which may come after them.
+  void velocity(const Block& block) { starts_.emplace_back(&block, &ModelReader::start_of_set); }
+  void velocity_by_nodes(const Block& block) { starts_.emplace_back(&block, &ModelReader::starts_of_nodes); }
+  void velocity_by_parts(const Block& block) { starts_.emplace_back(&block, &ModelReader::start_generated); }
 
   [[nodiscard]] Fields first(const Block& block) const {
     if (block.cards.empty()) fail(block, "has no card");
@@ -100,25 +113,29 @@ class ModelReader {
     remark(Outcome::exact, block, fmt::format("{} nodes", block.cards.size()));
   }
 
-  void elements(const Block& block) {
-    const bool solids = block.keyword == "ELEMENT_SOLID";
+  void solids(const Block& block) {
     for (std::size_t i = 0; i < block.cards.size(); ++i) {
       faults_.guarded([&] {
-        const Fields fields(deck_, block, block.cards[i], solids ? std::span<const int>(solid_widths) : sph_widths);
-        const Id part = fields.id(1);
-        if (!solids) {
-          model_.parts[part].points.push_back({fields.id(0), fields.required(2, "the mass")});
-          return;
-        }
+        const Fields fields(deck_, block, block.cards[i], solid_widths);
         Solid solid{.line = block.cards[i].line};
         // Element and part stand on a card of their own in the format of ten nodes.
         const bool two_cards = fields.id(2) == 0 && i + 1 < block.cards.size();
         const Fields list = two_cards ? Fields(deck_, block, block.cards[++i], solid_widths) : fields;
         for (std::size_t k = 0; k < 8; ++k) solid.nodes[k] = list.id(k + (two_cards ? 0 : 2));
-        model_.parts[part].solids.push_back(solid);
+        model_.parts[fields.id(1)].solids.push_back(solid);
       });
     }
-    remark(solids ? Outcome::exact : Outcome::converted, block, fmt::format("{} elements", block.cards.size()));
+    remark(Outcome::exact, block, fmt::format("{} elements", block.cards.size()));
+  }
+
+  void points(const Block& block) {
+    for (const Card& card : block.cards) {
+      faults_.guarded([&] {
+        const Fields fields(deck_, block, card, sph_widths);
+        model_.parts[fields.id(1)].points.push_back({fields.id(0), fields.required(2, "the mass")});
+      });
+    }
+    remark(Outcome::converted, block, fmt::format("{} elements", block.cards.size()));
   }
 
   /// A heading and a card for each part.
@@ -138,16 +155,18 @@ class ModelReader {
     }
   }
 
-  void set(const Block& block) {
+  void set(const Block& block, std::map<Id, std::set<Id>>& sets) {
     const bool generated = block.keyword.ends_with("_GENERATE");
-    std::set<Id>& members = (block.keyword.starts_with("SET_NODE") ? node_sets_ : part_sets_)[first_id(block)];
+    std::set<Id>& members = sets[first_id(block)];
     for (std::size_t i = 1; i < block.cards.size(); ++i) {
       const Fields fields(deck_, block, block.cards[i]);
       for (std::size_t k = 0; k < fields.size(); k += generated ? 2 : 1) {
         const Id from = fields.id(k), to = generated ? fields.id(k + 1) : from;
         if (from == 0) continue;
         constexpr Id most = 5'000'000;  // members of a set: what fits into memory
-        if (to < from || to - from + static_cast<Id>(members.size()) > most) fail(block, fmt::format("the range {} to {} is none", from, to));
+        if (to < from || to - from + static_cast<Id>(members.size()) > most) {
+          fail(block, fmt::format("the range {} to {} is none", from, to));
+        }
         for (Id member = from; member <= to; ++member) members.insert(member);
       }
     }
@@ -166,43 +185,42 @@ class ModelReader {
     remark(Outcome::converted, block, "contact of all bodies with this friction");
   }
 
-  /// Velocities refer to sets, which may come after them.
-  [[nodiscard]] std::vector<Start> starts() {
-    std::vector<Start> found;
-    for (const Block* block : starts_) {
-      faults_.guarded([&] {
-        const auto members = [&](const std::map<Id, std::set<Id>>& sets, Id number) {
-          const auto set = sets.find(number);
-          if (set == sets.end()) fail(*block, fmt::format("there is no set {}", number));
-          return set->second;
-        };
-        const Fields fields = first(*block);
-        Start start{block, Vector3::Zero(), {}, {}};
-        if (block->keyword == "INITIAL_VELOCITY_NODE") {
-          for (const Card& card : block->cards) {
-            const Fields each(deck_, *block, card);
-            found.push_back({block, Vector3(each.real(1), each.real(2), each.real(3)), {each.id(0)}, {}});
-          }
-          return;
-        }
-        if (block->keyword == "INITIAL_VELOCITY") {
-          if (fields.id(0) != 0) start.nodes = members(node_sets_, fields.id(0));
-          if (block->cards.size() < 2) fail(*block, "has no card with a velocity");
-          const Fields second(deck_, *block, block->cards[1]);
-          start.velocity = Vector3(second.real(0), second.real(1), second.real(2));
-        } else {
-          const Id number = fields.id(0), kind = fields.id(1);
-          if (kind == 1 && number != 0) start.parts = members(part_sets_, number);
-          if (kind == 2) start.parts = {number};
-          if (kind == 3) start.nodes = members(node_sets_, number);
-          if (kind < 1 || kind > 3) fail(*block, fmt::format("STYP is {}, read are 1, 2 and 3", kind));
-          if (fields.real(2) != 0.0) remark(Outcome::missing, *block, "angular velocity");
-          start.velocity = Vector3(fields.real(3), fields.real(4), fields.real(5));
-        }
-        found.push_back(std::move(start));
-      });
+  const std::set<Id>& members(const Block& block, const std::map<Id, std::set<Id>>& sets, Id number) const {
+    const auto set = sets.find(number);
+    if (set == sets.end()) fail(block, fmt::format("there is no set {}", number));
+    return set->second;
+  }
+
+  /// A card for each node.
+  void starts_of_nodes(const Block& block) {
+    for (const Card& card : block.cards) {
+      const Fields each(deck_, block, card);
+      model_.starts.push_back({&block, Vector3(each.real(1), each.real(2), each.real(3)), {each.id(0)}, {}});
     }
-    return found;
+  }
+
+  /// A set of nodes, or all; on the second card the velocity.
+  void start_of_set(const Block& block) {
+    const Id set = first(block).id(0);
+    Start start{&block, Vector3::Zero(), {}, {}};
+    if (set != 0) start.nodes = members(block, node_sets_, set);
+    if (block.cards.size() < 2) fail(block, "has no card with a velocity");
+    const Fields second(deck_, block, block.cards[1]);
+    start.velocity = Vector3(second.real(0), second.real(1), second.real(2));
+    model_.starts.push_back(std::move(start));
+  }
+
+  /// A set of parts, a part or a set of nodes.
+  void start_generated(const Block& block) {
+    const Fields fields = first(block);
+    const Id number = fields.id(0), kind = fields.id(1);
+    Start start{&block, Vector3(fields.real(3), fields.real(4), fields.real(5)), {}, {}};
+    if (kind == 1 && number != 0) start.parts = members(block, part_sets_, number);
+    if (kind == 2) start.parts = {number};
+    if (kind == 3) start.nodes = members(block, node_sets_, number);
+    if (kind < 1 || kind > 3) fail(block, fmt::format("STYP is {}, read are 1, 2 and 3", kind));
+    if (fields.real(2) != 0.0) remark(Outcome::missing, block, "angular velocity");
+    model_.starts.push_back(std::move(start));
   }
 
   const Deck& deck_;
@@ -210,8 +228,37 @@ class ModelReader {
   FaultList& faults_;
   Model model_;
   std::map<Id, std::set<Id>> node_sets_, part_sets_;
-  std::vector<const Block*> starts_;
+  std::vector<std::pair<const Block*, Reader>> starts_;
 };
+
+ModelReader::Readers ModelReader::of_keywords() {
+  static constexpr std::array<std::pair<std::string_view, Reader>, 12> readers = {
+      {{"NODE", &ModelReader::nodes},
+       {"ELEMENT_SOLID", &ModelReader::solids},
+       {"ELEMENT_SPH", &ModelReader::points},
+       {"PART", &ModelReader::part},
+       {"INITIAL_VELOCITY", &ModelReader::velocity},
+       {"INITIAL_VELOCITY_NODE", &ModelReader::velocity_by_nodes},
+       {"INITIAL_VELOCITY_GENERATION", &ModelReader::velocity_by_parts},
+       {"CONTROL_TERMINATION", &ModelReader::end},
+       {"DATABASE_BINARY_D3PLOT", &ModelReader::snapshots},
+       {"TITLE", &ModelReader::title},
+       {"INCLUDE", &ModelReader::taken},
+       {"PARAMETER", &ModelReader::taken}}};
+  return readers;
+}
+
+ModelReader::Readers ModelReader::of_beginnings() {
+  static constexpr std::array<std::pair<std::string_view, Reader>, 7> readers = {
+      {{"MAT_ADD", nullptr},
+       {"MAT_", &ModelReader::material},
+       {"EOS_", &ModelReader::state},
+       {"SET_NODE", &ModelReader::node_set},
+       {"SET_PART", &ModelReader::part_set},
+       {"CONTACT_", &ModelReader::contact},
+       {"DATABASE_", &ModelReader::dropped}}};
+  return readers;
+}
 
 }  // namespace
 

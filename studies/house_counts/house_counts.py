@@ -5,10 +5,11 @@
 Usage: studies/house_counts/house_counts.py [REVISION ...]   a table, one column per revision of git (default: the present
                                                              files)
 
-Counted are comparisons with a string literal beyond the reader of case files, the foundation and the catalogues of
-models; arrows between modules, those against the order of the table in scripts/check_layers.py, and include cycles;
-include lines between the folders src (without the foundation), eos and md_fitting that go upward; dates, times of day and
-commit hashes in manual and theory; lines and functions of the classes that once held everything; files by length.
+Counted are comparisons with a string literal beyond the readers of case files and of other codes' decks, the foundation
+and the catalogues of models; arrows between modules, those against the order of the table in scripts/check_layers.py,
+and include cycles; include lines between the folders src (without the foundation), eos and md_fitting that go upward;
+dates, times of day and commit hashes in manual and theory; lines and functions of the classes that once held everything;
+files by length.
 """
 import argparse
 import importlib.util
@@ -23,7 +24,7 @@ CODE = (".hpp", ".cpp", ".inl")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
 COMPARISON = re.compile(r'[=!]=\s*"|"\s*[=!]=')
 FOUNDATION = ("src/core/", "src/base/", "src/input/", "src/parallel/", "src/process/", "src/hdf5/")
-READERS = ("src/case/", "src/setup/", *FOUNDATION)
+READERS = ("src/case/", "src/setup/", "src/decks/", *FOUNDATION)
 
 
 def load(path):
