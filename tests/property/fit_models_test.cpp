@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "md_fitting/fit/laws.hpp"
 #include "md_fitting/fit/solid_models.hpp"
 #include "md_fitting/fit/solid_problem.hpp"
 #include "md_fitting/fit/vapour_fit.hpp"
@@ -121,6 +122,21 @@ TEST(FitModels, WeightsAreTheErrorsOfTheDataCarriedThroughTheResiduals) {
   }
 }
 
+// Data made with a law do not tell whether it is that of its constants.
+TEST(FitModels, SlopeOfTheBulkModulusIsThatOfTheIsotherm) {
+  SolidConstants constants;
+  constants.gray.reference_specific_volume = 1.1e-4;
+  constants.bulk_modulus = 140e9;
+  constants.bulk_modulus_slope = 5.2;
+  const double V0 = constants.gray.reference_specific_volume;
+  const auto P = [&](double V) { return isotherm_pressure(constants, V); };
+  const auto K = [&](double V) { return -V * (P(V + 1e-5 * V0) - P(V - 1e-5 * V0)) / (2e-5 * V0); };
+  EXPECT_EQ(P(V0), 0.0);
+  EXPECT_NEAR(K(V0), constants.bulk_modulus, 1e-6 * constants.bulk_modulus);
+  const double below = 0.998 * V0, above = 1.002 * V0;
+  EXPECT_NEAR((K(below) - K(above)) / (P(below) - P(above)), constants.bulk_modulus_slope, 1e-3);
+}
+
 // GRAY: eight constants over eight seeds, within the stated covariance, and chi^2 of the data within its
 // scatter.
 TEST(FitModels, GrayIsRecoveredWithinItsCovariance) {
@@ -213,6 +229,23 @@ TEST(FitModels, DebyeGruneisenIsRecovered) {
   EXPECT_DOUBLE_EQ(exact.value("debye_temperature"), 343.0);
   expect_honest([&](unsigned seed) { return fit_debye_gruneisen(store(false, seed), noise_only(), "s"); },
                 value, 8);
+}
+
+// Copper at 4 K: C11, C12, C44 of 176.2, 124.9, 81.8 GPa (Overton & Gaffney 1955) have the moduli 142 and 51.5 GPa after
+// Hill; calorimetry gives 343 K (Kittel, Introduction to Solid State Physics).
+TEST(FitModels, DebyeTemperatureIsThatOfTheElasticStateNextToTheReference) {
+  EXPECT_NEAR(debye_temperature(142e9, 51.5e9, 1.107e-4, 0.06355), 343.0, 0.04 * 343.0);
+
+  SyntheticStore store(harmonic(), Noise{}, 1);
+  const double v0 = harmonic().reference_specific_volume;
+  for (const auto& [ratio, shear] : {std::pair{0.9, 80e9}, std::pair{1.001, 50e9}, std::pair{1.1, 30e9}}) {
+    store.add("elastic", {{"specific_volume", ratio * v0}},
+              {{"bulk_modulus", {140e9, 0.0}}, {"shear_modulus", {shear, 0.0}}});
+  }
+  const Fit fit = fit_debye_gruneisen(store.points, noise_only(), "s");
+  EXPECT_EQ(fit.constant("debye_temperature").origin, Origin::given);
+  EXPECT_DOUBLE_EQ(fit.value("debye_temperature"),
+                   debye_temperature(140e9, 50e9, 1.001 * v0, harmonic().molar_mass));
 }
 
 TEST(FitModels, DebyeGruneisenAsksForAnIsotherm) {
