@@ -24,7 +24,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 SANITIZER = "detect_leaks=0:max_allocation_size_mb=1000:hard_rss_limit_mb=3000:allocator_may_return_null=0"
 # Tests of numbered inputs, and the environment variable that says how many: the others have their own numbers.
 NUMBERED = ("CaseFuzz", "MaterialFuzz", "ForeignFiles", "PotentialFuzz", "PlanFuzz", "StoreFuzz.DamagedStores")
-COUNTS = re.compile(r"^(.+): (\d+) read, (\d+) refused, (\d+) stopped; slowest: trial (\d+), ([\d.]+) s$", re.MULTILINE)
+COUNTS = re.compile(r"^(.+): (\d+) read, (\d+) refused, (\d+) stopped, (\d+) faulty; slowest: trial (\d+), ([\d.]+) s$",
+                    re.MULTILINE)
 WALL = 7200.0  # s for a chunk: for what waits without taking processor time
 
 
@@ -95,7 +96,7 @@ def main():
                 work.append((test, first, min(options.chunk, options.first + options.trials - first)))
         else:
             work.append((test, 0, options.trials))
-    total = collections.defaultdict(lambda: [0, 0, 0, 0.0, 0])
+    total = collections.defaultdict(lambda: [0, 0, 0, 0, 0.0, 0])
     faults = 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         running = [pool.submit(run_chunk, options.fuzz, *chunk) for chunk in work]
@@ -105,15 +106,16 @@ def main():
                 row = total[kind]
                 for column, number in enumerate(numbers):
                     row[column] += int(number)
-                if float(seconds) > row[3]:
-                    row[3:] = float(seconds), int(slowest)
+                if float(seconds) > row[4]:
+                    row[4:] = float(seconds), int(slowest)
             for text in texts:
                 faults += 1
                 print(text + "\n", flush=True)
-    print(f"{'kind':<32}{'inputs':>8}{'read':>8}{'refused':>9}{'stopped':>9}   slowest")
-    for kind, (read, refused, stopped, seconds, slowest) in sorted(total.items()):
-        print(f"{kind:<32}{read + refused + stopped:>8}{read:>8}{refused:>9}{stopped:>9}   {seconds:.1f} s (trial {slowest})")
-    print(f"{sum(sum(row[:3]) for row in total.values())} inputs, {faults} faults")
+    print(f"{'kind':<32}{'inputs':>8}{'read':>8}{'refused':>9}{'stopped':>9}{'faulty':>8}   slowest")
+    for kind, (*columns, seconds, slowest) in sorted(total.items()):
+        read, refused, stopped, faulty = columns
+        print(f"{kind:<32}{sum(columns):>8}{read:>8}{refused:>9}{stopped:>9}{faulty:>8}   {seconds:.1f} s (trial {slowest})")
+    print(f"{sum(sum(row[:4]) for row in total.values())} inputs, {faults} processes with faults")
     return 1 if faults else 0
 
 

@@ -8,9 +8,11 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <string_view>
+#include <type_traits>
 #include <unordered_map>
 
 #include "src/core/base/error.hpp"
@@ -119,9 +121,24 @@ class GmshReader {
     if (code != std::errc{} || end != text.data() + text.size()) {
       fail(fmt::format("\"{}\" is not {}", text, what));
     }
+    if constexpr (std::is_floating_point_v<Number>) {
+      if (!std::isfinite(value)) fail(fmt::format("\"{}\" is not {}", text, what));
+    }
     return value;
   }
+  /// A number of things that follow. They take memory one by one: a file may declare more than it holds.
   std::size_t count(const char* what) { return number<std::size_t>(what); }
+  /// So many numbers of the line.
+  std::vector<int> numbers(std::size_t size, const char* what) {
+    std::vector<int> result;
+    for (; size > 0; --size) result.push_back(number<int>(what));
+    return result;
+  }
+  int dimension() {
+    const int result = number<int>("a dimension");
+    if (result < 0 || result > 3) fail(fmt::format("\"{}\" is not a dimension: 0 to 3", result));
+    return result;
+  }
   void end_of(const char* section) {
     next(section);
     if (text_ != fmt::format("$End{}", section))
@@ -161,11 +178,11 @@ class GmshReader {
     next("PhysicalNames");
     for (std::size_t left = count("the number of physical names"); left > 0; --left) {
       next("PhysicalNames");
-      const int dimension = number<int>("a dimension"), tag = number<int>("the tag of a physical group");
+      const int of = dimension(), tag = number<int>("the tag of a physical group");
       const std::size_t begin = rest_.find('"'), end = rest_.rfind('"');
       if (begin == std::string_view::npos || end <= begin + 1)
         fail("expected the name of the group in quotes");
-      group(dimension, tag).name = rest_.substr(begin + 1, end - begin - 1);
+      group(of, tag).name = rest_.substr(begin + 1, end - begin - 1);
     }
     end_of("PhysicalNames");
   }
@@ -174,14 +191,13 @@ class GmshReader {
     next("Entities");
     std::array<std::size_t, 4> counts;
     for (std::size_t& n : counts) n = count("a number of entities");
-    for (int dimension = 0; dimension < 4; ++dimension) {
-      for (std::size_t left = counts[static_cast<std::size_t>(dimension)]; left > 0; --left) {
+    for (int of = 0; of < 4; ++of) {
+      for (std::size_t left = counts[static_cast<std::size_t>(of)]; left > 0; --left) {
         next("Entities");
         const int tag = number<int>("the tag of an entity");
-        for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) number<double>("a coordinate");
-        std::vector<int>& physical = physical_of_entity_[{dimension, tag}];
-        physical.resize(count("the number of physical groups of an entity"));
-        for (int& p : physical) p = number<int>("the tag of a physical group");
+        for (int i = 0; i < (of == 0 ? 3 : 6); ++i) number<double>("a coordinate");
+        physical_of_entity_[{of, tag}] =
+            numbers(count("the number of physical groups of an entity"), "the tag of a physical group");
       }
     }
     end_of("Entities");
@@ -208,13 +224,13 @@ class GmshReader {
     next("Nodes");
     for (std::size_t blocks = count("the number of blocks"); blocks > 0; --blocks) {
       next("Nodes");
-      number<int>("a dimension");
+      dimension();
       number<int>("the tag of an entity");
       number<int>("0 or 1 (parametric)");
-      std::vector<std::uint64_t> tags(count("the number of nodes"));
-      for (std::uint64_t& tag : tags) {
+      std::vector<std::uint64_t> tags;
+      for (std::size_t left = count("the number of nodes"); left > 0; --left) {
         next("Nodes");
-        tag = number<std::uint64_t>("the tag of a node");
+        tags.push_back(number<std::uint64_t>("the tag of a node"));
       }
       for (const std::uint64_t tag : tags) {
         next("Nodes");
@@ -234,6 +250,7 @@ class GmshReader {
     }
     for (const int p : physical) {
       // Negative in format 4.1 where the entity is reversed.
+      if (p == std::numeric_limits<int>::min()) fail(fmt::format("\"{}\" is not the tag of a physical group", p));
       if (p != 0)
         group(kind.dimension, std::abs(p))
             .elements.push_back(static_cast<std::uint32_t>(file_.elements_.size()));
@@ -253,8 +270,7 @@ class GmshReader {
       next("Elements");
       const auto tag = number<std::uint64_t>("the number of an element");
       const Kind& k = kind();
-      std::vector<int> tags(count("the number of tags"));
-      for (int& t : tags) t = number<int>("a tag");
+      const std::vector<int> tags = numbers(count("the number of tags"), "a tag");
       add_element(tag, k, std::span(tags).first(std::min<std::size_t>(tags.size(), 1)));
     }
     end_of("Elements");
@@ -264,9 +280,9 @@ class GmshReader {
     next("Elements");
     for (std::size_t blocks = count("the number of blocks"); blocks > 0; --blocks) {
       next("Elements");
-      const int dimension = number<int>("a dimension"), entity = number<int>("the tag of an entity");
+      const int of = dimension(), entity = number<int>("the tag of an entity");
       const Kind& k = kind();
-      const std::vector<int>& physical = physical_of_entity_[{dimension, entity}];
+      const std::vector<int>& physical = physical_of_entity_[{of, entity}];
       for (std::size_t left = count("the number of elements"); left > 0; --left) {
         next("Elements");
         add_element(number<std::uint64_t>("the tag of an element"), k, physical);

@@ -192,13 +192,15 @@ TEST_F(ForeignFiles, Meshes) {
 }
 
 TEST_F(ForeignFiles, DecksOfOtherCodes) {
-  for (const char* name : {"sphere_on_plate.mpm", "columns_of_water.mpm"}) {
+  using Units = std::optional<decks::UnitSystem>;
+  for (const auto& [name, units] : {std::pair{"sphere_on_plate.mpm", Units{}},
+                                    std::pair{"columns_of_water.mpm", Units{{"m", "kg", "s"}}}}) {
     const fs::path path = folder_ / name, target = folder_ / "imported";
     fs::copy_file(fs::path(WHIPPLE_SOURCE_DIR "/tests/data/decks") / name, path);
     try_all("deck (MPM3D-F90)", path, garbled, [&] {
-      const decks::Import import = decks::import_deck(path, {});
+      const decks::Import import = decks::import_deck(path, {.units = units});
       const decks::CaseFolder folder(import, target);
-      static_cast<void>(cases::read_case(folder.case_file()));
+      static_cast<void>(cases::read_case(folder.case_file(), {}));
     });
   }
 }

@@ -26,7 +26,7 @@ constexpr int longest_trial = 60, most_memory = 1000;
 
 /// What became of the inputs of a kind.
 struct Outcomes {
-  int read = 0, refused = 0, stopped = 0;  ///< stopped: read, and ended with a StateError
+  int read = 0, refused = 0, stopped = 0, faulty = 0;  ///< stopped: read, and ended with a StateError
 };
 
 /// Feeds a reader with damaged inputs of a kind: each is read or refused with an InputError, or what is made of it ends
@@ -76,6 +76,7 @@ Outcomes try_inputs(const char* kind, int trials, Read read) {
     } catch (const StateError&) {
       ++outcomes.stopped;
     } catch (const std::exception& error) {
+      ++outcomes.faulty;
       ADD_FAILURE() << kind << ", trial " << trial << ": neither InputError nor StateError: " << error.what();
     }
     end_within(0);
@@ -86,8 +87,8 @@ Outcomes try_inputs(const char* kind, int trials, Read read) {
       slowest = trial;
     }
   }
-  std::printf("%s: %d read, %d refused, %d stopped; slowest: trial %d, %.1f s\n", kind, outcomes.read, outcomes.refused,
-              outcomes.stopped, slowest, slowest_time);
+  std::printf("%s: %d read, %d refused, %d stopped, %d faulty; slowest: trial %d, %.1f s\n", kind, outcomes.read,
+              outcomes.refused, outcomes.stopped, outcomes.faulty, slowest, slowest_time);
   return outcomes;
 }
 

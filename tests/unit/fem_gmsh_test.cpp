@@ -149,6 +149,22 @@ TEST_F(Gmsh, NamesFileLineAndElement) {
               HasSubstr("the line ends where a coordinate is expected"));
   EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n2 0 0 0\n")),
               HasSubstr("node 2 is defined twice"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n1 0 nan 0\n")), HasSubstr("is not a coordinate"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n3 1 \"plate\"", "\n9 1 \"plate\"")),
+              HasSubstr(":8: error: \"9\" is not a dimension: 0 to 3"));
+}
+
+TEST_F(Gmsh, TakesNoMemoryForWhatAFileOnlyDeclares) {
+  const std::string huge = "4000000000000000000";
+  const auto read = [](const std::filesystem::path& path) {
+    return message_of<InputError>([&] { fem::GmshFile::read(path); });
+  };
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 1 2 8 1", "\n1 1 " + huge + " 8 1")),
+              HasSubstr("the line ends where a tag is expected"));
+  EXPECT_THAT(read(changed("two_boxes_41.msh", "\n0 1 0 1\n", "\n0 1 0 " + huge + "\n")),
+              HasSubstr("is not the tag of a node"));
+  EXPECT_THAT(read(changed("two_boxes_41.msh", "\n1 0 0 0 2 0 0 1 8", "\n1 0 0 0 2 0 0 " + huge + " 8")),
+              HasSubstr("the line ends where the tag of a physical group is expected"));
 }
 
 TEST_F(Gmsh, RefusesElementsThatItCannotComputeWith) {
