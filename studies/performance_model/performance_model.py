@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Predicts time per step and efficiency on many cores from what `whipple bench --json` measured on one, and checks itself on
-the rank counts that the file holds (docs/manual/performance.md, "Many cores", explains the terms).
+the rank counts that the file holds (README.md of this folder explains the terms).
 
 Usage: studies/performance_model/performance_model.py BENCH.json [--problem lead_impact_million] [--latency 1.5e-6] [--bandwidth 1e9] ...
 """
