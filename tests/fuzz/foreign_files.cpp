@@ -21,7 +21,7 @@
 #include "src/case/case.hpp"
 #include "src/run/restart.hpp"
 #include "src/decks/import.hpp"
-#include "src/fem/gmsh.hpp"
+#include "src/fem/mesh_file.hpp"
 #include "tests/fuzz/trials.hpp"
 #include "tests/unit/eos_support.hpp"
 #include "tests/unit/folder_test.hpp"
@@ -177,7 +177,7 @@ TEST_F(ForeignFiles, Meshes) {
       }
     };
     try_all("mesh (Gmsh)", path, garbled, [&] {
-      const fem::GmshFile file = fem::GmshFile::read(path, 1e-3);
+      const fem::MeshFile file = fem::MeshFile::read(path, 1e-3);
       for (const std::string& group : file.group_names(3)) {
         const fem::Hexahedra part = file.hexahedra(group);
         numbers_nodes(part.elements, part.nodes.size());
