@@ -18,9 +18,10 @@ whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp 
              DEPENDS whipple_run LABELS fast)
 whipple_test(test_contact_sweep STARTS_MPI SOURCES verification/solver_gap_sweep_test.cpp
              DEPENDS whipple_solver LABELS long)
-# Files alone, for many trials with sanitizers (docs/manual/testing.md); the tests above hold the same.
-add_executable(fuzz EXCLUDE_FROM_ALL fuzz/case_fuzz.cpp fuzz/input_fuzz.cpp fuzz/io_checkpoint_damage.cpp fuzz/foreign_files.cpp)
-target_link_libraries(fuzz PRIVATE whipple_flags whipple_app GTest::gmock GTest::gtest_main)
+# Files alone, for many trials with sanitizers (scripts/fuzz.py); other executables hold the same tests.
+add_executable(fuzz EXCLUDE_FROM_ALL fuzz/case_fuzz.cpp fuzz/input_fuzz.cpp fuzz/io_checkpoint_damage.cpp fuzz/foreign_files.cpp
+               fuzz/md_potential_fuzz.cpp)
+target_link_libraries(fuzz PRIVATE whipple_flags whipple_app whipple_md_lammps GTest::gmock GTest::gtest_main)
 target_compile_definitions(fuzz PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 whipple_test(test_rotation STARTS_MPI SOURCES verification/solver_rotation_test.cpp verification/solver_finest_orders_test.cpp DEPENDS whipple_solver LABELS long)
 # Writes docs/generated/orders_of_convergence.md; a program of its own, as it takes minutes.

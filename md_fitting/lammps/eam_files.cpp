@@ -66,8 +66,8 @@ class Reader {
   }
   /// Numbers over as many lines as they take; those behind them on the last line stay for the next call.
   std::vector<double> numbers(std::size_t count, const char* what) {
-    std::vector<double> values(count);
-    for (double& value : values) {
+    std::vector<double> values;  // a file may declare more than it holds
+    for (; count > 0; --count) {
       std::string_view text = word();
       while (text.empty()) {
         if (!std::getline(stream_, buffer_)) fail(fmt::format("holds too few numbers for {}", what));
@@ -75,7 +75,7 @@ class Reader {
         require_plain();
         text = word();
       }
-      if (!read(text, value)) fail(fmt::format("has '{}' for a number of {}", text, what));
+      if (!read(text, values.emplace_back())) fail(fmt::format("has '{}' for a number of {}", text, what));
     }
     return values;
   }

@@ -35,10 +35,10 @@ ParameterTable<Discretization> Discretization::parameters() {
       real("hourglass_coefficient", &D::hourglass_coefficient, "", range::between(0.0, 1.0),
            "hourglass coefficient: fraction of the largest stiffness or of the critical damping")
           .optional(),
-      text("mesh", &D::mesh, "Gmsh file (2.2 or 4.1) with the hexahedra of the body instead of a shape")
+      text("mesh", &D::mesh, "file of Gmsh (2.2 or 4.1) or Abaqus with the hexahedra of the body instead of a shape")
           .optional(),
       real("mesh_unit", &D::mesh_unit, "m", range::positive(), "length of a unit of the mesh file").optional(),
-      text("group", &D::group, "physical group in the mesh file; empty: the only one").optional(),
+      text("group", &D::group, "physical group (Gmsh) or element set (Abaqus) in the mesh file; empty: the only one").optional(),
       real("bar_diameter", &D::bar_diameter, "m", range::non_negative(), "diameter of the bars").optional(),
       real("bar_failure_strain", &D::bar_failure_strain, "", range::positive(),
            "plastic strain at which a bar breaks")
@@ -115,7 +115,7 @@ void check_elements(const Discretization& control, const Case& setup, const Faul
                            size, 2.0 * setup.domain.cell_size));
   }
   if (control.mesh.empty() && !control.group.empty()) {
-    faults.add("group", "'group' names a physical group of a Gmsh file: give 'mesh' as well");
+    faults.add("group", "'group' names a group of a mesh file: give 'mesh' as well");
   }
 }
 

@@ -81,7 +81,7 @@ class MaterialBuilder {
       return;
     }
     const std::vector<double>& c = state_->numbers;  // from the third on
-    switch (static_cast<int>(c[1])) {
+    switch (whole(c[1])) {
       case 1:
         polynomial();
         break;

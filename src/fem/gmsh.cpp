@@ -2,65 +2,28 @@
 #include "src/fem/gmsh.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <string_view>
+#include <type_traits>
 #include <unordered_map>
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
-#include "src/core/base/text.hpp"
-#include "src/fem/facets.hpp"
-#include "src/fem/structured.hpp"
 
 namespace whipple::fem {
 namespace {
 
-/// Kinds of elements by their number in the file (Gmsh reference manual, "MSH file format").
-struct Kind {
-  int number;
-  const char* name;
-  int dimension;
-  std::size_t nodes;
-};
-constexpr int line_kind = 1, hexahedron_kind = 5;
-constexpr std::array kinds = {Kind{1, "2-node lines", 1, 2},
-                              Kind{2, "3-node triangles", 2, 3},
-                              Kind{3, "4-node quadrangles", 2, 4},
-                              Kind{4, "4-node tetrahedra", 3, 4},
-                              Kind{5, "8-node hexahedra", 3, 8},
-                              Kind{6, "6-node prisms", 3, 6},
-                              Kind{7, "5-node pyramids", 3, 5},
-                              Kind{8, "3-node lines", 1, 3},
-                              Kind{9, "6-node triangles", 2, 6},
-                              Kind{10, "9-node quadrangles", 2, 9},
-                              Kind{11, "10-node tetrahedra", 3, 10},
-                              Kind{12, "27-node hexahedra", 3, 27},
-                              Kind{13, "18-node prisms", 3, 18},
-                              Kind{14, "14-node pyramids", 3, 14},
-                              Kind{15, "points", 0, 1},
-                              Kind{16, "8-node quadrangles", 2, 8},
-                              Kind{17, "20-node hexahedra", 3, 20},
-                              Kind{18, "15-node prisms", 3, 15},
-                              Kind{19, "13-node pyramids", 3, 13}};
-
-const Kind* kind_of(int number) {
-  const auto found = std::ranges::find(kinds, number, &Kind::number);
-  return found == kinds.end() ? nullptr : &*found;
-}
-
-}  // namespace
-
 /// Reads line by line; knows where it is.
 class GmshReader {
  public:
-  GmshReader(GmshFile& file, const std::filesystem::path& path, double length_unit)
+  GmshReader(MeshData& file, const std::filesystem::path& path, double length_unit)
       : file_(file), path_(path), unit_(length_unit), stream_(regular_file(path)) {
     if (!stream_) throw InputError(fmt::format("{}: cannot be read", path.string()));
   }
@@ -119,9 +82,24 @@ class GmshReader {
     if (code != std::errc{} || end != text.data() + text.size()) {
       fail(fmt::format("\"{}\" is not {}", text, what));
     }
+    if constexpr (std::is_floating_point_v<Number>) {
+      if (!std::isfinite(value)) fail(fmt::format("\"{}\" is not {}", text, what));
+    }
     return value;
   }
+  /// A number of things that follow. They take memory one by one: a file may declare more than it holds.
   std::size_t count(const char* what) { return number<std::size_t>(what); }
+  /// So many numbers of the line.
+  std::vector<int> numbers(std::size_t size, const char* what) {
+    std::vector<int> result;
+    for (; size > 0; --size) result.push_back(number<int>(what));
+    return result;
+  }
+  int dimension() {
+    const int result = number<int>("a dimension");
+    if (result < 0 || result > 3) fail(fmt::format("\"{}\" is not a dimension: 0 to 3", result));
+    return result;
+  }
   void end_of(const char* section) {
     next(section);
     if (text_ != fmt::format("$End{}", section))
@@ -150,22 +128,22 @@ class GmshReader {
     end_of("MeshFormat");
   }
 
-  GmshFile::Group& group(int dimension, int tag) {
-    const auto same = [&](const GmshFile::Group& g) { return g.dimension == dimension && g.tag == tag; };
-    const auto found = std::ranges::find_if(file_.groups_, same);
-    if (found != file_.groups_.end()) return *found;
-    return file_.groups_.emplace_back(GmshFile::Group{dimension, tag, fmt::format("physical {}", tag), {}});
+  MeshData::Group& group(int dimension, int tag) {
+    const auto same = [&](const MeshData::Group& g) { return g.dimension == dimension && g.tag == tag; };
+    const auto found = std::ranges::find_if(file_.groups, same);
+    if (found != file_.groups.end()) return *found;
+    return file_.groups.emplace_back(MeshData::Group{dimension, tag, fmt::format("physical {}", tag), {}});
   }
 
   void physical_names() {
     next("PhysicalNames");
     for (std::size_t left = count("the number of physical names"); left > 0; --left) {
       next("PhysicalNames");
-      const int dimension = number<int>("a dimension"), tag = number<int>("the tag of a physical group");
+      const int of = dimension(), tag = number<int>("the tag of a physical group");
       const std::size_t begin = rest_.find('"'), end = rest_.rfind('"');
       if (begin == std::string_view::npos || end <= begin + 1)
         fail("expected the name of the group in quotes");
-      group(dimension, tag).name = rest_.substr(begin + 1, end - begin - 1);
+      group(of, tag).name = rest_.substr(begin + 1, end - begin - 1);
     }
     end_of("PhysicalNames");
   }
@@ -174,14 +152,13 @@ class GmshReader {
     next("Entities");
     std::array<std::size_t, 4> counts;
     for (std::size_t& n : counts) n = count("a number of entities");
-    for (int dimension = 0; dimension < 4; ++dimension) {
-      for (std::size_t left = counts[static_cast<std::size_t>(dimension)]; left > 0; --left) {
+    for (int of = 0; of < 4; ++of) {
+      for (std::size_t left = counts[static_cast<std::size_t>(of)]; left > 0; --left) {
         next("Entities");
         const int tag = number<int>("the tag of an entity");
-        for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) number<double>("a coordinate");
-        std::vector<int>& physical = physical_of_entity_[{dimension, tag}];
-        physical.resize(count("the number of physical groups of an entity"));
-        for (int& p : physical) p = number<int>("the tag of a physical group");
+        for (int i = 0; i < (of == 0 ? 3 : 6); ++i) number<double>("a coordinate");
+        physical_of_entity_[{of, tag}] =
+            numbers(count("the number of physical groups of an entity"), "the tag of a physical group");
       }
     }
     end_of("Entities");
@@ -190,10 +167,10 @@ class GmshReader {
   void add_node(std::uint64_t tag) {
     Vector3 x;
     for (int i = 0; i < 3; ++i) x[i] = unit_ * number<double>("a coordinate");
-    if (!index_of_node_.emplace(tag, static_cast<std::uint32_t>(file_.nodes_.size())).second) {
+    if (!index_of_node_.emplace(tag, static_cast<std::uint32_t>(file_.nodes.size())).second) {
       fail(fmt::format("node {} is defined twice", tag));
     }
-    file_.nodes_.push_back(x);
+    file_.nodes.push_back(x);
   }
   void nodes_2() {
     next("Nodes");
@@ -208,13 +185,13 @@ class GmshReader {
     next("Nodes");
     for (std::size_t blocks = count("the number of blocks"); blocks > 0; --blocks) {
       next("Nodes");
-      number<int>("a dimension");
+      dimension();
       number<int>("the tag of an entity");
       number<int>("0 or 1 (parametric)");
-      std::vector<std::uint64_t> tags(count("the number of nodes"));
-      for (std::uint64_t& tag : tags) {
+      std::vector<std::uint64_t> tags;
+      for (std::size_t left = count("the number of nodes"); left > 0; --left) {
         next("Nodes");
-        tag = number<std::uint64_t>("the tag of a node");
+        tags.push_back(number<std::uint64_t>("the tag of a node"));
       }
       for (const std::uint64_t tag : tags) {
         next("Nodes");
@@ -224,8 +201,8 @@ class GmshReader {
     end_of("Nodes");
   }
 
-  void add_element(std::uint64_t tag, const Kind& kind, std::span<const int> physical) {
-    GmshFile::Element element{tag, line_, kind.number, {}};
+  void add_element(std::uint64_t tag, const ElementKind& kind, std::span<const int> physical) {
+    MeshData::Element element{tag, line_, kind.number, {}};
     for (std::size_t i = 0; i < kind.nodes; ++i) {
       const auto node = number<std::uint64_t>("the number of a node");
       const auto found = index_of_node_.find(node);
@@ -234,15 +211,16 @@ class GmshReader {
     }
     for (const int p : physical) {
       // Negative in format 4.1 where the entity is reversed.
+      if (p == std::numeric_limits<int>::min()) fail(fmt::format("\"{}\" is not the tag of a physical group", p));
       if (p != 0)
         group(kind.dimension, std::abs(p))
-            .elements.push_back(static_cast<std::uint32_t>(file_.elements_.size()));
+            .elements.push_back(static_cast<std::uint32_t>(file_.elements.size()));
     }
-    file_.elements_.push_back(std::move(element));
+    file_.elements.push_back(std::move(element));
   }
-  const Kind& kind() {
+  const ElementKind& kind() {
     const int number_of_kind = number<int>("the kind of an element");
-    const Kind* found = kind_of(number_of_kind);
+    const ElementKind* found = element_kind(number_of_kind);
     if (found == nullptr) fail(fmt::format("elements of kind {} are not supported", number_of_kind));
     return *found;
   }
@@ -252,9 +230,8 @@ class GmshReader {
     for (std::size_t left = count("the number of elements"); left > 0; --left) {
       next("Elements");
       const auto tag = number<std::uint64_t>("the number of an element");
-      const Kind& k = kind();
-      std::vector<int> tags(count("the number of tags"));
-      for (int& t : tags) t = number<int>("a tag");
+      const ElementKind& k = kind();
+      const std::vector<int> tags = numbers(count("the number of tags"), "a tag");
       add_element(tag, k, std::span(tags).first(std::min<std::size_t>(tags.size(), 1)));
     }
     end_of("Elements");
@@ -264,9 +241,9 @@ class GmshReader {
     next("Elements");
     for (std::size_t blocks = count("the number of blocks"); blocks > 0; --blocks) {
       next("Elements");
-      const int dimension = number<int>("a dimension"), entity = number<int>("the tag of an entity");
-      const Kind& k = kind();
-      const std::vector<int>& physical = physical_of_entity_[{dimension, entity}];
+      const int of = dimension(), entity = number<int>("the tag of an entity");
+      const ElementKind& k = kind();
+      const std::vector<int>& physical = physical_of_entity_[{of, entity}];
       for (std::size_t left = count("the number of elements"); left > 0; --left) {
         next("Elements");
         add_element(number<std::uint64_t>("the tag of an element"), k, physical);
@@ -275,7 +252,7 @@ class GmshReader {
     end_of("Elements");
   }
 
-  GmshFile& file_;
+  MeshData& file_;
   std::filesystem::path path_;
   double unit_, version_ = 0.0;
   std::ifstream stream_;
@@ -287,122 +264,13 @@ class GmshReader {
   std::map<std::pair<int, int>, std::vector<int>> physical_of_entity_;
 };
 
-GmshFile GmshFile::read(const std::filesystem::path& path, double length_unit) {
-  GmshFile file;
-  file.path_ = path;
-  GmshReader(file, path, length_unit).read();
-  return file;
-}
+}  // namespace
 
-std::vector<std::string> GmshFile::group_names(std::optional<int> dimension) const {
-  std::vector<std::string> names;
-  for (const Group& group : groups_) {
-    if (!dimension || group.dimension == *dimension) names.push_back(group.name);
-  }
-  return names;
-}
-
-const GmshFile::Group& GmshFile::find(const std::string& name, int dimension, int kind) const {
-  const std::vector<std::string> names = group_names();
-  if (names.empty()) {
-    throw InputError(fmt::format("{}: the mesh has no physical groups; a body needs one (Physical Volume)",
-                                 path_.string()));
-  }
-  // A group is one of its dimension: tags of surfaces and volumes count apart, and may be equal.
-  const auto is_called = [&](const Group& g) {
-    return g.name == name || name == fmt::format("physical {}", g.tag) || name == std::to_string(g.tag);
-  };
-  const auto same = [&](const Group& g) { return g.dimension == dimension && g.name == name; };
-  const auto tagged = [&](const Group& g) { return g.dimension == dimension && is_called(g); };
-  auto found = std::ranges::find_if(groups_, same);
-  if (found == groups_.end()) found = std::ranges::find_if(groups_, tagged);
-  if (found == groups_.end()) found = std::ranges::find_if(groups_, is_called);
-  if (found == groups_.end()) {
-    throw InputError(fmt::format("{}: no physical group \"{}\"{} The mesh has: {}", path_.string(), name,
-                                 did_you_mean(name, names), fmt::join(names, ", ")));
-  }
-  constexpr std::array dimensions = {"points", "curves", "surfaces", "volumes"};
-  if (found->dimension != dimension) {
-    throw InputError(fmt::format("{}: physical group \"{}\" is one of {}, not of {}", path_.string(), name,
-                                 dimensions[static_cast<std::size_t>(found->dimension)],
-                                 dimensions[static_cast<std::size_t>(dimension)]));
-  }
-  if (found->elements.empty()) {
-    throw InputError(fmt::format("{}: physical group \"{}\" has no elements", path_.string(), name));
-  }
-  for (const std::uint32_t e : found->elements) {
-    const Element& element = elements_[e];
-    if (element.kind == kind) continue;
-    throw InputError(fmt::format(
-        "{}:{}: error: element {} of group \"{}\" is one of the {}; supported are {} (gmsh: transfinite volumes with "
-        "Recombine Surface, or Mesh.SubdivisionAlgorithm = 2)",
-        path_.string(), element.line, element.tag, name, kind_of(element.kind)->name, kind_of(kind)->name));
-  }
-  return *found;
-}
-
-std::vector<Vector3> GmshFile::own_nodes(const Group& group, std::vector<std::uint32_t>& number) const {
-  constexpr std::uint32_t unnumbered = 0xffffffff;
-  number.assign(nodes_.size(), unnumbered);
-  std::vector<Vector3> own;
-  for (const std::uint32_t e : group.elements) {
-    for (const std::uint32_t node : elements_[e].nodes) {
-      if (number[node] != unnumbered) continue;
-      number[node] = static_cast<std::uint32_t>(own.size());
-      own.push_back(nodes_[node]);
-    }
-  }
-  return own;
-}
-
-Hexahedra GmshFile::hexahedra(const std::string& name) const {
-  const Group& group = find(name, 3, hexahedron_kind);
-  std::vector<std::uint32_t> number;
-  Hexahedra result;
-  result.nodes = own_nodes(group, number);
-  for (const std::uint32_t e : group.elements) {
-    Corners& corners = result.elements.emplace_back();
-    std::ranges::transform(elements_[e].nodes, corners.begin(),
-                           [&](std::uint32_t node) { return number[node]; });
-  }
-  if (const auto fault = first_fault(result)) {
-    const Element& element = elements_[group.elements[fault->element]];
-    throw InputError(fmt::format("{}:{}: error: element {} of group \"{}\" is {}", path_.string(),
-                                 element.line, element.tag, name, fault->reason));
-  }
-  const auto require_apart = [&](const Hexahedra& mesh) {
-    const auto found = first_overlap(mesh);
-    if (!found) return;
-    const Element& element = elements_[group.elements[found->element]];
-    const Element& other = elements_[group.elements[found->other]];
-    throw InputError(fmt::format("{}:{}: error: element {} of group \"{}\" {} element {} (line {})",
-                                 path_.string(), element.line, element.tag, name,
-                                 found->same ? "is the same as" : "is on the same side of a face as",
-                                 other.tag, other.line));
-  };
-  require_apart(result);
-  if (unmerged_nodes(result) > 0) {
-    Hexahedra merged = result;
-    merge_nodes(merged, coincidence(merged));
-    require_apart(merged);  // parts that lie in one another, each with nodes of its own
-  }
-  return result;
-}
-
-Lines GmshFile::lines(const std::string& name) const {
-  const Group& group = find(name, 1, line_kind);
-  std::vector<std::uint32_t> number;
-  Lines result;
-  result.nodes = own_nodes(group, number);
-  for (const std::uint32_t e : group.elements) {
-    const auto& nodes = elements_[e].nodes;
-    if (nodes[0] == nodes[1]) {
-      throw InputError(fmt::format("{}:{}: error: element {} of group \"{}\" has one node twice",
-                                   path_.string(), elements_[e].line, elements_[e].tag, name));
-    }
-    result.elements.push_back({number[nodes[0]], number[nodes[1]]});
-  }
-  return result;
+MeshData read_gmsh(const std::filesystem::path& path, double length_unit) {
+  MeshData data;
+  data.path = path;
+  GmshReader(data, path, length_unit).read();
+  return data;
 }
 
 }  // namespace whipple::fem

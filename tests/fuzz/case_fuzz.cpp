@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whatever stands in a case file: it is read or refused with an InputError, and what is read runs or ends
-// with a StateError. Nothing else: no crash, no hang, no other exception. WHIPPLE_FUZZ_TRIALS sets the number
-// of files (default 200), WHIPPLE_FUZZ_FIRST the first one (a trial depends on its number alone); under the
-// preset dev the sanitizers watch.
+// Whatever stands in a case or a material: it is read or refused with an InputError, and what is read runs or ends
+// with a StateError. Nothing else: no crash, no hang, no other exception (tests/fuzz/trials.hpp).
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
@@ -18,20 +15,15 @@
 #include "src/io/run_directory.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/case/build/placement.hpp"
+#include "src/material/material_file.hpp"
 #include "src/solver/simulation.hpp"
+#include "tests/fuzz/trials.hpp"
+#include "tests/unit/folder_test.hpp"
 
 namespace whipple {
 namespace {
 
 namespace fs = std::filesystem;
-
-int wanted(const char* variable, int otherwise) {
-  const char* value = std::getenv(variable);
-  return value != nullptr ? std::atoi(value) : otherwise;
-}
-
-/// Seconds of the processor that this process has taken: what hangs does so on a busy machine as well.
-double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Words of the case files, and what numbers, units and names are mistaken for.
 const std::vector<std::string> words = {"0",
@@ -151,46 +143,41 @@ TEST(CaseFuzz, IsReadOrRefusedAndRunsOrEndsWithAStateError) {
   const std::vector<fs::path> files = case_files();
   ASSERT_GE(files.size(), 10U);
   constexpr double small = 500.0 * 20000;  // bytes: runs that end soon
-  constexpr double longest = 60.0;         // s
-  const int trials = wanted("WHIPPLE_FUZZ_TRIALS", 200), first = wanted("WHIPPLE_FUZZ_FIRST", 0);
-  int refused = 0, read = 0, run = 0, stopped = 0, slowest = first;
-  double slowest_time = 0.0;
-  for (int trial = first; trial < first + trials; ++trial) {
-    std::mt19937_64 random(static_cast<std::uint64_t>(trial));
-    const fs::path& file = files[random() % files.size()];  // materials are looked up beside it
-    const std::string text = Mutator(random())(io::read_text(file));
-    const double begin = processor_time();
-    try {
-      cases::Case setup = cases::read_case_text(text, file.string());
-      ++read;
-      if (cases::expected_memory(setup) < small) {
-        solver::Simulation simulation(setup, parallel::world());
-        for (int step = 0; step < 2 && simulation.state().time < setup.time.end; ++step) {
-          simulation.advance(setup.time.end);
-        }
-        ++run;
-      }
-    } catch (const InputError& error) {
-      ++refused;
-      EXPECT_STRNE(error.what(), "");
-    } catch (const StateError&) {
-      ++stopped;
-    } catch (const std::exception& error) {
-      FAIL() << "trial " << trial << ": neither InputError nor StateError: " << error.what() << "\n" << text;
+  int run = 0;
+  const fuzz::Outcomes outcomes = fuzz::try_inputs("case", 200, [&](fuzz::Random& random) {
+    const fs::path& file = files[fuzz::any(random, files.size())];  // materials are looked up beside it
+    const cases::Case setup = cases::read_case_text(Mutator(random())(io::read_text(file)), file.string());
+    if (cases::expected_memory(setup) >= small) return;
+    solver::Simulation simulation(setup, parallel::world());
+    for (int step = 0; step < 2 && simulation.state().time < setup.time.end; ++step) {
+      simulation.advance(setup.time.end);
     }
-    const double seconds = processor_time() - begin;
-    EXPECT_LT(seconds, longest) << "trial " << trial << "\n" << text;
-    if (seconds > slowest_time) {
-      slowest_time = seconds;
-      slowest = trial;
+    ++run;
+  });
+  std::printf("%d of the cases ran\n", run);
+  EXPECT_GT(outcomes.refused, outcomes.read / 10);
+  EXPECT_GT(outcomes.read, outcomes.refused / 10);
+}
+
+class MaterialFuzz : public FolderTest {};
+
+// What a material file holds is refused, is judged unusable, or has states near its reference.
+TEST_F(MaterialFuzz, IsReadOrRefusedAndHasStates) {
+  log::set_level(log::Level::quiet);
+  std::vector<fs::path> files;
+  for (const LibraryMaterial& material : library_materials()) files.push_back(material.file);
+  ASSERT_GE(files.size(), 50U);
+  const fs::path file = folder_ / "material.toml";
+  fuzz::try_inputs("material", 100, [&](fuzz::Random& random) {
+    const fs::path& from = files[fuzz::any(random, files.size())];
+    std::ofstream(file, std::ios::binary) << Mutator(random())(io::read_text(from));
+    const Material material = read_material(file, from.parent_path());
+    require_usable(material);
+    const eos::EquationOfState& eos = *material.eos;
+    for (const double compression : {0.9, 1.0, 1.2}) {
+      static_cast<void>(eos.state(compression * eos.reference_density(), eos.reference_energy() + 1e5));
     }
-  }
-  std::printf(
-      "%d refused, %d read, of which %d ran and %d ended with a StateError; the slowest, trial %d, took %.1f "
-      "s\n",
-      refused, read, run, stopped, slowest, slowest_time);
-  EXPECT_GT(refused, trials / 10);
-  EXPECT_GT(read, trials / 10);
+  });
 }
 
 }  // namespace

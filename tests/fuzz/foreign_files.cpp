@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Files of other programs, damaged and forged ones: they are read or refused with an InputError. Nothing else:
-// no crash, no hang, no memory for what a file only declares. WHIPPLE_FUZZ_TRIALS sets the number of each kind
-// (default 40), WHIPPLE_FUZZ_FIRST the first one (a trial depends on its number alone); under the preset dev
-// the sanitizers watch.
+// no crash, no hang, no memory for what a file only declares (tests/fuzz/trials.hpp).
 #include <gmock/gmock.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <functional>
-#include <random>
 
 #include "eos/experiments/comparison.hpp"
 #include "eos/files/sesame.hpp"
@@ -24,6 +20,9 @@
 #include "src/material/material_file.hpp"
 #include "src/case/case.hpp"
 #include "src/run/restart.hpp"
+#include "src/decks/import.hpp"
+#include "src/fem/mesh_file.hpp"
+#include "tests/fuzz/trials.hpp"
 #include "tests/unit/eos_support.hpp"
 #include "tests/unit/folder_test.hpp"
 
@@ -31,56 +30,9 @@ namespace whipple {
 namespace {
 
 namespace fs = std::filesystem;
-using Random = std::mt19937_64;
-
-int wanted(const char* variable, int otherwise) {
-  const char* value = std::getenv(variable);
-  return value != nullptr ? std::atoi(value) : otherwise;
-}
-
-std::size_t any(Random& random, std::size_t below) { return random() % below; }
-
-/// Bits flipped, blocks overwritten, the end cut off.
-std::string damaged(std::string bytes, Random& random) {
-  for (std::size_t n = 1 + any(random, 4); n > 0; --n) {
-    const std::size_t at = any(random, bytes.size());
-    switch (any(random, 4)) {
-      case 0:
-        bytes.resize(std::max<std::size_t>(at, 1));
-        break;
-      case 1:
-        bytes.replace(at, 8, std::string("\0\0\0\0\0\0\xf8\x7f", 8));  // NaN
-        break;
-      case 2:
-        bytes.replace(at, 8, bytes.substr(any(random, bytes.size()), 8));
-        break;
-      default:
-        bytes[at] = static_cast<char>(bytes[at] ^ (1 << any(random, 8)));
-    }
-  }
-  return bytes;
-}
-
-/// Words and lines replaced, doubled, left out.
-std::string garbled(std::string text, Random& random) {
-  static const std::vector<std::string> words = {"nan",  "-1",     "1e999", "0",    "",   "\n", ",", ";",  "\"",
-                                                 "1e30", "\xc3\xa4", "#",     "\t", "-",  "+",  ".", "99999999999"};
-  for (std::size_t n = 1 + any(random, 4); n > 0; --n) {
-    const std::size_t at = any(random, text.size()), length = any(random, 12);
-    switch (any(random, 4)) {
-      case 0:
-        text.insert(at, text.substr(any(random, text.size()), 80));
-        break;
-      case 1:
-        text.erase(at, length);
-        break;
-      default:
-        text.replace(at, length, words[any(random, words.size())]);
-    }
-    if (text.empty()) text = "x";
-  }
-  return text;
-}
+using fuzz::damaged;
+using fuzz::garbled;
+using fuzz::Random;
 
 class ForeignFiles : public FolderTest {
  protected:
@@ -93,24 +45,14 @@ class ForeignFiles : public FolderTest {
     log::set_level(log::Level::normal);
     FolderTest::TearDown();
   }
-  void try_all(const fs::path& path, const Change& change, const std::function<void()>& read) const {
+  /// Reads changed copies of a sound file. It must be right often enough to reach what lies behind its first line.
+  static void try_all(const char* kind, const fs::path& path, const Change& change, const std::function<void()>& read) {
     const std::string whole = io::read_text(path);
     read();
-    int accepted = 0;
-    const int first = wanted("WHIPPLE_FUZZ_FIRST", 0), trials = wanted("WHIPPLE_FUZZ_TRIALS", 40);
-    for (int trial = first; trial < first + trials; ++trial) {
-      Random random(static_cast<std::uint64_t>(trial));
+    fuzz::try_inputs(kind, 40, [&](Random& random) {
       std::ofstream(path, std::ios::binary) << change(whole, random);
-      try {
-        read();
-        ++accepted;
-      } catch (const InputError&) {
-      } catch (const StateError&) {  // of a material that was read
-      } catch (const std::exception& error) {
-        ADD_FAILURE() << "trial " << trial << ": " << error.what();
-      }
-    }
-    std::printf("%d of %d accepted\n", accepted, trials);
+      read();
+    });
     std::ofstream(path, std::ios::binary) << whole;
   }
 };
@@ -143,7 +85,7 @@ TEST_F(ForeignFiles, CheckpointsThatWereSealedAgain) {
     io::seal(path);
     return io::read_text(path);
   };
-  try_all(path, sealed, [&] {
+  try_all("checkpoint", path, sealed, [&] {
     const io::Checkpoint checkpoint = io::read_checkpoint(path, MPI_COMM_SELF);
     run::require_admissible(one_body(), checkpoint, MPI_COMM_SELF);
     for (const std::uint32_t body : checkpoint.particles.body) ASSERT_EQ(body, 0U);
@@ -164,7 +106,7 @@ TEST_F(ForeignFiles, Snapshots) {
     ASSERT_EQ(snapshot.position.size(), snapshot.size());
     for (const Vector3& x : snapshot.position) ASSERT_TRUE(x.allFinite());
   };
-  try_all(path, damaged, sound);
+  try_all("snapshot", path, damaged, sound);
 
   // Each array shorter than the others.
   for (const std::string name : {"Points", "PointData/velocity", "PointData/mass", "PointData/body",
@@ -189,7 +131,7 @@ TEST_F(ForeignFiles, TablesOfMeasurements) {
   for (const char* name : {"cu_hugoniot_marsh1980.csv", "cu_melting.csv"}) {
     const fs::path path = folder_ / name;
     fs::copy_file(fs::path(WHIPPLE_SOURCE_DIR "/eos/data") / name, path);
-    try_all(path, garbled, [&] {
+    try_all("measurements (CSV)", path, garbled, [&] {
       for (const auto& experiment : eos::experiments::read_experiments(path))
         static_cast<void>(eos::experiments::compare(*copper.eos, copper.reference, experiment));
     });
@@ -212,7 +154,7 @@ TEST_F(ForeignFiles, SesameTables) {
   const fs::path path = folder_ / "test.ses";
   eos::write_sesame(path, {&table, 1});
   std::ofstream(folder_ / "test.toml") << "name = \"t\"\nsource = \"t\"\n[eos]\nmodel = \"sesame\"\nfile = \"test.ses\"\n";
-  try_all(path, garbled, [&] {
+  try_all("SESAME", path, garbled, [&] {
     static_cast<void>(eos::read_sesame(path));
     static_cast<void>(read_material(folder_ / "test.toml"));
   });
@@ -222,7 +164,45 @@ TEST_F(ForeignFiles, TablesOfEquationsOfState) {
   const eos::test::GrayEos copper(eos::test::copper());
   const fs::path path = folder_ / "copper.eos.h5";
   eos::write_table(path, {eos::tabulate(copper, {.error = 0.05}), {}});
-  try_all(path, damaged, [&] { static_cast<void>(eos::Table(eos::read_table(path).data)); });
+  try_all("table of an equation of state", path, damaged, [&] { static_cast<void>(eos::Table(eos::read_table(path).data)); });
+}
+
+TEST_F(ForeignFiles, Meshes) {
+  for (const char* name : {"two_boxes_22.msh", "two_boxes_41.msh"}) {
+    const fs::path path = folder_ / name;
+    fs::copy_file(fs::path(WHIPPLE_SOURCE_DIR "/tests/data/fem") / name, path);
+    const auto numbers_nodes = [](const auto& elements, std::size_t nodes) {
+      for (const auto& element : elements) {
+        for (const std::size_t node : element) ASSERT_LT(node, nodes);
+      }
+    };
+    try_all("mesh (Gmsh)", path, garbled, [&] {
+      const fem::MeshFile file = fem::MeshFile::read(path, 1e-3);
+      for (const std::string& group : file.group_names(3)) {
+        const fem::Hexahedra part = file.hexahedra(group);
+        numbers_nodes(part.elements, part.nodes.size());
+        for (const Vector3& x : part.nodes) ASSERT_TRUE(x.allFinite());
+      }
+      for (const std::string& group : file.group_names(1)) {
+        const fem::Lines part = file.lines(group);
+        numbers_nodes(part.elements, part.nodes.size());
+      }
+    });
+  }
+}
+
+TEST_F(ForeignFiles, DecksOfOtherCodes) {
+  using Units = std::optional<decks::UnitSystem>;
+  for (const auto& [name, units] : {std::pair{"sphere_on_plate.mpm", Units{}},
+                                    std::pair{"columns_of_water.mpm", Units{{"m", "kg", "s"}}}}) {
+    const fs::path path = folder_ / name, target = folder_ / "imported";
+    fs::copy_file(fs::path(WHIPPLE_SOURCE_DIR "/tests/data/decks") / name, path);
+    try_all("deck (MPM3D-F90)", path, garbled, [&] {
+      const decks::Import import = decks::import_deck(path, {.units = units});
+      const decks::CaseFolder folder(import, target);
+      static_cast<void>(cases::read_case(folder.case_file(), {}));
+    });
+  }
 }
 
 }  // namespace

@@ -1,21 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damaged potential files and damaged stores: either they load, or an InputError says why not. Nothing
-// crashes, nothing hangs, nothing is taken for a number that is none.
+// Damaged potential files, plans and stores: either they load, or an InputError says why not. Nothing crashes, nothing
+// hangs, nothing is taken for a number that is none (tests/fuzz/trials.hpp).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
-#include <random>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include "md_fitting/data_set/data_set.hpp"
 #include "md_fitting/lammps/eam_files.hpp"
 #include "md_fitting/lammps/potential.hpp"
+#include "md_fitting/plan/plan.hpp"
 #include "src/core/base/error.hpp"
+#include "tests/fuzz/trials.hpp"
 #include "tests/unit/temporary_folder.hpp"
 
 namespace whipple::md {
 namespace {
+
+std::string contents(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
 
 /// A small, valid setfl file: Morse-like functions on coarse tables.
 std::string small_setfl() {
@@ -36,10 +46,8 @@ std::string small_setfl() {
   return to_setfl(tables, "a small file");
 }
 
-std::string damaged(std::string text, std::mt19937& generator) {
-  const auto any = [&](std::size_t below) {
-    return std::uniform_int_distribution<std::size_t>(0, below - 1)(generator);
-  };
+std::string misspelt(std::string text, fuzz::Random& random) {
+  const auto any = [&](std::size_t below) { return fuzz::any(random, below); };
   static const std::string bytes = "0123456789.-+eE \n\t\0x/nanif";
   for (std::size_t n = 1 + any(4); n > 0; --n) {
     const std::size_t header =
@@ -66,29 +74,55 @@ std::string damaged(std::string text, std::mt19937& generator) {
 
 TEST(PotentialFuzz, LoadsOrExplains) {
   const TemporaryFolder folder;
-  const std::string whole = small_setfl();
-  std::mt19937 generator(4711);
-  int loaded = 0;
-  int refused = 0;
-  for (int i = 0; i < 400; ++i) {
-    const std::string name = "fuzz.eam.alloy";
-    std::ofstream(folder.path() / name, std::ios::binary) << (i == 0 ? whole : damaged(whole, generator));
-    try {
-      const Potential potential = Potential::load(name, "Cu", folder.path());
-      EXPECT_TRUE(std::isfinite(potential.static_volume()));
-      EXPECT_GT(potential.static_volume(), 0.0);
-      EXPECT_GE(potential.least_volume_ratio(), potential.table_end());
-      ++loaded;
-    } catch (const InputError& error) {
-      EXPECT_GT(std::string(error.what()).size(), 20U);
-      ++refused;
-    }
-    if (i == 0) {
-      ASSERT_EQ(loaded, 1);
-    }
+  const std::string whole = small_setfl(), name = "fuzz.eam.alloy";
+  const auto load = [&](const std::string& text) {
+    std::ofstream(folder.path() / name, std::ios::binary) << text;
+    const Potential potential = Potential::load(name, "Cu", folder.path());
+    EXPECT_TRUE(std::isfinite(potential.static_volume()));
+    EXPECT_GT(potential.static_volume(), 0.0);
+    EXPECT_GE(potential.least_volume_ratio(), potential.table_end());
+  };
+  load(whole);
+  const fuzz::Outcomes outcomes =
+      fuzz::try_inputs("potential", 400, [&](fuzz::Random& random) { load(misspelt(whole, random)); });
+  EXPECT_GT(outcomes.refused, outcomes.read / 3);
+  EXPECT_GT(outcomes.read, outcomes.refused / 25);
+}
+
+TEST(PlanFuzz, IsReadOrRefused) {
+  std::vector<std::string> plans;
+  for (const auto& entry : std::filesystem::directory_iterator(WHIPPLE_SOURCE_DIR "/cases/md")) {
+    if (entry.path().extension() == ".toml") plans.push_back(contents(entry.path()));
   }
-  EXPECT_GT(refused, 100);
-  EXPECT_GT(loaded, 20);
+  std::ranges::sort(plans);  // folders are listed in any order
+  ASSERT_GE(plans.size(), 10U);
+  const fuzz::Outcomes outcomes = fuzz::try_inputs("plan", 200, [&](fuzz::Random& random) {
+    const std::string text = fuzz::garbled(plans[fuzz::any(random, plans.size())], random);
+    input::Document document = input::Document::from_text(text, "plan.toml");
+    const Plan plan = read_plan(document);
+    EXPECT_NO_THROW({
+      input::Document again = input::Document::from_text(plan_text(plan), "again.toml");
+      static_cast<void>(read_plan(again));
+    }) << plan_text(plan);
+  });
+  EXPECT_GT(outcomes.refused, outcomes.read / 10);
+  EXPECT_GT(outcomes.read, outcomes.refused / 10);
+}
+
+TEST(StoreFuzz, DamagedStoresAreReadOrRefused) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "points.md.h5";
+  PointRecord point;
+  point.key = std::string(64, 'a');
+  point.protocol = "lattice";
+  point.status = PointStatus::done;
+  point.results = {{"lattice_constant", {3.615e-10, 0.0}}};
+  append_point(path, point);
+  const std::string whole = contents(path);
+  fuzz::try_inputs("store of points", 100, [&](fuzz::Random& random) {
+    std::ofstream(path, std::ios::binary) << fuzz::damaged(whole, random);
+    static_cast<void>(read_store(path));
+  });
 }
 
 TEST(StoreFuzz, TruncatedStoresAreRefused) {

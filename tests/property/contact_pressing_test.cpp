@@ -3,11 +3,17 @@
 // forces, normals and gaps momentum and energy are exact, no heat is negative, no pair pulls.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "src/contact/pressing.hpp"
+#include "src/contact/surface_points.hpp"
 
 namespace whipple::contact {
 namespace {
@@ -198,6 +204,44 @@ TEST_F(Pressed, AStackMovesAsOneAndDoesNotPull) {
   EXPECT_EQ(t.after[0].motion.velocity_and_relaxation[0], -90.0);
   EXPECT_NEAR(t.after[1].motion.velocity_and_relaxation[0], -36.0, 1e-6);
   EXPECT_NEAR(t.after[2].motion.velocity_and_relaxation[0], -36.0, 1e-6);
+}
+
+// Eq. 3.6: the points of a facet hold its area vector whatever its shape; where it is a parallelogram, its area and its
+// first moment too. The vectors of a closed surface cancel.
+TEST(SurfacePoints, HoldTheAreaVectorsOfTheFacets) {
+  const std::vector<fem::Facet> facets = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                          {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  const Vector3 a(2.0, 0.1, 0.3), b(-0.4, 1.5, 0.2), c(0.1, -0.3, 1.0);
+  for (const double warped : {0.0, 0.3}) {
+    fem::Mesh mesh;
+    mesh.nodes.position = {Vector3::Zero(), a, a + b, b, c, a + c, Vector3(a + b + c), b + c};
+    mesh.nodes.position[6] += warped * Vector3(1.0, 0.5, -0.7);
+    mesh.nodes.mass.assign(8, 1.0);
+    for (std::uint64_t id = 0; id < 8; ++id) mesh.nodes.id.push_back(id);
+    SurfacePoints all;
+    all.add(mesh, facets, 1, 0.35, nullptr);
+    EXPECT_NEAR(std::accumulate(all.area.begin(), all.area.end(), Vector3(Vector3::Zero())).norm(), 0.0, 1e-14);
+    for (const fem::Facet& facet : facets) {
+      SCOPED_TRACE(facet[0]);
+      std::array<Vector3, 4> x;
+      for (std::size_t i = 0; i < 4; ++i) x[i] = mesh.nodes.position[facet[i]];
+      SurfacePoints points;
+      points.add(mesh, std::span(&facet, 1), 1, 0.35, nullptr);
+      Vector3 area = Vector3::Zero(), moment = Vector3::Zero();
+      double size = 0.0;
+      for (std::size_t p = 0; p < points.count(); ++p) {
+        area += points.area[p];
+        moment += points.size[p] * points.position[p];
+        size += points.size[p];
+      }
+      const Vector3 exact = 0.5 * (x[2] - x[0]).cross(x[3] - x[1]);
+      EXPECT_NEAR((area - exact).norm(), 0.0, 1e-14);
+      EXPECT_EQ(std::ranges::count(points.node, SurfacePoints::no_node), static_cast<long>(points.count()) - 4);
+      if (warped > 0.0) continue;
+      EXPECT_NEAR(size, exact.norm(), 1e-14);
+      EXPECT_NEAR((moment / size - 0.25 * (x[0] + x[1] + x[2] + x[3])).norm(), 0.0, 1e-14);
+    }
+  }
 }
 
 }  // namespace

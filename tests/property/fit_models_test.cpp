@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "md_fitting/fit/laws.hpp"
 #include "md_fitting/fit/solid_models.hpp"
 #include "md_fitting/fit/solid_problem.hpp"
 #include "md_fitting/fit/vapour_fit.hpp"
@@ -121,6 +122,21 @@ TEST(FitModels, WeightsAreTheErrorsOfTheDataCarriedThroughTheResiduals) {
   }
 }
 
+// Data made with a law do not tell whether it is that of its constants.
+TEST(FitModels, SlopeOfTheBulkModulusIsThatOfTheIsotherm) {
+  SolidConstants constants;
+  constants.gray.reference_specific_volume = 1.1e-4;
+  constants.bulk_modulus = 140e9;
+  constants.bulk_modulus_slope = 5.2;
+  const double V0 = constants.gray.reference_specific_volume;
+  const auto P = [&](double V) { return isotherm_pressure(constants, V); };
+  const auto K = [&](double V) { return -V * (P(V + 1e-5 * V0) - P(V - 1e-5 * V0)) / (2e-5 * V0); };
+  EXPECT_EQ(P(V0), 0.0);
+  EXPECT_NEAR(K(V0), constants.bulk_modulus, 1e-6 * constants.bulk_modulus);
+  const double below = 0.998 * V0, above = 1.002 * V0;
+  EXPECT_NEAR((K(below) - K(above)) / (P(below) - P(above)), constants.bulk_modulus_slope, 1e-3);
+}
+
 // GRAY: eight constants over eight seeds, within the stated covariance, and chi^2 of the data within its
 // scatter.
 TEST(FitModels, GrayIsRecoveredWithinItsCovariance) {
@@ -171,30 +187,36 @@ TEST(FitModels, MieGruneisenIsRecovered) {
       value, 8);
 }
 
-// Debye and Grueneisen: an isotherm of Vinet's form in place of the shocks.
+/// Points with an isotherm of Vinet's form in place of the shocks.
+SyntheticStore isotherm_store(const SolidConstants& solid, bool silent, unsigned seed) {
+  Noise noise;
+  noise.silent = silent;
+  SyntheticStore store(solid.gray, noise, seed);
+  std::erase_if(store.points, [](const md::PointRecord& point) {
+    return point.protocol == "isotherm" || point.protocol == "hugoniot";
+  });
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal;
+  for (const double ratio : {1.02, 0.99, 0.96, 0.93, 0.89, 0.86, 0.82, 0.78}) {
+    const double v = ratio * solid.gray.reference_specific_volume;
+    const double error = 2e7;
+    store.add("isotherm", {{"specific_volume", v}, {"temperature", 293.0}},
+              {{"pressure", {isotherm_pressure(solid, v) + (silent ? 0.0 : error * normal(generator)), error}},
+               {"specific_internal_energy", {0.0, 400.0}}});
+  }
+  return store;
+}
+
+SolidConstants debye_gruneisen_truth() {
+  SolidConstants solid{harmonic(), 0.0, 135e9, 5.3};
+  solid.gray.melting = eos::MeltingTransition::isochoric;  // the model melts by Lindemann's law alone
+  return solid;
+}
+
 TEST(FitModels, DebyeGruneisenIsRecovered) {
-  eos::GrayConstants truth = harmonic();
-  truth.melting = eos::MeltingTransition::isochoric;  // the model melts by Lindemann's law alone
-  SolidConstants solid{truth, 0.0, 135e9, 5.3};
-  const auto store = [&](bool silent, unsigned seed) {
-    Noise noise;
-    noise.silent = silent;
-    SyntheticStore points(truth, noise, seed);
-    std::erase_if(points.points, [](const md::PointRecord& point) {
-      return point.protocol == "isotherm" || point.protocol == "hugoniot";
-    });
-    std::mt19937_64 generator(seed);
-    std::normal_distribution<double> normal;
-    for (const double ratio : {1.02, 0.99, 0.96, 0.93, 0.89, 0.86, 0.82, 0.78}) {
-      const double v = ratio * truth.reference_specific_volume;
-      const double error = 2e7;
-      points.add(
-          "isotherm", {{"specific_volume", v}, {"temperature", 293.0}},
-          {{"pressure", {isotherm_pressure(solid, v) + (silent ? 0.0 : error * normal(generator)), error}},
-           {"specific_internal_energy", {0.0, 400.0}}});
-    }
-    return points.points;
-  };
+  const SolidConstants solid = debye_gruneisen_truth();
+  const eos::GrayConstants& truth = solid.gray;
+  const auto store = [&](bool silent, unsigned seed) { return isotherm_store(solid, silent, seed).points; };
   const auto value = [&](const std::string& name) {
     if (name == "reference_density") return 1.0 / truth.reference_specific_volume;
     if (name == "bulk_modulus") return solid.bulk_modulus;
@@ -213,6 +235,23 @@ TEST(FitModels, DebyeGruneisenIsRecovered) {
   EXPECT_DOUBLE_EQ(exact.value("debye_temperature"), 343.0);
   expect_honest([&](unsigned seed) { return fit_debye_gruneisen(store(false, seed), noise_only(), "s"); },
                 value, 8);
+}
+
+// Copper at 4 K: C11, C12, C44 of 176.2, 124.9, 81.8 GPa (Overton & Gaffney 1955) have the moduli 142 and 51.5 GPa after
+// Hill; calorimetry gives 343 K (Kittel, Introduction to Solid State Physics).
+TEST(FitModels, DebyeTemperatureIsThatOfTheElasticStateNextToTheReference) {
+  EXPECT_NEAR(debye_temperature(142e9, 51.5e9, 1.107e-4, 0.06355), 343.0, 0.04 * 343.0);
+
+  const SolidConstants solid = debye_gruneisen_truth();
+  SyntheticStore store = isotherm_store(solid, false, 1);
+  const double v0 = solid.gray.reference_specific_volume;
+  for (const auto& [ratio, shear] : {std::pair{0.9, 80e9}, std::pair{1.001, 50e9}, std::pair{1.1, 30e9}}) {
+    store.add("elastic", {{"specific_volume", ratio * v0}},
+              {{"bulk_modulus", {140e9, 0.0}}, {"shear_modulus_hill", {shear, 0.0}}});
+  }
+  const Fit fit = fit_debye_gruneisen(store.points, noise_only(), "s");
+  EXPECT_EQ(fit.constant("debye_temperature").origin, Origin::given);
+  EXPECT_NEAR(fit.value("debye_temperature"), debye_temperature(140e9, 50e9, 1.001 * v0, solid.gray.molar_mass), 1e-4);
 }
 
 TEST(FitModels, DebyeGruneisenAsksForAnIsotherm) {

@@ -195,7 +195,7 @@ TEST(Elements, AreCutAtMirrorPlanes) {
 }
 
 // A file of Gmsh gives the mesh, and the shape that overlaps are found by.
-TEST(Elements, ComeFromAGmshFile) {
+TEST(Elements, ComeFromAMeshFile) {
   const auto path =
       std::filesystem::temp_directory_path() / ("whipple_" + std::to_string(::getpid()) + ".msh");
   io::write_text_atomically(path, R"($MeshFormat

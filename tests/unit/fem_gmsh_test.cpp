@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "src/core/base/error.hpp"
-#include "src/fem/gmsh.hpp"
+#include "src/fem/mesh_file.hpp"
 #include "src/fem/structured.hpp"
 #include "tests/unit/fem_support.hpp"
 #include "tests/unit/folder_test.hpp"
@@ -47,7 +47,7 @@ class Gmsh : public FolderTest {
 TEST_F(Gmsh, ReadsBothFormats) {
   std::vector<Hexahedra> plates;
   for (const char* name : {"two_boxes_22.msh", "two_boxes_41.msh"}) {
-    const auto file = fem::GmshFile::read(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/" + name, 1e-3);
+    const auto file = fem::MeshFile::read(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/" + name, 1e-3);
     EXPECT_THAT(file.group_names(),
                 ::testing::UnorderedElementsAre("plate", "projectile", "rebar", "bottom"));
     const Hexahedra plate = file.hexahedra("plate"), projectile = file.hexahedra("projectile");
@@ -90,21 +90,21 @@ TEST_F(Gmsh, GroupsAreThoseOfADimension) {
   // A surface and a volume with one tag.
   std::ofstream(folder_ / "tags.msh")
       << "\xEF\xBB\xBF" + two_parts(std::string("1 3 2 1 1 1 2 3 4\n") + first_part);
-  const fem::GmshFile file = fem::GmshFile::read(folder_ / "tags.msh");
+  const fem::MeshFile file = fem::MeshFile::read(folder_ / "tags.msh");
   EXPECT_THAT(file.group_names(3), ::testing::ElementsAre("physical 1"));
   EXPECT_EQ(file.group_names().size(), 2U);
   for (const char* name : {"physical 1", "1"}) EXPECT_EQ(file.hexahedra(name).elements.size(), 1U) << name;
   EXPECT_THAT(message_of<InputError>([&] { std::ignore = file.hexahedra("2"); }),
               HasSubstr("no physical group"));
   const auto boxes =
-      fem::GmshFile::read(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/two_boxes_41.msh");
+      fem::MeshFile::read(std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/two_boxes_41.msh");
   EXPECT_THAT(boxes.group_names(3), ::testing::UnorderedElementsAre("plate", "projectile"));
 }
 
 TEST_F(Gmsh, ElementsMustNotLieInOneAnother) {
   const auto read = [&](const std::string& text) {
     std::ofstream(folder_ / "overlap.msh") << text;
-    return fem::GmshFile::read(folder_ / "overlap.msh").hexahedra("1");
+    return fem::MeshFile::read(folder_ / "overlap.msh").hexahedra("1");
   };
   const auto message = [&](const std::string& text) {
     return message_of<InputError>([&] { std::ignore = read(text); });
@@ -122,17 +122,17 @@ TEST_F(Gmsh, ElementsMustNotLieInOneAnother) {
 
 TEST_F(Gmsh, NamesFileLineAndElement) {
   const auto read = [](const std::filesystem::path& path) {
-    return message_of<InputError>([&] { fem::GmshFile::read(path); });
+    return message_of<InputError>([&] { fem::MeshFile::read(path); });
   };
   const auto of_group = [](const std::filesystem::path& path, const std::string& group) {
-    return message_of<InputError>([&] { std::ignore = fem::GmshFile::read(path).hexahedra(group); });
+    return message_of<InputError>([&] { std::ignore = fem::MeshFile::read(path).hexahedra(group); });
   };
   const std::filesystem::path good = std::string(WHIPPLE_SOURCE_DIR) + "/tests/data/fem/two_boxes_22.msh";
   EXPECT_THAT(of_group(good, "projektile"),
               AllOf(HasSubstr("no physical group \"projektile\""), HasSubstr("did you mean \"projectile\""),
                     HasSubstr("The mesh has: rebar, bottom, plate, projectile")));
   EXPECT_THAT(of_group(good, "bottom"), HasSubstr("\"bottom\" is one of surfaces, not of volumes"));
-  EXPECT_THAT(message_of<InputError>([&] { std::ignore = fem::GmshFile::read(good).lines("plate"); }),
+  EXPECT_THAT(message_of<InputError>([&] { std::ignore = fem::MeshFile::read(good).lines("plate"); }),
               HasSubstr("is one of volumes, not of curves"));
   EXPECT_THAT(read(folder_ / "none.msh"), HasSubstr("cannot be read"));
   EXPECT_THAT(read(changed("two_boxes_22.msh", "$MeshFormat\n", "solid\n")), HasSubstr("not a mesh of Gmsh"));
@@ -149,6 +149,22 @@ TEST_F(Gmsh, NamesFileLineAndElement) {
               HasSubstr("the line ends where a coordinate is expected"));
   EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n2 0 0 0\n")),
               HasSubstr("node 2 is defined twice"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 0 0 0\n", "\n1 0 nan 0\n")), HasSubstr("is not a coordinate"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n3 1 \"plate\"", "\n9 1 \"plate\"")),
+              HasSubstr(":8: error: \"9\" is not a dimension: 0 to 3"));
+}
+
+TEST_F(Gmsh, TakesNoMemoryForWhatAFileOnlyDeclares) {
+  const std::string huge = "4000000000000000000";
+  const auto read = [](const std::filesystem::path& path) {
+    return message_of<InputError>([&] { fem::MeshFile::read(path); });
+  };
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "\n1 1 2 8 1", "\n1 1 " + huge + " 8 1")),
+              HasSubstr("the line ends where a tag is expected"));
+  EXPECT_THAT(read(changed("two_boxes_41.msh", "\n0 1 0 1\n", "\n0 1 0 " + huge + "\n")),
+              HasSubstr("is not the tag of a node"));
+  EXPECT_THAT(read(changed("two_boxes_41.msh", "\n1 0 0 0 2 0 0 1 8", "\n1 0 0 0 2 0 0 " + huge + " 8")),
+              HasSubstr("the line ends where the tag of a physical group is expected"));
 }
 
 TEST_F(Gmsh, RefusesElementsThatItCannotComputeWith) {
@@ -173,7 +189,7 @@ TEST_F(Gmsh, RefusesElementsThatItCannotComputeWith) {
   for (int& value : n) words >> value;
   const auto message = [&](const std::string& replacement) {
     const auto path = changed("two_boxes_22.msh", first, replacement);
-    return message_of<InputError>([&] { std::ignore = fem::GmshFile::read(path).hexahedra("plate"); });
+    return message_of<InputError>([&] { std::ignore = fem::MeshFile::read(path).hexahedra("plate"); });
   };
   const std::string where = "changed.msh:" + std::to_string(at) + ": error: element " + std::to_string(n[0]);
   const auto join = [&](std::span<const int> nodes, int kind) {
@@ -200,6 +216,72 @@ TEST_F(Gmsh, RefusesElementsThatItCannotComputeWith) {
   degenerate[7] = 999;
   EXPECT_THAT(message(join(degenerate, 5)),
               HasSubstr("element " + std::to_string(n[0]) + ": node 999 is not defined"));
+}
+
+/// Two hexahedra and a bar of an input of Abaqus: sets by name, by list, by range and of sets; comments, blank lines, lines
+/// that go on, small letters.
+const char* const abaqus_text = R"(** written for this test
+*Heading
+ two boxes
+*Node, NSET=all
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 1., 1., 0.
+4, 0., 1., 0.
+ 5, 0., 0., 1.
+ 6, 1., 0., 1.
+ 7, 1., 1., 1.
+ 8, 0., 1., 1.
+ 9, 0., 0., 2.
+10, 1., 0., 2.
+11, 1., 1., 2.
+12, 0., 1., 2.
+
+*Element, type=C3D8R, elset="Lower Box"
+1, 1, 2, 3, 4, 5, 6,
+   7, 8
+*ELEMENT, TYPE=C3D8R
+7, 5, 6, 7, 8, 9, 10, 11, 12
+*ELEMENT, TYPE=T3D2, ELSET=bar
+9, 1, 9
+*ELSET, ELSET=upper, GENERATE
+7, 7, 1
+*ELSET, ELSET=both
+lower box, 7
+*Material, name=steel
+*Density
+ 7.85e-9,
+)";
+
+TEST_F(Gmsh, AbaqusHasElementSets) {
+  const auto read = [&](const std::string& from = "", const std::string& to = "") {
+    std::string text = abaqus_text;
+    if (!from.empty()) text.replace(text.find(from), from.size(), to);
+    std::ofstream(folder_ / "mesh.inp") << text;
+    return fem::MeshFile::read(folder_ / "mesh.inp", 1e-3);
+  };
+  const fem::MeshFile file = read();
+  EXPECT_THAT(file.group_names(3), ::testing::ElementsAre("Lower Box", "upper", "both"));
+  EXPECT_NEAR(fem::volume(file.hexahedra("Lower Box")), 1e-9, 1e-22);
+  EXPECT_NEAR(file.hexahedra("upper").nodes[6][2], 2e-3, 1e-15);
+  EXPECT_EQ(file.hexahedra("both").elements.size(), 2U);
+  EXPECT_EQ(file.hexahedra("both").nodes.size(), 12U);
+  EXPECT_EQ(file.lines("bar").elements.size(), 1U);
+  const auto fault = [&](const std::string& from, const std::string& to) {
+    return message_of<InputError>([&] { static_cast<void>(read(from, to).hexahedra("both")); });
+  };
+  EXPECT_THAT(fault("2, 1., 0., 0.", "2, 1., x, 0."), HasSubstr("mesh.inp:6: error: \"x\" is not a coordinate"));
+  EXPECT_THAT(fault("2, 1., 0., 0.", "1, 1., 0., 0."), HasSubstr("node 1 is defined twice"));
+  EXPECT_THAT(fault("   7, 8\n", "   7, 13\n"), HasSubstr("mesh.inp:20: error: element 1: node 13 is not defined"));
+  EXPECT_THAT(fault("   7, 8\n", "   7, 8, 9\n"), HasSubstr("element 1 has 9 nodes instead of 8"));
+  EXPECT_THAT(fault("   7, 8\n", ""), HasSubstr("element 1 has 6 nodes instead of 8"));
+  EXPECT_THAT(fault("type=C3D8R, elset", "type=CPE4, elset"), HasSubstr("of the type \"CPE4\" are not known"));
+  EXPECT_THAT(fault("C3D8R\n7, 5, 6, 7, 8, 9, 10, 11, 12", "C3D6\n7, 5, 6, 7, 9, 10, 11"), HasSubstr("one of the 6-node prisms"));
+  EXPECT_THAT(fault("7, 7, 1", "7, 700000000000, 1"), HasSubstr("is not one of elements"));
+  EXPECT_THAT(fault("lower box, 7", "lower boxes, 7"), HasSubstr("is not defined before this line"));
+  EXPECT_THAT(fault("*Heading", "*Instance, name=a"), HasSubstr("parts and assemblies"));
+  EXPECT_THAT(fault("elset=\"Lower Box\"", "elset=lower"), HasSubstr("element set \"lower box\" is not defined"));
+  EXPECT_THAT(fault("1, 1, 2, 3, 4, 5, 6,", "1, 4, 3, 2, 1, 8, 7,\n 6, 5\n2, 1, 2, 3, 4, 5, 6,"), HasSubstr("is inverted"));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "src/core/base/error.hpp"
-#include "src/fem/gmsh.hpp"
+#include "src/fem/mesh_file.hpp"
 #include "src/fem/hexahedron.hpp"
 
 namespace whipple::cases {
@@ -121,14 +121,14 @@ class MeshShape final : public Shape {
 }  // namespace
 
 std::unique_ptr<Shape> shape_of_mesh(const Discretization& control) {
-  const fem::GmshFile file = fem::GmshFile::read(control.mesh, control.mesh_unit);
+  const fem::MeshFile file = fem::MeshFile::read(control.mesh, control.mesh_unit);
   std::string group = control.group;
   if (group.empty()) {
     const std::vector<std::string> names = file.group_names(3);
     if (names.size() != 1) {
       throw InputError(
-          fmt::format("{}: has {} physical groups of volumes, name one by discretization.group: {}",
-                      control.mesh, names.size(), fmt::join(names, ", ")));
+          fmt::format("{}: has {} {}s of volumes, name one by discretization.group: {}", control.mesh, names.size(),
+                      file.called(), fmt::join(names, ", ")));
     }
     group = names.front();
   }
