@@ -30,6 +30,12 @@ Arrival::Arrival(DetonationField field, std::span<const Detonation> detonations)
   time_.assign(count, unlit);
   source_.assign(count, 0);
   parallel::for_each_uneven(count, [&](std::size_t c) { velocity_[c] = field_.velocity(centre(c)); });
+  at_surface_.resize(count);
+  parallel::for_each_uneven(count, [&](std::size_t c) {
+    for_each_neighbour(index_of(c), [&](std::size_t n) {
+      if (velocity_[n] != velocity_[c]) at_surface_[c] = 1;
+    });
+  });
   light_in_sight();
   light_shadows();
 }
@@ -91,13 +97,9 @@ bool Arrival::sees(const Vector3& from, const Vector3& to, double velocity, bool
   for (std::size_t i = 0; i < steps; ++i) {
     const Vector3 at = from + static_cast<double>(i) / static_cast<double>(steps) * way;
     const Index index = index_of(at);
-    double here = holds(index) ? velocity_[number_of(index)] : 0.0;
-    if (here == velocity) {
-      inside = true;
-      continue;
-    }
-    if (here == 0.0 && !inside) continue;
-    here = field_.velocity(at);  // what the cell's centre is says little of cells at a surface
+    const std::size_t cell = holds(index) ? number_of(index) : time_.size();
+    // What the centre of a cell is says little of cells at a surface.
+    const double here = cell == time_.size() ? 0.0 : at_surface_[cell] != 0 ? field_.velocity(at) : velocity_[cell];
     if (here != velocity && (here != 0.0 || inside)) return false;
     inside = inside || here == velocity;
   }

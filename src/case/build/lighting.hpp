@@ -55,9 +55,10 @@ class Arrival {
 
   DetonationField field_;
   std::vector<Detonation> detonations_;
-  std::vector<double> velocity_;       // m/s, of each cell; 0: no explosive
-  std::vector<double> time_;           // s, of its centre; infinite: not lit
-  std::vector<std::uint32_t> source_;  // a detonator, or a cell: its number after those of the detonators
+  std::vector<double> velocity_;          // m/s, of each cell; 0: no explosive
+  std::vector<std::uint8_t> at_surface_;  // of each cell: a neighbour differs
+  std::vector<double> time_;              // s, of its centre; infinite: not lit
+  std::vector<std::uint32_t> source_;     // a detonator, or a cell: its number after those of the detonators
 };
 
 /// Sets the lighting times of the particles of bodies that burn.
