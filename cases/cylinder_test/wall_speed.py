@@ -30,7 +30,7 @@ def wall(table, place):
     names = sorted({name.split(".")[0] for name in table if name.startswith("wall_")}, key=lambda n: int(n.split("_")[1]))
     path = []
     for i, time in enumerate(table["time"]):
-        at = sorted((table[f"{name}.position_x"][i], table[f"{name}.position_y"][i]) for name in names)
+        at = sorted((table[f"{name}.x"][i], table[f"{name}.y"][i]) for name in names)
         radius = interpolate(place, [x for x, _ in at], [y for _, y in at])
         if radius is not None:
             path.append((time, radius))

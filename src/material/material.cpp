@@ -172,7 +172,7 @@ Material burning(const Material& material, double detonation_velocity) {
   if (detonation_velocity > 0.0) explosive.detonation_velocity = detonation_velocity;
   Material result = with_eos(
       material, std::make_shared<const BurningExplosive>(std::make_shared<const Explosive>(std::move(explosive))));
-  if (!result.burns() || result.constitutive->model() != "eos_strength") {
+  if (!result.burns() || dynamic_cast<const material::EosStrength*>(result.constitutive.get()) == nullptr) {
     throw InputError(fmt::format("material '{}': an explosive that burns takes another [strength] or none", material.name));
   }
   return result;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <numbers>
 #include <vector>
@@ -246,14 +245,15 @@ Slab run_slab(const std::string& material, const TaylorWave& exact, double lengt
 TEST(PlanarDetonation, FollowsTheTaylorWaveOfTnt) {
   const TaylorWave exact(*read_material("tnt").eos);
   EXPECT_NEAR(exact.wall_pressure(), 5.640e9, 0.01e9);  // of an independent integration
-  const bool fine = std::getenv("WHIPPLE_FINE_BURN") != nullptr;  // a test of its own, labelled `long`
-  const Slab slab = run_slab("tnt", exact, 0.1, fine ? 400 : 200);
+  // A test of its own, labelled `long`: with cubic functions, since the noise of the quadratic ones behind the front
+  // lowers the pressure of the wall by 1 % there, in proportion to the number of steps.
+  const bool fine = std::getenv("WHIPPLE_FINE_BURN") != nullptr;
+  const Slab slab = run_slab("tnt", exact, 0.1, fine ? 400 : 200,
+                             fine ? "[transfer]\nshape_function = \"cubic_bspline\"\n" : "");
   EXPECT_LT(slab.error, fine ? 0.015 : 0.025);
   EXPECT_NEAR(slab.wall_pressure / exact.wall_pressure(), 1.0, fine ? 0.003 : 0.005);
   EXPECT_NEAR(slab.velocity / exact.velocity(), 1.0, fine ? 0.001 : 0.002);
   EXPECT_LT(slab.energy_error, 1e-12);
-  std::printf("pressure %.4f, wall %.4f, velocity %.5f, energy %.1e\n", slab.error, slab.wall_pressure / exact.wall_pressure(),
-              slab.velocity / exact.velocity(), slab.energy_error);
 }
 
 /// Products of a constant adiabatic exponent of 3, rho0 = 1875 kg/m^3, D = 8 km/s: q = D^2/16 (Mader's problem).

@@ -11,6 +11,7 @@
 
 #include "src/case/build/lattice.hpp"
 #include "src/case/case.hpp"
+#include "src/core/base/log.hpp"
 #include "src/core/parallel/threads.hpp"
 
 namespace whipple::cases {
@@ -249,6 +250,18 @@ void set_lighting_times(const Case& setup, Particles& particles) {
     if (setup.burn.mode == BurnMode::volume && !is_near_detonator(setup, at, velocity)) return;
     times[p] = shadowed ? arrival->at(at, velocity) : straight(setup, at, velocity);
   });
+  if (setup.burn.mode == BurnMode::volume) return;
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    if (!setup.materials[b]->burns()) continue;
+    std::size_t of_body = 0, dark = 0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      of_body += particles.body[p] == b ? 1U : 0U;
+      dark += particles.body[p] == b && times[p] == never ? 1U : 0U;
+    }
+    if (dark == 0) continue;
+    log::warning("body \"{}\": no detonation reaches {} of its {} particles: they stay unburnt", setup.bodies[b].name, dark,
+                 of_body);
+  }
 }
 
 }  // namespace whipple::cases

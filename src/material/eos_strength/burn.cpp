@@ -21,7 +21,7 @@ WHIPPLE_KERNEL void burn(const EosStrength& model, const Step& in, Chunk& out) {
   const bool by_volume = settings.mode != BurnMode::time, gated = settings.mode == BurnMode::both;
   const Lanes& lighting = out.history[model.lighting_time];
   Lanes& fraction = out.history[model.burn_fraction];
-  double unburnt = 0.0;
+  double at_front = 0.0;
   for (std::size_t k = 0; k < out.size; ++k) {
     const bool lit = lighting[k] >= 0.0, near = lit && time > lighting[k] - early;
     const double of_time = lit ? std::clamp((time - lighting[k]) * rate, 0.0, 1.0) : 0.0;
@@ -29,10 +29,10 @@ WHIPPLE_KERNEL void burn(const EosStrength& model, const Step& in, Chunk& out) {
     const double of_volume = by_volume && (near || !gated) ? compression : 0.0;
     const double now = std::max({fraction[k], of_time, of_volume});
     fraction[k] = now > burnt ? 1.0 : now;
-    out.burning[k] = now > burnt ? 0.0 : 1.0;
-    unburnt += out.burning[k];
+    out.burning[k] = now <= burnt && (now > 0.0 || near) ? 1.0 : 0.0;
+    at_front += out.burning[k];
   }
-  out.burns = unburnt > 0.0;
+  out.burns = at_front > 0.0;
 }
 
 void evaluate_burning(const EosStrength& model, const Step& in, Chunk& out) {

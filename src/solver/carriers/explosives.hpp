@@ -13,7 +13,8 @@ namespace whipple::solver {
 /// The particles of a rank that burn, or will: what the solver asks of them (docs/theory/burn.md, section 4).
 class Explosives {
  public:
-  explicit Explosives(const State& state) : state_(state) {
+  explicit Explosives(const State& state)
+      : state_(state), early_(state.setup.burn.settings(state.setup.domain.cell_size).early) {
     const History* fraction = state.setup.has_burn() ? state.particles.history.find("burn_fraction") : nullptr;
     if (fraction == nullptr) return;
     fraction_ = &std::get<std::vector<double>>(fraction->values);
@@ -32,6 +33,12 @@ class Explosives {
   /// Returns whether detonation has arrived at a particle, or does so before a time (s).
   [[nodiscard]] bool is_lit(std::size_t p, double before) const {
     return burns(p) && (*lighting_)[p] >= 0.0 && (*lighting_)[p] <= before;
+  }
+  /// Returns whether a particle burns or is about to: it is at a front of detonation.
+  [[nodiscard]] bool is_at_front(std::size_t p) const {
+    if (!burns(p)) return false;
+    const double ahead = early_ / velocity_[state_.particles.body[p]];
+    return (*fraction_)[p] > 0.0 || is_lit(p, state_.run.time + ahead);
   }
   /// Returns the largest detonation velocity (m/s) of particles in [begin, end) that have not burnt out: a front crosses
   /// them faster than sound does.
@@ -53,6 +60,7 @@ class Explosives {
 
  private:
   const State& state_;
+  double early_;  // m, ahead of a front
   const std::vector<double>* fraction_ = nullptr;  // null: nothing burns
   const std::vector<double>* lighting_ = nullptr;
   std::vector<double> velocity_, store_;  // of each body, m/s and J/kg; 0: it does not burn

@@ -142,7 +142,7 @@ void Activity::let_material_rest() {
   if (state_.run.particles_at_rest == 0 && state_.run.step % look_for_rest_every != 0) return;
   const Explosives explosives(state_);
   const double end = state_.run.time + state_.run.time_step;
-  if (explosives_are_lit(end)) state_.grid.wake();  // detonation begins in material at rest, too: it is looked at anew
+  if (explosives_are_lit(end)) state_.grid.wake();  // detonation begins in material at rest, too: it is looked at again
   const std::size_t at_rest = state_.grid.let_rest(layers_ahead_of_motion(), [&](std::size_t slot) {
     return std::ranges::any_of(state_.grid.particles_in(slot), [&](std::uint32_t p) {
       return is_restless(p) || explosives.is_lit(p, end);

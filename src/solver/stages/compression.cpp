@@ -53,7 +53,7 @@ double TimeStep::compression_rate_of_most(double largest) const {
   const Explosives explosives(state_);
   parallel::for_each_chunk(state_.particles.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      if (explosives.burns(p)) continue;  // as in find_compression_rate
+      if (explosives.is_at_front(p)) continue;  // as in find_compression_rate
       if (state_.particles.closing_rate[p] <= harmless || state_.particles.pressure[p] <= 0.0) continue;
       (*mass)[Bins::of(state_.particles.closing_rate[p])].fetch_add(std::llround(per_mass * state_.particles.mass[p]),
                                                               std::memory_order_relaxed);
