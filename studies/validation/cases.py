@@ -243,6 +243,15 @@ class Measures:
         with path.open(newline="") as stream:
             return list(csv.DictReader(stream))
 
+    def _gauges(self):
+        """Columns of gauges.csv by their names."""
+        path = self.folder / "gauges.csv"
+        if not path.is_file():
+            return {}
+        with path.open(newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        return {head.split(" [")[0]: [float(row[head] or math.nan) for row in rows] for head in (rows[0] if rows else [])}
+
     @property
     def projectile_size(self):
         """Smallest extent of the projectile (m); NaN where nothing moves at the start, or the shape states none."""
@@ -257,7 +266,8 @@ class Measures:
             return wall_speed(self.folder / "gauges.csv", tracers, expectation.place, expectation.travel)
         if expectation.time is None:
             return self.single.get(expectation.measure, math.nan)
-        times, values = self.series.get("time", []), self.series.get(expectation.measure, [])
+        series = self._gauges() if expectation.measure.startswith("gauge.") else self.series
+        times, values = series.get("time", []), series.get(expectation.measure.removeprefix("gauge."), [])
         for t0, t1, v0, v1 in zip(times, times[1:], values, values[1:]):
             if t0 <= expectation.time <= t1:
                 return v0 + (v1 - v0) * (expectation.time - t0) / (t1 - t0)
