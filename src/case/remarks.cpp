@@ -136,7 +136,9 @@ void remark_on_detonators(const Case& setup, std::vector<std::string>& remarks) 
              (at - bounds.upper).maxCoeff() <= setup.geometry.cell_size;
     };
     bool near = inside;
-    for (std::size_t b = 0; b < setup.bodies.size(); ++b) near = near || (setup.materials[b]->burns() && is_near(setup.bodies[b]));
+    for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+      near = near || (setup.materials[b]->burns() && is_near(setup.bodies[b]));
+    }
     if (is_place && !near) {
       remarks.push_back(fmt::format("detonation {} is outside of all explosive: it lights what it sees of their surfaces",
                                     d + 1));

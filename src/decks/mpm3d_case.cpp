@@ -361,7 +361,8 @@ class CaseBuilder {
     if (body.velocity != Vector3::Zero()) toml_.entry("velocity", vector(body.velocity, dimension::velocity));
     if (material.explosive && deck_.last(Keyword::detonation) == nullptr) {
       toml_.entry("detonation", "\"instantaneous\"", "no point of detonation in the deck");
-      remark(Outcome::missing, *body.statement, fmt::format("{} is lit by nothing: it starts as detonation products", body.name));
+      remark(Outcome::missing, *body.statement,
+             fmt::format("{} is lit by nothing: it starts as detonation products", body.name));
     }
     if (grouped_) toml_.entry("contact_group", fmt::format("\"component_{}\"", body.component));
     const double across = std::round(cell_ / body.spacing);

@@ -26,7 +26,9 @@ class MaterialBuilder {
 
   CaseMaterial build() {
     const int index = whole(n_[0]);
-    CaseMaterial result{.file = fmt::format("materials/material_{}.toml", index), .density = n_[1], .explosive = material_.kind == "hiex"};
+    CaseMaterial result{.file = fmt::format("materials/material_{}.toml", index),
+                        .density = n_[1],
+                        .explosive = material_.kind == "hiex"};
     if (!(n_[1] > 0.0)) fail(material_, "the density must be > 0");
     toml_.comment(fmt::format("Written by 'whipple import' from {}; constants in the units of the deck.",
         deck_.file.filename().string()));

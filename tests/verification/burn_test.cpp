@@ -83,7 +83,8 @@ double around_circle(double x, double y, double D) {
 
 /// Largest and mean error in the shadow, in seconds.
 std::pair<double, double> shadow_error(double cell, double D) {
-  const Arrival arrival(square(cell, [&](const Vector3& x) { return x.norm() < 3.0 ? 0.0 : D; }), std::vector{point(0, 5)});
+  const Arrival arrival(square(cell, [&](const Vector3& x) { return x.norm() < 3.0 ? 0.0 : D; }),
+                        std::vector{point(0, 5)});
   double largest = 0.0, sum = 0.0, count = 0.0;
   for (double x = -9.9; x < 10; x += 0.37) {
     for (double y = -9.9; y < 10; y += 0.37) {
@@ -143,7 +144,8 @@ TEST(LightingTimes, GoRoundADisc) {
     return (std::hypot(a, z1) + std::hypot(r - a, z - z1)) / D;
   };
   EXPECT_NEAR(arrival.at(Vector3(0, 0, 60), D), exact(0, 60), 1.5 * cell / D);
-  EXPECT_NEAR(arrival.at(Vector3(20 / std::numbers::sqrt2, 20 / std::numbers::sqrt2, 60), D), exact(20, 60), 1.5 * cell / D);
+  constexpr double x = 20 / std::numbers::sqrt2;
+  EXPECT_NEAR(arrival.at(Vector3(x, x, 60), D), exact(20, 60), 1.5 * cell / D);
   EXPECT_NEAR(arrival.at(Vector3(40, 0, 30), D), std::hypot(40, 30) / D, 1e-12);
 }
 
@@ -354,12 +356,13 @@ TEST(Burn, StartsFromTheUnreactedExplosiveAndReleasesItsStore) {
 // A second detonator fires in material at rest; between the fronts nothing has burnt.
 TEST(Burn, WakesMaterialAtRest) {
   const double length = 0.06, h = 5e-4, delay = 2e-6;
-  const std::string second = fmt::format("[[detonation]]\nshape = \"plane\"\nposition = [{}, 0]\nnormal = [1, 0]\ndelay = {}\n",
-                                         length, delay);
+  const std::string second = fmt::format(
+      "[[detonation]]\nshape = \"plane\"\nposition = [{}, 0]\nnormal = [1, 0]\ndelay = {}\n", length, delay);
   const cases::Case setup = default_case(delay + 8 * h / 6929, column("tnt", length, h, lit_at_wall + second));
   solver::Simulation simulation(setup, parallel::world());
   bool rested = false;
-  run_to(simulation, setup.time.end, [&](const solver::Simulation& s) { rested = rested || s.state().particles_at_rest > 0; });
+  run_to(simulation, setup.time.end,
+         [&](const solver::Simulation& s) { rested = rested || s.state().particles_at_rest > 0; });
   EXPECT_TRUE(rested);
   const Particles& q = simulation.particles();
   for (std::size_t p = 0; p < q.size(); ++p) {

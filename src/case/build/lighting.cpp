@@ -135,7 +135,8 @@ void Arrival::light_shadows() {
     if (time_[c] == unlit) continue;
     bool at_rim = false;
     for_each_neighbour(index_of(c), [&](std::size_t n) {
-      at_rim = at_rim || (velocity_[n] > 0.0 && (time_[n] == unlit || source_[n] != source_[c] || velocity_[n] != velocity_[c]));
+      const bool alike = time_[n] != unlit && source_[n] == source_[c] && velocity_[n] == velocity_[c];
+      at_rim = at_rim || (velocity_[n] > 0.0 && !alike);
     });
     if (at_rim) front.emplace(time_[c], c);
   }
@@ -156,7 +157,8 @@ void Arrival::light_shadows() {
       if (velocity_[n] == velocity_[c]) {
         arrival = by_source(source, at, D);
         const bool of_detonator = source < detonations_.size();
-        const Vector3 origin = of_detonator ? detonations_[source].ray_to(at, D).from : centre(source - detonations_.size());
+        const Vector3 origin =
+            of_detonator ? detonations_[source].ray_to(at, D).from : centre(source - detonations_.size());
         if (!(arrival < bound) || !sees(origin, at, D, of_detonator)) arrival = unlit;
       }
       if (arrival == unlit) {
@@ -259,8 +261,8 @@ void set_lighting_times(const Case& setup, Particles& particles) {
       dark += particles.body[p] == b && times[p] == never ? 1U : 0U;
     }
     if (dark == 0) continue;
-    log::warning("body \"{}\": no detonation reaches {} of its {} particles: they stay unburnt", setup.bodies[b].name, dark,
-                 of_body);
+    log::warning("body \"{}\": no detonation reaches {} of its {} particles: they stay unburnt", setup.bodies[b].name,
+                 dark, of_body);
   }
 }
 
