@@ -26,7 +26,14 @@ ParameterTable<Body> Body::parameters() {
           text("contact_group", &Body::contact_group,
                "bodies of one group share a velocity field and are bonded where they meet, those of different "
                "groups are not; empty: according to contact.method")
-              .optional()};
+              .optional(),
+          choice("detonation", &Body::ignition,
+                 "an explosive is lit by the detonators of the case | never reacts | is burnt from the start, at "
+                 "constant volume")
+              .optional(),
+          real("detonation_velocity", &Body::detonation_velocity, "m/s", range::positive(),
+               "with which an explosive is lit, for instance a measured one")
+              .optional("that of its Chapman-Jouguet state")};
 }
 
 std::span<const Section<Body>> Body::sections() {

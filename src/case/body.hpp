@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 
 #include "src/case/artificial_viscosity.hpp"
 #include "src/case/body_state.hpp"
+#include "src/case/detonation.hpp"
 #include "src/case/discretization.hpp"
 #include "src/case/section.hpp"
 #include "src/case/shapes/shape.hpp"
@@ -35,6 +37,8 @@ struct Body {
   Vector3 velocity = Vector3::Zero();          ///< m/s
   Vector3 angular_velocity = Vector3::Zero();  ///< rad/s
   std::string contact_group;
+  Ignition ignition = Ignition::detonators;
+  double detonation_velocity = std::numeric_limits<double>::infinity();  ///< m/s; infinite: not given
   Discretization discretization;
   Conversion conversion;
   std::vector<NodeCondition> node_conditions;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "src/case/build/bars.hpp"
 #include "src/case/build/placement.hpp"
@@ -31,8 +32,10 @@ std::span<const Section<Case>> Case::sections() {
       section<&Case::heat>("heat"),
       section<&Case::contact>("contact"),
       section<&Case::gravity>("gravity"),
+      section<&Case::burn>("burn", ", of explosives", [](const Case& setup) { return setup.has_burn(); }),
       section<&Case::output>("output"),
       section<&Case::bodies>("body"),
+      section<&Case::detonations>("detonation"),
       section<&Case::gauges>("gauge"),
       section<&Case::tracers>("tracers")};
   return all;
@@ -40,6 +43,10 @@ std::span<const Section<Case>> Case::sections() {
 
 bool Case::has_bars() const {
   return std::ranges::any_of(bodies, [](const Body& body) { return body.discretization.is_bars(); });
+}
+
+bool Case::has_burn() const {
+  return std::ranges::any_of(materials, [](const auto& material) { return material != nullptr && material->burns(); });
 }
 
 bool Case::holds(const Body& body, Vector3 point) const {
@@ -89,6 +96,7 @@ void make_shapes(Case& setup, const Faults& bodies) {
 /// Reads the materials that are not there; bodies of one file share its material.
 void read_materials(Case& setup, const Faults& bodies) {
   std::map<std::string, std::shared_ptr<const Material>> known;
+  std::map<std::tuple<std::shared_ptr<const Material>, Ignition, double>, std::shared_ptr<const Material>> forms;
   setup.materials.resize(setup.bodies.size());
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const std::string& name = setup.bodies[b].material;
@@ -109,6 +117,15 @@ void read_materials(Case& setup, const Faults& bodies) {
       bodies.in(b).add("material", fmt::format("'body[{}].material':\n  {}", b, error.what()));
     }
     if (material == nullptr) continue;
+    try {
+      // Bodies of one material that burn alike share it.
+      const auto form = std::tuple(material, setup.bodies[b].ignition, setup.bodies[b].detonation_velocity);
+      std::shared_ptr<const Material>& of_form = forms[form];
+      if (of_form == nullptr) of_form = ignited(setup, b, material);
+      material = of_form;
+    } catch (const InputError& error) {
+      bodies.in(b).add("detonation", error.what());
+    }
     try {
       static_cast<void>(setup.bodies[b].initial.of(*material));
     } catch (const InputError& error) {
@@ -160,6 +177,7 @@ std::vector<InputFault> settle(Case& setup) {
   if (setup.bodies.empty()) faults.add("body", "no bodies: expected at least one [[body]]");
   input::check_content(setup, setup, faults);
   if (setup.domain.is_planar()) check_planar(setup, faults);
+  check_explosives(setup, faults);
   // Only sound values can be placed.
   if (list.size() > of_files || !can_be_placed(setup)) return list;
   setup.contact_fields = find_contact_fields(setup);

@@ -12,6 +12,7 @@
 #include "src/case/body.hpp"
 #include "src/case/build/contact_fields.hpp"
 #include "src/case/contact.hpp"
+#include "src/case/detonation.hpp"
 #include "src/case/dissipation.hpp"
 #include "src/case/domain.hpp"
 #include "src/case/gauges.hpp"
@@ -38,8 +39,10 @@ struct Case {
   HeatControl heat;
   ContactControl contact;
   Gravity gravity;
+  BurnControl burn;
   OutputControl output;
   std::vector<Body> bodies;
+  std::vector<Detonation> detonations;
   std::vector<Gauge> gauges;
   std::vector<Tracers> tracers;
 
@@ -58,6 +61,8 @@ struct Case {
   }
   [[nodiscard]] bool has_elements() const;
   [[nodiscard]] bool has_bars() const;
+  /// Returns whether a body is an explosive that burns.
+  [[nodiscard]] bool has_burn() const;
   /// Returns whether a body holds a point; in two dimensions its section, on the side of z = 0 that models with a mirror
   /// plane there hold.
   [[nodiscard]] bool holds(const Body& body, Vector3 point) const;

@@ -22,6 +22,9 @@ ParameterTable<ContactControl> ContactControl::parameters() {
           .optional(),
       real("friction", &ContactControl::friction, "", range::non_negative(), "Coulomb friction coefficient")
           .optional(),
+      real("explosive_friction", &ContactControl::explosive_friction, "", range::non_negative(),
+           "the same of an explosive that burns, on whatever its products slide")
+          .optional(),
       boolean("gap_test", &ContactControl::gap_test,
               "contact where the surfaces touch; false: wherever both bodies reach a node")
           .optional(),

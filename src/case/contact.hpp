@@ -26,6 +26,7 @@ struct ContactControl {
   ContactMethod method = ContactMethod::automatic;
   contact::Normal normal = contact::Normal::separating;
   double friction = 0.3;
+  double explosive_friction = 0.0;
   bool gap_test = true;
   double gap = 0.0;  ///< in cells
   bool everywhere = false;

@@ -15,6 +15,9 @@
 namespace whipple::cases {
 namespace {
 
+constexpr std::array<const char*, 6> face_names = {"x_lower", "x_upper", "y_lower",
+                                                   "y_upper", "z_lower", "z_upper"};
+
 /// Along each axis, 0 where they overlap; m.
 Vector3 gap(const Shape::Bounds& a, const Shape::Bounds& b) {
   return (b.lower - a.upper).cwiseMax(a.lower - b.upper).cwiseMax(Vector3::Zero());
@@ -95,11 +98,76 @@ void remark_on_speeds(const Case& setup, std::vector<std::string>& remarks) {
   }
 }
 
+void remark_on_burn(const Case& setup, std::size_t b, std::vector<std::string>& remarks) {
+  constexpr double much = 0.01;
+  const std::string& name = setup.bodies[b].name;
+  const Material& material = *setup.materials[b];
+  const double ideal = material.explosive->detonation_velocity;
+  const double given = material.burn->explosive().detonation_velocity;
+  if (material.explosive->estimated) {
+    remarks.push_back(fmt::format("'{}': material '{}' has no [eos.unreacted]; until it burns it is a solid of sound speed "
+                                  "0.35 D = {:.4g} km/s",
+                                  name, material.name, 0.35e-3 * ideal));
+  }
+  if (std::abs(given / ideal - 1.0) > much) {
+    remarks.push_back(fmt::format("'{}' is lit at {:.4g} km/s, and its products detonate with {:.4g} km/s: {}", name,
+                                  1e-3 * given, 1e-3 * ideal,
+                                  given > ideal ? "behind the front the pressure is too low"
+                                                : "the pressure runs ahead of the front"));
+  }
+  if (!setup.bodies[b].velocity.isZero(0.0)) {
+    remarks.push_back(fmt::format("'{}' moves: its lighting times are those of where it starts", name));
+  }
+}
+
+/// A detonator outside of all explosive lights their surfaces; beside a mirror plane it has an image that lights, too.
+void remark_on_detonators(const Case& setup, std::vector<std::string>& remarks) {
+  if (!setup.has_burn()) return;
+  for (std::size_t d = 0; d < setup.detonations.size(); ++d) {
+    const Detonation& detonation = setup.detonations[d];
+    const Vector3& at = detonation.position;
+    const auto holds = [&](std::size_t b) { return setup.materials[b]->burns() && setup.holds(setup.bodies[b], at); };
+    const bool is_place = detonation.shape != DetonatorShape::plane;
+    bool inside = false;
+    for (std::size_t b = 0; b < setup.bodies.size(); ++b) inside = inside || holds(b);
+    const auto is_near = [&](const Body& body) {
+      const Shape::Bounds bounds = body.shape->bounds();
+      return (bounds.lower - at).maxCoeff() <= setup.geometry.cell_size &&
+             (at - bounds.upper).maxCoeff() <= setup.geometry.cell_size;
+    };
+    bool near = inside;
+    for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+      near = near || (setup.materials[b]->burns() && is_near(setup.bodies[b]));
+    }
+    if (is_place && !near) {
+      remarks.push_back(fmt::format("detonation {} is outside of all explosive: it lights what it sees of their surfaces",
+                                    d + 1));
+    }
+    for (int face = 0; face < 6 && is_place; ++face) {
+      const int a = face / 2;
+      if (setup.geometry.is_planar() && a == 2) continue;
+      if (setup.geometry.boundary[static_cast<std::size_t>(face)] != grid::Boundary::symmetry) continue;
+      const double off = std::abs(at[a] - (face % 2 == 0 ? setup.geometry.lower[a] : setup.geometry.upper(a)));
+      constexpr double on_plane = 1e-6;  // cells
+      const bool across = setup.geometry.is_axisymmetric() && a == 1;
+      if (off <= on_plane * setup.geometry.cell_size || across) continue;
+      if (!inside) continue;
+      remarks.push_back(fmt::format("detonation {} lies {:.4g} mm from the symmetry plane {}: so does its image, which lights "
+                                    "the other half",
+                                    d + 1, 1e3 * off, face_names[static_cast<std::size_t>(face)]));
+    }
+  }
+}
+
 /// Products of an explosive are a gas that starts at the pressure of a burn at constant volume.
 void remark_on_explosives(const Case& setup, std::vector<std::string>& remarks) {
   constexpr double much = 0.1e9;  // Pa
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
     const Material& material = *setup.materials[b];
+    if (material.burns()) {
+      remark_on_burn(setup, b, remarks);
+      continue;
+    }
     if (material.eos->condensed() || material.reference.pressure < much) continue;
     remarks.push_back(fmt::format("'{}' starts burnt, as the gas of '{}' at {:.4g} GPa all over: no detonation runs "
                                   "through it{}",
@@ -107,9 +175,6 @@ void remark_on_explosives(const Case& setup, std::vector<std::string>& remarks) 
                                   setup.bodies[b].velocity.isZero(0.0) ? "" : ", and no projectile is like that"));
   }
 }
-
-constexpr std::array<const char*, 6> face_names = {"x_lower", "x_upper", "y_lower",
-                                                   "y_upper", "z_lower", "z_upper"};
 
 /// A body that a symmetry plane cuts is one with its mirror image: it cannot move along the normal, nor turn
 /// about an axis in the plane. One that only touches may move into the plane: it meets its image there.
@@ -177,6 +242,7 @@ std::vector<std::string> remarks(const Case& setup) {
   remark_on_directions(setup, found);
   remark_on_speeds(setup, found);
   remark_on_explosives(setup, found);
+  remark_on_detonators(setup, found);
   remark_on_symmetry(setup, found);
   remark_on_meshes(setup, found);
   return found;

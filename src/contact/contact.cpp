@@ -27,11 +27,16 @@ struct Stop {
   double reduced_mass;
   double target;                      // normal velocity after the step
   double grip;                        // largest tangential impulse that makes no energy
+  double friction;                    // Coulomb's coefficient
   double pushed = 0.0;                // normal impulse, N s
   Vector3 dragged = Vector3::Zero();  // tangential impulse on b, N s
 
-  Stop(Side& first, Side& second, const Vector3& n, double closing)
-      : a(&first), b(&second), normal(n), reduced_mass(a->mass * b->mass / (a->mass + b->mass)) {
+  Stop(Side& first, Side& second, const Vector3& n, double closing, double coefficient)
+      : a(&first),
+        b(&second),
+        normal(n),
+        reduced_mass(a->mass * b->mass / (a->mass + b->mass)),
+        friction(coefficient) {
     const Vector3 old = b->before() - a->before(), free = b->after() - a->after();
     target = -std::max(closing, n.dot(old));
     const Vector3 slip = tangential(free);
@@ -43,7 +48,7 @@ struct Stop {
 
   [[nodiscard]] Vector3 tangential(const Vector3& v) const { return v - normal.dot(v) * normal; }
 
-  void relax(double friction) {
+  void relax() {
     const Vector3 relative = b->after() - a->after();
     const double push = std::max(pushed + reduced_mass * (target - normal.dot(relative)), 0.0);
     Vector3 drag = dragged - reduced_mass * tangential(relative);
@@ -85,6 +90,7 @@ struct Meeting {
   Vector3 normal;
   double open;   // m, between their surfaces
   double share;  // of the step in which they touch
+  double friction;
 };
 
 /// Selects the fields that are stopped by impulses: those without relaxation, such as those of elements,
@@ -113,6 +119,11 @@ void choose(Response response, const std::vector<Side>& sides, const std::vector
 /// Distance of the surfaces of two fields beyond what counts as touching.
 double Contact::distance(const grid::BlockGrid& grid, const Surfaces::Gap& gap) const {
   return settings_.gap_test ? std::max(gap.width - settings_.gap * grid.geometry().cell_size, 0.0) : 0.0;
+}
+
+double Contact::friction_between(unsigned first, unsigned second) const {
+  const std::vector<double>& friction = settings_.friction_of_field;
+  return friction.empty() ? settings_.friction : std::min(friction[first], friction[second]);
 }
 
 bool Contact::touch(const grid::BlockGrid& grid, std::size_t contact_slot, std::size_t node,
@@ -156,7 +167,8 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches&
           const double open = distance(grid, gap);
           touches.see(number[a], number[b], open, gap.normal.dot(sides[a].after() - sides[b].after()));
           meetings.push_back(
-              {a, b, gap.normal, open, Pressing::share(sides[a], sides[b], gap.normal, open, dt)});
+              {a, b, gap.normal, open, Pressing::share(sides[a], sides[b], gap.normal, open, dt),
+               friction_between(number[a], number[b])});
         }
       }
       if (meetings.empty()) continue;
@@ -165,15 +177,15 @@ Balance Contact::apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches&
       pressing.begin(sides);
       for (const Meeting& m : meetings) {
         if (by_impulses[m.a] != 0 || by_impulses[m.b] != 0) {
-          stops.emplace_back(sides[m.a], sides[m.b], m.normal, m.open / dt);
+          stops.emplace_back(sides[m.a], sides[m.b], m.normal, m.open / dt, m.friction);
         } else if (m.share > 0.0) {
-          pressing.add(m.a, m.b, m.normal, m.share);
+          pressing.add(m.a, m.b, m.normal, m.share, m.friction);
         }
       }
       pressing.apply(of_slot[c]);
       const int repeat = stops.size() > 1 ? sweeps : 1;
       for (int sweep = 0; sweep < repeat; ++sweep) {
-        for (Stop& stop : stops) stop.relax(settings_.friction);
+        for (Stop& stop : stops) stop.relax();
       }
       for (const Stop& stop : stops) stop.heat(of_slot[c]);
       if (pressing.presses() && !stops.empty()) book_rest(pressing, sides, stops, of_slot[c]);

@@ -25,6 +25,7 @@ struct Settings {
   Response response = Response::common_field;
   Normal normal = Normal::separating;
   double friction = 0.3;  ///< Coulomb's coefficient
+  std::vector<double> friction_of_field = {};  ///< of each velocity field, if they differ: of two the lesser one acts
   bool gap_test = true;   ///< only surfaces that touch, or would within the step
   double gap = 0.0;       ///< in cells: surfaces nearer than that touch
   /// 1/s, of each velocity field: where it relaxes more slowly, its material is too loose to move as one with
@@ -54,6 +55,7 @@ class Contact {
   Balance apply(grid::BlockGrid& grid, double dt, transfer::FirstTouches& touches) const;
 
  private:
+  [[nodiscard]] double friction_between(unsigned first, unsigned second) const;
   [[nodiscard]] double distance(const grid::BlockGrid& grid, const Surfaces::Gap& gap) const;
 
   Settings settings_;

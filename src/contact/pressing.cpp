@@ -26,10 +26,14 @@ double Pressing::share(const Side& a, const Side& b, const Vector3& normal, doub
   return closing > open ? 1.0 - open / closing : 0.0;
 }
 
-void Pressing::add(std::size_t a, std::size_t b, const Vector3& normal, double share) {
+void Pressing::add(std::size_t a, std::size_t b, const Vector3& normal, double share, double friction) {
   const double first = sides_[a].mass, second = sides_[b].mass;
-  pairs_.push_back(
-      {.a = a, .b = b, .normal = normal, .mass = first * second / (first + second), .share = share});
+  pairs_.push_back({.a = a,
+                    .b = b,
+                    .normal = normal,
+                    .mass = first * second / (first + second),
+                    .share = share,
+                    .friction = friction});
 }
 
 void Pressing::apply(Balance& balance) {
@@ -50,8 +54,8 @@ void Pressing::apply(Balance& balance) {
   if (pairs_.empty()) return;
   mix(balance);
   const int repeat = pairs_.size() > 1 ? sweeps_of_friction : 1;
-  for (int sweep = 0; sweep < repeat && friction_ > 0.0; ++sweep) {
-    for (Pair& pair : pairs_) balance.friction_heat += drag(pair);
+  for (int sweep = 0; sweep < repeat; ++sweep) {
+    for (Pair& pair : pairs_) balance.friction_heat += pair.friction > 0.0 ? drag(pair) : 0.0;
   }
   for (const Pair& pair : pairs_) balance.friction_impulse += pair.dragged;
 }
@@ -196,7 +200,7 @@ double Pressing::drag(Pair& pair) {
   };
   const Vector3 mean = power(pair.b) - power(pair.a);
   const double grip = 2.0 * pair.mass * std::max(slip.dot(mean) / speed2, 0.0);
-  const double limit = std::max(friction_ * pair.given - pair.dragged, 0.0) / std::sqrt(speed2);
+  const double limit = std::max(pair.friction * pair.given - pair.dragged, 0.0) / std::sqrt(speed2);
   const double held = std::min({pair.mass, grip, limit});
   const Vector3 impulse = -held * slip;
   b.push(impulse);

@@ -27,7 +27,9 @@ class Pressing {
   /// Begins with a node where these fields meet; they must outlive `apply`.
   void begin(std::span<Side> sides);
   /// Two of them, numbers of the sides, touch for a fraction of the step above 0.
-  void add(std::size_t a, std::size_t b, const Vector3& normal, double share);
+  void add(std::size_t a, std::size_t b, const Vector3& normal, double share) { add(a, b, normal, share, friction_); }
+  /// @param friction  Coulomb's coefficient of the two
+  void add(std::size_t a, std::size_t b, const Vector3& normal, double share, double friction);
   /// Changes velocities, increments and relaxations of the fields that press, and accounts for what that takes.
   void apply(Balance& balance);
   /// Returns whether fields are under compression, after `apply`.
@@ -42,6 +44,7 @@ class Pressing {
     Vector3 normal;
     double mass;          // reduced, kg
     double share;         // theta (4.2): of the step in which they touch
+    double friction;      // Coulomb's coefficient
     double velocity = 0;  // impulse that makes the velocities common, N s
     double forces = 0;    // the same of the increments
     double given = 0;     // normal impulse on b, N s

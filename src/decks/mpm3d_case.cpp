@@ -49,6 +49,9 @@ class CaseBuilder {
     contact();
     gravity();
     for (const CaseBody& body : bodies_) add(body, materials.at(body.material));
+    detonation(std::ranges::any_of(bodies_, [&](const CaseBody& body) {
+      return !body.shape.empty() && materials.at(body.material).explosive;
+    }));
     output();
     rest();
     if (!faults_.empty()) throw InputError(std::move(faults_));
@@ -356,6 +359,11 @@ class CaseBuilder {
     toml_.text_entry("name", body.name);
     toml_.entry("material", fmt::format("\"{}\"", material.file));
     if (body.velocity != Vector3::Zero()) toml_.entry("velocity", vector(body.velocity, dimension::velocity));
+    if (material.explosive && deck_.last(Keyword::detonation) == nullptr) {
+      toml_.entry("detonation", "\"instantaneous\"", "no point of detonation in the deck");
+      remark(Outcome::missing, *body.statement,
+             fmt::format("{} is lit by nothing: it starts as detonation products", body.name));
+    }
     if (grouped_) toml_.entry("contact_group", fmt::format("\"component_{}\"", body.component));
     const double across = std::round(cell_ / body.spacing);
     if (across >= 1.0 && across <= 4.0) {
@@ -369,6 +377,23 @@ class CaseBuilder {
           dimension::density),
                                          units_.quantity(material.initial_pressure, dimension::pressure)));
     }
+  }
+
+  void detonation(bool explosive) {
+    const std::vector<const Statement*> points = deck_.all(Keyword::detonation);
+    for (const Statement* point : points) {
+      if (!explosive) {
+        remark(Outcome::dropped, *point, "no body is an explosive");
+        continue;
+      }
+      const std::vector<double>& n = point->numbers;
+      toml_.table("[[detonation]]", line_of(*point));
+      toml_.entry("position", vector(Vector3(n[0], n[1], n[2]), dimension::length));
+      remark(Outcome::exact, *point, "point of detonation");
+    }
+    if (!explosive || points.empty()) return;
+    toml_.table("[burn]");
+    toml_.entry("lighting", "\"straight\"", "as in that code");
   }
 
   void output() {
@@ -442,9 +467,6 @@ class CaseBuilder {
         case Keyword::damping:
         case Keyword::dynamic_relaxation:
           remark(Outcome::missing, statement, "damping of all motion");
-          break;
-        case Keyword::detonation:
-          remark(Outcome::missing, statement, "point of detonation");
           break;
         default:
           break;  // each has its remark already

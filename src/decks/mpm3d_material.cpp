@@ -26,7 +26,9 @@ class MaterialBuilder {
 
   CaseMaterial build() {
     const int index = whole(n_[0]);
-    CaseMaterial result{.file = fmt::format("materials/material_{}.toml", index), .density = n_[1]};
+    CaseMaterial result{.file = fmt::format("materials/material_{}.toml", index),
+                        .density = n_[1],
+                        .explosive = material_.kind == "hiex"};
     if (!(n_[1] > 0.0)) fail(material_, "the density must be > 0");
     toml_.comment(fmt::format("Written by 'whipple import' from {}; constants in the units of the deck.",
         deck_.file.filename().string()));
@@ -192,7 +194,8 @@ class MaterialBuilder {
       if (material_.kind == "null") {
         remark(Outcome::exact, material_, "a fluid without viscosity");
       } else if (material_.kind == "hiex") {
-        remark(Outcome::missing, material_, "programmed burn: the body starts as detonation products");
+        remark(Outcome::converted, material_,
+               "programmed burn over two cells from an unreacted explosive; that code burns each particle at once");
       } else {
         remark(Outcome::missing, material_,
                material_.kind == "dpm" ? "Drucker-Prager plasticity: no strength in the case"

@@ -14,6 +14,7 @@ struct CaseMaterial {
   std::string file;              ///< "materials/material_1.toml"
   double density = 0.0;          ///< in the units of the deck
   double initial_pressure = 0.0; ///< of an initial energy in Mie-Grueneisen; in the units of the deck
+  bool explosive = false;
 };
 
 /// Builds the material files of a deck, by number, and remarks upon every `mate` and `seos`.

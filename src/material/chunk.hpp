@@ -79,6 +79,8 @@ struct Chunk {
   Lanes kept;                    // fraction of the deviator, where the chunk loses some
   bool loses = false;
   Lanes old_distension;          // of porous material only
+  bool burns = false;            // some point is at a front of detonation
+  Lanes burning;                 // then: 1 where it burns or is about to
 
   template <class Array>
   auto view(Array& array) {

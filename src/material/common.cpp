@@ -169,6 +169,14 @@ void solve_energy(const Step& step, Chunk& chunk) {
 WHIPPLE_KERNEL void find_compression_rate(const Step&, Chunk& chunk) {
   const Lanes& divergence = chunk.motion.divergence;
   double rate = chunk.report.compression_rate;
+  if (chunk.burns) {  // a front compresses by what its step is as long as it is, however short that is
+    for (std::size_t k = 0; k < chunk.size; ++k) {
+      const bool bounds = chunk.acting_pressure[k] > 0.0 && chunk.burning[k] == 0.0;
+      rate = std::max(rate, bounds ? -divergence[k] : 0.0);
+    }
+    chunk.report.compression_rate = rate;
+    return;
+  }
   for (std::size_t k = 0; k < chunk.size; ++k) {
     rate = std::max(rate, chunk.acting_pressure[k] > 0.0 ? -divergence[k] : 0.0);
   }

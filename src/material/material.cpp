@@ -115,6 +115,7 @@ Material completed(Material material) {
   if (const strength::Brittle* brittle = material.strength->brittle()) {
     if (brittle->bulks()) material.eos = std::make_shared<const eos::Distended>(material.eos);
   }
+  material.burn = std::dynamic_pointer_cast<const BurningExplosive>(material.eos);
   material.reference = initial_state(material);
   const double sound_speed = material.reference.sound_speed;
   material.reference_bulk_modulus = material.reference.density * sound_speed * sound_speed;
@@ -150,6 +151,37 @@ Material with_eos(const Material& material, std::shared_ptr<const eos::EquationO
   Material result = material;
   result.eos = std::move(eos);
   return completed(std::move(result));
+}
+
+namespace {
+
+const Explosive& explosive_of(const Material& material) {
+  if (material.explosive != nullptr) return *material.explosive;
+  throw InputError(fmt::format("material '{}' is no explosive: its equation of state is that of no detonation products",
+                               material.name));
+}
+
+}  // namespace
+
+Material burning(const Material& material, double detonation_velocity) {
+  Explosive explosive = explosive_of(material);
+  if (!material.failure.empty()) {
+    throw InputError(fmt::format("material '{}': an explosive that burns takes no [[failure]]: products do not fail",
+                                 material.name));
+  }
+  if (detonation_velocity > 0.0) explosive.detonation_velocity = detonation_velocity;
+  Material result = with_eos(
+      material, std::make_shared<const BurningExplosive>(std::make_shared<const Explosive>(std::move(explosive))));
+  if (!result.burns() || dynamic_cast<const material::EosStrength*>(result.constitutive.get()) == nullptr) {
+    throw InputError(fmt::format("material '{}': an explosive that burns takes another [strength] or none", material.name));
+  }
+  return result;
+}
+
+Material unreacted(const Material& material) {
+  Material result = with_eos(material, explosive_of(material).unreacted);
+  result.explosive = nullptr;
+  return result;
 }
 
 void set_taylor_quinney(Material& material, double share) {
@@ -238,7 +270,12 @@ std::string Material::constants() const {
   std::string text = file.empty() ? "" : fmt::format("# read from {}\n", file.string());
   text += fmt::format("name = {}\nsource = {}\n", toml_string(name), toml_string(source));
   if (!note.empty()) text += fmt::format("note = {}\n", toml_string(note));
-  text += fmt::format("[eos]\nmodel = {}\n{}", toml_string(eos->model()), eos->constants());
+  text += fmt::format("[eos]\nmodel = {}\n{}", toml_string(burns() ? explosive->products->model() : eos->model()),
+                      eos->constants());
+  if (burns()) {
+    const eos::EquationOfState& unreacted = *explosive->unreacted;
+    text += fmt::format("\n[eos.unreacted]\nmodel = {}\n{}", toml_string(unreacted.model()), unreacted.constants());
+  }
   text += constitutive->constants(*this);
   if (conductivity > 0.0 || stores_cold_work()) {
     text += fmt::format("\n[thermal]\nsource = {}\nconductivity = \"{} W/(m K)\"\ntaylor_quinney = {}\n",

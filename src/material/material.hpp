@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "eos/equation_of_state.hpp"
+#include "src/material/burn.hpp"
 #include "src/material/constitutive.hpp"
 #include "src/material/failure/criterion.hpp"
 #include "src/material/strength/strength.hpp"
@@ -41,12 +42,18 @@ struct Material {
   std::shared_ptr<const strength::Strength> strength;  ///< never null
   std::vector<std::shared_ptr<const failure::Criterion>> failure;  ///< in the order of the file; may be empty
   std::shared_ptr<const material::Constitutive> constitutive;      ///< never null; of all the parts above
+  /// What the products of the equation of state are made of by burning; null: no explosive. The material itself is the
+  /// products, burnt from the start, unless it `burns`.
+  std::shared_ptr<const Explosive> explosive;
+  std::shared_ptr<const BurningExplosive> burn;  ///< the equation of state of an explosive that burns, else null
   double reference_bulk_modulus = 0.0;              ///< Pa, rho c^2 of the reference state
   const failure::Criterion* void_growth = nullptr;  ///< the one of `failure` that grows voids; null: none
   eos::State reference;  ///< the state that bodies start from: p = 0 at the reference temperature
 
   /// Returns whether some plastic work is stored instead of converted to heat.
   [[nodiscard]] bool stores_cold_work() const { return taylor_quinney < 1.0; }
+  /// Returns whether it starts as unreacted explosive and burns to products.
+  [[nodiscard]] bool burns() const { return burn != nullptr; }
   /// The material as a material file with every default written out (provenance in output files).
   [[nodiscard]] std::string constants() const;
 };
@@ -69,6 +76,13 @@ Material make_material(std::string name, std::shared_ptr<const eos::EquationOfSt
 
 /// The material with another equation of state of the same material; all else stays.
 Material with_eos(const Material& material, std::shared_ptr<const eos::EquationOfState> eos);
+
+/// The explosive that starts unreacted and burns.
+/// @param detonation_velocity  D, m/s, in place of that of its Chapman-Jouguet state; 0: that
+/// @throws InputError if the material is no explosive, or has failure criteria
+Material burning(const Material& material, double detonation_velocity = 0.0);
+/// The unreacted explosive that never burns. @throws InputError if the material is no explosive
+Material unreacted(const Material& material);
 
 /// State of material at the start of a run, from at most two of density (kg/m^3), temperature (K) and pressure
 /// (Pa). Without a temperature: the reference temperature, unless density and pressure fix it; without

@@ -11,6 +11,7 @@
 
 #include "eos/audit.hpp"
 #include "eos/files/models.hpp"
+#include "eos/models/jwl.hpp"
 #include "eos/models/simulated_crystal.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
@@ -137,11 +138,11 @@ struct Declared {
   Head head;
   MeasuredTable measured;
   ThermalTable thermal;
-  eos::ModelEntry::Declared eos;
+  eos::ModelEntry::Declared eos, unreacted;
   strength::ModelEntry::Declared strength;
   std::vector<failure::CriterionEntry::Declared> failure;
   material::ConstitutiveEntry::Declared constitutive;
-  std::string eos_line, strength_line, constitutive_line;
+  std::string eos_line, unreacted_line, strength_line, constitutive_line;
   /// Modifiers of the equation of state, each with its place in the file.
   std::vector<std::pair<eos::ModifierEntry::Declared, std::string>> modifiers;
 };
@@ -157,6 +158,10 @@ Declared declare_file(const fs::path& file,
   if (auto table = root.required_table("eos")) {
     declared.eos = declare(eos::all_models(file.parent_path()), *table);
     declared.eos_line = table->where();
+    if (auto unreacted = table->optional_table("unreacted")) {
+      declared.unreacted = declare(eos::all_models(file.parent_path()), *unreacted);
+      declared.unreacted_line = unreacted->where();
+    }
     for (input::Table& modifier : table->list("modifier")) {
       declared.modifiers.emplace_back(declare(eos::modifier_catalogue(), modifier), modifier.where());
     }
@@ -229,6 +234,13 @@ Material read_changed_material(const fs::path& file,
   for (const auto& [modifier, line] : declared.modifiers) {
     eos = build([&] { return modifier.build(eos); }, line, "eos.modifier");
   }
+  std::shared_ptr<const Explosive> explosive;
+  if (declared.unreacted.build) {
+    explosive = build([&] { return make_explosive(eos, declared.unreacted.build()); }, declared.unreacted_line,
+                      "eos.unreacted");
+  } else if (eos->model() == eos::Jwl::name) {
+    explosive = build([&] { return make_explosive(eos, nullptr); }, declared.eos_line, "eos");
+  }
   std::shared_ptr<const strength::Strength> strength;
   if (declared.strength.build) strength = build(declared.strength.build, declared.strength_line, "strength");
   std::vector<std::shared_ptr<const failure::Criterion>> failure;
@@ -240,6 +252,7 @@ Material read_changed_material(const fs::path& file,
                             build(declared.constitutive.build, declared.constitutive_line, "constitutive"))
             : make_material(declared.head.name, std::move(eos), std::move(strength), std::move(failure));
     material.file = file;
+    material.explosive = std::move(explosive);
     material.companions = declared.eos.companions;
     material.source = declared.head.source;
     material.note = declared.head.note;
@@ -268,6 +281,12 @@ void require_usable(const Material& material) {
       break;
   }
   log::detail("{}: equation of state valid for {}", material.name, audit.range_text());
+  if (material.explosive == nullptr || material.explosive->estimated) return;
+  const eos::Audit of_unreacted = eos::audit(*material.explosive->unreacted, eos::AuditDepth::brief);
+  if (of_unreacted.verdict() == eos::Verdict::not_usable) {
+    throw InputError(fmt::format("{}: error: [eos.unreacted] {}: {}", material.file.string(), of_unreacted.model,
+                                 of_unreacted.summary()));
+  }
 }
 
 std::vector<LibraryMaterial> library_materials() {

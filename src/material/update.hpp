@@ -8,6 +8,7 @@
 #include <span>
 
 #include "src/core/base/tensor.hpp"
+#include "src/material/burn.hpp"
 #include "src/material/kinematics.hpp"
 #include "src/material/material.hpp"
 
@@ -32,6 +33,7 @@ struct UpdateSettings {
   double initial_density = 1.0;     ///< kg/m^3, of the body, from which g counts
   material::StressRotation rotation = material::StressRotation::hughes_winget;
   double time = 0.0;  ///< s, at the end of the step
+  BurnSettings burn = {};
 };
 
 /// Velocity gradients of points that follow one another, component by component: L_ij (1/s) of the k-th point

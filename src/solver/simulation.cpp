@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/solver/simulation.hpp"
 
+#include <array>
 #include <utility>
 
 #include "src/afemp/transition.hpp"
@@ -9,6 +10,7 @@
 #include "src/core/base/log.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/solver/carriers/domains.hpp"
+#include "src/solver/carriers/explosives.hpp"
 #include "src/solver/stages.hpp"
 
 namespace whipple::solver {
@@ -34,6 +36,10 @@ Simulation::Simulation(const cases::Case& setup, MPI_Comm communicator) {
   // Planes have stopped the nodes on them: their momentum was there before.
   ledger.initial.momentum -= seeding.wall_impulse;
   ledger.wall_impulse += seeding.wall_impulse;
+  // What explosives will set free is exchanged by the run from its first step on.
+  std::array<double, 1> chemical_energy = {Explosives(*state_).chemical_energy()};
+  parallel::sum(communicator, chemical_energy);
+  ledger.largest_heating = chemical_energy[0];
 }
 
 Simulation::Simulation(const cases::Case& setup, Particles particles, const RunState& state,

@@ -6,6 +6,8 @@ import pathlib
 import re
 import tomllib
 
+from studies.validation.wall_speed import wall_speed
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 # Factors to SI of the units that expectations are written in.
@@ -60,7 +62,7 @@ def apply(table, assignment):
 class Expectation:
     """One quantity: what is measured, when, and what is expected of it."""
 
-    KEYS = {"name", "measure", "time", "value", "tolerance", "kind", "source", "known", "unit", "class"}
+    KEYS = {"name", "measure", "time", "place", "travel", "value", "tolerance", "kind", "source", "known", "unit", "class"}
 
     def __init__(self, table, where):
         unknown = set(table) - self.KEYS
@@ -76,7 +78,10 @@ class Expectation:
         if self.origin not in CLASSES or (self.origin == "record") != (self.kind == "record"):
             raise BadExpectation(f"{where}: {self.name}: class {self.origin!r} with kind {self.kind!r}, "
                                  f"expected one of {', '.join(CLASSES)}")
-        self.time = quantity(table["time"], where)[0] if "time" in table else None
+        self.time, self.place, self.travel = (quantity(table[key], where)[0] if key in table else None
+                                              for key in ("time", "place", "travel"))
+        if ("place" in table) != self.measure.startswith("wall_speed.") or ("travel" in table) != ("place" in table):
+            raise BadExpectation(f"{where}: {self.name}: wall_speed.TRACERS, and nothing else, takes place and travel")
         if self.kind == "record":
             self.value, self.unit, self.tolerance = math.nan, table.get("unit", ""), 0.0
             if self.unit not in UNITS:
@@ -238,6 +243,15 @@ class Measures:
         with path.open(newline="") as stream:
             return list(csv.DictReader(stream))
 
+    def _gauges(self):
+        """Columns of gauges.csv by their names."""
+        path = self.folder / "gauges.csv"
+        if not path.is_file():
+            return {}
+        with path.open(newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        return {head.split(" [")[0]: [float(row[head] or math.nan) for row in rows] for head in (rows[0] if rows else [])}
+
     @property
     def projectile_size(self):
         """Smallest extent of the projectile (m); NaN where nothing moves at the start, or the shape states none."""
@@ -246,10 +260,14 @@ class Measures:
         return self.single["projectile_size"]
 
     def value(self, expectation):
-        """At a time: linear between the snapshots. NaN if there is no such measure or time."""
+        """At a time: linear between the snapshots; of a driven wall, after a travel. NaN if there is no such measure or time."""
+        if expectation.place is not None:
+            tracers = expectation.measure.partition(".")[2]
+            return wall_speed(self.folder / "gauges.csv", tracers, expectation.place, expectation.travel)
         if expectation.time is None:
             return self.single.get(expectation.measure, math.nan)
-        times, values = self.series.get("time", []), self.series.get(expectation.measure, [])
+        series = self._gauges() if expectation.measure.startswith("gauge.") else self.series
+        times, values = series.get("time", []), series.get(expectation.measure.removeprefix("gauge."), [])
         for t0, t1, v0, v1 in zip(times, times[1:], values, values[1:]):
             if t0 <= expectation.time <= t1:
                 return v0 + (v1 - v0) * (expectation.time - t0) / (t1 - t0)

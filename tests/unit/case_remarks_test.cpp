@@ -53,9 +53,21 @@ TEST(Remarks, NameSpeedsBeyondTheAuditedShocks) {
 
 TEST(Remarks, NameExplosivesThatStartBurnt) {
   const std::string charge = replaced(replaced(sphere, "copper.toml", "tnt.toml"), "\"5.55 km/s\"", "\"3 km/s\"");
-  const std::string said = remarks_of(domain + charge + plate("-1 mm"));
+  const std::string said = remarks_of(domain + charge + "detonation = \"instantaneous\"\n" + plate("-1 mm"));
   EXPECT_NE(said.find("'sphere' starts burnt"), std::string::npos) << said;
   EXPECT_NE(said.find("no projectile is like that"), std::string::npos) << said;
+}
+
+TEST(Remarks, NameWhatADetonationCannotMean) {
+  const std::string charge = replaced(sphere, "copper.toml", "tetryl.toml") + "detonation_velocity = \"7.5 km/s\"\n";
+  const std::string lit = "[[detonation]]\nposition = [\"1 mm\", \"0 mm\", \"-5 mm\"]\n"
+                          "[[detonation]]\nposition = [\"0 mm\", \"0 mm\", \"40 mm\"]\n";
+  const std::string said = remarks_of(domain + charge + plate("-1 mm") + lit);
+  for (const char* remark : {"has no [eos.unreacted]", "is lit at 7.5 km/s, and its products detonate with 7.913 km/s",
+                             "its lighting times are those of where it starts", "detonation 1 lies 1 mm from the symmetry plane x_lower",
+                             "detonation 2 is outside of all explosive"}) {
+    EXPECT_NE(said.find(remark), std::string::npos) << remark << "\n" << said;
+  }
 }
 
 // The quarter of a sphere about the z axis.

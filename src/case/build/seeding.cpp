@@ -5,6 +5,7 @@
 
 #include "src/case/build/bars.hpp"
 #include "src/case/build/lattice.hpp"
+#include "src/case/build/lighting.hpp"
 #include "src/case/build/meshing.hpp"
 
 namespace whipple::cases {
@@ -141,6 +142,7 @@ Seeding seed(const Case& setup, int rank, int ranks) {
     summary.mass = std::accumulate(bars.nodes.mass.begin(), bars.nodes.mass.end(), 0.0);
     summary.shape_mass = bars.material.density * setup.bodies[bars.body].shape->volume();
   }
+  set_lighting_times(setup, particles);
   if (setup.dissipation.keeps_losses()) use_stores(particles);
   return seeding;
 }

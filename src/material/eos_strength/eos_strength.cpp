@@ -23,6 +23,11 @@ const HistoryField strain_field = {"strain", "1", "logarithmic strain, rotated w
                                    Rank::symmetric_tensor, Convection::corotated};
 const HistoryField cold_work_field = {"stored_cold_work", "J/kg", "plastic work that did not become heat"};
 
+const HistoryField burn_fraction_field = {"burn_fraction", "1", "of an explosive: 0 unreacted, 1 burnt to products",
+                                          Rank::scalar, Convection::kept, 0.0, {.lower = 0.0, .upper = 1.0}};
+const HistoryField lighting_time_field = {"lighting_time", "s", "when the detonation arrives at an explosive; -1: never",
+                                          Rank::scalar, Convection::kept, never, {.lower = never}};
+
 void share_of_damage(const EosStrength& model, const Chunk& chunk, Lanes& share) {
   const Lanes& damage = chunk.history[model.damage];
   for (std::size_t k = 0; k < chunk.size; ++k) share[k] = chunk.intact[k] == 0.0 ? 1.0 : damage[k];
@@ -42,10 +47,11 @@ bool is_brittle(const Material& material) { return material.strength->brittle() 
 }  // namespace
 
 std::vector<HistoryField> EosStrength::fields() {
-  return {damage_field, distension_field, back_stress_field, strain_field, cold_work_field};
+  return {damage_field, distension_field, back_stress_field, strain_field, cold_work_field,
+          burn_fraction_field, lighting_time_field};
 }
 
-EosStrength::EosStrength(const Material& material) {
+EosStrength::EosStrength(const Material& material) : burn(material.burn) {
   if (is_brittle(material) || any_criterion(material, [](const auto& c) { return c.accumulates(); })) {
     damage = declare(damage_field);
   }
@@ -55,6 +61,10 @@ EosStrength::EosStrength(const Material& material) {
   if (material.strength->kinematic_modulus() > 0.0) back_stress = declare(back_stress_field);
   if (any_criterion(material, [](const auto& c) { return c.needs_strain(); })) strain = declare(strain_field);
   if (material.stores_cold_work()) stored_cold_work = declare(cold_work_field);
+  if (burn != nullptr) {
+    burn_fraction = declare(burn_fraction_field);
+    lighting_time = declare(lighting_time_field);
+  }
   if (is_brittle(material)) {
     share_ = whole_share;
   } else if (softens(material)) {
@@ -93,7 +103,10 @@ std::vector<EosStrength::Part> EosStrength::parts_of(const Material& material, E
   take(brittle ? free_brittle : free_failed);
   take(integrates ? energy_by_work : energy_from_grid);
   take_if(stores, take_cold_work);
-  if (distension != undeclared) {
+  if (burn != nullptr) {
+    take(parts::burn);
+    take(evaluate_burning);
+  } else if (distension != undeclared) {
     take(has_phases ? evaluate_porous_phases : evaluate_porous);
   } else {
     take(has_phases ? evaluate_phases : evaluate_simple);

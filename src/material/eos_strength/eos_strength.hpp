@@ -33,10 +33,12 @@ class EosStrength final : public Constitutive {
   /// All fields that it may declare.
   static std::vector<HistoryField> fields();
 
+  std::shared_ptr<const BurningExplosive> burn;  ///< null: the material does not burn
+
   /// First lanes of the history fields; of a field that is not declared: a lane that nobody else uses.
   static constexpr std::size_t undeclared = most_history - 1;
   std::size_t damage = undeclared, distension = undeclared, back_stress = undeclared, strain = undeclared,
-              stored_cold_work = undeclared;
+              stored_cold_work = undeclared, burn_fraction = undeclared, lighting_time = undeclared;
 
  private:
   using Share = void (*)(const EosStrength& model, const Chunk& chunk, Lanes& share);

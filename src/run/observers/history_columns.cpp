@@ -124,6 +124,13 @@ const auto of_cold_work = std::to_array<Column>({
      [](const Source& s) { return s.figures.stored_cold_work; }},
 });
 
+const auto of_explosives = std::to_array<Column>({
+    {"chemical_energy", "J", "part of the internal energy that unburnt explosive will set free",
+     [](const Source& s) { return s.figures.chemical_energy; }},
+    {"thermal_energy", "J", "internal energy less the chemical energy",
+     [](const Source& s) { return s.totals.internal_energy - s.figures.chemical_energy; }},
+});
+
 const auto of_bars = std::to_array<Column>({
     {"bars", "1", "number of bars", [](const Source& s) { return s.figures.bars; }},
     {"broken_bars", "1", "bars that have broken", [](const Source& s) { return s.figures.broken_bars; }},
@@ -157,7 +164,7 @@ const auto outflow_of_body = std::to_array<BodyColumn>({
 
 /// Holds the parts of a run that decide which columns its file has.
 struct Parts {
-  bool elements = false, cold_work = false, bars = false;
+  bool elements = false, cold_work = false, explosives = false, bars = false;
   std::vector<std::string> bodies;
 };
 
@@ -182,6 +189,7 @@ std::vector<HistoryColumn> columns_of(const Parts& parts) {
   }
   if (parts.elements) add(of_elements);
   if (parts.cold_work) add(of_cold_work);
+  if (parts.explosives) add(of_explosives);
   if (parts.bars) add(of_bars);
   add_for_bodies(phases_of_body);
   add_for_bodies(outflow_of_body);
@@ -212,16 +220,20 @@ HistorySource::HistorySource(const solver::Simulation& simulation)
   std::array<double, 3> maxima = {figures.speed, figures.pressure, figures.temperature};
   parallel::maximum(simulation.communicator(), maxima);
   std::tie(figures.speed, figures.pressure, figures.temperature) = std::tuple_cat(maxima);
-  if (simulation.setup().has_bars() || stores_cold_work(simulation.setup())) {
-    std::array<double, 4> sums = {figures.stored_cold_work, figures.bars, figures.broken_bars, figures.bar_energy};
+  const cases::Case& setup = simulation.setup();
+  if (setup.has_bars() || setup.has_burn() || stores_cold_work(setup)) {
+    std::array<double, 5> sums = {figures.stored_cold_work, figures.chemical_energy, figures.bars, figures.broken_bars,
+                                  figures.bar_energy};
     parallel::sum(simulation.communicator(), sums);
-    std::tie(figures.stored_cold_work, figures.bars, figures.broken_bars, figures.bar_energy) = std::tuple_cat(sums);
+    std::tie(figures.stored_cold_work, figures.chemical_energy, figures.bars, figures.broken_bars, figures.bar_energy) =
+        std::tuple_cat(sums);
   }
 }
 
 std::vector<HistoryColumn> history_columns(const cases::Case& setup) {
   Parts parts{.elements = setup.has_elements(),
               .cold_work = stores_cold_work(setup),
+              .explosives = setup.has_burn(),
               .bars = setup.has_bars(),
               .bodies = {}};
   for (const cases::Body& body : setup.bodies) parts.bodies.push_back(body.name);
@@ -230,7 +242,7 @@ std::vector<HistoryColumn> history_columns(const cases::Case& setup) {
 
 std::string history_columns_as_markdown() {
   std::string text;
-  for (const HistoryColumn& column : columns_of({true, true, true, {"BODY"}})) {
+  for (const HistoryColumn& column : columns_of({true, true, true, true, {"BODY"}})) {
     text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
   }
   return text;

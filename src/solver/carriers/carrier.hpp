@@ -35,6 +35,7 @@ struct Figures {
   double pressure = -std::numeric_limits<double>::infinity();
   double temperature = -std::numeric_limits<double>::infinity();
   double stored_cold_work = 0.0;                        ///< J
+  double chemical_energy = 0.0;                         ///< J, of unburnt explosive
   double bars = 0.0, broken_bars = 0.0, bar_energy = 0.0;  ///< numbers, and J
 };
 

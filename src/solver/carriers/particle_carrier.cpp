@@ -10,6 +10,7 @@
 
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/solver/carriers/explosives.hpp"
 #include "src/solver/carriers/figures.hpp"
 
 namespace whipple::solver {
@@ -39,6 +40,7 @@ std::function<bool(std::size_t)> ParticleCarrier::stays_since(std::size_t& arran
 
 double ParticleCarrier::fastest() {
   const Particles& particles = state_.particles;
+  const Explosives explosives(state_);
   parallel::update_chunks(particles.size(), fastest_.values, stays_since(fastest_.arrangement),
                           [&](std::size_t begin, std::size_t end) {
                             double fastest = 0.0;
@@ -46,6 +48,7 @@ double ParticleCarrier::fastest() {
                               fastest = std::max(fastest, particles.sound_speed[p] +
                                                               particles.velocity[p].cwiseAbs().maxCoeff());
                             }
+                            if (explosives.any()) fastest = std::max(fastest, explosives.fastest(begin, end));
                             return fastest;
                           });
   double speed = 0.0;
@@ -86,6 +89,7 @@ void ParticleCarrier::add_phases(std::span<PhaseMasses> of_body) const {
 void ParticleCarrier::add_figures(Figures& figures) const {
   add_speeds(state_.particles.velocity, figures);
   add_state(state_.particles, figures);
+  figures.chemical_energy += Explosives(state_).chemical_energy();
 }
 
 std::uint64_t ParticleCarrier::largest_particle_id() const {

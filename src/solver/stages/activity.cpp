@@ -10,6 +10,7 @@
 
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/solver/carriers/explosives.hpp"
 
 namespace whipple::solver {
 namespace {
@@ -105,6 +106,15 @@ bool Activity::material_may_rest() const {
   return state_.setup.transfer.rest_tolerance > 0.0 && next_event() >= state_.run.time + state_.run.time_step;
 }
 
+/// Returns whether explosive burns, or begins to before a time (s). Collective.
+bool Activity::explosives_are_lit(double before) const {
+  if (!state_.setup.has_burn()) return false;
+  const Explosives explosives(state_);
+  const double lit = parallel::maximum(state_.particles.size(), 0.0,
+                                       [&](std::size_t p) { return explosives.is_lit(p, before) ? 1.0 : 0.0; });
+  return parallel::maximum(state_.communicator, lit) > 0.0;
+}
+
 bool Activity::has_much_woken() const {
   return state_.is_parallel() && static_cast<double>(state_.run.particles_at_rest) <
                                      rest_of_old_shares * static_cast<double>(most_at_rest_);
@@ -130,8 +140,13 @@ void Activity::let_material_rest() {
   }
   // What has been stirred hardly comes to rest again: where nothing rests, that is seldom looked for.
   if (state_.run.particles_at_rest == 0 && state_.run.step % look_for_rest_every != 0) return;
+  const Explosives explosives(state_);
+  const double end = state_.run.time + state_.run.time_step;
+  if (explosives_are_lit(end)) state_.grid.wake();  // detonation begins in material at rest, too: it is looked at again
   const std::size_t at_rest = state_.grid.let_rest(layers_ahead_of_motion(), [&](std::size_t slot) {
-    return std::ranges::any_of(state_.grid.particles_in(slot), [&](std::uint32_t p) { return is_restless(p); });
+    return std::ranges::any_of(state_.grid.particles_in(slot), [&](std::uint32_t p) {
+      return is_restless(p) || explosives.is_lit(p, end);
+    });
   });
   std::array<double, 1> of_all_ranks = {static_cast<double>(at_rest)};
   parallel::sum(state_.communicator, of_all_ranks);

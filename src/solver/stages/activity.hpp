@@ -36,6 +36,7 @@ class Activity {
  private:
   void find_free_flight();
   void let_material_rest();
+  [[nodiscard]] bool explosives_are_lit(double before) const;
   [[nodiscard]] int layers_ahead_of_motion() const;
 
   State& state_;

@@ -10,6 +10,7 @@
 
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/solver/carriers/explosives.hpp"
 #include "src/solver/stages/time_step.hpp"
 
 namespace whipple::solver {
@@ -49,8 +50,10 @@ double TimeStep::compression_rate_of_most(double largest) const {
   const auto mass = std::make_unique<std::array<std::atomic<std::int64_t>, Bins::count>>();
   for (auto& bin : *mass) bin.store(0, std::memory_order_relaxed);
   const double per_mass = parts_of_mass / state_.totals.mass;
+  const Explosives explosives(state_);
   parallel::for_each_chunk(state_.particles.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
+      if (explosives.is_at_front(p)) continue;  // as in find_compression_rate
       if (state_.particles.closing_rate[p] <= harmless || state_.particles.pressure[p] <= 0.0) continue;
       (*mass)[Bins::of(state_.particles.closing_rate[p])].fetch_add(std::llround(per_mass * state_.particles.mass[p]),
                                                               std::memory_order_relaxed);

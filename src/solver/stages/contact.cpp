@@ -19,12 +19,25 @@ ContactStage::ContactStage(State& state, Hexahedra& hexahedra, transfer::GridUpd
         contact::Settings{.response = common ? contact::Response::common_field : contact::Response::impulses,
                           .normal = control.normal,
                           .friction = control.friction,
+                          .friction_of_field = friction_of_fields(),
                           .gap_test = control.gap_test,
                           .gap = control.gap,
                           .least_relaxation_rate = least_relaxation_rates()});
     field_of_body_ = state_.setup.contact_fields.of_body;
   }
   set_up_walls();
+}
+
+/// Detonation products slide on what they drive.
+std::vector<double> ContactStage::friction_of_fields() const {
+  if (!state_.setup.has_burn()) return {};
+  const std::vector<std::uint8_t>& field_of_body = state_.setup.contact_fields.of_body;
+  const cases::ContactControl& control = state_.setup.contact;
+  std::vector<double> friction(*std::ranges::max_element(field_of_body) + std::size_t{1}, control.friction);
+  for (std::size_t b = 0; b < field_of_body.size(); ++b) {
+    if (state_.setup.materials[b]->burns()) friction[field_of_body[b]] = control.explosive_friction;
+  }
+  return friction;
 }
 
 /// kappa c/dx with a quarter of the sound speed at rest: material that has failed and opened, or boiled, is

@@ -49,6 +49,7 @@ class ContactStage {
  private:
   void set_up_walls();
   [[nodiscard]] std::vector<double> least_relaxation_rates() const;
+  [[nodiscard]] std::vector<double> friction_of_fields() const;
 
   State& state_;
   Hexahedra& hexahedra_;

@@ -26,7 +26,8 @@ UpdateSettings update_settings(const State& state, std::size_t body) {
           .affine_compression = state.setup.dissipation.affine_compression,
           .initial_density = state.initial_density[body],
           .rotation = state.setup.time.stress_rotation,
-          .time = state.run.time + state.run.time_step};
+          .time = state.run.time + state.run.time_step,
+          .burn = state.setup.burn.settings(state.setup.domain.cell_size)};
 }
 
 namespace {

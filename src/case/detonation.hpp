@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "src/case/section.hpp"
+#include "src/core/base/tensor.hpp"
+#include "src/material/material.hpp"
+
+namespace whipple::cases {
+
+/// What makes an explosive react.
+enum class Ignition : std::uint8_t {
+  detonators,     ///< the detonators of the case
+  none,           ///< nothing: it stays what it is
+  instantaneous,  ///< it is burnt from the start, at constant volume
+};
+constexpr std::array<Word<Ignition>, 3> words(Ignition) {
+  return {{{Ignition::detonators, "detonators"}, {Ignition::none, "none"}, {Ignition::instantaneous, "instantaneous"}}};
+}
+
+/// Form of a detonator.
+enum class DetonatorShape : std::uint8_t { point, line, plane, sphere, cord };
+constexpr std::array<Word<DetonatorShape>, 5> words(DetonatorShape) {
+  return {{{DetonatorShape::point, "point"},
+           {DetonatorShape::line, "line"},
+           {DetonatorShape::plane, "plane"},
+           {DetonatorShape::sphere, "sphere"},
+           {DetonatorShape::cord, "cord"}}};
+}
+
+/// A place where detonation begins (docs/theory/burn.md, section 2).
+struct Detonation {
+  DetonatorShape shape = DetonatorShape::point;
+  Vector3 position = Vector3::Zero();  ///< m: point, centre, one end, or a point of the plane
+  Vector3 end = Vector3::Zero();       ///< m: other end
+  Vector3 normal = Vector3::Zero();    ///< of the plane, any length
+  double radius = 0.0;                 ///< m, of the sphere
+  double velocity = 0.0;               ///< m/s, of the detonation along the cord, from `position` on
+  double delay = 0.0;                  ///< s
+
+  static ParameterTable<Detonation> parameters();
+  void check(const Case& setup, const Faults& faults) const;
+
+  /// From where and when a point is lit in a straight line.
+  struct Ray {
+    Vector3 from;
+    double time;  ///< s, at which it starts
+  };
+  /// @param detonation_velocity  m/s, around the point
+  [[nodiscard]] Ray ray_to(const Vector3& point, double detonation_velocity) const;
+  /// Returns the time (s) at which a detonation that nothing hinders arrives at a point.
+  [[nodiscard]] double arrival(const Vector3& point, double detonation_velocity) const {
+    const Ray ray = ray_to(point, detonation_velocity);
+    return ray.time + (point - ray.from).norm() / detonation_velocity;
+  }
+};
+
+/// How lighting times are found.
+enum class LightingRule : std::uint8_t {
+  shadowed,  ///< first arrival through explosive, around what is none
+  straight,  ///< in straight lines from the detonators, whatever is between
+};
+constexpr std::array<Word<LightingRule>, 2> words(LightingRule) {
+  return {{{LightingRule::shadowed, "shadowed"}, {LightingRule::straight, "straight"}}};
+}
+
+/// Programmed burn of the explosives of a case.
+struct BurnControl {
+  BurnMode mode = BurnMode::both;
+  double width = 2.0;  ///< of the burning front, in cells
+  LightingRule lighting = LightingRule::shadowed;
+  double lighting_cell = 0.5;  ///< of the grid on which lighting times are found, in cells
+
+  static ParameterTable<BurnControl> parameters();
+  [[nodiscard]] BurnSettings settings(double cell_size) const {
+    return {.mode = mode, .width = width * cell_size, .early = 2.0 * cell_size};
+  }
+};
+
+/// Returns the material of a body in the form that its key `detonation` asks for: burning, unreacted, or burnt.
+/// @throws InputError if there is no such form
+std::shared_ptr<const Material> ignited(const Case& setup, std::size_t body, std::shared_ptr<const Material> material);
+
+/// Adds what explosives and detonators of a case lack of one another.
+void check_explosives(const Case& setup, const Faults& faults);
+
+}  // namespace whipple::cases

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "src/core/parallel/threads.hpp"
+#include "src/solver/state.hpp"
+
+namespace whipple::solver {
+
+/// The particles of a rank that burn, or will: what the solver asks of them (docs/theory/burn.md, section 4).
+class Explosives {
+ public:
+  explicit Explosives(const State& state)
+      : state_(state), early_(state.setup.burn.settings(state.setup.domain.cell_size).early) {
+    const History* fraction = state.setup.has_burn() ? state.particles.history.find("burn_fraction") : nullptr;
+    if (fraction == nullptr) return;
+    fraction_ = &std::get<std::vector<double>>(fraction->values);
+    lighting_ = &state.particles.history.scalar("lighting_time");
+    for (const auto& material : state.setup.materials) {
+      velocity_.push_back(material->burns() ? material->burn->explosive().detonation_velocity : 0.0);
+      store_.push_back(material->burns() ? material->burn->explosive().stored_energy : 0.0);
+    }
+  }
+
+  [[nodiscard]] bool any() const { return fraction_ != nullptr; }
+  /// Returns whether a particle is explosive that has not burnt out.
+  [[nodiscard]] bool burns(std::size_t p) const {
+    return any() && velocity_[state_.particles.body[p]] > 0.0 && (*fraction_)[p] < 1.0;
+  }
+  /// Returns whether detonation has arrived at a particle, or does so before a time (s).
+  [[nodiscard]] bool is_lit(std::size_t p, double before) const {
+    return burns(p) && (*lighting_)[p] >= 0.0 && (*lighting_)[p] <= before;
+  }
+  /// Returns whether a particle burns or is about to: it is at a front of detonation.
+  [[nodiscard]] bool is_at_front(std::size_t p) const {
+    if (!burns(p)) return false;
+    const double ahead = early_ / velocity_[state_.particles.body[p]];
+    return (*fraction_)[p] > 0.0 || is_lit(p, state_.run.time + ahead);
+  }
+  /// Returns the largest detonation velocity (m/s) of particles in [begin, end) that have not burnt out: a front crosses
+  /// them faster than sound does.
+  [[nodiscard]] double fastest(std::size_t begin, std::size_t end) const {
+    double fastest = 0.0;
+    for (std::size_t p = begin; p < end; ++p) {
+      fastest = std::max(fastest, burns(p) ? velocity_[state_.particles.body[p]] : 0.0);
+    }
+    return fastest;
+  }
+  /// Returns the energy (J) that unburnt explosive still holds.
+  [[nodiscard]] double chemical_energy() const {
+    if (!any()) return 0.0;
+    const Particles& q = state_.particles;
+    return parallel::sum<double>(q.size(), [&](std::size_t p) {
+      return q.mass[p] * store_[q.body[p]] * (1.0 - (*fraction_)[p]);
+    });
+  }
+
+ private:
+  const State& state_;
+  double early_;  // m, ahead of a front
+  const std::vector<double>* fraction_ = nullptr;  // null: nothing burns
+  const std::vector<double>* lighting_ = nullptr;
+  std::vector<double> velocity_, store_;  // of each body, m/s and J/kg; 0: it does not burn
+};
+
+}  // namespace whipple::solver
