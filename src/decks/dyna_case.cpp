@@ -36,6 +36,7 @@ class CaseWriter {
     faults_.raise();
     head();
     bodies();
+    detonators();
     faults_.raise();
     import_.case_text = fmt::format("{}\n{}\n{}{}", head_.text(), domain(), toml_.text(), bodies_);
     std::ranges::stable_sort(import_.remarks, {}, &Remark::line);
@@ -113,6 +114,21 @@ class CaseWriter {
     }
   }
 
+  void detonators() {
+    for (const Detonator& detonator : model_.detonators) {
+      if (!has_explosive_) {
+        remark(Outcome::dropped, *detonator.block, "no part is an explosive");
+        continue;
+      }
+      TomlText text;
+      text.table("[[detonation]]", fmt::format("line {}", detonator.block->line));
+      text.entry("position", vector(detonator.position, dimension::length));
+      if (detonator.delay > 0.0) text.entry("delay", units_.quantity(detonator.delay, dimension::time));
+      bodies_ += "\n" + text.text();
+      remark(Outcome::exact, *detonator.block, "point of detonation, of all explosives");
+    }
+  }
+
   const Vector3& place(const Part& part, Id node) const {
     const auto found = model_.nodes.find(node);
     if (found == model_.nodes.end()) fail(*part.block, fmt::format("{}: there is no node {}", part.name, node));
@@ -137,6 +153,11 @@ class CaseWriter {
     const Vector3 velocity = velocity_of(id, members, all_starts);
     if (velocity != Vector3::Zero()) text.entry("velocity", vector(velocity, dimension::velocity));
     fastest_ = std::max(fastest_, velocity.norm());
+    has_explosive_ = has_explosive_ || material.explosive;
+    if (material.explosive && model_.detonators.empty()) {
+      text.entry("detonation", "\"instantaneous\"", "no *INITIAL_DETONATION in the deck");
+      remark(Outcome::missing, *part.block, fmt::format("{} is lit by nothing: it starts as detonation products", part.name));
+    }
     const bool written = part.solids.empty() ? points(part, material, text) : mesh(part, material, text);
     if (!written) return;
     if (material.initial_pressure != 0.0) {
@@ -272,7 +293,7 @@ class CaseWriter {
   std::set<const Block*> velocities_;
   double cell_ = 0.0, fastest_ = 0.0;
   Vector3 lower_ = Vector3::Zero(), upper_ = Vector3::Zero();
-  bool empty_ = true;
+  bool empty_ = true, has_explosive_ = false;
 };
 
 }  // namespace

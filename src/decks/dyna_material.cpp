@@ -49,7 +49,7 @@ class MaterialWriter {
     law_ = law == laws.end() ? Law::other : law->law;
     density_ = card(material_, 0).required(1, "the density");
     if (!(density_ > 0.0)) fail(material_, "the density must be > 0");
-    CaseMaterial result{.file = fmt::format("materials/{}.toml", name_), .density = density_};
+    CaseMaterial result{.file = fmt::format("materials/{}.toml", name_), .density = density_, .explosive = law_ == Law::explosive};
     elastic_constants();
     toml_.comment(fmt::format("Written by 'whipple import' from {}; constants in the units of the deck.", deck_.file.filename().string()));
     toml_.text_entry("name", material_.title.empty() ? name_ : material_.title);
@@ -253,8 +253,11 @@ class MaterialWriter {
         break;
       default:
         begin("none", material_);
-        remark(Outcome::missing, material_,
-               law_ == Law::explosive ? "programmed burn: the body starts as detonation products" : "this material law: no strength in the case");
+        if (law_ == Law::explosive) {
+          remark(Outcome::converted, material_, "programmed burn over two cells from an unreacted explosive");
+        } else {
+          remark(Outcome::missing, material_, "this material law: no strength in the case");
+        }
     }
   }
 

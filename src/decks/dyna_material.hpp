@@ -12,6 +12,7 @@ namespace whipple::decks::dyna {
 struct CaseMaterial {
   std::string file;               ///< "materials/part_1.toml"
   double density = 0.0;           ///< in the units of the deck
+  bool explosive = false;
   double initial_pressure = 0.0;  ///< of an initial energy in Mie-Grueneisen, in the units of the deck
 };
 

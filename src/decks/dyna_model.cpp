@@ -92,6 +92,13 @@ class ModelReader {
     model_.snapshots = first(block).real(0);
     remark(Outcome::exact, block, "output.snapshot_every");
   }
+  /// A card for each detonator: part, place, delay.
+  void detonation(const Block& block) {
+    for (const Card& card : block.cards) {
+      const Fields fields(deck_, block, card);
+      model_.detonators.push_back({&block, Vector3(fields.real(1), fields.real(2), fields.real(3)), fields.real(4)});
+    }
+  }
   /// Velocities refer to sets, which may come after them.
   void velocity(const Block& block) { starts_.emplace_back(&block, &ModelReader::start_of_set); }
   void velocity_by_nodes(const Block& block) { starts_.emplace_back(&block, &ModelReader::starts_of_nodes); }
@@ -232,7 +239,7 @@ class ModelReader {
 };
 
 ModelReader::Readers ModelReader::of_keywords() {
-  static constexpr std::array<std::pair<std::string_view, Reader>, 12> readers = {
+  static constexpr std::array<std::pair<std::string_view, Reader>, 13> readers = {
       {{"NODE", &ModelReader::nodes},
        {"ELEMENT_SOLID", &ModelReader::solids},
        {"ELEMENT_SPH", &ModelReader::points},
@@ -240,6 +247,7 @@ ModelReader::Readers ModelReader::of_keywords() {
        {"INITIAL_VELOCITY", &ModelReader::velocity},
        {"INITIAL_VELOCITY_NODE", &ModelReader::velocity_by_nodes},
        {"INITIAL_VELOCITY_GENERATION", &ModelReader::velocity_by_parts},
+       {"INITIAL_DETONATION", &ModelReader::detonation},
        {"CONTROL_TERMINATION", &ModelReader::end},
        {"DATABASE_BINARY_D3PLOT", &ModelReader::snapshots},
        {"TITLE", &ModelReader::title},

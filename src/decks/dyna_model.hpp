@@ -41,6 +41,13 @@ struct Start {
   std::set<Id> parts;
 };
 
+/// A point where detonation begins.
+struct Detonator {
+  const Block* block = nullptr;
+  Vector3 position = Vector3::Zero();
+  double delay = 0.0;
+};
+
 /// What the keywords of a deck say, in its units.
 struct Model {
   std::string title;
@@ -48,6 +55,7 @@ struct Model {
   std::map<Id, Part> parts;
   std::map<Id, const Block*> materials, states;  ///< *MAT and *EOS by their numbers
   std::vector<Start> starts;
+  std::vector<Detonator> detonators;
   std::optional<double> friction;  ///< nothing: the deck has no contact
   double end = 0.0, snapshots = 0.0;
 };

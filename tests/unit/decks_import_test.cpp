@@ -300,6 +300,28 @@ TEST(DynaDeck, WhatIsNotReadIsMissingByNameAndNumber) {
   EXPECT_THAT(foam.report(), HasSubstr("part_2: this material law"));
 }
 
+TEST_F(ImportFolder, AnExplosiveOfAKeywordDeckIsLit) {
+  const auto deck = [](const std::string& detonation) {
+    std::string text = bar_deck("*MAT_PLASTIC_KINEMATIC\n2, 7.85e-6, 210.0, 0.3, 0.4, 1.0, 1.0\n",
+                                "*MAT_HIGH_EXPLOSIVE_BURN\n2, 1.63e-6, 6930.0, 21.0\n"
+                                "*EOS_JWL\n2, 371.2, 3.231, 4.15, 0.95, 0.3, 7.0\n" + detonation);
+    const std::string part = "plate\n         2         2         2\n";
+    text.replace(text.find(part), part.size(), "plate\n         2         2         2         2\n");
+    for (std::size_t at = 0; (at = text.find("7.850000e-06", at)) != std::string::npos;) text.replace(at, 12, "1.630000e-06");
+    return text;
+  };
+  const Import lit = import_keywords(deck("*INITIAL_DETONATION\n2, 0.0, 0.0, -0.5, 0.001\n"));
+  EXPECT_EQ(lit.count(Outcome::missing), 0U) << lit.report();
+  EXPECT_THAT(lit.case_text, HasSubstr("[[detonation]]"));
+  EXPECT_THAT(lit.case_text, HasSubstr("delay = \"0.001 ms\""));
+  const CaseFolder written(lit, folder_ / "case");
+  const cases::Case read = cases::read_case(written.case_file(), {});
+  EXPECT_TRUE(read.materials.at(1)->burns());
+  const Import unlit = import_keywords(deck(""));
+  EXPECT_THAT(unlit.report(), HasSubstr("is lit by nothing"));
+  EXPECT_THAT(unlit.case_text, HasSubstr("detonation = \"instantaneous\""));
+}
+
 TEST(DynaDeck, FaultsAreNamedWithTheirPlace) {
   const auto fault = [](const std::string& from, const std::string& to) {
     return message_of<InputError>([&] { static_cast<void>(import_keywords(bar_deck(from, to))); });
