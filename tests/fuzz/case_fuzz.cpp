@@ -155,8 +155,7 @@ TEST(CaseFuzz, IsReadOrRefusedAndRunsOrEndsWithAStateError) {
     ++run;
   });
   std::printf("%d of the cases ran\n", run);
-  EXPECT_GT(outcomes.refused, outcomes.read / 10);
-  EXPECT_GT(outcomes.read, outcomes.refused / 10);
+  EXPECT_TRUE(outcomes.are_mixed(0.1, 0.1));
 }
 
 class MaterialFuzz : public FolderTest {};

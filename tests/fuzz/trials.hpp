@@ -27,6 +27,13 @@ constexpr int longest_trial = 60, most_memory = 1000;
 /// What became of the inputs of a kind.
 struct Outcomes {
   int read = 0, refused = 0, stopped = 0, faulty = 0;  ///< stopped: read, and ended with a StateError
+
+  /// Returns whether at least these fractions were read and refused: inputs that all fail at the first character would
+  /// prove little. A few inputs say nothing.
+  [[nodiscard]] bool are_mixed(double least_read, double least_refused) const {
+    const int all = read + refused + stopped + faulty;
+    return all < 100 || (read + stopped > least_read * all && refused > least_refused * all);
+  }
 };
 
 /// Feeds a reader with damaged inputs of a kind: each is read or refused with an InputError, or what is made of it ends

@@ -183,5 +183,20 @@ TEST(Dissipation, OfAFailingPointIsItsElasticEnergy) {
   EXPECT_NEAR(report.dissipation, stored, 0.04 * stored);  // the volume grows by 3 %
 }
 
+// A fluid that ruptures has no elastic energy to lose.
+TEST(Dissipation, OfAFailingFluidIsNone) {
+  failure::TensilePressure rupture;
+  rupture.spall_strength = 1e8;
+  const Material fluid =
+      make_material("fluid", std::make_shared<LinearInEnergy>(), nullptr,
+                    {std::make_shared<failure::CriterionModel<failure::TensilePressure>>(rupture)});
+  MaterialPoints points = points_of(fluid, 1);
+  const Matrix3 opening = 1e-2 / 1e-9 * Matrix3::Identity();
+  const MaterialReport report =
+      update_material(fluid, points, 0, 1, std::span(&opening, 1), without_viscosity(1e-9));
+  ASSERT_EQ(points.failed[0], failure::tensile);
+  EXPECT_EQ(report.dissipation, 0.0);
+}
+
 }  // namespace
 }  // namespace whipple
