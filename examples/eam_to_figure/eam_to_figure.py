@@ -19,14 +19,16 @@ import numpy as np
 from whipple import eos
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-parser.add_argument("--potential", default="Cu_u3.eam", help="EAM file: a path, or one of LAMMPS (default: %(default)s)")
+parser.add_argument("--potential", default="Cu_u3.eam",
+                    help="EAM file: a path, or one of LAMMPS (default: %(default)s)")
 parser.add_argument("--element", default="Cu", help="chemical symbol (default: %(default)s)")
 parser.add_argument("--with", dest="measured", default="cu_hugoniot_marsh1980.csv",
                     help="measured Hugoniot, a table in eos/data (default: %(default)s)")
 parser.add_argument("--cells", type=int, default=4, help="unit cells along an edge (default: %(default)s)")
 parser.add_argument("--steps", type=int, default=4000, help="averaged steps of a point (default: %(default)s)")
 parser.add_argument("--whipple", default="whipple", help="the program (default: %(default)s)")
-parser.add_argument("--folder", type=pathlib.Path, default="eam_to_figure", help="of the results (default: %(default)s)")
+parser.add_argument("--folder", type=pathlib.Path, default="eam_to_figure",
+                    help="of the results (default: %(default)s)")
 options = parser.parse_args()
 options.folder.mkdir(parents=True, exist_ok=True)
 
@@ -65,7 +67,8 @@ for comparison in comparisons:
 # %% The figure
 figure, axes = plt.subplots(figsize=(6, 4), layout="constrained")
 axes.fill_between(particle_velocity / 1e3, (hugoniot.shock_velocity - 2 * deviation) / 1e3,
-                  (hugoniot.shock_velocity + 2 * deviation) / 1e3, alpha=0.3, label="two standard deviations of the fit")
+                  (hugoniot.shock_velocity + 2 * deviation) / 1e3, alpha=0.3,
+                  label="two standard deviations of the fit")
 axes.plot(particle_velocity / 1e3, hugoniot.shock_velocity / 1e3, label=f"{options.potential}, fitted")
 for comparison in comparisons:
     shown = comparison.abscissa <= particle_velocity[-1]
