@@ -43,3 +43,10 @@ if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
            --whipple $<TARGET_FILE:whipple> --work ${CMAKE_CURRENT_BINARY_DIR}/drift)
   set_tests_properties(drift PROPERTIES LABELS drift PROCESSORS 2 TIMEOUT 300)
 endif()
+
+# How to cite: the title of CITATION.cff, and the sources of every table of a material.
+file(STRINGS ${PROJECT_SOURCE_DIR}/CITATION.cff title REGEX "^title:")
+string(REGEX REPLACE "^title: \"(.*)\"$" "\\1" title "${title}")
+add_test(NAME app_cite COMMAND whipple cite copper)
+set_tests_properties(app_cite PROPERTIES LABELS fast
+  PASS_REGULAR_EXPRESSION "title = {${title}}.*copper.toml.* material +GRAY: Liu.* eos +Liu.* strength +Johnson.* failure +calibrated")

@@ -328,7 +328,7 @@ void add_results(py::module_& module) {
       .def_property_readonly("deviation", [](const ComparedExperiment& c) { return list_of(c.comparison.deviation); },
                              "Model less measurement, in percent of the measured Us or temperature, or in Pa.")
       .def_property_readonly("rms", [](const ComparedExperiment& c) { return c.comparison.rms; },
-                             "Root mean square of the deviations.")
+                             "Root mean square of the deviations, in their unit.")
       .def_property_readonly("points", [](const ComparedExperiment& c) { return c.comparison.points; },
                              "Number of points inside the range of the material.");
   module.def("measurements", &eos::experiments::read_experiments, py::arg("file"), py::kw_only(),

@@ -148,10 +148,32 @@ void pass_messages_to_python() {
   });
 }
 
+/// Raises an input error as Python's, with the places of its faults.
+void raise(const InputError& error, const py::handle& kind) {
+  py::list faults;
+  for (const InputFault& fault : error.faults()) {
+    faults.append(py::dict(py::arg("file") = fault.file, py::arg("line") = fault.line,
+                           py::arg("column") = fault.column, py::arg("key") = fault.key,
+                           py::arg("text") = fault.text));
+  }
+  py::object raised = kind(error.what());
+  raised.attr("faults") = faults;
+  PyErr_SetObject(kind.ptr(), raised.ptr());
+}
+
 void add_errors(py::module_& module) {
-  py::register_exception<InputError>(module, "InputError", PyExc_ValueError).doc() =
+  // Lives as long as the process, like the translator that refers to it.
+  static const py::handle input_error = py::exception<InputError>(module, "InputError", PyExc_ValueError).release();
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const InputError& error) {
+      raise(error, input_error);
+    }
+  });
+  input_error.doc() =
       "Wrong input: a material that does not exist, constants that contradict each other, quantities that name no\n"
-      "state.";
+      "state. faults: list of dictionaries with file, line, column, key and text.";
   py::register_exception<StateError>(module, "StateError", PyExc_ArithmeticError).doc() =
       "A state out of the range of its model.";
   py::register_exception<InternalError>(module, "InternalError", PyExc_RuntimeError).doc() =
@@ -207,7 +229,7 @@ void add_material(py::module_& module, py::class_<Material>& material) {
                              "The file that it was read from.")
       .def_readonly("source", &Material::source, "Where its constants come from.")
       .def_property_readonly("sources", &sources,
-                             "Sources of the file and of each of its tables: \"file\", \"eos\", \"strength\", \"failure.0\".")
+                             "Sources of the file and of each of its tables by name: \"file\", \"eos\", \"failure.0\".")
       .def_readonly("note", &Material::note, "Purpose or limits in one line.")
       .def_readonly("group", &Material::group, "Where the library lists it: \"metals\", \"explosives\", ...")
       .def_property_readonly("model", [](const Material& m) { return std::string(m.eos->model()); },

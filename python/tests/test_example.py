@@ -13,13 +13,15 @@ SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "examples/eam_to_figure/e
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        command = [sys.executable, SCRIPT, "--cells", "3", "--steps", "400", "--whipple", sys.argv[1], "--folder", folder]
+        command = [sys.executable, SCRIPT, "--cells", "3", "--steps", "400", "--whipple", sys.argv[1],
+                   "--folder", folder]
         text = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
         figure = (pathlib.Path(folder) / "hugoniot.png").read_bytes()
         material = eos.material(pathlib.Path(folder) / "fitted.toml")
     assert figure.startswith(b"\x89PNG") and len(figure) > 10000, len(figure)
     assert "cu_hugoniot_marsh1980: 144 points, rms deviation of Us 4." in text, text
-    # docs/generated/results.md, universal potential u3 of Foiles, Baskes and Daw: C, S, gamma of cases/md/copper_u3_short.toml.
+    # docs/generated/results.md, universal potential u3 of Foiles, Baskes and Daw: C, S, gamma of the plan
+    # cases/md/copper_u3_short.toml.
     velocity = material.hugoniot(particle_velocity=1500.0).shock_velocity
     assert abs(velocity / (3902 + 1.317 * 1500) - 1) < 0.015, velocity
     gruneisen = material.reference.gruneisen

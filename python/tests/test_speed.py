@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Test that a million states take at most 1.5 times as long from Python as in C++: processor times of both in turns, the
-least of several. Usage: test_speed.py PROGRAM, where PROGRAM is evaluate_states (tests/benchmark)."""
+"""Test that a million states take at most 1.5 times as long from Python as in C++: processor times of both in turns,
+the least of several. Usage: test_speed.py PROGRAM, where PROGRAM is evaluate_states (tests/benchmark)."""
 import subprocess
 import sys
 import time

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Test that the type stubs say what the module has: classes and their bases, properties, and the parameters of functions
-as the module writes them into its docstrings. And that every docstring that names a quantity states units."""
+"""Test that the type stubs say what the module has: classes and their bases, properties, and the parameters of
+functions as the module writes them into its docstrings. And that docstrings of quantities state units."""
 import ast
 import inspect
 import pathlib
@@ -38,7 +38,8 @@ def parameters_of_stub(node):
     names = [name + ("=" if i >= first_default else "") for i, name in enumerate(plain)]
     if a.kwonlyargs:
         names.append("*")
-        names += [argument.arg + ("=" if default is not None else "") for argument, default in zip(a.kwonlyargs, a.kw_defaults)]
+        names += [argument.arg + ("=" if default is not None else "")
+                  for argument, default in zip(a.kwonlyargs, a.kw_defaults)]
     return names
 
 
@@ -56,9 +57,11 @@ class Stubs(unittest.TestCase):
             kind = getattr(eos, name)
             bases = [ast.unparse(base).removeprefix("enum.") for base in node.bases]
             if bases == ["Enum"]:
-                self.assertEqual({target.id for line in node.body for target in line.targets}, set(kind.__members__), name)
+                words = {target.id for line in node.body for target in line.targets}
+                self.assertEqual(words, set(kind.__members__), name)
                 continue
-            self.assertEqual(bases, [base.__name__ for base in kind.__bases__ if base.__name__ != "pybind11_object"], name)
+            own = [base.__name__ for base in kind.__bases__ if base.__name__ != "pybind11_object"]
+            self.assertEqual(bases, own, name)
             stub = {line.name for line in node.body if isinstance(line, ast.FunctionDef)}
             self.assertEqual(stub, public(kind), name)
             for line in node.body:

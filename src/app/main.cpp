@@ -17,6 +17,7 @@
 #include "src/app/bench_command.hpp"
 #include "src/app/build_info.hpp"
 #include "src/app/command_line.hpp"
+#include "src/app/cite_command.hpp"
 #include "src/app/compare_command.hpp"
 #include "src/app/describe_command.hpp"
 #include "src/app/eos_command.hpp"
@@ -78,6 +79,7 @@ int whipple_main(int argc, char** argv) {
   add_eos_command(app);
   add_describe_command(app);
   add_materials_command(app);
+  add_cite_command(app);
   add_units_command(app);
   add_bench_command(app);
   add_version_command(app);

@@ -61,7 +61,7 @@ class CommandLine : public ::testing::Test {
 TEST_F(CommandLine, EverySubcommandHasHelpWithAnExample) {
   for (const char* command : {"run", "check", "status", "steer", "import", "eos", "md", "fit", "compare", "analyse",
       "report", "describe",
-                              "materials", "units", "bench", "version"}) {
+                              "materials", "cite", "units", "bench", "version"}) {
     const Result result = whipple(std::string(command) + " --help");
     EXPECT_EQ(result.code, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("Example")) << command;

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/app/cite_command.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "src/app/build_info.hpp"
+#include "src/core/base/text_table.hpp"
+#include "src/core/input/document.hpp"
+#include "src/material/material_file.hpp"
+
+namespace whipple::app {
+namespace {
+
+using Lines = std::vector<std::vector<std::string>>;
+
+/// Adds the sources of a table, of the tables in it, and of the lists that material files have.
+void add_sources(Lines& lines, input::Table table, const std::string& name) {
+  struct Remarks {
+    std::string source;
+  };
+  Remarks remarks;
+  table.read(ParameterTable<Remarks>{text("source", &Remarks::source, "where the constants come from").optional()},
+             remarks);
+  if (!remarks.source.empty()) lines.push_back({"  " + name, remarks.source});
+  for (const std::string& inner : table.table_names()) {
+    if (auto inside = table.optional_table(inner)) add_sources(lines, *inside, inner);
+  }
+  for (const char* list : {"modifier", "failure"}) {
+    if (!table.has(list)) continue;
+    for (const input::Table& entry : table.list(list)) add_sources(lines, entry, list);
+  }
+}
+
+void print_sources(const std::string& name) {
+  const std::filesystem::path file = find_material(name);
+  input::Document document = input::Document::from_file(file);
+  Lines lines;
+  add_sources(lines, document.root(), "material");
+  document.finish_partly_read();
+  fmt::print("\n{}\n{}", file.string(), text_table(lines, "l"));
+}
+
+/// The words of CITATION.cff.
+void print_program() {
+  constexpr const char* title =
+      "whipple: equations of state from molecular dynamics, and the material point method for hypervelocity impact";
+  constexpr const char* authors = "The whipple authors";
+  const BuildInfo& info = build_info();
+  fmt::print("{}. {}, version {} (revision {}). BSD-3-Clause.\n\n", title, authors, info.version, info.revision);
+  fmt::print("@software{{whipple,\n  title = {{{}}},\n  author = {{{{{}}}}},\n  version = {{{}}},\n  license = "
+             "{{BSD-3-Clause}}\n}}\n",
+             title, authors, info.version);
+}
+
+}  // namespace
+
+void add_cite_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("cite", "How to cite the program, and the sources of materials");
+  const auto names = std::make_shared<std::vector<std::string>>();
+  command->add_option("materials", *names, "Material files, or names of the library");
+  command->footer("Example:\n  whipple cite copper aluminium");
+  command->callback([names] {
+    print_program();
+    for (const std::string& name : *names) print_sources(name);
+  });
+}
+
+}  // namespace whipple::app
