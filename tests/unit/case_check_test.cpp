@@ -52,6 +52,15 @@ TEST(CaseInCode, IsCompletedWithWhatFollowsFromItsKeys) {
             to_toml(setup, {"copper.toml"}));
 }
 
+TEST(CaseInCode, BodiesThatTouchMayHaveUnknownMaterials) {
+  Case setup = ball_in_box();
+  setup.bodies.push_back(setup.bodies[0]);
+  setup.bodies[1].name = "other";
+  setup.bodies[1].shape = std::make_shared<Box>(Vector3(0.004, 0.004, 0.0), Vector3(0.008, 0.008, 0.003));
+  for (Body& body : setup.bodies) body.material = "coper";
+  EXPECT_EQ(keys_of(check(setup)), (Keys{"body.0.material", "body.1.material"}));
+}
+
 TEST(CaseInCode, FaultsAreListedWithTheirKeys) {
   Case setup = ball_in_box();
   setup.domain.cell_size = 0.0;

@@ -88,35 +88,45 @@ export class RunPage {
   }
 
   async drawCurves({ tables, rows }) {
-    const heads = tables.history;
-    if (heads.length === 0) return;
-    if (this.chosen.size === 0) this.preparePlots(heads);
+    if (tables.history.length === 0) return;
+    if (this.chosen.size === 0) this.preparePlots(tables);
     if (rows === this.rows) return;  // nothing new
     this.rows = rows;
-    const time = heads.find((head) => nameOf(head) === 'time');
-    const columns = [...new Set([...this.chosen.values()].flatMap((plot) => plot.heads))];
-    if (columns.length === 0) return;
-    const curves = await ask('/curves', { run: this.name, table: 'history', x: time, y: columns, points: POINTS });
-    for (const { plot, heads: own } of this.chosen.values()) plot.show(own.map((head) => ({ head, ...curves[head] })));
+    for (const [table, heads] of Object.entries(tables)) {
+      const time = heads.find((head) => nameOf(head) === 'time');
+      const plots = [...this.chosen.values()].filter((each) => each.table === table);
+      if (time === undefined || plots.length === 0) continue;
+      const columns = [...new Set(plots.flatMap((each) => each.heads))];
+      const curves = await ask('/curves', { run: this.name, table, x: time, y: columns, points: POINTS });
+      for (const { plot, heads: own } of plots) plot.show(own.map((head) => ({ head, ...curves[head] })));
+    }
   }
 
-  preparePlots(heads) {
+  preparePlots({ history: heads, gauges }) {
     const by = new Map(heads.map((head) => [nameOf(head), head]));
     for (const [title, names] of PLOTS) {
       const own = names.filter((name) => by.has(name)).map((name) => by.get(name));
-      if (own.length > 0) this.addPlot(title, own);
+      if (own.length > 0) this.addPlot(title, 'history', own);
     }
-    const boxes = heads.filter((head) => !['step', 'time'].includes(nameOf(head))).map((head) => labelled(`${parts(head).name}${parts(head).unit ? ` [${parts(head).unit}]` : ''}`, tickBox(false, (ticked) => {
-      if (ticked) return this.addPlot(parts(head).name, [head]);
-      this.chosen.get(parts(head).name)?.plot.root.remove();
-      this.chosen.delete(parts(head).name);
-    })));
-    this.choice.append(element('div', { class: 'chosen' }, ...boxes));
+    this.choice.append(...this.boxes('history', heads), ...(gauges.length > 0 ? [element('h2', {}, 'Gauges'), ...this.boxes('gauges', gauges)] : []));
   }
 
-  addPlot(title, heads) {
+  /** A box for each column of a table, which adds its curve and removes it. */
+  boxes(table, heads) {
+    const box = (head) => {
+      const { name, unit } = parts(head);
+      return labelled(unit && unit !== '1' ? `${name} [${unit}]` : name, tickBox(false, (ticked) => {
+        if (ticked) return this.addPlot(name, table, [head]);
+        this.chosen.get(name)?.plot.root.remove();
+        this.chosen.delete(name);
+      }));
+    };
+    return [element('div', { class: 'chosen' }, ...heads.filter((head) => !['step', 'time'].includes(nameOf(head))).map(box))];
+  }
+
+  addPlot(title, table, heads) {
     const plot = new Plot(title);
-    this.chosen.set(title, { plot, heads });
+    this.chosen.set(title, { plot, table, heads });
     this.plots.append(plot.root);
     this.rows = undefined;
   }
