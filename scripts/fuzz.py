@@ -45,8 +45,8 @@ def tests_of(fuzz, only):
 
 def environment(first=0, trials=0):
     return dict(os.environ, WHIPPLE_FUZZ_FIRST=str(first), WHIPPLE_FUZZ_TRIALS=str(trials), WHIPPLE_FUZZ_NAMES="1",
-                ASAN_OPTIONS=SANITIZER, UBSAN_OPTIONS="print_stacktrace=1", OMP_NUM_THREADS="1", OMP_WAIT_POLICY="passive",
-                OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+                ASAN_OPTIONS=SANITIZER, UBSAN_OPTIONS="print_stacktrace=1", OMP_NUM_THREADS="1",
+                OMP_WAIT_POLICY="passive", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
 
 
 def run_chunk(fuzz, test, first, trials):
@@ -115,7 +115,8 @@ def main():
     print(f"{'kind':<32}{'inputs':>8}{'read':>8}{'refused':>9}{'stopped':>9}{'faulty':>8}   slowest")
     for kind, (*columns, seconds, slowest) in sorted(total.items()):
         read, refused, stopped, faulty = columns
-        print(f"{kind:<32}{sum(columns):>8}{read:>8}{refused:>9}{stopped:>9}{faulty:>8}   {seconds:.1f} s (trial {slowest})")
+        print(f"{kind:<32}{sum(columns):>8}{read:>8}{refused:>9}{stopped:>9}{faulty:>8}"
+              f"   {seconds:.1f} s (trial {slowest})")
     print(f"{sum(sum(row[:4]) for row in total.values())} inputs, {faults} processes with faults")
     return 1 if faults else 0
 

@@ -134,6 +134,14 @@ class GruneisenSolid {
   /// integrating factor T_s/T0  (E3). The model ends where the coldest material softens, c^2 = 0.
   void tabulate(std::string_view name, double greatest_x) {
     const double rho0 = state_.density, heat = state_.heat_capacity;
+    const auto require_compression = [&](const char* what, double end) {  // of the volume
+      if (end >= 1 - 1 / 1.01) return;
+      throw InputError(
+          fmt::format("{}: {} at {:.4g} kg/m^3, at no compression to speak of; check the constants of the curve "
+                      "and of the Grueneisen parameter",
+                      name, what, rho0 / (1 - end)));
+    };
+    require_compression("the curve ends", greatest_x);
     const auto mu = [](double x) { return x / (1 - x); };
     const auto factor = [&](double x) { return std::exp(log_isentrope_temperature(rho0 / (1 - x))); };
     const auto integrand = [&](double x) { return reference_(mu(x)).value / (rho0 * factor(x)); };
@@ -157,12 +165,7 @@ class GruneisenSolid {
       last = x;
     }
     maximum_density_ = rho0 / (1 - last);
-    if (maximum_density_ < 1.01 * rho0) {
-      throw InputError(
-          fmt::format("{}: cold material softens at {:.4g} kg/m^3, at no compression to speak of; check the "
-                      "constants of the curve and of the Grueneisen parameter",
-                      name, maximum_density_));
-    }
+    require_compression("cold material softens", last);
     const double thermal = heat * state_.temperature;
     table_ = FourfoldTable(
         [&](double rho) {

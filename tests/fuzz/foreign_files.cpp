@@ -164,7 +164,8 @@ TEST_F(ForeignFiles, TablesOfEquationsOfState) {
   const eos::test::GrayEos copper(eos::test::copper());
   const fs::path path = folder_ / "copper.eos.h5";
   eos::write_table(path, {eos::tabulate(copper, {.error = 0.05}), {}});
-  try_all("table of an equation of state", path, damaged, [&] { static_cast<void>(eos::Table(eos::read_table(path).data)); });
+  try_all("table of an equation of state", path, damaged,
+          [&] { static_cast<void>(eos::Table(eos::read_table(path).data)); });
 }
 
 TEST_F(ForeignFiles, Meshes) {

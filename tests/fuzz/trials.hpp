@@ -12,6 +12,8 @@
 #include <cstdlib>
 #include <ctime>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "src/core/base/error.hpp"
 
@@ -122,8 +124,8 @@ inline std::string damaged(std::string bytes, Random& random) {
 
 /// Returns a text with words and lines replaced, doubled, left out.
 inline std::string garbled(std::string text, Random& random) {
-  static const std::vector<std::string> words = {"nan",  "-1",       "1e999", "0",  "", "\n", ",", ";", "\"",         "2",
-                                                 "1e30", "\xc3\xa4", "#",     "\t", "-", "+", ".", " ", "99999999999"};
+  static const std::vector<std::string> words = {"nan", "-1", "1e999", "0", "", "\n", ",", ";", "\"", "2", "1e30",
+                                                 "\xc3\xa4", "#", "\t", "-", "+", ".", " ", "99999999999"};
   for (std::size_t n = 1 + any(random, 4); n > 0; --n) {
     const std::size_t at = any(random, text.size()), length = any(random, 12);
     switch (any(random, 5)) {

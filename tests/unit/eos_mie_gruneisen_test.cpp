@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "eos/loci.hpp"
 #include "src/core/base/error.hpp"
@@ -88,6 +89,20 @@ TEST(EosMieGruneisen, RangeAndPoliciesAreReported) {
   EXPECT_EQ(report.out_of_range, 1u);
   EXPECT_EQ(report.first, 2u);
   EXPECT_THROW(static_cast<void>(eos.state(2 * eos.maximum_density(), 0)), StateError);
+}
+
+// A slope of 1e300 ends the curve before its first interval.
+TEST(EosMieGruneisen, CurvesWithoutCompressionAreRefused) {
+  for (const double slope : {200.0, 1e20, 1e300, 1e308}) {
+    MieGruneisenConstants constants = aluminium_2024();
+    constants.hugoniot_slope = slope;
+    try {
+      const MieGruneisenEos eos(constants);
+      FAIL() << "no error with the slope " << slope;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("at no compression to speak of"), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace

@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "src/core/parallel/mpi.hpp"
 #include "src/transfer/conduction.hpp"
@@ -138,6 +140,25 @@ TEST(Fill, IsThatOfTheCellsWithEveryShapeFunctionOfTheRun) {
     Rod rod(8, 2, 0.0, of_run);
     for (const double filled : transfer::fill_of_cells(rod.particles, {}, rod.grid)) {
       ASSERT_NEAR(filled, 1.0, 1e-12) << static_cast<int>(of_run);
+    }
+  }
+}
+
+// The volume of elements is not on the grid: near them nothing is said.
+TEST(Fill, IsUnknownNearNodesOfElements) {
+  constexpr ShapeFunction shape = ShapeFunction::quadratic_bspline;
+  Rod rod(16, 2);
+  transfer::TransitionNodes nodes;
+  nodes.resize(1);
+  nodes.position[0] = {4.3 * rod.dx, 0.5 * rod.dx, 0.5 * rod.dx};
+  ASSERT_TRUE(rod.grid.bin(rod.particles.position, transfer::stencil(shape), nodes.position));
+  const std::vector<double> fill = transfer::fill_of_cells(rod.particles, nodes, rod.grid);
+  for (std::size_t p = 0; p < fill.size(); ++p) {
+    const double away = std::abs(rod.particles.position[p][0] - nodes.position[0][0]) / rod.dx;
+    if (away < 1.5) {
+      EXPECT_EQ(fill[p], std::numeric_limits<double>::infinity()) << away;
+    } else if (away > 3.0) {
+      EXPECT_NEAR(fill[p], 1.0, 1e-12) << away;
     }
   }
 }
