@@ -91,6 +91,11 @@ void join_bars(const Case& setup, Bonds& bonds, ContactFields& found) {
   }
 }
 
+/// Of a case at fault a body may have no material.
+bool burns(const Case& setup, std::size_t body) {
+  return setup.materials[body] != nullptr && setup.materials[body]->burns();
+}
+
 /// Joins what touches at the start and moves alike.
 void join_layers(const Case& setup, Bonds& bonds, ContactFields& found) {
   const std::vector<Body>& bodies = setup.bodies;
@@ -99,7 +104,7 @@ void join_layers(const Case& setup, Bonds& bonds, ContactFields& found) {
     for (std::size_t b = a + 1; b < bodies.size(); ++b) {
       if (bodies[b].discretization.is_bars() || bonds.joined(a, b) || !bonds.may_join(a, b)) continue;
       if (!bodies[a].contact_group.empty() && !bodies[b].contact_group.empty()) continue;
-      if (setup.materials[a]->burns() != setup.materials[b]->burns()) continue;  // products slide
+      if (burns(setup, a) != burns(setup, b)) continue;  // products slide
       if (!touch_and_move_alike(setup, bodies[a], bodies[b])) continue;
       found.remarks.push_back(
           fmt::format("contact: bodies \"{}\" and \"{}\" touch at the start and have the same velocity: they "
