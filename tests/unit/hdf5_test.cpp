@@ -147,8 +147,8 @@ TEST_F(Hdf5, refuses_arrays_that_the_file_cannot_hold) {
       const Handle space(H5Screate_simple(1, &rows, nullptr), H5Sclose);
       const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
       if (in_chunks) H5Pset_chunk(creation.get(), 1, &chunk);
-      const Handle empty(H5Dcreate2(file.root.id(), in_chunks ? "chunks" : "block", H5T_IEEE_F64LE, space.get(),
-                                    H5P_DEFAULT, creation.get(), H5P_DEFAULT),
+      const Handle empty(H5Dcreate2(file.root.id(), in_chunks ? "chunks" : "block", H5T_IEEE_F64LE,
+                                    space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
                          H5Dclose);
     }
     file.close();
@@ -161,6 +161,40 @@ TEST_F(Hdf5, refuses_arrays_that_the_file_cannot_hold) {
   }
   EXPECT_EQ(file.root.open_dataset("zeros").read_all<double>(), std::vector<double>(1 << 20))
       << "a thousandfold compression is none";
+}
+
+/// libhdf5 copies what a compact array declares, not what it has: it reads beyond its memory.
+TEST_F(Hdf5, refuses_compact_arrays_that_declare_more_than_they_hold) {
+  const std::filesystem::path path = folder_ / "a.h5";
+  const hsize_t rows = 1234, declared = 1235;
+  const std::uint8_t one = 1;
+  {
+    File file = File::create(path, File::Compatibility::vtk);
+    const Handle space(H5Screate_simple(1, &rows, nullptr), H5Sclose);
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_layout(creation.get(), H5D_COMPACT);
+    H5Pset_fill_value(creation.get(), H5T_NATIVE_UINT8, &one);
+    const Handle made(H5Dcreate2(file.root.id(), "bytes", H5T_STD_U8LE, space.get(), H5P_DEFAULT,
+                                 creation.get(), H5P_DEFAULT),
+                      H5Dclose);
+    file.close();
+  }
+  EXPECT_EQ(File::open(path).root.open_dataset("bytes").read_all<std::uint8_t>(),
+            std::vector<std::uint8_t>(rows, one));
+  const auto bytes_of = [](hsize_t number) {
+    return std::string(reinterpret_cast<const char*>(&number), sizeof number);
+  };
+  std::ifstream whole(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(whole), {}};
+  int replaced = 0;  // length and greatest length
+  for (std::size_t at; (at = bytes.find(bytes_of(rows))) != std::string::npos; ++replaced) {
+    bytes.replace(at, sizeof rows, bytes_of(declared));
+  }
+  ASSERT_EQ(replaced, 2);
+  std::ofstream(path, std::ios::binary) << bytes;
+  const File file = File::open(path);
+  EXPECT_THAT(message_of<InputError>([&] { (void)file.root.open_dataset("bytes").read_all<std::uint8_t>(); }),
+              AllOf(HasSubstr("bytes"), HasSubstr("which the file does not hold")));
 }
 
 TEST_F(Hdf5, a_full_disk_is_reported) {
