@@ -4,6 +4,7 @@
 #include "src/core/hdf5/hdf5.hpp"
 
 #include <gmock/gmock.h>
+#include <zlib.h>
 
 #include <fstream>
 
@@ -195,6 +196,32 @@ TEST_F(Hdf5, refuses_compact_arrays_that_declare_more_than_they_hold) {
   const File file = File::open(path);
   EXPECT_THAT(message_of<InputError>([&] { (void)file.root.open_dataset("bytes").read_all<std::uint8_t>(); }),
               AllOf(HasSubstr("bytes"), HasSubstr("which the file does not hold")));
+}
+
+/// libhdf5 copies a chunk of the declared size, whatever the filters made of the stored one.
+TEST_F(Hdf5, refuses_chunks_that_are_not_whole) {
+  const std::filesystem::path path = folder_ / "a.h5";
+  const std::vector<double> numbers(100, 0.25);
+  const auto refusal_of = [&](const std::vector<char>& chunk, std::uint32_t skipped) {
+    File file = File::create(path, File::Compatibility::vtk);
+    const Dataset made =
+        file.root.write<double>("numbers", numbers, Slab::whole(100), {.deflate = 1, .chunk_rows = 100});
+    const hsize_t offset = 0;
+    H5Dwrite_chunk(made.id(), H5P_DEFAULT, skipped, &offset, chunk.size(), chunk.data());
+    file.close();
+    const File again = File::open(path);
+    return message_of<InputError>([&] { (void)again.root.open_dataset("numbers").read_all<double>(); });
+  };
+  const auto damaged = HasSubstr("numbers: chunk 0 is no whole chunk of 800 bytes: the file is damaged");
+  const unsigned deflate = 2;  // the second filter
+  EXPECT_THAT(refusal_of(std::vector<char>(22, 'x'), deflate), damaged);
+  EXPECT_THAT(refusal_of(std::vector<char>(22, 'x'), 0), damaged);
+  const std::vector<Bytef> short_of_one(799);
+  uLongf size = compressBound(short_of_one.size());
+  std::vector<char> chunk(size);
+  compress(reinterpret_cast<Bytef*>(chunk.data()), &size, short_of_one.data(), short_of_one.size());
+  chunk.resize(size);
+  EXPECT_THAT(refusal_of(chunk, 0), damaged);
 }
 
 TEST_F(Hdf5, a_full_disk_is_reported) {

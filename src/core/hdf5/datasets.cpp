@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <new>
+#include <span>
 #include <vector>
 
 #include "src/core/base/error.hpp"
@@ -61,6 +62,86 @@ void write_deflated(const Dataset& dataset, const Rows& rows, std::size_t chunk_
   }
 }
 
+/// No filter of this program shrinks more than deflate can (1032 : 1).
+constexpr std::uint64_t most_compressed = 1100;
+
+/// What this program's files pass their chunks through.
+struct Filters {
+  bool deflate = false, checksum = false;
+};
+
+/// @throws InputError if there are others, or these in another order
+Filters filters_of(hid_t creation, const std::string& name) {
+  Filters filters;
+  const int count = H5Pget_nfilters(creation);
+  H5Z_filter_t last = H5Z_FILTER_NONE;
+  for (int i = 0; i < count; ++i) {
+    unsigned flags = 0;
+    std::size_t values = 0;
+    const H5Z_filter_t filter =
+        H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &values, nullptr, 0, nullptr, nullptr);
+    const bool known =
+        filter == H5Z_FILTER_SHUFFLE || filter == H5Z_FILTER_DEFLATE || filter == H5Z_FILTER_FLETCHER32;
+    const bool in_order = last == H5Z_FILTER_NONE || (last == H5Z_FILTER_SHUFFLE && filter != last) ||
+                          (last == H5Z_FILTER_DEFLATE && filter == H5Z_FILTER_FLETCHER32);
+    if (!known || !in_order)
+      throw InputError(fmt::format("{}: filter {} is none that this program writes", name, filter));
+    filters.deflate = filters.deflate || filter == H5Z_FILTER_DEFLATE;
+    filters.checksum = filter == H5Z_FILTER_FLETCHER32;
+    last = filter;
+  }
+  return filters;
+}
+
+/// Returns whether deflated bytes are a chunk of this size.
+bool inflates_to(std::size_t size, std::span<const Bytef> deflated) {
+  if (size > most_compressed * deflated.size()) return false;
+  std::vector<Bytef> chunk(size);
+  uLongf inflated = size;
+  return uncompress(chunk.data(), &inflated, deflated.data(), deflated.size()) == Z_OK && inflated == size;
+}
+
+/// Refuses chunks of which not as much is stored as a chunk has: libhdf5 1.10 reads beyond the memory of one
+/// that skips a filter, or unfolds to less than the declared size.
+void require_whole_chunks(const Dataset& dataset, hid_t space) {
+  const std::string& name = dataset.name();
+  const Handle creation = checked(H5Dget_create_plist(dataset.id()), H5Pclose, name, "read the layout");
+  if (H5Pget_layout(creation.get()) != H5D_CHUNKED) return;
+  const Filters filters = filters_of(creation.get(), name);
+  const Handle type = checked(H5Dget_type(dataset.id()), H5Tclose, name, "read the type");
+  hsize_t lengths[2] = {1, 1}, chunks = 0;
+  if (H5Pget_chunk(creation.get(), 2, lengths) < 1) throw InputError(name + ": has chunks without a size");
+  const hsize_t size = lengths[0] * lengths[1] * H5Tget_size(type.get());
+  check(H5Dget_num_chunks(dataset.id(), space, &chunks), name, "count the chunks");
+  const std::uint64_t of_file = file_size(dataset);
+  constexpr hsize_t together = 32;  // chunks in memory
+  for (hsize_t first = 0; first < chunks; first += together) {
+    std::vector<std::vector<Bytef>> part(std::min(together, chunks - first));
+    std::vector<std::uint8_t> whole(part.size());
+    for (std::size_t c = 0; c < part.size(); ++c) {
+      hsize_t offset[2] = {0, 0}, stored = 0;
+      unsigned skipped = 0;
+      haddr_t address = 0;
+      check(H5Dget_chunk_info(dataset.id(), space, first + c, offset, &skipped, &address, &stored), name,
+            "find a chunk");
+      const hsize_t sum = filters.checksum ? 4 : 0;
+      if (skipped != 0 || stored < sum || stored > of_file) continue;
+      whole[c] = filters.deflate || stored - sum == size ? 1 : 0;
+      if (!filters.deflate) continue;
+      part[c].resize(stored);
+      check(H5Dread_chunk(dataset.id(), H5P_DEFAULT, offset, &skipped, part[c].data()), name, "read a chunk");
+      part[c].resize(stored - sum);
+    }
+    parallel::for_each_uneven(part.size(), [&](std::size_t c) {
+      if (filters.deflate && whole[c] != 0) whole[c] = inflates_to(size, part[c]) ? 1 : 0;
+    });
+    const auto damaged = std::ranges::find(whole, 0);
+    if (damaged == whole.end()) continue;
+    throw InputError(fmt::format("{}: chunk {} is no whole chunk of {} bytes: the file is damaged", name,
+                                 first + static_cast<hsize_t>(damaged - whole.begin()), size));
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint64_t> Dataset::shape() const {
@@ -72,10 +153,10 @@ std::vector<std::uint64_t> Dataset::shape() const {
 }
 
 Dataset::Shape Dataset::stored_shape() const {
-  // Chunks pass filters, none of which shrinks more than deflate can (1032 : 1). libhdf5 1.10 reads beyond
-  // the memory of compact arrays that are shorter than they declare.
+  // libhdf5 1.10 reads beyond the memory of compact arrays that are shorter than they declare.
   const Handle creation = checked(H5Dget_create_plist(id()), H5Pclose, name_, "read the layout");
-  const std::uint64_t greatest_compression = H5Pget_layout(creation.get()) == H5D_CHUNKED ? 1100 : 1;
+  const std::uint64_t greatest_compression =
+      H5Pget_layout(creation.get()) == H5D_CHUNKED ? most_compressed : 1;
   const std::vector<std::uint64_t> lengths = shape();
   if (lengths.size() > 2) throw InputError(fmt::format("{}: has {} dimensions", name_, lengths.size()));
   const Shape shape{lengths.empty() ? 1 : lengths[0], lengths.size() < 2 ? 1 : lengths[1]};
@@ -118,6 +199,7 @@ void Dataset::read_bytes(void* values, hid_t memory_type, std::uint64_t size, co
     check(H5Dread(id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name_, "read");
     return;
   }
+  require_whole_chunks(*this, space.get());
   const Handle memory = select(space.get(), slab, columns, dimensions == 1, name_);
   const Handle transfer = transfer_properties(collective, name_);
   check(H5Dread(id(), memory_type, memory.get(), space.get(), transfer.get(), values), name_, "read");
