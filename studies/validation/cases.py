@@ -114,10 +114,14 @@ class RunOfCase:
     """One run of a case: changes of the input, options of the analysis, expectations.
 
     headline: three grids, not two. sensitivity: shows what another choice does; counts in no summary and may change the
-    numerical parameters. input: runs that bracket what is not known of the input, for U_input.
+    numerical parameters. input: runs that bracket what is not known of the input, for U_input. decided_by: the run of the
+    same experiment with finer cells, whose line stands in the summary instead. band: its own [band]
+    in place of the case's. like: an earlier run whose changes,
+    options, cell sizes and expectations this one begins with (`begun_like`).
     """
 
-    KEYS = {"name", "title", "set", "set_at", "analyse", "quantity", "cell_size", "headline", "sensitivity", "input"}
+    KEYS = {"name", "title", "set", "set_at", "analyse", "quantity", "cell_size", "headline", "sensitivity", "input",
+            "decided_by", "like", "band"}
 
     def __init__(self, table, case, where):
         unknown = set(table) - self.KEYS
@@ -129,7 +133,8 @@ class RunOfCase:
         self.set_at = {**case.set_at, **table.get("set_at", {})}
         self.cell_size = table.get("cell_size", case.cell_size)
         self.headline, self.sensitivity = table.get("headline", False), table.get("sensitivity", False)
-        self.input = table.get("input", [])
+        self.band = Band(table["band"], where) if "band" in table else case.band
+        self.input, self.decided_by = table.get("input", []), table.get("decided_by", "")
         self.expectations = [Expectation(q, f"{where}, run {self.name}") for q in table.get("quantity", [])]
         self.expectations += case.common
 
@@ -159,19 +164,33 @@ class RunOfCase:
         return table
 
 
+def begun_like(table, earlier, where):
+    """The table of a run with what its `like` has: the changes before its own, and whatever else it does not state.
+
+    earlier: tables by name. Its name, title, place in summaries and brackets of the input are each run's own.
+    """
+    if "like" not in table:
+        return table
+    if table["like"] not in earlier:
+        raise BadExpectation(f"{where}: run {table.get('name')}: like {table['like']!r} names no earlier run: {', '.join(earlier)}")
+    other = earlier[table["like"]]
+    shared = {key: other[key] for key in ("set_at", "analyse", "quantity", "cell_size", "band") if key in other}
+    return {**shared, **table, "set": other.get("set", []) + table.get("set", [])}
+
+
 class Band:
     """[band] of a case: three positions of the lattice, the velocity of a moving frame, or why there are none."""
 
     def __init__(self, table, where):
         unknown = set(table) - {"offsets", "frame", "no_offsets", "no_frame"}
         if unknown:
-            raise BadExpectation(f"{where}: [band] with the unknown keys {sorted(unknown)}")
+            raise BadExpectation(f"{where}: band with the unknown keys {sorted(unknown)}")
         self.offsets, self.frame = table.get("offsets", []), table.get("frame")
         self.no_offsets, self.no_frame = table.get("no_offsets", ""), table.get("no_frame", "")
         if bool(self.offsets) == bool(self.no_offsets) or bool(self.frame) == bool(self.no_frame):
-            raise BadExpectation(f"{where}: [band] needs offsets or no_offsets, and frame or no_frame")
+            raise BadExpectation(f"{where}: band needs offsets or no_offsets, and frame or no_frame")
         if self.offsets and len(self.offsets) != 3:
-            raise BadExpectation(f"{where}: [band] has {len(self.offsets)} offsets, expected 3")
+            raise BadExpectation(f"{where}: band has {len(self.offsets)} offsets, expected 3")
 
 
 class Case:
@@ -194,11 +213,16 @@ class Case:
         self.overrides = table.get("overrides", {})  # numerical parameter -> reason
         self.band = Band(table["band"], str(path)) if "band" in table else None
         self.common = [Expectation(q, str(path)) for q in table.get("quantity", [])]
-        self.runs = [RunOfCase(run, self, str(path)) for run in table["run"]]
-        names = {run.name for run in self.runs}
+        tables = {}
+        for run in table["run"]:
+            if run.get("name") in tables:
+                raise BadExpectation(f"{path}: two runs are named {run['name']!r}")
+            tables[run.get("name", "")] = begun_like(run, tables, str(path))
+        self.runs = [RunOfCase(run, self, str(path)) for run in tables.values()]
         for run in self.runs:
-            if set(run.input) - names:
-                raise BadExpectation(f"{path}: run {run.name}: input names {sorted(set(run.input) - names)}, no runs")
+            for key, named in (("input", set(run.input)), ("decided_by", {run.decided_by} - {""})):
+                if named - set(tables):
+                    raise BadExpectation(f"{path}: run {run.name}: {key} names {sorted(named - set(tables))}, no runs")
 
     def run_of(self, name):
         return next(run for run in self.runs if run.name == name)

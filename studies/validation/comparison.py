@@ -115,10 +115,18 @@ def run_study(case, run, collected):
                      "values": {name: clean(value) for name, value in values.items()}, **study})
     size = measures[grids[-1]].projectile_size if grids else math.nan
     return {"name": run.name, "title": run.title, "sensitivity": run.sensitivity, "headline": run.headline, "input": run.input,
+            "decided_by": run.decided_by,
+            "no_variants": [] if run.band is case.band else reasons(run.band),
             "cells": {name: run.cell_size[name] for name in grids},
             "across": {name: round(size / run.cells(name), 1) for name in grids} if math.isfinite(size) else {},
             "inputs": provenance.inputs_of(run), "quantities": rows,
             "records": {name: {key: record[key] for key in RECORDED_KEYS} for name, record in records.items()}}
+
+
+def reasons(band):
+    """Sentences that say which variants of the normal grid there are not, and why."""
+    return [f"No {what}: {why}." for what, why in (("positions of the lattice", band.no_offsets),
+                                                   ("moving frame", band.no_frame)) if why]
 
 
 def case_study(case, runs):
@@ -126,8 +134,7 @@ def case_study(case, runs):
     collected = {run.name: collect(case, run) for run in case.runs}
     studies = [run_study(case, run, collected) for run in runs]
     return {"title": case.title, "expected": provenance.digest_of_file(case.path), "overrides": case.overrides,
-            "no_offsets": case.band.no_offsets if case.band else "not declared",
-            "no_frame": case.band.no_frame if case.band else "not declared",
+            "no_variants": reasons(case.band) if case.band else ["No positions of the lattice or moving frame are declared."],
             "runs": [study for study in studies if study]}
 
 

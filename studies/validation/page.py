@@ -61,7 +61,7 @@ def summary(results):
         for case in results["cases"].values():
             for run in case["runs"]:
                 marks = [q["mark"] for q in run["quantities"] if q["class"] == origin]
-                if run["sensitivity"] or not marks:
+                if run["sensitivity"] or run["decided_by"] or not marks:
                     continue
                 totals.append(verdict(marks))
                 grid = list(run["cells"].values())[-1]
@@ -73,7 +73,7 @@ def summary(results):
                       "| what | finest cells | quantities that agree | differ | not converged | all together |",
                       "| --- | --- | --- | --- | --- | --- |", *rows, ""]
     runs = [run for case in results["cases"].values() for run in case["runs"]]
-    studies = [q for run in runs if not run["sensitivity"] for q in physics(run)]
+    studies = [q for run in runs if not run["sensitivity"] and not run["decided_by"] for q in physics(run)]
     converged = sum(q["grid"] in bands.CONVERGED for q in studies)
     three = sum(all(q["values"].get(name) is not None for name in ("coarse", "normal", "fine")) for q in studies)
     identities = [q["mark"] for run in runs for q in run["quantities"] if q["class"] == "identity"]
@@ -144,12 +144,15 @@ def section(name, case, source, stale):
     if case["overrides"]:
         lines += ["Departs from the one set of numerical parameters: "
                   + "; ".join(f"`{key}` ({reason})" for key, reason in case["overrides"].items()) + ".", ""]
-    for what, key in (("positions of the lattice", "no_offsets"), ("moving frame", "no_frame")):
-        if case[key]:
-            lines += [f"No {what}: {case[key]}.", ""]
+    for reason in case["no_variants"]:
+        lines += [reason, ""]
     for run in case["runs"]:
         if run["title"] or len(case["runs"]) > 1:
             lines += [f"**{run['title'] or run['name']}**" + (" (sensitivity)" if run["sensitivity"] else ""), ""]
+        for reason in run["no_variants"]:
+            lines += [reason, ""]
+        if run["decided_by"]:
+            lines += [f"The same experiment with finer cells decides: {run['decided_by']}.", ""]
         if run["name"] in stale:
             lines += ["**Not current: the case or a material has changed since.**", ""]
         lines += [f"    scripts/results.py {name}:{run['name']} --band --run", "", *table(run), "", *notes(run), "",

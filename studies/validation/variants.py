@@ -72,9 +72,9 @@ def frame_assignments(table, velocity, where):
 def variants_of(run, band):
     """All computations of a run: its grids; with `band`, of a headline, also lattice positions and the moving frame."""
     found = [Variant(resolution, resolution) for resolution in run.grids()]
-    if not (band and run.headline and run.case.band and "normal" in run.cell_size):
+    if not (band and run.headline and run.band and "normal" in run.cell_size):
         return found
-    declared, cell = run.case.band, run.cells("normal")
+    declared, cell = run.band, run.cells("normal")
     for i, assignments in enumerate(declared.offsets):
         found.append(Variant(f"offset_{i + 1}", "normal", [placed(a, cell) for a in assignments]))
     if declared.frame:

@@ -153,6 +153,43 @@ def assignments_are_those_of_the_program():
                       "contact": {"gap_test": False}}, str(table))
 
 
+def runs_begin_like_others(case):
+    """What a run takes from another, and what stays its own; who decides an experiment."""
+    own = """
+[[run]]
+name = "longer"
+title = "longer"
+like = "only"
+decided_by = "only"
+set = ["time.end=40 us"]
+[[run]]
+name = "longest"
+like = "longer"
+set = ["time.end=80 us"]
+band = { no_offsets = "made up", no_frame = "made up" }
+headline = true
+cell_size = { coarse = "4 mm", normal = "2 mm" }
+"""
+    path = case.path.parent / "like.toml"
+    path.write_text(EXPECTED + own)
+    longest = Case(path).run_of("longest")
+    require(longest.set == ["time.end=40 us", "time.end=80 us"] and longest.resolved()["time"]["end"] == "80 us", str(longest.set))
+    require([q.name for q in longest.expectations] == [q.name for q in case.runs[0].expectations], "expectations")
+    require(longest.grids() == ["coarse", "normal"] and not longest.decided_by, "its own cells and place")
+    require(len(variants.variants_of(longest, band=True)) == 2 and comparison.reasons(longest.band)[0].endswith("made up."),
+            "its own band")
+    for text, reason in ((own.replace('like = "only"', 'like = "longest"'), "longest"),
+                         (own.replace('decided_by = "only"', 'decided_by = "nobody"'), "nobody"),
+                         (own.replace('name = "longest"', 'name = "longer"'), "two runs are named 'longer'")):
+        path.write_text(EXPECTED + text)
+        try:
+            Case(path)
+        except BadExpectation as error:
+            require(reason in str(error), f"{reason!r} is not in {error}")
+        else:
+            require(False, f"passed: {text}")
+
+
 def variants_are_complete(case):
     run = case.runs[0]
     found = {v.name: v for v in variants.variants_of(run, band=True)}
@@ -215,13 +252,18 @@ def a_run_is_compared(case, work):
     require(0.0 < depth["u_lattice"] < 0.02 and depth["u_num"] > depth["u_grid"], str(depth))
     require(speed["values"]["frame"] is None, "the greatest speed depends on the frame")
     require(study["across"] == {"coarse": 2.0, "normal": 4.0, "fine": 8.0}, str(study["across"]))
-    results = {"cases": {"made_up": {"title": case.title, "expected": "", "overrides": {}, "no_offsets": "", "no_frame": "",
+    results = {"cases": {"made_up": {"title": case.title, "expected": "", "overrides": {}, "no_variants": [],
                                      "runs": [study]}}}
     text = page.body(results, "-", {("made_up", "only")})
     for words in ("| quantity | 2 mm | 1 mm | 0.5 mm | order | limit |", "**differs**", "Not current",
                   "scripts/results.py made_up:only --band --run", "**Experiments**, one line each: 1, of which 1 differs", "0 of 1 hold",
                   "of 5 quantities 4 have three grids; 4 are converged"):
         require(words in text, f"{words!r} is not in the page:\n{text}")
+    study["decided_by"] = "finer"
+    text = page.body(results, "-", set())
+    require("Experiments" not in text and "finer cells decides: finer" in text, "another run stands for the experiment")
+    study["decided_by"] = ""
+    text = page.body(results, "-", set())
     require(text.count("a reason") == 2, "the cause is given where there is no agreement")
     found = comparison.sensitivities(results)
     require(found["fastest particle"][0]["cells"] == [4.0, 8.0], str(found))
@@ -237,6 +279,7 @@ with contextlib.ExitStack() as stack:
     work = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory()))
     made_up = made_up_case(work)
     variants_are_complete(made_up)
+    runs_begin_like_others(made_up)
     snapshots_go_back_to_rest(work)
     a_run_is_compared(made_up, work)
 print("expectations: all checks passed")
