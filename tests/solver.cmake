@@ -36,6 +36,7 @@ whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_case_test.cpp
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
 add_executable(test_solver_ranks parallel/solver_ranks.cpp parallel/solver_wall_ranks.cpp parallel/solver_element_ranks.cpp)
 target_link_libraries(test_solver_ranks PRIVATE whipple_flags whipple_run whipple_analysis GTest::gtest)
+target_compile_definitions(test_solver_ranks PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 foreach(ranks 1 2 4 8)
   if(ranks EQUAL 1 OR ranks GREATER 4)  # one rank agrees with itself
     set(label long)

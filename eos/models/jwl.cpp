@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "eos/constant_heat_capacity_batch.hpp"
 #include "eos/detonation.hpp"
 #include "src/core/base/log.hpp"
 

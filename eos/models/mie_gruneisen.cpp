@@ -2,6 +2,7 @@
 // Equation numbers: docs/theory/equations_of_state.md.
 #include "eos/models/mie_gruneisen.hpp"
 
+#include "eos/constant_heat_capacity_batch.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::eos {

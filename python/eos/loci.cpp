@@ -121,13 +121,18 @@ Releases release(const Material& material, const States& start, const Numbers& p
 /// Two states at each point, such as solidus and liquidus.
 using Pair = std::pair<States, States>;
 
-Pair melting(const Material& material, const Numbers& pressure, bool skip_invalid) {
-  const Points points = broadcast({pressure});
-  Pair result{make<States>(material.eos, points, 0), make<States>(material.eos, points, 0)};
-  const auto refuse = [&](std::size_t i) {
+/// Return what marks point i as refused in both.
+auto refusal(Pair& result) {
+  return [&](std::size_t i) {
     refusal(result.first)(i);
     refusal(result.second)(i);
   };
+}
+
+Pair melting(const Material& material, const Numbers& pressure, bool skip_invalid) {
+  const Points points = broadcast({pressure});
+  Pair result{make<States>(material.eos, points, 0), make<States>(material.eos, points, 0)};
+  const auto refuse = refusal(result);
   for_each_point(points,
                  [&](std::size_t i, const std::vector<double>& inputs) {
                    const auto point = eos::melting_point(*material.eos, inputs[0]);
@@ -150,10 +155,7 @@ Pair vaporisation(const Material& material, const OptionalNumbers& temperature, 
   }
   const Points points = broadcast({temperature, pressure});
   Pair result{make<States>(material.eos, points, 0), make<States>(material.eos, points, 0)};
-  const auto refuse = [&](std::size_t i) {
-    refusal(result.first)(i);
-    refusal(result.second)(i);
-  };
+  const auto refuse = refusal(result);
   for_each_point(points,
                  [&](std::size_t i, const std::vector<double>& inputs) {
                    const auto s = temperature ? dome->at_temperature(inputs[0]) : dome->at_pressure(inputs[0]);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "src/case/case.hpp"
+#include "src/transfer/shape_function.hpp"
 
 namespace whipple::cases {
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "src/case/case.hpp"
+#include "src/transfer/shape_function.hpp"
 
 namespace whipple::cases {
 

@@ -6,7 +6,7 @@
 
 #include "src/case/section.hpp"
 #include "src/case/time_control.hpp"
-#include "src/transfer/shape_function.hpp"
+#include "src/transfer/shape_kind.hpp"
 
 namespace whipple::cases {
 

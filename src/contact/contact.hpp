@@ -10,7 +10,7 @@
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
 #include "src/transfer/first_touches.hpp"
-#include "src/transfer/shape_function.hpp"
+#include "src/transfer/shape_kind.hpp"
 
 /// Contact of bodies with velocity fields of their own (docs/theory/contact.md).
 namespace whipple::contact {

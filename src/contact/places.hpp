@@ -9,46 +9,17 @@
 #include <span>
 #include <vector>
 
+#include "src/contact/place.hpp"
 #include "src/contact/surface_points.hpp"
 #include "src/core/base/simd.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/particles/particles.hpp"
-#include "src/transfer/shape_function.hpp"
+#include "src/transfer/shape_weights.hpp"
+#include "src/transfer/shapes.hpp"
 
 /// The nodes of contact slots that points reach, mirror planes included.
 namespace whipple::contact {
-
-/// Number of the pair (a, b), a < b, of `fields` fields.
-constexpr std::size_t pair_index(std::size_t a, std::size_t b, std::size_t fields) {
-  return a * (2 * fields - a - 1) / 2 + (b - a - 1);
-}
-
-/// A node of a contact slot as a particle, or its image beyond a mirror plane, sees it.
-struct Place {
-  std::size_t contact_slot;
-  std::size_t fields;  ///< of the slot
-  std::size_t field;   ///< of the particle, counted among those of the slot
-  std::size_t node;    ///< in its block
-  double weight;       ///< N
-  Vector3 gradient;    ///< of N
-  Vector3 distance;    ///< position of the particle, or its image, minus that of the node
-  Vector3 off_plane;   ///< 0 along the normals of the mirror planes that the node is on
-  Vector3 sign;        ///< of the components under the reflections that lead to the image
-
-  /// Calls f(pair, is the particle of its first field?) for the pairs that the particle's field is part of.
-  template <class Function>
-  void for_each_pair(Function&& f) const {
-    for (std::size_t other = 0; other < fields; ++other) {
-      if (other < field) f(pair_index(other, field, fields), false);
-      if (other > field) f(pair_index(field, other, fields), true);
-    }
-  }
-  [[nodiscard]] std::size_t in(const grid::ContactValues& values, std::size_t array,
-                               std::size_t lanes = 1) const {
-    return values.begin[contact_slot] + lanes * (array * grid::nodes_per_block + node);
-  }
-};
 
 /// Nodes of each contact slot that matter: a bit each.
 using NodesThatMatter = std::vector<std::uint64_t>;

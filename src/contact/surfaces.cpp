@@ -9,6 +9,7 @@
 #include "src/contact/parting.hpp"
 #include "src/contact/places.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/transfer/shape_function.hpp"
 
 namespace whipple::contact {
 namespace {

@@ -10,7 +10,7 @@
 #include "src/contact/surface_points.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
-#include "src/transfer/shape_function.hpp"
+#include "src/transfer/shape_kind.hpp"
 
 namespace whipple::contact {
 

@@ -112,6 +112,11 @@ std::vector<Vector3> MeshFile::own_nodes(const MeshData::Group& group, std::vect
   return own;
 }
 
+std::string MeshFile::located(std::uint32_t element, const std::string& group) const {
+  return fmt::format("{}:{}: error: element {} of group \"{}\"", data_.path.string(), data_.elements[element].line,
+                     data_.elements[element].tag, group);
+}
+
 Hexahedra MeshFile::hexahedra(const std::string& name) const {
   const MeshData::Group& group = find(name, 3, hexahedron_kind);
   std::vector<std::uint32_t> number;
@@ -123,17 +128,13 @@ Hexahedra MeshFile::hexahedra(const std::string& name) const {
                            [&](std::uint32_t node) { return number[node]; });
   }
   if (const auto fault = first_fault(result)) {
-    const MeshData::Element& element = data_.elements[group.elements[fault->element]];
-    throw InputError(fmt::format("{}:{}: error: element {} of group \"{}\" is {}", data_.path.string(),
-                                 element.line, element.tag, name, fault->reason));
+    throw InputError(fmt::format("{} is {}", located(group.elements[fault->element], name), fault->reason));
   }
   const auto require_apart = [&](const Hexahedra& mesh) {
     const auto found = first_overlap(mesh);
     if (!found) return;
-    const MeshData::Element& element = data_.elements[group.elements[found->element]];
     const MeshData::Element& other = data_.elements[group.elements[found->other]];
-    throw InputError(fmt::format("{}:{}: error: element {} of group \"{}\" {} element {} (line {})",
-                                 data_.path.string(), element.line, element.tag, name,
+    throw InputError(fmt::format("{} {} element {} (line {})", located(group.elements[found->element], name),
                                  found->same ? "is the same as" : "is on the same side of a face as",
                                  other.tag, other.line));
   };
@@ -154,8 +155,7 @@ Lines MeshFile::lines(const std::string& name) const {
   for (const std::uint32_t e : group.elements) {
     const auto& nodes = data_.elements[e].nodes;
     if (nodes[0] == nodes[1]) {
-      throw InputError(fmt::format("{}:{}: error: element {} of group \"{}\" has one node twice",
-                                   data_.path.string(), data_.elements[e].line, data_.elements[e].tag, name));
+      throw InputError(fmt::format("{} has one node twice", located(e, name)));
     }
     result.elements.push_back({number[nodes[0]], number[nodes[1]]});
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "src/transfer/grid_to_particles.hpp"
+#include "src/transfer/shape_function.hpp"
 
 namespace whipple::solver {
 

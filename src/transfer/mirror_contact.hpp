@@ -10,7 +10,7 @@
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
 #include "src/transfer/first_touches.hpp"
-#include "src/transfer/shape_function.hpp"
+#include "src/transfer/shape_kind.hpp"
 
 namespace whipple::transfer {
 

@@ -7,6 +7,8 @@
 
 #include "src/core/base/vector_math.hpp"
 #include "src/transfer/mirror_contact.hpp"
+#include "src/transfer/shape_function.hpp"
+#include "src/transfer/shape_weights.hpp"
 
 namespace whipple::transfer {
 namespace {

@@ -4,6 +4,7 @@
 #include "src/core/base/prefetch.hpp"
 #include "src/core/parallel/threads.hpp"
 #include "src/transfer/kernels.hpp"
+#include "src/transfer/shape_function.hpp"
 #include "src/transfer/stress_columns.hpp"
 #include "src/transfer/transition_nodes.hpp"
 

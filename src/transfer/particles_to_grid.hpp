@@ -6,7 +6,7 @@
 
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
-#include "src/transfer/shape_function.hpp"
+#include "src/transfer/shape_kind.hpp"
 
 namespace whipple::transfer {
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "src/transfer/shape_function.hpp"
 #include "src/transfer/shock_conduction.hpp"
 
 #include <algorithm>

@@ -223,29 +223,10 @@ TEST_F(SolverRanks, AgreeWithOneRankInAxisymmetry) {
   if (is_root()) expect_equal(resumed, alone, 1e-11);
 }
 
-// Fields that only other ranks see at a shared block, nodes that several ranks have in contact, mirror planes
-// through the contact, three bodies.
 // Deformation gradients, a history field of a constitutive model, follow their particles from rank to rank: the block
 // crosses their borders while it rebounds.
 TEST_F(SolverRanks, DeformationGradientsMoveWithTheirParticles) {
   ranks_.on_root([&] {
-    std::ofstream(folder_ / "rubber.toml") << R"toml(
-name = "rubber"
-source = "test"
-[eos]
-model = "mie_gruneisen"
-source = "test"
-reference_density = "1 g/cm^3"
-hugoniot_intercept = "0.1 km/s"
-hugoniot_slope = 1.5
-gruneisen = 0.001
-heat_capacity = "1500 J/(kg K)"
-reference_temperature = "300 K"
-[constitutive]
-model = "neo_hookean"
-source = "test"
-shear_modulus = "2 MPa"
-)toml";
     std::ofstream(folder_ / "bounce.toml") << R"(
 [domain]
 lower = ["0 mm", "-4 mm", "-4 mm"]
@@ -256,7 +237,7 @@ boundary = { x_lower = "separating" }
 end = "400 us"
 [[body]]
 name = "block"
-material = "rubber.toml"
+)" << "material = \"" WHIPPLE_SOURCE_DIR "/tests/data/rubber.toml\"\n" << R"(
 velocity = ["-25 m/s", "0 m/s", "0 m/s"]
 shape = { box = { lower = ["5 mm", "0 mm", "0 mm"], upper = ["15 mm", "4 mm", "4 mm"] } }
 )";
@@ -290,6 +271,8 @@ shape = { box = { lower = ["5 mm", "0 mm", "0 mm"], upper = ["15 mm", "4 mm", "4
   }
 }
 
+// Fields that only other ranks see at a shared block, nodes that several ranks have in contact, mirror planes
+// through the contact, three bodies.
 TEST_F(SolverRanks, AgreeWithOneRankInContact) {
   for (const auto& [method, normal] :
        {std::pair("\"auto\"", "\"separating\""), std::pair("\"auto\"", "\"collinear\""),

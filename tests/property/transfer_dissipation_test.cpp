@@ -9,6 +9,7 @@
 
 #include "src/core/parallel/mpi.hpp"
 #include "src/transfer/losses.hpp"
+#include "src/transfer/shape_function.hpp"
 #include "src/transfer/shock_conduction.hpp"
 #include "tests/property/transfer_support.hpp"
 

@@ -9,6 +9,7 @@
 #include "src/afemp/conversion.hpp"
 #include "src/afemp/transition.hpp"
 #include "src/fem/hexahedron.hpp"
+#include "src/transfer/shape_function.hpp"
 #include "tests/verification/solver_orders.hpp"
 
 /// Orders of convergence of finite elements, and of elements of which a half become particles.

@@ -133,32 +133,14 @@ TEST(Sphere, RotationKeepsAngularMomentumAndStaysCold) {
 
 /// A block of neo-Hookean rubber, 6 x 4 x 4 mm, that flies against a separating wall at 5 m/s.
 cases::Case rubber_block() {
-  const std::string rubber = write_material("rubber", R"toml(
-name = "rubber"
-source = "test"
-[eos]
-model = "mie_gruneisen"
-source = "test"
-reference_density = "1 g/cm^3"
-hugoniot_intercept = "0.1 km/s"
-hugoniot_slope = 1.5
-gruneisen = 0.001
-heat_capacity = "1500 J/(kg K)"
-reference_temperature = "300 K"
-[constitutive]
-model = "neo_hookean"
-source = "test"
-shear_modulus = "2 MPa"
-)toml");
   Method method;
   method.linear_viscosity = method.quadratic_viscosity = 0;
   return cases::read_case_text(
       method.time_toml(4e-4) + method.toml() +
           "[domain]\nlower = [0, -0.004, -0.004]\nupper = [0.012, 0.008, 0.008]\ncell_size = 0.001\n"
           "boundary = { x_lower = \"separating\" }\n"
-          "[[body]]\nname = \"block\"\nmaterial = \"" +
-          rubber +
-          "\"\nvelocity = [-5, 0, 0]\n"
+          "[[body]]\nname = \"block\"\nmaterial = \"" WHIPPLE_SOURCE_DIR
+          "/tests/data/rubber.toml\"\nvelocity = [-5, 0, 0]\n"
           "shape = { box = { lower = [0.0012, 0, 0], upper = [0.0072, 0.004, 0.004] } }\n",
       "rubber.toml");
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "src/solver/stages/contact.hpp"
+#include "src/transfer/shape_function.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -9,6 +9,7 @@
 #include "src/core/parallel/threads.hpp"
 #include "src/particles/migrate.hpp"
 #include "src/solver/work.hpp"
+#include "src/transfer/shape_function.hpp"
 
 namespace whipple::solver {
 namespace {

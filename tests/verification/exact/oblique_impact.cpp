@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "src/transfer/shape_function.hpp"
 #include "tests/verification/exact/oblique_impact.hpp"
 
 #include <fmt/format.h>
