@@ -27,21 +27,21 @@ if(WHIPPLE_PYTHON)
   add_test(NAME app_monitor_browser COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_monitor_browser.py
            $<TARGET_FILE:whipple> ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/app_monitor_browser)
   set_tests_properties(app_monitor PROPERTIES LABELS fast TIMEOUT 300)
-  set_tests_properties(app_monitor_browser PROPERTIES LABELS browser TIMEOUT 300 SKIP_RETURN_CODE 77)
+  set_tests_properties(app_monitor_browser PROPERTIES LABELS browser TIMEOUT 300 COST 80 SKIP_RETURN_CODE 77)
 endif()
 
 # The library as another program finds it; the libraries of a build with sanitizers need their flags.
 if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
   add_test(NAME installed_library COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/installed/library.py
            ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}/examples/plate_impact ${CMAKE_CXX_COMPILER} ${CMAKE_C_COMPILER})
-  set_tests_properties(installed_library PROPERTIES LABELS fast TIMEOUT 300)
+  set_tests_properties(installed_library PROPERTIES LABELS fast TIMEOUT 300 COST 20)
 endif()
 
 # Coarse runs against stored numbers, half a minute of one core. Sanitizers would make it minutes.
 if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
   add_test(NAME drift COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/drift.py --threads 2
            --whipple $<TARGET_FILE:whipple> --work ${CMAKE_CURRENT_BINARY_DIR}/drift)
-  set_tests_properties(drift PROPERTIES LABELS drift PROCESSORS 2 TIMEOUT 300)
+  set_tests_properties(drift PROPERTIES LABELS drift PROCESSORS 2 TIMEOUT 300 COST 20)
 endif()
 
 # How to cite: the title of CITATION.cff, and the sources of every table of a material.

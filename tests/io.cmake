@@ -37,7 +37,7 @@ if(WHIPPLE_PYTHON)
   set_tests_properties(report PROPERTIES LABELS fast TIMEOUT 120)
   add_test(NAME io_report COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/report/tests/synthetic_cloud.py
            ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_1 $<TARGET_FILE:whipple>)
-  set_tests_properties(io_report PROPERTIES LABELS fast TIMEOUT 300 FIXTURES_REQUIRED synthetic_cloud_1)
+  set_tests_properties(io_report PROPERTIES LABELS fast TIMEOUT 300 COST 40 FIXTURES_REQUIRED synthetic_cloud_1)
 endif()
 
 # What ParaView makes of the series; where it is installed (scripts/install_deps.sh --paraview).

@@ -12,6 +12,7 @@
 #include "src/core/base/vector_math.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/transfer/grid_to_particles.hpp"
+#include "src/transfer/shape_weights.hpp"
 
 /// The loops over points and their nodes, kernels/, compiled for two sets of registers: `narrow` for AVX2,
 /// whose register holds half a node, and `wide` for AVX-512, whose register holds a node when points bring
@@ -189,7 +190,6 @@ WHIPPLE_INLINE inline void store_node(grid::Node& node, Both value) {
 }
 
 #include "src/transfer/kernels/all.inl"
-#include "src/transfer/shape_kind.hpp"
 
 }  // namespace wide
 #if WHIPPLE_OTHER_TARGET

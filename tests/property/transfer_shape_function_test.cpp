@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "src/transfer/grid_to_particles.hpp"
+#include "src/transfer/shape_function.hpp"
+#include "src/transfer/shape_weights.hpp"
 
 namespace whipple::transfer {
 namespace shape_function_test {

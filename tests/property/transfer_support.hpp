@@ -11,7 +11,7 @@
 
 #include "src/grid/block_grid.hpp"
 #include "src/particles/particles.hpp"
-#include "src/transfer/shape_kind.hpp"
+#include "src/transfer/shape_function.hpp"
 
 /// Random particles and a grid for them.
 namespace whipple::transfer {
