@@ -58,7 +58,42 @@ TEST_F(Hdf5, writes_slabs_that_need_more_than_one_chunk) {
   File file = File::create(path, File::Compatibility::vtk);
   file.root.write<std::uint64_t>("squares", numbers, Slab::whole(1000), {.deflate = 4, .chunk_rows = 128});
   file.close();
-  EXPECT_EQ(File::open(path).root.open_dataset("squares").read_all<std::uint64_t>(), numbers);
+  const File again = File::open(path);
+  EXPECT_EQ(again.root.open_dataset("squares").read_all<std::uint64_t>(), numbers);
+  // Rows that begin and end within chunks.
+  std::vector<std::uint64_t> part(500);
+  again.root.open_dataset("squares").read_rows<std::uint64_t>(part, {200, 500, 1000}, 1);
+  EXPECT_TRUE(std::equal(part.begin(), part.end(), numbers.begin() + 200));
+}
+
+/// Deflated by libhdf5 itself, without shuffle, in chunks of some of the columns, of another byte order.
+TEST_F(Hdf5, reads_chunks_of_any_shape) {
+  const std::filesystem::path path = folder_ / "a.h5";
+  std::vector<float> numbers(50 * 3);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = 0.5F * static_cast<float>(i);
+  const hsize_t lengths[2] = {50, 3};
+  const auto written = [&](hsize_t rows, hsize_t columns, bool shuffle, hid_t type) {
+    const hsize_t chunk[2] = {rows, columns};
+    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t space = H5Screate_simple(2, lengths, nullptr), creation = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_chunk(creation, 2, chunk);
+    if (shuffle) H5Pset_shuffle(creation);
+    H5Pset_deflate(creation, 3);
+    const hid_t array = H5Dcreate2(file, "numbers", type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+    H5Dwrite(array, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+    H5Dclose(array);
+    H5Pclose(creation);
+    H5Sclose(space);
+    H5Fclose(file);
+    std::vector<float> found(numbers.size());
+    File::open(path).root.open_dataset("numbers").read_rows<float>(found, Slab::whole(50), 3);
+    return found;
+  };
+  EXPECT_EQ(written(16, 3, true, H5T_NATIVE_FLOAT), numbers);
+  EXPECT_EQ(written(16, 3, false, H5T_NATIVE_FLOAT), numbers);
+  EXPECT_EQ(written(50, 3, true, H5T_NATIVE_FLOAT), numbers);
+  EXPECT_EQ(written(16, 2, true, H5T_NATIVE_FLOAT), numbers);
+  EXPECT_EQ(written(7, 3, true, H5T_IEEE_F32BE), numbers);
 }
 
 TEST_F(Hdf5, tells_the_type_of_stored_numbers) {

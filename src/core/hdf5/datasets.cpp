@@ -1,149 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arrays: their shapes, reading, and writing with compression on all threads.
+// Arrays: their shapes, reading and writing.
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <new>
-#include <span>
 #include <vector>
 
 #include "src/core/base/error.hpp"
 #include "src/core/hdf5/calls.hpp"
-#include "src/core/parallel/threads.hpp"
+#include "src/core/hdf5/chunks.hpp"
 
 namespace whipple::hdf5 {
-namespace {
-
-/// Numbers as they lie in memory.
-struct Rows {
-  const std::byte* bytes;
-  std::size_t width;    ///< of a number
-  std::size_t columns;  ///< of numbers
-  std::size_t count;
-};
-
-/// A chunk as HDF5's filters leave it: the first bytes of all numbers, then the second ones and so on,
-/// deflated. Chunks are stored as a whole: 0 is what lies beyond the last row.
-/// @returns nothing if zlib refuses
-std::vector<Bytef> deflated(const Rows& rows, std::size_t first, std::size_t chunk_rows, int level) {
-  const std::size_t numbers = chunk_rows * rows.columns;
-  const std::size_t present = std::min(chunk_rows, rows.count - first) * rows.columns;
-  std::vector<Bytef> shuffled(numbers * rows.width);
-  const std::byte* from = rows.bytes + first * rows.columns * rows.width;
-  for (std::size_t b = 0; b < rows.width; ++b) {
-    for (std::size_t i = 0; i < present; ++i) {
-      shuffled[b * numbers + i] = static_cast<Bytef>(from[i * rows.width + b]);
-    }
-  }
-  uLongf size = compressBound(shuffled.size());
-  std::vector<Bytef> chunk(size);
-  if (compress2(chunk.data(), &size, shuffled.data(), shuffled.size(), level) != Z_OK) return {};
-  chunk.resize(size);
-  return chunk;
-}
-
-/// Writes an array in chunks with shuffle and deflate on all threads, as H5Dwrite does on one.
-void write_deflated(const Dataset& dataset, const Rows& rows, std::size_t chunk_rows, int level) {
-  constexpr std::size_t together = 32;  // chunks in memory
-  const std::size_t chunks = (rows.count + chunk_rows - 1) / chunk_rows;
-  for (std::size_t first = 0; first < chunks; first += together) {
-    std::vector<std::vector<Bytef>> part(std::min(together, chunks - first));
-    parallel::for_each_uneven(part.size(), [&](std::size_t c) {
-      part[c] = deflated(rows, (first + c) * chunk_rows, chunk_rows, level);
-    });
-    for (std::size_t c = 0; c < part.size(); ++c) {
-      const hsize_t offset[2] = {(first + c) * chunk_rows, 0};
-      if (part[c].empty()) throw std::bad_alloc();  // zlib knows no other reason
-      check(H5Dwrite_chunk(dataset.id(), H5P_DEFAULT, 0, offset, part[c].size(), part[c].data()),
-            dataset.name(), "write");
-    }
-  }
-}
-
-/// No filter of this program shrinks more than deflate can (1032 : 1).
-constexpr std::uint64_t most_compressed = 1100;
-
-/// What this program's files pass their chunks through.
-struct Filters {
-  bool deflate = false, checksum = false;
-};
-
-/// @throws InputError if there are others, or these in another order
-Filters filters_of(hid_t creation, const std::string& name) {
-  Filters filters;
-  const int count = H5Pget_nfilters(creation);
-  H5Z_filter_t last = H5Z_FILTER_NONE;
-  for (int i = 0; i < count; ++i) {
-    unsigned flags = 0;
-    std::size_t values = 0;
-    const H5Z_filter_t filter =
-        H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &values, nullptr, 0, nullptr, nullptr);
-    const bool known =
-        filter == H5Z_FILTER_SHUFFLE || filter == H5Z_FILTER_DEFLATE || filter == H5Z_FILTER_FLETCHER32;
-    const bool in_order = last == H5Z_FILTER_NONE || (last == H5Z_FILTER_SHUFFLE && filter != last) ||
-                          (last == H5Z_FILTER_DEFLATE && filter == H5Z_FILTER_FLETCHER32);
-    if (!known || !in_order)
-      throw InputError(fmt::format("{}: filter {} is none that this program writes", name, filter));
-    filters.deflate = filters.deflate || filter == H5Z_FILTER_DEFLATE;
-    filters.checksum = filter == H5Z_FILTER_FLETCHER32;
-    last = filter;
-  }
-  return filters;
-}
-
-/// Returns whether deflated bytes are a chunk of this size.
-bool inflates_to(std::size_t size, std::span<const Bytef> deflated) {
-  if (size > most_compressed * deflated.size()) return false;
-  std::vector<Bytef> chunk(size);
-  uLongf inflated = size;
-  return uncompress(chunk.data(), &inflated, deflated.data(), deflated.size()) == Z_OK && inflated == size;
-}
-
-/// Refuses chunks of which not as much is stored as a chunk has: libhdf5 1.10 reads beyond the memory of one
-/// that skips a filter, or unfolds to less than the declared size.
-void require_whole_chunks(const Dataset& dataset, hid_t space) {
-  const std::string& name = dataset.name();
-  const Handle creation = checked(H5Dget_create_plist(dataset.id()), H5Pclose, name, "read the layout");
-  if (H5Pget_layout(creation.get()) != H5D_CHUNKED) return;
-  const Filters filters = filters_of(creation.get(), name);
-  const Handle type = checked(H5Dget_type(dataset.id()), H5Tclose, name, "read the type");
-  hsize_t lengths[2] = {1, 1}, chunks = 0;
-  if (H5Pget_chunk(creation.get(), 2, lengths) < 1) throw InputError(name + ": has chunks without a size");
-  const hsize_t size = lengths[0] * lengths[1] * H5Tget_size(type.get());
-  check(H5Dget_num_chunks(dataset.id(), space, &chunks), name, "count the chunks");
-  const std::uint64_t of_file = file_size(dataset);
-  constexpr hsize_t together = 32;  // chunks in memory
-  for (hsize_t first = 0; first < chunks; first += together) {
-    std::vector<std::vector<Bytef>> part(std::min(together, chunks - first));
-    std::vector<std::uint8_t> whole(part.size());
-    for (std::size_t c = 0; c < part.size(); ++c) {
-      hsize_t offset[2] = {0, 0}, stored = 0;
-      unsigned skipped = 0;
-      haddr_t address = 0;
-      check(H5Dget_chunk_info(dataset.id(), space, first + c, offset, &skipped, &address, &stored), name,
-            "find a chunk");
-      const hsize_t sum = filters.checksum ? 4 : 0;
-      if (skipped != 0 || stored < sum || stored > of_file) continue;
-      whole[c] = filters.deflate || stored - sum == size ? 1 : 0;
-      if (!filters.deflate) continue;
-      part[c].resize(stored);
-      check(H5Dread_chunk(dataset.id(), H5P_DEFAULT, offset, &skipped, part[c].data()), name, "read a chunk");
-      part[c].resize(stored - sum);
-    }
-    parallel::for_each_uneven(part.size(), [&](std::size_t c) {
-      if (filters.deflate && whole[c] != 0) whole[c] = inflates_to(size, part[c]) ? 1 : 0;
-    });
-    const auto damaged = std::ranges::find(whole, 0);
-    if (damaged == whole.end()) continue;
-    throw InputError(fmt::format("{}: chunk {} is no whole chunk of {} bytes: the file is damaged", name,
-                                 first + static_cast<hsize_t>(damaged - whole.begin()), size));
-  }
-}
-
-}  // namespace
-
 std::vector<std::uint64_t> Dataset::shape() const {
   const Handle space = checked(H5Dget_space(id()), H5Sclose, name_, "read the shape");
   const int dimensions = H5Sget_simple_extent_ndims(space.get());
@@ -199,7 +66,12 @@ void Dataset::read_bytes(void* values, hid_t memory_type, std::uint64_t size, co
     check(H5Dread(id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name_, "read");
     return;
   }
-  require_whole_chunks(*this, space.get());
+  const Chunks chunks(*this, space.get());
+  if (!collective && chunks.are_deflated(memory_type)) {
+    chunks.read(static_cast<std::byte*>(values), slab);
+    return;
+  }
+  chunks.require_whole();
   const Handle memory = select(space.get(), slab, columns, dimensions == 1, name_);
   const Handle transfer = transfer_properties(collective, name_);
   check(H5Dread(id(), memory_type, memory.get(), space.get(), transfer.get(), values), name_, "read");
