@@ -17,6 +17,7 @@
 #include "md_fitting/lammps/zhou_2004.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/hash.hpp"
+#include "src/core/base/temporary_folder.hpp"
 #include "src/core/base/text.hpp"
 
 namespace whipple::md {
@@ -186,27 +187,22 @@ std::string choose_structure(EamTables& tables, std::optional<CrystalStructure> 
 /// A file in a folder of its own below the system's temporary folder, removed with the last user.
 class Potential::TemporaryFile {
  public:
-  TemporaryFile(const std::string& name, const std::string& content) {
-    std::filesystem::path place = std::filesystem::temp_directory_path();
-    if (!is_ascii(place.string())) place = "/tmp";
-    std::string folder = (place / "whipple-md-XXXXXX").string();
-    if (mkdtemp(folder.data()) == nullptr) throw InputError("cannot make a temporary folder " + folder);
-    folder_ = folder;
-    path_ = folder_ / name;
+  TemporaryFile(const std::string& name, const std::string& content)
+      : folder_(place()), path_(folder_.path() / name) {
     std::ofstream file(path_, std::ios::binary);
     file << content;
     if (!file.flush()) throw InputError("cannot write " + path_.string());
   }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
-  std::filesystem::path folder_;
+  /// LAMMPS reads no other paths.
+  static std::filesystem::path place() {
+    const std::filesystem::path usual = std::filesystem::temp_directory_path();
+    return is_ascii(usual.string()) ? usual : "/tmp";
+  }
+
+  TemporaryFolder folder_;
   std::filesystem::path path_;
 };
 

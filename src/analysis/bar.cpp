@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "src/analysis/measures.hpp"
 #include "src/analysis/surfaces.hpp"
@@ -23,9 +24,15 @@ double core_fraction(const RingField& field, std::size_t layer, double radius) {
   return filled / area;
 }
 
-/// Diameters of circles with the cross-sections of the layers of thickness `size` above `lower`.
+/// Diameters of circles with the cross-sections of layers, and where the last layer ends.
+struct Profile {
+  std::vector<double> diameter;
+  double end;
+};
+
+/// Layers of thickness `size` above `lower`.
 /// @param may_stand_off  look whether the material ends before the wall, and begin there
-std::vector<double> diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body, double size,
+Profile diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body, double size,
                               double lower, double upper, bool wall_at_upper, bool may_stand_off) {
   double radius = 0.0;
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
@@ -34,6 +41,7 @@ std::vector<double> diameters(const Snapshot& snapshot, const Frame& frame, std:
   const auto mine = [&](std::size_t i) { return snapshot.body[i] == body; };
   const RingField field(snapshot, frame, size, lower, upper, radius + 2.0 * size, mine, wall_at_upper);
   std::vector<double> result(field.layers());
+  constexpr double least_filled = 0.3;  // less may be a hollow in the face
   for (std::size_t k = 0; k < result.size(); ++k) {
     result[k] = 2.0 * std::sqrt(field.cross_section(k) / std::numbers::pi);
   }
@@ -43,12 +51,12 @@ std::vector<double> diameters(const Snapshot& snapshot, const Frame& frame, std:
     const std::size_t k = result.size() - 1;
     const double core = 0.25 * result[k - 1], full = core_fraction(field, k - 1, core);
     const double filled = full > 0.0 ? core_fraction(field, k, core) / full : 1.0;
-    if (filled > 0.5 && filled < 1.0) {
+    if (filled > least_filled && filled < 1.0) {
       const double gap = (1.0 - filled) * size;
       return diameters(snapshot, frame, body, size, lower - gap, upper - gap, true, false);
     }
   }
-  return result;
+  return {std::move(result), upper};
 }
 
 }  // namespace
@@ -63,7 +71,7 @@ Table diameter_profile(const Snapshot& snapshot, const Frame& frame, const Run& 
     const Extent extent = axial_extent(snapshot, frame, b, run.bodies[b].spacing);
     if (!(extent.length() > 0.0) || !std::isfinite(extent.length())) continue;
     const std::vector<double> d =
-        diameters(snapshot, frame, b, run.cell_size, extent.lower, extent.upper, false, false);
+        diameters(snapshot, frame, b, run.cell_size, extent.lower, extent.upper, false, false).diameter;
     for (std::size_t k = 0; k < d.size(); ++k) {
       table.append({{"axial", "m", "axial coordinate of the middle of the layer",
                      extent.lower + (static_cast<double>(k) + 0.5) * run.cell_size},
@@ -81,11 +89,11 @@ Quantities bar_measures(const Snapshot& snapshot, const Frame& frame, std::size_
   const Extent extent = axial_extent(snapshot, frame, body, input.spacing);
   if (!std::isfinite(extent.length())) return {};  // nothing of it is left
   const double size = cell_size;
-  // A bar that has not arrived, or has rebounded, ends in free space.
-  const double foot = *frame.wall - extent.upper > size ? extent.upper : *frame.wall;
+  // A bar that has not arrived, or has rebounded, ends in free space; within a cell of the wall, where it is not full.
+  const double face = *frame.wall - extent.upper > 0.5 * size ? extent.upper : *frame.wall;
+  const double lower = face - std::ceil((face - extent.lower) / size + 1.0) * size;
+  const auto [d, foot] = diameters(snapshot, frame, body, size, lower, face, true, !held);
   const double length = foot - extent.lower;
-  const double lower = foot - std::ceil(length / size + 1.0) * size;
-  const std::vector<double> d = diameters(snapshot, frame, body, size, lower, foot, true, !held);
   const std::size_t n = d.size();
   Quantities row = {measured("length", input.name, length),
                     measured("foot_diameter", input.name,

@@ -19,6 +19,7 @@
 #include "src/core/base/files.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/simd.hpp"
+#include "src/core/base/temporary_folder.hpp"
 #include "src/core/base/units.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/process/mpirun.hpp"
@@ -118,30 +119,10 @@ int run_here(const Arguments& arguments) {
   }
 }
 
-/// A folder for what is made and read again at once, removed at the end.
-class PassingFolder {
- public:
-  PassingFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "whipple_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw InputError(fmt::format("cannot make a folder {}", name));
-    path_ = name;
-  }
-  PassingFolder(const PassingFolder&) = delete;
-  PassingFolder& operator=(const PassingFolder&) = delete;
-  ~PassingFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// Writes a page that shows the bodies of a case as a run starts with them: the first snapshot of a run of one tiny step.
 void write_preview(const Arguments& arguments, const std::string& page_file) {
   require_new_file(page_file, arguments.force);
-  const PassingFolder folder;
+  const TemporaryFolder folder;
   run::RunOptions options = run_options(arguments);
   options.output_directory = folder.path() / "start";
   options.overrides.insert(options.overrides.end(), {{"time.end", "1e-15 s"}, {"output.snapshot_every", "0 s"}});

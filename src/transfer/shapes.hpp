@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "src/core/base/error.hpp"
 #include "src/grid/block_grid.hpp"
 #include "src/transfer/shape_kind.hpp"
 
@@ -166,5 +167,33 @@ concept Sized = requires { Shape::largest_half_size; };
 /// True if the sum of N r r^T is uniform, as the affine transfer requires.
 template <class Shape>
 concept CarriesAffineField = requires { Shape::second_moment; };
+
+/// Calls f(Shape{}) for a kind of shape function.
+template <class Function>
+decltype(auto) with_shape(ShapeFunction kind, Function&& f) {
+  switch (kind) {
+    case ShapeFunction::linear:
+      return f(Linear{});
+    case ShapeFunction::gimp:
+      return f(Gimp{});
+    case ShapeFunction::convected_gimp:
+      return f(ConvectedGimp{});
+    case ShapeFunction::quadratic_bspline:
+      return f(QuadraticBSpline{});
+    case ShapeFunction::cubic_bspline:
+      return f(CubicBSpline{});
+    case ShapeFunction::planar_linear:
+      return f(InPlane<Linear>{});
+    case ShapeFunction::planar_gimp:
+      return f(InPlane<Gimp>{});
+    case ShapeFunction::planar_convected_gimp:
+      return f(InPlane<ConvectedGimp>{});
+    case ShapeFunction::planar_quadratic_bspline:
+      return f(InPlane<QuadraticBSpline>{});
+    case ShapeFunction::planar_cubic_bspline:
+      return f(InPlane<CubicBSpline>{});
+  }
+  throw InternalError("unknown shape function");
+}
 
 }  // namespace whipple::transfer

@@ -273,17 +273,20 @@ TEST(Bar, LengthAndDiametersOfAConeOnACylinder) {
   EXPECT_DOUBLE_EQ(value(row, "foot_temperature.bar"), 300.0);
 }
 
-TEST(Bar, AFootThatStandsAPartOfACellBeforeTheWallIsAsWide) {
-  constexpr double cell = 0.5e-3, gap = 0.2 * cell;
-  Maker maker(0.25 * cell);
-  maker.fill({0, 0, 0}, {8e-3, 8e-3, 20e-3}, [](const Vector3& p) { return std::hypot(p.x(), p.y()) < 5e-3; },
-             {0, 0, -200});
-  for (Vector3& position : maker.snapshot.position) position.z() += gap;
-  Frame frame = quarter(200);
-  frame.sign = -1.0;
-  frame.wall = 0.0;
-  const Quantities row = bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.25 * cell}, cell, 0.0, false);
-  EXPECT_NEAR(value(row, "foot_diameter.bar"), 10e-3, 0.05e-3);
+TEST(Bar, AFootThatStandsBeforeTheWallIsAsWideAndTheBarAsLong) {
+  constexpr double cell = 0.5e-3;
+  for (const double gap : {0.0, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95, 1.3, 4.0}) {
+    Maker maker(0.25 * cell);
+    maker.fill({0, 0, 0}, {8e-3, 8e-3, 20e-3}, [](const Vector3& p) { return std::hypot(p.x(), p.y()) < 5e-3; },
+               {0, 0, -200});
+    for (Vector3& position : maker.snapshot.position) position.z() += gap * cell;
+    Frame frame = quarter(200);
+    frame.sign = -1.0;
+    frame.wall = 0.0;
+    const Quantities row = bar_measures(maker.snapshot, frame, 0, {"bar", {0, 0, -200}, 0.25 * cell}, cell, 0.0, false);
+    EXPECT_NEAR(value(row, "foot_diameter.bar"), 10e-3, 0.05e-3) << gap;
+    EXPECT_NEAR(value(row, "length.bar"), 20e-3, 0.05 * cell) << gap;
+  }
 }
 
 TEST(Bar, SpallLayerAndPullback) {
