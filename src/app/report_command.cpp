@@ -30,7 +30,7 @@ struct ReportOptions {
   std::vector<std::string> figures;
   AnalysisWords analysis;
   int dots_per_inch = 180;
-  double view_megabytes = 12.0;
+  double view_megabytes = 4.0;
 };
 
 /// Writes view.html for the page, if it can be made of this run. Returns its path, empty without one.
@@ -39,6 +39,7 @@ std::string write_view(const analysis::Run& run, double megabytes, const std::fi
   try {
     view::PageOptions options;
     options.most_bytes = 1e6 * megabytes;
+    options.bits = 8;  // what colours show; the page of `whipple view` has 16
     const std::filesystem::path file = output / "view.html";
     io::write_text_atomically(file, view::make_page(run, options, process::find_data("web/viewer")).html);
     return file.string();

@@ -2,13 +2,13 @@
 // Colours that people with deficient colour vision tell apart.
 
 /** Control points of the maps at equal distances. viridis, cividis and inferno: every 32nd entry of the tables of
- * matplotlib (CC0; Nunez, Anderton and Renslow, PLoS ONE 13 (2018) e0199239 for cividis). The diverging map: RdBu of
- * ColorBrewer (Brewer and Harrower, Apache 2.0), reversed. */
+ * matplotlib (CC0; Nunez, Anderton and Renslow, PLoS ONE 13 (2018) e0199239 for cividis). The diverging map, grey in
+ * the middle so that it is seen on white and on black: cool to warm (Moreland, ISVC 2009, LNCS 5876, 92). */
 const MAPS = {
   viridis: ['#440154', '#472d7b', '#3b528b', '#2c728e', '#21918c', '#28ae80', '#5ec962', '#addc30', '#fde725'],
   cividis: ['#00224e', '#1a386f', '#434e6c', '#61646f', '#7d7c78', '#9b9476', '#bcae6c', '#dfca57', '#fee838'],
   inferno: ['#000004', '#210c4a', '#57106e', '#8a226a', '#bc3754', '#e45a31', '#f98e09', '#f9cb35', '#fcffa4'],
-  diverging: ['#053061', '#2166ac', '#67a9cf', '#d1e5f0', '#f7f7f7', '#fddbc7', '#ef8a62', '#b2182b', '#67001f'],
+  diverging: ['#3b4cc0', '#6282ea', '#8db0fe', '#b9d0f9', '#dddcdc', '#f5c4ac', '#f4987a', '#dd5f4b', '#b40426'],
 };
 
 /** Names of the maps, the default first. */
