@@ -245,7 +245,7 @@ std::vector<std::size_t> shown_snapshots(const std::vector<SnapshotEntry>& entri
   const auto count = std::min(entries.size(), static_cast<std::size_t>(std::max(at_most, 0)));
   for (std::size_t k = 0; k < count; ++k) {
     const double part = count == 1 ? 0.0 : static_cast<double>(k) / static_cast<double>(count - 1);
-    const double first = entries.front().time, wanted = first + (entries.back().time - first) * std::pow(part, 1.5);
+    const double first = entries.front().time, wanted = first + (entries.back().time - first) * part * part;
     const auto nearest = std::ranges::min_element(
         entries, {}, [&](const SnapshotEntry& entry) { return std::abs(entry.time - wanted); });
     numbers.push_back(static_cast<std::size_t>(nearest - entries.begin()));
