@@ -80,6 +80,9 @@ class LegacyReader {
         const std::size_t components = count(), tuples = count();
         take(name, word(), components, tuples);
       }
+    } else if (section == "METADATA") {
+      line_of_text();
+      while (!rest_.empty() && rest_.front() != '\n' && rest_.front() != '\r') line_of_text();  // up to a blank line
     } else if (section == "VECTORS" || section == "NORMALS") {
       word();
       word();

@@ -20,6 +20,7 @@ import threading
 import time
 
 SKIPPED = 77
+TAB, ENTER, RIGHT = "\ue004", "\ue007", "\ue014"  # keys of the WebDriver protocol
 WHIPPLE, CASE, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # key of the WebDriver protocol
 
@@ -91,6 +92,26 @@ class Browser:
             time.sleep(0.2)
         return found
 
+    def press(self, *keys):
+        for key in keys:
+            self.do("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": [
+                {"type": "keyDown", "value": key}, {"type": "keyUp", "value": key}]}]})
+
+    def focused(self):
+        """Role and name of what has the focus, as a screen reader gets them; none of a page without focus."""
+        if self.js("return document.activeElement === document.body || document.activeElement === null"):
+            return None
+        element = "/element/" + self.do("GET", "/element/active")[ELEMENT]
+        return self.do("GET", element + "/computedrole"), self.do("GET", element + "/computedlabel")
+
+    def tab_to(self, fits, what):
+        """Goes to a control by the keyboard alone. @param fits  whether a role and a name are those of the control"""
+        for _ in range(200):
+            self.press(TAB)
+            if (found := self.focused()) and fits(*found):
+                return found
+        require(False, f"no way by the keyboard to {what}")
+
     def picture(self, name):
         (FOLDER / name).write_bytes(base64.b64decode(self.do("GET", "/screenshot")))
 
@@ -135,6 +156,31 @@ def check_foreign_page(browser, address, key):
     browser.complaints()  # its own refusals are no fault
 
 
+# Everything that a person can use and see, in the order of the page.
+CONTROLS = """return [...document.querySelectorAll('button, input, select, textarea, summary, a[href], [tabindex="0"]')].filter(
+  (one) => !one.disabled && one.checkVisibility({ visibilityProperty: true }) && one.getClientRects().length > 0).map((one) => one.tagName)"""
+ROLES = {"button", "textbox", "combobox", "checkbox", "slider", "DisclosureTriangle", "application", "img", "image", "log", "link",
+         "listbox", "spinbutton", "region"}
+
+
+def check_keyboard(browser, what):
+    """The tab key reaches every control in the order of the page, each with a role and a name; back again with shift."""
+    browser.js("document.activeElement?.blur(); window.getSelection().removeAllRanges(); window.scrollTo(0, 0)")
+    browser.js("document.body.tabIndex = -1; document.body.focus(); document.body.removeAttribute('tabindex')")
+    expected, tags, reached = browser.js(CONTROLS), [], []
+    require(len(expected) > 5, f"{what}: {len(expected)} controls")
+    for _ in expected:
+        browser.press(TAB)
+        found = browser.focused()
+        require(found is not None, f"{what}: the focus is lost after {reached[-3:]}")
+        reached.append(found)
+        tags.append(browser.js("return document.activeElement.tagName"))
+    require(tags == expected, f"{what}: the tab key goes through {tags}, the page has {expected}")
+    require(all(role in ROLES and name.strip() for role, name in reached), f"{what}: a control without role or name in {reached}")
+    browser.press(TAB)
+    require(browser.focused() != reached[-1], f"{what}: no way out of {reached[-1]}")
+
+
 def check_run(browser, address, key):
     running = "document.querySelector('#run .state')?.textContent"
     browser.open(f"{address}/#{key}")
@@ -151,9 +197,16 @@ def check_run(browser, address, key):
     browser.wait("return /particles in three dimensions/i.test(document.querySelector('#viewer canvas')?.getAttribute('aria-label') ?? '')", "the snapshots")
     at = browser.text("#viewer footer output")
     browser.wait(f"return document.querySelector('#viewer footer output').textContent !== {json.dumps(at)}", "a later snapshot")
-    browser.click("[data-act=pause]")
+    browser.tab_to(lambda _, name: name == "pause", "the pause")
+    browser.press(ENTER)
     browser.wait(f"return {running} === 'paused'", "the pause")
     browser.picture("paused.png")
+    require(browser.js("return document.querySelector('#run .state').getAttribute('role')") == "status", "the state is told")
+    check_keyboard(browser, "the monitor")
+    before = browser.tab_to(lambda role, _: role == "application", "the picture")[1]
+    browser.press("f")
+    browser.wait(f"return document.activeElement.getAttribute('aria-label') !== {json.dumps(before)}", "another field by the key f")
+    browser.press(RIGHT)
     browser.js("const select = document.querySelector('header select'); select.value = 'snapshot_every'; select.dispatchEvent(new Event('change'))")
     browser.type("header form input", "3 kg")
     browser.click("header form button")
@@ -162,7 +215,8 @@ def check_run(browser, address, key):
     browser.type("header form input", "0.01 us")
     browser.click("header form button")
     browser.wait("return /snapshot_every 0.01 us.*accepted/s.test(document.querySelector('[aria-label=Answers]').innerText)", "the answer")
-    browser.click("[data-act=resume]")
+    browser.tab_to(lambda _, name: name == "resume", "the end of the pause")
+    browser.press(" ")
     browser.wait(f"return {running} === 'running'", "the run after the pause")
     browser.click("[data-act=stop]")
     browser.wait("return document.querySelector('[data-act=restart]') !== null", "the stop")
@@ -195,6 +249,11 @@ def main():
         with Browser(driver, chromium, FOLDER / "profile") as browser:
             check_run(browser, address, key)
             check_foreign_page(browser, address, key)
+            subprocess.run([WHIPPLE, "view", runs / "ball", "-o", FOLDER / "view.html", "--quiet"], check=True)
+            browser.open((FOLDER / "view.html").as_uri())
+            browser.wait("return document.querySelector('footer output') !== null", "the view")
+            check_keyboard(browser, "the view")
+            browser.picture("view.png")
     finally:
         subprocess.run(["pkill", "-KILL", "-f", f"run .*{runs}"], check=False)
         monitor.send_signal(signal.SIGTERM)
