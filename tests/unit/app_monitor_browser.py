@@ -5,9 +5,6 @@ page; a page of another origin can neither read nor change anything. Skipped wit
 
 Usage: app_monitor_browser.py WHIPPLE CASE.toml FOLDER
 """
-import base64
-import contextlib
-import http.client
 import http.server
 import json
 import pathlib
@@ -17,106 +14,10 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 
-SKIPPED = 77
-TAB, ENTER, RIGHT = "\ue004", "\ue007", "\ue014"  # keys of the WebDriver protocol
+from chromium import ENTER, RIGHT, SKIPPED, TAB, Browser, programs, require
+
 WHIPPLE, CASE, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # key of the WebDriver protocol
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"FAILED: {message}")
-
-
-class Browser:
-    """Chromium without a window, by the WebDriver protocol of W3C."""
-
-    def __init__(self, driver, browser, profile):
-        self.process = subprocess.Popen([driver, "--port=0"], stdout=subprocess.PIPE, text=True)
-        port = None
-        for line in self.process.stdout:
-            if found := re.search(r"started successfully on port (\d+)", line):
-                port = int(found[1])
-                break
-        require(port, "the driver of Chromium does not start")
-        threading.Thread(target=self.process.stdout.read, daemon=True).start()
-        self.connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120)
-        self.session = ""
-        arguments = ["--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
-                     "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                     "--window-size=1200,800", f"--user-data-dir={profile}"]
-        options = {"browserName": "chrome", "goog:chromeOptions": {"binary": browser, "args": arguments},
-                   "goog:loggingPrefs": {"browser": "ALL"}, "unhandledPromptBehavior": "ignore"}
-        self.session = "/session/" + self.do("POST", "/session", {"capabilities": {"alwaysMatch": options}})["sessionId"]
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        with contextlib.suppress(Exception):
-            self.do("DELETE", "")
-        self.process.terminate()
-
-    def do(self, method, path, body=None):
-        text = None if method != "POST" else json.dumps(body or {})
-        self.connection.request(method, self.session + path, text, {"Content-Type": "application/json"})
-        answer = json.loads(self.connection.getresponse().read())["value"]
-        if isinstance(answer, dict) and "error" in answer:
-            raise RuntimeError(f"{answer['error']}: {answer['message'][:300]}")
-        return answer
-
-    def open(self, url):
-        self.do("POST", "/url", {"url": url})
-
-    def js(self, script, *arguments):
-        return self.do("POST", "/execute/sync", {"script": script, "args": list(arguments)})
-
-    def find(self, selector):
-        return "/element/" + self.do("POST", "/element", {"using": "css selector", "value": selector})[ELEMENT]
-
-    def click(self, selector):
-        self.do("POST", self.find(selector) + "/click")
-
-    def type(self, selector, text):
-        self.do("POST", self.find(selector) + "/value", {"text": text})
-
-    def text(self, selector):
-        return self.js("return document.querySelector(arguments[0])?.textContent ?? ''", selector)
-
-    def wait(self, script, what, seconds=60):
-        deadline = time.monotonic() + seconds
-        while not (found := self.js(script)):
-            require(time.monotonic() < deadline, f"waited in vain for {what}; the page says: {self.js('return document.body.innerText')[:1500]}")
-            time.sleep(0.2)
-        return found
-
-    def press(self, *keys):
-        for key in keys:
-            self.do("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": [
-                {"type": "keyDown", "value": key}, {"type": "keyUp", "value": key}]}]})
-
-    def focused(self):
-        """Role and name of what has the focus, as a screen reader gets them; none of a page without focus."""
-        if self.js("return document.activeElement === document.body || document.activeElement === null"):
-            return None
-        element = "/element/" + self.do("GET", "/element/active")[ELEMENT]
-        return self.do("GET", element + "/computedrole"), self.do("GET", element + "/computedlabel")
-
-    def tab_to(self, fits, what):
-        """Goes to a control by the keyboard alone. @param fits  whether a role and a name are those of the control"""
-        for _ in range(200):
-            self.press(TAB)
-            if (found := self.focused()) and fits(*found):
-                return found
-        require(False, f"no way by the keyboard to {what}")
-
-    def picture(self, name):
-        (FOLDER / name).write_bytes(base64.b64decode(self.do("GET", "/screenshot")))
-
-    def complaints(self):
-        return [entry["message"] for entry in self.do("POST", "/se/log", {"type": "browser"}) if entry["level"] == "SEVERE"]
 
 
 FOREIGN = """<!doctype html><title>foreign</title><script>
@@ -200,7 +101,7 @@ def check_run(browser, address, key):
     browser.tab_to(lambda _, name: name == "pause", "the pause")
     browser.press(ENTER)
     browser.wait(f"return {running} === 'paused'", "the pause")
-    browser.picture("paused.png")
+    browser.picture(FOLDER / "paused.png")
     require(browser.js("return document.querySelector('#run .state').getAttribute('role')") == "status", "the state is told")
     check_keyboard(browser, "the monitor")
     before = browser.tab_to(lambda role, _: role == "application", "the picture")[1]
@@ -225,7 +126,7 @@ def check_run(browser, address, key):
     browser.click("[data-act=end]")
     browser.do("POST", "/alert/accept")
     browser.wait(f"return {running} === 'stopped' || {running} === 'done'", "its end")
-    browser.picture("ended.png")
+    browser.picture(FOLDER / "ended.png")
     unnamed = browser.js("""return [...document.querySelectorAll('button, input, select, textarea, canvas')].filter((one) =>
       !(one.labels?.length || one.getAttribute('aria-label') || one.textContent.trim() || one.type === 'file')).map((one) => one.outerHTML)""")
     require(not unnamed, f"controls without a name: {unnamed}")
@@ -234,9 +135,8 @@ def check_run(browser, address, key):
 
 
 def main():
-    driver, chromium = shutil.which("chromedriver"), shutil.which("chromium")
-    if not driver or not chromium:
-        print("SKIPPED: no Chromium here (Debian's packages chromium and chromium-driver)")
+    found = programs()
+    if found is None:
         return SKIPPED
     shutil.rmtree(FOLDER, ignore_errors=True)
     cases, runs = FOLDER / "cases", FOLDER / "runs"
@@ -246,14 +146,14 @@ def main():
     monitor = subprocess.Popen([WHIPPLE, "monitor", str(runs), "--cases", str(cases)], stdout=subprocess.PIPE, text=True)
     try:
         address, key = re.search(r"(http://[0-9.:]+)/#([0-9a-f]+) ", monitor.stdout.readline()).groups()
-        with Browser(driver, chromium, FOLDER / "profile") as browser:
+        with Browser(*found, FOLDER / "profile") as browser:
             check_run(browser, address, key)
             check_foreign_page(browser, address, key)
             subprocess.run([WHIPPLE, "view", runs / "ball", "-o", FOLDER / "view.html", "--quiet"], check=True)
             browser.open((FOLDER / "view.html").as_uri())
             browser.wait("return document.querySelector('footer output') !== null", "the view")
             check_keyboard(browser, "the view")
-            browser.picture("view.png")
+            browser.picture(FOLDER / "view.png")
     finally:
         subprocess.run(["pkill", "-KILL", "-f", f"run .*{runs}"], check=False)
         monitor.send_signal(signal.SIGTERM)
