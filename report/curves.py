@@ -5,29 +5,29 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from report import units
+from report import style, units
 from report.analysis import Analysis
 from report.history import History
-from report.pictures import PHASE_COLOURS, legend_below
+from report.pictures import legend_below
 from report.run import Run
 from report.views import PHASES
 
 
-def new_figure(columns: int, height: float = 3.9) -> tuple[Figure, np.ndarray]:
+def new_figure(columns: int, height: float = 2.4) -> tuple[Figure, np.ndarray]:
     """Makes a figure of so many panels over time. `height` in inches."""
-    figure, axes = plt.subplots(1, columns, figsize=(12.0 if columns > 1 else 8.0, height), squeeze=False,
+    figure, axes = plt.subplots(1, columns, figsize=(style.WIDTH if columns > 1 else style.NARROW, height), squeeze=False,
                                 layout="constrained")
     for ax in axes.flat:
-        ax.grid(True, color="#e3e5e8", linewidth=0.7)
+        ax.grid(True, color="#e3e5e8")
         ax.set_axisbelow(True)
         ax.spines[["top", "right"]].set_visible(False)
         ax.set_xlabel("time (µs)")
     return figure, axes[0]
 
 
-def legend_above(ax: Axes, columns: int = 3) -> None:
+def legend_above(ax: Axes, columns: int = 2) -> None:
     """Adds a legend in rows above a panel."""
-    ax.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=columns, frameon=False, fontsize=9, borderaxespad=0.2)
+    ax.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=columns, frameon=False, borderaxespad=0.2)
 
 
 def lines(ax: Axes, history: History, names: list[tuple[str, str]], scale: float = 1.0) -> bool:
@@ -35,7 +35,7 @@ def lines(ax: Axes, history: History, names: list[tuple[str, str]], scale: float
     drawn = False
     for name, label in names:
         if name in history:
-            ax.plot(units.MICROSECONDS * history["time"], scale * history[name], label=label, linewidth=1.6)
+            ax.plot(units.MICROSECONDS * history["time"], scale * history[name], label=label)
             drawn = True
     return drawn
 
@@ -55,9 +55,9 @@ def phase_figure(run: Run) -> Figure | None:
     for ax, (name, columns) in zip(axes, groups):
         masses = np.array([history[c] for c in columns])
         total = np.maximum(masses.sum(axis=0), 1e-300)
-        ax.stackplot(units.MICROSECONDS * history["time"], 100 * masses / total, colors=PHASE_COLOURS, labels=PHASES,
+        ax.stackplot(units.MICROSECONDS * history["time"], 100 * masses / total, colors=style.WORDS[:len(PHASES)], labels=PHASES,
                      linewidth=0, alpha=0.95)
-        ax.set_title(f"{name}: {units.mass(run.multiplicity * total[-1])}", fontsize=10, loc="left")
+        ax.set_title(f"{name}: {units.mass(run.multiplicity * total[-1])}", loc="left")
         ax.set_ylim(0, 100)
         ax.set_xlim(units.MICROSECONDS * history["time"][0], max(units.MICROSECONDS * history["time"][-1], 1e-12))
     axes[0].set_ylabel("fraction of the mass (%)")
@@ -109,20 +109,19 @@ def extent_figure(columns: dict[str, np.ndarray]) -> Figure:
     """Draws position and speed of front, rear and radius of the debris; `columns`: the series of the analysis."""
     figure, (left, right) = new_figure(2)
     time = units.MICROSECONDS * columns["time"]
-    for name, label, colour, outer in (("front", "front", "#c0392b", "foremost"), ("rear", "rear", "#2c6fbb", None),
-                                       ("radius", "radius", "#3a8f5c", "outermost")):
-        left.plot(time, units.MILLIMETRES * columns[name], "o-", color=colour, label=label, markersize=3, linewidth=1.6)
+    for name, label, colour, outer in (("front", "front", style.LINES[1], "foremost"), ("rear", "rear", style.LINES[0], None),
+                                       ("radius", "radius", style.LINES[2], "outermost")):
+        left.plot(time, units.MILLIMETRES * columns[name], "o-", color=colour, label=label)
         if outer:
             left.plot(time, units.MILLIMETRES * columns[outer], ":", color=colour, label=f"{outer} particle",
                       linewidth=1.0)
     left.set_ylabel("position of the debris (mm)")
     legend_above(left)
-    for name, label, colour in (("front_speed", "front", "#c0392b"), ("rear_speed", "rear", "#2c6fbb"),
-                                ("expansion_speed", "expansion of the radius", "#3a8f5c"),
-                                ("mean_velocity", "mean axial velocity", "#555b66"),
-                                ("radial_speed", "radial speed exceeded by 0.1 %", "#b07aa1")):
-        right.plot(time, units.KM_PER_SECOND * columns[name], "o-", color=colour, label=label, markersize=3,
-                   linewidth=1.6)
+    for name, label, colour in (("front_speed", "front", style.LINES[1]), ("rear_speed", "rear", style.LINES[0]),
+                                ("expansion_speed", "expansion of the radius", style.LINES[2]),
+                                ("mean_velocity", "mean axial velocity", style.LINES[7]),
+                                ("radial_speed", "radial speed exceeded by 0.1 %", style.LINES[3])):
+        right.plot(time, units.KM_PER_SECOND * columns[name], "o-", color=colour, label=label)
     right.set_ylabel("speed (km/s)")
     legend_above(right)
     return figure
@@ -134,15 +133,14 @@ def fragment_figure(analysis: Analysis) -> Figure | None:
     if not table or len(table["mass"]) < 2:
         return None
     figure, (ax,) = new_figure(1)
-    ax.step(units.MILLIGRAMS * table["mass"], table["number"], where="pre", color="#2c6fbb", linewidth=1.6,
+    ax.step(units.MILLIGRAMS * table["mass"], table["number"], where="pre",
             label="debris fragments")
     exponent = analysis.quantity("fragment_exponent")
     if np.isfinite(exponent):
         mass, number = table["mass"], table["number"]
         middle = len(mass) // 2
         error = analysis.quantity("fragment_exponent_error")
-        ax.plot(units.MILLIGRAMS * mass, number[middle] * (mass / mass[middle]) ** -exponent, "--", color="#c0392b",
-                linewidth=1.2, label=f"power law, exponent {exponent:.3g} ± {error:.2g}")
+        ax.plot(units.MILLIGRAMS * mass, number[middle] * (mass / mass[middle]) ** -exponent, "--", label=f"power law, exponent {exponent:.3g} ± {error:.2g}")
     ax.set(xscale="log", yscale="log", xlabel="mass m of a fragment (mg)", ylabel="fragments of at least m")
     ax.set_ylim(0.7, 1.5 * table["number"].max())
     legend_above(ax)
@@ -161,8 +159,7 @@ def surface_figure(analysis: Analysis) -> Figure | None:
         return None
     figure, (ax,) = new_figure(1)
     for name, label in shown:
-        ax.plot(units.MICROSECONDS * series["time"], units.MILLIMETRES * series[name], "o-", markersize=3,
-                linewidth=1.6, label=label)
+        ax.plot(units.MICROSECONDS * series["time"], units.MILLIMETRES * series[name], "o-", label=label)
     ax.set_ylabel("length (mm)")
     legend_above(ax)
     return figure
@@ -178,10 +175,10 @@ def loads_figure(analysis: Analysis, plane: str) -> Figure | None:
                                              (right, flux, "time", units.MICROSECONDS, "_flux", "/s")):
         for name, unit in (("mass", "kg"), ("momentum", "N s"), ("energy", "J")):
             values = table[name + suffix]
-            ax.plot(scale * table[x], values / max(values.max(), 1e-300), linewidth=1.6,
+            ax.plot(scale * table[x], values / max(values.max(), 1e-300),
                     label=f"{name}, highest {values.max():.3g} {unit}{per}")
     left.set(xlabel="distance from the axis (mm)", ylabel="per area, over the highest")
     right.set_ylabel("per time, over the highest")
     for ax in (left, right):
-        ax.legend(loc="upper right", frameon=False, fontsize=9)
+        ax.legend(loc="upper right", frameon=False)
     return figure

@@ -41,8 +41,8 @@ def figure(history: History) -> Figure | None:
     for ax, (quantity, scale, label) in zip(axes, PANELS):
         for gauge, colour in zip(gauges, colours):
             ax.plot(units.MICROSECONDS * history["time"], scale * values(history, gauge, quantity), label=gauge,
-                    color=colour, linewidth=1.4 if len(gauges) <= FEW else 0.9)
+                    color=colour, linewidth=1.2 if len(gauges) <= FEW else 0.7)
         ax.set_ylabel(label)
     if len(gauges) <= FEW:
-        legend_above(axes[0], columns=5)
+        legend_above(axes[0], columns=3)
     return figure

@@ -41,7 +41,7 @@ class Page:
     def table(self, head: Sequence, rows: Iterable[Sequence], strong: Collection[int] = (),
               text_columns: Collection[int] = ()) -> None:
         """Adds a table. `strong`: numbers of rows that stand out; `text_columns`: columns aligned to the left."""
-        cells = "".join(f"<th>{escape(h)}</th>" for h in head)
+        cells = "".join(f"<th{' class=text' if j in text_columns else ''}>{escape(h)}</th>" for j, h in enumerate(head))
         body = ""
         for i, row in enumerate(rows):
             line = "".join(f"<td{' class=text' if j in text_columns else ''}>{escape(c)}</td>"
@@ -58,10 +58,11 @@ class Page:
         """Adds a text that is folded away."""
         self.parts.append(f"<details><summary>{escape(summary)}</summary><pre>{escape(text)}</pre></details>")
 
-    def image(self, path: pathlib.Path, caption: str) -> None:
-        """Adds a PNG file."""
-        data = base64.b64encode(path.read_bytes()).decode()
-        self.parts.append(f'<figure><img src="data:image/png;base64,{data}" alt="{escape(caption)}">'
+    def image(self, png: bytes, caption: str, width: float = 1.0) -> None:
+        """Adds a PNG file. `width`: share of that of the page."""
+        data = base64.b64encode(png).decode()
+        self.parts.append(f'<figure style="max-width: {100 * width:.4g}%">'
+                          f'<img src="data:image/png;base64,{data}" alt="{escape(caption)}">'
                           f"<figcaption>{escape(caption)}</figcaption></figure>")
 
     def frame(self, page: str, title: str) -> None:

@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from report import analysis as measures
-from report import curves, gauges, pictures, planar, sensitivity, units
+from report import curves, expected, gauges, pictures, planar, sensitivity, style, units
 from report.analysis import AXES
 from report.case_text import describe_discretization, describe_shape, describe_value
 from report.files import write_whole
@@ -62,6 +62,7 @@ class Report:
     def __init__(self, run: Run, dots_per_inch: int):
         self.run, self.output = run, run.output
         self.dots_per_inch = dots_per_inch
+        style.apply()
         self.output.mkdir(parents=True, exist_ok=True)
         origin = run.input.get("provenance", {})
         facts = [origin[key] for key in ("program", "machine", "started") if key in origin]
@@ -72,6 +73,7 @@ class Report:
         """Adds all sections. `figures`: titles and PNG files to show before the pictures; `view`: page of the view in
         three dimensions."""
         self._summary()
+        self.metrics["expected"] = expected.add_to(self.page, self.run, self._add_figure)
         self._input()
         self._given_figures(figures)
         self._cloud()
@@ -85,8 +87,9 @@ class Report:
         if figure is None:
             return
         path = self.output / name
+        width = style.share_of_page(figure)
         pictures.save(figure, path, self.dots_per_inch)
-        self.page.image(path, caption)
+        self.page.image(pictures.small_copy(path), caption, width)
 
     def _summary(self):
         run, history = self.run, self.run.history
@@ -149,7 +152,7 @@ class Report:
         for title, path in figures:
             self.page.heading(title)
             (self.output / path.name).write_bytes(path.read_bytes())
-            self.page.image(self.output / path.name, title)
+            self.page.image(pictures.small_copy(path), title)
 
     def _cloud(self):
         run = self.run

@@ -23,5 +23,8 @@ set_tests_properties(viewer_shaders PROPERTIES LABELS "fast;browser" TIMEOUT 300
 if(WHIPPLE_PYTHON)
   add_test(NAME viewer_page COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/view_page.py $<TARGET_FILE:whipple>
            ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${PROJECT_SOURCE_DIR})
+  add_test(NAME viewer_million COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/view_million.py $<TARGET_FILE:whipple>
+           $<TARGET_FILE:io_synthetic_cloud> ${CMAKE_CURRENT_BINARY_DIR}/viewer_million)
+  set_tests_properties(viewer_million PROPERTIES LABELS "long;browser" TIMEOUT 900 SKIP_RETURN_CODE 77)
   set_tests_properties(viewer_page PROPERTIES LABELS "fast;browser" TIMEOUT 600 SKIP_REGULAR_EXPRESSION "SKIPPED")
 endif()

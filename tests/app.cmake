@@ -22,6 +22,9 @@ if(WHIPPLE_PYTHON)
   add_test(NAME app_surroundings COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_surroundings.py
            ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml)
   set_tests_properties(app_surroundings PROPERTIES LABELS fast TIMEOUT 300)
+  add_test(NAME app_export COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_export.py $<TARGET_FILE:whipple>
+           ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml)
+  set_tests_properties(app_export PROPERTIES LABELS fast TIMEOUT 300)
   add_test(NAME app_monitor COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_monitor.py $<TARGET_FILE:whipple>
            ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/app_monitor)
   add_test(NAME app_monitor_browser COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_monitor_browser.py

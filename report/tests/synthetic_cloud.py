@@ -149,6 +149,55 @@ def report_of_the_cloud(work):
     near(metrics["cloud"]["witness_mass"], table["all", "debris"]["mass"], 1e-9, "mass on the witness plate")
 
 
+def page_is_small(work):
+    """The whole page as the program makes it, with the view in three dimensions, within the size that the manual states."""
+    limit = float(re.search(r"below (\d+) MB", (REPORT.parent / "docs/manual/output.md").read_text(encoding="utf-8"))[1])
+    folder, cloud = work / "whole", work / "cloud"
+    shutil.copytree(CLOUD, cloud, ignore=shutil.ignore_patterns("checkpoint", "report"))
+    toml = (cloud / "run.toml").read_text()  # names materials that are nowhere; those of the library know planar impacts
+    (cloud / "run.toml").write_text(toml.replace("copper_gray_md.toml", "copper.toml").replace("aluminium_gray_md.toml", "aluminium.toml"))
+    done = subprocess.run([WHIPPLE, "report", cloud, "-o", folder, "--dpi", "150", "--quiet"], capture_output=True, text=True)
+    require(done.returncode == 0, done.stderr)
+    text = (folder / "report.html").read_text()
+    require("<iframe class=view" in text, "no view in three dimensions")
+    require(len(text) < 1e6 * limit, f"the page has {len(text) / 1e6:.3g} MB, the manual says below {limit} MB")
+    files = sum(path.stat().st_size for path in folder.glob("*.png"))
+    embedded = sum(map(len, re.findall(r"data:image/png;base64,([^\"]*)", text)))
+    require(embedded < 0.75 * files, f"pictures: {embedded} bytes in the page, {files} in files")
+
+
+def several_runs_are_compared(work):
+    """Two runs that differ in one key and in their masses: the page says so, on common scales."""
+    copies = []
+    for name in ("one", "other"):
+        folder = work / name
+        shutil.copytree(CLOUD, folder, ignore=shutil.ignore_patterns("checkpoint", "report"))
+        copies.append(folder)
+    toml = (copies[1] / "run.toml").read_text()
+    (copies[1] / "run.toml").write_text(toml.replace('title = "', 'title = "Other: ', 1).replace("courant = 0.5", "courant = 0.25", 1))
+    require((copies[1] / "run.toml").read_text().count("courant = 0.25") == 1, "the other run")
+    for path in copies[1].glob("*.particles.*.hdf"):
+        with h5py.File(path, "r+") as file:
+            file["VTKHDF/PointData/mass"][...] = 2 * file["VTKHDF/PointData/mass"][:]
+    for folder in copies:
+        analyse(folder, folder / "report")
+    result = run(*copies, "--output", work / "compared")
+    require(result.returncode == 0, result.stderr)
+    text = (work / "compared" / "comparison.html").read_text()
+    checker = Checker()
+    checker.feed(text)
+    require(not checker.open and not checker.foreign, "the page of several runs is not whole")
+    pictures = {path.name for path in (work / "compared").glob("*.png")}
+    require({"compare_history.png", "compare_debris.png", "compare_temperature.png", "compare_speed.png"} <= pictures, pictures)
+    require(re.search(r"time.courant</td><td class=text>0.5</td><td class=text>0.25</td>", text), "the key in which they differ")
+    values = json.loads((work / "compared" / "comparison.json").read_text())["quantities"]["debris_mass"]
+    near(values[1], 2 * values[0], 1e-6, "masses of the runs")
+    for name in ("report.html", "metrics.json"):
+        require(not (work / "compared" / name).exists(), f"{name} of one run")
+    result = run(copies[0], work / "none")
+    require(result.returncode == 2 and "no such folder" in result.stderr, result.stderr)
+
+
 def incomplete_runs_give_reports(work):
     """No history, no symmetry, few fields, no particles: what is there is reported."""
     def copy(name):
@@ -239,6 +288,8 @@ def other_folders_are_refused(work):
 with tempfile.TemporaryDirectory() as temporary:
     base = pathlib.Path(temporary)
     report_of_the_cloud(base)
+    page_is_small(base)
+    several_runs_are_compared(base)
     incomplete_runs_give_reports(base)
     other_folders_are_refused(base)
 print("report: all checks passed")

@@ -26,7 +26,7 @@ class Pages(unittest.TestCase):
             picture = pathlib.Path(folder) / "a.png"
             picture.write_bytes(b"PNG")
             page = Page("t", "s")
-            page.image(picture, "a picture")
+            page.image(picture.read_bytes(), "a picture")
         self.assertIn('<img src="data:image/png;base64,UE5H" alt="a picture">', page.text())
         self.assertNotIn("http", page.text())
 

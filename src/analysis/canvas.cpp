@@ -119,4 +119,32 @@ void Canvas::triangle(const Vector3& p, const Vector3& q, const Vector3& r, std:
   }
 }
 
+void Canvas::shade(double fading) {
+  constexpr double slope = 8.0, strength = 0.6;  // pixels of depth over which a neighbour takes light; of all of them
+  constexpr std::ptrdiff_t reach = 2;            // pixels to the neighbours
+  double nearest = -std::numeric_limits<double>::infinity(), farthest = -nearest;
+  for (std::size_t pixel = 0; pixel < seen_.size(); ++pixel) {
+    if (seen_[pixel] == nothing) continue;
+    nearest = std::max(nearest, depth_[pixel]);
+    farthest = std::min(farthest, depth_[pixel]);
+  }
+  const auto rows = static_cast<std::ptrdiff_t>(rows_), columns = static_cast<std::ptrdiff_t>(columns_);
+  for (std::ptrdiff_t row = 0; row < rows; ++row) {
+    for (std::ptrdiff_t column = 0; column < columns; ++column) {
+      const std::size_t pixel = static_cast<std::size_t>(row * columns + column);
+      if (seen_[pixel] == nothing) continue;
+      double hidden = 0.0;
+      for (const auto& [dy, dx] : {std::pair{-reach, std::ptrdiff_t{0}}, std::pair{reach, std::ptrdiff_t{0}},
+                                   std::pair{std::ptrdiff_t{0}, -reach}, std::pair{std::ptrdiff_t{0}, reach}}) {
+        const std::ptrdiff_t y = row + dy, x = column + dx;
+        if (y < 0 || x < 0 || y >= rows || x >= columns) continue;
+        const double nearer = depth_[static_cast<std::size_t>(y * columns + x)] - depth_[pixel];
+        hidden += 0.25 * std::clamp(nearer / slope, 0.0, 1.0);
+      }
+      const double distance = nearest > farthest ? (nearest - depth_[pixel]) / (nearest - farthest) : 0.0;
+      light_[pixel] *= static_cast<float>((1.0 - fading * distance) * (1.0 - strength * hidden));
+    }
+  }
+}
+
 }  // namespace whipple::analysis

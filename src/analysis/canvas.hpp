@@ -37,6 +37,11 @@ class Canvas {
   /// large enough (median edge of seven pixels).
   void faces(std::span<const std::array<Vector3, 4>> corners, std::span<const std::uint32_t> labels);
 
+  /// Darkens what is behind other things: evenly with the depth, from the nearest to the farthest of what is seen, by
+  /// `fading` at most; and beside nearer neighbours, as if light came from all directions of the eye's side (Boucheny,
+  /// thesis, Grenoble 2009: eye-dome lighting). To be called once, when all is drawn.
+  void shade(double fading);
+
   [[nodiscard]] std::size_t rows() const { return rows_; }
   [[nodiscard]] std::size_t columns() const { return columns_; }
   /// Returns the labels, row by row from below.

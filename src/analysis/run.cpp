@@ -291,6 +291,14 @@ void sort_by_number(Snapshot& snapshot) {
 
 }  // namespace
 
+fs::path elements_file(const SnapshotEntry& entry) {
+  constexpr std::string_view particles = ".particles.";
+  std::string name = entry.file.filename().string();
+  const std::size_t kind = name.rfind(particles);
+  if (kind == std::string::npos) return {};
+  return entry.file.parent_path() / name.replace(kind, particles.size(), ".elements.");
+}
+
 Snapshot read_snapshot(const SnapshotEntry& entry) {
   const hdf5::File file = hdf5::File::open(entry.file);
   const hdf5::Group vtk = file.root.open_group("VTKHDF");
@@ -312,14 +320,9 @@ Snapshot read_snapshot(const SnapshotEntry& entry) {
     if (std::ranges::find(read_above, name) != read_above.end()) continue;
     if (data.open_dataset(name).shape().size() == 1) snapshot.scalars[name] = as_reals(data, name, order);
   }
-  std::string elements = entry.file.filename().string();
-  if (const std::size_t kind = elements.rfind(".particles."); kind != std::string::npos) {
-    elements.replace(kind, 11, ".elements.");
-    const fs::path with_elements = entry.file.parent_path() / elements;
-    if (fs::exists(with_elements)) {
-      append_elements(with_elements, snapshot);
-      sort_by_number(snapshot);
-    }
+  if (const fs::path with_elements = elements_file(entry); !with_elements.empty() && fs::exists(with_elements)) {
+    append_elements(with_elements, snapshot);
+    sort_by_number(snapshot);
   }
   require_sound(snapshot, entry);
   return snapshot;

@@ -81,6 +81,10 @@ struct Snapshot {
   [[nodiscard]] std::vector<double> volumes() const;
 };
 
+/// Returns the file of the elements at the time of a snapshot, which is there if the run has any; empty if the snapshot
+/// is not called as one of particles.
+std::filesystem::path elements_file(const SnapshotEntry& entry);
+
 /// @throws InputError if the file is not that of a snapshot of this run: arrays of other lengths, bodies that
 /// the case does not have, numbers that are not finite, masses that are not positive
 Snapshot read_snapshot(const SnapshotEntry& entry);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,8 @@ namespace whipple::analysis {
 namespace {
 
 constexpr const char* density = "density";
+constexpr double fading = 0.45;           // of the light, from the nearest to the farthest of what is seen
+constexpr double beyond_the_scale = 0.02;  // fraction of the mass that moves, at each end
 
 /// A field of the views. Its values are those of the points; of an element the mean of its points.
 struct ShownField {
@@ -125,9 +128,23 @@ Projection projection_of(const Frame& frame, const std::vector<Snapshot>& snapsh
   return projection;
 }
 
+/// Diameters (m) of the points of a scene.
+std::vector<double> diameters_of(const Scene& scene, const Frame& frame) {
+  const Snapshot& snapshot = scene.snapshot;
+  const std::vector<double>* densities = snapshot.scalar(density);
+  if (densities == nullptr) return std::vector<double>(scene.points.size(), 0.0);
+  std::vector<Vector3> positions;
+  std::vector<double> edges;
+  for (const std::size_t i : scene.points) {
+    positions.push_back(snapshot.position[i]);
+    edges.push_back(frame.edge(snapshot.mass[i] / std::max((*densities)[i], 1e-3), snapshot.position[i]));
+  }
+  return drawn_diameters(positions, edges, frame.is_planar());
+}
+
 /// Draws a scene; labels are the numbers of its items. @param outside  from outside; else cut along the plane of sight
 /// through the axis
-Canvas draw(const Scene& scene, const Projection& projection, bool outside) {
+Canvas draw(const Scene& scene, const std::vector<double>& diameters, const Projection& projection, bool outside) {
   const Snapshot& snapshot = scene.snapshot;
   const Frame& frame = projection.frame;
   const bool whole = outside || frame.is_planar();
@@ -141,7 +158,6 @@ Canvas draw(const Scene& scene, const Projection& projection, bool outside) {
     number.push_back(static_cast<std::uint32_t>(item));
   }
   const std::vector<Face> faces = surface_faces(shown);
-  const std::vector<double>* densities = snapshot.scalar(density);
   for (const double side : {1.0, -1.0}) {
     if (side < 0.0 && !projection.is_mirrored()) break;
     std::vector<std::array<Vector3, 4>> corners;
@@ -159,14 +175,11 @@ Canvas draw(const Scene& scene, const Projection& projection, bool outside) {
       const std::size_t i = scene.points[item];
       const Vector3 coordinates = projection.coordinates(snapshot.position[i]);
       if (!whole && coordinates[2] > 0.0) continue;
-      const double edge =
-          densities == nullptr
-              ? 0.0
-              : frame.edge(snapshot.mass[i] / std::max((*densities)[i], 1e-3), snapshot.position[i]);
-      canvas.sphere(projection.place(coordinates, side, outside), 0.5 * edge / projection.pixel,
+      canvas.sphere(projection.place(coordinates, side, outside), 0.5 * diameters[item] / projection.pixel,
                     static_cast<std::uint32_t>(item));
     }
   }
+  canvas.shade(frame.is_planar() ? 0.0 : fading);
   return canvas;
 }
 
@@ -196,11 +209,12 @@ void write_picture(const Canvas& canvas, const Scene& scene, std::span<const Sho
   }
 }
 
-/// Writes the ends of the scale of a field: the values that all but 0.2 % of the mass is above or below, of the mass that
-/// moves, in all snapshots but the first, which is before the impact. A field that is zero everywhere has no scale.
+/// Writes the ends of the scale of a field. Of the mass that moves at a time all but a fraction lies between two values;
+/// the ends are the widest of all times but the first, which is before the impact. A field that is zero everywhere has
+/// no scale.
 void write_scale(const ShownField& field, const std::vector<Snapshot>& snapshots, const Frame& frame,
                  const hdf5::Group& group) {
-  std::vector<std::pair<double, double>> value_and_mass;
+  std::vector<double> ends;
   bool is_zero = true;
   for (std::size_t k = 0; k < snapshots.size(); ++k) {
     const Snapshot& snapshot = snapshots[k];
@@ -211,12 +225,16 @@ void write_scale(const ShownField& field, const std::vector<Snapshot>& snapshots
     const auto moves = [&](std::size_t i) { return snapshot.velocity[i].norm() > 0.05 * frame.impact_speed; };
     bool any = false;  // cold walls at rest set no scale, unless there is nothing else
     for (std::size_t i = 0; i < snapshot.size() && !any; ++i) any = moves(i);
+    std::vector<std::pair<double, double>> value_and_mass;
     for (std::size_t i = 0; i < snapshot.size(); ++i) {
       if (!any || moves(i)) value_and_mass.emplace_back((*values)[i], snapshot.mass[i]);
     }
+    if (value_and_mass.empty()) continue;
+    const double low = weighted_quantile(value_and_mass, beyond_the_scale),
+                 high = weighted_quantile(value_and_mass, 1.0 - beyond_the_scale);
+    ends = ends.empty() ? std::vector{low, high} : std::vector{std::min(ends[0], low), std::max(ends[1], high)};
   }
-  if (is_zero || value_and_mass.empty()) return;
-  const std::vector<double> ends = {weighted_quantile(value_and_mass, 0.002), weighted_quantile(value_and_mass, 0.998)};
+  if (is_zero || ends.empty()) return;
   group.write<double>(field.name, ends, hdf5::Slab::whole(2));
 }
 
@@ -227,13 +245,51 @@ std::vector<std::size_t> shown_snapshots(const std::vector<SnapshotEntry>& entri
   const auto count = std::min(entries.size(), static_cast<std::size_t>(std::max(at_most, 0)));
   for (std::size_t k = 0; k < count; ++k) {
     const double part = count == 1 ? 0.0 : static_cast<double>(k) / static_cast<double>(count - 1);
-    const double first = entries.front().time, wanted = first + (entries.back().time - first) * std::pow(part, 1.5);
+    const double first = entries.front().time, wanted = first + (entries.back().time - first) * part * part;
     const auto nearest = std::ranges::min_element(
         entries, {}, [&](const SnapshotEntry& entry) { return std::abs(entry.time - wanted); });
     numbers.push_back(static_cast<std::size_t>(nearest - entries.begin()));
   }
   numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
   return numbers;
+}
+
+std::vector<double> drawn_diameters(const std::vector<Vector3>& positions, const std::vector<double>& edges, bool planar) {
+  constexpr double widest = 3.0;  // edges: mean distance of points up to which they count as connected debris
+  std::vector<double> diameters = edges;
+  if (positions.empty()) return diameters;
+  std::vector<double> sorted = edges;
+  std::ranges::nth_element(sorted, sorted.begin() + std::ssize(sorted) / 2);
+  const double width = widest * sorted[sorted.size() / 2];
+  if (!(width > 0.0)) return diameters;
+  using Cell = std::array<std::int64_t, 3>;
+  const auto cell_of = [&](const Vector3& x) {
+    Cell cell{};
+    for (std::size_t a = 0; a < 3; ++a) cell[a] = static_cast<std::int64_t>(std::floor(std::clamp(x[static_cast<int>(a)] / width, -1e15, 1e15)));
+    return cell;
+  };
+  std::map<Cell, std::size_t> counts;
+  for (const Vector3& x : positions) ++counts[cell_of(x)];
+  std::map<Cell, double> distances;  // mean distance of the points in a cell and its neighbours
+  const std::int64_t deep = planar ? 0 : 1;
+  for (const auto& [cell, count] : counts) {
+    std::size_t points = 0;
+    for (std::int64_t x = -1; x <= 1; ++x) {
+      for (std::int64_t y = -1; y <= 1; ++y) {
+        for (std::int64_t z = -deep; z <= deep; ++z) {
+          const auto found = counts.find({cell[0] + x, cell[1] + y, cell[2] + z});
+          if (found != counts.end()) points += found->second;
+        }
+      }
+    }
+    const double each = planar ? 9.0 / static_cast<double>(points) : 27.0 / static_cast<double>(points);
+    distances[cell] = width * (planar ? std::sqrt(each) : std::cbrt(each));
+  }
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const double distance = distances[cell_of(positions[i])];
+    if (distance <= widest * edges[i]) diameters[i] = std::max(edges[i], distance);
+  }
+  return diameters;
 }
 
 void write_views(const Run& run, const Frame& frame, const ViewOptions& options, const hdf5::Group& root) {
@@ -258,9 +314,10 @@ void write_views(const Run& run, const Frame& frame, const ViewOptions& options,
     const hdf5::Group at = times.create_group(fmt::format("{:04}", k));
     at.set_attribute("time", snapshots[k].time);
     at.set_attribute("items", static_cast<std::int64_t>(scene.size()));
-    write_picture(draw(scene, projection, false), scene, fields, at.create_group("section"));
+    const std::vector<double> diameters = diameters_of(scene, frame);
+    write_picture(draw(scene, diameters, projection, false), scene, fields, at.create_group("section"));
     if (frame.is_planar()) continue;
-    write_picture(draw(scene, projection, true), scene, std::span(fields).first(1), at.create_group("outside"));
+    write_picture(draw(scene, diameters, projection, true), scene, std::span(fields).first(1), at.create_group("outside"));
   }
 }
 

@@ -19,6 +19,12 @@ struct ViewOptions {
 /// Chooses snapshots to be shown, closer together at the beginning, where the shock is. @returns their numbers
 std::vector<std::size_t> shown_snapshots(const std::vector<SnapshotEntry>& entries, int at_most);
 
+/// Computes the diameter (m) of the spheres that stand for points of material of given edges. In debris that has spread,
+/// but whose points are nearer to one another than three edges in the mean, it is their mean distance, so that the
+/// rows of the lattice on which they began do not show as rings; elsewhere the edge.
+/// @param edges  edge (m) of the cube, or square, of each point's material
+std::vector<double> drawn_diameters(const std::vector<Vector3>& positions, const std::vector<double>& edges, bool planar);
+
 /// Draws the views and writes the group `views` (docs/manual/output.md).
 void write_views(const Run& run, const Frame& frame, const ViewOptions& options, const hdf5::Group& root);
 

@@ -21,6 +21,7 @@
 #include "src/app/compare_command.hpp"
 #include "src/app/describe_command.hpp"
 #include "src/app/eos_command.hpp"
+#include "src/app/export_command.hpp"
 #include "src/app/fit_command.hpp"
 #include "src/app/import_command.hpp"
 #include "src/app/materials_command.hpp"
@@ -68,6 +69,7 @@ int whipple_main(int argc, char** argv) {
   add_check_command(app);
   add_status_command(app);
   add_steer_command(app);
+  add_export_command(app);
   add_import_command(app);
   add_md_command(app);
   add_fit_command(app);

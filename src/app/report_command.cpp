@@ -25,12 +25,12 @@ namespace whipple::app {
 namespace {
 
 struct ReportOptions {
-  std::string run;
+  std::vector<std::string> runs;
   std::string output;
   std::vector<std::string> figures;
   AnalysisWords analysis;
-  int dots_per_inch = 180;
-  double view_megabytes = 12.0;
+  int dots_per_inch = 300;
+  double view_megabytes = 4.0;
 };
 
 /// Writes view.html for the page, if it can be made of this run. Returns its path, empty without one.
@@ -39,6 +39,7 @@ std::string write_view(const analysis::Run& run, double megabytes, const std::fi
   try {
     view::PageOptions options;
     options.most_bytes = 1e6 * megabytes;
+    options.bits = 8;  // what colours show; the page of `whipple view` has 16
     const std::filesystem::path file = output / "view.html";
     io::write_text_atomically(file, view::make_page(run, options, process::find_data("web/viewer")).html);
     return file.string();
@@ -55,25 +56,33 @@ void write_planar_impacts(const analysis::Run& run, const std::filesystem::path&
   io::write_text_atomically(output / "planar_impact.json", planar_impacts(setup, axis).dump(1));
 }
 
+/// Measures a run and draws its views. Returns the page of the view in three dimensions, empty without one.
+std::string measure(const std::string& folder, const ReportOptions& options, const std::filesystem::path& output,
+                    bool with_view) {
+  const analysis::Run run = analysis::read_run(folder);
+  if (run.snapshots.empty()) return "";  // it has its input and history to show
+  AnalysisWords words = options.analysis;
+  constexpr double panel_width = 4.5;  // inches, somewhat more than that of one of several panels
+  words.views.columns = static_cast<std::size_t>(std::lround(panel_width * options.dots_per_inch));
+  run_analysis(folder, words, output);
+  write_planar_impacts(run, output);
+  return with_view ? write_view(run, options.view_megabytes, output) : "";
+}
+
 int run_report(const ReportOptions& options) {
-  if (!std::filesystem::is_directory(options.run)) {
-    throw InputError(
-        fmt::format("{}: error: is not a folder; expected the output of whipple run", options.run));
+  for (const std::string& run : options.runs) {
+    if (!std::filesystem::is_directory(run)) {
+      throw InputError(fmt::format("{}: error: is not a folder; expected the output of whipple run", run));
+    }
   }
-  const std::filesystem::path output = options.output.empty() ? options.run + "/report" : options.output;
-  std::string view;
-  // A run that has not come to its first snapshot has its input and history to show.
-  if (const analysis::Run run = analysis::read_run(options.run); !run.snapshots.empty()) {
-    AnalysisWords words = options.analysis;
-    constexpr double panel_width = 6.6;  // inches, at least that of the widest of several panels
-    words.views.columns = static_cast<std::size_t>(std::lround(panel_width * options.dots_per_inch));
-    run_analysis(options.run, words, output);
-    write_planar_impacts(run, output);
-    view = write_view(run, options.view_megabytes, output);
+  const bool one = options.runs.size() == 1;
+  const std::filesystem::path output = options.output.empty() ? options.runs.front() + "/report" : options.output;
+  std::vector<std::string> arguments = options.runs;
+  arguments.insert(arguments.end(), {"--dpi", std::to_string(options.dots_per_inch), "--output", output.string()});
+  for (const std::string& run : options.runs) {
+    const std::string view = measure(run, options, one ? output : std::filesystem::path(run) / "report", one);
+    if (!view.empty()) arguments.insert(arguments.end(), {"--view", view});
   }
-  std::vector<std::string> arguments = {options.run, "--dpi", std::to_string(options.dots_per_inch), "--output",
-                                        output.string()};
-  if (!view.empty()) arguments.insert(arguments.end(), {"--view", view});
   for (const std::string& figure : options.figures) arguments.insert(arguments.end(), {"--figure", figure});
   return process::run_script("report", arguments);
 }
@@ -82,10 +91,10 @@ int run_report(const ReportOptions& options) {
 
 void add_report_command(CLI::App& app) {
   auto options = std::make_shared<ReportOptions>();
-  CLI::App* command = app.add_subcommand("report", "Measures, figures and tables of a run, as one HTML page");
-  command->add_option("run", options->run, "The run directory")->required();
+  CLI::App* command = app.add_subcommand("report", "Measures, figures and tables of a run, or of several side by side, as one HTML page");
+  command->add_option("run", options->runs, "The run directory; several: a page that compares them")->required();
   command->add_option("-o,--output", options->output,
-                      "Folder of the page (default: report/ in the run directory)");
+                      "Folder of the page (default: report/ in the first run directory)");
   command->add_option("--figure", options->figures, "A figure to show before the pictures (repeatable)")
       ->type_name("TITLE=FILE.png")
       ->allow_extra_args(false);
@@ -102,7 +111,7 @@ void add_report_command(CLI::App& app) {
                    "Greatest size of the view in three dimensions (0: none)")
       ->check(CLI::Range(0.0, 2000.0))
       ->capture_default_str();
-  command->footer("Example:\n  whipple report run/copper_disk_on_aluminium --figure Hugoniot=compare.png");
+  command->footer("Example:\n  whipple report run/copper_disk_on_aluminium --figure Hugoniot=compare.png\n  whipple report run/a run/b run/c -o compared");
   command->callback([options] {
     const int code = run_report(*options);
     if (code != 0) throw CLI::RuntimeError(code);

@@ -62,6 +62,9 @@ void add_view_command(CLI::App& app) {
   command->add_option("--megabytes", options->megabytes, "Greatest size of the page: particles are left out beyond it")
       ->check(CLI::Range(0.1, 2000.0))
       ->capture_default_str();
+  command->add_option("--bits", options->page.bits, "Bits of each value of a field: 8 make the page smaller")
+      ->check(CLI::IsMember({8, 16}))
+      ->capture_default_str();
   command->add_option("--wpv", options->clouds, "Also every snapshot in full detail, to be opened in the page")
       ->type_name("FOLDER");
   command->footer(

@@ -36,10 +36,10 @@ ParameterTable<Discretization> Discretization::parameters() {
       real("hourglass_coefficient", &D::hourglass_coefficient, "", range::between(0.0, 1.0),
            "hourglass coefficient: fraction of the largest stiffness or of the critical damping")
           .optional(),
-      text("mesh", &D::mesh, "file of Gmsh (2.2 or 4.1) or Abaqus with the hexahedra of the body instead of a shape")
+      text("mesh", &D::mesh, "file of Gmsh (2.2 or 4.1), Abaqus or VTK (.vtu, .vtk) with the hexahedra of the body instead of a shape")
           .optional(),
       real("mesh_unit", &D::mesh_unit, "m", range::positive(), "length of a unit of the mesh file").optional(),
-      text("group", &D::group, "physical group (Gmsh) or element set (Abaqus) in the mesh file; empty: the only one").optional(),
+      text("group", &D::group, "physical group (Gmsh), element set (Abaqus) or array and value (VTK: \"body 1\") in the mesh file; empty: the only one").optional(),
       real("bar_diameter", &D::bar_diameter, "m", range::non_negative(), "diameter of the bars").optional(),
       real("bar_failure_strain", &D::bar_failure_strain, "", range::positive(),
            "plastic strain at which a bar breaks")

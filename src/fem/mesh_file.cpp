@@ -15,6 +15,7 @@
 #include "src/fem/facets.hpp"
 #include "src/fem/gmsh.hpp"
 #include "src/fem/structured.hpp"
+#include "src/fem/vtk_mesh.hpp"
 
 namespace whipple::fem {
 namespace {
@@ -47,7 +48,9 @@ const ElementKind* element_kind(int number) {
 }
 
 MeshFile MeshFile::read(const std::filesystem::path& path, double length_unit) {
-  return MeshFile(is_abaqus(path) ? read_abaqus(path, length_unit) : read_gmsh(path, length_unit));
+  return MeshFile(is_vtk(path)      ? read_vtk(path, length_unit)
+                  : is_abaqus(path) ? read_abaqus(path, length_unit)
+                                    : read_gmsh(path, length_unit));
 }
 
 std::vector<std::string> MeshFile::group_names(std::optional<int> dimension) const {

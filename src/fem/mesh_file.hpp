@@ -47,7 +47,8 @@ inline constexpr int line_kind = 1, hexahedron_kind = 5;
 /// Returns the kind of a number; null if it is unknown.
 const ElementKind* element_kind(int number);
 
-/// Meshes by group, from a file of Gmsh (formats 2.2 and 4.1, ASCII) or an input of Abaqus (keywords). The readers are
+/// Meshes by group, from a file of Gmsh (formats 2.2 and 4.1, ASCII) an input of Abaqus (keywords),
+/// or an unstructured grid of VTK. The readers are
 /// the project's own: the library of Gmsh brings 24 packages (OpenCASCADE, FLTK, ...; 180 MB), reports errors without
 /// their line, and is under the GPL.
 class MeshFile {

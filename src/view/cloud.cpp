@@ -23,8 +23,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the planes of a cloud are little endian");
 
-/// 16 bits of a field: its range in equal steps, and one value for what is no finite number.
-constexpr std::uint16_t steps = 65534, missing = 65535;
+/// The range of a field is divided into equal steps; the greatest number stands for what is no finite number.
+template <class Number>
+constexpr Number missing = std::numeric_limits<Number>::max();
 constexpr std::uint16_t position_steps = 65535;
 
 struct FieldOfCloud {
@@ -150,6 +151,7 @@ void append_codes(const FieldOfCloud& field, const std::vector<std::size_t>& kep
                                    {"type", narrow ? "u8" : "u16"}, {"codes", true}});
 }
 
+template <class Number>
 void append_reals(const FieldOfCloud& field, const std::vector<std::size_t>& kept, CloudFile& file) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const std::size_t i : kept) {
@@ -160,15 +162,15 @@ void append_reals(const FieldOfCloud& field, const std::vector<std::size_t>& kep
   }
   if (lowest > highest) lowest = highest = 0.0;
   const double size = highest - lowest;
+  constexpr double steps = missing<Number> - 1;
   for (const std::size_t i : kept) {
     const double value = field.value(i);
     const double share = size > 0.0 ? (value - lowest) / size : 0.0;
-    append_number(file.planes,
-                  std::isfinite(value) ? static_cast<std::uint16_t>(std::lround(share * steps)) : missing);
+    append_number(file.planes, std::isfinite(value) ? static_cast<Number>(std::lround(share * steps)) : missing<Number>);
   }
   file.end_plane();
   file.header["fields"].push_back({{"name", field.name}, {"unit", field.unit}, {"meaning", field.meaning},
-                                   {"type", "u16"}, {"lo", lowest}, {"hi", highest}});
+                                   {"type", sizeof(Number) == 1 ? "u8" : "u16"}, {"lo", lowest}, {"hi", highest}});
 }
 
 /// Appends the increments of the numbers, which are ascending: zeros and ones that vanish in compression.
@@ -197,7 +199,6 @@ nlohmann::ordered_json header_of(const analysis::Run& run, const analysis::Snaps
   for (const analysis::BodyInput& body : run.bodies) {
     header["bodies"].push_back({{"name", body.name}, {"spacing", body.spacing}});
   }
-  header["missing"] = missing;
   header["fields"] = nlohmann::ordered_json::array();
   return header;
 }
@@ -221,7 +222,13 @@ std::string pack_cloud(const analysis::Run& run, const analysis::Snapshot& snaps
                              [&](std::size_t i) { return snapshot.body[i]; }};
   append_codes(body, kept, file);
   for (const FieldOfCloud& field : chosen_fields(snapshot, options.fields)) {
-    field.codes ? append_codes(field, kept, file) : append_reals(field, kept, file);
+    if (field.codes) {
+      append_codes(field, kept, file);
+    } else if (options.bits == 8) {
+      append_reals<std::uint8_t>(field, kept, file);
+    } else {
+      append_reals<std::uint16_t>(field, kept, file);
+    }
   }
   std::string header = file.header.dump();
   header.append((4 - header.size() % 4) % 4, ' ');

@@ -150,14 +150,14 @@ Page make_page(const analysis::Run& run, const PageOptions& options, const fs::p
   page.times = times.size();
   const auto detail = [](double excess) { return static_cast<std::uint64_t>(std::ceil(excess)); };
   // The last snapshot packs worst: it tells how many particles there may be.
-  const std::string last = packed_times(run, {times.back()}, {options.fields});
+  const std::string last = packed_times(run, {times.back()}, {options.fields, 1, options.bits});
   page.one_of = std::max<std::uint64_t>(1, detail(0.8 * static_cast<double>(last.size() * times.size()) / std::max(room, 1.0)));
   for (;;) {
     if (page.one_of > least_detail || room <= 0.0) {
       throw InputError(fmt::format("no page of {:.3g} MB can hold {} times: allow more, or ask for fewer times or fields",
                                    1e-6 * options.most_bytes, times.size()));
     }
-    const std::string clouds = packed_times(run, times, {options.fields, page.one_of});
+    const std::string clouds = packed_times(run, times, {options.fields, page.one_of, options.bits});
     const double excess = static_cast<double>(clouds.size()) / room;
     if (excess <= 1.0) {
       fill(html, "@CLOUDS@", clouds);

@@ -15,6 +15,7 @@ namespace whipple::view {
 struct PageOptions {
   std::size_t times = 12;           ///< snapshots in the page, spread evenly, first and last included
   std::vector<std::string> fields;  ///< of `cloud_fields`; empty: all
+  int bits = 16;                    ///< as of `CloudOptions`
   double most_bytes = 20e6;         ///< of the page; particles are left out until it holds
 };
 

@@ -137,10 +137,40 @@ TEST(Canvas, ElementsAreDrawnByTheirFaces) {
   EXPECT_NE(light(15, 25), light(15, 15)) << "light by the slope";
 }
 
+TEST(Canvas, ShadingDarkensTheFarAndWhatIsBesideTheNear) {
+  Canvas canvas(60, 60);
+  canvas.sphere({15.0, 15.0, 100.0}, 6.0, 0);
+  canvas.sphere({15.0, 45.0, 0.0}, 6.0, 1);
+  canvas.sphere({45.0, 45.0, 0.0}, 6.0, 2);
+  canvas.sphere({45.0, 55.0, 100.0}, 4.0, 3);
+  const std::vector<float> before = canvas.light();
+  canvas.shade(0.5);
+  const auto left = [&](std::size_t row, std::size_t column) {
+    return canvas.light()[row * 60 + column] / before[row * 60 + column];
+  };
+  EXPECT_NEAR(left(15, 15), 1.0, 0.02);  // of the nearest
+  EXPECT_NEAR(left(45, 15), 0.5, 0.03);
+  EXPECT_LT(left(49, 45), 0.9 * left(41, 45)) << "beside what is nearer";
+  EXPECT_EQ(canvas.light()[0], 0.0F);
+}
+
+TEST(Views, SpheresReachTheirNeighboursInThinDebrisOnly) {
+  std::vector<Vector3> positions;
+  std::vector<double> edges(1001, 1.0);
+  for (int k = 0; k < 1000; ++k) positions.emplace_back(2.0 * (k % 10), 2.0 * (k / 10 % 10), 2.0 * (k / 100));
+  positions.emplace_back(100.0, 0.0, 0.0);
+  const std::vector<double> spread = drawn_diameters(positions, edges, false);
+  EXPECT_NEAR(spread[555], 2.0, 0.25);
+  EXPECT_EQ(spread[1000], 1.0) << "a particle alone keeps the size of its material";
+  for (Vector3& x : positions) x *= 0.5;
+  EXPECT_NEAR(drawn_diameters(positions, edges, false)[555], 1.0, 0.25) << "dense material";
+  EXPECT_EQ(drawn_diameters({}, {}, true).size(), 0U);
+}
+
 TEST(Views, AreCloserTogetherAtTheBeginning) {
   std::vector<SnapshotEntry> entries;
   for (int k = 0; k <= 8; ++k) entries.push_back({.file = {}, .time = 1e-6 * k});
-  EXPECT_EQ(shown_snapshots(entries, 3), (std::vector<std::size_t>{0, 3, 8}));
+  EXPECT_EQ(shown_snapshots(entries, 3), (std::vector<std::size_t>{0, 2, 8}));
   EXPECT_EQ(shown_snapshots(entries, 1), (std::vector<std::size_t>{0}));
   EXPECT_EQ(shown_snapshots(entries, 100).back(), 8U);
   EXPECT_TRUE(shown_snapshots({}, 3).empty());

@@ -5,9 +5,6 @@ page; a page of another origin can neither read nor change anything. Skipped wit
 
 Usage: app_monitor_browser.py WHIPPLE CASE.toml FOLDER
 """
-import base64
-import contextlib
-import http.client
 import http.server
 import json
 import pathlib
@@ -17,85 +14,10 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 
-SKIPPED = 77
+from chromium import ENTER, RIGHT, SKIPPED, TAB, Browser, programs, require
+
 WHIPPLE, CASE, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # key of the WebDriver protocol
-
-
-def require(condition, message):
-    if not condition:
-        raise SystemExit(f"FAILED: {message}")
-
-
-class Browser:
-    """Chromium without a window, by the WebDriver protocol of W3C."""
-
-    def __init__(self, driver, browser, profile):
-        self.process = subprocess.Popen([driver, "--port=0"], stdout=subprocess.PIPE, text=True)
-        port = None
-        for line in self.process.stdout:
-            if found := re.search(r"started successfully on port (\d+)", line):
-                port = int(found[1])
-                break
-        require(port, "the driver of Chromium does not start")
-        threading.Thread(target=self.process.stdout.read, daemon=True).start()
-        self.connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120)
-        self.session = ""
-        arguments = ["--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
-                     "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                     "--window-size=1200,800", f"--user-data-dir={profile}"]
-        options = {"browserName": "chrome", "goog:chromeOptions": {"binary": browser, "args": arguments},
-                   "goog:loggingPrefs": {"browser": "ALL"}, "unhandledPromptBehavior": "ignore"}
-        self.session = "/session/" + self.do("POST", "/session", {"capabilities": {"alwaysMatch": options}})["sessionId"]
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        with contextlib.suppress(Exception):
-            self.do("DELETE", "")
-        self.process.terminate()
-
-    def do(self, method, path, body=None):
-        text = None if method != "POST" else json.dumps(body or {})
-        self.connection.request(method, self.session + path, text, {"Content-Type": "application/json"})
-        answer = json.loads(self.connection.getresponse().read())["value"]
-        if isinstance(answer, dict) and "error" in answer:
-            raise RuntimeError(f"{answer['error']}: {answer['message'][:300]}")
-        return answer
-
-    def open(self, url):
-        self.do("POST", "/url", {"url": url})
-
-    def js(self, script, *arguments):
-        return self.do("POST", "/execute/sync", {"script": script, "args": list(arguments)})
-
-    def find(self, selector):
-        return "/element/" + self.do("POST", "/element", {"using": "css selector", "value": selector})[ELEMENT]
-
-    def click(self, selector):
-        self.do("POST", self.find(selector) + "/click")
-
-    def type(self, selector, text):
-        self.do("POST", self.find(selector) + "/value", {"text": text})
-
-    def text(self, selector):
-        return self.js("return document.querySelector(arguments[0])?.textContent ?? ''", selector)
-
-    def wait(self, script, what, seconds=60):
-        deadline = time.monotonic() + seconds
-        while not (found := self.js(script)):
-            require(time.monotonic() < deadline, f"waited in vain for {what}; the page says: {self.js('return document.body.innerText')[:1500]}")
-            time.sleep(0.2)
-        return found
-
-    def picture(self, name):
-        (FOLDER / name).write_bytes(base64.b64decode(self.do("GET", "/screenshot")))
-
-    def complaints(self):
-        return [entry["message"] for entry in self.do("POST", "/se/log", {"type": "browser"}) if entry["level"] == "SEVERE"]
 
 
 FOREIGN = """<!doctype html><title>foreign</title><script>
@@ -135,6 +57,31 @@ def check_foreign_page(browser, address, key):
     browser.complaints()  # its own refusals are no fault
 
 
+# Everything that a person can use and see, in the order of the page.
+CONTROLS = """return [...document.querySelectorAll('button, input, select, textarea, summary, a[href], [tabindex="0"]')].filter(
+  (one) => !one.disabled && one.checkVisibility({ visibilityProperty: true }) && one.getClientRects().length > 0).map((one) => one.tagName)"""
+ROLES = {"button", "textbox", "combobox", "checkbox", "slider", "DisclosureTriangle", "application", "img", "image", "log", "link",
+         "listbox", "spinbutton", "region"}
+
+
+def check_keyboard(browser, what):
+    """The tab key reaches every control in the order of the page, each with a role and a name; back again with shift."""
+    browser.js("document.activeElement?.blur(); window.getSelection().removeAllRanges(); window.scrollTo(0, 0)")
+    browser.js("document.body.tabIndex = -1; document.body.focus(); document.body.removeAttribute('tabindex')")
+    expected, tags, reached = browser.js(CONTROLS), [], []
+    require(len(expected) > 5, f"{what}: {len(expected)} controls")
+    for _ in expected:
+        browser.press(TAB)
+        found = browser.focused()
+        require(found is not None, f"{what}: the focus is lost after {reached[-3:]}")
+        reached.append(found)
+        tags.append(browser.js("return document.activeElement.tagName"))
+    require(tags == expected, f"{what}: the tab key goes through {tags}, the page has {expected}")
+    require(all(role in ROLES and name.strip() for role, name in reached), f"{what}: a control without role or name in {reached}")
+    browser.press(TAB)
+    require(browser.focused() != reached[-1], f"{what}: no way out of {reached[-1]}")
+
+
 def check_run(browser, address, key):
     running = "document.querySelector('#run .state')?.textContent"
     browser.open(f"{address}/#{key}")
@@ -151,9 +98,16 @@ def check_run(browser, address, key):
     browser.wait("return /particles in three dimensions/i.test(document.querySelector('#viewer canvas')?.getAttribute('aria-label') ?? '')", "the snapshots")
     at = browser.text("#viewer footer output")
     browser.wait(f"return document.querySelector('#viewer footer output').textContent !== {json.dumps(at)}", "a later snapshot")
-    browser.click("[data-act=pause]")
+    browser.tab_to(lambda _, name: name == "pause", "the pause")
+    browser.press(ENTER)
     browser.wait(f"return {running} === 'paused'", "the pause")
-    browser.picture("paused.png")
+    browser.picture(FOLDER / "paused.png")
+    require(browser.js("return document.querySelector('#run .state').getAttribute('role')") == "status", "the state is told")
+    check_keyboard(browser, "the monitor")
+    before = browser.tab_to(lambda role, _: role == "application", "the picture")[1]
+    browser.press("f")
+    browser.wait(f"return document.activeElement.getAttribute('aria-label') !== {json.dumps(before)}", "another field by the key f")
+    browser.press(RIGHT)
     browser.js("const select = document.querySelector('header select'); select.value = 'snapshot_every'; select.dispatchEvent(new Event('change'))")
     browser.type("header form input", "3 kg")
     browser.click("header form button")
@@ -162,7 +116,8 @@ def check_run(browser, address, key):
     browser.type("header form input", "0.01 us")
     browser.click("header form button")
     browser.wait("return /snapshot_every 0.01 us.*accepted/s.test(document.querySelector('[aria-label=Answers]').innerText)", "the answer")
-    browser.click("[data-act=resume]")
+    browser.tab_to(lambda _, name: name == "resume", "the end of the pause")
+    browser.press(" ")
     browser.wait(f"return {running} === 'running'", "the run after the pause")
     browser.click("[data-act=stop]")
     browser.wait("return document.querySelector('[data-act=restart]') !== null", "the stop")
@@ -171,7 +126,7 @@ def check_run(browser, address, key):
     browser.click("[data-act=end]")
     browser.do("POST", "/alert/accept")
     browser.wait(f"return {running} === 'stopped' || {running} === 'done'", "its end")
-    browser.picture("ended.png")
+    browser.picture(FOLDER / "ended.png")
     unnamed = browser.js("""return [...document.querySelectorAll('button, input, select, textarea, canvas')].filter((one) =>
       !(one.labels?.length || one.getAttribute('aria-label') || one.textContent.trim() || one.type === 'file')).map((one) => one.outerHTML)""")
     require(not unnamed, f"controls without a name: {unnamed}")
@@ -180,9 +135,8 @@ def check_run(browser, address, key):
 
 
 def main():
-    driver, chromium = shutil.which("chromedriver"), shutil.which("chromium")
-    if not driver or not chromium:
-        print("SKIPPED: no Chromium here (Debian's packages chromium and chromium-driver)")
+    found = programs()
+    if found is None:
         return SKIPPED
     shutil.rmtree(FOLDER, ignore_errors=True)
     cases, runs = FOLDER / "cases", FOLDER / "runs"
@@ -192,9 +146,14 @@ def main():
     monitor = subprocess.Popen([WHIPPLE, "monitor", str(runs), "--cases", str(cases)], stdout=subprocess.PIPE, text=True)
     try:
         address, key = re.search(r"(http://[0-9.:]+)/#([0-9a-f]+) ", monitor.stdout.readline()).groups()
-        with Browser(driver, chromium, FOLDER / "profile") as browser:
+        with Browser(*found, FOLDER / "profile") as browser:
             check_run(browser, address, key)
             check_foreign_page(browser, address, key)
+            subprocess.run([WHIPPLE, "view", runs / "ball", "-o", FOLDER / "view.html", "--quiet"], check=True)
+            browser.open((FOLDER / "view.html").as_uri())
+            browser.wait("return document.querySelector('footer output') !== null", "the view")
+            check_keyboard(browser, "the view")
+            browser.picture(FOLDER / "view.png")
     finally:
         subprocess.run(["pkill", "-KILL", "-f", f"run .*{runs}"], check=False)
         monitor.send_signal(signal.SIGTERM)

@@ -36,7 +36,7 @@ function starter(names) {
                          element('button', { type: 'submit' }, 'Start'), told));
 }
 
-const entries = element('ul'), heading = element('h2', {}, 'Runs'), started = element('pre', { hidden: true, 'aria-label': 'Output of started runs' });
+const entries = element('ul'), heading = element('h2', {}, 'Runs'), started = element('pre', { hidden: true, tabindex: 0, role: 'log', 'aria-live': 'off', 'aria-label': 'Output of started runs' });
 const trouble = element('p', { role: 'alert', hidden: true });
 list.append(heading, trouble, entries);
 
@@ -62,8 +62,9 @@ async function look() {
       list.append(started);
     }
     if (page === null && answer.runs.length > 0) show((answer.runs.find((run) => run.goes_on) ?? answer.runs[0]).name, answer.read_only);
-    // A list that is used keeps its focus.
-    if (!entries.contains(document.activeElement)) fillList(answer);
+    const focused = entries.contains(document.activeElement) ? document.activeElement.dataset.run : undefined;
+    fillList(answer);
+    if (focused !== undefined) [...entries.querySelectorAll('button')].find((each) => each.dataset.run === focused)?.focus();
     if (page !== null) await page.update();
     trouble.hidden = true;
   } catch (error) {

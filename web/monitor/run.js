@@ -37,7 +37,7 @@ export class RunPage {
     this.plots = element('section', { 'aria-label': 'Curves' });
     this.choice = element('details', {}, element('summary', {}, 'Other columns'));
     this.answers = element('section', { 'aria-label': 'Answers' });
-    this.log = element('pre', { tabindex: 0, 'aria-label': 'End of the log' });
+    this.log = element('pre', { tabindex: 0, role: 'log', 'aria-live': 'off', 'aria-label': 'End of the log' });
     this.heading = element('h1', {}, name);
     this.root = [
       element('header', {}, this.heading, this.state, this.progress, this.facts, this.acts, this.told),
@@ -56,7 +56,7 @@ export class RunPage {
     const { status } = run;
     this.heading.textContent = run.title || this.name;
     document.title = `${Math.round(100 * status.time / status.end) || 0} % ${run.title || this.name}`;
-    this.state.textContent = status.state;
+    if (this.state.textContent !== status.state) this.state.textContent = status.state;  // told once
     this.state.dataset.state = status.state;
     this.progress.value = status.end > 0 ? Math.min(status.time / status.end, 1) : 0;
     const facts = [['step', plainNumber(status.step, 12)], ['simulated', `${quantity(status.time, 's')} of ${quantity(status.end, 's')}`],

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Colours that people with deficient colour vision tell apart.
 
-/** Control points of the maps at equal distances. viridis, cividis and inferno: every 32nd entry of the tables of
- * matplotlib (CC0; Nunez, Anderton and Renslow, PLoS ONE 13 (2018) e0199239 for cividis). The diverging map: RdBu of
- * ColorBrewer (Brewer and Harrower, Apache 2.0), reversed. */
+/** Control points of the maps at equal distances, from the tables of matplotlib (CC0; Nunez, Anderton and Renslow, PLoS
+ * ONE 13 (2018) e0199239 for cividis). inferno is without its darkest eighth, in which no shading is seen. The diverging map, grey in
+ * the middle so that it is seen on white and on black: cool to warm (Moreland, ISVC 2009, LNCS 5876, 92). */
 const MAPS = {
   viridis: ['#440154', '#472d7b', '#3b528b', '#2c728e', '#21918c', '#28ae80', '#5ec962', '#addc30', '#fde725'],
   cividis: ['#00224e', '#1a386f', '#434e6c', '#61646f', '#7d7c78', '#9b9476', '#bcae6c', '#dfca57', '#fee838'],
-  inferno: ['#000004', '#210c4a', '#57106e', '#8a226a', '#bc3754', '#e45a31', '#f98e09', '#f9cb35', '#fcffa4'],
-  diverging: ['#053061', '#2166ac', '#67a9cf', '#d1e5f0', '#f7f7f7', '#fddbc7', '#ef8a62', '#b2182b', '#67001f'],
+  inferno: ['#210c4a', '#510e6c', '#7d1e6d', '#a92e5e', '#d24644', '#ef6c23', '#fb9d07', '#f7d340', '#fcffa4'],
+  diverging: ['#3b4cc0', '#6282ea', '#8db0fe', '#b9d0f9', '#dddcdc', '#f5c4ac', '#f4987a', '#dd5f4b', '#b40426'],
 };
 
 /** Names of the maps, the default first. */
 export const MAP_NAMES = Object.keys(MAPS);
 
 /** Colours of words: Okabe and Ito, Color universal design (2008), the first four ordered so that solid, melting,
- * liquid and vapour go from cool to warm. */
-const WORD_COLOURS = ['#56b4e9', '#e69f00', '#d55e00', '#cc79a7', '#009e73', '#0072b2', '#f0e442', '#999999'];
+ * liquid and vapour go from cool to warm, and indigo. The report has the same (report/style.py). */
+const WORD_COLOURS = ['#56b4e9', '#e69f00', '#d55e00', '#cc79a7', '#009e73', '#0072b2', '#f0e442', '#999999', '#332288'];
 
 /** Red, green, blue of '#rrggbb', 0 to 255. */
 export function rgb(colour) {

@@ -97,12 +97,14 @@ function sectionControls(viewer, renew) {
   if (!state.section) return controls;
   const { axis } = state.section, size = upper[axis] - lower[axis];
   const place = element('output', {}, quantity(state.section.at, 'm'));
-  return [...controls,
-    labelled(`At ${'xyz'[axis]}`, slider(lower[axis], upper[axis], size > 0 ? size / 500 : 'any', state.section.at, (at) => {
-      state.section.at = at;
-      place.textContent = quantity(at, 'm');
-      viewer.redraw({ moving: true });
-    })), place,
+  const at = slider(lower[axis], upper[axis], size > 0 ? size / 500 : 'any', state.section.at, (value) => {
+    state.section.at = value;
+    place.textContent = quantity(value, 'm');
+    at.setAttribute('aria-valuetext', place.textContent);
+    viewer.redraw({ moving: true });
+  });
+  at.setAttribute('aria-valuetext', place.textContent);
+  return [...controls, labelled(`At ${'xyz'[axis]}`, at), place,
     labelled('Keep the other side', tickBox(state.section.side < 0, (ticked) => {
       state.section.side = ticked ? -1 : 1;
       viewer.changed();
@@ -148,7 +150,7 @@ function save(viewer) {
 }
 
 function fileControls(viewer, alert) {
-  const files = element('input', { type: 'file', multiple: true, accept: '.wpv,.gz', change: async () => {
+  const files = element('input', { type: 'file', 'aria-label': 'Files of snapshots', multiple: true, accept: '.wpv,.gz', change: async () => {
     try {
       await viewer.times.openFiles([...files.files]);
       await viewer.show(0);

@@ -4,10 +4,9 @@ import { colourTable } from './colours.js';
 import { completedBox, completionOf } from './copies.js';
 import { projectionMatrix, viewMatrix } from './camera.js';
 import { FRAGMENT_SHADER, VERTEX_SHADER } from './shaders.js';
-import { FIELD_STEPS } from './wpv.js';
 
 const UNIFORMS = ['lower', 'size', 'view', 'projection', 'mirrors', 'planes', 'rings', 'section', 'sieve', 'field', 'codes',
-  'range', 'logarithmic', 'missing', 'height', 'enlarged', 'widest', 'depths', 'every', 'bodies', 'colours', 'picking', 'background'];
+  'range', 'logarithmic', 'steps', 'height', 'enlarged', 'widest', 'depths', 'every', 'bodies', 'colours', 'picking', 'background'];
 /** The stride of an attribute has at most 255 bytes. */
 const GREATEST_STRIDE = 127;
 const EVERYTHING = [-1, 1e9];
@@ -16,8 +15,8 @@ const EVERYTHING = [-1, 1e9];
 export function storedRange(field, lowest, highest) {
   if (field.codes) return [lowest, highest];
   if (field.hi === field.lo) return lowest <= field.lo && field.lo <= highest ? [0, 0] : [1, 0];
-  const stored = (value) => (value - field.lo) / (field.hi - field.lo) * FIELD_STEPS;
-  return [stored(lowest) - 0.5, Math.min(stored(highest) + 0.5, FIELD_STEPS)];
+  const stored = (value) => (value - field.lo) / (field.hi - field.lo) * field.steps;
+  return [stored(lowest) - 0.5, Math.min(stored(highest) + 0.5, field.steps)];
 }
 
 /** Every k-th particle, so that about so many points are drawn. */
@@ -140,7 +139,7 @@ export class Picture {
     gl.uniform1i(at.codes, field.codes ? 1 : 0);
     gl.uniform2fv(at.range, range);
     gl.uniform1i(at.logarithmic, state.logarithmic && range[0] > 0 ? 1 : 0);
-    gl.uniform1f(at.missing, head.missing);
+    gl.uniform1f(at.steps, field.steps);
     gl.uniform1f(at.height, canvas.height);
     gl.uniform1f(at.enlarged, state.size * (head.one_of * every) ** (1 / dimensions));
     gl.uniform1f(at.widest, Math.min(this.widest, 255));

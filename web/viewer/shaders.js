@@ -16,11 +16,11 @@ uniform vec3 mirrors, planes;
 uniform int rings;
 uniform vec4 section;
 uniform vec2 sieve;       // accepted stored values
-uniform vec2 field;       // of the stored values 0 and 65534
+uniform vec2 field;       // of the first and the last stored value
+uniform float steps;      // the last stored value
 uniform bool codes;       // stored values stand for words
 uniform vec2 range;       // of the colours
 uniform bool logarithmic;
-uniform float missing;
 uniform float height, enlarged, widest;
 uniform vec2 depths;
 uniform int every;
@@ -55,10 +55,10 @@ void main() {
   vec4 eye = view * vec4(x, 1.0);
   gl_Position = hidden ? vec4(2.0, 2.0, 2.0, 1.0) : projection * eye;
   gl_PointSize = clamp(height * projection[1][1] * enlarged * radius / max(-eye.z, 1e-30), 1.0, widest);
-  float value = field.x + (field.y - field.x) * shown / 65534.0;
+  float value = field.x + (field.y - field.x) * shown / steps;
   if (codes) {
     colour_share = (mod(shown, 256.0) + 0.5) / 256.0;
-  } else if (shown == missing) {
+  } else if (shown > steps) {
     colour_share = -1.0;
   } else if (logarithmic) {
     colour_share = clamp(log(max(value, range.x) / range.x) / log(range.y / range.x), 0.0, 1.0);

@@ -6,12 +6,12 @@ const PLANE_OF_TYPE = { u8: Uint8Array, u16: Uint16Array, u32: Uint32Array };
 
 /** Steps of a position over its box, and of a field over its range. */
 const POSITION_STEPS = 65535;
-export const FIELD_STEPS = 65534;
+const FIELD_STEPS = { u8: 254, u16: 65534 };
 
 /** Reads a cloud. Throws an Error that tells what is wrong with the bytes.
  * @param {ArrayBuffer} buffer
  * @returns {{head: object, n: number, position: Uint16Array[], fields: Map<string, object>}} each field with its
- * header and `plane`, the numbers as they are stored; that of the increments of `id` holds the numbers themselves */
+ * header `plane`, the numbers as they are stored, and the steps of its range; the plane of the increments of `id` holds the numbers themselves */
 export function parseCloud(buffer) {
   if (buffer.byteLength < 8) throw new Error('this is no .wpv file: it is too short');
   const view = new DataView(buffer);
@@ -37,7 +37,8 @@ export function parseCloud(buffer) {
   };
   const position = [plane('u16'), plane('u16'), plane('u16')];
   const fields = new Map();
-  for (const field of head.fields) fields.set(field.name, { ...field, plane: plane(field.type) });
+  // The greatest number of a type stands for no finite value.
+  for (const field of head.fields) fields.set(field.name, { ...field, plane: plane(field.type), steps: FIELD_STEPS[field.type] });
   if (at !== buffer.byteLength) throw new Error('the .wpv file goes on after its numbers');
   for (const field of fields.values()) {
     if (field.increments) field.plane = summed(field.plane);
@@ -62,7 +63,7 @@ export function positionOf(cloud, i) {
 export function valueOf(cloud, field, i) {
   const stored = field.plane[i];
   if (field.codes || field.increments) return stored;
-  return stored === cloud.head.missing ? NaN : field.lo + (field.hi - field.lo) * stored / FIELD_STEPS;
+  return stored > field.steps ? NaN : field.lo + (field.hi - field.lo) * stored / field.steps;
 }
 
 /** Index of the particle of a number, -1 if it is not in the cloud: numbers are ascending. */
@@ -79,19 +80,19 @@ export function indexOfId(cloud, id) {
 /** Range of a field without the outermost share at both ends, from the stored numbers.
  * @returns {[number, number]} in the unit of the field */
 export function quantileRange(cloud, field, share) {
-  const counts = new Uint32Array(65536);
+  const counts = new Uint32Array(field.steps + 1);
   let total = 0;
   for (const stored of field.plane) {
-    if (stored === cloud.head.missing) continue;
+    if (stored > field.steps) continue;
     ++counts[stored];
     ++total;
   }
   const bound = (first, step) => {
     let at = first, passed = counts[at];
     while (passed <= share * total && at + step >= 0 && at + step < counts.length) passed += counts[at += step];
-    return field.lo + (field.hi - field.lo) * Math.min(at, FIELD_STEPS) / FIELD_STEPS;
+    return field.lo + (field.hi - field.lo) * at / field.steps;
   };
-  return total === 0 ? [field.lo, field.hi] : [bound(0, 1), bound(FIELD_STEPS, -1)];
+  return total === 0 ? [field.lo, field.hi] : [bound(0, 1), bound(field.steps, -1)];
 }
 
 /** The words of a field of codes, from its meaning "0 solid, 1 melting, ...". */

@@ -5,7 +5,7 @@
 export function cloudBytes(n = 5, changes = {}) {
   const head = {
     n, of: n, one_of: 1, time: 2.5e-6, title: 'made up', dimension: '3d', mirrors: [null, null, null],
-    bodies: [{ name: 'ball', spacing: 1e-3 }, { name: 'plate', spacing: 2e-3 }], missing: 65535,
+    bodies: [{ name: 'ball', spacing: 1e-3 }, { name: 'plate', spacing: 2e-3 }],
     lower: [0, 0, -0.001 * (n - 1)], upper: [0.001 * (n - 1), 0.002 * (n - 1), 0],
     fields: [
       { name: 'id', unit: '', meaning: 'number', type: 'u32', increments: true },

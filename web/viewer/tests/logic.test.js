@@ -65,6 +65,20 @@ test('quantiles leave out the outermost values and what is missing', () => {
   assert.equal(quantileRange(large, large.fields.get('pressure'), 0)[1], 3e9);
 });
 
+test('fields of eight bits have their own steps', () => {
+  const head = parseCloud(cloudBytes().buffer).head;
+  head.fields = [{ name: 'pressure', unit: 'Pa', meaning: '', type: 'u8', lo: -1e9, hi: 3e9 }];
+  const text = JSON.stringify(head).padEnd(Math.ceil(JSON.stringify(head).length / 4) * 4), bytes = new Uint8Array(8 + text.length + 3 * 12 + 8);
+  bytes.set(new TextEncoder().encode(`WPV1\0\0\0\0${text}`));
+  new DataView(bytes.buffer).setUint32(4, text.length, true);
+  bytes.set([0, 127, 254, 255, 254], 8 + text.length + 3 * 12);
+  const narrow = parseCloud(bytes.buffer), field = narrow.fields.get('pressure');
+  assert.deepEqual([0, 1, 2].map((i) => valueOf(narrow, field, i)), [-1e9, 1e9, 3e9]);
+  assert.ok(Number.isNaN(valueOf(narrow, field, 3)));
+  assert.deepEqual(quantileRange(narrow, field, 0), [-1e9, 3e9]);
+  assert.deepEqual(storedRange(field, -1e9, 3e9), [-0.5, 254]);
+});
+
 test('numbers are written with the unit that suits them', () => {
   assert.equal(quantity(3.21e9, 'Pa'), '3.21 GPa');
   assert.equal(quantity(-3.21e9, 'Pa'), '\u22123.21 GPa');

@@ -99,7 +99,7 @@ class Scene:
         self.uniforms = {
             "lower": [-1, -1, -1], "size": [2, 2, 2], "view": IDENTITY, "projection": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, -1, 0, 0, -0.2, 0],
             "mirrors": [0, 0, 0], "planes": [0, 0, 0], "rings": 0, "section": [0, 0, 0, 1], "sieve": [-1, 1e9], "field": [0, 65534],
-            "codes": False, "range": [0, 65534], "logarithmic": False, "missing": 65535.0, "height": float(size), "enlarged": 1.0,
+            "codes": False, "range": [0, 65534], "logarithmic": False, "steps": 65534.0, "height": float(size), "enlarged": 1.0,
             "widest": 64.0, "depths": [0, 100], "every": 1, "bodies": 1, "colours": 0, "picking": False, "background": [0, 0, 0]}
         self.texture(0, RGBA, UNSIGNED_BYTE, RGBA8, bytes(v for i in range(256) for v in (i, 255 - i, 64, 255)))
         self.bodies([(0.05, 1), (0.05, 1)])

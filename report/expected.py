@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the case of a run must show (its expected.toml) beside what the run shows, with the bands of the grid studies."""
+import json
+import math
+import pathlib
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from report import style, units
+from report.curves import new_figure
+from report.expectations import UNITS, BadExpectation, Case, Expectation, RunOfCase, quantity, value_of
+from report.measured import Measures
+from report.page import Page
+from report.run import Run
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+STUDIES = ROOT / "docs" / "generated" / "results.json"
+
+
+def case_of(run: Run) -> Case | None:
+    """Finds the expected.toml beside the case of a run: where it was started, or in the repository. None without one."""
+    named = run.input.get("provenance", {}).get("case_file", "")
+    if not named:
+        return None
+    for folder in (pathlib.Path(named).parent, (ROOT / named).parent):
+        if (folder / "expected.toml").is_file():
+            return Case(folder / "expected.toml")
+    return None
+
+
+def same(written: object, wanted: object) -> bool:
+    """Whether a value of run.toml is the one of an assignment, whatever its unit."""
+    if isinstance(written, list) and isinstance(wanted, list):
+        return len(written) == len(wanted) and all(map(same, written, wanted))
+    try:
+        a, b = quantity(written, "")[0], quantity(wanted, "")[0]
+        return math.isclose(a, b, rel_tol=1e-9)
+    except BadExpectation:
+        return str(written) == str(wanted)
+
+
+def holds_in(run: Run, assignment: str) -> bool:
+    """Whether the input of a run has the value of KEY=VALUE."""
+    key, _, text = assignment.partition("=")
+    value = run.input
+    for part in key.split("."):
+        try:
+            value = value[int(part)] if isinstance(value, list) else value[part]
+        except (KeyError, IndexError, ValueError, TypeError):
+            return False
+    return same(value, value_of(text))
+
+
+def run_of(case: Case, run: Run) -> RunOfCase | None:
+    """Finds the run of a case whose assignments a run has, the one with the most; None if there is none."""
+    fitting = [each for each in case.runs if all(holds_in(run, assignment) for assignment in each.set)]
+    return max(fitting, key=lambda each: len(each.set), default=None)
+
+
+def studies_of(case: Case, run: RunOfCase, store: pathlib.Path = STUDIES) -> dict[str, dict]:
+    """Returns what the grid studies found, by the names of quantities; empty without docs/generated/results.json."""
+    if not store.is_file():
+        return {}
+    runs = json.loads(store.read_text(encoding="utf-8"))["cases"].get(case.name, {}).get("runs", [])
+    return {q["name"]: q for each in runs if each["name"] == run.name for q in each["quantities"]}
+
+
+def shown(value: float | None, unit: str, digits: int = 4) -> str:
+    """Writes a number in the unit of its expectation."""
+    text = units.number(None if value is None else value / UNITS[unit], digits)
+    return text if text == units.MISSING else f"{text} {unit}".strip()
+
+
+def expectation_text(e: Expectation) -> str:
+    """Writes what is expected: "14 mm ± 1 mm", "≤ 0 mg"."""
+    value = shown(e.value, e.unit)
+    return {"within": f"{value} ± {shown(e.tolerance, e.unit)}", "at_most": f"≤ {value}", "at_least": f"≥ {value}",
+            "record": units.MISSING}[e.kind]
+
+
+def verdict(e: Expectation, value: float, band: float | None) -> str:
+    """Says whether a value is as expected, if need be within the band of the grid study."""
+    if e.kind == "record":
+        return ""
+    if not math.isfinite(value):
+        return "not measured"
+    if e.holds(value):
+        return "as expected"
+    if band and any(e.holds(value + sign * band) for sign in (-1, 1)):
+        return "within the band"
+    return "departs"
+
+
+def figure_of(rows: list[tuple[Expectation, float, float | None]]) -> Figure | None:
+    """Draws values over their expectations with tolerances and bands; None if none of them has a size."""
+    rows = [(e, value, band) for e, value, band in rows
+            if e.kind != "record" and e.origin != "identity" and e.value and math.isfinite(value)]
+    if not rows:
+        return None
+    figure, (ax,) = new_figure(1, 0.7 + 0.26 * len(rows))
+    figure.set_figwidth(style.WIDTH)
+    for place, (e, value, band) in enumerate(reversed(rows)):
+        width = e.tolerance / abs(e.value)
+        if e.kind == "within":
+            ax.barh(place, 2 * width, left=1 - width, height=0.55, color=style.LINES[6], alpha=0.4, linewidth=0)
+        else:
+            ax.plot(1, place, ">" if e.kind == "at_least" else "<", color=style.LINES[6], markersize=6)
+        ax.errorbar(value / e.value, place, xerr=(band or 0.0) / abs(e.value), fmt="o", color=style.LINES[1], capsize=2)
+    ax.axvline(1, color="#888888", linewidth=0.6)
+    low, high = ax.get_xlim()
+    ax.set_xlim(max(low, -0.5), min(high, 3.0))
+    ax.set_yticks(np.arange(len(rows)), [e.name for e, _, _ in reversed(rows)])
+    ax.set_xlabel("value of this run over the expected one")
+    return figure
+
+
+def add_to(page: Page, run: Run, add_figure) -> list[dict]:
+    """Adds the section, if the case of the run has expectations. Returns the rows as data.
+
+    add_figure(name, caption, figure): puts a figure into the page."""
+    try:
+        case = case_of(run)
+        found = case and run_of(case, run)
+        if not found or not run.analysis:
+            return []
+        measures = Measures(run.folder, run.output)
+        values = [(e, measures.value(e)) for e in found.expectations]
+    except BadExpectation as error:
+        page.note(f"The expectations of the case cannot be read: {error}")
+        return []
+    studies = studies_of(case, found)
+    rows, data, drawn = [], [], []
+    for e, value in values:
+        study = studies.get(e.name, {})
+        band = study.get("u_num")
+        result = verdict(e, value, band)
+        drawn.append((e, value, band))
+        rows.append([e.name, shown(value, e.unit), expectation_text(e), shown(band, e.unit, 2),
+                     shown(study.get("value"), e.unit), result, f"{e.origin}: {e.source}" + (f". Known: {e.known}" if e.known else "")])
+        data.append({"name": e.name, "value": value, "expected": e.value, "kind": e.kind, "tolerance": e.tolerance,
+                     "band": band, "verdict": result})
+    page.heading("Expected, and found in this run")
+    page.paragraph(f"Expectations of {case.title}" + (f", {found.title}" if found.title else "") + " (expected.toml of the case).")
+    page.table(["quantity", "this run", "expected", "band of 95 %", "finest grid", "", "source"], rows, text_columns=(0, 5, 6))
+    add_figure("expected.png", "Points: this run, with the band of 95 % of the case's grid study. Blue: expected value with "
+               "its tolerance; arrows: bounds, and the side that is allowed.", figure_of(drawn))
+    page.note("The band is that of the case's own grid study (docs/generated/results.md: discretization, position of the "
+              "lattice), where there is one; its value on the finest grid stands beside it. A departure of a single run "
+              "within the band says nothing." if studies else
+              "No grid study of this case is at hand: the values have no band.")
+    return data

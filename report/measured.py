@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers of a run by the names that expectations use (docs/manual/expected_results.md)."""
+import csv
+import math
+
+from report.expectations import BadExpectation
+from report.wall_speed import wall_speed
+
+
+class Measures:
+    """What `whipple analyse` wrote of a run: quantities.csv, and series.csv for values at a time. Also history.csv:
+    the largest errors of the balances and the greatest speed."""
+
+    def __init__(self, folder, report=None):
+        """report: folder of the tables, if they are not in that of the run."""
+        self.folder = folder
+        self.report = report or folder / "report"
+        self.single = {row["quantity"]: float(row["value"]) for row in self._rows("quantities.csv")}
+        self._history(folder / "history.csv")
+        for row in self._rows("bodies.csv"):
+            body, part = row["body part"].rsplit(" ", 1)
+            self.single[f"mass.{body}.{part}"] = float(row["mass [kg]"])
+            if "failed_fraction [1]" in row:
+                self.single[f"failed_fraction.{body}.{part}"] = float(row["failed_fraction [1]"])
+        self.series = {}
+        rows = self._rows("series.csv")
+        for head in rows[0] if rows else []:
+            self.series[head.split(" [")[0]] = [float(row[head]) for row in rows]
+
+    def _history(self, path):
+        if not path.is_file():
+            return
+        with path.open(newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        for head in rows[0] if rows else []:
+            name = head.split(" [")[0]
+            if name in ("energy_error", "momentum_error", "maximum_speed"):
+                self.single[name] = max(abs(float(row[head])) for row in rows if row[head])
+
+    def _rows(self, name):
+        path = self.report / name
+        if not path.is_file():
+            raise BadExpectation(f"{path} is missing: run `whipple analyse {self.folder}`")
+        with path.open(newline="") as stream:
+            return list(csv.DictReader(stream))
+
+    def _gauges(self):
+        """Columns of gauges.csv by their names."""
+        path = self.folder / "gauges.csv"
+        if not path.is_file():
+            return {}
+        with path.open(newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        return {head.split(" [")[0]: [float(row[head] or math.nan) for row in rows] for head in (rows[0] if rows else [])}
+
+    @property
+    def projectile_size(self):
+        """Smallest extent of the projectile (m); NaN where nothing moves at the start, or the shape states none."""
+        if "projectile_size" not in self.single:
+            raise BadExpectation(f"{self.report} is of an older program: remove it, to be measured again")
+        return self.single["projectile_size"]
+
+    def value(self, expectation):
+        """At a time: linear between the snapshots; of a driven wall, after a travel. NaN if there is no such measure or time."""
+        if expectation.place is not None:
+            tracers = expectation.measure.partition(".")[2]
+            return wall_speed(self.folder / "gauges.csv", tracers, expectation.place, expectation.travel)
+        if expectation.time is None:
+            return self.single.get(expectation.measure, math.nan)
+        series = self._gauges() if expectation.measure.startswith("gauge.") else self.series
+        times, values = series.get("time", []), series.get(expectation.measure.removeprefix("gauge."), [])
+        for t0, t1, v0, v1 in zip(times, times[1:], values, values[1:]):
+            if t0 <= expectation.time <= t1:
+                return v0 + (v1 - v0) * (expectation.time - t0) / (t1 - t0)
+        # The last snapshot may fall short of the end of the run by round-off.
+        if times and abs(times[-1] - expectation.time) < 1e-6 * expectation.time:
+            return values[-1]
+        return math.nan

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Colours, scales, small copies and widths of the figures; expectations beside a run; differences of inputs."""
+import io
+import math
+import pathlib
+import re
+import tempfile
+import types
+import unittest
+
+import numpy as np
+import PIL.Image
+from matplotlib.colors import to_hex
+
+from report import comparison, curves, expected, pictures, style
+from report.expectations import Case
+from report.views import Picture
+
+VIEWER = pathlib.Path(__file__).resolve().parents[2] / "web" / "viewer" / "colours.js"
+
+
+class Colours(unittest.TestCase):
+    @unittest.skipUnless(VIEWER.is_file(), "without the sources of the viewer")
+    def test_they_are_those_of_the_viewer(self):
+        text = VIEWER.read_text(encoding="utf-8")
+        words = re.search(r"WORD_COLOURS = \[([^\]]*)\]", text)[1]
+        self.assertEqual(tuple(re.findall(r"#[0-9a-f]{6}", words)), style.WORDS)
+        for name, colours in (("viridis", style.colour_map(0, 1, "m/s")), ("inferno", style.colour_map(0, 1, "K")),
+                              ("diverging", style.colour_map(-1, 1, "Pa"))):
+            stops = re.findall(r"#[0-9a-f]{6}", re.search(rf"{name}: \[([^\]]*)\]", text)[1])
+            for i, stop in enumerate(stops):
+                found = to_hex(colours(i / (len(stops) - 1)))
+                off = max(abs(int(found[k:k + 2], 16) - int(stop[k:k + 2], 16)) for k in (1, 3, 5))
+                self.assertLessEqual(off, 2, f"{name} at {i}: {found}, in the viewer {stop}")
+
+    def test_words_begin_anew_after_the_last(self):
+        rows = style.word_colours(np.array([0, len(style.WORDS)]))
+        self.assertTrue((rows[0] == rows[1]).all())
+
+
+class Scales(unittest.TestCase):
+    def test_signed_fields_are_about_zero(self):
+        norm = pictures.scale_of((-1.0, 4.0))
+        self.assertEqual((norm.vmin, norm.vmax), (-4.0, 4.0))
+        norm = pictures.scale_of((300.0, 900.0))
+        self.assertEqual((norm.vmin, norm.vmax), (300.0, 900.0))
+        self.assertGreater(pictures.scale_of((0.0, 0.0)).vmax, 0.0)
+
+    def test_arrows_where_values_lie_beyond(self):
+        norm = pictures.scale_of((1.0, 2.0))
+        self.assertEqual([pictures.beyond([np.array(v)], norm) for v in ([1.5], [0.5], [2.5], [0.0, 3.0])],
+                         ["neither", "min", "max", "both"])
+
+    def test_shading_takes_light_but_no_colour(self):
+        picture = Picture(np.array([[0, -1]]), np.array([[0.5, 0.0]]), {})
+        colours = np.array([[0.2, 0.4, 0.8]])
+        full, mild = (pictures.paint(picture, colours, s)[0, 0].astype(float) for s in (1.0, pictures.SHADING_OF_SCALES))
+        self.assertTrue((mild > full).all())
+        self.assertAlmostEqual(mild[0] / mild[2], 0.25, places=1)
+
+
+class Figures(unittest.TestCase):
+    def test_letters_are_as_large_in_narrow_figures(self):
+        style.apply()
+        wide, _ = curves.new_figure(3)
+        narrow, _ = curves.new_figure(1)
+        self.assertEqual(style.share_of_page(wide), 1.0)
+        self.assertAlmostEqual(style.share_of_page(narrow), style.NARROW / style.WIDTH)
+
+    def test_the_page_gets_a_small_copy(self):
+        rng = np.random.default_rng(1)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.png"
+            smooth = np.cumsum(rng.normal(size=(600, 3000, 3)), axis=1)
+            PIL.Image.fromarray((255 * (smooth - smooth.min()) / np.ptp(smooth)).astype(np.uint8)).save(path)
+            data = pictures.small_copy(path)
+            image = PIL.Image.open(io.BytesIO(data))
+            self.assertEqual(image.size, (pictures.RESOLUTION_OF_PAGE, 288))
+            self.assertLess(len(data), path.stat().st_size / 3)
+
+
+EXPECTED = """
+title = "made up"
+cell_size = { coarse = "1 mm" }
+[[run]]
+name = "plain"
+[[run]]
+name = "flat"
+set = ["domain.dimension=axisymmetric", "body.0.shape.sphere.radius='2 mm'"]
+[[quantity]]
+name = "depth"
+measure = "crater_depth.wall"
+value = "14 mm"
+tolerance = "10 %"
+class = "experiment"
+source = "made up"
+"""
+
+
+class Expectations(unittest.TestCase):
+    def setUp(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "expected.toml"
+            path.write_text(EXPECTED)
+            self.case = Case(path)
+
+    def run_with(self, **keys):
+        return types.SimpleNamespace(input=keys)
+
+    def test_the_run_of_the_case_is_the_one_with_most_of_its_assignments(self):
+        flat = self.run_with(domain={"dimension": "axisymmetric"}, body=[{"shape": {"sphere": {"radius": "0.002 m"}}}])
+        self.assertEqual(expected.run_of(self.case, flat).name, "flat")
+        other = self.run_with(domain={"dimension": "axisymmetric"}, body=[{"shape": {"sphere": {"radius": "0.003 m"}}}])
+        self.assertEqual(expected.run_of(self.case, other).name, "plain")
+
+    def test_verdicts(self):
+        e = self.case.common[0]
+        self.assertEqual([expected.verdict(e, v, band) for v, band in
+                          ((0.0145, None), (0.016, None), (0.016, 0.001), (math.nan, 1.0))],
+                         ["as expected", "departs", "within the band", "not measured"])
+        self.assertEqual(expected.expectation_text(e), "14 mm ± 1.4 mm")
+        self.assertIsNone(expected.figure_of([(e, math.nan, None)]))
+        self.assertIsNotNone(expected.figure_of([(e, 0.0145, 0.001)]))
+
+    def test_runs_whose_case_has_no_expectations_have_no_section(self):
+        self.assertIsNone(expected.case_of(self.run_with(provenance={"case_file": "/nowhere/case.toml"})))
+        self.assertIsNone(expected.case_of(self.run_with()))
+
+
+class Differences(unittest.TestCase):
+    def test_keys_by_body_and_what_only_one_has(self):
+        one = {"title": "a", "domain": {"cell_size": "0.001 m"}, "body": [{"name": "ball", "velocity": ["0 m/s", "1 m/s"]}]}
+        other = {"title": "b", "domain": {"cell_size": "0.002 m"}, "body": [{"name": "ball", "velocity": ["0 m/s", "1 m/s"]}],
+                 "output": {"gauges_every": 1}}
+        self.assertEqual(comparison.differences([one, other]),
+                         [["domain.cell_size", "1 mm", "2 mm"], ["output.gauges_every", "–", "1"]])
+        self.assertEqual(comparison.differences([one, one]), [])
+
+    def test_spread(self):
+        self.assertEqual([comparison.spread(v) for v in ([1.0, 1.1], [0.0, 0.0], [1.0, math.nan])], ["9.5 %", "0 %", "–"])
