@@ -55,7 +55,7 @@ BootstrapResult replicates(std::span<const md::PointRecord> points, const SolidF
     Observations data = observe(drawn, settings, needs, store_name);
     remove_superheated(data, solid.constants.gray, store_name);
     SolidFit moved = solid;
-    moved.constants = refit_solid(data, solid.model, solid.constants, settings);
+    moved.constants = refit_solid(data, solid, settings);
     return VectorXd(map.jacobian * (free_values(moved) - free_values(solid)));
   };
   constexpr std::uint64_t seed = 1;
@@ -67,7 +67,7 @@ void replace_density(Fit& fit, double& density, Sources& sources) {
   const auto place = std::find(fit.fitted_names.begin(), fit.fitted_names.end(), "reference_density");
   const Index row = place - fit.fitted_names.begin();
   const Index count = fit.covariance.rows();
-  sources.given("reference_density", fmt::format("measured density; the simulations give {}",
+  sources.measured("reference_density", fmt::format("measured density; the simulations give {}",
                                                  practical_quantity(density, "kg/m^3")));
   density = *fit.settings.density;
   std::vector<Index> kept;
