@@ -295,7 +295,7 @@ int main_program(int argc, char** argv) {
       ->check(CLI::Range(1, 100000));
   app.add_option("--seed", options.seed, "Of the samples")->capture_default_str();
   app.add_option("--tier", options.tier,
-                 "Errors that samples are drawn from: of the fit, over the potentials of the given stores, or all")
+                 "Errors that samples are drawn from: noise alone, of the fit and its defaults, over the potentials of the given stores, or all")
       ->check(CLI::IsMember(word_list<ErrorTier>()))
       ->capture_default_str();
   app.add_option("--melting", options.melting, "Melting transition of the material, and of the fit of T_m0")

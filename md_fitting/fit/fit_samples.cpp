@@ -52,13 +52,14 @@ Drawn drawn_from(const Fit& fit, ErrorTier tier, const std::optional<PotentialSp
   const auto fitted = static_cast<Eigen::Index>(fit.fitted_names.size());
   const auto count = static_cast<Eigen::Index>(drawn.names.size());
   drawn.covariance = Eigen::MatrixXd::Zero(count, count);
-  if (tier != ErrorTier::potentials) {
+  if (tier == ErrorTier::noise) drawn.covariance.topLeftCorner(fitted, fitted) = fit.statistical_covariance;
+  if (tier == ErrorTier::fit || tier == ErrorTier::all) {
     drawn.covariance.topLeftCorner(fitted, fitted) = fit.covariance;
     for (Eigen::Index k = fitted; k < count; ++k) {
       drawn.covariance(k, k) = variances[static_cast<std::size_t>(k - fitted)];
     }
   }
-  if (tier == ErrorTier::fit) return drawn;
+  if (!over_potentials(tier)) return drawn;
   const auto row_of = [&](const std::string& name) {
     return std::find(fit.fitted_names.begin(), fit.fitted_names.end(), name) - fit.fitted_names.begin();
   };
@@ -77,7 +78,7 @@ Drawn drawn_from(const Fit& fit, ErrorTier tier, const std::optional<PotentialSp
 
 FitSamples sample_fit(const Fit& fit, int count, std::uint64_t seed, ErrorTier tier,
                       const std::optional<PotentialSpread>& spread) {
-  if (tier != ErrorTier::fit && !spread) {
+  if (over_potentials(tier) && !spread) {
     throw InputError("samples over potentials need stores of two potentials or more of the element");
   }
   const Drawn drawn_constants = drawn_from(fit, tier, spread);

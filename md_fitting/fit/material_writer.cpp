@@ -133,6 +133,8 @@ std::string covariance_table(const Fit& fit) {
                       fmt::join(information, ", "));
   text += matrix_table("covariance.matrix", fit.fitted_names, fit.covariance,
                        [](double value) { return fmt::format("{:.6e}", value); });
+  text += matrix_table("covariance.statistical", fit.fitted_names, fit.statistical_covariance,
+                       [](double value) { return fmt::format("{:.6e}", value); });
   text += matrix_table("covariance.correlation", fit.fitted_names, fit.correlation(),
                        [](double value) { return fmt::format("{:.3f}", value); });
   return text;
@@ -198,14 +200,25 @@ std::string defaults_table(const Fit& fit) {
       text += fmt::format("{} = {}\n", constant.name, toml_string(constant.source));
     }
   }
-  text += "\n[default_errors]\n# One standard deviation of the defaults whose sources give one; samples draw them, too.\n";
+  if (fit.fitted_names.empty()) return text;  // of a sample
+  std::vector<std::string> names, units, errors, sources, unknown;
   for (const Constant& constant : fit.constants) {
-    if (constant.origin != Origin::by_default || !(constant.error > 0.0)) continue;
-    const std::string error = practical_quantity(constant.error, constant.unit);
-    text += fmt::format("{} = {}  # {}\n", constant.name,
-                        error.find(' ') == std::string::npos ? error : toml_string(error), constant.error_source);
+    if (constant.origin != Origin::by_default) continue;
+    if (!(constant.error > 0.0)) {
+      unknown.push_back(toml_string(constant.name));
+      continue;
+    }
+    names.push_back(toml_string(constant.name));
+    units.push_back(toml_string(constant.unit));
+    errors.push_back(fmt::format("{:.4e}", constant.error));
+    sources.push_back(toml_string(constant.error_source));
   }
-  return text;
+  return text + fmt::format(
+                    "\n[default_errors]\n# One standard deviation of the defaults whose sources give one, errors[i] in "
+                    "units[i]: samples draw these, too. No error is known of the others.\nnames = [{}]\nunits = "
+                    "[{}]\nerrors = [{}]\nsources = [{}]\nunknown = [{}]\n",
+                    fmt::join(names, ", "), fmt::join(units, ", "), fmt::join(errors, ", "),
+                    fmt::join(sources, ", "), fmt::join(unknown, ", "));
 }
 
 /// Second tier of the errors: of the constants that the material has from its fit.

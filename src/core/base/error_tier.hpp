@@ -9,13 +9,20 @@ namespace whipple {
 
 /// Errors of the constants of a fitted material that samples are drawn from (docs/theory/fit.md, section 3).
 enum class ErrorTier {
+  noise,       ///< statistical part of the covariance of the fit alone
   fit,         ///< covariance of the fit, and errors of the defaults where they are known
   potentials,  ///< scatter over the potentials of the element
-  all          ///< both, independent of one another
+  all          ///< fit and potentials, independent of one another
 };
 
-constexpr std::array<Word<ErrorTier>, 3> words(ErrorTier) {
-  return {{{ErrorTier::fit, "fit"}, {ErrorTier::potentials, "potentials"}, {ErrorTier::all, "all"}}};
+/// Returns whether the scatter over the potentials counts.
+constexpr bool over_potentials(ErrorTier tier) { return tier == ErrorTier::potentials || tier == ErrorTier::all; }
+
+constexpr std::array<Word<ErrorTier>, 4> words(ErrorTier) {
+  return {{{ErrorTier::noise, "noise"},
+           {ErrorTier::fit, "fit"},
+           {ErrorTier::potentials, "potentials"},
+           {ErrorTier::all, "all"}}};
 }
 
 }  // namespace whipple
