@@ -13,6 +13,7 @@
 #include "md_fitting/fit/element_defaults.hpp"
 #include "md_fitting/fit/model_check.hpp"
 #include "md_fitting/fit/solid_fit.hpp"
+#include "md_fitting/fit/structure_limit.hpp"
 #include "md_fitting/fit/table_access.hpp"
 #include "md_fitting/fit/vapour_fit.hpp"
 #include "src/core/base/error.hpp"
@@ -176,6 +177,7 @@ GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings
   fit.fitted_names = fit.left_out_names;
   fit.covariance = solid.covariance;
   fit.statistical_covariance = solid.statistical_covariance;
+  add_structure_remark(fit, points, solid.data);
   add_vapour(fit, solid.data);
   try {
     fit.checks = check_gray(fit.gray, solid.data, points);

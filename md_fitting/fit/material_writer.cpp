@@ -154,6 +154,11 @@ std::string settings_table(const Fit& fit) {
   text += fmt::format("correlation_particle_velocity = \"{} km/s\"\n", settings.lengths.particle_velocity / 1000.0);
   text += fmt::format("correlation_volume_ratio = {}\ncorrelation_temperature = \"{} K\"\n",
                       settings.lengths.volume_ratio, settings.lengths.temperature);
+  if (!fit.remarks.empty()) {
+    std::vector<std::string> remarks;
+    for (const std::string& remark : fit.remarks) remarks.push_back(toml_string(remark));
+    text += fmt::format("remarks = [{}]\n", fmt::join(remarks, ", "));
+  }
   text += "# Model errors, one standard deviation (docs/theory/fit.md), and what chi^2 multiplied them by\n";
   for (const ChiSquaredPart& part : fit.chi_squared_parts) {
     std::string name = part.quantity;

@@ -18,25 +18,6 @@ using Eigen::VectorXd;
 
 constexpr std::size_t least_states_of_window = 3;
 
-/// Solves until the point about which the melting data are linear is the solution.
-SolidConstants converged(const Observations& data, const SolidModel& model, const FitSettings& settings,
-                         SolidConstants constants, const ModelScale& scale) {
-  constexpr int most_passes = 30;
-  double former_change = std::numeric_limits<double>::infinity();
-  for (int pass = 0; pass < most_passes; ++pass) {
-    const SolidProblem problem(data, settings, model, constants, scale);
-    const VectorXd step = solve(problem.least_squares()).parameters;
-    constants = problem.constants_at(step);
-    const double change = step.head(problem.constants()).lpNorm<Eigen::Infinity>();
-    // Sharp data leave a badly conditioned problem, whose solution scatters by a millionth: no pass removes
-    // that.
-    const bool at_its_noise = change < 1e-5 && change > 0.5 * former_change;
-    if (change < 1e-7 || at_its_noise || !model.fits(Place::melting)) return constants;
-    former_change = change;
-  }
-  throw StateError("the fit of the melting temperature does not settle");
-}
-
 /// One step of the variance components: f^2 chi^2/r, at least 1. A kind without a model error has nothing to scale.
 ModelScale next_scale(const SolidProblem& problem, const LeastSquaresProblem& weights,
                       const LeastSquaresSolution& solution, const ModelScale& scale) {
@@ -64,6 +45,24 @@ double largest_change(const ModelScale& a, const ModelScale& b) {
 }
 
 }  // namespace
+
+SolidConstants converged(const Observations& data, const SolidModel& model, const FitSettings& settings,
+                         SolidConstants constants, const ModelScale& scale) {
+  constexpr int most_passes = 30;
+  double former_change = std::numeric_limits<double>::infinity();
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const SolidProblem problem(data, settings, model, constants, scale);
+    const VectorXd step = solve(problem.least_squares()).parameters;
+    constants = problem.constants_at(step);
+    const double change = step.head(problem.constants()).lpNorm<Eigen::Infinity>();
+    // Sharp data leave a badly conditioned problem, whose solution scatters by a millionth: no pass removes
+    // that.
+    const bool at_its_noise = change < 1e-5 && change > 0.5 * former_change;
+    if (change < 1e-7 || at_its_noise || !model.fits(Place::melting)) return constants;
+    former_change = change;
+  }
+  throw StateError("the fit of the melting temperature does not settle");
+}
 
 MatrixXd constants_covariance(const SolidProblem& problem, const LeastSquaresSolution& solution,
                               const MatrixXd& covariance) {

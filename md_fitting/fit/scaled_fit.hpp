@@ -18,6 +18,11 @@ struct ScaledFit {
   Eigen::MatrixXd covariance, statistical_covariance;  ///< of the fitted constants, SI
 };
 
+/// Solves until the point about which the melting data are linear is the solution; one pass without such data.
+/// @throws StateError if that takes more than thirty passes
+SolidConstants converged(const Observations& data, const SolidModel& model, const FitSettings& settings,
+                         SolidConstants constants, const ModelScale& scale = {});
+
 /// Solves for the constants, and with `settings.inflation` for the amplitudes of the model errors: the factor f of
 /// each kind of data grows until chi^2 of the kind is its redundancy r = n - tr(J_k (J^T J)^-1 J_k^T), f >= 1
 /// (simplified Helmert estimate of variance components: Foerstner, Allg. Vermessungs-Nachr. 86 (1979) 446). Kinds of

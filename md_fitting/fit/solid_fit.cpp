@@ -229,7 +229,7 @@ SolidFit fit_solid(Observations data, const SolidModel& model, const SolidConsta
   if (model.isotherm) guess_isotherm(data, start);
   guess_gruneisen(data, start.gray);
 
-  start = fit_scaled(data, model, independent_errors(settings), start).constants;
+  start = converged(data, model, independent_errors(settings), start);
   // A model without melting of its own leaves superheated states out all the same.
   GrayConstants limit = start.gray;
   if (!model.fits(Place::melting)) {

@@ -49,7 +49,7 @@ bool SolidProblem::in_window(const HugoniotState& state) const {
 
 void SolidProblem::list_data() {
   const auto add = [&](DataKind kind, const char* quantity, const std::string& label, Index rows = 1) {
-    rows_.push_back({kind, quantity, label, size_, rows});
+    rows_.push_back({quantity, label, size_, rows, kind});
     size_ += rows;
   };
   const double v0 = observations_.reference_volume.value;

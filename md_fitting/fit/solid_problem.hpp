@@ -29,10 +29,10 @@ struct ModelScale {
 
 /// Rows that belong to one datum: a state of pressure and energy has two.
 struct Datum {
-  DataKind kind;
   std::string quantity;  ///< "shock velocity", ...
   std::string label;     ///< "up = 1.2 km/s"
   Eigen::Index begin = 0, rows = 1;
+  DataKind kind = DataKind::volume;
 };
 
 /// The least-squares problem of a model of the solid: which residual belongs to which datum, and with which

@@ -12,6 +12,7 @@
 #include "md_fitting/fit/identifiability.hpp"
 #include "md_fitting/fit/potential_spread.hpp"
 #include "md_fitting/fit/scaled_fit.hpp"
+#include "md_fitting/fit/structure_limit.hpp"
 #include "src/core/base/normal_samples.hpp"
 #include "tests/property/fit_recovery.hpp"
 
@@ -253,6 +254,37 @@ TEST(PotentialSpread, IsTheScatterOfTheirConstants) {
   // A constant that one of them does not determine is not compared.
   fits[1].fitted_names.pop_back();
   EXPECT_EQ(potential_spread(all)->names, std::vector<std::string>{"hugoniot_intercept"});
+}
+
+// Where hcp crosses fcc along the cold curve, linear between the volumes; tension and other structures do not count.
+TEST(StructureLimit, IsWhereAnotherStructureHasLessEnergy) {
+  Noise silent;
+  silent.silent = true;
+  SyntheticStore store(true_constants(), silent, 1);
+  EXPECT_FALSE(structure_limit(store.points).has_value());
+  const double v0 = true_constants().reference_specific_volume;
+  const auto cold = [&](double ratio, double pressure, double hcp, double bcc) {
+    store.add("cold_curve", {{"specific_volume", ratio * v0}, {"temperature", 0.0}},
+              {{"pressure", {pressure, 0.0}},
+               {"specific_internal_energy", {-5e6, 0.0}},
+               {"hcp_specific_internal_energy", {-5e6 + hcp, 0.0}},
+               {"bcc_specific_internal_energy", {-5e6 + bcc, 0.0}}});
+  };
+  cold(1.1, -10e9, -500.0, 900.0);
+  cold(1.0, 0.0, 2000.0, 4000.0);
+  cold(0.9, 20e9, 1000.0, 2000.0);
+  EXPECT_FALSE(structure_limit(store.points).has_value());
+  cold(0.8, 60e9, -3000.0, 1000.0);
+  cold(0.7, 120e9, -9000.0, -1000.0);
+  const StructureLimit limit = structure_limit(store.points).value();
+  EXPECT_EQ(limit.structure, "hcp");
+  EXPECT_NEAR(limit.pressure, 30e9, 1.0);
+  EXPECT_NEAR(limit.volume, 0.875 * v0, 1e-9 * v0);
+  const GrayFit fit = fit_gray(store.points, testing::noise_only(), "synthetic");
+  // Hugoniot states of V/V0 = 0.85 and less, two isochores.
+  ASSERT_FALSE(fit.remarks.empty());
+  EXPECT_NE(fit.remarks.front().find("beyond 30 GPa (V/V0 = 0.875) the hcp crystal"), std::string::npos);
+  EXPECT_NE(fit.remarks.front().find(": 5 Hugoniot states and "), std::string::npos) << fit.remarks.front();
 }
 
 }  // namespace
