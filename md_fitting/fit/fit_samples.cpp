@@ -44,8 +44,9 @@ struct Drawn {
 Drawn drawn_from(const Fit& fit, ErrorTier tier, const std::optional<PotentialSpread>& spread) {
   Drawn drawn{fit.fitted_names, {}};
   std::vector<double> variances;
+  const bool with_defaults = tier == ErrorTier::fit || tier == ErrorTier::all;
   for (const Constant& constant : fit.constants) {
-    if (constant.origin != Origin::by_default || !(constant.error > 0.0)) continue;
+    if (!with_defaults || constant.origin != Origin::by_default || !(constant.error > 0.0)) continue;
     drawn.names.push_back(constant.name);
     variances.push_back(constant.error * constant.error);
   }
@@ -53,7 +54,7 @@ Drawn drawn_from(const Fit& fit, ErrorTier tier, const std::optional<PotentialSp
   const auto count = static_cast<Eigen::Index>(drawn.names.size());
   drawn.covariance = Eigen::MatrixXd::Zero(count, count);
   if (tier == ErrorTier::noise) drawn.covariance.topLeftCorner(fitted, fitted) = fit.statistical_covariance;
-  if (tier == ErrorTier::fit || tier == ErrorTier::all) {
+  if (with_defaults) {
     drawn.covariance.topLeftCorner(fitted, fitted) = fit.covariance;
     for (Eigen::Index k = fitted; k < count; ++k) {
       drawn.covariance(k, k) = variances[static_cast<std::size_t>(k - fitted)];
