@@ -138,7 +138,14 @@ void set_points(Experiment& experiment, const MeasuredTable& table, const std::v
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return abscissa[i]; });
   const std::vector<double> density = table.numbers(Quantity::initial_density);
   const std::vector<double> porosity = table.numbers(Quantity::porosity);
+  const bool isotherm = experiment.kind == ExperimentKind::isotherm;
+  const std::vector<double> none;
+  const std::vector<double> pressure_error = isotherm ? table.numbers(Quantity::pressure_error) : none;
+  const std::vector<double> volume_error =
+      isotherm && experiment.ambient_volume > 0.0 ? table.numbers(Quantity::volume_error) : none;
   for (const std::size_t i : order) {
+    if (!pressure_error.empty()) experiment.ordinate_error.push_back(pressure_error[i]);
+    if (!volume_error.empty()) experiment.abscissa_error.push_back(volume_error[i] / experiment.ambient_volume);
     experiment.abscissa.push_back(abscissa[i]);
     experiment.ordinate.push_back(ordinate[i]);
     experiment.lines.push_back(table.line(i));

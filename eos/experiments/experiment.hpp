@@ -34,6 +34,8 @@ struct Experiment {
   std::vector<int> lines;
   std::vector<double> initial_density;  ///< kg/m^3, NaN: not stated
   std::vector<double> porosity;         ///< density of the solid over the initial one, NaN: not stated
+  /// One standard deviation of ordinate and abscissa where an isotherm states them; empty: not stated.
+  std::vector<double> ordinate_error, abscissa_error;
   std::map<std::string, std::vector<int>> left_out;  ///< lines of rows that are no such points, by the reason
   bool only_its_material = false;                    ///< nothing for other materials
 };

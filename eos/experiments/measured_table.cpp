@@ -40,6 +40,8 @@ constexpr std::array spellings = {
     Spelling{Quantity::hugoniot_slope, "", {"s", "s1"}},
     Spelling{Quantity::hugoniot_quadratic, "", {"s2"}},
     Spelling{Quantity::hugoniot_cubic, "", {"s3"}},
+    Spelling{Quantity::pressure_error, "Pa", {"perr", "perror"}},
+    Spelling{Quantity::volume_error, "m^3", {"atomicvolumeerr", "atomicvolumeerror"}},
 };
 
 /// The line of a quantity above.

@@ -27,6 +27,8 @@ enum class Quantity {
   hugoniot_slope,       ///< S
   hugoniot_quadratic,   ///< S2
   hugoniot_cubic,       ///< S3
+  pressure_error,       ///< of P, one standard deviation, Pa
+  volume_error,         ///< of the atomic volume, m^3 per atom
 };
 
 /// A text table of measurements, as people and programs write them (docs/manual/equations_of_state.md,

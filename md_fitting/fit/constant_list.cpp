@@ -29,10 +29,10 @@ std::string Sources::named(const NamedDefault& entry) {
   return fmt::format("\"{}\": {}", entry.name, entry.source);
 }
 
-std::string practical_quantity(double value, const std::string& si_unit) {
+std::string practical_quantity(double value, const std::string& si_unit, int digits) {
   const std::string unit = practical_unit(si_unit);
-  const std::string digits = fmt::format("{:.8g}", units::convert(value, si_unit, unit));
-  return unit.empty() || unit == "1" ? digits : fmt::format("{} {}", digits, unit);
+  const std::string number = fmt::format("{:.{}g}", units::convert(value, si_unit, unit), digits);
+  return unit.empty() || unit == "1" ? number : fmt::format("{} {}", number, unit);
 }
 
 double as_written(double value, const std::string& si_unit) {
@@ -88,6 +88,9 @@ void list_constants(Fit& fit, const std::vector<BoundParameter>& table, const So
       }
       constant.origin = source->second.origin;
       constant.source = source->second.text;
+      constant.evidence = source->second.evidence;
+      constant.error = source->second.error;
+      constant.error_source = source->second.error_source;
     }
     fit.constants.push_back(constant);
   }

@@ -16,12 +16,19 @@ struct Sources {
   struct Entry {
     Origin origin;
     std::string text;
+    Evidence evidence = Evidence::chosen;
+    double error = 0.0;
+    std::string error_source{};
   };
   std::map<std::string, Entry, std::less<>> entries;
 
   void given(const std::string& name, const std::string& text) { entries[name] = {Origin::given, text}; }
+  void measured(const std::string& name, const std::string& text) {
+    entries[name] = {Origin::given, text, Evidence::measured};
+  }
   void by_default(const NamedDefault& entry) {
-    entries[std::string(entry.parameter)] = {Origin::by_default, named(entry)};
+    entries[std::string(entry.parameter)] = {Origin::by_default, named(entry), entry.evidence, entry.error,
+                                             std::string(entry.error_source)};
   }
   static std::string named(const NamedDefault& entry);
 };
@@ -38,7 +45,7 @@ void list_constants(Fit& fit, const std::vector<BoundParameter>& table, const So
 
 /// A value as it stands in the material file, in the practical unit of its SI unit: "0.1118 cm^3/g", and the
 /// value that it reads back to.
-std::string practical_quantity(double value, const std::string& si_unit);
+std::string practical_quantity(double value, const std::string& si_unit, int digits = 8);
 double as_written(double value, const std::string& si_unit);
 
 }  // namespace whipple::fit

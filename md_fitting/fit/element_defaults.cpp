@@ -29,15 +29,16 @@ constexpr std::string_view join_choice =
     "(docs/theory/gray.md, section 8)";
 constexpr std::string_view linear_hugoniot = "the simulated shocks are fitted by Us = C + S up";
 
-constexpr NamedDefault electrons(const char* name, double value, std::string_view source) {
-  return {"electronic_heat_coefficient", name, value, source};
+constexpr NamedDefault electrons(const char* name, double value, std::string_view source,
+                                 Evidence evidence = Evidence::measured) {
+  return {"electronic_heat_coefficient", name, value, source, evidence};
 }
-constexpr NamedDefault no_electrons = electrons("none", 0.0, "no electronic energy at all");
+constexpr NamedDefault no_electrons = electrons("none", 0.0, "no electronic energy at all", Evidence::chosen);
 constexpr NamedDefault steinberg(double temperature) {
   return {"melting_temperature", "Steinberg 1996", temperature, steinberg_metals};
 }
 constexpr NamedDefault kittel(double temperature) {
-  return {"debye_temperature", "Kittel 2005", temperature, debye};
+  return {"debye_temperature", "Kittel 2005", temperature, debye, Evidence::measured};
 }
 
 // What all metals share.
@@ -60,7 +61,7 @@ constexpr std::array<NamedDefault, 10> constants_of_metal(const NamedDefault& jo
 /// A metal whose vapour boils at the measured temperature.
 constexpr std::array<NamedDefault, 10> boiling_metal(double join, double temperature) {
   return constants_of_metal({"join_volume_ratio", "library", join, join_choice},
-                            {"boiling_temperature", "measured", temperature, boiling});
+                            {"boiling_temperature", "measured", temperature, boiling, Evidence::measured});
 }
 
 constexpr std::array copper_electronic = {
@@ -72,9 +73,9 @@ constexpr std::array copper_electronic = {
 constexpr std::array aluminium_electronic = {electrons("measured", 1.35e-3, sommerfeld), no_electrons};
 constexpr std::array lead_electronic = {electrons("measured", 2.98e-3, sommerfeld), no_electrons};
 constexpr std::array tungsten_electronic = {electrons("measured", 1.3e-3, sommerfeld), no_electrons};
-constexpr std::array nickel_electronic = {electrons("none", 0.0, not_when_hot),
+constexpr std::array nickel_electronic = {electrons("none", 0.0, not_when_hot, Evidence::chosen),
                                           electrons("measured", 7.02e-3, sommerfeld)};
-constexpr std::array tantalum_electronic = {electrons("none", 0.0, not_when_hot),
+constexpr std::array tantalum_electronic = {electrons("none", 0.0, not_when_hot, Evidence::chosen),
                                             electrons("measured", 5.9e-3, sommerfeld)};
 
 constexpr auto copper_constants = constants_of_metal(
@@ -86,7 +87,8 @@ constexpr auto aluminium_constants = constants_of_metal(
     {"join_volume_ratio", "critical", 1.3,
      "chosen with the attraction below: critical temperature near 6600 K (docs/theory/gray.md)"},
     {"vapour_attraction", "critical", 3600.0,
-     "as in the aluminium of the library: critical temperature near 6600 K (docs/theory/gray.md)"});
+     "as in the aluminium of the library: critical temperature near 6600 K (docs/theory/gray.md)", Evidence::chosen,
+     3600.0 * 800.0 / 6700.0, "critical temperature 6700 +- 800 K, Int. J. Thermophys. 30 (2009) 1853; a_y goes as T_c"});
 constexpr auto lead_constants = boiling_metal(1.2, 2022.0);
 constexpr auto nickel_constants = boiling_metal(1.15, 3186.0);
 constexpr auto tantalum_constants = boiling_metal(1.25, 5728.0);
@@ -97,10 +99,17 @@ constexpr std::array elements = {
     ElementDefaults{
         "Cu", "copper", 1357.77, copper_electronic,
         NamedDefault{"melting_temperature", "Steinberg 1996", 1790.0,
-                     "OFHC copper of Steinberg, UCRL-MA-106439 (1996); not from molecular dynamics"},
+                     "OFHC copper of Steinberg, UCRL-MA-106439 (1996); not from molecular dynamics",
+                     Evidence::chosen, 38.0,
+                     "measured melting line at 10 GPa, the pressure of T_m0: T_m = 1355(5) + 44.5(31) P - 0.61(21) P^2, "
+                     "Brand et al., High Press. Res. 26 (2006) 185 (eos/data/cu_melting.csv)"},
         copper_constants, VapourCondition::attraction, kittel(343.0)},
-    ElementDefaults{"Al", "aluminium", 933.47, aluminium_electronic, steinberg(1220.0), aluminium_constants,
-                    VapourCondition::attraction, kittel(428.0)},
+    ElementDefaults{"Al", "aluminium", 933.47, aluminium_electronic,
+                    NamedDefault{"melting_temperature", "Steinberg 1996", 1220.0, steinberg_metals, Evidence::chosen,
+                                 115.0,
+                                 "half the error bars of the measured melting line, Boehler & Ross, Earth Planet. Sci. "
+                                 "Lett. 153 (1997) 223 (eos/data/al_melting_boehler_ross1997.csv)"},
+                    aluminium_constants, VapourCondition::attraction, kittel(428.0)},
     ElementDefaults{"Pb", "lead", 600.61, lead_electronic, steinberg(760.0), lead_constants,
                     VapourCondition::boiling, kittel(105.0)},
     ElementDefaults{"Ni", "nickel", 1728.0, nickel_electronic, steinberg(2330.0), nickel_constants,

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "eos/models/gray_constants.hpp"
+#include "md_fitting/fit/fit_result.hpp"
 
 /// Lists constants that molecular dynamics does not determine, per element, each with its name and source: the only
 /// place from which the fit takes a number that is not in the store.
@@ -16,6 +17,9 @@ struct NamedDefault {
   std::string_view name;       ///< name of the choice
   double value;                ///< SI
   std::string_view source;
+  Evidence evidence = Evidence::chosen;
+  double error = 0.0;                ///< SI, one standard deviation; 0: the source gives none
+  std::string_view error_source{};  ///< of the error
 };
 
 struct ElementDefaults {

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,9 +18,11 @@
 #include "md_fitting/fit/fit_samples.hpp"
 #include "md_fitting/fit/gray_fit.hpp"
 #include "md_fitting/fit/material_writer.hpp"
+#include "md_fitting/fit/potential_spread.hpp"
 #include "md_fitting/fit/proposal.hpp"
 #include "md_fitting/fit/solid_models.hpp"
 #include "src/core/base/error.hpp"
+#include "src/core/base/error_tier.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/units.hpp"
 #include "src/core/base/words.hpp"
@@ -39,6 +43,11 @@ struct Options {
   std::string melting{word_of(FitSettings{}.melting)};
   std::string reference_temperature = "293 K";
   std::vector<std::string> up_range = {"0.3 km/s", "2.5 km/s"};
+  std::string windows;  ///< empty: averaged, or single with --up-range
+  bool own_range = false;
+  std::string discrepancy{word_of(FitSettings{}.structure)};
+  bool stated_errors = false;
+  std::string tier{word_of(ErrorTier::fit)};
   std::string template_file;
   std::string plot;
   std::string propose;
@@ -70,6 +79,10 @@ FitSettings settings(const Options& options) {
   settings.melting = value_of<eos::MeltingTransition>(options.melting).value();
   settings.electrons = options.electrons;
   settings.bootstrap = options.bootstrap;
+  settings.structure = value_of<ErrorStructure>(options.discrepancy).value();
+  settings.inflation = !options.stated_errors && !options.statistical_only;
+  settings.windows = options.own_range || options.statistical_only ? WindowChoice::single : WindowChoice::averaged;
+  if (!options.windows.empty()) settings.windows = value_of<WindowChoice>(options.windows).value();
   if (options.statistical_only) settings.model_errors = ModelErrors::none();
   if (!options.density.empty()) {
     settings.density = quantity("--density", options.density, "kg/m^3");
@@ -120,8 +133,10 @@ std::vector<std::filesystem::path> material_files(const Options& options) {
 
 /// An ensemble beside the material NAME.toml: NAME_samples/NAME_1.toml, ...
 void write_samples(const Fit& fit, const StoreOrigin& origin, const std::filesystem::path& template_file,
-                   const std::filesystem::path& material, const Options& options) {
-  const FitSamples samples = sample_fit(fit, options.samples, options.seed);
+                   const std::filesystem::path& material, const std::optional<PotentialSpread>& spread,
+                   const Options& options) {
+  const FitSamples samples =
+      sample_fit(fit, options.samples, options.seed, value_of<ErrorTier>(options.tier).value(), spread);
   const std::string name = material.stem().string();
   const std::filesystem::path folder = material.parent_path() / (name + "_samples");
   const std::size_t digits = std::to_string(options.samples).size();
@@ -153,6 +168,17 @@ std::vector<std::string> model_names() {
   std::vector<std::string> names;
   for (const auto& [name, model] : fit_models) names.emplace_back(name);
   return names;
+}
+
+/// Scatter over the potentials of each element of which there are two fits or more, by element.
+std::map<std::string, PotentialSpread> spreads_of(const std::vector<NamedFit>& fits) {
+  std::map<std::string, std::vector<const Fit*>> by_element;
+  for (const NamedFit& fit : fits) by_element[fit.fit.element].push_back(&fit.fit);
+  std::map<std::string, PotentialSpread> spreads;
+  for (const auto& [element, members] : by_element) {
+    if (const auto spread = potential_spread(members)) spreads.emplace(element, *spread);
+  }
+  return spreads;
 }
 
 FitModel model_of(std::string_view name) {
@@ -192,6 +218,7 @@ void run(const Options& options) {
     require_new_figure(options.plot, options.force);
   }
   std::vector<NamedFit> fits;
+  std::vector<StoreOrigin> origins;
   std::vector<std::string> materials;
   std::vector<std::function<void()>> ensembles;
   if (options.samples > 0 && files.empty()) throw InputError("--samples: name the material with -o");
@@ -199,23 +226,32 @@ void run(const Options& options) {
     const std::filesystem::path& store = options.stores[i];
     const std::vector<md::PointRecord> points = md::read_store(store);
     fits.push_back({stem(store), fit_model(model_of(options.model), points, chosen, store.string())});
-    if (files.empty()) continue;
-    const Fit& fit = fits.back().fit;
+    origins.push_back(store_origin(store, points));
+  }
+  const std::map<std::string, PotentialSpread> spreads = spreads_of(fits);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const Fit& fit = fits[i].fit;
     const std::filesystem::path model = options.template_file.empty()
                                             ? default_template(fit.element)
                                             : std::filesystem::path(options.template_file);
-    const StoreOrigin origin = store_origin(store, points);
-    materials.push_back(material_text(fit, origin, model));
+    const auto found = spreads.find(fit.element);
+    const std::optional<PotentialSpread> spread =
+        found == spreads.end() ? std::nullopt : std::optional(found->second);
+    materials.push_back(material_text(fit, origins[i], model, spread));
     if (options.samples > 0) {
-      ensembles.emplace_back([fit, origin, model, file = files[i], &options] {
-        write_samples(fit, origin, model, file, options);
+      ensembles.emplace_back([&fit, &origin = origins[i], model, spread, file = files[i], &options] {
+        write_samples(fit, origin, model, file, spread, options);
       });
     }
   }
   for (std::size_t i = 0; i < files.size(); ++i) write_file(files[i], materials[i], options.force);
   if (!options.plot.empty()) process::draw_json("scripts/plot_fit.py", plot_data(fits.front()), options.plot);
 
+  if (!options.quiet) {
+    for (const NamedFit& fit : fits) fmt::print("{}: constants and their sources\n{}\n", fit.name, sources_table(fit.fit));
+  }
   fmt::print("{}", constants_table(fits));
+  for (const auto& [element, spread] : spreads) fmt::print("{}", spread_text(spread));
   if (!options.quiet) {
     for (const NamedFit& fit : fits) fmt::print("\n--- {} ---\n{}", fit.name, fit_details(fit.fit));
   }
@@ -258,15 +294,29 @@ int main_program(int argc, char** argv) {
          "the material NAME.toml")
       ->check(CLI::Range(1, 100000));
   app.add_option("--seed", options.seed, "Of the samples")->capture_default_str();
+  app.add_option("--tier", options.tier,
+                 "Errors that samples are drawn from: noise alone, of the fit and its defaults, over the potentials of the given stores, or all")
+      ->check(CLI::IsMember(word_list<ErrorTier>()))
+      ->capture_default_str();
   app.add_option("--melting", options.melting, "Melting transition of the material, and of the fit of T_m0")
       ->check(CLI::IsMember(word_list<eos::MeltingTransition>()))
       ->capture_default_str();
   app.add_option("--reference-temperature", options.reference_temperature,
                  "Temperature of the reference volume and ahead of the simulated shocks")
       ->capture_default_str();
-  app.add_option("--up-range", options.up_range, "Window of particle velocities of the Hugoniot states")
-      ->expected(2)
+  CLI::Option* up_range =
+      app.add_option("--up-range", options.up_range,
+                     "Window of particle velocities of the Hugoniot states; given, it is the only one")
+          ->expected(2)
+          ->capture_default_str();
+  app.add_option("--windows", options.windows,
+                 "Mean over several windows of particle velocities, whose scatter adds to the errors, or one "
+                 "(default: averaged, with --up-range single)")
+      ->check(CLI::IsMember(word_list<WindowChoice>()));
+  app.add_option("--model-errors", options.discrepancy, "Model errors along a curve of states, or state by state")
+      ->check(CLI::IsMember(word_list<ErrorStructure>()))
       ->capture_default_str();
+  app.add_flag("--stated-errors", options.stated_errors, "Leave the model errors as stated, whatever chi^2 is");
   app.add_option("--template", options.template_file,
                  "Material whose strength and failure are copied (default: the element's in the library)");
   app.add_option("--plot", options.plot, "Figure of data, fit and residuals, FILE.png");
@@ -292,6 +342,7 @@ int main_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     throw InputError(fmt::format("{}\nsee whipple fit --help", error.what()));
   }
+  options.own_range = up_range->count() > 0;
   run(options);
   return static_cast<int>(ExitCode::success);
 }

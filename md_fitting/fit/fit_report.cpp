@@ -12,6 +12,7 @@
 
 #include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/element_defaults.hpp"
+#include "md_fitting/fit/identifiability.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/text_table.hpp"
 
@@ -57,6 +58,19 @@ const std::vector<Column>& columns(FitModel model) {
 }
 
 using Row = std::vector<std::string>;
+
+/// Where a constant comes from.
+const char* source_word(const Constant& constant) {
+  switch (constant.origin) {
+    case Origin::fitted:
+      return "MD";
+    case Origin::given:
+      return constant.evidence == Evidence::measured ? "measured" : "given";
+    case Origin::by_default:
+      return constant.evidence == Evidence::measured ? "measured (default)" : "default";
+  }
+  throw InternalError("unknown origin of a constant");
+}
 
 std::string cell(const Constant& constant, const Column& column) {
   const double value = constant.value / column.size;
@@ -147,10 +161,10 @@ std::string unknown_to_classical_nuclei(const Fit& fit) {
 
 std::string windows_text(const Fit& fit) {
   std::string text =
-      "\nwindow of particle velocities (km/s), states, C (km/s), S: the first is the fit's own\n";
+      "\nwindow of particle velocities (km/s), states, weight in the mean, C (km/s), S: the first is the fit's own\n";
   for (const WindowResult& window : fit.windows) {
-    text += fmt::format("  {:.2f} ... {:.2f}  {:3d}  {:.3f}  {:.3f}\n", window.least * 1e-3,
-                        window.most * 1e-3, window.states, window.intercept * 1e-3, window.slope);
+    text += fmt::format("  {:.2f} ... {:.2f}  {:3d}  {:.2f}  {:.3f}  {:.3f}\n", window.least * 1e-3,
+                        window.most * 1e-3, window.states, window.weight, window.intercept * 1e-3, window.slope);
   }
   const auto [least_c, most_c] =
       std::minmax_element(fit.windows.begin(), fit.windows.end(),
@@ -189,12 +203,26 @@ std::string constants_table(std::span<const NamedFit> fits) {
     }
   }
   std::string text = text_table(rows, "lr");
-  text += "errors: one standard deviation from noise and model error, in brackets from the noise alone\n";
+  text += "errors: one standard deviation from noise, model error and windows, in brackets from the noise alone\n";
   if (model == FitModel::gray) text += "g: fitted rows the anharmonic coefficient of classical nuclei";
   if (!sources.empty()) {
     text += fmt::format("; published rows that of the electrons, or the sum\npublished rows: {}", sources);
   }
   return model == FitModel::gray ? text + "\n" : text;
+}
+
+std::string sources_table(const Fit& fit) {
+  std::vector<Row> rows = {{"constant", "value", "error", "source"}};
+  for (const Constant& constant : fit.constants) {
+    std::string error = "no error known";
+    if (constant.error > 0.0) {
+      error = practical_quantity(constant.error, constant.unit, 2);
+    } else if (constant.origin == Origin::given) {
+      error = "-";
+    }
+    rows.push_back({constant.name, practical_quantity(constant.value, constant.unit, 6), error, source_word(constant)});
+  }
+  return text_table(rows, "lrrl");
 }
 
 std::string fit_details(const Fit& fit) {
@@ -203,7 +231,8 @@ std::string fit_details(const Fit& fit) {
                       fit.potential, fit.chi_squared, fit.degrees_of_freedom,
                       fit.chi_squared / fit.degrees_of_freedom);
   for (const ChiSquaredPart& part : fit.chi_squared_parts) {
-    text += fmt::format("  {}: {:.1f} from {} data\n", part.quantity, part.chi_squared, part.data);
+    text += fmt::format("  {}: {:.1f} from {} data, model error times {:.2f}\n", part.quantity, part.chi_squared,
+                        part.data, part.inflation);
   }
   if (fit.superheated_states > 0) {
     text += fmt::format("  {} isochore states above T_m(V) left out (superheated solid)\n",
@@ -220,6 +249,7 @@ std::string fit_details(const Fit& fit) {
     rows.push_back(row);
   }
   text += text_table(rows, "lr");
+  text += identifiability_text(fit);
 
   text += left_out_text(fit);
   if (fit.bootstrap) text += bootstrap_text(fit);
@@ -246,6 +276,9 @@ std::string fit_details(const Fit& fit) {
     text +=
         fmt::format("  {} = {}  {} {}\n", constant.name, practical_quantity(constant.value, constant.unit),
                     constant.origin == Origin::given ? "given:" : "default", constant.source);
+    if (constant.error > 0.0) {
+      text += fmt::format("    +- {}: {}\n", practical_quantity(constant.error, constant.unit, 2), constant.error_source);
+    }
   }
   text += "\ncomplete model of the material less simulations: points, rms, mean, largest\n";
   for (const ModelCheck& check : fit.checks) {

@@ -19,9 +19,12 @@ struct NamedFit {
 /// their elements.
 std::string constants_table(std::span<const NamedFit> fits);
 
-/// Everything else about one fit: chi^2 per kind of data, correlations, leave-one-out check, bootstrap,
-/// windows, gamma of the isochores, defaults, what the simulations cannot know, the complete model against
-/// them.
+/// Every constant with its value, its error, and where it comes from: MD, measured, default or given.
+std::string sources_table(const Fit& fit);
+
+/// Everything else about one fit: chi^2 per kind of data with the inflation of its model error, correlations,
+/// information of the data, leave-one-out check, bootstrap, windows, gamma of the isochores, defaults, what the
+/// simulations cannot know, the complete model against them.
 std::string fit_details(const Fit& fit);
 
 /// The data of scripts/plot_fit.py as JSON.

@@ -18,6 +18,8 @@
 namespace whipple::fit {
 
 enum class Origin { fitted, given, by_default };
+/// What a constant that is not fitted rests on.
+enum class Evidence { chosen, measured };
 
 /// One numerical constant of the material.
 struct Constant {
@@ -26,9 +28,11 @@ struct Constant {
   std::string meaning;
   double value = 0.0;  ///< SI
   Origin origin = Origin::by_default;
-  double error = 0.0;              ///< 1 sigma from noise and model error; 0 if not fitted
+  double error = 0.0;  ///< 1 sigma: of a fitted constant from noise and model error, else of its source; 0: not known
   double statistical_error = 0.0;  ///< 1 sigma from the noise alone
   std::string source;              ///< of a constant that is not fitted: name of the default, and its source
+  Evidence evidence = Evidence::chosen;  ///< of a constant that is not fitted
+  std::string error_source{};            ///< of the error of a constant that is not fitted
 };
 
 /// One datum beside the fitted law, SI.
@@ -56,6 +60,7 @@ struct IsochoreGruneisen {
 struct WindowResult {
   double least = 0.0, most = 0.0;  ///< m/s
   int states = 0;
+  double weight = 0.0;                  ///< in the mean over the windows
   double intercept = 0.0, slope = 0.0;  ///< m/s, 1
 };
 
@@ -64,6 +69,7 @@ struct ChiSquaredPart {
   std::string quantity;
   double chi_squared = 0.0;
   int data = 0;
+  double inflation = 1.0;  ///< of the stated model error
 };
 
 /// The complete model of the material against all points of one protocol.

@@ -35,14 +35,58 @@ void require_material(const Fit& fit) {
   static_cast<void>(declared.build());
 }
 
+/// Constants that are drawn, and their covariance: those of the fit, then the defaults with a known error.
+struct Drawn {
+  std::vector<std::string> names;
+  Eigen::MatrixXd covariance;
+};
+
+Drawn drawn_from(const Fit& fit, ErrorTier tier, const std::optional<PotentialSpread>& spread) {
+  Drawn drawn{fit.fitted_names, {}};
+  std::vector<double> variances;
+  const bool with_defaults = tier == ErrorTier::fit || tier == ErrorTier::all;
+  for (const Constant& constant : fit.constants) {
+    if (!with_defaults || constant.origin != Origin::by_default || !(constant.error > 0.0)) continue;
+    drawn.names.push_back(constant.name);
+    variances.push_back(constant.error * constant.error);
+  }
+  const auto fitted = static_cast<Eigen::Index>(fit.fitted_names.size());
+  const auto count = static_cast<Eigen::Index>(drawn.names.size());
+  drawn.covariance = Eigen::MatrixXd::Zero(count, count);
+  if (tier == ErrorTier::noise) drawn.covariance.topLeftCorner(fitted, fitted) = fit.statistical_covariance;
+  if (with_defaults) {
+    drawn.covariance.topLeftCorner(fitted, fitted) = fit.covariance;
+    for (Eigen::Index k = fitted; k < count; ++k) {
+      drawn.covariance(k, k) = variances[static_cast<std::size_t>(k - fitted)];
+    }
+  }
+  if (!over_potentials(tier)) return drawn;
+  const auto row_of = [&](const std::string& name) {
+    return std::find(fit.fitted_names.begin(), fit.fitted_names.end(), name) - fit.fitted_names.begin();
+  };
+  for (std::size_t i = 0; i < spread->names.size(); ++i) {
+    for (std::size_t k = 0; k < spread->names.size(); ++k) {
+      const Eigen::Index row = row_of(spread->names[i]);
+      const Eigen::Index column = row_of(spread->names[k]);
+      if (row >= fitted || column >= fitted) continue;
+      drawn.covariance(row, column) += spread->covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+    }
+  }
+  return drawn;
+}
+
 }  // namespace
 
-FitSamples sample_fit(const Fit& fit, int count, std::uint64_t seed) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(fit.fitted_names.size()));
-  for (std::size_t k = 0; k < fit.fitted_names.size(); ++k) {
-    values[static_cast<Eigen::Index>(k)] = fit.value(fit.fitted_names[k]);
+FitSamples sample_fit(const Fit& fit, int count, std::uint64_t seed, ErrorTier tier,
+                      const std::optional<PotentialSpread>& spread) {
+  if (over_potentials(tier) && !spread) {
+    throw InputError("samples over potentials need stores of two potentials or more of the element");
   }
-  NormalSamples distribution(values, fit.covariance, seed);
+  const Drawn drawn_constants = drawn_from(fit, tier, spread);
+  const std::vector<std::string>& names = drawn_constants.names;
+  Eigen::VectorXd values(static_cast<Eigen::Index>(names.size()));
+  for (std::size_t k = 0; k < names.size(); ++k) values[static_cast<Eigen::Index>(k)] = fit.value(names[k]);
+  NormalSamples distribution(values, drawn_constants.covariance, seed);
   FitSamples samples;
   while (static_cast<int>(samples.fits.size()) < count) {
     const Eigen::VectorXd drawn = distribution.draw();
@@ -50,9 +94,9 @@ FitSamples sample_fit(const Fit& fit, int count, std::uint64_t seed) {
     const std::string source = fmt::format("sample {} of {} from the covariance of the fit, seed {}",
                                            samples.fits.size() + 1, count, seed);
     for (Constant& constant : sample.constants) {
-      const auto place = std::find(fit.fitted_names.begin(), fit.fitted_names.end(), constant.name);
-      if (place == fit.fitted_names.end()) continue;
-      constant.value = as_written(drawn[place - fit.fitted_names.begin()], constant.unit);
+      const auto place = std::find(names.begin(), names.end(), constant.name);
+      if (place == names.end()) continue;
+      constant.value = as_written(drawn[place - names.begin()], constant.unit);
       constant.origin = Origin::given;
       constant.source = source;
     }

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "md_fitting/fit/fit_result.hpp"
+#include "md_fitting/fit/potential_spread.hpp"
+#include "src/core/base/error_tier.hpp"
 
 namespace whipple::fit {
 
@@ -16,7 +19,10 @@ struct FitSamples {
   int refused = 0;  ///< draws that were replaced
 };
 
-/// @throws InputError if four of five draws are refused
-FitSamples sample_fit(const Fit& fit, int count, std::uint64_t seed);
+/// @param tier    errors to draw from: that of the fit contains the known errors of the defaults
+/// @param spread  over potentials, for the second tier
+/// @throws InputError if four of five draws are refused, or the second tier is missing
+FitSamples sample_fit(const Fit& fit, int count, std::uint64_t seed, ErrorTier tier = ErrorTier::fit,
+                      const std::optional<PotentialSpread>& spread = std::nullopt);
 
 }  // namespace whipple::fit

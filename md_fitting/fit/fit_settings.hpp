@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
 #include "eos/models/gray_constants.hpp"
+#include "src/core/base/words.hpp"
 
 namespace whipple::fit {
 
@@ -28,6 +30,31 @@ struct ModelErrors {
   static ModelErrors none() { return {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}; }
 };
 
+/// How the model errors of the states of one curve are related.
+enum class ErrorStructure {
+  correlated,  ///< a smooth deviation of the law from the curve: Matern covariance of stated lengths
+  independent  ///< one deviation for each state, those of an isochore's law common to it
+};
+constexpr std::array<Word<ErrorStructure>, 2> words(ErrorStructure) {
+  return {{{ErrorStructure::correlated, "correlated"}, {ErrorStructure::independent, "independent"}}};
+}
+
+/// Lengths over which the deviation of a law from its curve changes (docs/theory/fit.md, section 3).
+struct CorrelationLengths {
+  double particle_velocity = 1000.0;  ///< m/s, of Us-up
+  double volume_ratio = 0.1;          ///< of V/V0: isochores, isotherm, melting line
+  double temperature = 1000.0;        ///< K, along an isochore
+};
+
+/// Which windows of particle velocities the constants are taken from.
+enum class WindowChoice {
+  averaged,  ///< mean over the windows, their scatter is part of the covariance
+  single     ///< the window of the settings alone
+};
+constexpr std::array<Word<WindowChoice>, 2> words(WindowChoice) {
+  return {{{WindowChoice::averaged, "averaged"}, {WindowChoice::single, "single"}}};
+}
+
 struct FitSettings {
   double reference_temperature = 293.0;    ///< K: V0 is the volume at zero pressure and this temperature
   double least_particle_velocity = 300.0;  ///< m/s, window of the Hugoniot states
@@ -36,9 +63,22 @@ struct FitSettings {
   /// the common tangent of solid and liquid. It is also the melting transition of the material.
   eos::MeltingTransition melting = eos::MeltingTransition::equilibrium;
   ModelErrors model_errors;
+  ErrorStructure structure = ErrorStructure::correlated;
+  CorrelationLengths lengths;
+  bool inflation = true;  ///< model errors grow until chi^2 of each kind of data is what it should be
+  WindowChoice windows = WindowChoice::averaged;
   std::string electrons;  ///< name of a choice of the element's table, or a quantity; empty: the first choice
   int bootstrap = 0;      ///< replicates; 0: none
   std::optional<double> density;  ///< kg/m^3: replaces the fitted reference volume by a measured one
 };
+
+/// Leaves one window and the stated model errors, each state by itself: for what counts the information of
+/// single states.
+inline FitSettings independent_errors(FitSettings settings) {
+  settings.structure = ErrorStructure::independent;
+  settings.inflation = false;
+  settings.windows = WindowChoice::single;
+  return settings;
+}
 
 }  // namespace whipple::fit

@@ -13,6 +13,7 @@
 #include "md_fitting/fit/element_defaults.hpp"
 #include "md_fitting/fit/model_check.hpp"
 #include "md_fitting/fit/solid_fit.hpp"
+#include "md_fitting/fit/structure_limit.hpp"
 #include "md_fitting/fit/table_access.hpp"
 #include "md_fitting/fit/vapour_fit.hpp"
 #include "src/core/base/error.hpp"
@@ -89,8 +90,9 @@ void append(GrayFit& fit, const VapourFit& vapour) {
     number_of(fit.gray, vapour.names[k]) = vapour.values[static_cast<Index>(k)];
     fit.fitted_names.push_back(vapour.names[k]);
   }
-  fit.chi_squared_parts.push_back({"saturated densities", vapour.chi_squared,
-                                   vapour.degrees_of_freedom + static_cast<int>(vapour.names.size())});
+  fit.chi_squared_parts.push_back({.quantity = "saturated densities",
+                                   .chi_squared = vapour.chi_squared,
+                                   .data = vapour.degrees_of_freedom + static_cast<int>(vapour.names.size())});
   if (!vapour.remark.empty()) fit.remarks.push_back(vapour.remark);
 }
 
@@ -126,7 +128,7 @@ BootstrapResult bootstrap_gray(std::span<const md::PointRecord> points, const So
   const auto constants = [&](std::span<const md::PointRecord> drawn) {
     Observations data = observe(drawn, settings, {}, store_name);
     remove_superheated(data, fit.constants.gray, store_name);
-    const SolidConstants found = refit_solid(data, fit.model, fit.constants, settings);
+    const SolidConstants found = refit_solid(data, fit, settings);
     Eigen::VectorXd values(static_cast<Index>(fit.model.free.size()));
     for (std::size_t k = 0; k < fit.model.free.size(); ++k)
       values[static_cast<Index>(k)] = at(found, fit.model.free[k]);
@@ -140,7 +142,7 @@ BootstrapResult bootstrap_gray(std::span<const md::PointRecord> points, const So
 void replace_volume(GrayFit& fit, double density, Sources& sources) {
   const double ratio = 1.0 / (density * fit.fitted_reference_volume);
   fit.gray.reference_specific_volume = 1.0 / density;
-  sources.given(
+  sources.measured(
       "reference_specific_volume",
       fmt::format("measured density {}; the simulations give {}", units::format_quantity(density, "kg/m^3"),
                   practical_quantity(fit.fitted_reference_volume, "m^3/kg")));
@@ -175,6 +177,7 @@ GrayFit fit_with_join(std::span<const md::PointRecord> points, const FitSettings
   fit.fitted_names = fit.left_out_names;
   fit.covariance = solid.covariance;
   fit.statistical_covariance = solid.statistical_covariance;
+  add_structure_remark(fit, points, solid.data);
   add_vapour(fit, solid.data);
   try {
     fit.checks = check_gray(fit.gray, solid.data, points);

@@ -15,6 +15,8 @@
 
 #include "md_fitting/fit/constant_list.hpp"
 #include "md_fitting/fit/element_defaults.hpp"
+#include "md_fitting/fit/fit_report.hpp"
+#include "md_fitting/fit/identifiability.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/hash.hpp"
@@ -58,16 +60,28 @@ std::string constant_line(const Constant& constant) {
       line += fmt::format("  # given: {}", constant.source);
       break;
     case Origin::by_default:
-      line += fmt::format("  # default {}", constant.source);
+      line += fmt::format("  # default, {}: {}",
+                          constant.error > 0.0
+                              ? fmt::format("+- {}", practical_quantity(constant.error, unit, 2))
+                              : std::string("no error known"),
+                          constant.source);
       break;
   }
   return line + "\n";
 }
 
+/// The lines of a text as comments.
+std::string comment_lines(const std::string& text) {
+  std::istringstream lines(text);
+  std::string comments;
+  for (std::string line; std::getline(lines, line);) comments += fmt::format("# {}\n", line);
+  return comments;
+}
+
 /// A symmetric matrix of the fitted constants as a table, one row for each name.
 std::string matrix_table(const char* title, const std::vector<std::string>& names,
                          const Eigen::MatrixXd& matrix, const std::function<std::string(double)>& number) {
-  std::string text = fmt::format("\n[covariance.{}]\n", title);
+  std::string text = fmt::format("\n[{}]\n", title);
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::vector<std::string> row;
     for (const double value : matrix.row(static_cast<Eigen::Index>(i))) row.push_back(number(value));
@@ -99,9 +113,8 @@ std::string covariance_table(const Fit& fit) {
     si_units.push_back(toml_string(fit.constant(name).unit));
   }
   std::string text = fmt::format(
-      "[covariance]\n# Of the fitted constants, from the noise of the data and the model error: entry k of "
-      "row i in "
-      "units[i] * units[k].\nnames = [{}]\nunits = [{}]\n",
+      "[covariance]\n# Of the fitted constants, from the noise of the data, the model error and the scatter over the "
+      "windows: entry k of row i in units[i] * units[k].\nnames = [{}]\nunits = [{}]\n",
       fmt::join(names, ", "), fmt::join(si_units, ", "));
   std::vector<std::string> noise;
   for (Eigen::Index i = 0; i < fit.statistical_covariance.rows(); ++i) {
@@ -114,21 +127,44 @@ std::string covariance_table(const Fit& fit) {
   }
   text +=
       fmt::format("chi_squared = {:.6g}\ndegrees_of_freedom = {}\n", fit.chi_squared, fit.degrees_of_freedom);
-  text += matrix_table("matrix", fit.fitted_names, fit.covariance,
+  std::vector<std::string> information;
+  for (const double value : identifiability(fit).eigenvalues) information.push_back(fmt::format("{:.4g}", value));
+  text += fmt::format("fisher_eigenvalues = [{}]  # constants in units of themselves, or of their larger errors\n",
+                      fmt::join(information, ", "));
+  text += matrix_table("covariance.matrix", fit.fitted_names, fit.covariance,
                        [](double value) { return fmt::format("{:.6e}", value); });
-  text += matrix_table("correlation", fit.fitted_names, fit.correlation(),
+  text += matrix_table("covariance.statistical", fit.fitted_names, fit.statistical_covariance,
+                       [](double value) { return fmt::format("{:.6e}", value); });
+  text += matrix_table("covariance.correlation", fit.fitted_names, fit.correlation(),
                        [](double value) { return fmt::format("{:.3f}", value); });
   return text;
 }
 
-std::string settings_table(const FitSettings& settings) {
+std::string settings_table(const Fit& fit) {
+  const FitSettings& settings = fit.settings;
   const ModelErrors& errors = settings.model_errors;
   std::string text = "[provenance.fit]\n";
   text += fmt::format("reference_temperature = \"{} K\"\n", settings.reference_temperature);
   text += fmt::format("particle_velocities = [\"{} km/s\", \"{} km/s\"]\n",
                       settings.least_particle_velocity / 1000.0, settings.most_particle_velocity / 1000.0);
   text += fmt::format("melting = {}\n", toml_string(word_of(settings.melting)));
-  text += "# Model errors, one standard deviation (docs/theory/fit.md)\n";
+  text += fmt::format("windows = {}\nwindows_averaged = {}\n", toml_string(word_of(settings.windows)),
+                      std::ranges::count_if(fit.windows, [](const auto& window) { return window.weight > 0.0; }));
+  text += fmt::format("model_errors = {}\n", toml_string(word_of(settings.structure)));
+  text += fmt::format("correlation_particle_velocity = \"{} km/s\"\n", settings.lengths.particle_velocity / 1000.0);
+  text += fmt::format("correlation_volume_ratio = {}\ncorrelation_temperature = \"{} K\"\n",
+                      settings.lengths.volume_ratio, settings.lengths.temperature);
+  if (!fit.remarks.empty()) {
+    std::vector<std::string> remarks;
+    for (const std::string& remark : fit.remarks) remarks.push_back(toml_string(remark));
+    text += fmt::format("remarks = [{}]\n", fmt::join(remarks, ", "));
+  }
+  text += "# Model errors, one standard deviation (docs/theory/fit.md), and what chi^2 multiplied them by\n";
+  for (const ChiSquaredPart& part : fit.chi_squared_parts) {
+    std::string name = part.quantity;
+    std::ranges::replace(name, ' ', '_');
+    text += fmt::format("inflation_{} = {:.4g}\n", name, part.inflation);
+  }
   text += fmt::format("model_error_volume = {}\nmodel_error_shock_velocity = {}\n",
                       errors.zero_pressure_volume, errors.shock_velocity);
   text += fmt::format("model_error_gruneisen = {}\nmodel_error_anharmonic = \"{} J/(mol K^2)\"\n",
@@ -158,7 +194,7 @@ std::string provenance_table(const Fit& fit, const StoreOrigin& origin) {
     text += fmt::format("\n[provenance.{}]\n", title);
     for (const auto& [protocol, count] : *counts) text += fmt::format("{} = {}\n", protocol, count);
   }
-  return fmt::format("{}\n{}", text, settings_table(fit.settings));
+  return fmt::format("{}\n{}", text, settings_table(fit));
 }
 
 std::string defaults_table(const Fit& fit) {
@@ -169,7 +205,46 @@ std::string defaults_table(const Fit& fit) {
       text += fmt::format("{} = {}\n", constant.name, toml_string(constant.source));
     }
   }
-  return text;
+  if (fit.fitted_names.empty()) return text;  // of a sample
+  std::vector<std::string> names, units, errors, sources, unknown;
+  for (const Constant& constant : fit.constants) {
+    if (constant.origin != Origin::by_default) continue;
+    if (!(constant.error > 0.0)) {
+      unknown.push_back(toml_string(constant.name));
+      continue;
+    }
+    names.push_back(toml_string(constant.name));
+    units.push_back(toml_string(constant.unit));
+    errors.push_back(fmt::format("{:.4e}", constant.error));
+    sources.push_back(toml_string(constant.error_source));
+  }
+  return text + fmt::format(
+                    "\n[default_errors]\n# One standard deviation of the defaults whose sources give one, errors[i] in "
+                    "units[i]: samples draw these, too. No error is known of the others.\nnames = [{}]\nunits = "
+                    "[{}]\nerrors = [{}]\nsources = [{}]\nunknown = [{}]\n",
+                    fmt::join(names, ", "), fmt::join(units, ", "), fmt::join(errors, ", "),
+                    fmt::join(sources, ", "), fmt::join(unknown, ", "));
+}
+
+/// Second tier of the errors: of the constants that the material has from its fit.
+std::string spread_table(const Fit& fit, const PotentialSpread& spread) {
+  std::vector<Eigen::Index> kept;
+  std::vector<std::string> names, quoted, units, potentials, deviations;
+  for (std::size_t k = 0; k < spread.names.size(); ++k) {
+    if (std::ranges::find(fit.fitted_names, spread.names[k]) == fit.fitted_names.end()) continue;
+    kept.push_back(static_cast<Eigen::Index>(k));
+    names.push_back(spread.names[k]);
+    quoted.push_back(toml_string(spread.names[k]));
+    units.push_back(toml_string(spread.units[k]));
+    deviations.push_back(fmt::format("{:.4e}", std::sqrt(spread.covariance(kept.back(), kept.back()))));
+  }
+  for (const std::string& potential : spread.potentials) potentials.push_back(toml_string(potential));
+  std::string text = fmt::format(
+      "\n[potential_spread]\n# Second tier: scatter of the constants over potentials of the element, not contained in "
+      "[covariance].\npotentials = [{}]\nnames = [{}]\nunits = [{}]\nstandard_deviation = [{}]\n",
+      fmt::join(potentials, ", "), fmt::join(quoted, ", "), fmt::join(units, ", "), fmt::join(deviations, ", "));
+  return text + matrix_table("potential_spread.matrix", names, spread.covariance(kept, kept),
+                             [](double value) { return fmt::format("{:.6e}", value); });
 }
 
 }  // namespace
@@ -235,11 +310,12 @@ std::filesystem::path default_template(const std::string& element) {
                   file, fmt::join(names, ", ")));
 }
 
-std::string material_text(const Fit& fit, const StoreOrigin& origin,
-                          const std::filesystem::path& template_file) {
+std::string material_text(const Fit& fit, const StoreOrigin& origin, const std::filesystem::path& template_file,
+                          const std::optional<PotentialSpread>& spread) {
   const std::string_view metal = element_defaults(fit.element).metal;
   const bool gray = fit.model == FitModel::gray;
-  std::string text = fmt::format("name = \"{} ({} fitted to molecular dynamics, {})\"\n", metal,
+  std::string text = comment_lines(sources_table(fit));
+  text += fmt::format("\nname = \"{} ({} fitted to molecular dynamics, {})\"\n", metal,
                                  gray ? "GRAY" : name_of(fit.model), origin.name);
   text += fmt::format("source = {}\n", toml_string(fmt::format("whipple fit of {}; interatomic potential {}",
                                                                origin.name, fit.potential)));
@@ -260,7 +336,7 @@ std::string material_text(const Fit& fit, const StoreOrigin& origin,
   const std::string covariance = covariance_table(fit);
   text += fmt::format("\n{}{}\n{}", covariance.empty() ? covariance : covariance + "\n",
                       provenance_table(fit, origin), defaults_table(fit));
-  return text;
+  return spread && !covariance.empty() ? text + spread_table(fit, *spread) : text;
 }
 
 void write_file(const std::filesystem::path& path, const std::string& text, bool force) {

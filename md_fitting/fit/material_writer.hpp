@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "md_fitting/fit/fit_result.hpp"
+#include "md_fitting/fit/potential_spread.hpp"
 
 namespace whipple::fit {
 
@@ -33,8 +35,9 @@ std::filesystem::path default_template(const std::string& element);
 /// Text of the complete material file: [eos] with every constant in practical units, its error or the name of
 /// its default beside it; [covariance] with the correlations; [provenance]; [defaults]; [strength] and
 /// [[failure]] of the template.
-std::string material_text(const Fit& fit, const StoreOrigin& origin,
-                          const std::filesystem::path& template_file);
+/// @param spread  over the potentials of the element: the table [potential_spread]
+std::string material_text(const Fit& fit, const StoreOrigin& origin, const std::filesystem::path& template_file,
+                          const std::optional<PotentialSpread>& spread = std::nullopt);
 
 /// Writes a file as a whole (temporary name, then renamed).
 /// @throws InputError if it is there already and `force` is false, or if it cannot be written

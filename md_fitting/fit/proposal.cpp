@@ -196,6 +196,7 @@ Proposal propose(const md::Plan& plan, std::span<const md::PointRecord> points, 
   const double purse = wish.budget > 0.0 ? wish.budget - proposal.spent : HUGE_VAL;
   FitSettings settings;
   settings.reference_temperature = plan.zero_pressure->temperature.front();
+  settings = independent_errors(settings);  // the value of single points: docs/theory/fit.md, section 8
   if (!wish.model_errors) settings.model_errors = ModelErrors::none();
   const std::vector<PlannedPoint> start = ranges.start();
   if (!start.empty() && !bears_fit(plan, points, settings, store_name)) {

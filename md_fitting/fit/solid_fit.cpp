@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "md_fitting/fit/laws.hpp"
+#include "md_fitting/fit/scaled_fit.hpp"
 #include "md_fitting/fit/solid_problem.hpp"
 #include "src/core/base/error.hpp"
 
@@ -121,25 +121,6 @@ IsochoreGruneisen isochore_gruneisen(const Isochore& isochore) {
           static_cast<int>(isochore.states.size())};
 }
 
-/// Solves until the point about which the melting data are linear is the solution.
-SolidConstants converged(const Observations& data, const SolidModel& model, const FitSettings& settings,
-                         SolidConstants constants) {
-  constexpr int most_passes = 30;
-  double former_change = std::numeric_limits<double>::infinity();
-  for (int pass = 0; pass < most_passes; ++pass) {
-    const SolidProblem problem(data, settings, model, constants);
-    const VectorXd step = solve(problem.least_squares()).parameters;
-    constants = problem.constants_at(step);
-    const double change = step.head(problem.constants()).lpNorm<Eigen::Infinity>();
-    // Sharp data leave a badly conditioned problem, whose solution scatters by a millionth: no pass removes
-    // that.
-    const bool at_its_noise = change < 1e-5 && change > 0.5 * former_change;
-    if (change < 1e-7 || at_its_noise || !model.fits(Place::melting)) return constants;
-    former_change = change;
-  }
-  throw StateError("the fit of the melting temperature does not settle");
-}
-
 std::vector<Residual> residual_rows(const SolidProblem& problem, const SolidModel& model,
                                     const Observations& data, const LeastSquaresProblem& weights,
                                     const LeastSquaresSolution& solution, double v0) {
@@ -186,35 +167,17 @@ std::vector<Residual> residual_rows(const SolidProblem& problem, const SolidMode
   return rows;
 }
 
-std::vector<ChiSquaredPart> chi_squared_parts(const SolidProblem& problem, const VectorXd& whitened) {
+std::vector<ChiSquaredPart> chi_squared_parts(const SolidProblem& problem, const LeastSquaresSolution& solution,
+                                              const ModelScale& scale) {
   std::vector<ChiSquaredPart> parts;
   for (const Datum& datum : problem.data()) {
-    if (parts.empty() || parts.back().quantity != datum.quantity) parts.push_back({datum.quantity, 0.0, 0});
-    parts.back().chi_squared += whitened.segment(datum.begin, datum.rows).squaredNorm();
+    if (parts.empty() || parts.back().quantity != datum.quantity) {
+      parts.push_back({.quantity = datum.quantity, .inflation = scale.of(datum.kind)});
+    }
+    parts.back().chi_squared += solution.whitened.segment(datum.begin, datum.rows).squaredNorm();
     parts.back().data += static_cast<int>(datum.rows);
   }
   return parts;
-}
-
-/// C and S of other windows: what the choice of the window does to them.
-std::vector<WindowResult> windows(const Observations& data, const SolidModel& model,
-                                  const FitSettings& settings, const SolidConstants& fitted, int own_states) {
-  constexpr std::array<std::pair<double, double>, 6> others = {
-      {{0.0, 1000.0}, {0.0, 1500.0}, {0.0, 2000.0}, {0.0, 3000.0}, {300.0, 1500.0}, {1000.0, 3000.0}}};
-  std::vector<WindowResult> results = {{settings.least_particle_velocity, settings.most_particle_velocity,
-                                        own_states, fitted.gray.hugoniot_intercept,
-                                        fitted.gray.hugoniot_slope}};
-  for (const auto& [least, most] : others) {
-    FitSettings other = settings;
-    other.least_particle_velocity = least;
-    other.most_particle_velocity = most;
-    const SolidProblem problem(data, other, model, fitted);
-    if (problem.window().size() < 3) continue;
-    const GrayConstants found = problem.constants_at(solve(problem.least_squares()).parameters).gray;
-    results.push_back({least, most, static_cast<int>(problem.window().size()), found.hugoniot_intercept,
-                       found.hugoniot_slope});
-  }
-  return results;
 }
 
 /// T_m0 such that T_m(V) itself runs through the coexistence points: geometric mean of T/(T_m(V)/T_m0).
@@ -266,7 +229,7 @@ SolidFit fit_solid(Observations data, const SolidModel& model, const SolidConsta
   if (model.isotherm) guess_isotherm(data, start);
   guess_gruneisen(data, start.gray);
 
-  start = converged(data, model, settings, start);
+  start = converged(data, model, independent_errors(settings), start);
   // A model without melting of its own leaves superheated states out all the same.
   GrayConstants limit = start.gray;
   if (!model.fits(Place::melting)) {
@@ -274,17 +237,26 @@ SolidFit fit_solid(Observations data, const SolidModel& model, const SolidConsta
         isochoric_melting_temperature(data, limit).value_or(limit.melting_temperature);
   }
   fit.report.superheated_states = remove_superheated(data, limit, store_name);
-  start = converged(data, model, settings, start);
+  const ScaledFit own = fit_scaled(data, model, settings, start);
 
-  const SolidProblem problem(data, settings, model, start);
+  const SolidProblem problem(data, settings, model, own.constants, own.scale);
   const LeastSquaresProblem weights = problem.least_squares();
   const LeastSquaresSolution solution = solve(weights);
-  fit.constants = problem.constants_at(solution.parameters);
   const Index count = problem.constants();
-  const VectorXd scale = problem.scale(solution.parameters);
-  fit.covariance = scale.asDiagonal() * solution.covariance.topLeftCorner(count, count) * scale.asDiagonal();
-  fit.statistical_covariance =
-      scale.asDiagonal() * solution.statistical_covariance.topLeftCorner(count, count) * scale.asDiagonal();
+  ScaledFit result = own;
+  if (model.hugoniot) {
+    const std::vector<WindowFit> windows = fit_windows(data, model, settings, own);
+    result = mean_of(windows, model);
+    for (const WindowFit& window : windows) {
+      const GrayConstants& gray = window.fit.constants.gray;
+      fit.report.windows.push_back({window.least, window.most, window.states, window.weight, gray.hugoniot_intercept,
+                                    gray.hugoniot_slope});
+    }
+  }
+  fit.constants = result.constants;
+  fit.scale = own.scale;
+  fit.covariance = result.covariance;
+  fit.statistical_covariance = result.statistical_covariance;
 
   Fit& report = fit.report;
   report.element = data.element;
@@ -293,7 +265,7 @@ SolidFit fit_solid(Observations data, const SolidModel& model, const SolidConsta
   report.settings = settings;
   report.chi_squared = solution.chi_squared;
   report.degrees_of_freedom = solution.degrees_of_freedom;
-  report.chi_squared_parts = chi_squared_parts(problem, solution.whitened);
+  report.chi_squared_parts = chi_squared_parts(problem, solution, own.scale);
   report.left_out = leave_one_out(problem.data(), solution, count);
   for (const Place place : model.free) report.left_out_names.emplace_back(name_of(place));
   const GrayConstants& gray = fit.constants.gray;
@@ -303,16 +275,12 @@ SolidFit fit_solid(Observations data, const SolidModel& model, const SolidConsta
   report.residuals = residual_rows(problem, model, data, weights, solution, report.fitted_reference_volume);
   for (const Isochore& isochore : data.isochores) report.isochores.push_back(isochore_gruneisen(isochore));
   report.isochoric_melting_temperature = isochoric_melting_temperature(data, gray);
-  if (model.hugoniot) {
-    report.windows = windows(data, model, settings, fit.constants, static_cast<int>(problem.window().size()));
-  }
   fit.data = std::move(data);
   return fit;
 }
 
-SolidConstants refit_solid(const Observations& data, const SolidModel& model, const SolidConstants& start,
-                           const FitSettings& settings) {
-  const SolidProblem problem(data, settings, model, start);
+SolidConstants refit_solid(const Observations& data, const SolidFit& fit, const FitSettings& settings) {
+  const SolidProblem problem(data, settings, fit.model, fit.constants, fit.scale);
   return problem.constants_at(solve(problem.least_squares()).parameters);
 }
 

@@ -10,6 +10,7 @@
 #include "md_fitting/fit/least_squares.hpp"
 #include "md_fitting/fit/observations.hpp"
 #include "md_fitting/fit/solid_constants.hpp"
+#include "md_fitting/fit/solid_problem.hpp"
 
 namespace whipple::fit {
 
@@ -18,6 +19,7 @@ struct SolidFit {
   Observations data;  ///< without superheated states
   SolidModel model;
   SolidConstants constants;
+  ModelScale scale;  ///< of the model errors, in the window of the settings
   Eigen::MatrixXd covariance, statistical_covariance;  ///< of `model.free`, SI
   Fit report;  ///< everything but constants and words, with GRAY's names; covariances of `model.free`
 };
@@ -32,9 +34,9 @@ SolidConstants fixed_solid(const Observations& data);
 SolidFit fit_solid(Observations data, const SolidModel& model, const SolidConstants& start,
                    const FitSettings& settings, const std::string& store_name);
 
-/// Fits a model of the solid from start values close to the solution, and returns its constants alone: for replicates.
-SolidConstants refit_solid(const Observations& data, const SolidModel& model, const SolidConstants& start,
-                           const FitSettings& settings);
+/// Fits other data with the model and the weights of a fit, in the window of the settings, and returns the constants
+/// alone: for replicates.
+SolidConstants refit_solid(const Observations& data, const SolidFit& fit, const FitSettings& settings);
 
 /// Leaves out superheated solid: above T_m(V) the crystal is metastable, and its energy does not follow the
 /// law.

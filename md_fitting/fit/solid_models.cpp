@@ -15,6 +15,7 @@
 #include "md_fitting/fit/element_defaults.hpp"
 #include "md_fitting/fit/model_check.hpp"
 #include "md_fitting/fit/solid_fit.hpp"
+#include "md_fitting/fit/structure_limit.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/units.hpp"
 
@@ -40,8 +41,9 @@ struct Renamed {
   MatrixXd jacobian;  ///< d(constant of the model)/d(constant of the solid)
 };
 
-Fit renamed(const SolidFit& solid, FitModel model, const Renamed& map) {
+Fit renamed(const SolidFit& solid, FitModel model, const Renamed& map, std::span<const md::PointRecord> points) {
   Fit fit = solid.report;
+  add_structure_remark(fit, points, solid.data);
   fit.model = model;
   fit.fitted_names = map.names;
   fit.covariance = map.jacobian * solid.covariance * map.jacobian.transpose();
@@ -55,7 +57,7 @@ BootstrapResult replicates(std::span<const md::PointRecord> points, const SolidF
     Observations data = observe(drawn, settings, needs, store_name);
     remove_superheated(data, solid.constants.gray, store_name);
     SolidFit moved = solid;
-    moved.constants = refit_solid(data, solid.model, solid.constants, settings);
+    moved.constants = refit_solid(data, solid, settings);
     return VectorXd(map.jacobian * (free_values(moved) - free_values(solid)));
   };
   constexpr std::uint64_t seed = 1;
@@ -67,7 +69,7 @@ void replace_density(Fit& fit, double& density, Sources& sources) {
   const auto place = std::find(fit.fitted_names.begin(), fit.fitted_names.end(), "reference_density");
   const Index row = place - fit.fitted_names.begin();
   const Index count = fit.covariance.rows();
-  sources.given("reference_density", fmt::format("measured density; the simulations give {}",
+  sources.measured("reference_density", fmt::format("measured density; the simulations give {}",
                                                  practical_quantity(density, "kg/m^3")));
   density = *fit.settings.density;
   std::vector<Index> kept;
@@ -101,7 +103,7 @@ Fit fit_mie_gruneisen(std::span<const md::PointRecord> points, const FitSettings
   map.jacobian(0, 0) = -1.0 / (v0 * v0);
   map.jacobian(4, 3) = 1.0;
   map.jacobian(4, 4) = -1.0;
-  Fit fit = renamed(solid, FitModel::mie_gruneisen, map);
+  Fit fit = renamed(solid, FitModel::mie_gruneisen, map, points);
 
   eos::MieGruneisenConstants constants;
   constants.reference_density = 1.0 / v0;
@@ -164,7 +166,7 @@ Fit fit_debye_gruneisen(std::span<const md::PointRecord> points, const FitSettin
               MatrixXd::Identity(count, count)};
   if (melts) map.names.emplace_back("melting_temperature");
   map.jacobian(0, 0) = -1.0 / (v0 * v0);
-  Fit fit = renamed(solid, FitModel::debye_gruneisen, map);
+  Fit fit = renamed(solid, FitModel::debye_gruneisen, map, points);
 
   Sources sources;
   eos::DebyeGruneisenConstants constants;

@@ -17,13 +17,11 @@ using Eigen::VectorXd;
 // Scales that make the parameters of order one.
 constexpr double pressure_scale = 1e9;  // Pa
 constexpr double energy_scale = 1e4;    // J/kg
-
-double square(double value) { return value * value; }
 }  // namespace
 
 SolidProblem::SolidProblem(const Observations& data, const FitSettings& settings, const SolidModel& model,
-                           const SolidConstants& start)
-    : observations_(data), settings_(settings), model_(model), start_(start) {
+                           const SolidConstants& start, const ModelScale& scale)
+    : observations_(data), settings_(settings), model_(model), start_(start), scale_(scale) {
   for (const Place place : model.free) {
     bounded_.emplace_back(at(start, place), bounds_of(place, start), scale_of(place));
   }
@@ -50,31 +48,31 @@ bool SolidProblem::in_window(const HugoniotState& state) const {
 }
 
 void SolidProblem::list_data() {
-  const auto add = [&](const char* quantity, const std::string& label, Index rows = 1) {
-    rows_.push_back({quantity, label, size_, rows});
+  const auto add = [&](DataKind kind, const char* quantity, const std::string& label, Index rows = 1) {
+    rows_.push_back({quantity, label, size_, rows, kind});
     size_ += rows;
   };
   const double v0 = observations_.reference_volume.value;
-  add("volume at zero pressure", fmt::format("T = {:.0f} K", observations_.reference_temperature));
+  add(DataKind::volume, "volume at zero pressure", fmt::format("T = {:.0f} K", observations_.reference_temperature));
   for (const HugoniotState& state : window_) {
-    add("shock velocity", fmt::format("up = {:.3g} km/s", 1e-3 * state.particle_velocity));
+    add(DataKind::shock, "shock velocity", fmt::format("up = {:.3g} km/s", 1e-3 * state.particle_velocity));
   }
   if (model_.isotherm) {
     for (const IsothermState& state : observations_.isotherm) {
-      add("pressure of the isotherm", fmt::format("V/V0 = {:.3f}", state.volume / v0));
+      add(DataKind::isotherm, "pressure of the isotherm", fmt::format("V/V0 = {:.3f}", state.volume / v0));
     }
   }
   for (const Isochore& isochore : observations_.isochores) {
     for (const ThermalState& state : isochore.states) {
-      add("pressure and energy of the isochores",
+      add(DataKind::isochore, "pressure and energy of the isochores",
           fmt::format("V/V0 = {:.3f}, T = {:.0f} K", isochore.volume / v0, state.temperature), 2);
     }
   }
   const auto pressure = [](const MeltingPoint* point) {
     return fmt::format("P = {:.3g} GPa", 1e-9 * point->pressure);
   };
-  for (const MeltingPoint* point : melting_) add("melting temperature", pressure(point));
-  for (const MeltingPoint* point : fusion_) add("latent heat of fusion", pressure(point));
+  for (const MeltingPoint* point : melting_) add(DataKind::melting, "melting temperature", pressure(point));
+  for (const MeltingPoint* point : fusion_) add(DataKind::fusion, "latent heat of fusion", pressure(point));
 }
 
 VectorXd SolidProblem::melting_values(const SolidConstants& constants) const {
@@ -173,77 +171,9 @@ LeastSquaresProblem SolidProblem::least_squares() const {
   problem.start = VectorXd::Zero(constants() + 2 * static_cast<Index>(observations_.isochores.size()));
   problem.statistical = MatrixXd::Zero(size(), size());
   problem.model = MatrixXd::Zero(size(), size());
-  weigh(problem.statistical, problem.model);
+  weigh_noise(problem.statistical);
+  weigh_model(problem.model);
   return problem;
-}
-
-void SolidProblem::weigh(MatrixXd& statistical, MatrixXd& model) const {
-  const ModelErrors& errors = settings_.model_errors;
-  Index row = 0;
-  const auto weight = [&](double noise, double misfit) {
-    statistical(row, row) = noise;
-    model(row, row) = square(misfit);
-    ++row;
-  };
-  weight(square(observations_.reference_volume.error),
-         errors.zero_pressure_volume * observations_.reference_volume.value);
-  for (const HugoniotState& state : window_) {
-    // V is exact; Us and up both go as P^(1/2): d(Us - S up) = (Us - S up) dP/(2P).
-    const auto [us, up] = velocities(state, start_.gray.reference_specific_volume);
-    weight(
-        square((us - start_.gray.hugoniot_slope * up) * state.pressure.error / (2.0 * state.pressure.value)),
-        errors.shock_velocity * us);
-  }
-  if (model_.isotherm) {
-    for (const IsothermState& state : observations_.isotherm) {
-      weight(square(state.pressure.error), std::hypot(errors.isotherm_pressure * state.pressure.value,
-                                                      errors.isotherm_volume * start_.bulk_modulus));
-    }
-  }
-  for (const Isochore& isochore : observations_.isochores) {
-    weigh_isochore(isochore, row, statistical, model);
-    row += 2 * static_cast<Index>(isochore.states.size());
-  }
-  for (const MeltingPoint* point : melting_) {
-    const double v = point->solid_volume.value;
-    const double step = 1e-4 * v;
-    const double slope =
-        (melting_temperature(start_.gray, v + step) - melting_temperature(start_.gray, v - step)) /
-        (2.0 * step);
-    weight(square(point->temperature.error) + square(slope * point->solid_volume.error),
-           errors.melting_temperature * point->temperature.value);
-  }
-  for (const MeltingPoint* point : fusion_) {
-    weight(square(point->latent_heat->error), errors.latent_heat * point->latent_heat->value);
-  }
-}
-
-void SolidProblem::weigh_isochore(const Isochore& isochore, Index begin, MatrixXd& statistical,
-                                  MatrixXd& model) const {
-  const ModelErrors& errors = settings_.model_errors;
-  const double k = gamma(start_.gray, isochore.volume) / isochore.volume;
-  const ThermalState& cold = isochore.states.front();
-  const auto rows = static_cast<Index>(2 * isochore.states.size());
-  // Deviations common to the isochore: gamma by a fixed fraction, the anharmonic coefficient by a fixed amount.
-  VectorXd pressure = VectorXd::Zero(rows);
-  VectorXd energy = VectorXd::Zero(rows);
-  for (Index i = 0; i < rows; i += 2) {
-    const ThermalState& state = isochore.states[static_cast<std::size_t>(i / 2)];
-    const Index row = begin + i;
-    const double noise = square(state.energy.error);
-    const double common = state.correlation * state.pressure.error * state.energy.error;
-    // The residual of P contains -gamma E/V: the noise of E is common to both rows.
-    statistical(row, row) = square(state.pressure.error) + k * k * noise - 2.0 * k * common;
-    statistical(row + 1, row + 1) = noise;
-    statistical(row, row + 1) = statistical(row + 1, row) = common - k * noise;
-    const double heat = state.energy.value - cold.energy.value;
-    model(row, row) = square(errors.thermal_pressure * k * heat);
-    model(row + 1, row + 1) = square(errors.energy * heat);
-    pressure[i] = errors.gruneisen * k * heat;
-    energy[i + 1] = errors.anharmonic * (square(state.temperature) - square(cold.temperature)) /
-                    (2.0 * observations_.molar_mass);
-  }
-  model.block(begin, begin, rows, rows) += pressure * pressure.transpose() + energy * energy.transpose();
 }
 
 }  // namespace whipple::fit

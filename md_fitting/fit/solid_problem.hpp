@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,11 +16,23 @@
 
 namespace whipple::fit {
 
+/// Kinds of data: each has a law, and a model error of its own.
+enum class DataKind { volume, shock, isotherm, isochore, melting, fusion };
+constexpr std::size_t data_kinds = 6;
+
+/// Factors of the model errors by kind of data: 1 as stated, more where the data obey the law less well.
+struct ModelScale {
+  std::array<double, data_kinds> factor = {1, 1, 1, 1, 1, 1};
+  double& of(DataKind kind) { return factor[static_cast<std::size_t>(kind)]; }
+  [[nodiscard]] double of(DataKind kind) const { return factor[static_cast<std::size_t>(kind)]; }
+};
+
 /// Rows that belong to one datum: a state of pressure and energy has two.
 struct Datum {
   std::string quantity;  ///< "shock velocity", ...
   std::string label;     ///< "up = 1.2 km/s"
   Eigen::Index begin = 0, rows = 1;
+  DataKind kind = DataKind::volume;
 };
 
 /// The least-squares problem of a model of the solid: which residual belongs to which datum, and with which
@@ -28,9 +43,10 @@ class SolidProblem {
  public:
   /// @param data   outlives the problem
   /// @param start  start values of the fitted constants, and the values of all others
+  /// @param scale  of the model errors
   /// @throws InputError if the start values contradict each other
   SolidProblem(const Observations& data, const FitSettings& settings, const SolidModel& model,
-               const SolidConstants& start);
+               const SolidConstants& start, const ModelScale& scale = {});
 
   [[nodiscard]] LeastSquaresProblem least_squares() const;
   [[nodiscard]] Eigen::VectorXd residuals(const Eigen::VectorXd& parameters) const;
@@ -58,14 +74,15 @@ class SolidProblem {
   [[nodiscard]] Eigen::VectorXd melting_values(const SolidConstants& constants) const;
   void list_data();
   void linearise_melting();
-  void weigh(Eigen::MatrixXd& statistical, Eigen::MatrixXd& model) const;
-  void weigh_isochore(const Isochore& isochore, Eigen::Index begin, Eigen::MatrixXd& statistical,
-                      Eigen::MatrixXd& model) const;
+  void weigh_noise(Eigen::MatrixXd& statistical) const;
+  void weigh_model(Eigen::MatrixXd& model) const;
+  void weigh_isochores(Eigen::Index begin, Eigen::MatrixXd& model) const;
 
   const Observations& observations_;
   FitSettings settings_;
   SolidModel model_;
   SolidConstants start_;
+  ModelScale scale_;
   std::vector<BoundedParameter> bounded_;
   std::vector<HugoniotState> window_;
   std::vector<const MeltingPoint*> melting_,

@@ -10,6 +10,7 @@
 
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/protocols/catalogue.hpp"
+#include "md_fitting/protocols/compressed_start.hpp"
 #include "md_fitting/protocols/crystal.hpp"
 #include "md_fitting/protocols/phase.hpp"
 #include "md_fitting/protocols/statistics.hpp"
@@ -43,8 +44,8 @@ class TwoPhaseCell {
   TwoPhaseCell(const Potential& potential, double pressure, double guess, const CoexistencePlan& section,
                double dt, std::int64_t seed)
       : layers_(section.length),
-        crystal_(potential, 1.015 * potential.lattice_constant(), section.size.cells, section.size.cells,
-                 section.length) {
+        crystal_(potential, 1.015 * compressed_start(potential, pressure).lattice_constant, section.size.cells,
+                 section.size.cells, section.length) {
     Lammps& lammps = crystal_.lammps();
     const double bars = pressure / metal::bar;
     const auto npt = [&](double temperature, const char* coupling) {
@@ -282,10 +283,11 @@ ReplicaSet measure_coexistence(const Potential& potential, double pressure, doub
     throw InputError(fmt::format("coexistence is measured for fcc crystals, {} of {} is {}",
                                  potential.element(), potential.name(), word_of(potential.structure())));
   }
-  // The melting line that is meant here lies below a few 10 GPa: the temperature of the crystal decides, not
-  // the guess.
-  const double dt = section.size.time_step > 0.0 ? section.size.time_step / metal::picosecond
-                                                 : time_step(potential, 1.0, 300.0, section.size);
+  // Near zero pressure the step of the cold crystal serves; strongly compressed, the melt is hot as well.
+  const CompressedStart start_crystal = compressed_start(potential, pressure);
+  const bool compressed = start_crystal.volume_ratio < 1.0;
+  const double dt =
+      time_step(potential, start_crystal.volume_ratio, compressed ? first_guess : 300.0, section.size);
   // What a run remembers of its start would be common to all replicas: they begin where a run from the guess
   // has ended, which takes no part in the mean.
   std::string search;

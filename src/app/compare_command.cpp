@@ -14,8 +14,10 @@
 
 #include "eos/curves/table.hpp"
 #include "eos/experiments/comparison.hpp"
+#include "src/app/compare_calibration.hpp"
 #include "src/app/eos_figure.hpp"
 #include "src/app/eos_options.hpp"
+#include "src/app/eos_remarks.hpp"
 #include "src/app/eos_table.hpp"
 #include "src/core/base/csv.hpp"
 #include "src/core/base/error.hpp"
@@ -38,6 +40,7 @@ struct CompareOptions {
   std::string temperature;
   std::string csv;
   std::string plot;
+  CalibrationOptions calibration;
   bool force = false;
 };
 
@@ -224,6 +227,10 @@ bool belongs_to(const Experiment& experiment, const Material& material) {
 
 void run(const CompareOptions& options) {
   if (!is_standard_output(options.csv)) require_new_file(options.csv, options.force);
+  require_new_file(options.calibration.csv, options.force);
+  if (!options.calibration.csv.empty() && options.calibration.samples == 0) {
+    throw InputError("--calibration: give the number of samples with --samples");
+  }
   require_new_figure(options.plot, options.force);
   const std::optional<double> temperature = quantity("--temperature", options.temperature, "K");
   std::vector<Material> materials;
@@ -250,6 +257,12 @@ void run(const CompareOptions& options) {
   const bool csv_alone = is_standard_output(options.csv);
   if (!csv_alone) print_table(rows);
   write_output(options.csv, csv_text(rows));
+  if (options.calibration.samples > 0) {
+    std::vector<CalibratedPair> pairs;
+    for (const Row& row : rows) pairs.push_back({row.experiment, row.material, row.label});
+    const std::string report = calibration_report(pairs, options.calibration);
+    if (!csv_alone) fmt::print("{}", report);
+  }
   if (options.plot.empty()) return;
   draw(rows, options.plot);
   if (!csv_alone) fmt::print("written: {}\n", options.plot);
@@ -272,6 +285,16 @@ void add_compare_command(CLI::App& app) {
                       "Temperature of the isotherms (default: that of the file)");
   command->add_option("--csv", options->csv, "Write every point with its deviation; -: to standard output, and nothing else");
   command->add_option("--plot", options->plot, "Figure of curves, points and deviations, FILE.png");
+  command
+      ->add_option("--samples", options->calibration.samples,
+                   "Draw so many sets of constants of each material, which must be a fitted one: width of its 95 % band, "
+                   "and the fraction of the points inside")
+      ->check(CLI::Range(2, 100000));
+  command->add_option("--seed", options->calibration.seed, "Of the draws")->capture_default_str();
+  command->add_option("--tier", options->calibration.tier, tier_help)
+      ->check(CLI::IsMember(word_list<ErrorTier>()))
+      ->capture_default_str();
+  command->add_option("--calibration", options->calibration.csv, "With --samples: write every point with its errors, FILE.csv");
   command->add_flag("--force", options->force, "Overwrite existing files");
   command->footer(
       "Example:\n  whipple compare copper copper_md_liu2013 --with cu_hugoniot_marsh1980 "

@@ -57,6 +57,7 @@ struct Output {
 struct SampleOptions {
   int count = 0;
   std::uint64_t seed = 1;
+  std::string tier{word_of(ErrorTier::fit)};
   std::string release_pressure = "100 kPa";
 };
 
@@ -293,7 +294,8 @@ void run_samples(const Request& request) {
   const double first = quantity("--from", o.from, "m/s").value_or(last / o.points);
   const double release_pressure = *quantity("--release-pressure", request.samples.release_pressure, "Pa");
   const MaterialSamples drawn =
-      sample_material(request.materials.front(), request.samples.count, request.samples.seed);
+      sample_material(request.materials.front(), request.samples.count, request.samples.seed,
+                      value_of<ErrorTier>(request.samples.tier).value());
   const eos::curves::SampledHugoniot sampled = eos::curves::sampled_hugoniot(
       subjects_of(drawn.materials), eos::curves::spaced(first, last, o.points), release_pressure);
   const Output& output = request.output;
@@ -316,6 +318,7 @@ void run_samples(const Request& request) {
   }
   if (is_standard_output(output.csv)) return;
   for (const std::string& remark : sample_remarks(sampled, drawn.materials.size())) fmt::print("{}\n", remark);
+  for (const std::string& remark : drawn_remarks(drawn)) fmt::print("{}\n", remark);
   if (drawn.refused > 0) {
     fmt::print("{} draws of which the model makes no material were replaced by others\n", drawn.refused);
   }
@@ -349,6 +352,9 @@ void add_query(CLI::App& command, const Query& query) {
            "deviation of the Hugoniot, of fractions after release, and of the thresholds of melting")
         ->check(CLI::Range(2, 100000));
     sub->add_option("--seed", request->samples.seed, "Of the draws")->capture_default_str();
+    sub->add_option("--tier", request->samples.tier, tier_help)
+        ->check(CLI::IsMember(word_list<ErrorTier>()))
+        ->capture_default_str();
     sub->add_option("--release-pressure", request->samples.release_pressure,
                     "With --samples: end of the releases")
         ->capture_default_str();

@@ -2,6 +2,7 @@
 #include "src/app/eos_remarks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -136,6 +137,15 @@ Remarks match_remarks(const EosOptions& o, const Subjects& subjects) {
   } catch (const StateError& error) {
     return {fmt::format("free surface of {}: {}", subjects.back().name, error.what())};
   }
+}
+
+Remarks drawn_remarks(const MaterialSamples& drawn) {
+  Remarks remarks = {fmt::format("drawn: {}", fmt::join(drawn.names, ", "))};
+  if (!drawn.unknown.empty()) {
+    remarks.push_back(fmt::format("defaults of which no error is known, the same in all samples: {}",
+                                  fmt::join(drawn.unknown, ", ")));
+  }
+  return remarks;
 }
 
 Remarks sample_remarks(const eos::curves::SampledHugoniot& sampled, std::size_t samples) {

@@ -154,7 +154,7 @@ Declared declare_file(const fs::path& file,
   input::Table root = document.root();
   Declared declared;
   root.read(head_of_file(), declared.head);
-  for (const char* free : {"provenance", "covariance", "defaults"}) root.accept(free);
+  for (const char* free : {"provenance", "covariance", "defaults", "default_errors", "potential_spread"}) root.accept(free);
   if (auto table = root.required_table("eos")) {
     declared.eos = declare(eos::all_models(file.parent_path()), *table);
     declared.eos_line = table->where();

@@ -16,7 +16,7 @@ inline constexpr std::array<const char*, 7> material_groups = {
     "rocks and ices", "liquids and gases", "verification"};
 
 /// Reads a material file (TOML: name, source, note, group, [eos], [strength] and [[failure]] or [constitutive], [measured]; the
-/// tables [provenance], [covariance] and [defaults] are kept free).
+/// tables [provenance], [covariance], [defaults], [default_errors] and [potential_spread] are kept free).
 /// @param path    a path, or a bare file name ("copper.toml", "copper") that is looked up in `beside`, then
 /// in the
 ///                library folders

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "src/core/base/error.hpp"
 #include "src/core/base/normal_samples.hpp"
 #include "src/core/input/document.hpp"
@@ -43,7 +46,65 @@ Eigen::VectorXd values_of(const Material& material, const Covariance& covariance
   return values;
 }
 
-Covariance read_covariance(const std::filesystem::path& file) {
+/// Reads names, units and a matrix of a table.
+void read_matrix(input::Table& table, const char* title, const char* matrix, Covariance& covariance) {
+  const std::vector<BoundParameter> heads = {key("names", "", "the fitted constants", &covariance.names),
+                                             key("units", "", "their SI units", &covariance.units)};
+  table.read(heads);
+  const std::size_t n = covariance.names.size();
+  if (covariance.units.size() != n) {
+    table.error(fmt::format("[{}] has {} units for {} names", title, covariance.units.size(), n));
+  }
+  covariance.matrix = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+  auto rows = table.required_table(matrix);
+  if (!rows) return;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<double> row;
+    const std::vector<BoundParameter> one = {key(covariance.names[i], "", "a row of the covariance", &row)};
+    if (!rows->read(one)) continue;
+    if (row.size() != n) {
+      rows->error_at(covariance.names[i],
+                     fmt::format("{} entries in a covariance of {} constants", row.size(), n));
+      continue;
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      covariance.matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = row[k];
+    }
+  }
+}
+
+/// The joint covariance of independent tables; constants of both add up.
+Covariance joined(Covariance all, const Covariance& other) {
+  std::vector<Eigen::Index> places;
+  for (std::size_t i = 0; i < other.names.size(); ++i) {
+    const auto found = std::ranges::find(all.names, other.names[i]);
+    places.push_back(found - all.names.begin());
+    if (found != all.names.end()) continue;
+    all.names.push_back(other.names[i]);
+    all.units.push_back(other.units[i]);
+  }
+  const auto count = static_cast<Eigen::Index>(all.names.size());
+  const Eigen::Index former = all.matrix.rows();
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
+  matrix.topLeftCorner(former, former) = all.matrix;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      matrix(places[i], places[k]) += other.matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+    }
+  }
+  all.matrix = matrix;
+  return all;
+}
+
+/// What a material file says of the errors of its constants.
+struct Errors {
+  Covariance fit;
+  std::optional<Covariance> spread;
+  Covariance defaults;                ///< with known errors
+  std::vector<std::string> unknown;   ///< defaults without
+};
+
+Errors read_errors(const std::filesystem::path& file, ErrorTier tier) {
   input::Document document = input::Document::from_file(file);
   input::Table root = document.root();
   auto table = root.optional_table("covariance");
@@ -51,28 +112,29 @@ Covariance read_covariance(const std::filesystem::path& file) {
     throw InputError(fmt::format(
         "{} has no table [covariance]: only a fitted material can be sampled (whipple fit)", file.string()));
   }
-  Covariance covariance;
-  const std::vector<BoundParameter> heads = {key("names", "", "the fitted constants", &covariance.names),
-                                             key("units", "", "their SI units", &covariance.units)};
-  table->read(heads);
-  const std::size_t n = covariance.names.size();
-  if (covariance.units.size() != n) {
-    table->error(fmt::format("[covariance] has {} units for {} names", covariance.units.size(), n));
+  Errors errors;
+  const char* const wanted = tier == ErrorTier::noise ? "statistical" : "matrix";
+  read_matrix(*table, "covariance", wanted, errors.fit);
+  if (auto spread = root.optional_table("potential_spread")) {
+    errors.spread.emplace();
+    read_matrix(*spread, "potential_spread", "matrix", *errors.spread);
+    for (const char* other : {"potentials", "standard_deviation"}) spread->accept(other);
   }
-  covariance.matrix.resize(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
-  if (auto rows = table->required_table("matrix")) {
-    for (std::size_t i = 0; i < n; ++i) {
-      std::vector<double> row;
-      const std::vector<BoundParameter> one = {key(covariance.names[i], "", "a row of the covariance", &row)};
-      if (!rows->read(one)) continue;
-      if (row.size() != n) {
-        rows->error_at(covariance.names[i],
-                       fmt::format("{} entries in a covariance of {} constants", row.size(), n));
-        continue;
-      }
-      for (std::size_t k = 0; k < n; ++k) {
-        covariance.matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = row[k];
-      }
+  if (auto defaults = root.optional_table("default_errors")) {
+    std::vector<double> deviations;
+    const std::vector<BoundParameter> keys = {
+        key("names", "", "defaults with a known error", &errors.defaults.names),
+        key("units", "", "their SI units", &errors.defaults.units),
+        key("errors", "", "one standard deviation", &deviations),
+        key("unknown", "", "defaults without a known error", &errors.unknown)};
+    defaults->read(keys);
+    defaults->accept("sources");
+    if (deviations.size() != errors.defaults.names.size() || errors.defaults.units.size() != deviations.size()) {
+      defaults->error(fmt::format("[default_errors] has {} errors and {} units for {} names", deviations.size(),
+                                  errors.defaults.units.size(), errors.defaults.names.size()));
+    } else {
+      const Eigen::Map<const Eigen::VectorXd> sigma(deviations.data(), static_cast<Eigen::Index>(deviations.size()));
+      errors.defaults.matrix = sigma.cwiseAbs2().asDiagonal();
     }
   }
   // All else is for the reader of the material, or for people.
@@ -80,21 +142,35 @@ Covariance read_covariance(const std::filesystem::path& file) {
                             "provenance", "defaults"}) {
     root.accept(other);
   }
-  for (const char* other : {"correlation", "statistical_error", "bootstrap_replicates", "bootstrap_error",
-                            "chi_squared", "degrees_of_freedom"}) {
+  for (const char* other : {"matrix", "statistical", "correlation", "statistical_error", "bootstrap_replicates", "bootstrap_error",
+                            "chi_squared", "degrees_of_freedom", "fisher_eigenvalues"}) {
     table->accept(other);
   }
   document.finish();
-  return covariance;
+  return errors;
 }
 
 }  // namespace
 
-MaterialSamples sample_material(const std::filesystem::path& path, int count, std::uint64_t seed,
+MaterialSamples sample_material(const std::filesystem::path& path, int count, std::uint64_t seed, ErrorTier tier,
                                 const std::filesystem::path& beside) {
   const std::filesystem::path file = find_material(path, beside);
-  const Covariance covariance = read_covariance(file);
+  const Errors errors = read_errors(file, tier);
+  if (over_potentials(tier) && !errors.spread) {
+    throw InputError(
+        fmt::format("{} has no table [potential_spread]: fit the stores of several potentials of the element together "
+                    "(whipple fit A.md.h5 B.md.h5 -o FOLDER/)",
+                    file.string()));
+  }
   MaterialSamples samples;
+  Covariance covariance;
+  if (tier != ErrorTier::potentials) covariance = errors.fit;
+  if (tier == ErrorTier::fit || tier == ErrorTier::all) {
+    covariance = joined(covariance, errors.defaults);
+    samples.defaults = errors.defaults.names;
+    samples.unknown = errors.unknown;
+  }
+  if (over_potentials(tier)) covariance = joined(covariance, *errors.spread);
   samples.names = covariance.names;
   NormalSamples distribution(values_of(read_material(file), covariance), covariance.matrix, seed);
   std::string reason;

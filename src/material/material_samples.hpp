@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/core/base/error_tier.hpp"
 #include "src/material/material.hpp"
 
 namespace whipple {
@@ -15,16 +16,21 @@ namespace whipple {
 /// Materials whose constants are drawn from the covariance of a fitted one.
 struct MaterialSamples {
   std::vector<Material> materials;
-  std::vector<std::string> names;  ///< of the drawn constants
+  std::vector<std::string> names;     ///< of the drawn constants
+  std::vector<std::string> defaults;  ///< of them, defaults with the errors of their sources
+  std::vector<std::string> unknown;   ///< defaults without a known error: the same in all samples
   int refused = 0;  ///< draws of which the model makes no material; another one was drawn for each
 };
 
-/// Reads the table [covariance] of a material file (names, units, and a row of [covariance.matrix] for each
-/// name) and draws its constants from the normal distribution about their values in [eos].
+/// Reads the tables [covariance], [default_errors] and [potential_spread] of a material file (names, units, and a row
+/// of the matrix for each name; [default_errors] holds an error for each name) and draws its constants from the normal
+/// distribution about their values in [eos].
+/// @param tier          which errors: of the fit (with those of the defaults), over the potentials, or both
 /// @param path, beside  as of read_material
-/// @throws InputError if the file has no covariance, a table is at fault, or four of five draws are refused
+/// @throws InputError if the file lacks a table that the tier needs, a table is at fault, or four of five draws are
+/// refused
 MaterialSamples sample_material(const std::filesystem::path& path, int count, std::uint64_t seed,
-                                const std::filesystem::path& beside = {});
+                                ErrorTier tier = ErrorTier::fit, const std::filesystem::path& beside = {});
 
 /// A material file with some keys changed before it is read: ("eos.gruneisen", "1.9").
 /// @throws InputError as read_material

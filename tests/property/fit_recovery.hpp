@@ -21,7 +21,7 @@ inline std::vector<double> values(const eos::GrayConstants& c) {
 }
 
 inline FitSettings noise_only() {
-  FitSettings settings;
+  FitSettings settings = independent_errors({});
   settings.model_errors = ModelErrors::none();
   settings.electrons = "none";  // as in the data
   return settings;

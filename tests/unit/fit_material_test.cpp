@@ -130,7 +130,7 @@ TEST_F(FitMaterial, SaysOfEveryConstantWhereItComesFrom) {
     }
     if (line.starts_with("# ")) continue;
     const bool is_fitted = line.find("# fitted: +- ") != std::string::npos;
-    const bool is_default = line.find("# default \"") != std::string::npos;
+    const bool is_default = line.find("# default, ") != std::string::npos;
     const bool is_given = line.find("# given: ") != std::string::npos;
     EXPECT_EQ(is_fitted + is_default + is_given, 1) << line;
     fitted += is_fitted;

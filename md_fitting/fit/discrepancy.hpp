@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <span>
+#include <vector>
+
+/// Covariance of what a law leaves out, as a function along its curve (docs/theory/fit.md, section 3).
+namespace whipple::fit {
+
+/// Correlation of a smooth function at two places: Matern's with nu = 3/2, (1 + r) exp(-r), r = 3^(1/2) d/length
+/// (Rasmussen & Williams, Gaussian Processes for Machine Learning (2006), eq. 4.17). Continuous once differentiable
+/// functions: smoother ones (a squared exponential) make the covariance of close states singular.
+double matern(double distance, double length);
+
+/// One deviation of a law: size of its standard deviation at each state, in units of the row, and the correlation of
+/// two states.
+struct Discrepancy {
+  std::vector<double> size;
+  std::function<double(std::size_t, std::size_t)> correlation;
+};
+
+/// Adds the covariance of a deviation to the rows of its states.
+/// @param rows  row of each state in `covariance`
+void add_discrepancy(const Discrepancy& deviation, std::span<const Eigen::Index> rows, Eigen::MatrixXd& covariance);
+
+}  // namespace whipple::fit

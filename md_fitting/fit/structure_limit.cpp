@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/fit/structure_limit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+namespace whipple::fit {
+namespace {
+
+constexpr std::string_view energy_key = "specific_internal_energy";
+
+/// A volume of the cold curve: pressure, and energy of another structure less that of the simulated one.
+struct ColdDifference {
+  double volume, pressure, difference;
+};
+
+/// By structure, by falling volume.
+std::map<std::string, std::vector<ColdDifference>> cold_differences(std::span<const md::PointRecord> points) {
+  std::map<std::string, std::vector<ColdDifference>> found;
+  for (const md::PointRecord& point : md::select(points, "cold_curve")) {
+    for (const auto& [name, estimate] : point.results) {
+      if (name.size() <= energy_key.size() + 1 || !name.ends_with(energy_key)) continue;
+      const std::string structure = name.substr(0, name.size() - energy_key.size() - 1);
+      found[structure].push_back({point.condition("specific_volume"), point.result("pressure").value,
+                                  estimate.value - point.result(std::string(energy_key)).value});
+    }
+  }
+  for (auto& [structure, curve] : found) {
+    std::ranges::sort(curve, [](const auto& a, const auto& b) { return a.volume > b.volume; });
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<StructureLimit> structure_limit(std::span<const md::PointRecord> points) {
+  std::optional<StructureLimit> limit;
+  for (const auto& [structure, curve] : cold_differences(points)) {
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      if (curve[i].pressure < 0.0 || curve[i].difference >= 0.0) continue;
+      StructureLimit here{structure, curve[i].volume, curve[i].pressure};
+      if (i > 0 && curve[i - 1].difference > 0.0) {
+        const double weight = curve[i - 1].difference / (curve[i - 1].difference - curve[i].difference);
+        here.volume = (1.0 - weight) * curve[i - 1].volume + weight * curve[i].volume;
+        here.pressure = (1.0 - weight) * curve[i - 1].pressure + weight * curve[i].pressure;
+      }
+      if (!limit || here.pressure < limit->pressure) limit = here;
+      break;
+    }
+  }
+  return limit;
+}
+
+void add_structure_remark(Fit& fit, std::span<const md::PointRecord> points, const Observations& data) {
+  const std::optional<StructureLimit> limit = structure_limit(points);
+  if (!limit) return;
+  const auto shocks = std::ranges::count_if(
+      data.hugoniot, [&](const HugoniotState& state) { return state.volume < limit->volume; });
+  std::ptrdiff_t states = 0;
+  for (const Isochore& isochore : data.isochores) {
+    if (isochore.volume < limit->volume) states += static_cast<std::ptrdiff_t>(isochore.states.size());
+  }
+  fit.remarks.push_back(fmt::format(
+      "beyond {:.0f} GPa (V/V0 = {:.3f}) the {} crystal of this potential has less energy than the simulated one: {} "
+      "Hugoniot states and {} states of isochores there are of a crystal that is not stable",
+      1e-9 * limit->pressure, limit->volume / data.reference_volume.value, limit->structure, shocks, states));
+}
+
+}  // namespace whipple::fit

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "md_fitting/lammps/potential.hpp"
+
+namespace whipple::md {
+
+/// Where a run at constant pressure begins.
+struct CompressedStart {
+  double lattice_constant = 0.0;  ///< A, of the static crystal
+  double volume_ratio = 1.0;      ///< to the static crystal at zero pressure
+};
+
+/// Returns the static crystal at a pressure (Pa) where it is shorter than that at zero pressure by more than 3 %, and
+/// that at zero pressure otherwise: a barostat takes a crystal over small distances without harm, whereas a jump of
+/// 50 GPa heats and breaks it. Collective over the team of the point.
+/// @throws StateError if the crystal does not reach the pressure at V/V0 = 0.4
+CompressedStart compressed_start(const Potential& potential, double pressure);
+
+}  // namespace whipple::md
