@@ -6,6 +6,7 @@ import pathlib
 import re
 import tomllib
 
+from studies.validation import detonation
 from studies.validation.wall_speed import wall_speed
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -62,7 +63,9 @@ def apply(table, assignment):
 class Expectation:
     """One quantity: what is measured, when, and what is expected of it."""
 
-    KEYS = {"name", "measure", "time", "place", "travel", "value", "tolerance", "kind", "source", "known", "unit", "class"}
+    # Keys that belong to the measures of one kind, and to these always.
+    OF_KIND = {"place": "wall_speed.", "travel": "wall_speed.", "exact": "profile_error.", "fraction": "jet_speed."}
+    KEYS = {"name", "measure", "time", *OF_KIND, "value", "tolerance", "kind", "source", "known", "unit", "class"}
 
     def __init__(self, table, where):
         unknown = set(table) - self.KEYS
@@ -80,8 +83,11 @@ class Expectation:
                                  f"expected one of {', '.join(CLASSES)}")
         self.time, self.place, self.travel = (quantity(table[key], where)[0] if key in table else None
                                               for key in ("time", "place", "travel"))
-        if ("place" in table) != self.measure.startswith("wall_speed.") or ("travel" in table) != ("place" in table):
-            raise BadExpectation(f"{where}: {self.name}: wall_speed.TRACERS, and nothing else, takes place and travel")
+        self.fraction = quantity(table["fraction"], where)[0] if "fraction" in table else None
+        self.exact = table.get("exact")  # file beside expected.toml
+        for key, kind in self.OF_KIND.items():
+            if (key in table) != self.measure.startswith(kind):
+                raise BadExpectation(f"{where}: {self.name}: measures {kind}NAME, and no others, take {key!r}")
         if self.kind == "record":
             self.value, self.unit, self.tolerance = math.nan, table.get("unit", ""), 0.0
             if self.unit not in UNITS:
@@ -132,6 +138,9 @@ class RunOfCase:
         self.input = table.get("input", [])
         self.expectations = [Expectation(q, f"{where}, run {self.name}") for q in table.get("quantity", [])]
         self.expectations += case.common
+        for expectation in self.expectations:
+            if expectation.exact is not None:
+                expectation.exact = case.path.parent / expectation.exact
 
     def cells(self, resolution):
         """Cell size in metres."""
@@ -210,7 +219,7 @@ def all_cases():
 
 class Measures:
     """What `whipple analyse` wrote of a run: quantities.csv, and series.csv for values at a time. Also history.csv:
-    the largest errors of the balances and the greatest speed."""
+    the largest errors of the balances, the greatest speed and the largest impulse of the walls along x."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -233,7 +242,7 @@ class Measures:
             rows = list(csv.DictReader(stream))
         for head in rows[0] if rows else []:
             name = head.split(" [")[0]
-            if name in ("energy_error", "momentum_error", "maximum_speed"):
+            if name in ("energy_error", "momentum_error", "maximum_speed", "wall_impulse_x"):
                 self.single[name] = max(abs(float(row[head])) for row in rows if row[head])
 
     def _rows(self, name):
@@ -261,9 +270,18 @@ class Measures:
 
     def value(self, expectation):
         """At a time: linear between the snapshots; of a driven wall, after a travel. NaN if there is no such measure or time."""
-        if expectation.place is not None:
-            tracers = expectation.measure.partition(".")[2]
-            return wall_speed(self.folder / "gauges.csv", tracers, expectation.place, expectation.travel)
+        kind, _, of = expectation.measure.partition(".")
+        if kind == "wall_speed":
+            return wall_speed(self.folder / "gauges.csv", of, expectation.place, expectation.travel)
+        if kind == "arrival_speed":
+            return detonation.arrival_speed(self.folder / "gauges.csv", of)
+        if kind == "profile_error":
+            return detonation.profile_error(self.folder, *of.split("."), expectation.exact)
+        if kind in ("piece_count", "piece_mass", "piece_exponent", "dust_share", "small_piece_share"):
+            from studies.validation import pieces  # takes numpy
+            return pieces.measure(kind, self.folder, of)
+        if kind == "jet_speed":
+            return detonation.jet_speed(self.folder, of, expectation.fraction)
         if expectation.time is None:
             return self.single.get(expectation.measure, math.nan)
         series = self._gauges() if expectation.measure.startswith("gauge.") else self.series
