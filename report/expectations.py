@@ -56,7 +56,9 @@ def apply(table, assignment):
 class Expectation:
     """One quantity: what is measured, when, and what is expected of it."""
 
-    KEYS = {"name", "measure", "time", "place", "travel", "value", "tolerance", "kind", "source", "known", "unit", "class"}
+    # Keys that belong to the measures of one kind, and to these always.
+    OF_KIND = {"place": "wall_speed.", "travel": "wall_speed.", "exact": "profile_error.", "fraction": "jet_speed."}
+    KEYS = {"name", "measure", "time", *OF_KIND, "value", "tolerance", "kind", "source", "known", "unit", "class"}
 
     def __init__(self, table, where):
         unknown = set(table) - self.KEYS
@@ -74,8 +76,11 @@ class Expectation:
                                  f"expected one of {', '.join(CLASSES)}")
         self.time, self.place, self.travel = (quantity(table[key], where)[0] if key in table else None
                                               for key in ("time", "place", "travel"))
-        if ("place" in table) != self.measure.startswith("wall_speed.") or ("travel" in table) != ("place" in table):
-            raise BadExpectation(f"{where}: {self.name}: wall_speed.TRACERS, and nothing else, takes place and travel")
+        self.fraction = quantity(table["fraction"], where)[0] if "fraction" in table else None
+        self.exact = table.get("exact")  # file beside expected.toml
+        for key, kind in self.OF_KIND.items():
+            if (key in table) != self.measure.startswith(kind):
+                raise BadExpectation(f"{where}: {self.name}: measures {kind}NAME, and no others, take {key!r}")
         if self.kind == "record":
             self.value, self.unit, self.tolerance = math.nan, table.get("unit", ""), 0.0
             if self.unit not in UNITS:
@@ -131,6 +136,9 @@ class RunOfCase:
         self.input, self.decided_by = table.get("input", []), table.get("decided_by", "")
         self.expectations = [Expectation(q, f"{where}, run {self.name}") for q in table.get("quantity", [])]
         self.expectations += case.common
+        for expectation in self.expectations:
+            if expectation.exact is not None:
+                expectation.exact = case.path.parent / expectation.exact
 
     def cells(self, resolution):
         """Cell size in metres."""

@@ -4,12 +4,13 @@ import csv
 import math
 
 from report.expectations import BadExpectation
+from report import detonation
 from report.wall_speed import wall_speed
 
 
 class Measures:
     """What `whipple analyse` wrote of a run: quantities.csv, and series.csv for values at a time. Also history.csv:
-    the largest errors of the balances and the greatest speed."""
+    the largest errors of the balances, the greatest speed and the largest impulse of the walls along x."""
 
     def __init__(self, folder, report=None):
         """report: folder of the tables, if they are not in that of the run."""
@@ -34,7 +35,7 @@ class Measures:
             rows = list(csv.DictReader(stream))
         for head in rows[0] if rows else []:
             name = head.split(" [")[0]
-            if name in ("energy_error", "momentum_error", "maximum_speed"):
+            if name in ("energy_error", "momentum_error", "maximum_speed", "wall_impulse_x"):
                 self.single[name] = max(abs(float(row[head])) for row in rows if row[head])
 
     def _rows(self, name):
@@ -62,9 +63,18 @@ class Measures:
 
     def value(self, expectation):
         """At a time: linear between the snapshots; of a driven wall, after a travel. NaN if there is no such measure or time."""
-        if expectation.place is not None:
-            tracers = expectation.measure.partition(".")[2]
-            return wall_speed(self.folder / "gauges.csv", tracers, expectation.place, expectation.travel)
+        kind, _, of = expectation.measure.partition(".")
+        if kind == "wall_speed":
+            return wall_speed(self.folder / "gauges.csv", of, expectation.place, expectation.travel)
+        if kind == "arrival_speed":
+            return detonation.arrival_speed(self.folder / "gauges.csv", of)
+        if kind == "profile_error":
+            return detonation.profile_error(self.folder, *of.split("."), expectation.exact)
+        if kind in ("piece_count", "piece_mass", "piece_exponent", "dust_share", "small_piece_share"):
+            from report import pieces  # takes numpy
+            return pieces.measure(kind, self.folder, of)
+        if kind == "jet_speed":
+            return detonation.jet_speed(self.folder, of, expectation.fraction)
         if expectation.time is None:
             return self.single.get(expectation.measure, math.nan)
         series = self._gauges() if expectation.measure.startswith("gauge.") else self.series

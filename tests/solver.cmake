@@ -16,7 +16,7 @@ whipple_test(test_run STARTS_MPI
   DEPENDS whipple_run nlohmann_json::nlohmann_json GTest::gmock LABELS fast)
 whipple_test(test_contact STARTS_MPI SOURCES property/contact_pressing_test.cpp verification/solver_gap_test.cpp verification/solver_first_touch_test.cpp
              DEPENDS whipple_run LABELS fast)
-whipple_test(test_burn STARTS_MPI SOURCES verification/burn_test.cpp DEPENDS whipple_run GTest::gmock LABELS fast)
+whipple_test(test_burn STARTS_MPI SOURCES verification/burn_test.cpp verification/reaction_test.cpp DEPENDS whipple_run GTest::gmock LABELS fast)
 add_test(NAME burn.fine_slab COMMAND test_burn --gtest_filter=PlanarDetonation.FollowsTheTaylorWaveOfTnt)
 set_tests_properties(burn.fine_slab PROPERTIES ENVIRONMENT "WHIPPLE_FINE_BURN=1;OMP_NUM_THREADS=1" LABELS long)
 whipple_test(test_contact_sweep STARTS_MPI SOURCES verification/solver_gap_sweep_test.cpp
@@ -34,7 +34,8 @@ whipple_test(test_case SOURCES unit/case_bodies_test.cpp unit/case_case_test.cpp
              DEPENDS whipple_case LABELS fast)
 
 # Distributed: against one rank, restart on another number of ranks, errors and killed ranks.
-add_executable(test_solver_ranks parallel/solver_ranks.cpp parallel/solver_wall_ranks.cpp parallel/solver_element_ranks.cpp)
+add_executable(test_solver_ranks parallel/solver_ranks.cpp parallel/solver_wall_ranks.cpp parallel/solver_element_ranks.cpp
+               parallel/solver_burn_ranks.cpp)
 target_link_libraries(test_solver_ranks PRIVATE whipple_flags whipple_run whipple_analysis GTest::gtest)
 target_compile_definitions(test_solver_ranks PRIVATE WHIPPLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 foreach(ranks 1 2 4 8)

@@ -17,6 +17,7 @@
 #include "src/core/base/text.hpp"
 #include "src/material/constitutive_catalogue.hpp"
 #include "src/material/failure/catalogue.hpp"
+#include "src/material/reaction/catalogue.hpp"
 #include "src/material/strength/catalogue.hpp"
 #include "src/case/case.hpp"
 #include "src/case/shapes/shape.hpp"
@@ -58,6 +59,7 @@ const std::vector<Topic>& topics() {
       topic_of("failure", "Failure criteria (`[[failure]]` of a material file)", failure::catalogue()),
       topic_of("constitutive", "Constitutive models (`[constitutive]` of a material file, in place of strength and failure)",
                material::catalogue()),
+      topic_of("reaction", "Rate laws of explosives (`[reaction]` of a material file)", reaction::catalogue()),
       {"md", "Plans of molecular dynamics (`whipple md PLAN.toml`)",
        [](const std::string& name) { return single("md", name, md::describe_plan()); },
        [] { return std::vector<std::string>(); }},

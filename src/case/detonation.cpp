@@ -89,6 +89,9 @@ ParameterTable<BurnControl> BurnControl::parameters() {
           real("lighting_cell", &B::lighting_cell, "", range::between(0.05, 4.0),
                "cells of the grid on which the arrival of a shadowed detonation is found, in cells; larger where there "
                "would be more than two million")
+              .optional(),
+          real("retire_below", &B::retire_below, "Pa", range::non_negative(),
+               "pressure below which products are removed and counted as outflow; 0: never")
               .optional()};
 }
 
@@ -107,7 +110,7 @@ std::shared_ptr<const Material> ignited(const Case& setup, std::size_t body, std
     case Ignition::detonators:
       break;
   }
-  if (setup.detonations.empty()) return material;  // a fault: check_explosives
+  if (setup.detonations.empty() && !material->explosive->reaction) return material;  // a fault: check_explosives
   const double velocity = of_body.detonation_velocity;
   return std::make_shared<const Material>(burning(*material, std::isinf(velocity) ? 0.0 : velocity));
 }
@@ -121,7 +124,7 @@ void check_explosives(const Case& setup, const Faults& faults) {
     const Faults of_body = faults.in("body").in(b);
     const bool lit = material.explosive != nullptr && body.ignition == Ignition::detonators;
     any = any || lit;
-    if (lit && setup.detonations.empty()) {
+    if (lit && setup.detonations.empty() && material.explosive->reaction == nullptr) {
       of_body.add("", fmt::format("body \"{}\" is an explosive, and nothing lights it: expected a [[detonation]], or of "
                                   "the body detonation = \"instantaneous\" (burnt from the start, at constant volume) or "
                                   "\"none\" (it never reacts)",

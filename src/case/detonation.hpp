@@ -74,6 +74,7 @@ struct BurnControl {
   double width = 2.0;  ///< of the burning front, in cells
   LightingRule lighting = LightingRule::shadowed;
   double lighting_cell = 0.5;  ///< of the grid on which lighting times are found, in cells
+  double retire_below = 0.0;   ///< Pa, pressure below which products are removed and counted; 0: never
 
   static ParameterTable<BurnControl> parameters();
   [[nodiscard]] BurnSettings settings(double cell_size) const {

@@ -38,8 +38,14 @@ void require_simple(const eos::EquationOfState& eos, const char* what) {
 }  // namespace
 
 std::shared_ptr<const Explosive> make_explosive(std::shared_ptr<const eos::EquationOfState> products,
-                                                std::shared_ptr<const eos::EquationOfState> unreacted) {
+                                                std::shared_ptr<const eos::EquationOfState> unreacted,
+                                                std::shared_ptr<const reaction::Reaction> reaction) {
+  if (reaction != nullptr && unreacted == nullptr) {
+    throw InputError(fmt::format("rate law \"{}\" takes the equation of state of the unreacted explosive, [eos.unreacted]",
+                                 reaction->model()));
+  }
   Explosive made;
+  made.reaction = std::move(reaction);
   require_simple(*products, "the products of an explosive");
   try {
     const eos::ChapmanJouguet wave = eos::chapman_jouguet(*products);

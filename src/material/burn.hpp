@@ -11,6 +11,7 @@
 
 #include "eos/equation_of_state.hpp"
 #include "src/core/base/words.hpp"
+#include "src/material/reaction/reaction.hpp"
 
 /// Programmed burn of explosives (docs/theory/burn.md).
 namespace whipple {
@@ -37,6 +38,7 @@ struct BurnSettings {
 /// `stored_energy` besides.
 struct Explosive {
   std::shared_ptr<const eos::EquationOfState> products, unreacted;  ///< never null
+  std::shared_ptr<const reaction::Reaction> reaction;  ///< by which it burns from pressure; null: by detonation alone
   bool estimated = false;            ///< `unreacted` was estimated from the detonation velocity
   double density = 0.0;              ///< kg/m^3, at rest
   double stored_energy = 0.0;        ///< Q, J/kg, that the explosive at rest holds above the zero of the products
@@ -47,10 +49,12 @@ struct Explosive {
 
 /// Puts an explosive together and finds its Chapman-Jouguet state.
 /// @param unreacted  null: Mie-Grueneisen with c0 = 0.35 D, slope 1.8, Grueneisen parameter 0.7
+/// @param reaction   null: none; takes `unreacted`
 /// @throws InputError if the products cannot detonate, have phases or pores, if the unreacted explosive has them or no
 ///         state of zero pressure, or if the two differ in the density at rest by more than a thousandth
 std::shared_ptr<const Explosive> make_explosive(std::shared_ptr<const eos::EquationOfState> products,
-                                                std::shared_ptr<const eos::EquationOfState> unreacted);
+                                                std::shared_ptr<const eos::EquationOfState> unreacted,
+                                                std::shared_ptr<const reaction::Reaction> reaction = nullptr);
 
 /// Equation of state of an explosive that burns, with the burn fraction F of each point:
 ///   p = (1 - F) p_u(rho, e - Q) + F p_p(rho, e),  T alike,  c^2 = (1 - F) c_u^2 + F c_p^2.

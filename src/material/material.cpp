@@ -275,6 +275,7 @@ std::string Material::constants() const {
   if (burns()) {
     const eos::EquationOfState& unreacted = *explosive->unreacted;
     text += fmt::format("\n[eos.unreacted]\nmodel = {}\n{}", toml_string(unreacted.model()), unreacted.constants());
+    if (explosive->reaction != nullptr) text += fmt::format("\n[reaction]\n{}", explosive->reaction->constants());
   }
   text += constitutive->constants(*this);
   if (conductivity > 0.0 || stores_cold_work()) {

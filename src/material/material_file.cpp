@@ -21,6 +21,7 @@
 #include "src/material/constitutive_catalogue.hpp"
 #include "src/material/failure/catalogue.hpp"
 #include "src/material/material_samples.hpp"
+#include "src/material/reaction/catalogue.hpp"
 #include "src/material/strength/catalogue.hpp"
 
 namespace whipple {
@@ -141,8 +142,9 @@ struct Declared {
   eos::ModelEntry::Declared eos, unreacted;
   strength::ModelEntry::Declared strength;
   std::vector<failure::CriterionEntry::Declared> failure;
+  reaction::ReactionEntry::Declared reaction;
   material::ConstitutiveEntry::Declared constitutive;
-  std::string eos_line, unreacted_line, strength_line, constitutive_line;
+  std::string eos_line, unreacted_line, reaction_line, strength_line, constitutive_line;
   /// Modifiers of the equation of state, each with its place in the file.
   std::vector<std::pair<eos::ModifierEntry::Declared, std::string>> modifiers;
 };
@@ -164,6 +166,13 @@ Declared declare_file(const fs::path& file,
     }
     for (input::Table& modifier : table->list("modifier")) {
       declared.modifiers.emplace_back(declare(eos::modifier_catalogue(), modifier), modifier.where());
+    }
+  }
+  if (auto table = root.optional_table("reaction")) {
+    declared.reaction = declare(reaction::catalogue(), *table);
+    declared.reaction_line = table->where();
+    if (!declared.unreacted.build) {
+      table->error("a rate law takes the equation of state of the unreacted explosive: [eos.unreacted]");
     }
   }
   if (auto table = root.optional_table("strength")) {
@@ -236,8 +245,10 @@ Material read_changed_material(const fs::path& file,
   }
   std::shared_ptr<const Explosive> explosive;
   if (declared.unreacted.build) {
-    explosive = build([&] { return make_explosive(eos, declared.unreacted.build()); }, declared.unreacted_line,
-                      "eos.unreacted");
+    std::shared_ptr<const reaction::Reaction> reaction;
+    if (declared.reaction.build) reaction = build(declared.reaction.build, declared.reaction_line, "reaction");
+    explosive = build([&] { return make_explosive(eos, declared.unreacted.build(), std::move(reaction)); },
+                      declared.unreacted_line, "eos.unreacted");
   } else if (eos->model() == eos::Jwl::name) {
     explosive = build([&] { return make_explosive(eos, nullptr); }, declared.eos_line, "eos");
   }

@@ -117,6 +117,7 @@ Totals totals_of(const Particles& particles, double affine_inertia) {
 
 void Ledger::add(const Ledger& step) {
   outflow += step.outflow;
+  retired += step.retired;
   wall_impulse += step.wall_impulse;
   external_impulse += step.external_impulse;
   external_work += step.external_work;

@@ -49,11 +49,17 @@ struct Totals {
   }
 };
 
-/// Holds the mass, momentum and energy of one body that have left the domain (SI).
+/// Holds the mass, momentum and energy of a part of the material, such as of one body, that have left (SI).
 struct BodyOutflow {
   double mass = 0.0;
   Vector3 momentum = Vector3::Zero();
   double energy = 0.0;
+  BodyOutflow& operator+=(const BodyOutflow& other) {
+    mass += other.mass;
+    momentum += other.momentum;
+    energy += other.energy;
+    return *this;
+  }
 };
 
 /// Calls f(name, number) for every number of the sums: one list for checkpoints and sums over ranks.
@@ -98,6 +104,7 @@ Totals totals_of(const Particles& particles, double affine_inertia, std::vector<
 struct Ledger {
   Totals initial;
   Totals outflow;
+  BodyOutflow retired;                         ///< part of it: products of explosives, removed below a pressure
   Vector3 wall_impulse = Vector3::Zero();      ///< N s, by mirror planes and walls, along y by hoop stresses
   Vector3 external_impulse = Vector3::Zero();  ///< N s, by an external acceleration
   double external_work = 0.0;                  ///< J, of the same, and of nodes with prescribed velocities
@@ -147,6 +154,11 @@ template <class L, class Function>
 void for_each_number(L& ledger, Function&& f) {
   for_each_number(ledger.initial, [&](const std::string& name, auto& x) { f("initial_" + name, x); });
   for_each_number(ledger.outflow, [&](const std::string& name, auto& x) { f("outflow_" + name, x); });
+  f("retired_mass", ledger.retired.mass);
+  f("retired_momentum_x", ledger.retired.momentum[0]);
+  f("retired_momentum_y", ledger.retired.momentum[1]);
+  f("retired_momentum_z", ledger.retired.momentum[2]);
+  f("retired_energy", ledger.retired.energy);
   f("wall_impulse_x", ledger.wall_impulse[0]);
   f("wall_impulse_y", ledger.wall_impulse[1]);
   f("wall_impulse_z", ledger.wall_impulse[2]);

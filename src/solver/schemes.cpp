@@ -63,6 +63,7 @@ void end_step(Stages& s) {
     // Elements first: the outflow is summed in this order.
     for (Carrier* carrier : s.carriers | std::views::drop(1)) carrier->remove_outside();
     s.particles.remove_outside();
+    s.particles.retire_products();
   });
   s.state.profile.time("ledger", [&] {
     RunState& run = s.state.run;

@@ -41,9 +41,7 @@ void State::find_bodies() {
 
 void State::book_outflow(std::size_t body, const Totals& outflow) {
   booked.outflow += outflow;
-  booked_outflow[body].mass += outflow.mass;
-  booked_outflow[body].momentum += outflow.momentum;
-  booked_outflow[body].energy += outflow.energy();
+  booked_outflow[body] += {outflow.mass, outflow.momentum, outflow.energy()};
 }
 
 void State::book_outflow(std::size_t body, const Totals& before, Totals after) {

@@ -229,6 +229,11 @@ double straight(const Case& setup, const Vector3& point, double velocity) {
   return first;
 }
 
+/// Returns whether an explosive burns away from the detonators without lighting times: by compression or by a rate law.
+bool burns_elsewhere(const Case& setup, const Material& material) {
+  return setup.burn.mode == BurnMode::volume || material.burn->explosive().reaction != nullptr;
+}
+
 bool is_near_detonator(const Case& setup, const Vector3& point, double velocity) {
   const double near = hot_cells * setup.geometry.cell_size;
   return std::ranges::any_of(setup.detonations, [&](const Detonation& detonation) {
@@ -249,12 +254,11 @@ void set_lighting_times(const Case& setup, Particles& particles) {
     if (!material.burns()) return;
     const double velocity = material.burn->explosive().detonation_velocity;
     const Vector3& at = particles.position[p];
-    if (setup.burn.mode == BurnMode::volume && !is_near_detonator(setup, at, velocity)) return;
+    if (burns_elsewhere(setup, material) && !is_near_detonator(setup, at, velocity)) return;
     times[p] = shadowed ? arrival->at(at, velocity) : straight(setup, at, velocity);
   });
-  if (setup.burn.mode == BurnMode::volume) return;
   for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
-    if (!setup.materials[b]->burns()) continue;
+    if (!setup.materials[b]->burns() || burns_elsewhere(setup, *setup.materials[b])) continue;
     std::size_t of_body = 0, dark = 0;
     for (std::size_t p = 0; p < particles.size(); ++p) {
       of_body += particles.body[p] == b ? 1U : 0U;

@@ -10,6 +10,13 @@ namespace {
 
 constexpr double burnt = 0.999;  ///< burn fraction from which on nothing is left
 
+/// Returns the burn fraction by the time since the lighting of a point.
+/// @param lighting  s; negative: never
+/// @param rate      1/s
+double burnt_since(double lighting, double time, double rate) {
+  return lighting >= 0.0 ? std::clamp((time - lighting) * rate, 0.0, 1.0) : 0.0;
+}
+
 }  // namespace
 
 WHIPPLE_KERNEL void burn(const EosStrength& model, const Step& in, Chunk& out) {
@@ -24,7 +31,7 @@ WHIPPLE_KERNEL void burn(const EosStrength& model, const Step& in, Chunk& out) {
   double at_front = 0.0;
   for (std::size_t k = 0; k < out.size; ++k) {
     const bool lit = lighting[k] >= 0.0, near = lit && time > lighting[k] - early;
-    const double of_time = lit ? std::clamp((time - lighting[k]) * rate, 0.0, 1.0) : 0.0;
+    const double of_time = burnt_since(lighting[k], time, rate);
     const double compression = std::clamp((1.0 - explosive.density / out.density[k]) * per_compression, 0.0, 1.0);
     const double of_volume = by_volume && (near || !gated) ? compression : 0.0;
     const double now = std::max({fraction[k], of_time, of_volume});
@@ -33,6 +40,20 @@ WHIPPLE_KERNEL void burn(const EosStrength& model, const Step& in, Chunk& out) {
     at_front += out.burning[k];
   }
   out.burns = at_front > 0.0;
+}
+
+void react(const EosStrength& model, const Step& in, Chunk& out) {
+  const Explosive& explosive = model.burn->explosive();
+  const double rate = explosive.detonation_velocity / in.settings.burn.width;
+  const Lanes& lighting = out.history[model.lighting_time];
+  Lanes& fraction = out.history[model.burn_fraction];
+  Lanes compression;
+  for (std::size_t k = 0; k < out.size; ++k) compression[k] = out.density[k] / explosive.density;
+  explosive.reaction->advance({in.settings.time_step, out.view(compression), out.view(out.pressure)}, out.view(fraction));
+  for (std::size_t k = 0; k < out.size; ++k) {
+    const double now = std::max(fraction[k], burnt_since(lighting[k], in.settings.time, rate));
+    fraction[k] = now > burnt ? 1.0 : now;
+  }
 }
 
 void evaluate_burning(const EosStrength& model, const Step& in, Chunk& out) {

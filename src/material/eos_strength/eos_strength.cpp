@@ -104,7 +104,7 @@ std::vector<EosStrength::Part> EosStrength::parts_of(const Material& material, E
   take(integrates ? energy_by_work : energy_from_grid);
   take_if(stores, take_cold_work);
   if (burn != nullptr) {
-    take(parts::burn);
+    take(burn->explosive().reaction != nullptr ? parts::react : parts::burn);
     take(evaluate_burning);
   } else if (distension != undeclared) {
     take(has_phases ? evaluate_porous_phases : evaluate_porous);

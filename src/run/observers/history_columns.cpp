@@ -131,6 +131,15 @@ const auto of_explosives = std::to_array<Column>({
      [](const Source& s) { return s.totals.internal_energy - s.figures.chemical_energy; }},
 });
 
+const auto of_retired = std::to_array<Column>({
+    {"retired_mass", "kg", "mass of products that were removed below `burn.retire_below`, part of outflow_mass",
+     [](const Source& s) { return s.ledger.retired.mass; }},
+    {"retired_momentum_x", "kg m/s", "their momentum along x", [](const Source& s) { return s.ledger.retired.momentum[0]; }},
+    {"retired_momentum_y", "kg m/s", "the same along y", [](const Source& s) { return s.ledger.retired.momentum[1]; }},
+    {"retired_momentum_z", "kg m/s", "the same along z", [](const Source& s) { return s.ledger.retired.momentum[2]; }},
+    {"retired_energy", "J", "their energy, part of outflow_energy", [](const Source& s) { return s.ledger.retired.energy; }},
+});
+
 const auto of_bars = std::to_array<Column>({
     {"bars", "1", "number of bars", [](const Source& s) { return s.figures.bars; }},
     {"broken_bars", "1", "bars that have broken", [](const Source& s) { return s.figures.broken_bars; }},
@@ -164,7 +173,7 @@ const auto outflow_of_body = std::to_array<BodyColumn>({
 
 /// Holds the parts of a run that decide which columns its file has.
 struct Parts {
-  bool elements = false, cold_work = false, explosives = false, bars = false;
+  bool elements = false, cold_work = false, explosives = false, retired = false, bars = false;
   std::vector<std::string> bodies;
 };
 
@@ -190,6 +199,7 @@ std::vector<HistoryColumn> columns_of(const Parts& parts) {
   if (parts.elements) add(of_elements);
   if (parts.cold_work) add(of_cold_work);
   if (parts.explosives) add(of_explosives);
+  if (parts.retired) add(of_retired);
   if (parts.bars) add(of_bars);
   add_for_bodies(phases_of_body);
   add_for_bodies(outflow_of_body);
@@ -234,6 +244,7 @@ std::vector<HistoryColumn> history_columns(const cases::Case& setup) {
   Parts parts{.elements = setup.has_elements(),
               .cold_work = stores_cold_work(setup),
               .explosives = setup.has_burn(),
+              .retired = setup.burn.retire_below > 0.0,
               .bars = setup.has_bars(),
               .bodies = {}};
   for (const cases::Body& body : setup.bodies) parts.bodies.push_back(body.name);
@@ -242,7 +253,7 @@ std::vector<HistoryColumn> history_columns(const cases::Case& setup) {
 
 std::string history_columns_as_markdown() {
   std::string text;
-  for (const HistoryColumn& column : columns_of({true, true, true, true, {"BODY"}})) {
+  for (const HistoryColumn& column : columns_of({true, true, true, true, true, {"BODY"}})) {
     text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
   }
   return text;

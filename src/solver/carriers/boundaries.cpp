@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Particles at the faces of the domain.
+// Particles that leave: at the faces of the domain, and spent products of explosives.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -9,6 +9,7 @@
 #include "src/core/base/gaps.hpp"
 #include "src/core/base/vector_math.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/solver/carriers/explosives.hpp"
 #include "src/solver/carriers/particle_carrier.hpp"
 
 namespace whipple::solver {
@@ -103,6 +104,25 @@ void ParticleCarrier::remove_outside() {
     }
     if (leaves) leaving.push_back(p);
   }
+  remove_as_outflow(leaving);
+}
+
+void ParticleCarrier::retire_products() {
+  const double least = state_.setup.burn.retire_below;
+  if (!(least > 0.0)) return;
+  const Particles& q = state_.particles;
+  const Explosives explosives(state_);
+  const std::vector<std::uint32_t> spent = parallel::where(q.size(), [&](std::size_t p) {
+    return explosives.is_burnt(p) && q.pressure[p] + q.artificial_viscosity[p] < least;
+  });
+  for (const std::uint32_t p : spent) {
+    const Totals own = totals_of(q, p, state_.particle_affine_inertia());
+    state_.booked.retired += {own.mass, own.momentum, own.energy()};
+  }
+  remove_as_outflow(spent);
+}
+
+void ParticleCarrier::remove_as_outflow(const std::vector<std::uint32_t>& leaving) {
   if (leaving.empty()) return;
   for (const std::uint32_t p : leaving) {
     state_.book_outflow(state_.particles.body[p], totals_of(state_.particles, p, state_.particle_affine_inertia()));

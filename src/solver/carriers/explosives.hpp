@@ -10,7 +10,7 @@
 
 namespace whipple::solver {
 
-/// The particles of a rank that burn, or will: what the solver asks of them (docs/theory/burn.md, section 4).
+/// The particles of a rank that burn, or will: what the solver asks of them (docs/theory/burn.md, section 5).
 class Explosives {
  public:
   explicit Explosives(const State& state)
@@ -22,6 +22,7 @@ class Explosives {
     for (const auto& material : state.setup.materials) {
       velocity_.push_back(material->burns() ? material->burn->explosive().detonation_velocity : 0.0);
       store_.push_back(material->burns() ? material->burn->explosive().stored_energy : 0.0);
+      reacts_.push_back(material->burns() && material->burn->explosive().reaction != nullptr);
     }
   }
 
@@ -30,13 +31,17 @@ class Explosives {
   [[nodiscard]] bool burns(std::size_t p) const {
     return any() && velocity_[state_.particles.body[p]] > 0.0 && (*fraction_)[p] < 1.0;
   }
+  /// Returns whether a particle is the products of an explosive that has burnt out.
+  [[nodiscard]] bool is_burnt(std::size_t p) const {
+    return any() && velocity_[state_.particles.body[p]] > 0.0 && (*fraction_)[p] >= 1.0;
+  }
   /// Returns whether detonation has arrived at a particle, or does so before a time (s).
   [[nodiscard]] bool is_lit(std::size_t p, double before) const {
     return burns(p) && (*lighting_)[p] >= 0.0 && (*lighting_)[p] <= before;
   }
-  /// Returns whether a particle burns or is about to: it is at a front of detonation.
+  /// Returns whether a particle burns or is about to: it is at a front of detonation of given lighting times.
   [[nodiscard]] bool is_at_front(std::size_t p) const {
-    if (!burns(p)) return false;
+    if (!burns(p) || reacts_[state_.particles.body[p]]) return false;
     const double ahead = early_ / velocity_[state_.particles.body[p]];
     return (*fraction_)[p] > 0.0 || is_lit(p, state_.run.time + ahead);
   }
@@ -64,6 +69,7 @@ class Explosives {
   const std::vector<double>* fraction_ = nullptr;  // null: nothing burns
   const std::vector<double>* lighting_ = nullptr;
   std::vector<double> velocity_, store_;  // of each body, m/s and J/kg; 0: it does not burn
+  std::vector<bool> reacts_;              // of each body: it burns by a rate law
 };
 
 }  // namespace whipple::solver

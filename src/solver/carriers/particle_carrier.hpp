@@ -29,6 +29,8 @@ class ParticleCarrier : public Carrier {
 
   [[nodiscard]] bool empty() const override { return false; }
   void remove_outside() override;
+  /// Removes products of explosives below the pressure of the case and counts them as outflow; where the case has one.
+  void retire_products();
   void add_totals(Totals& sum) override;
   void add_phases(std::span<PhaseMasses> of_body) const override;
   void add_figures(Figures& figures) const override;
@@ -50,6 +52,8 @@ class ParticleCarrier : public Carrier {
   };
   [[nodiscard]] std::function<bool(std::size_t)> stays_since(std::size_t& arrangement) const;
   void require_fields(bool extent) const;
+  /// Removes particles, numbers ascending, and counts them as outflow.
+  void remove_as_outflow(const std::vector<std::uint32_t>& leaving);
 
   KeptByChunk<Totals> totals_;
   KeptByChunk<double> fastest_;                     // m/s

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Measures of detonations and jets: deviation from an exact profile, speed of a front, speed of a jet."""
+import csv
+import json
+import math
+import tomllib
+
+from report.wall_speed import interpolate
+
+
+def particles_of(folder, body):
+    """Fields of the particles of a body at the last snapshot and, as "position" and "x", their places (m); None where there are none."""
+    import h5py
+
+    series = sorted(folder.glob("*.particles.hdf.series"))
+    if not series or not (folder / "run.toml").is_file():
+        return None
+    bodies = [entry["name"] for entry in tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))["body"]]
+    if body not in bodies:
+        return None
+    newest = max(json.loads(series[0].read_text())["files"], key=lambda entry: float(entry["time"]))
+    with h5py.File(folder / newest["name"]) as file:
+        data = file["VTKHDF"]["PointData"]
+        own = data["body"][:] == bodies.index(body)
+        places = file["VTKHDF"]["Points"][:][own]
+        return {name: data[name][:][own] for name in data} | {"position": places, "x": places[:, 0]}
+
+
+def profile(path, field):
+    """Places (m), ascending, and values of a field in a table of an exact solution: columns "x [m]" and "FIELD [UNIT]"."""
+    with path.open(newline="") as stream:
+        lines = [line for line in stream if not line.startswith("#")]
+    rows = [{head.split(" [")[0]: float(cell) for head, cell in row.items()} for row in csv.DictReader(lines)]
+    return [row["x"] for row in rows], [row[field] for row in rows]
+
+
+def profile_error(folder, body, field, table):
+    """Sum of m |f - f_exact| over that of m |f_exact|, of the particles of a body at the last snapshot, m their mass, within the
+    places of the table: of a field of equal cells of a Lagrangian code the L1 error. Of a velocity its component along x. NaN
+    where there is none.
+    """
+    import numpy as np
+
+    found = particles_of(folder, body)
+    if found is None or field not in found:
+        return math.nan
+    places, exact = profile(table, field)
+    own = (found["x"] >= places[0]) & (found["x"] <= places[-1])
+    value = found[field][own, 0] if found[field].ndim > 1 else found[field][own]
+    mass = found["mass"][own]
+    wanted = np.interp(found["x"][own], places, exact)
+    scale = (mass * np.abs(wanted)).sum()
+    return float((mass * np.abs(value - wanted)).sum() / scale) if scale > 0.0 else math.nan
+
+
+def arrival_speed(path, tracers):
+    """Speed (m/s) along x of a front that passes moving tracers, from gauges.csv: slope by least squares of the places where
+    they began over the times at which the pressure of each first exceeds half of the largest that it reaches.
+    """
+    if not path.is_file():
+        return math.nan
+    with path.open(newline="") as stream:
+        rows = [{head.split(" [")[0]: float(cell or math.nan) for head, cell in row.items()} for row in csv.DictReader(stream)]
+    names = sorted({head.split(".")[0] for head in rows[0] if head.startswith(f"{tracers}_")}) if rows else []
+    passed = []
+    for name in names:
+        pressures = [row[f"{name}.pressure"] for row in rows]
+        level = 0.5 * max(pressures)
+        first = next((i for i, p in enumerate(pressures) if p > level), 0)
+        if level > 0.0 and first > 0:
+            time = interpolate(level, pressures[first - 1:first + 1], [row["time"] for row in rows[first - 1:first + 1]])
+            passed.append((time, rows[0][f"{name}.x"]))
+    if len(passed) < 3:
+        return math.nan
+    middle, centre = (sum(values) / len(passed) for values in zip(*passed))
+    return sum((t - middle) * (x - centre) for t, x in passed) / sum((t - middle) ** 2 for t, _ in passed)
+
+
+def jet_speed(folder, body, fraction):
+    """Velocity along x (m/s) that a fraction of the mass of a body exceeds at the last snapshot, of what is left of it."""
+    found = particles_of(folder, body)
+    if found is None or len(found["mass"]) == 0:
+        return math.nan
+    order = found["velocity"][:, 0].argsort()[::-1]
+    reached = found["mass"][order].cumsum() >= fraction * found["mass"].sum()
+    return float(found["velocity"][order[reached.argmax()], 0])

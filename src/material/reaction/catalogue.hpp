@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "src/core/base/catalogue.hpp"
+#include "src/material/reaction/reaction.hpp"
+
+namespace whipple::reaction {
+
+using ReactionEntry = CatalogueEntry<const Reaction>;
+
+/// All rate laws of explosives, one line each.
+const Catalogue<ReactionEntry>& catalogue();
+
+}  // namespace whipple::reaction

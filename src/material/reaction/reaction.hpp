@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fmt/format.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "src/core/base/parameter_table.hpp"
+
+/// Rate laws by which an explosive turns into its products (docs/theory/burn.md, section 4).
+namespace whipple::reaction {
+
+/// Points of an explosive over a step (SI).
+struct State {
+  double time_step;                     ///< s
+  std::span<const double> compression;  ///< rho/rho0, at the end of the step
+  std::span<const double> pressure;     ///< Pa, of reactant and products together, at the beginning of the step
+};
+
+/// A rate law: the fraction F of the mass that has burnt follows the state of the point, dF/dt = r(F, rho, p).
+class Reaction {
+ public:
+  virtual ~Reaction() = default;
+
+  [[nodiscard]] virtual std::string_view model() const = 0;
+  /// Advances the burn fractions over the step at constant compression and pressure; they do not decrease.
+  virtual void advance(const State& state, std::span<double> burnt) const = 0;
+  /// All constants with units as lines of a table [reaction].
+  [[nodiscard]] virtual std::string constants() const = 0;
+};
+
+/// `Law` has name, parameters(), require_consistent() and advance().
+template <class Law>
+class ReactionModel final : public Reaction {
+ public:
+  /// @throws InputError if the constants contradict one another
+  explicit ReactionModel(const Law& law) : law_(law) { law_.require_consistent(); }
+  [[nodiscard]] std::string_view model() const override { return Law::name; }
+  void advance(const State& state, std::span<double> burnt) const override { law_.advance(state, burnt); }
+  [[nodiscard]] std::string constants() const override {
+    Law copy = law_;
+    return fmt::format("model = \"{}\"\n{}", Law::name, to_toml(whipple::bind(Law::parameters(), copy)));
+  }
+
+ private:
+  Law law_;
+};
+
+}  // namespace whipple::reaction

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Measures of detonations and jets, and the theory of jets, on files and numbers made for them."""
+import json
+import math
+import pathlib
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+from studies.shaped_charge import shaped_charge
+from report import detonation, pieces
+
+
+def write_run(folder, places, fields):
+    """A run of two bodies with one snapshot: "air" without particles, "metal" with these."""
+    (folder / "run.toml").write_text('[domain]\ncell_size = "0.001 m"\n[[body]]\nname = "air"\n[[body]]\nname = "metal"\n')
+    (folder / "made.particles.hdf.series").write_text(json.dumps({"files": [{"name": "made.hdf", "time": 1e-6}]}))
+    with h5py.File(folder / "made.hdf", "w") as file:
+        data = file.create_group("VTKHDF")
+        data["Points"] = places
+        for name, values in {"body": np.ones(len(places), dtype=int), **fields}.items():
+            data[f"PointData/{name}"] = values
+
+
+class Measures(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.temporary.name)
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def test_profile_error_is_weighted_by_mass_within_the_table(self):
+        table = self.folder / "exact.csv"
+        table.write_text("# made up\nx [m],pressure [Pa],velocity [m/s]\n0,10,0\n1,20,100\n")
+        places = np.array([[0.0, 0, 0], [0.5, 0, 0], [2.0, 0, 0]])
+        write_run(self.folder, places, {"mass": [1.0, 2.0, 9.0], "pressure": [11.0, 15.0, 99.0],
+                                        "velocity": np.array([[0.0, 1, 0], [60.0, 0, 0], [0.0, 0, 0]])})
+        self.assertAlmostEqual(detonation.profile_error(self.folder, "metal", "pressure", table), 1.0 / 40.0)
+        self.assertAlmostEqual(detonation.profile_error(self.folder, "metal", "velocity", table), 20.0 / 100.0)
+        self.assertTrue(math.isnan(detonation.profile_error(self.folder, "metal", "density", table)))
+        self.assertTrue(math.isnan(detonation.profile_error(self.folder, "copper", "pressure", table)))
+
+    def test_jet_speed_is_exceeded_by_the_fraction(self):
+        velocity = np.zeros((100, 3))
+        velocity[:, 0] = np.arange(100)
+        write_run(self.folder, np.zeros((100, 3)), {"mass": np.ones(100), "velocity": velocity})
+        self.assertEqual(detonation.jet_speed(self.folder, "metal", 0.01), 99.0)
+        self.assertEqual(detonation.jet_speed(self.folder, "metal", 0.1), 90.0)
+
+    def test_arrival_speed_is_the_slope_over_tracers(self):
+        names = [f"front_{i}" for i in range(4)]
+        rows = ["time [s]," + ",".join(f"{n}.x [m],{n}.pressure [Pa]" for n in names)]
+        for step in range(60):
+            time = 1e-7 * step
+            # A front of 5000 m/s whose pressure rises linearly over 2 mm.
+            cells = [(0.01 + 0.005 * i, min(max(5000.0 * time - 0.01 - 0.005 * i, 0.0) / 0.002, 1.0) * 1e9) for i in range(4)]
+            rows.append(f"{time}," + ",".join(f"{x},{p}" for x, p in cells))
+        path = self.folder / "gauges.csv"
+        path.write_text("\n".join(rows) + "\n")
+        self.assertAlmostEqual(detonation.arrival_speed(path, "front"), 5000.0, delta=1.0)
+        self.assertTrue(math.isnan(detonation.arrival_speed(path, "wall")))
+
+    def test_fragments_are_pieces_of_what_has_not_failed(self):
+        line = np.arange(12)[:, None] * np.array([[0.5e-3, 0.0, 0.0]])
+        failed = np.zeros(12, dtype=int)
+        failed[[5, 6, 7]] = 2
+        write_run(self.folder, line, {"mass": np.full(12, 2.0), "failed": failed})
+        cell, masses, dust, small = pieces.fragments_of(self.folder, "metal", 1.2)
+        self.assertEqual(cell, 1e-3)
+        self.assertEqual(sorted(masses), [8.0, 10.0])
+        self.assertAlmostEqual(dust, 0.25)
+        self.assertEqual(small, 0.0)
+        self.assertEqual(pieces.measure("piece_mass", self.folder, "metal"), 9.0)
+        self.assertTrue(math.isnan(pieces.measure("piece_count", self.folder, "air")))
+
+
+class Theory(unittest.TestCase):
+    def test_weibull_exponent_of_its_own_quantiles(self):
+        for b in (0.8, 1.1, 2.0):
+            masses = (-np.log((np.arange(4000) + 0.5) / 4000)) ** (1.0 / b)
+            self.assertAlmostEqual(pieces.weibull_exponent(masses)[0], b, delta=0.01 * b)
+
+    def test_jet_of_a_cone(self):
+        velocity, mass, share = shaped_charge.theory(21.0, "composition_b")
+        self.assertTrue(np.all(np.diff(mass) > 0.0) and np.all(np.diff(velocity) < 0.0))
+        self.assertAlmostEqual(mass[-1], share, delta=1e-9)
+        narrow = shaped_charge.theory(10.0, "composition_b")
+        self.assertGreater(narrow[0][0], velocity[0])  # faster and thinner
+        self.assertLess(narrow[2], share)
+
+
+if __name__ == "__main__":
+    unittest.main()

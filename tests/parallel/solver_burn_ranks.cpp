@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Explosives on several ranks: lighting times, burn fractions and the products' drive are those of one rank, and a
+// checkpoint of several ranks goes on with the lighting that it holds.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "src/case/case.hpp"
+#include "src/core/parallel/mpi.hpp"
+#include "src/io/checkpoint.hpp"
+#include "src/io/ranks.hpp"
+#include "src/run/checkpointing.hpp"
+#include "src/solver/carriers/carrier.hpp"
+#include "tests/parallel/solver_ranks.hpp"
+
+namespace whipple::solver {
+namespace {
+
+/// TNT that drives a copper plate, around an inert block; a second detonator fires in material at rest. Plane strain.
+cases::Case charge_on_plate() {
+  return cases::read_case_text(R"(
+[domain]
+dimension = "plane_strain"
+lower = ["-4 mm", "0 mm"]
+upper = ["28 mm", "12 mm"]
+cell_size = "0.5 mm"
+boundary = { y_lower = "symmetry" }
+[time]
+end = "3 us"
+[[detonation]]
+position = ["0 mm", "0 mm"]
+[[detonation]]
+position = ["20 mm", "8 mm"]
+delay = "1.2 us"
+[[body]]
+name = "charge"
+material = "tnt"
+shape = { difference = { from = { box = { lower = ["0 mm", "0 mm", "-1 mm"], upper = ["20 mm", "8 mm", "1 mm"] } }, minus = [ { box = { lower = ["8 mm", "0 mm", "-1 mm"], upper = ["10 mm", "4 mm", "1 mm"] } } ] } }
+[[body]]
+name = "block"
+material = "pmma"
+shape = { box = { lower = ["8 mm", "0 mm", "-1 mm"], upper = ["10 mm", "4 mm", "1 mm"] } }
+[[body]]
+name = "plate"
+material = "copper_ofhc_mie_gruneisen"
+shape = { box = { lower = ["20 mm", "0 mm", "-1 mm"], upper = ["22 mm", "8 mm", "1 mm"] } }
+)",
+                               "charge_on_plate.toml");
+}
+
+/// Sums over the particles of all ranks in which each has a weight of its own: chemical energy (J), burn fraction,
+/// lighting time (s), and the sum of the last two without weights. Collective.
+std::vector<double> sums_of(const Simulation& simulation, MPI_Comm communicator) {
+  const Particles& q = simulation.particles();
+  const auto &burnt = q.history.scalar("burn_fraction"), &lit = q.history.scalar("lighting_time");
+  Figures figures;
+  simulation.carriers()[0]->add_figures(figures);
+  std::vector<double> sums = {figures.chemical_energy, 0.0, 0.0, 0.0, 0.0};
+  for (std::size_t p = 0; p < q.size(); ++p) {
+    const double weight = std::sin(static_cast<double>(q.id[p]));
+    sums[1] += weight * burnt[p];
+    sums[2] += weight * lit[p];
+    sums[3] += burnt[p];
+    sums[4] += lit[p];
+  }
+  parallel::sum(communicator, sums);
+  return sums;
+}
+
+void expect_same_burn(const std::vector<double>& all, const std::vector<double>& one, double store) {
+  EXPECT_NEAR(all[0], one[0], 1e-11 * store);
+  for (std::size_t i = 1; i < all.size(); ++i) EXPECT_NEAR(all[i], one[i], 1e-10 * one[3 + (i + 1) % 2]) << i;
+}
+
+TEST(BurnRanks, AgreeWithOneRankAndGoOnWithTheirLighting) {
+  const io::Ranks ranks(MPI_COMM_WORLD);
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("whipple_burn_ranks_" + ranks.broadcast(std::to_string(::getpid())));
+  const cases::Case setup = charge_on_plate();
+  Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
+  const double store = sums_of(together, MPI_COMM_WORLD)[0];
+  expect_same_burn(sums_of(together, MPI_COMM_WORLD), sums_of(alone, MPI_COMM_SELF), store);
+  advance_to(together, 1e-6);
+  const std::filesystem::path file = io::write_checkpoint(folder, together.state().step, together.particles(),
+                                                          run::to_checkpoint(together.state()), MPI_COMM_WORLD);
+  advance_to(together, 2e-6);
+  advance_on_root(alone, 1e-6);
+  advance_on_root(alone, 2e-6);
+  expect_agreement(together, alone, 1e-11);
+  EXPECT_EQ(together.particles().size() < together.particle_count(), ranks.is_parallel());
+  const std::vector<double> of_all = sums_of(together, MPI_COMM_WORLD), of_one = sums_of(alone, MPI_COMM_SELF);
+  io::Checkpoint checkpoint = io::read_checkpoint(file, MPI_COMM_SELF);
+  Simulation resumed(setup, std::move(checkpoint.particles), run::from_checkpoint(checkpoint.values), MPI_COMM_SELF);
+  advance_on_root(resumed, 2e-6);
+  MPI_Barrier(MPI_COMM_WORLD);
+  ranks.on_root([&] { std::filesystem::remove_all(folder); });
+  if (!is_root()) return;
+  EXPECT_GT(of_one[0], 0.05 * store);  // both fronts are under way
+  EXPECT_LT(of_one[0], 0.8 * store);
+  EXPECT_GT(alone.totals().kinetic_energy, 0.02 * store);
+  expect_same_burn(of_all, of_one, store);
+  expect_equal(resumed, alone, 1e-11);
+  expect_same_burn(sums_of(resumed, MPI_COMM_SELF), of_one, store);
+}
+
+}  // namespace
+}  // namespace whipple::solver

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Explosives that burn by a rate law: the law against its own integral, a detonation that finds its velocity, initiation by
+// a shock, and what a material must say.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "src/material/material_file.hpp"
+#include "src/material/reaction/catalogue.hpp"
+#include "src/material/reaction/jwl_plus_plus.hpp"
+#include "tests/verification/burn_columns.hpp"
+#include "tests/verification/exact/runs.hpp"
+
+namespace whipple::verification {
+namespace {
+
+using exact::default_case;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// The explosive of the rate sticks of cases/rate_stick, with a rate and other tables.
+std::string non_ideal(const std::string& name, const std::string& reaction) {
+  return write_material(name, R"toml(
+name = "non-ideal explosive"
+source = "test"
+[eos]
+model = "jwl"
+source = "test"
+reference_density = "1160 kg/m^3"
+pressure_1 = "298.67 GPa"
+pressure_2 = "4.117 GPa"
+exponent_1 = 4.95
+exponent_2 = 1.15
+gruneisen = 0.35
+detonation_energy = "4 GJ/m^3"
+heat_capacity = "1000 J/(kg K)"
+)toml" + reaction);
+}
+const std::string reactant = R"toml(
+[eos.unreacted]
+model = "murnaghan"
+source = "test"
+reference_density = "1160 kg/m^3"
+bulk_modulus = "25.64 GPa"
+bulk_modulus_slope = 7.4
+gruneisen = 0.7
+heat_capacity = "1000 J/(kg K)"
+)toml";
+const std::string law = R"toml(
+[reaction]
+model = "jwl_plus_plus"
+source = "test"
+rate = "3.5083e6 1/s"
+pressure_exponent = 1.3
+)toml";
+
+TEST(JwlPlusPlus, IsTheIntegralOfItsRateAtConstantPressure) {
+  const reaction::ReactionModel<reaction::JwlPlusPlus> model({.rate = 3e6, .rate_pressure = 1e10, .pressure_exponent = 1.3});
+  const std::vector<double> compression = {1.0, 1.1, 1.2, 1.0}, pressure = {1e10, 4e9, 1.7e10, -1e8};
+  const auto after = [&](double time, int steps) {
+    std::vector<double> burnt = {0.0, 0.3, 0.9, 0.5};
+    for (int i = 0; i < steps; ++i) model.advance({time / steps, compression, pressure}, burnt);
+    return burnt;
+  };
+  const std::vector<double> once = after(2e-7, 1), often = after(2e-7, 7), at_first = after(1e-12, 1);
+  for (std::size_t i = 0; i < once.size(); ++i) EXPECT_NEAR(once[i], often[i], 1e-14);
+  EXPECT_NEAR(once[0], 1.0 - std::exp(-0.6), 1e-14);
+  // The rate itself: r (p/p_r)^b (1 - F).
+  EXPECT_NEAR((at_first[1] - 0.3) / 1e-12, 3e6 * std::pow(0.4, 1.3) * 0.7, 100.0);
+  EXPECT_EQ(once[3], 0.5);  // no tension burns
+}
+
+/// The least-squares slope of place over time of arrival of half the burn, over particles that begin in a range.
+double front_velocity(const std::string& text, double end, double from, double to) {
+  solver::Simulation simulation(default_case(end, text), parallel::world());
+  const std::vector<Vector3> start = exact::positions_by_id(simulation.particles());
+  std::vector<double> arrival(start.size(), -1.0), before(start.size(), 0.0);
+  double earlier = 0.0;
+  run_to(simulation, end, [&](const solver::Simulation& s) {
+    const Particles& q = s.particles();
+    const std::vector<double>& burnt = q.history.scalar("burn_fraction");
+    for (std::size_t p = 0; p < q.size(); ++p) {
+      const std::size_t id = q.id[p];
+      if (arrival[id] < 0.0 && burnt[p] >= 0.5) {
+        arrival[id] = earlier + (s.state().time - earlier) * (0.5 - before[id]) / (burnt[p] - before[id]);
+      }
+      before[id] = burnt[p];
+    }
+    earlier = s.state().time;
+  });
+  double n = 0.0, x = 0.0, t = 0.0, xt = 0.0, tt = 0.0;
+  for (std::size_t id = 0; id < start.size(); ++id) {
+    if (start[id][0] < from || start[id][0] > to || arrival[id] < 0.0) continue;
+    n += 1.0, x += start[id][0], t += arrival[id];
+    xt += start[id][0] * arrival[id], tt += arrival[id] * arrival[id];
+  }
+  EXPECT_GT(n, 50.0);
+  return (n * xt - x * t) / (n * tt - t * t);
+}
+
+/// Velocity of a steady planar front whose pressure is the sum of those of reactant and products at one volume: for each burn
+/// fraction the least for which the Rayleigh line meets the Hugoniot of the mixture, of which the largest decides (an eigenvalue
+/// of the problem: W. Fickett, W. C. Davis, Detonation (1979), chapter 5). At F = 1 it is that of Chapman and Jouguet.
+double steady_velocity(const Explosive& explosive) {
+  const double rho0 = explosive.density, Q = explosive.stored_energy;
+  const auto pressure_on_hugoniot = [&](double v, double F) {
+    const auto mixed = [&](double p) {
+      const double e = Q + 0.5 * p * (1.0 - v) / rho0;
+      return (1.0 - F) * explosive.unreacted->state(rho0 / v, e - Q).pressure + F * explosive.products->state(rho0 / v, e).pressure;
+    };
+    const double at_zero = mixed(0.0), slope = (mixed(1e9) - at_zero) / 1e9;  // both models are linear in the energy
+    return at_zero / (1.0 - slope);
+  };
+  double greatest = 0.0;
+  for (double F = 0.0; F <= 1.0; F += 0.05) {
+    double least = 1e99;
+    for (double v = 0.7; v < 0.99; v += 0.002) least = std::min(least, pressure_on_hugoniot(v, F) / (1.0 - v));
+    greatest = std::max(greatest, std::sqrt(least / rho0));
+  }
+  return greatest;
+}
+
+// Nothing tells the front how fast to run. The stiff reactant makes the mixture stiffer than either end: the front is faster
+// than that of Chapman and Jouguet, by the fraction that the theory of the steady wave gives.
+TEST(JwlPlusPlus, APlanarDetonationFindsItsVelocity) {
+  const std::string material = non_ideal("rate_law", reactant + law);
+  const Explosive& explosive = *read_material(material).explosive;
+  EXPECT_NEAR(explosive.detonation_velocity, 5899.0, 2.0);
+  const double D = steady_velocity(explosive);
+  EXPECT_NEAR(D, 6513.0, 15.0);  // of an independent computation
+  const std::string text = column(material, 0.06, 2.5e-4, lit_at_wall);
+  EXPECT_NEAR(front_velocity(text, 0.055 / D, 0.03, 0.045) / D, 1.0, 0.02);
+}
+
+// A flyer lights it where the shock lasts: no detonator is needed, and a tenth of the rate leaves it nearly unburnt.
+TEST(JwlPlusPlus, AShockLightsItWithoutADetonator) {
+  const auto burnt = [&](const std::string& name, const std::string& of_rate) {
+    const std::string flyer = "[[body]]\nname = \"flyer\"\nmaterial = \"copper_ofhc_mie_gruneisen\"\nvelocity = [-1200, 0]\nshape "
+                              "= { box = { lower = [0.02, 0], upper = [0.03, 5e-4] } }\n";
+    std::string text = column(non_ideal(name, reactant + of_rate), 0.02, 5e-4, flyer);
+    text.replace(text.find("0.022"), 5, "0.035");
+    solver::Simulation simulation(default_case(3e-6, text), parallel::world());
+    run_to(simulation, 3e-6);
+    const Particles& q = simulation.particles();
+    double mean = 0.0, count = 0.0;
+    for (std::size_t p = 0; p < q.size(); ++p) {
+      if (q.body[p] == 0) mean += q.history.scalar("burn_fraction")[p], count += 1.0;
+    }
+    return mean / count;
+  };
+  std::string slow = law;
+  slow.replace(slow.find("3.5083e6"), 8, "3.5083e5");
+  const double fast = burnt("rate_law_shocked", law), little = burnt("rate_law_slow", slow);
+  EXPECT_GT(fast, 0.5);
+  EXPECT_LT(little, 0.5 * fast);
+  EXPECT_GT(little, 0.01);
+}
+
+TEST(JwlPlusPlus, SaysWhatAMaterialLacks) {
+  const auto refused = [](const std::string& tables, const std::string& text) {
+    const std::string file = non_ideal("rate_law_wrong", tables);
+    EXPECT_THAT([&] { static_cast<void>(read_material(file)); }, ThrowsMessage<InputError>(HasSubstr(text))) << tables;
+  };
+  refused(law, "a rate law takes the equation of state of the unreacted explosive: [eos.unreacted]");
+  refused(reactant + "[reaction]\nmodel = \"jwl\"\nsource = \"test\"\n", "jwl_plus_plus");
+  refused(reactant + "[reaction]\nmodel = \"jwl_plus_plus\"\nsource = \"test\"\npressure_exponent = 1.3\n", "'rate'");
+  const Material material = read_material(non_ideal("rate_law_whole", reactant + law));
+  EXPECT_THAT(burning(material).constants(), HasSubstr("[reaction]\nmodel = \"jwl_plus_plus\"\nrate = "));
+  EXPECT_THAT(unreacted(material).constants(), testing::Not(HasSubstr("[reaction]")));
+}
+
+}  // namespace
+}  // namespace whipple::verification
