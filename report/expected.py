@@ -146,7 +146,7 @@ def add_to(page: Page, run: Run, add_figure) -> list[dict]:
     add_figure("expected.png", "Points: this run, with the band of 95 % of the case's grid study. Blue: expected value with "
                "its tolerance; arrows: bounds, and the side that is allowed.", figure_of(drawn))
     page.note("The band is that of the case's own grid study (docs/generated/results.md: discretization, position of the "
-              "lattice), where there is one; its value on the finest grid stands beside it. A departure of a single run "
+              "lattice), where there is one; its value on the finest grid is next to it. A departure of a single run "
               "within the band says nothing." if studies else
               "No grid study of this case is at hand: the values have no band.")
     return data

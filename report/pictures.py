@@ -20,6 +20,7 @@ from report.views import PHASES, Picture, Views
 BACKGROUND = np.array([0.985, 0.985, 0.99])
 # Of the light, what colours of a scale take: they must be read, not admired.
 SHADING_OF_SCALES = 0.55
+SMALL_END = 0.05  # of the other end of a scale: a sign that is no part of the picture
 RESOLUTION_OF_PAGE = 1440  # pixels across the page
 COLOURS_OF_PAGE = 256
 
@@ -39,8 +40,10 @@ def scale_colours(values: np.ndarray, norm: Normalize, colours: Colormap) -> np.
 
 
 def scale_of(ends: tuple[float, float]) -> Normalize:
-    """Makes the scale between two ends; about zero if they have different signs."""
+    """Makes the scale between two ends; about zero if they have different signs, from zero if one of them is small."""
     low, high = ends
+    if low < 0 < high and min(-low, high) < SMALL_END * max(-low, high):
+        low, high = (0.0, high) if high > -low else (low, 0.0)
     if low < 0 < high:
         most = max(-low, high)
         return Normalize(-most, most)
@@ -142,7 +145,7 @@ SCALED = {"pressure": ("pressure", units.GIGAPASCALS, "GPa"), "speed": ("speed",
           "plastic_strain": ("plastic strain", 1.0, "")}
 # Fields that are shown by words.
 WORDED = {"phase": ("phase", PHASES), "failed": ("cause of failure", FAILURE_NAMES)}
-SPHERES = (" Spheres of debris reach to their neighbours while these are nearer than three diameters: rings and rows that "
+SPHERES = (" Spheres of debris reach to their neighbours while these are nearer than five diameters: rings and rows that "
            "remain where it is thinner are those of the initial lattice of particles, not of the material. Light falls "
            "off with the depth.")
 

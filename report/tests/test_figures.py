@@ -42,6 +42,8 @@ class Scales(unittest.TestCase):
     def test_signed_fields_are_about_zero(self):
         norm = pictures.scale_of((-1.0, 4.0))
         self.assertEqual((norm.vmin, norm.vmax), (-4.0, 4.0))
+        norm = pictures.scale_of((-1.0, 100.0))
+        self.assertEqual((norm.vmin, norm.vmax), (0.0, 100.0))
         norm = pictures.scale_of((300.0, 900.0))
         self.assertEqual((norm.vmin, norm.vmax), (300.0, 900.0))
         self.assertGreater(pictures.scale_of((0.0, 0.0)).vmax, 0.0)

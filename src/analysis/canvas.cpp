@@ -120,7 +120,7 @@ void Canvas::triangle(const Vector3& p, const Vector3& q, const Vector3& r, std:
 }
 
 void Canvas::shade(double fading) {
-  constexpr double slope = 8.0, strength = 0.6;  // pixels of depth over which a neighbour takes light; of all of them
+  constexpr double slope = 24.0, strength = 0.6;  // pixels of depth over which a neighbour takes light; of all of them
   constexpr std::ptrdiff_t reach = 2;            // pixels to the neighbours
   double nearest = -std::numeric_limits<double>::infinity(), farthest = -nearest;
   for (std::size_t pixel = 0; pixel < seen_.size(); ++pixel) {

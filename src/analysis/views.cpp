@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <numeric>
 #include <optional>
 #include <string>
+#include <unordered_map>
 
 #include "src/analysis/canvas.hpp"
 #include "src/analysis/radiograph.hpp"
@@ -17,7 +18,7 @@ namespace whipple::analysis {
 namespace {
 
 constexpr const char* density = "density";
-constexpr double fading = 0.45;           // of the light, from the nearest to the farthest of what is seen
+constexpr double fading = 0.3;           // of the light, from the nearest to the farthest of what is seen
 constexpr double beyond_the_scale = 0.02;  // fraction of the mass that moves, at each end
 
 /// A field of the views. Its values are those of the points; of an element the mean of its points.
@@ -127,6 +128,47 @@ Projection projection_of(const Frame& frame, const std::vector<Snapshot>& snapsh
   projection.rows = static_cast<std::size_t>(std::ceil((limits.upper_up - limits.lower_up) / projection.pixel));
   return projection;
 }
+
+/// Counts points in the cells of a cubic lattice.
+class CellCounts {
+ public:
+  CellCounts(const std::vector<Vector3>& positions, double width, bool planar) : width_(width), deep_(planar ? 0 : 1) {
+    for (const Vector3& x : positions) ++counts_[key(cell_of(x))];
+  }
+  /// Returns the number of points in the cell of a place and in its neighbours.
+  [[nodiscard]] double around(const Vector3& x) const {
+    const std::array<std::int64_t, 3> cell = cell_of(x);
+    std::size_t points = 0;
+    for (std::int64_t i = -1; i <= 1; ++i) {
+      for (std::int64_t j = -1; j <= 1; ++j) {
+        for (std::int64_t k = -deep_; k <= deep_; ++k) {
+          const auto found = counts_.find(key({cell[0] + i, cell[1] + j, cell[2] + k}));
+          if (found != counts_.end()) points += found->second;
+        }
+      }
+    }
+    return static_cast<double>(points);
+  }
+
+ private:
+  [[nodiscard]] std::array<std::int64_t, 3> cell_of(const Vector3& x) const {
+    std::array<std::int64_t, 3> cell{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      cell[a] = static_cast<std::int64_t>(std::floor(std::clamp(x[static_cast<Eigen::Index>(a)] / width_, -1e5, 1e5)));
+    }
+    return cell;
+  }
+  /// Cells are within 100,000 of the origin; what is farther away shares the outermost ones.
+  static std::uint64_t key(const std::array<std::int64_t, 3>& cell) {
+    constexpr std::int64_t middle = 1 << 20;
+    return static_cast<std::uint64_t>(cell[0] + middle) << 42U | static_cast<std::uint64_t>(cell[1] + middle) << 21U |
+           static_cast<std::uint64_t>(cell[2] + middle);
+  }
+
+  double width_;
+  std::int64_t deep_;
+  std::unordered_map<std::uint64_t, std::size_t> counts_;
+};
 
 /// Diameters (m) of the points of a scene.
 std::vector<double> diameters_of(const Scene& scene, const Frame& frame) {
@@ -255,39 +297,30 @@ std::vector<std::size_t> shown_snapshots(const std::vector<SnapshotEntry>& entri
 }
 
 std::vector<double> drawn_diameters(const std::vector<Vector3>& positions, const std::vector<double>& edges, bool planar) {
-  constexpr double widest = 3.0;  // edges: mean distance of points up to which they count as connected debris
+  // Mean distances are those in the smallest of some boxes, three cells wide, that holds enough points: small for compact
+  // fragments, large for thin debris. Widths of the cells in median edges.
+  constexpr std::array widths = {1.5, 3.0, 6.0};
+  const double enough = planar ? 5.0 : 12.0;
+  constexpr double connected = 5.0, apart = 7.0;  // edges: distances up to which spheres reach, and from which they do not
   std::vector<double> diameters = edges;
   if (positions.empty()) return diameters;
   std::vector<double> sorted = edges;
   std::ranges::nth_element(sorted, sorted.begin() + std::ssize(sorted) / 2);
-  const double width = widest * sorted[sorted.size() / 2];
-  if (!(width > 0.0)) return diameters;
-  using Cell = std::array<std::int64_t, 3>;
-  const auto cell_of = [&](const Vector3& x) {
-    Cell cell{};
-    for (std::size_t a = 0; a < 3; ++a) cell[a] = static_cast<std::int64_t>(std::floor(std::clamp(x[static_cast<int>(a)] / width, -1e15, 1e15)));
-    return cell;
-  };
-  std::map<Cell, std::size_t> counts;
-  for (const Vector3& x : positions) ++counts[cell_of(x)];
-  std::map<Cell, double> distances;  // mean distance of the points in a cell and its neighbours
-  const std::int64_t deep = planar ? 0 : 1;
-  for (const auto& [cell, count] : counts) {
-    std::size_t points = 0;
-    for (std::int64_t x = -1; x <= 1; ++x) {
-      for (std::int64_t y = -1; y <= 1; ++y) {
-        for (std::int64_t z = -deep; z <= deep; ++z) {
-          const auto found = counts.find({cell[0] + x, cell[1] + y, cell[2] + z});
-          if (found != counts.end()) points += found->second;
-        }
-      }
-    }
-    const double each = planar ? 9.0 / static_cast<double>(points) : 27.0 / static_cast<double>(points);
-    distances[cell] = width * (planar ? std::sqrt(each) : std::cbrt(each));
-  }
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const double distance = distances[cell_of(positions[i])];
-    if (distance <= widest * edges[i]) diameters[i] = std::max(edges[i], distance);
+  const double edge = sorted[sorted.size() / 2];
+  if (!(edge > 0.0)) return diameters;
+  std::vector<std::size_t> left(positions.size());
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  for (const double width : widths) {
+    const CellCounts counts(positions, width * edge, planar);
+    std::erase_if(left, [&](std::size_t i) {
+      const double points = counts.around(positions[i]);
+      if (points < enough) return false;
+      const double each = planar ? std::sqrt(9.0 / points) : std::cbrt(27.0 / points);
+      const double distance = width * edge * each / edges[i];
+      const double reached = distance < connected ? distance : connected - (connected - 1.0) * (distance - connected) / (apart - connected);
+      diameters[i] = edges[i] * std::max(1.0, reached);
+      return true;
+    });
   }
   return diameters;
 }

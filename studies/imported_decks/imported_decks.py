@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What becomes of decks of MPM3D-F90: imported, checked and run to their end, or the physics that is missing. Prints the table
-of docs/manual/import.md.
+"""What becomes of decks of MPM3D-F90: imported, checked and, with --run, run to their end, or the physics that is missing.
+Prints the table of docs/manual/import.md.
 
-usage: imported_decks.py WHIPPLE FOLDER DECK.mpm...
+usage: imported_decks.py [--run] WHIPPLE FOLDER DECK.mpm...
 """
 import json
 import pathlib
@@ -25,8 +25,8 @@ def missing(report: str) -> list[str]:
     return list(dict.fromkeys(re.sub(r"\s{2,}", ": ", line) for line in found))
 
 
-def row_of(program: str, deck: pathlib.Path, folder: pathlib.Path) -> list[str]:
-    """Imports, checks and runs a deck. Returns its row of the table."""
+def row_of(program: str, deck: pathlib.Path, folder: pathlib.Path, runs: bool) -> list[str]:
+    """Imports, checks and, if wanted, runs a deck. Returns its row of the table."""
     case = folder / deck.stem
     options: list[str] = []
     done = whipple(program, "import", deck, "-o", case)
@@ -39,6 +39,8 @@ def row_of(program: str, deck: pathlib.Path, folder: pathlib.Path) -> list[str]:
     checked = whipple(program, "check", case / "case.toml")
     if checked.returncode:
         return [name, f"refused: {checked.stderr.splitlines()[0]}", "", ""]
+    if not runs:
+        return [name, "can run: " + (re.search(r"(?m)^particles: (\d+)", checked.stdout) or ["", "?"])[1] + " particles", "", ""]
     run = folder / f"{deck.stem}.run"
     begin = time.monotonic()
     done = whipple(program, "run", case / "case.toml", "-o", run, "--quiet", "--threads", "1", "--force")
@@ -51,6 +53,8 @@ def row_of(program: str, deck: pathlib.Path, folder: pathlib.Path) -> list[str]:
 
 def main(words: list[str]) -> int:
     """Prints the table. Returns the exit code."""
+    runs = "--run" in words
+    words = [word for word in words if word != "--run"]
     if len(words) < 3:
         print(__doc__, file=sys.stderr)
         return 2
@@ -58,7 +62,7 @@ def main(words: list[str]) -> int:
     folder.mkdir(parents=True, exist_ok=True)
     print("| deck | outcome | until | one core |\n| --- | --- | --- | --- |", flush=True)
     for deck in decks:
-        print("| " + " | ".join(row_of(program, deck, folder)) + " |", flush=True)
+        print("| " + " | ".join(row_of(program, deck, folder, runs)) + " |", flush=True)
     return 0
 
 

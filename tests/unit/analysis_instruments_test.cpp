@@ -162,7 +162,9 @@ TEST(Views, SpheresReachTheirNeighboursInThinDebrisOnly) {
   const std::vector<double> spread = drawn_diameters(positions, edges, false);
   EXPECT_NEAR(spread[555], 2.0, 0.25);
   EXPECT_EQ(spread[1000], 1.0) << "a particle alone keeps the size of its material";
-  for (Vector3& x : positions) x *= 0.5;
+  for (Vector3& x : positions) x *= 10.0;
+  EXPECT_EQ(drawn_diameters(positions, edges, false)[555], 1.0) << "particles that are apart";
+  for (Vector3& x : positions) x *= 0.05;
   EXPECT_NEAR(drawn_diameters(positions, edges, false)[555], 1.0, 0.25) << "dense material";
   EXPECT_EQ(drawn_diameters({}, {}, true).size(), 0U);
 }
