@@ -63,7 +63,7 @@ void Canvas::put(double column, double row, double depth, std::uint32_t label, d
 
 void Canvas::sphere(const Vector3& centre, double radius, std::uint32_t label) {
   const double r = std::clamp(std::nearbyint(radius), 1.0, 12.0);
-  const double reach = r + 0.35;  // rounds the outline of small spheres
+  const double reach = r + 0.45;  // rounds the outline; the smallest have no gaps between them
   const double column = std::floor(centre[0]), row = std::floor(centre[1]);
   for (double dy = -r; dy <= r; dy += 1.0) {
     for (double dx = -r; dx <= r; dx += 1.0) {

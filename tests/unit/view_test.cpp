@@ -173,7 +173,7 @@ TEST(PackedCloud, FieldsOfEightBitsHaveTheirOwnSteps) {
   analysis::Snapshot snapshot = cloud_of(4);
   snapshot.scalars["pressure"] = {1.0, std::numeric_limits<double>::quiet_NaN(), 3.0, 2.0};
   const std::string wide = pack_cloud(run_of_two_bodies(), snapshot, {}),
-                    narrow = pack_cloud(run_of_two_bodies(), snapshot, {.bits = 8});
+                    narrow = pack_cloud(run_of_two_bodies(), snapshot, {.fields = {}, .bits = 8});
   const Unpacked cloud(narrow);
   EXPECT_EQ(cloud.field("pressure").at("type"), "u8");
   EXPECT_EQ(cloud.planes.at("pressure"), (std::vector<std::uint32_t>{0, 255, 254, 127}));
