@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import statistics
 import tomllib
 
 from report.wall_speed import interpolate
@@ -55,17 +56,17 @@ def profile_error(folder, body, field, table):
 
 def arrival_speed(path, tracers):
     """Speed (m/s) along x of a front that passes moving tracers, from gauges.csv: slope by least squares of the places where
-    they began over the times at which the pressure of each first exceeds half of the largest that it reaches.
+    they began over the times at which the pressure of each first exceeds a level, half of the median of what they reach.
     """
     if not path.is_file():
         return math.nan
     with path.open(newline="") as stream:
         rows = [{head.split(" [")[0]: float(cell or math.nan) for head, cell in row.items()} for row in csv.DictReader(stream)]
     names = sorted({head.split(".")[0] for head in rows[0] if head.startswith(f"{tracers}_")}) if rows else []
+    of_tracer = {name: [row[f"{name}.pressure"] for row in rows] for name in names}
+    level = 0.5 * statistics.median(max(pressures) for pressures in of_tracer.values()) if names else 0.0
     passed = []
-    for name in names:
-        pressures = [row[f"{name}.pressure"] for row in rows]
-        level = 0.5 * max(pressures)
+    for name, pressures in of_tracer.items():
         first = next((i for i, p in enumerate(pressures) if p > level), 0)
         if level > 0.0 and first > 0:
             time = interpolate(level, pressures[first - 1:first + 1], [row["time"] for row in rows[first - 1:first + 1]])
@@ -74,6 +75,21 @@ def arrival_speed(path, tracers):
         return math.nan
     middle, centre = (sum(values) / len(passed) for values in zip(*passed))
     return sum((t - middle) * (x - centre) for t, x in passed) / sum((t - middle) ** 2 for t, _ in passed)
+
+
+def peak_of_gauge(path, column):
+    """Largest value of a column of gauges.csv and the time (s) at which it first comes half way to it from where it began; NaN
+    without it."""
+    if not path.is_file():
+        return math.nan, math.nan
+    with path.open(newline="") as stream:
+        rows = [{head.split(" [")[0]: float(cell or math.nan) for head, cell in row.items()} for row in csv.DictReader(stream)]
+    values = [row.get(column, math.nan) for row in rows]
+    found = [value for value in values if math.isfinite(value)]
+    if not found:
+        return math.nan, math.nan
+    half = 0.5 * (found[0] + max(found))
+    return max(found), next(row["time"] for row, value in zip(rows, values) if value >= half)
 
 
 def jet_speed(folder, body, fraction):

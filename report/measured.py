@@ -68,6 +68,8 @@ class Measures:
             return wall_speed(self.folder / "gauges.csv", of, expectation.place, expectation.travel)
         if kind == "arrival_speed":
             return detonation.arrival_speed(self.folder / "gauges.csv", of)
+        if kind in ("peak", "arrival"):
+            return detonation.peak_of_gauge(self.folder / "gauges.csv", of)[kind == "arrival"]
         if kind == "profile_error":
             return detonation.profile_error(self.folder, *of.split("."), expectation.exact)
         if kind in ("piece_count", "piece_mass", "piece_exponent", "dust_share", "small_piece_share"):

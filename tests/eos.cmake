@@ -23,7 +23,7 @@ set_tests_properties(eos_table_error.at_a_million_states PROPERTIES
 add_executable(eos_benchmark EXCLUDE_FROM_ALL benchmark/eos_benchmark.cpp)
 target_link_libraries(eos_benchmark PRIVATE whipple_eos benchmark::benchmark)
 
-whipple_test(eos_command_test SOURCES unit/eos_command_test.cpp DEPENDS GTest::gmock fmt::fmt LABELS fast)
+whipple_test(eos_command_test SOURCES unit/eos_command_test.cpp DEPENDS whipple_base GTest::gmock fmt::fmt LABELS fast)
 add_dependencies(eos_command_test whipple)
 target_compile_definitions(eos_command_test PRIVATE WHIPPLE_EXECUTABLE="$<TARGET_FILE:whipple>")
 

@@ -9,6 +9,6 @@ add_dependencies(fit_material_test whipple-fit)
 target_compile_definitions(fit_material_test PRIVATE WHIPPLE_FIT_EXECUTABLE="$<TARGET_FILE:whipple-fit>")
 whipple_test(fit_compare_test SOURCES validation/fit_compare_test.cpp property/fit_calibration_test.cpp
              DEPENDS whipple_material whipple_eos_experiments GTest::gmock LABELS fast)
-whipple_test(fit_compare_command_test SOURCES unit/fit_compare_command_test.cpp unit/eos_md_command_test.cpp DEPENDS GTest::gmock fmt::fmt LABELS fast)
+whipple_test(fit_compare_command_test SOURCES unit/fit_compare_command_test.cpp unit/eos_md_command_test.cpp DEPENDS whipple_base GTest::gmock fmt::fmt LABELS fast)
 add_dependencies(fit_compare_command_test whipple whipple-md whipple-fit)
 target_compile_definitions(fit_compare_command_test PRIVATE WHIPPLE_EXECUTABLE="$<TARGET_FILE:whipple>")

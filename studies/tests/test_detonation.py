@@ -63,6 +63,12 @@ class Measures(unittest.TestCase):
         self.assertAlmostEqual(detonation.arrival_speed(path, "front"), 5000.0, delta=1.0)
         self.assertTrue(math.isnan(detonation.arrival_speed(path, "wall")))
 
+    def test_peak_and_arrival_of_a_gauge(self):
+        path = self.folder / "gauges.csv"
+        path.write_text("time [s],far.pressure [Pa]\n0,\n1,100\n2,110\n3,200\n4,300\n5,150\n")
+        self.assertEqual(detonation.peak_of_gauge(path, "far.pressure"), (300.0, 3.0))
+        self.assertTrue(math.isnan(detonation.peak_of_gauge(path, "near.pressure")[0]))
+
     def test_fragments_are_pieces_of_what_has_not_failed(self):
         line = np.arange(12)[:, None] * np.array([[0.5e-3, 0.0, 0.0]])
         failed = np.zeros(12, dtype=int)

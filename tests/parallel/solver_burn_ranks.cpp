@@ -21,7 +21,8 @@
 namespace whipple::solver {
 namespace {
 
-/// TNT that drives a copper plate, around an inert block; a second detonator fires in material at rest. Plane strain.
+/// TNT that drives a copper plate, around an inert block; a second detonator fires in material at rest. Plane strain. The
+/// plate moves from the start, for a scale of momenta.
 cases::Case charge_on_plate() {
   return cases::read_case_text(R"(
 [domain]
@@ -36,7 +37,7 @@ end = "3 us"
 position = ["0 mm", "0 mm"]
 [[detonation]]
 position = ["20 mm", "8 mm"]
-delay = "1.2 us"
+delay = "0.9 us"
 [[body]]
 name = "charge"
 material = "tnt"
@@ -48,13 +49,14 @@ shape = { box = { lower = ["8 mm", "0 mm", "-1 mm"], upper = ["10 mm", "4 mm", "
 [[body]]
 name = "plate"
 material = "copper_ofhc_mie_gruneisen"
+velocity = ["1 m/s", "0 m/s"]
 shape = { box = { lower = ["20 mm", "0 mm", "-1 mm"], upper = ["22 mm", "8 mm", "1 mm"] } }
 )",
                                "charge_on_plate.toml");
 }
 
-/// Sums over the particles of all ranks in which each has a weight of its own: chemical energy (J), burn fraction,
-/// lighting time (s), and the sum of the last two without weights. Collective.
+/// Sums over the explosive of all ranks in which each particle has a weight of its own: chemical energy (J), burn
+/// fraction, lighting time (s), and the sums of the last two without weights. Collective.
 std::vector<double> sums_of(const Simulation& simulation, MPI_Comm communicator) {
   const Particles& q = simulation.particles();
   const auto &burnt = q.history.scalar("burn_fraction"), &lit = q.history.scalar("lighting_time");
@@ -62,6 +64,7 @@ std::vector<double> sums_of(const Simulation& simulation, MPI_Comm communicator)
   simulation.carriers()[0]->add_figures(figures);
   std::vector<double> sums = {figures.chemical_energy, 0.0, 0.0, 0.0, 0.0};
   for (std::size_t p = 0; p < q.size(); ++p) {
+    if (q.body[p] != 0) continue;
     const double weight = std::sin(static_cast<double>(q.id[p]));
     sums[1] += weight * burnt[p];
     sums[2] += weight * lit[p];
@@ -88,21 +91,21 @@ TEST(BurnRanks, AgreeWithOneRankAndGoOnWithTheirLighting) {
   advance_to(together, 1e-6);
   const std::filesystem::path file = io::write_checkpoint(folder, together.state().step, together.particles(),
                                                           run::to_checkpoint(together.state()), MPI_COMM_WORLD);
-  advance_to(together, 2e-6);
+  advance_to(together, 1.7e-6);
   advance_on_root(alone, 1e-6);
-  advance_on_root(alone, 2e-6);
+  advance_on_root(alone, 1.7e-6);
   expect_agreement(together, alone, 1e-11);
   EXPECT_EQ(together.particles().size() < together.particle_count(), ranks.is_parallel());
   const std::vector<double> of_all = sums_of(together, MPI_COMM_WORLD), of_one = sums_of(alone, MPI_COMM_SELF);
   io::Checkpoint checkpoint = io::read_checkpoint(file, MPI_COMM_SELF);
   Simulation resumed(setup, std::move(checkpoint.particles), run::from_checkpoint(checkpoint.values), MPI_COMM_SELF);
-  advance_on_root(resumed, 2e-6);
+  advance_on_root(resumed, 1.7e-6);
   MPI_Barrier(MPI_COMM_WORLD);
   ranks.on_root([&] { std::filesystem::remove_all(folder); });
   if (!is_root()) return;
   EXPECT_GT(of_one[0], 0.05 * store);  // both fronts are under way
   EXPECT_LT(of_one[0], 0.8 * store);
-  EXPECT_GT(alone.totals().kinetic_energy, 0.02 * store);
+  EXPECT_GT(alone.totals().kinetic_energy, 0.01 * store);
   expect_same_burn(of_all, of_one, store);
   expect_equal(resumed, alone, 1e-11);
   expect_same_burn(sums_of(resumed, MPI_COMM_SELF), of_one, store);

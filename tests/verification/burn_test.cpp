@@ -394,7 +394,7 @@ TEST(Burn, ProductsRetireBelowAPressureAndAreCounted) {
   const auto run = [&](const std::string& burn) {
     std::string text = column("tnt", length, h, lit_at_wall + burn + plate_beside(length, h));
     text.replace(text.find("0.011"), 5, "0.06");
-    text.replace(text.find("x_lower = \"symmetry\", "), 23, "");
+    text.replace(text.find("x_lower = \"symmetry\", "), 22, "");
     text.replace(text.find("lower = [0, 0]"), 14, "lower = [-0.06, 0]");
     auto simulation = std::make_unique<solver::Simulation>(default_case(end, text), parallel::world());
     run_to(*simulation, end);
