@@ -49,16 +49,22 @@ double largest_change(const ModelScale& a, const ModelScale& b) {
 SolidConstants converged(const Observations& data, const SolidModel& model, const FitSettings& settings,
                          SolidConstants constants, const ModelScale& scale) {
   constexpr int most_passes = 30;
+  constexpr double settled_of_errors = 3e-3;
   double former_change = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < most_passes; ++pass) {
     const SolidProblem problem(data, settings, model, constants, scale);
-    const VectorXd step = solve(problem.least_squares()).parameters;
+    const LeastSquaresSolution solution = solve(problem.least_squares());
+    const VectorXd& step = solution.parameters;
     constants = problem.constants_at(step);
     const double change = step.head(problem.constants()).lpNorm<Eigen::Infinity>();
     // Sharp data leave a badly conditioned problem, whose solution scatters by a millionth: no pass removes
     // that.
     const bool at_its_noise = change < 1e-5 && change > 0.5 * former_change;
     if (change < 1e-7 || at_its_noise || !model.fits(Place::melting)) return constants;
+    // Correlated model errors are worse conditioned: a small part of the errors of the constants is settled.
+    const VectorXd errors = solution.covariance.diagonal().head(problem.constants()).cwiseSqrt();
+    const double of_errors = step.head(problem.constants()).cwiseQuotient(errors).lpNorm<Eigen::Infinity>();
+    if (settings.structure == ErrorStructure::correlated && of_errors < settled_of_errors) return constants;
     former_change = change;
   }
   throw StateError("the fit of the melting temperature does not settle");
