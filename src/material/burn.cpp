@@ -126,7 +126,9 @@ eos::RangeReport BurningExplosive::evaluate(const eos::Batch& batch, std::span<c
     const auto mixed = [f](double of_unreacted, double of_products) {
       return f >= 1.0 ? of_products : f > 0.0 ? (1.0 - f) * of_unreacted + f * of_products : of_unreacted;
     };
-    batch.pressure[i] = mixed(batch.pressure[i], pressure[i]);
+    // What burns by a rate law for long has parted by then: its reactant bears no tension between the products.
+    const double of_reactant = of.reaction != nullptr ? std::max(batch.pressure[i], 0.0) : batch.pressure[i];
+    batch.pressure[i] = mixed(f > 0.0 ? of_reactant : batch.pressure[i], pressure[i]);
     batch.temperature[i] = mixed(batch.temperature[i], temperature[i]);
     const double c = batch.sound_speed[i];
     batch.sound_speed[i] = std::sqrt(mixed(c * c, sound_speed[i] * sound_speed[i]));
