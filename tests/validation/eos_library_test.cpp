@@ -45,7 +45,7 @@ Deviation isotherm(const EquationOfState& eos, const std::string& file, double r
   Deviation deviation;
   const double rho0 = density_at_pressure(eos, 0.0, temperature);
   for (const auto& row : read_csv(data + file)) {
-    const bool revised = row.size() == 3;  // classical scale, revised scale, volume
+    const bool revised = row.size() >= 3;  // classical scale, revised scale, volume, errors
     const double ratio = std::stod(row[revised ? 2 : 0]) / rest;
     deviation.add(eos.state_at_temperature(rho0 / ratio, temperature).pressure * 1e-9 - std::stod(row[1]));
   }
