@@ -31,7 +31,7 @@ PAGE = pathlib.Path(__file__).resolve().parent / "README.md"
 CASE = ROOT / "cases/copper_disk_on_aluminium/case.toml"
 AXISYMMETRIC = ["domain.dimension=axisymmetric", "domain.axis=z"]
 # Body: metal, its number in the case, measured density at rest (sources: README.md).
-BODIES = {"disk": ("copper", 1, "8.9445 g/cm^3"), "plate": ("aluminium", 2, "2.707 g/cm^3")}
+BODIES = {"disk": ("copper", 0, "8.9445 g/cm^3"), "plate": ("aluminium", 1, "2.707 g/cm^3")}
 TIERS = ("noise", "fit", "potentials")
 # Measure of `whipple analyse`: heading, factor from SI, decimals.
 MEASURES = {
@@ -41,7 +41,7 @@ MEASURES = {
     "front_speed": ("speed of the front, km/s", 1e-3, 3),
     "hole_diameter.plate": ("diameter of the hole, mm", 1e3, 2),
 }
-GRIDS = (1.0, 0.5, 0.25)          # cells of the ensemble, and finer ones
+GRIDS = (1.0, 0.75, 0.5)          # cells of the ensemble, and finer ones
 SHIFTS = (0.25, 0.5, 0.75, 0.125)  # of a cell along the flight
 TENTH = 0.1                        # change of a default of which no error is known
 NOT_CHANGED = ("hugoniot_quadratic", "hugoniot_cubic", "reference_energy")  # zero by the form of the law, or arbitrary
@@ -87,6 +87,8 @@ def fitted(options, body, samples, tier):
     stores = [usable(options.bin.resolve(), options.stores.resolve(), name)[0] for name in [central, *others]]
     if stores[0] is None:
         sys.exit(f"{metal}: the store of {central} can not be fitted")
+    if tier == "potentials" and sum(store is not None for store in stores) < 2:
+        return None, []
     folder = options.output.resolve() / "materials" / f"{body}_{tier}"
     folder.mkdir(parents=True, exist_ok=True)
     call([options.bin.resolve() / "whipple-fit", *[store for store in stores if store], "-q", "-o", f"{folder}/", "--force",
@@ -126,7 +128,8 @@ def uncertainty_section(options, ensemble):
     centre, samples = {}, {}
     for body in BODIES:
         for tier in TIERS:
-            centre[body], samples[body, tier] = fitted(options, body, options.members, tier)
+            material, samples[body, tier] = fitted(options, body, options.members, tier)
+            centre[body] = material or centre[body]
     own = [f"body.{number}.material={centre[body]}" for body, (_, number, _) in BODIES.items()]
     cell = float(options.cell.split()[0])
     unit = options.cell.split()[1]
@@ -149,12 +152,15 @@ def uncertainty_section(options, ensemble):
     for key, (heading, _, decimals) in MEASURES.items():
         deviations = {"lattice": spread([run[key] for run in lattice])[1]}
         for tier in TIERS:  # disk and plate are drawn by themselves: their variances add up, the lattice's once
-            parts = [spread([run[key] for run in members[body, tier]])[1] for body in BODIES]
-            deviations[tier] = math.sqrt(max(0.0, sum(part**2 for part in parts) - deviations["lattice"]**2))
+            parts = [spread([run[key] for run in members[body, tier]])[1] for body in BODIES if (body, tier) in members]
+            if not parts:
+                parts = [deviations["lattice"]]
+            excess = (len(parts) - 1) * deviations["lattice"]**2
+            deviations[tier] = math.sqrt(max(0.0, sum(part**2 for part in parts) - excess))
         parts = split(deviations)
         grid = grid_study([(factor * cell, grids[factor][key]) for factor in GRIDS],
                           STUDENT[len(lattice)] * parts["lattice"])
-        disk_potential = spread([run[key] for run in members["disk", "potentials"]])[1]
+        disk_potential = spread([run[key] for run in members.get(("disk", "potentials"), [])])[1]
         number = f".{decimals}f"
         band = math.hypot(*[1.96 * parts[part] for part in ("statistics", "model", "potential")],
                           STUDENT[len(lattice)] * parts["lattice"], grid.band)
@@ -166,10 +172,12 @@ def uncertainty_section(options, ensemble):
                   "all together", f"central, {GRIDS[-1] * cell:g} {unit}"], rows)
     rows = []
     for body, material in centre.items():
-        by_tier = {tier: thresholds(options, material, tier) for tier in (*TIERS, "all")}
+        tiers = (*TIERS, "all") if samples[body, "potentials"] else ("noise", "fit")
+        by_tier = {tier: thresholds(options, material, tier) for tier in tiers}
         for threshold, (mean, _) in by_tier["fit"].items():
             rows.append([BODIES[body][0], threshold, f"{mean:.1f}",
-                         *[f"{by_tier[tier].get(threshold, (math.nan, math.nan))[1]:.1f}" for tier in (*TIERS, "all")]])
+                         *[f"{by_tier[tier].get(threshold, (math.nan, math.nan))[1]:.1f}" if tier in by_tier else "one potential"
+                           for tier in (*TIERS, "all")]])
     return text + "\n" + table(["material", "shock pressure at which", "mean, GPa", "noise", "fit with its defaults",
                                 "potentials", "all"], rows)
 
