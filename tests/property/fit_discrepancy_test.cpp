@@ -72,7 +72,9 @@ Noise small_noise() {
 
 /// Fit of the solid alone, which is all that these deviations concern.
 ScaledFit solid_fit(const std::vector<md::PointRecord>& points, const FitSettings& settings) {
-  const Observations data = observe(points, settings, {}, "synthetic");
+  Observations data = observe(points, settings, {}, "synthetic");
+  data.isochores.resize(2);  // enough for their constants
+  for (Isochore& isochore : data.isochores) isochore.states.resize(3);
   SolidModel model;
   model.free = {Place::volume,    Place::intercept,       Place::slope,
                 Place::gruneisen, Place::gruneisen_slope, Place::anharmonic};
