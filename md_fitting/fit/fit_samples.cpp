@@ -101,15 +101,20 @@ FitSamples sample_fit(const Fit& fit, int count, std::uint64_t seed, ErrorTier t
       constant.source = source;
     }
     sample.fitted_names.clear();
+    const auto refuse = [&](const char* reason) {
+      if (++samples.refused > 4 * static_cast<int>(samples.fits.size()) + 20) {
+        throw InputError(fmt::format("{} of {} draws from the covariance make no material; the last: {}",
+                                     samples.refused, samples.refused + static_cast<int>(samples.fits.size()),
+                                     reason));
+      }
+    };
     try {
       require_material(sample);
       samples.fits.push_back(std::move(sample));
     } catch (const InputError& error) {
-      if (++samples.refused > 4 * static_cast<int>(samples.fits.size()) + 20) {
-        throw InputError(fmt::format("{} of {} draws from the covariance make no material; the last: {}",
-                                     samples.refused, samples.refused + static_cast<int>(samples.fits.size()),
-                                     error.what()));
-      }
+      refuse(error.what());
+    } catch (const StateError& error) {  // constants without the states that the model is built from
+      refuse(error.what());
     }
   }
   return samples;

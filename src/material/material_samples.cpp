@@ -173,7 +173,6 @@ MaterialSamples sample_material(const std::filesystem::path& path, int count, st
   if (over_potentials(tier)) covariance = joined(covariance, *errors.spread);
   samples.names = covariance.names;
   NormalSamples distribution(values_of(read_material(file), covariance), covariance.matrix, seed);
-  std::string reason;
   while (static_cast<int>(samples.materials.size()) < count) {
     const Eigen::VectorXd values = distribution.draw();
     std::vector<std::pair<std::string, std::string>> changes;
@@ -184,15 +183,19 @@ MaterialSamples sample_material(const std::filesystem::path& path, int count, st
                                ? fmt::format("{:.17g}", value)
                                : fmt::format("{:.17g} {}", value, covariance.units[k]));
     }
-    try {
-      samples.materials.push_back(read_changed_material(file, changes));
-    } catch (const InputError& error) {
-      reason = error.what();
+    const auto refuse = [&](const char* reason) {
       if (++samples.refused > 4 * static_cast<int>(samples.materials.size()) + 20) {
         throw InputError(fmt::format("{}: {} of {} draws from the covariance make no material; the last: {}",
                                      file.string(), samples.refused,
                                      samples.refused + static_cast<int>(samples.materials.size()), reason));
       }
+    };
+    try {
+      samples.materials.push_back(read_changed_material(file, changes));
+    } catch (const InputError& error) {
+      refuse(error.what());
+    } catch (const StateError& error) {  // constants without the states that the model is built from
+      refuse(error.what());
     }
   }
   return samples;

@@ -3,16 +3,17 @@
 """How far do the errors of a fitted equation of state reach into an impact? Draws materials of disk and plate by tier of
 the errors (noise, fit, potentials), evaluates the release thresholds of each tier, runs an ensemble of axisymmetric
 copper-on-aluminium impacts, and splits the bands on melted mass, front and hole into statistics, model, potential,
-lattice and grid. With --defaults: every default of the fitted materials changed by itself, and what the cloud makes of it.
+lattice and grid. With --thresholds: shock pressures of melting and vaporisation. With --defaults: every default of the fitted materials changed by itself, and what the cloud makes of it.
 Writes the tables of README.md.
 
-Usage: studies/impact_uncertainty/impact_uncertainty.py [--stores run/md] [--members 12] [--cell "0.4 mm"] [--defaults]
+Usage: studies/impact_uncertainty/impact_uncertainty.py [--stores run/md] [--members 12] [--cell "0.4 mm"] [--thresholds | --defaults]
                                                         [--bin build/release/bin] [-o run/impact_uncertainty]
 
 Stores: those of studies/fit_calibration (cases/md/*_short.toml).
 """
 import argparse
 import csv
+import hashlib
 import math
 import pathlib
 import re
@@ -31,7 +32,7 @@ PAGE = pathlib.Path(__file__).resolve().parent / "README.md"
 CASE = ROOT / "cases/copper_disk_on_aluminium/case.toml"
 AXISYMMETRIC = ["domain.dimension=axisymmetric", "domain.axis=z"]
 # Body: metal, its number in the case, measured density at rest (sources: README.md).
-BODIES = {"disk": ("copper", 1, "8.9445 g/cm^3"), "plate": ("aluminium", 2, "2.707 g/cm^3")}
+BODIES = {"disk": ("copper", 0, "8.9445 g/cm^3"), "plate": ("aluminium", 1, "2.707 g/cm^3")}
 TIERS = ("noise", "fit", "potentials")
 # Measure of `whipple analyse`: heading, factor from SI, decimals.
 MEASURES = {
@@ -41,7 +42,7 @@ MEASURES = {
     "front_speed": ("speed of the front, km/s", 1e-3, 3),
     "hole_diameter.plate": ("diameter of the hole, mm", 1e3, 2),
 }
-GRIDS = (1.0, 0.5, 0.25)          # cells of the ensemble, and finer ones
+GRIDS = (1.0, 0.75, 0.5)          # cells of the ensemble, and finer ones
 SHIFTS = (0.25, 0.5, 0.75, 0.125)  # of a cell along the flight
 TENTH = 0.1                        # change of a default of which no error is known
 NOT_CHANGED = ("hugoniot_quadratic", "hugoniot_cubic", "reference_energy")  # zero by the form of the law, or arbitrary
@@ -55,8 +56,14 @@ def call(command, allowed=(0,)):
     return result
 
 
+def digest(setting):
+    """SHA-256 of the file that a setting names; empty if it names none."""
+    file = pathlib.Path(setting.partition("=")[2])
+    return hashlib.sha256(file.read_bytes()).hexdigest() if file.suffix == ".toml" and file.is_file() else ""
+
+
 class Ensemble:
-    """Runs of the case with other materials, cells and places of the grid, each once."""
+    """Runs of the case with other materials, cells and places of the grid, each once for the same inputs."""
 
     def __init__(self, options):
         self.binaries = options.bin.resolve()
@@ -67,14 +74,17 @@ class Ensemble:
         """Measures of a run: quantity -> value in the units of MEASURES; NaN where there is none."""
         folder = self.folder / "runs" / name
         quantities = folder / "report/quantities.csv"
-        if not quantities.exists():
-            settings = [*AXISYMMETRIC, f"domain.cell_size={cell or self.cell}", *changes]
+        stamp = folder / "ensemble.txt"
+        settings = [*AXISYMMETRIC, f"domain.cell_size={cell or self.cell}", *changes]
+        inputs = "\n".join([*settings, *map(digest, settings)])
+        if not quantities.exists() or not stamp.exists() or stamp.read_text(encoding="utf-8") != inputs:
             call([self.binaries / "whipple", "run", CASE, "-o", folder, "--force", "--quiet",
                   *[word for setting in settings for word in ("--set", setting)]], allowed=(0, 3))
             call([self.binaries / "whipple", "analyse", folder, "--quiet"])
             for part in folder.glob("*.vtkhdf"):
                 part.unlink()
             shutil.rmtree(folder / "checkpoint", ignore_errors=True)
+            stamp.write_text(inputs, encoding="utf-8")
         with quantities.open(encoding="utf-8") as file:
             values = {row["quantity"]: float(row["value"]) for row in csv.DictReader(file)}
         return {key: factor * values.get(key, math.nan) for key, (_, factor, _) in MEASURES.items()}
@@ -87,6 +97,8 @@ def fitted(options, body, samples, tier):
     stores = [usable(options.bin.resolve(), options.stores.resolve(), name)[0] for name in [central, *others]]
     if stores[0] is None:
         sys.exit(f"{metal}: the store of {central} can not be fitted")
+    if tier == "potentials" and sum(store is not None for store in stores) < 2:
+        return None, []
     folder = options.output.resolve() / "materials" / f"{body}_{tier}"
     folder.mkdir(parents=True, exist_ok=True)
     call([options.bin.resolve() / "whipple-fit", *[store for store in stores if store], "-q", "-o", f"{folder}/", "--force",
@@ -118,7 +130,7 @@ def split(deviations):
 def thresholds(options, material, tier):
     """Rows of the release thresholds of a material: text -> (mean, standard deviation) in GPa."""
     report = call([options.bin.resolve() / "whipple", "eos", "hugoniot", material, "--from", "1 km/s", "--to", "4 km/s",
-                   "--points", 2, "--samples", 100, "--tier", tier]).stdout
+                   "--points", 2, "--samples", options.threshold_samples, "--tier", tier]).stdout
     return {text: (float(mean), float(deviation)) for text, mean, deviation, _, _ in THRESHOLD.findall(report)}
 
 
@@ -126,7 +138,8 @@ def uncertainty_section(options, ensemble):
     centre, samples = {}, {}
     for body in BODIES:
         for tier in TIERS:
-            centre[body], samples[body, tier] = fitted(options, body, options.members, tier)
+            material, samples[body, tier] = fitted(options, body, options.members, tier)
+            centre[body] = material or centre[body]
     own = [f"body.{number}.material={centre[body]}" for body, (_, number, _) in BODIES.items()]
     cell = float(options.cell.split()[0])
     unit = options.cell.split()[1]
@@ -149,12 +162,15 @@ def uncertainty_section(options, ensemble):
     for key, (heading, _, decimals) in MEASURES.items():
         deviations = {"lattice": spread([run[key] for run in lattice])[1]}
         for tier in TIERS:  # disk and plate are drawn by themselves: their variances add up, the lattice's once
-            parts = [spread([run[key] for run in members[body, tier]])[1] for body in BODIES]
-            deviations[tier] = math.sqrt(max(0.0, sum(part**2 for part in parts) - deviations["lattice"]**2))
+            parts = [spread([run[key] for run in members[body, tier]])[1] for body in BODIES if (body, tier) in members]
+            if not parts:
+                parts = [deviations["lattice"]]
+            excess = (len(parts) - 1) * deviations["lattice"]**2
+            deviations[tier] = math.sqrt(max(0.0, sum(part**2 for part in parts) - excess))
         parts = split(deviations)
         grid = grid_study([(factor * cell, grids[factor][key]) for factor in GRIDS],
                           STUDENT[len(lattice)] * parts["lattice"])
-        disk_potential = spread([run[key] for run in members["disk", "potentials"]])[1]
+        disk_potential = spread([run[key] for run in members.get(("disk", "potentials"), [])])[1]
         number = f".{decimals}f"
         band = math.hypot(*[1.96 * parts[part] for part in ("statistics", "model", "potential")],
                           STUDENT[len(lattice)] * parts["lattice"], grid.band)
@@ -164,14 +180,22 @@ def uncertainty_section(options, ensemble):
                      f"{band:{number}}", f"{grid.value:{number}}"])
     text = table(["", f"central, {options.cell}", "statistics", "model", "potential", "of it the disk's", "lattice", "grid",
                   "all together", f"central, {GRIDS[-1] * cell:g} {unit}"], rows)
+    return text
+
+
+def thresholds_section(options):
     rows = []
-    for body, material in centre.items():
-        by_tier = {tier: thresholds(options, material, tier) for tier in (*TIERS, "all")}
+    for body, (metal, _, _) in BODIES.items():
+        several = fitted(options, body, 1, "potentials")[0]
+        material = several or fitted(options, body, 1, "fit")[0]
+        by_tier = {tier: thresholds(options, material, tier) for tier in ((*TIERS, "all") if several else ("noise", "fit"))}
         for threshold, (mean, _) in by_tier["fit"].items():
-            rows.append([BODIES[body][0], threshold, f"{mean:.1f}",
-                         *[f"{by_tier[tier].get(threshold, (math.nan, math.nan))[1]:.1f}" for tier in (*TIERS, "all")]])
-    return text + "\n" + table(["material", "shock pressure at which", "mean, GPa", "noise", "fit with its defaults",
-                                "potentials", "all"], rows)
+            rows.append([metal, threshold, f"{mean:.1f}",
+                         *[f"{by_tier[tier].get(threshold, (math.nan, math.nan))[1]:.1f}" if tier in by_tier
+                           else "one potential" for tier in (*TIERS, "all")]])
+        print(f"{metal} done", flush=True)
+    return table(["material", "shock pressure at which", "mean, GPa", "noise", "fit with its defaults", "potentials",
+                  "all"], rows)
 
 
 QUANTITY = r'(?m)^{} = "?([-+0-9.e]+)( [^"#\n]*)?"?'
@@ -249,12 +273,16 @@ def main():
     parser.add_argument("--stores", type=pathlib.Path, default=ROOT / "run/md")
     parser.add_argument("--members", type=int, default=12)
     parser.add_argument("--cell", default="0.4 mm")
+    parser.add_argument("--thresholds", action="store_true", help="the release thresholds of each tier instead")
+    parser.add_argument("--threshold-samples", type=int, default=100)
     parser.add_argument("--defaults", action="store_true", help="the one-at-a-time table of the defaults instead")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "run/impact_uncertainty")
     options = parser.parse_args()
     ensemble = Ensemble(options)
     if options.defaults:
         write("defaults", defaults_section(options, ensemble))
+    elif options.thresholds:
+        write("thresholds", thresholds_section(options))
     else:
         write("bands", uncertainty_section(options, ensemble))
 
