@@ -77,11 +77,12 @@ def picture(run, path):
     found = particles_of(run, "liner")
     places = 1e3 * found["position"]
     figure, axes = plt.subplots(2, 1, figsize=(11, 5), sharex=True, layout="constrained")
-    for axis, values, label, sign in ((axes[0], 1e-3 * found["velocity"][:, 0], "axial velocity, km/s", 1),
-                                      (axes[1], found["temperature"], "temperature, K", 1)):
+    for axis, values, label in ((axes[0], 1e-3 * found["velocity"][:, 0], "axial velocity, km/s"),
+                                (axes[1], found["temperature"], "temperature, K")):
         order = values.argsort()
         for side in (1, -1):
-            points = axis.scatter(places[order, 0], side * sign * places[order, 1], c=values[order], s=1.5, cmap="inferno")
+            points = axis.scatter(places[order, 0], side * places[order, 1], c=values[order], s=1.5, cmap="inferno",
+                                  vmax=np.percentile(values, 99))
         figure.colorbar(points, ax=axis, label=label)
         axis.set(ylabel="radius, mm", aspect="equal", ylim=(-25, 25))
     axes[1].set(xlabel="axis, mm")
