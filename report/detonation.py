@@ -10,7 +10,7 @@ from report.wall_speed import interpolate
 
 
 def particles_of(folder, body):
-    """Fields of the particles of a body at the last snapshot and, as "position" and "x", their places (m); None where there are none."""
+    """Fields of the particles of a body at the last snapshot and, as "position" and "x", their places (m); None without any."""
     import h5py
 
     series = sorted(folder.glob("*.particles.hdf.series"))

@@ -64,8 +64,8 @@ def slab(whipple):
         places = [0.05 + 0.005 * i for i in range(181)]
         rows = [(PART * LENGTH * xi, *interpolated(points, xi)) for xi in places]
         write(ROOT / "cases" / "detonation_slab" / f"taylor_wave_{material}.csv",
-              f"Taylor wave of {material}, 0.05 < x/(D t) < 0.95, D = {D:.2f} m/s, t = {1e6 * PART * LENGTH / D:.4f} us, pressure of "
-              f"rest {1e-9 * points[0][1]:.4f} GPa", rows)
+              f"Taylor wave of {material}, 0.05 < x/(D t) < 0.95, D = {D:.2f} m/s, t = {1e6 * PART * LENGTH / D:.4f} us, "
+              f"pressure of rest {1e-9 * points[0][1]:.4f} GPa", rows)
 
 
 def gamma_law():
@@ -81,7 +81,8 @@ def gamma_law():
 
     t = PART * T
     wave = [row(D * t * xi, *behind_front(D * t * xi, t)) for xi in (0.05 + 0.005 * i for i in range(181))]
-    write(ROOT / "cases" / "gamma_law_detonation" / "wall.csv", f"Mader's problem at {1e6 * t:.4f} us, 0.05 < x/(D t) < 0.95", wave)
+    folder = ROOT / "cases" / "gamma_law_detonation"
+    write(folder / "wall.csv", f"Mader's problem at {1e6 * t:.4f} us, 0.05 < x/(D t) < 0.95", wave)
     t = 1.4 * T
     rows = []
     for i in range(401):
@@ -90,7 +91,7 @@ def gamma_law():
         if x > X - 0.5 * D * (t - T):  # the rarefaction from the end of the charge has arrived
             c, u = (0.5 * (x / t + sign * (x - X) / (t - T)) for sign in (-1, 1))
         rows.append(row(x, max(c, 0.0), u))
-    write(ROOT / "cases" / "gamma_law_detonation" / "escape.csv", f"escape into vacuum at {1e6 * t:.4f} us, to the front at D t", rows)
+    write(folder / "escape.csv", f"escape into vacuum at {1e6 * t:.4f} us, to the front at D t", rows)
 
 
 if __name__ == "__main__":

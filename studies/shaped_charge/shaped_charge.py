@@ -8,13 +8,14 @@ Usage: studies/shaped_charge/shaped_charge.py RUN... [--half-angle 21] [--explos
 Theory (J. Appl. Phys. 23 (1952) 532): an element of the cone at x from the apex is reached by a plane detonation of velocity D,
 collapses with V0(x) under the angle of Taylor, sin(delta) = V0 cos(alpha)/(2 D), A = alpha + delta, and meets the axis at
 
-    tan(beta) = {sin a + 2 sin d cos A - x sin a [1 - tan A tan a] V0'/V0}/{cos a - 2 sin d sin A + x sin a [tan A + tan a] V0'/V0}
+    tan(beta) = {sin a + 2 sin d cos A - x sin a [1 - tan A tan a] V0'/V0}
+              / {cos a - 2 sin d sin A + x sin a [tan A + tan a] V0'/V0}
     V_jet = V0 cos(a + d - beta/2)/sin(beta/2),  dm_jet/dm = sin^2(beta/2)
 
 V0 is Gurney's velocity of an open-faced sandwich, sqrt(2E) {[(1 + 2m)^3 + 1]/[6 (1 + m)] + m}^(-1/2), m the mass of the liner
 over that of the explosive outside of it, which it approaches as 1 - exp(-t/tau), tau = mu V/(2 p_CJ), mu its mass per area
-(Chou and Flis, Propellants Explos. Pyrotech. 11 (1986) 99); V0 is what it has where it meets the axis. Elements near the apex, which are slower than the next, join them: the tip has the
-mean velocity of the jet up to where it equals that of the element.
+(form of Chou and Flis, as remembered); V0 is what it has where it meets the axis. Elements near the apex, which are slower than
+the next, join them: the tip has the mean velocity of the jet up to where it equals that of the element.
 """
 import argparse
 import pathlib
@@ -27,7 +28,8 @@ sys.path[0] = str(ROOT)
 from report.detonation import particles_of  # noqa: E402
 
 CHARGE_RADIUS, BASE_RADIUS, WALL, LINER_DENSITY = 41.5e-3, 40.65e-3, 1.905e-3, 8930.0  # m, kg/m^3
-EXPLOSIVES = {"composition_b": (1717.0, 7980.0, 2700.0, 29.5e9), "lx_10": (1860.0, 8820.0, 2970.0, 37.5e9)}  # kg/m^3, D and sqrt(2E), m/s, p_CJ, Pa
+# Density, kg/m^3, D and sqrt(2E), m/s, p_CJ, Pa.
+EXPLOSIVES = {"composition_b": (1717.0, 7980.0, 2700.0, 29.5e9), "lx_10": (1860.0, 8820.0, 2970.0, 37.5e9)}
 SHARES = (0.001, 0.005, 0.01, 0.02, 0.05, 0.1, 0.15, 0.2)
 
 
@@ -77,11 +79,12 @@ def picture(run, path):
     found = particles_of(run, "liner")
     places = 1e3 * found["position"]
     figure, axes = plt.subplots(2, 1, figsize=(11, 5), sharex=True, layout="constrained")
-    for axis, values, label, sign in ((axes[0], 1e-3 * found["velocity"][:, 0], "axial velocity, km/s", 1),
-                                      (axes[1], found["temperature"], "temperature, K", 1)):
+    for axis, values, label in ((axes[0], 1e-3 * found["velocity"][:, 0], "axial velocity, km/s"),
+                                (axes[1], found["temperature"], "temperature, K")):
         order = values.argsort()
         for side in (1, -1):
-            points = axis.scatter(places[order, 0], side * sign * places[order, 1], c=values[order], s=1.5, cmap="inferno")
+            points = axis.scatter(places[order, 0], side * places[order, 1], c=values[order], s=1.5, cmap="inferno",
+                                  vmax=np.percentile(values, 99))
         figure.colorbar(points, ax=axis, label=label)
         axis.set(ylabel="radius, mm", aspect="equal", ylim=(-25, 25))
     axes[1].set(xlabel="axis, mm")

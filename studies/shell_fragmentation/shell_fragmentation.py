@@ -32,7 +32,8 @@ def main():
     parser.add_argument("--body", default="shell")
     parser.add_argument("--link", type=float, default=LINK)
     arguments = parser.parse_args()
-    print("| run | pieces | mean mass, g | largest, g | exponent b | dust, % | pieces of 1 to 3 particles, % |\n" + "| --- " * 7 + "|")
+    print("| run | pieces | mean mass, g | largest, g | exponent b | dust, % | pieces of 1 to 3 particles, % |")
+    print("| --- " * 7 + "|")
     by_cell = {}
     for folder in arguments.runs:
         cell, masses, dust, small = fragments_of(folder, arguments.body, arguments.link)
