@@ -56,6 +56,12 @@ class LegacyReader {
   /// A number of things that follow; they take memory one by one.
   std::size_t count() { return number<std::size_t>(); }
 
+  /// Leaves out what is said of an array, up to a blank line.
+  void skip_metadata() {
+    line_of_text();
+    while (!rest_.empty() && rest_.front() != '\n' && rest_.front() != '\r') line_of_text();
+  }
+
   void read_section(std::string_view section) {
     if (section == "POINTS") {
       const std::size_t points = count();
@@ -76,13 +82,13 @@ class LegacyReader {
     } else if (section == "FIELD") {
       word();
       for (std::size_t left = count(); left > 0; --left) {
-        const std::string name(word());
+        std::string name(word());
+        for (; name == "METADATA"; name = word()) skip_metadata();  // of the array before
         const std::size_t components = count(), tuples = count();
         take(name, word(), components, tuples);
       }
     } else if (section == "METADATA") {
-      line_of_text();
-      while (!rest_.empty() && rest_.front() != '\n' && rest_.front() != '\r') line_of_text();  // up to a blank line
+      skip_metadata();
     } else if (section == "VECTORS" || section == "NORMALS") {
       word();
       word();

@@ -42,7 +42,7 @@ class Browser:
                 break
         require(port, "the driver of Chromium does not start")
         threading.Thread(target=self.process.stdout.read, daemon=True).start()
-        self.connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120)
+        self.connection = http.client.HTTPConnection("127.0.0.1", port, timeout=600)
         self.session = ""
         arguments = ["--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
                      "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
@@ -50,6 +50,7 @@ class Browser:
         options = {"browserName": "chrome", "goog:chromeOptions": {"binary": browser, "args": arguments},
                    "goog:loggingPrefs": {"browser": "ALL"}, "unhandledPromptBehavior": "ignore"}
         self.session = "/session/" + self.do("POST", "/session", {"capabilities": {"alwaysMatch": options}})["sessionId"]
+        self.do("POST", "/timeouts", {"script": 500000})  # ms: a crowded machine draws slowly
 
     def __enter__(self):
         return self

@@ -177,7 +177,9 @@ TEST(PackedCloud, FieldsOfEightBitsHaveTheirOwnSteps) {
   const Unpacked cloud(narrow);
   EXPECT_EQ(cloud.field("pressure").at("type"), "u8");
   EXPECT_EQ(cloud.planes.at("pressure"), (std::vector<std::uint32_t>{0, 255, 254, 127}));
-  for (const char* exact : {"x", "id", "phase", "body"}) EXPECT_EQ(cloud.planes.at(exact), Unpacked(wide).planes.at(exact));
+  const Unpacked full(wide);
+  EXPECT_EQ(cloud.position, full.position);
+  for (const char* exact : {"id", "phase", "body"}) EXPECT_EQ(cloud.planes.at(exact), full.planes.at(exact));
   EXPECT_LT(narrow.size(), wide.size());
 }
 
