@@ -169,7 +169,7 @@ def page_is_small(work):
 def several_runs_are_compared(work):
     """Two runs that differ in one key and in their masses: the page says so, on common scales."""
     copies = []
-    for name in ("one", "other"):
+    for name in ("one", "another"):
         folder = work / name
         shutil.copytree(CLOUD, folder, ignore=shutil.ignore_patterns("checkpoint", "report"))
         copies.append(folder)
