@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "src/analysis/measures.hpp"
@@ -32,8 +33,8 @@ struct Profile {
 
 /// Layers of thickness `size` above `lower`.
 /// @param may_stand_off  look whether the material ends before the wall, and begin there
-Profile diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body, double size,
-                              double lower, double upper, bool wall_at_upper, bool may_stand_off) {
+Profile diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body, double size, double lower,
+                  double upper, bool wall_at_upper, bool may_stand_off) {
   double radius = 0.0;
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     if (snapshot.body[i] == body) radius = std::max(radius, frame.radius(snapshot.position[i]));
@@ -41,20 +42,29 @@ Profile diameters(const Snapshot& snapshot, const Frame& frame, std::size_t body
   const auto mine = [&](std::size_t i) { return snapshot.body[i] == body; };
   const RingField field(snapshot, frame, size, lower, upper, radius + 2.0 * size, mine, wall_at_upper);
   std::vector<double> result(field.layers());
-  constexpr double least_filled = 0.3;  // less may be a hollow in the face
+  constexpr double least_filled = 0.3;
   for (std::size_t k = 0; k < result.size(); ++k) {
     result[k] = 2.0 * std::sqrt(field.cross_section(k) / std::numbers::pi);
   }
-  // A bar that meets its wall stands a part of a cell before it: the layer there is not full, at the axis either.
-  // The layers begin at the bar's face then.
-  if (may_stand_off && result.size() > 2) {
-    const std::size_t k = result.size() - 1;
-    const double core = 0.25 * result[k - 1], full = core_fraction(field, k - 1, core);
-    const double filled = full > 0.0 ? core_fraction(field, k, core) / full : 1.0;
-    if (filled > least_filled && filled < 1.0) {
-      const double gap = (1.0 - filled) * size;
-      return diameters(snapshot, frame, body, size, lower - gap, upper - gap, true, false);
-    }
+  if (!may_stand_off || result.size() < 3) return {std::move(result), upper};
+  // A bar that has rebounded may leave a few particles at the wall: layers that are nearly empty are not its end.
+  constexpr std::size_t looked_at = 12;  // layers
+  const auto near = std::span(result).last(std::min(looked_at, result.size()));
+  const double widest = *std::ranges::max_element(near);
+  const auto share = [&](std::size_t k) { return result[k] * result[k] / (widest * widest); };
+  std::size_t last = result.size() - 1;
+  while (last > 2 && share(last) < least_filled) --last;
+  if (last + 1 < result.size()) {
+    const double gap = (static_cast<double>(result.size() - 1 - last) - share(last + 1)) * size;
+    return diameters(snapshot, frame, body, size, lower - gap, upper - gap, true, true);
+  }
+  // It stands a part of a cell before the wall: the layer there is not full, at the axis either. The layers begin at
+  // the bar's face then.
+  const double core = 0.25 * result[last - 1], full = core_fraction(field, last - 1, core);
+  const double filled = full > 0.0 ? core_fraction(field, last, core) / full : 1.0;
+  if (filled > least_filled && filled < 1.0) {
+    const double gap = (1.0 - filled) * size;
+    return diameters(snapshot, frame, body, size, lower - gap, upper - gap, true, false);
   }
   return {std::move(result), upper};
 }

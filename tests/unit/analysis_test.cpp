@@ -280,6 +280,7 @@ TEST(Bar, AFootThatStandsBeforeTheWallIsAsWideAndTheBarAsLong) {
     maker.fill({0, 0, 0}, {8e-3, 8e-3, 20e-3}, [](const Vector3& p) { return std::hypot(p.x(), p.y()) < 5e-3; },
                {0, 0, -200});
     for (Vector3& position : maker.snapshot.position) position.z() += gap * cell;
+    maker.add({0.1e-3, 0.1e-3, 0.1 * cell}, {0, 0, 0});  // left at the wall
     Frame frame = quarter(200);
     frame.sign = -1.0;
     frame.wall = 0.0;
