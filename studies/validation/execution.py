@@ -8,7 +8,7 @@ import time
 
 from studies.validation import provenance
 from studies.validation.cases import ROOT, BadExpectation, Measures, all_cases
-from studies.validation.variants import FRAME_DEPENDENT, Variant, back_to_rest, vector
+from studies.validation.variants import FRAME_DEPENDENT, Variant, as_simulated, back_to_rest, vector
 
 RESULTS = ROOT / "run" / "results"
 
@@ -53,8 +53,9 @@ def execute(whipple, case, run, variant, threads, folder=None, more=(), any_sour
         print(f"  failed with exit code {done.returncode}", flush=True)
         return False
     if any(variant.frame):
-        bodies = run.resolved(variant.resolution)["body"]
-        back_to_rest(folder, variant.frame, [vector(body.get("velocity", [0, 0, 0]), run.name) for body in bodies])
+        table = run.resolved(variant.resolution)
+        rest = [vector(body.get("velocity", [0, 0, 0]), run.name) for body in table["body"]]
+        back_to_rest(folder, as_simulated(variant.frame, table["domain"]), [as_simulated(v, table["domain"]) for v in rest])
     provenance.write(folder, run, variant, command, whipple, threads, time.monotonic() - begin)
     return True
 

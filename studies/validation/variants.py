@@ -41,6 +41,13 @@ def vector(values, where):
     return [quantity(v, where)[0] for v in values]
 
 
+def as_simulated(values, domain):
+    """Components of a vector of a case as its snapshots and its run.toml have them: in a section domain.axis becomes x, the
+    next one of x, y, z, x becomes y."""
+    first = 0 if domain.get("dimension", "3d") == "3d" else AXES.index(domain.get("axis", "x"))
+    return [values[(first + k) % len(values)] for k in range(len(values))]
+
+
 def text_of(values, unit):
     return "[" + ", ".join(f'"{v:.12g} {unit}"' if v else "0" for v in values) + "]"
 
@@ -87,7 +94,8 @@ def variants_of(run, band):
 def back_to_rest(folder, velocity, rest):
     """Takes the velocity of the frame off the snapshots and run.toml of a finished run, in place.
 
-    `rest`: the velocities of the bodies in the frame of the laboratory. What is left in the moving frame is history.csv.
+    `rest`: the velocities of the bodies in the frame of the laboratory; both `as_simulated`. What is left in the moving
+    frame is history.csv.
     """
     import h5py
     import numpy as np

@@ -207,6 +207,13 @@ def variants_are_complete(case):
         require(False, "a frame moves through a mirror plane")
 
 
+def vectors_of_sections_are_turned():
+    require(variants.as_simulated([1, 2, 3], {}) == [1, 2, 3], "three dimensions")
+    require(variants.as_simulated([1, 2, 3], {"dimension": "axisymmetric", "axis": "z"}) == [3, 1, 2], "the axis is x")
+    require(variants.as_simulated([1, 2, 3], {"dimension": "plane_strain"}) == [1, 2, 3], "x by default")
+    require(variants.as_simulated([1, 2], {"dimension": "axisymmetric"}) == [1, 2], "two components")
+
+
 def snapshots_go_back_to_rest(work):
     import h5py
     import numpy as np
@@ -280,6 +287,7 @@ with contextlib.ExitStack() as stack:
     made_up = made_up_case(work)
     variants_are_complete(made_up)
     runs_begin_like_others(made_up)
+    vectors_of_sections_are_turned()
     snapshots_go_back_to_rest(work)
     a_run_is_compared(made_up, work)
 print("expectations: all checks passed")
