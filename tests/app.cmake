@@ -44,7 +44,7 @@ endif()
 if(WHIPPLE_PYTHON AND NOT WHIPPLE_SANITIZE)
   add_test(NAME drift COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/drift.py --threads 2
            --whipple $<TARGET_FILE:whipple> --work ${CMAKE_CURRENT_BINARY_DIR}/drift)
-  set_tests_properties(drift PROPERTIES LABELS drift PROCESSORS 2 TIMEOUT 300 COST 20)
+  set_tests_properties(drift PROPERTIES LABELS drift TIMEOUT 300 COST 20)
 endif()
 
 # How to cite: the title of CITATION.cff, and the sources of every table of a material.

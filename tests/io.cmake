@@ -11,7 +11,7 @@ target_link_libraries(test_io_ranks PRIVATE whipple_flags whipple_io GTest::gmoc
 foreach(ranks 1 3)
   add_test(NAME test_io_ranks.${ranks}
            COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:test_io_ranks>)
-  set_tests_properties(test_io_ranks.${ranks} PROPERTIES LABELS fast TIMEOUT 120 PROCESSORS 2
+  set_tests_properties(test_io_ranks.${ranks} PROPERTIES LABELS fast TIMEOUT 120
     ENVIRONMENT "${mpi_environment}")
 endforeach()
 
@@ -25,7 +25,7 @@ if(WHIPPLE_PYTHON)
     set(cloud ${CMAKE_CURRENT_BINARY_DIR}/synthetic_cloud_${ranks})
     add_test(NAME io_synthetic_cloud.${ranks}
              COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:io_synthetic_cloud> ${cloud} 20000 5)
-    set_tests_properties(io_synthetic_cloud.${ranks} PROPERTIES LABELS fast TIMEOUT 120 PROCESSORS 2
+    set_tests_properties(io_synthetic_cloud.${ranks} PROPERTIES LABELS fast TIMEOUT 120 COST 50
       ENVIRONMENT "${mpi_environment}" FIXTURES_SETUP synthetic_cloud_${ranks})
     add_test(NAME io_vtkhdf_schema.${ranks}
              COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/io_vtkhdf_schema.py ${cloud} ${ranks})

@@ -18,6 +18,6 @@ if(TARGET whipple_python_eos AND WHIPPLE_PYTHON)
 
   add_test(NAME python_example COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/python/tests/test_example.py
            $<TARGET_FILE:whipple>)
-  set_tests_properties(python_example PROPERTIES LABELS fast TIMEOUT 300 PROCESSORS 2
+  set_tests_properties(python_example PROPERTIES LABELS fast TIMEOUT 300
                        ENVIRONMENT "${python_environment};${mpi_environment};MPLCONFIGDIR=${CMAKE_CURRENT_BINARY_DIR}")
 endif()

@@ -46,18 +46,18 @@ foreach(ranks 1 2 4 8)
   endif()
   add_test(NAME test_solver_ranks.${ranks}
            COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:test_solver_ranks>)
-  set_tests_properties(test_solver_ranks.${ranks} PROPERTIES LABELS ${label} TIMEOUT 900 PROCESSORS 2 COST 30
+  set_tests_properties(test_solver_ranks.${ranks} PROPERTIES LABELS ${label} TIMEOUT 900 COST 30
     ENVIRONMENT "${mpi_environment}")
 endforeach()
 if(WHIPPLE_PYTHON)
   add_test(NAME solver_rank_killed
            COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/parallel/solver_rank_killed.py $<TARGET_FILE:whipple>
                    ${PROJECT_SOURCE_DIR}/cases/copper_disk_on_aluminium/case.toml ${CMAKE_CURRENT_BINARY_DIR}/rank_killed)
-  set_tests_properties(solver_rank_killed PROPERTIES LABELS fast TIMEOUT 300 PROCESSORS 2)
+  set_tests_properties(solver_rank_killed PROPERTIES LABELS fast TIMEOUT 300 COST 10)
   add_test(NAME run_processes COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/parallel/run_processes.py
            $<TARGET_FILE:whipple> ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml
            ${PROJECT_SOURCE_DIR}/cases/md/copper_mishin_short.toml ${CMAKE_CURRENT_BINARY_DIR}/run_processes)
-  set_tests_properties(run_processes PROPERTIES LABELS fast TIMEOUT 300 PROCESSORS 2 COST 20)
+  set_tests_properties(run_processes PROPERTIES LABELS fast TIMEOUT 300 COST 20)
   foreach(ranks 1 2)
     add_test(NAME torture.${ranks} COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/torture.py $<TARGET_FILE:whipple>
              ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/torture_${ranks} --runs 10 --ranks ${ranks})
