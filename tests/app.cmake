@@ -30,7 +30,7 @@ if(WHIPPLE_PYTHON)
   add_test(NAME app_monitor_browser COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_monitor_browser.py
            $<TARGET_FILE:whipple> ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/app_monitor_browser)
   set_tests_properties(app_monitor PROPERTIES LABELS fast TIMEOUT 300)
-  set_tests_properties(app_monitor_browser PROPERTIES LABELS browser TIMEOUT 300 COST 80 SKIP_RETURN_CODE 77)
+  set_tests_properties(app_monitor_browser PROPERTIES LABELS "browser;long" TIMEOUT 300 COST 80 SKIP_RETURN_CODE 77)
 endif()
 
 # The library as another program finds it; the libraries of a build with sanitizers need their flags.
