@@ -11,10 +11,12 @@ Models of OpenKIM need scripts/install_deps.sh --kim.
 import argparse
 import pathlib
 import re
-import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+from studies.commands import call  # noqa: E402
+
 PAGE = pathlib.Path(__file__).resolve().parent / "README.md"
 FIGURE = PAGE.parent / "calibration.png"
 BEGIN, END = "<!-- tables: begin -->", "<!-- tables: end -->"
@@ -32,13 +34,6 @@ TIERS = {"fit": "the fit", "potentials": "the potentials", "all": "both"}
 LEVELS = [50, 68, 80, 90, 95, 99]
 ROW = re.compile(r"^(?P<experiment>\S+)\s+\S+\s+(?P<points>\d+)\s+(?P<width>[\d.]+) %\s+(?P<error>[\d.]+) %\s+"
                  r"(?P<band>[\d.]+) %\s+(?P<levels>[\d. ]+)$", re.MULTILINE)
-
-
-def call(command, allowed=(0,)):
-    result = subprocess.run([str(word) for word in command], capture_output=True, text=True, cwd=ROOT, check=False)
-    if result.returncode not in allowed:
-        sys.exit(f"{' '.join(map(str, command))}\nfailed with code {result.returncode}:\n{result.stdout}{result.stderr}")
-    return result
 
 
 def calibration_rows(report):

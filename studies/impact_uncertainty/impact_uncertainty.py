@@ -19,12 +19,12 @@ import pathlib
 import re
 import shutil
 import statistics
-import subprocess
 import sys
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
+from studies.commands import call  # noqa: E402
 from studies.fit_calibration.fit_calibration import METALS, table, usable  # noqa: E402
 from studies.validation.bands import STUDENT, grid_study  # noqa: E402
 
@@ -47,13 +47,6 @@ SHIFTS = (0.25, 0.5, 0.75, 0.125)  # of a cell along the flight
 TENTH = 0.1                        # change of a default of which no error is known
 NOT_CHANGED = ("hugoniot_quadratic", "hugoniot_cubic", "reference_energy")  # zero by the form of the law, or arbitrary
 THRESHOLD = re.compile(r"^((?:melting|vaporisation) [\w ]+?) ([\d.]+) \+- ([\d.]+|nan) GPa \((\d+) of (\d+) samples\)", re.MULTILINE)
-
-
-def call(command, allowed=(0,)):
-    result = subprocess.run([str(word) for word in command], capture_output=True, text=True, cwd=ROOT, check=False)
-    if result.returncode not in allowed:
-        sys.exit(f"{' '.join(map(str, command))}\nfailed with code {result.returncode}:\n{result.stdout}{result.stderr}")
-    return result
 
 
 def digest(setting):

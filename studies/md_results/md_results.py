@@ -12,11 +12,13 @@ import argparse
 import pathlib
 import re
 import statistics
-import subprocess
 import sys
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+from studies.commands import call  # noqa: E402
+
 PAGE = ROOT / "docs/generated/results_md.md"
 
 # Metal, its plans (cases/md/NAME_short.toml; _melting.toml too where there is one) with the potentials, and the
@@ -60,13 +62,6 @@ CONSTANTS = [  # key of the material, its unit there, heading, factor from SI fo
     ("melting_temperature", "T_m0 K", 1.0, 0),
     ("melting_entropy", "Delta S J/(mol K)", 1.0, 2),
 ]
-
-
-def call(command, allowed=(0,)):
-    result = subprocess.run([str(word) for word in command], capture_output=True, text=True, cwd=ROOT, check=False)
-    if result.returncode not in allowed:
-        sys.exit(f"{' '.join(map(str, command))}\nfailed with code {result.returncode}:\n{result.stdout}{result.stderr}")
-    return result
 
 
 def number(text):
