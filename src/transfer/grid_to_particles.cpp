@@ -46,18 +46,19 @@ double external_work(Lanes new_velocity, Lanes increment, double mass, const Vec
 }
 
 /// New velocity and affine field of a point, and position (4.4).
-template <AffineField field, class Points>
+template <bool affine, class Points>
 [[gnu::always_inline]] inline void advance_point(Points& points, std::size_t p, double dt,
-                                                 const Advance<>& advance) {
+                                                 const Advance<>& advance, AffineField field) {
   store_vector(points.velocity[p].data(), advance.velocity);
   store_vector(points.position[p].data(),
                load_vector(points.position[p].data()) + dt * advance.grid_velocity.value);
-  if constexpr (field == AffineField::none) return;
-  std::array<Lanes, 3> columns = advance.affine;
-  if constexpr (field == AffineField::turned) {
-    turn_affine_field(columns, matrix(advance.grid_velocity.gradient), dt);
+  if constexpr (affine) {
+    std::array<Lanes, 3> columns = advance.affine;
+    if (field == AffineField::turned) {
+      turn_affine_field(columns, matrix(advance.grid_velocity.gradient), dt);
+    }
+    store_columns(points.affine_velocity[p], columns);
   }
-  store_columns(points.affine_velocity[p], columns);
 }
 
 /// |dv|^2 of a particle in the step (m^2/s^2).
@@ -73,16 +74,16 @@ double squared_change(Lanes velocity, const Vector3& former) {
 }
 
 /// @param radius  of a ring, where it was before the step (m); 0: not axisymmetric
-template <AffineField field, bool planar>
+template <bool affine, bool planar>
 [[gnu::always_inline]] inline TransferBalance update_particle(Particles& particles, std::size_t p, double dt,
-                                                              const Advance<>& advance, Matrix3& gradient,
-                                                              const Losses& losses,
+                                                              const Advance<>& advance, AffineField field,
+                                                              Matrix3& gradient, const Losses& losses,
                                                               std::span<const Vector3> acceleration,
                                                               double radius) {
   const double mean_stress = -(particles.pressure[p] + particles.artificial_viscosity[p]);
   const std::array<Lanes, 3> stress = stress_columns<0>(particles.deviatoric_stress[p], mean_stress);
   const double change = squared_change(advance.velocity, particles.velocity[p]);
-  advance_point<field>(particles, p, dt, advance);
+  advance_point<affine>(particles, p, dt, advance, field);
   // The mean of old and new grid velocity makes the exact work identity (4.6).
   const auto mean_gradient = [&](std::size_t a) {
     return advance.grid_velocity.gradient[a] - 0.5 * advance.increment.gradient[a];
@@ -126,8 +127,8 @@ template <AffineField field, bool planar>
 }
 
 /// Slots that follow one another and hold some `points_of_stretch` particles in all; a fuller slot is alone.
-/// Number of particles: what gather and material read and write of these, some 500 bytes of each, stays in the
-/// second-level cache.
+/// Number of particles: what gather and material read and write of these, some 500 bytes of each, stays in
+/// the second-level cache.
 struct Stretch {
   std::size_t first_slot, slots;
 };
@@ -179,7 +180,8 @@ TransferBalance gather_particles(BlockGrid& grid, const TakeGradients& take,
       of_slot[slot] = balance;
     }
     if (!take) return;
-    const std::size_t batch = kernel_set() == KernelSet::plain ? 1 : size;  // the reference knows single points only
+    const std::size_t batch =
+        kernel_set() == KernelSet::plain ? 1 : size;  // the reference knows single points only
     for (std::size_t first = 0; first < size; first += batch) {
       of_slot[first_slot].plastic_work += take(grid.particles_by_block().subspan(begin + first, batch),
                                                std::span(gradients).subspan(first, batch));
@@ -198,10 +200,10 @@ TransferBalance gather_particles(BlockGrid& grid, const TakeGradients& take,
   return sum;
 }
 
-template <class Shape, AffineField field>
-TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt, const Losses& losses,
-                           const TakeGradients& take_gradients, std::span<const Vector3> acceleration,
-                           const BeforeBorder& before_border) {
+template <class Shape, bool affine>
+TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt, AffineField field,
+                           const Losses& losses, const TakeGradients& take_gradients,
+                           std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
   const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
   return gather_particles<Shape>(
       grid, take_gradients, before_border,
@@ -210,23 +212,24 @@ TransferBalance gather_all(Particles& particles, BlockGrid& grid, double dt, con
           if (prefetches(p)) {
             prefetch_state(particles, p + prefetch_distance);  // most of it for who takes the gradients
             prefetch(p + prefetch_distance, particles.position, particles.velocity);
-            if constexpr (field != AffineField::none) {
+            if constexpr (affine) {
               prefetch(p + prefetch_distance, particles.affine_velocity);
             }
           }
           const double radius = radial ? particles.position[p][1] : 0.0;
-          balance += update_particle<field, Planar<Shape>>(particles, p, dt, advance, gradients[place], losses,
-                                                           acceleration, radius);
+          balance += update_particle<affine, Planar<Shape>>(particles, p, dt, advance, field,
+                                                            gradients[place], losses, acceleration, radius);
         };
         Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
-                                        typename Kernels::template Transfer<field>{dt}, take);
+                                        typename Kernels::template Transfer<affine>{field, dt}, take);
       });
 }
 
-template <class Shape, bool with_gradient>
+template <class Shape>
 TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double dt, double relaxation,
                                   const TakeGradients& take_gradients, std::span<const Vector3> acceleration,
                                   const BeforeBorder& before_border) {
+  const bool with_gradient = static_cast<bool>(take_gradients);
   const bool radial = Planar<Shape> && grid.geometry().is_axisymmetric();
   return gather_particles<Shape>(
       grid, take_gradients, before_border,
@@ -243,7 +246,7 @@ TransferBalance update_velocities(Particles& particles, BlockGrid& grid, double 
           const double radius = position[1];
           store_vector(position, load_vector(position) + dt * after);
           particles.specific_internal_energy[p] += increment[3];  // of contact
-          if constexpr (with_gradient) {
+          if (with_gradient) {
             if (prefetches(p)) prefetch_state(particles, p);  // for who takes the gradients
             std::array<Lanes, 3> l = update.after.gradient;
             if (radial) add_hoop_rate(l, after[1], radius);
@@ -266,11 +269,9 @@ TransferBalance grid_to_particles(ShapeFunction shape, Particles& particles, Blo
   using enum AffineField;
   return with_shape(shape, [&]<class Shape>(Shape) {
     if (affine == none)
-      return gather_all<Shape, none>(particles, grid, dt, losses, take, acceleration, before_border);
+      return gather_all<Shape, false>(particles, grid, dt, none, losses, take, acceleration, before_border);
     if constexpr (CarriesAffineField<Shape>) {
-      return affine == deformed
-                 ? gather_all<Shape, deformed>(particles, grid, dt, losses, take, acceleration, before_border)
-                 : gather_all<Shape, turned>(particles, grid, dt, losses, take, acceleration, before_border);
+      return gather_all<Shape, true>(particles, grid, dt, affine, losses, take, acceleration, before_border);
     } else {
       throw InternalError("the affine transfer needs B-splines");
       return TransferBalance{};  // the other branch deduces the type
@@ -286,22 +287,22 @@ void TransitionNodes::resize(std::size_t n) {
 
 namespace {
 
-template <class Shape, AffineField field>
-void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt) {
+template <class Shape, bool affine>
+void move_nodes(TransitionNodes& nodes, BlockGrid& grid, double dt, AffineField field) {
   constexpr auto kind = BlockGrid::Points::guests;
   with_kernels<Shape>([&]<class Kernels>(Kernels) {
     parallel::for_each_uneven(grid.slots(), [&](std::size_t slot) {
       if (grid.guests_in(slot).empty()) return;
       const auto take = [&](std::size_t, std::size_t p, const Advance<>& advance) WHIPPLE_INLINE {
-        advance_point<field>(nodes, p, dt, advance);
+        advance_point<affine>(nodes, p, dt, advance, field);
         store_vector(nodes.mean_velocity[p].data(),
                      advance.grid_velocity.value - 0.5 * advance.increment.value);
         store_vector(nodes.new_velocity[p].data(), advance.grid_velocity.value);
         nodes.heat[p] = nodes.mass[p] * advance.heat[0];
         nodes.contact_heat[p] = nodes.mass[p] * advance.increment.value[3];
       };
-      Kernels::template gather<Shape>(nodes, grid, kind, slot, typename Kernels::template Transfer<field>{dt},
-                                      take);
+      Kernels::template gather<Shape>(nodes, grid, kind, slot,
+                                      typename Kernels::template Transfer<affine>{field, dt}, take);
     });
   });
 }
@@ -315,9 +316,8 @@ void grid_to_nodes(ShapeFunction shape, TransitionNodes& nodes, BlockGrid& grid,
     if constexpr (Planar<Shape>) {
       throw InternalError("elements need three dimensions");
     } else if constexpr (CarriesAffineField<Shape>) {
-      if (affine == none) return move_nodes<Shape, none>(nodes, grid, dt);
-      if (affine == deformed) return move_nodes<Shape, deformed>(nodes, grid, dt);
-      return move_nodes<Shape, turned>(nodes, grid, dt);
+      if (affine == none) return move_nodes<Shape, false>(nodes, grid, dt, none);
+      return move_nodes<Shape, true>(nodes, grid, dt, affine);
     } else {
       throw InternalError("nodes of elements need B-splines");
     }
@@ -328,26 +328,33 @@ TransferBalance update_velocity(ShapeFunction shape, Particles& particles, Block
                                 double relaxation, const TakeGradients& take,
                                 std::span<const Vector3> acceleration, const BeforeBorder& before_border) {
   return with_shape(shape, [&]<class Shape>(Shape) {
-    return take ? update_velocities<Shape, true>(particles, grid, dt, relaxation, take, acceleration,
-                                                 before_border)
-                : update_velocities<Shape, false>(particles, grid, dt, relaxation, take, acceleration,
-                                                  before_border);
+    return update_velocities<Shape>(particles, grid, dt, relaxation, take, acceleration, before_border);
   });
 }
 
 namespace {
 
-/// Sums of the nodes' velocities, for every particle: take_sums(p, sums, its gradient to be handed on).
+/// Takes the sums of the nodes' velocities for every particle: its velocity into `velocity`, unless that is
+/// empty, else its gradient (1/s), which is handed on.
 /// @returns J, plastic work, as `take` reports it
-template <class TakeSums>
 double gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
-                    const TakeGradients& take, const BeforeBorder& before_border, TakeSums&& take_sums) {
+                    std::span<Vector3> velocity, const TakeGradients& take,
+                    const BeforeBorder& before_border) {
+  const bool radial = grid.geometry().is_axisymmetric();
   return with_shape(shape, [&]<class Shape>(Shape) {
     return gather_particles<Shape>(
                grid, take, before_border,
                [&]<class Kernels>(Kernels, std::size_t slot, TransferBalance&, Matrix3* gradients) {
                  const auto each = [&](std::size_t place, std::size_t p, const ValueAndGradient<>& sums)
-                                       WHIPPLE_INLINE { take_sums(p, sums, gradients[place]); };
+                                       WHIPPLE_INLINE {
+                                         if (!velocity.empty())
+                                           return store_vector(velocity[p].data(), sums.value);
+                                         if (prefetches(p))
+                                           prefetch_state(particles, p);  // for who takes the gradients
+                                         std::array<Lanes, 3> l = sums.gradient;
+                                         if (radial) add_hoop_rate(l, sums.value[1], grid.radius_at_bin(p));
+                                         gradients[place] = matrix(l);
+                                       };
                  Kernels::template gather<Shape>(particles, grid, particle_kind, slot,
                                                  typename Kernels::First{}, each);
                })
@@ -359,21 +366,12 @@ double gather_first(ShapeFunction shape, const Particles& particles, BlockGrid& 
 
 double gather_velocity_gradient(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                                 const TakeGradients& take, const BeforeBorder& before_border) {
-  const bool radial = grid.geometry().is_axisymmetric();
-  return gather_first(shape, particles, grid, take, before_border,
-                      [&](std::size_t p, const ValueAndGradient<>& sums, Matrix3& gradient) WHIPPLE_INLINE {
-                        if (prefetches(p)) prefetch_state(particles, p);  // for who takes the gradients
-                        std::array<Lanes, 3> l = sums.gradient;
-                        if (radial) add_hoop_rate(l, sums.value[1], grid.radius_at_bin(p));
-                        gradient = matrix(l);
-                      });
+  return gather_first(shape, particles, grid, {}, take, before_border);
 }
 
 void gather_velocity(ShapeFunction shape, const Particles& particles, BlockGrid& grid,
                      std::span<Vector3> velocity) {
-  gather_first(shape, particles, grid, {}, {},
-               [&](std::size_t p, const ValueAndGradient<>& sums, Matrix3&)
-                   WHIPPLE_INLINE { store_vector(velocity[p].data(), sums.value); });
+  gather_first(shape, particles, grid, velocity, {}, {});
 }
 
 }  // namespace whipple::transfer

@@ -12,8 +12,8 @@
 
 #include "src/transfer/register_kernels.hpp"
 
-/// The transfers as plain loops over points and their nodes, one number at a time, as docs/theory/mpm.md, 3 to 5,
-/// writes them: the reference that the kernels for registers are compared with (`--device reference`).
+/// The transfers as plain loops over points and their nodes, one number at a time, as docs/theory/mpm.md, 3
+/// to 5, writes them: the reference that the kernels for registers are compared with (`--device reference`).
 namespace whipple::transfer::plain {
 
 inline Vector3 vector(Lanes v) { return {v[0], v[1], v[2]}; }
@@ -77,9 +77,9 @@ inline double convect(Matrix3& c, const Matrix3& gradient, double dt) {
 }
 
 /// What a point takes of the advanced nodes in the symplectic scheme (4.1 to 4.5, 4.8).
-template <AffineField field>
+template <bool affine>
 struct Transfer {
-  static constexpr bool affine = field != AffineField::none;
+  AffineField field;
   double dt;
 
   template <class Shape, class Points, class ForEachNode>
@@ -87,8 +87,9 @@ struct Transfer {
     const Vector3 velocity = points.velocity[p];
     Matrix3 c = Matrix3::Zero();
     if constexpr (affine) c = points.affine_velocity[p];
-    Vector3 v = Vector3::Zero(), d = v, change = v;                        // sum N v', N d, N (d - beta D)
-    Matrix3 grad_v = Matrix3::Zero(), grad_d = grad_v, change_r = grad_v;  // the same with grad N, or with N r^T
+    Vector3 v = Vector3::Zero(), d = v, change = v;  // sum N v', N d, N (d - beta D)
+    Matrix3 grad_v = Matrix3::Zero(), grad_d = grad_v,
+            change_r = grad_v;  // the same with grad N, or with N r^T
     double loss = 0.0, contact_heat = 0.0;
     for_each([&](const grid::Node& node, const AtNode& at) {
       const Vector3 v_i = vector(node.registers.first), d_i = vector(node.registers.second);
@@ -110,7 +111,7 @@ struct Transfer {
         loss -= 0.5 * change_r.squaredNorm() / inertia;
         c += change_r / inertia;
       }
-      if constexpr (field == AffineField::deformed) loss += 0.5 * inertia * convect(c, grad_v, dt);
+      if (field == AffineField::deformed) loss += 0.5 * inertia * convect(c, grad_v, dt);
     }
     return {.grid_velocity = {lanes(v), columns(grad_v)},
             .increment = {lanes(d, contact_heat), columns(grad_d)},
@@ -136,7 +137,8 @@ struct Update {
     for_each([&](const grid::Node& node, const AtNode& at) {
       const Lanes after = node.registers.first + node.registers.second;
       sums.after.value += at.n * after;
-      for (std::size_t a = 0; a < 3; ++a) sums.after.gradient[a] += at.gradient[static_cast<Eigen::Index>(a)] * after;
+      for (std::size_t a = 0; a < 3; ++a)
+        sums.after.gradient[a] += at.gradient[static_cast<Eigen::Index>(a)] * after;
       sums.increment += at.n * node.registers.second;
     });
     return sums;
@@ -160,14 +162,14 @@ struct First {
 
 /// The entries, as those of the kernels for registers (src/transfer/kernels/entries.inl).
 struct Kernels {
-  template <AffineField field>
-  using Transfer = plain::Transfer<field>;
+  template <bool affine>
+  using Transfer = plain::Transfer<affine>;
   using Update = plain::Update;
   using First = plain::First;
 
   template <class Shape, class Sums, class Points, class Take>
-  static void gather(const Points& points, grid::BlockGrid& grid, grid::BlockGrid::Points kind, std::size_t slot,
-                     const Sums& sums, const Take& take) {
+  static void gather(const Points& points, grid::BlockGrid& grid, grid::BlockGrid::Points kind,
+                     std::size_t slot, const Sums& sums, const Take& take) {
     const std::span<const grid::PlaceInStencil> places = grid.places(kind);
     const std::uint32_t* const list = grid.members(kind, slot).data();
     const double cell_size = grid.cell_size(slot);
@@ -190,9 +192,8 @@ struct Kernels {
       narrow::DirectAccess<Shape> access(grid, slot, field);
       for (const std::uint32_t p : members) {
         const auto load = what.template load<CarriesAffineField<Shape>>(p);
-        for_each_node<Shape>(what.points, p, places[p], cell_size, access, [&](grid::Node& node, const AtNode& at) {
-          add(load, at, node);
-        });
+        for_each_node<Shape>(what.points, p, places[p], cell_size, access,
+                             [&](grid::Node& node, const AtNode& at) { add(load, at, node); });
       }
     });
   }

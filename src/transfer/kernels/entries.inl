@@ -3,8 +3,8 @@
 
 /// The entries. Everything they call is inlined into them.
 struct Kernels {
-  template <AffineField field>
-  using Transfer = TransferSums<field>;
+  template <bool affine>
+  using Transfer = TransferSums<affine>;
   using Update = UpdateSums;
   using First = FirstSums;
 

@@ -115,12 +115,14 @@ WHIPPLE_INLINE inline Vector advect_affine_field(std::array<Vector, 3>& c,
 /// present, computes the new values of the points from the sums.
 ///
 /// Velocity and affine field (4.3), transfer dissipation (4.5).
-template <AffineField field>
+/// @tparam affine  whether the points carry an affine field; what becomes of it is no other kernel, but a
+///                 branch that always goes the same way
+template <bool affine>
 struct TransferSums {
   using Content = grid::Node;
   using Sum = Moments<Vector>;
   using Result = Advance<Vector>;
-  static constexpr bool affine = field != AffineField::none;
+  AffineField field;
   double dt;
 
   template <class Points>
@@ -163,7 +165,7 @@ struct TransferSums {
         c[a] += change_of_field;
       }
       heat = sum_of_three(heat);
-      if constexpr (field == AffineField::deformed) {
+      if (field == AffineField::deformed) {
         heat += 0.5 * inertia * advect_affine_field(c, sums.velocity.gradient, dt);
       }
     } else {
