@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -19,6 +18,7 @@
 #include "src/app/eos_audit.hpp"
 #include "src/app/eos_figure.hpp"
 #include "src/app/eos_options.hpp"
+#include "src/app/eos_queries.hpp"
 #include "src/app/eos_remarks.hpp"
 #include "src/app/eos_table.hpp"
 #include "src/app/eos_tabulate.hpp"
@@ -41,7 +41,6 @@ using eos::curves::FigureCurve;
 using eos::curves::LineStyle;
 using eos::curves::Series;
 using eos::curves::Subjects;
-using eos::curves::Variable;
 
 /// Where a table goes besides the terminal.
 struct Output {
@@ -113,176 +112,22 @@ void warn_of_ends(const CurveTable& table) {
   }
 }
 
-/// A model answers wherever its formulas hold; what it says of hotter material than it describes is no answer.
+/// A model answers wherever its formulas hold; what it says of hotter material than it describes is no
+/// answer.
 void warn_beyond_audit(const CurveTable& table, const Subjects& subjects) {
   const auto column = std::ranges::find(table.columns, "T_K", &Column::name);
   if (column == table.columns.end() || table.series.size() != subjects.size()) return;
   const auto place = static_cast<std::size_t>(column - table.columns.begin());
   for (std::size_t i = 0; i < subjects.size(); ++i) {
     double hottest = 0;
-    for (const CurveRow& row : table.series[i].rows) hottest = std::fmax(hottest, std::get<double>(row[place]));
+    for (const CurveRow& row : table.series[i].rows)
+      hottest = std::fmax(hottest, std::get<double>(row[place]));
     const double limit = eos::audit(*subjects[i].eos, eos::AuditDepth::brief).range.greatest_temperature;
     if (limit > 0 && hottest > limit) {
-      log::warning("{}: {:.6g} K is beyond {:.4g} K, to which the audit finds the model valid (whipple eos audit)",
-                   subjects[i].name, hottest, limit);
+      log::warning(
+          "{}: {:.6g} K is beyond {:.4g} K, to which the audit finds the model valid (whipple eos audit)",
+          subjects[i].name, hottest, limit);
     }
-  }
-}
-
-/// Quantities that a subcommand may take.
-enum class Quantity {
-  density,
-  temperature,
-  energy,
-  pressure,
-  entropy,
-  particle_velocity,
-  initial_density,
-  reflected,
-  velocity,
-  from,
-  to,
-  states,
-  volume,
-};
-
-/// The option of a quantity.
-struct QuantityOption {
-  Quantity quantity;
-  const char* name;
-  std::string EosOptions::* text;
-  const char* help;
-};
-
-const QuantityOption quantity_options[] = {
-    {Quantity::density, "--density", &EosOptions::density, "e.g. '9.5 g/cm^3'"},
-    {Quantity::temperature, "--temperature", &EosOptions::temperature, "e.g. '300 K'"},
-    {Quantity::energy, "--energy", &EosOptions::energy, "Specific internal energy, e.g. '1.2 MJ/kg'"},
-    {Quantity::pressure, "--pressure", &EosOptions::pressure, "e.g. '100 GPa'"},
-    {Quantity::entropy, "--entropy", &EosOptions::entropy, "Specific entropy, e.g. '500 J/(kg K)'"},
-    {Quantity::particle_velocity, "--particle-velocity", &EosOptions::particle_velocity, "e.g. '2 km/s'"},
-    {Quantity::initial_density, "--initial-density", &EosOptions::initial_density,
-     "Of porous material ahead of the shock, e.g. '6 g/cm^3'"},
-    {Quantity::reflected, "--reflected", &EosOptions::reflected,
-     "From the state shocked to this pressure, e.g. '50 GPa'"},
-    {Quantity::velocity, "--velocity", &EosOptions::velocity, "Of the impactor, e.g. '5 km/s'"},
-    {Quantity::from, "--from", &EosOptions::from, "Begin of the curve, e.g. '10 GPa'"},
-    {Quantity::to, "--to", &EosOptions::to, "End of the curve, e.g. '150 GPa'"},
-    {Quantity::states, "--states", &EosOptions::states,
-     "CSV file of states instead of one: columns like 'density [g/cm^3]' and 'temperature [K]'"},
-    {Quantity::volume, "--volume", &EosOptions::volume,
-     "Volume of the products over that of the explosive to which they drive (default 7)"},
-};
-
-/// One subcommand: which quantities it takes and what it computes.
-struct Query {
-  const char* name;
-  const char* summary;
-  std::vector<Quantity> quantities;
-  const char* x;  ///< default columns of the figure; null: a list without figure
-  const char* y;
-  CurveTable (*table)(const EosOptions&, const Subjects&);
-  Remarks (*remarks)(const EosOptions&, const Subjects&);  ///< may be null
-  const char* example;
-  bool as_list = false;       ///< printed one quantity a line
-  bool with_samples = false;  ///< can be repeated for samples of a fitted material
-};
-
-CurveTable state_table(const EosOptions& o, const Subjects& subjects) {
-  return eos::curves::state_table(subjects, state_queries(o));
-}
-CurveTable hugoniot_table(const EosOptions& o, const Subjects& subjects) {
-  const Variable variable = curve_variable(o, std::array{Variable::pressure, Variable::particle_velocity});
-  return eos::curves::hugoniot_table(subjects, hugoniot_start(o), shock_query(o), variable, curve_range(o, variable));
-}
-CurveTable isotherm_table(const EosOptions& o, const Subjects& subjects) {
-  return eos::curves::isotherm_table(subjects, quantity("--temperature", o.temperature, "K"),
-                                     curve_range(o, Variable::pressure));
-}
-CurveTable isentrope_table(const EosOptions& o, const Subjects& subjects) {
-  const Variable variable = curve_variable(o, std::array{Variable::pressure, Variable::density});
-  return eos::curves::isentrope_table(subjects, state_query(o), variable, curve_range(o, variable));
-}
-CurveTable release_table(const EosOptions& o, const Subjects& subjects) {
-  return eos::curves::release_table(subjects, hugoniot_start(o), shock_query(o), curve_range(o, Variable::pressure));
-}
-CurveTable cold_table(const EosOptions& o, const Subjects& subjects) {
-  return eos::curves::cold_table(subjects, curve_range(o, Variable::density));
-}
-CurveTable melt_table(const EosOptions& o, const Subjects& subjects) {
-  return eos::curves::melt_table(subjects, curve_range(o, Variable::pressure));
-}
-CurveTable dome_table(const EosOptions& o, const Subjects& subjects) {
-  return eos::curves::dome_table(subjects, curve_range(o, Variable::pressure));
-}
-CurveTable match_table(const EosOptions& o, const Subjects& subjects) {
-  return eos::curves::match_table(subjects, impact_velocity(o));
-}
-
-CurveTable detonation_table(const EosOptions&, const Subjects& subjects) {
-  return eos::curves::detonation_table(subjects);
-}
-CurveTable products_table(const EosOptions& o, const Subjects& subjects) {
-  const Variable variable = curve_variable(o, std::array{Variable::pressure, Variable::density});
-  return eos::curves::products_table(subjects, variable, curve_range(o, variable));
-}
-CurveTable contact_table(const EosOptions&, const Subjects& subjects) { return eos::curves::contact_table(subjects); }
-CurveTable gurney_table(const EosOptions& o, const Subjects& subjects) {
-  return eos::curves::gurney_table(subjects, quantity("--volume", o.volume, "").value_or(7.0), o.points);
-}
-CurveTable cylinder_table(const EosOptions& o, const Subjects& subjects) {
-  return eos::curves::cylinder_table(subjects, {},
-                                     {quantity("--from", o.from, "m"), quantity("--to", o.to, "m"), o.points});
-}
-
-const std::vector<Query>& queries() {
-  using enum Quantity;
-  static const std::vector<Query> all = {
-      {"state", "States, from two quantities each", {density, temperature, energy, pressure, entropy, states}, nullptr,
-       nullptr, state_table, state_remarks,
-       "whipple eos state copper --density '10 g/cm^3' --temperature '3000 K'\n  "
-       "whipple eos state copper --states states.csv --csv -",
-       true},
-      {"hugoniot", "Hugoniot: principal, porous or through a shocked state; a curve, or one shocked state",
-       {density, pressure, particle_velocity, from, to, initial_density, reflected}, "up_km_s", "us_km_s",
-       hugoniot_table, hugoniot_remarks,
-       "whipple eos hugoniot copper aluminium --to '300 GPa' --plot hugoniot.png --with "
-       "cu_hugoniot_marsh1980\n  "
-       "whipple eos hugoniot copper --initial-density '6 g/cm^3' --pressure '40 GPa'",
-       false, true},
-      {"isotherm", "Pressure and density at constant temperature", {temperature, from, to}, "V_over_V0", "P_GPa",
-       isotherm_table, nullptr, "whipple eos isotherm copper --temperature '298 K' --to '150 GPa'"},
-      {"isentrope", "Isentrope from a state to a pressure or density",
-       {density, temperature, energy, pressure, entropy, to}, "V_over_V0", "P_GPa", isentrope_table, nullptr,
-       "whipple eos isentrope copper --to '200 GPa'"},
-      {"release", "Release of a shocked state: residual temperature, melted and vaporised fraction",
-       {density, pressure, particle_velocity, to, initial_density}, "V_over_V0", "P_GPa", release_table,
-       release_remarks, "whipple eos release copper --pressure '160 GPa' --to '0 Pa'"},
-      {"melt", "Solidus and liquidus over pressure; shocks that melt and vaporise on release", {from, to}, "P_GPa",
-       "liquidus_K", melt_table, melt_remarks, "whipple eos melt copper --to '100 GPa'"},
-      {"dome", "Liquid and vapour in equilibrium", {from, to}, "T_K", "P_MPa", dome_table, dome_remarks,
-       "whipple eos dome copper"},
-      {"cold", "Cold curve over density: pressure, energy, limits", {from, to}, "V_over_V0", "P_GPa", cold_table,
-       cold_remarks, "whipple eos cold copper --from '7 g/cm^3' --to '16 g/cm^3'"},
-      {"match", "Impact of the first material on the second, and the shock transmitted into the others", {velocity}, nullptr,
-       nullptr, match_table, match_remarks, "whipple eos match copper aluminium --velocity '5.55 km/s'"},
-      {"detonation", "Explosives: Chapman-Jouguet state, detonation velocity, Gurney velocity", {}, nullptr, nullptr,
-       detonation_table, nullptr, "whipple eos detonation tnt composition_b pbx_9404"},
-      {"products", "Explosives: isentrope of the products from the Chapman-Jouguet state on", {to}, "V_over_V0", "P_GPa",
-       products_table, nullptr, "whipple eos products composition_b --to '1 bar' --plot products.png --log xy"},
-      {"contact", "Detonation of the first material meets each of the others: pressure and velocity", {}, nullptr,
-       nullptr, contact_table, nullptr, "whipple eos contact composition_b copper aluminium_6061_t6 water"},
-      {"gurney", "Explosives: Gurney's speeds of driven metal over the ratio of masses", {volume},
-       "metal_over_explosive", "cylinder_km_s", gurney_table, nullptr, "whipple eos gurney composition_b --points 5"},
-      {"cylinder", "Explosives: wall of the copper cylinder test, by steady flow", {from, to}, "R_R0_mm", "radial_km_s",
-       cylinder_table, nullptr, "whipple eos cylinder tnt --from '6 mm' --to '19 mm' --points 2"},
-  };
-  return all;
-}
-
-void add_quantities(CLI::App& sub, const std::vector<Quantity>& takes, EosOptions& options) {
-  for (const auto& [quantity, name, text, help] : quantity_options) {
-    if (std::ranges::find(takes, quantity) != takes.end()) sub.add_option(name, options.*text, help);
   }
 }
 
@@ -317,19 +162,22 @@ void run_samples(const Request& request) {
     draw(figure, output.plot);
   }
   if (is_standard_output(output.csv)) return;
-  for (const std::string& remark : sample_remarks(sampled, drawn.materials.size())) fmt::print("{}\n", remark);
+  for (const std::string& remark : sample_remarks(sampled, drawn.materials.size()))
+    fmt::print("{}\n", remark);
   for (const std::string& remark : drawn_remarks(drawn)) fmt::print("{}\n", remark);
   if (drawn.refused > 0) {
     fmt::print("{} draws of which the model makes no material were replaced by others\n", drawn.refused);
   }
 }
 
-void add_query(CLI::App& command, const Query& query) {
+void add_query(CLI::App& command, const EosQuery& query) {
   auto request = std::make_shared<Request>();
   CLI::App* sub = command.add_subcommand(query.name, query.summary);
   sub->add_option("materials", request->materials, "Material files, or names of the library")->required();
   add_quantities(*sub, query.quantities, request->options);
-  sub->add_option("--csv", request->output.csv, "Write the table, units in the names of the columns; -: to standard output, and nothing else");
+  sub->add_option(
+      "--csv", request->output.csv,
+      "Write the table, units in the names of the columns; -: to standard output, and nothing else");
   if (query.x != nullptr) {
     sub->add_option("--points", request->options.points, "Points of the curve")
         ->check(CLI::Range(2, 100000))
@@ -369,12 +217,14 @@ void add_query(CLI::App& command, const Query& query) {
     const Subjects subjects = read_subjects(request->materials);
     const CurveTable table = query.table(request->options, subjects);
     warn_of_ends(table);
-    const bool one_each = std::ranges::all_of(table.series, [](const Series& s) { return s.rows.size() == 1; });
+    const bool one_each =
+        std::ranges::all_of(table.series, [](const Series& s) { return s.rows.size() == 1; });
     const bool is_list = query.as_list && one_each;
     if (!is_standard_output(output.csv)) (is_list ? print_list : print)(table);
     write(table, output);
     warn_beyond_audit(table, subjects);
-    if (query.remarks == nullptr || is_standard_output(output.csv) || !request->options.states.empty()) return;
+    if (query.remarks == nullptr || is_standard_output(output.csv) || !request->options.states.empty())
+      return;
     for (const std::string& remark : query.remarks(request->options, subjects)) fmt::print("{}\n", remark);
   });
 }
@@ -419,7 +269,8 @@ void add_plot(CLI::App& command) {
     const double greatest = quantity("--to", plot->options.to, "Pa").value_or(200e9);
     std::vector<double> releases;
     for (const std::string& text : plot->releases) releases.push_back(*quantity("--release", text, "Pa"));
-    const DiagramKind kind = std::ranges::find(kinds, plot->kind, &std::pair<std::string, DiagramKind>::first)->second;
+    const DiagramKind kind =
+        std::ranges::find(kinds, plot->kind, &std::pair<std::string, DiagramKind>::first)->second;
     Figure figure = eos::curves::diagram(kind, read_subjects(plot->materials), greatest, releases);
     add_measurements(figure, plot->output.overlay);
     draw(figure, plot->output.plot);
@@ -432,7 +283,7 @@ void add_eos_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("eos", "States and curves of a material's equation of state");
   command->require_subcommand(1);
   command->footer("Example:\n  whipple eos hugoniot copper --to '300 GPa' --plot hugoniot.png");
-  for (const Query& query : queries()) add_query(*command, query);
+  for (const EosQuery& query : eos_queries()) add_query(*command, query);
   add_audit(*command);
   add_plot(*command);
   add_eos_tabulate(*command);
