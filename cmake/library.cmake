@@ -78,10 +78,18 @@ if(WHIPPLE_PRECOMPILED_HEADERS)
   whipple_precompiled_headers(whipple_precompiled HEADERS ${whipple_heavy_headers} DEPENDS Eigen3::Eigen)
 endif()
 
-# whipple_library(NAME [UNITY [BATCH files]] [COMMAND_LINE] SOURCES a.cpp ... DEPENDS lib ...): one folder, one static library
-# whipple_NAME. UNITY where no kernel is: GCC's limits of inlining count by what is compiled together.
+# Files, sections of cases, plans: nothing that a step waits for.
+set(whipple_cold_options $<$<CONFIG:Release>:-O1>)
+if(WHIPPLE_PRECOMPILED_HEADERS)
+  whipple_precompiled_headers(whipple_precompiled_cold HEADERS ${whipple_heavy_headers} DEPENDS Eigen3::Eigen
+    OPTIONS ${whipple_cold_options})
+endif()
+
+# whipple_library(NAME [UNITY [BATCH files]] [COLD] [COMMAND_LINE] SOURCES a.cpp ... DEPENDS lib ...): one folder, one static
+# library whipple_NAME. UNITY where no kernel is: GCC's limits of inlining count by what is compiled together. COLD where a
+# run spends no time: less optimisation, which takes a quarter of the compiler's time.
 function(whipple_library name)
-  cmake_parse_arguments(ARG "UNITY;COMMAND_LINE" "BATCH" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "UNITY;COLD;COMMAND_LINE" "BATCH" "SOURCES;DEPENDS" ${ARGN})
   add_library(whipple_${name} STATIC ${ARG_SOURCES})
   if(ARG_UNITY)
     set_target_properties(whipple_${name} PROPERTIES UNITY_BUILD ${WHIPPLE_UNITY_BUILD})
@@ -92,6 +100,11 @@ function(whipple_library name)
   target_link_libraries(whipple_${name} PUBLIC $<BUILD_INTERFACE:whipple_flags> $<INSTALL_INTERFACE:whipple::consumer> ${ARG_DEPENDS})
   if(ARG_COMMAND_LINE)
     whipple_command_line(whipple_${name})
+  elseif(ARG_COLD)
+    target_compile_options(whipple_${name} PRIVATE ${whipple_cold_options})
+    if(WHIPPLE_PRECOMPILED_HEADERS)
+      target_precompile_headers(whipple_${name} REUSE_FROM whipple_precompiled_cold)
+    endif()
   elseif(WHIPPLE_PRECOMPILED_HEADERS)
     target_precompile_headers(whipple_${name} REUSE_FROM whipple_precompiled)
   endif()

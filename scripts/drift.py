@@ -72,8 +72,12 @@ def run(whipple, case, folder, more=()):
 
 
 def scale_of(name, old):
-    """What a difference is relative to: the number, but of masses and energies at least a thousandth of the whole."""
+    """What a difference is relative to: the number, but at least a thousandth of the whole (masses, energies), or of the
+    largest component (vectors): what vanishes by symmetry is round-off."""
     value = abs(old[name]["value"])
+    stem, _, axis = name.rpartition("_")
+    if axis in "xyz" and stem:
+        return max([value, *(1e-3 * abs(old[f"{stem}_{a}"]["value"]) for a in "xyz" if f"{stem}_{a}" in old)])
     for words, whole in ((("mass",), "mass"), (("energy", "work", "heat", "unresolved"), "total_energy")):
         if any(word in name for word in words) and whole in old:
             return max(value, 1e-3 * abs(old[whole]["value"]))

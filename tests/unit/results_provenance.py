@@ -130,6 +130,13 @@ def drift_is_seen():
     altered["internal_energy"]["value"] *= 1.02
     rows = drift.drifted(altered, new)
     require([row[0] for row in rows] == ["internal_energy"] and "10.2" in drift.table("case", rows), "an altered baseline")
+    # A component that vanishes by symmetry is compared with the largest, not with its own round-off.
+    vector = {"spin_x": 1e-18, "spin_y": 0.5, "spin_z": -0.5}
+    stored = drift.tolerances(vector, vector | {"spin_x": -3e-18})
+    require(stored["spin_x"]["tolerance"] == drift.LEAST, str(stored))
+    require(not drift.drifted(stored, vector | {"spin_x": 9e-17}), "round-off")
+    for name, value in (("spin_x", 1e-6), ("spin_y", 0.501)):
+        require([row[0] for row in drift.drifted(stored, vector | {name: value})] == [name], f"{name} = {value}")
     less = {name: value for name, value in new.items() if name != "mass"}
     require([row[0] for row in drift.drifted(old, less)] == ["mass"], "a lost number")
     require([row[0] for row in drift.drifted(old, new | {"more": 1.0})] == ["more"], "a new number")
