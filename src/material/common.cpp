@@ -16,6 +16,25 @@ constexpr double greatest_volume_ratio = 2.0;
 /// grow by the same factor in every step.
 constexpr double least_density_ratio = 1e-9;
 
+/// Density that material may reach, as a part of that at which its equation of state ends.
+constexpr double greatest_density_ratio = 0.999;
+
+/// Holds points below the greatest density of their equation of state, and counts them.
+WHIPPLE_KERNEL void hold_below_greatest_density(double greatest_density, Chunk& chunk) {
+  const double per_greatest = 1.0 / (greatest_density_ratio * greatest_density);
+  std::size_t held = 0;
+  for (std::size_t k = 0; k < chunk.size; ++k) held += chunk.volume[k] < chunk.mass[k] * per_greatest ? 1 : 0;
+  if (held == 0) return;
+  chunk.report.squeezed += held;
+  for (std::size_t k = 0; k < chunk.size; ++k) {
+    const double least = chunk.mass[k] * per_greatest;
+    if (chunk.volume[k] >= least) continue;
+    chunk.volume_change[k] += least - chunk.volume[k];
+    chunk.volume[k] = least;
+    chunk.report.first_squeezed = std::min(chunk.report.first_squeezed, chunk.index[k]);
+  }
+}
+
 }  // namespace
 
 WHIPPLE_KERNEL void advance_volume(const Step& step, Chunk& chunk) {
@@ -32,6 +51,7 @@ WHIPPLE_KERNEL void advance_volume(const Step& step, Chunk& chunk) {
     chunk.volume_change[k] = chunk.old_volume[k] * (limited[k] - 1.0);
     chunk.volume[k] = chunk.old_volume[k] * limited[k];
   }
+  chunk.report.points += chunk.size;
   chunk.report.limited_volume_changes += beyond;
   chunk.report.limited_densities += thinnest;
   if (chunk.any_void) {
@@ -45,6 +65,7 @@ WHIPPLE_KERNEL void advance_volume(const Step& step, Chunk& chunk) {
       chunk.void_volume[k] = open ? total - matter : chunk.void_volume[k];
     }
   }
+  hold_below_greatest_density(step.material.eos->maximum_density(), chunk);
   if (chunk.any_failed) {
     // Stress acts on the material and strains it as the whole; in failed material, on nothing but itself.
     for (std::size_t k = 0; k < chunk.size; ++k) {
@@ -68,8 +89,8 @@ WHIPPLE_KERNEL void advance_volume(const Step& step, Chunk& chunk) {
 namespace {
 
 /// The part of the artificial viscosity whose work is heat (docs/theory/dissipation.md, eq. 6): all of it in
-/// a shock, whose rate the affine field of the particle follows; where material meets at first, what the affine
-/// field has of the jump. Fragmented material collides: all of it heats.
+/// a shock, whose rate the affine field of the particle follows; where material meets at first, what the
+/// affine field has of the jump. Fragmented material collides: all of it heats.
 WHIPPLE_KERNEL void find_heating_viscosity(const Step& step, Chunk& chunk) {
   const UpdateSettings& settings = step.settings;
   const double per_initial = 1.0 / settings.initial_density;

@@ -62,6 +62,9 @@ void MaterialReport::merge(const MaterialReport& other) {
   first_undefined = std::min(first_undefined, other.first_undefined);
   limited_volume_changes += other.limited_volume_changes;
   limited_densities += other.limited_densities;
+  points += other.points;
+  squeezed += other.squeezed;
+  first_squeezed = std::min(first_squeezed, other.first_squeezed);
   limited_void_steps += other.limited_void_steps;
   limited_bulking += other.limited_bulking;
   compression_rate = std::max(compression_rate, other.compression_rate);

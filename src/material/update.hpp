@@ -47,19 +47,29 @@ struct MaterialReport {
   std::size_t undefined = 0;  ///< points with a volume that is not positive, or NaN in gradient or energy
   std::size_t first_undefined = none;  ///< index of the first of them
   std::size_t limited_volume_changes =
-      0;                          ///< steps with J outside [1/2, 2]: limited, counted (time step too large)
+      0;  ///< steps with J outside [1/2, 2]: limited, counted (time step too large)
   std::size_t limited_densities = 0;   ///< steps that would have thinned material below its least density
+  std::size_t points = 0;              ///< points updated
+  std::size_t squeezed = 0;            ///< points held below the greatest density of the equation of state
+  std::size_t first_squeezed = none;   ///< index of the first of them
   std::size_t limited_void_steps = 0;  ///< steps in which material beside a void changed by the most allowed
   std::size_t limited_bulking = 0;     ///< steps of crushed brittle material at its greatest bulking
-  double compression_rate = 0.0;  ///< 1/s, the largest -tr L of points that come under pressure
-  double plastic_work = 0.0;      ///< J
-  /// J, >= 0: what the models made irreversible: plastic and viscous work, elastic energy of the deviator that was lost
-  /// with the strength; without artificial viscosity
+  double compression_rate = 0.0;       ///< 1/s, the largest -tr L of points that come under pressure
+  double plastic_work = 0.0;           ///< J
+  /// J, >= 0: what the models made irreversible: plastic and viscous work, elastic energy of the deviator
+  /// that was lost with the strength; without artificial viscosity
   double dissipation = 0.0;
   std::array<std::size_t, failure::code_count> failed{};  ///< points that failed in this step, by code
 
-  /// Nothing that ends a run: `undefined` and `equation_of_state.out_of_range` are 0.
-  [[nodiscard]] bool valid() const { return undefined == 0 && equation_of_state.out_of_range == 0; }
+  /// Returns whether the material as such is denser than its equation of state allows. Below one point in a
+  /// thousand it is single points that are squeezed by nodes which hardly anything else reaches: at the edge
+  /// of a contact, or in rings that converge on the axis.
+  [[nodiscard]] bool is_too_dense() const { return squeezed > points / 1000; }
+  /// Nothing that ends a run: `undefined` and `equation_of_state.out_of_range` are 0, and the material is not
+  /// too dense.
+  [[nodiscard]] bool valid() const {
+    return undefined == 0 && equation_of_state.out_of_range == 0 && !is_too_dense();
+  }
   void merge(const MaterialReport& other);
 };
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "src/core/base/vector_math.hpp"
-#include "src/io/output_fields.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/io/output_fields.hpp"
 
 namespace whipple::solver {
 
@@ -140,6 +140,7 @@ void Ledger::add(const Ledger& step) {
   limited_volume_changes += step.limited_volume_changes;
   limited_domains += step.limited_domains;
   limited_densities += step.limited_densities;
+  limited_compressions += step.limited_compressions;
   limited_void_steps += step.limited_void_steps;
   limited_bulking += step.limited_bulking;
   held_time_steps += step.held_time_steps;
@@ -194,10 +195,8 @@ PhaseMasses phase_masses(const MaterialPoints& points, std::size_t first, std::s
     Lanes failed{};
     for (std::size_t p = first + begin; p < first + end; p += 4) {
       const std::size_t four = std::min<std::size_t>(4, first + end - p);
-      const Lanes m = load(&points.mass[p], four, 0.0),
-                  melted = load(&points.melted_fraction[p], four, 0.0);
-      const std::array<LanesMask, 4> in =
-          io::phases(melted, load(&points.vaporised_fraction[p], four, 0.0));
+      const Lanes m = load(&points.mass[p], four, 0.0), melted = load(&points.melted_fraction[p], four, 0.0);
+      const std::array<LanesMask, 4> in = io::phases(melted, load(&points.vaporised_fraction[p], four, 0.0));
       for (std::size_t i = 0; i < 4; ++i) mass[i] += select(in[i], m, Lanes{});
       for (std::size_t k = 0; k < four; ++k) failed[k] += points.failed[p + k] != 0 ? m[k] : 0.0;
     }

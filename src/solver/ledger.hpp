@@ -19,10 +19,10 @@ namespace whipple::solver {
 struct Totals {
   double mass = 0.0;
   Vector3 momentum = Vector3::Zero();
-  double momentum_scale = 0.0;         ///< sum m |v|, to judge momentum errors by
+  double momentum_scale = 0.0;                 ///< sum m |v|, to judge momentum errors by
   Vector3 angular_momentum = Vector3::Zero();  ///< about the origin, of positions and of affine fields
-  double kinetic_energy = 0.0;         ///< of the particles' and nodes' own velocities
-  double affine_kinetic_energy = 0.0;  ///< of their affine fields: m inertia |C|^2 / 2
+  double kinetic_energy = 0.0;                 ///< of the particles' and nodes' own velocities
+  double affine_kinetic_energy = 0.0;          ///< of their affine fields: m inertia |C|^2 / 2
   double internal_energy = 0.0;
   double unresolved_energy = 0.0;  ///< kinetic, of motion that the cells do not resolve
   double hourglass_energy = 0.0;   ///< stored in the hourglass modes of elements
@@ -30,7 +30,8 @@ struct Totals {
   [[nodiscard]] double energy() const {
     return kinetic_energy + affine_kinetic_energy + unresolved_energy + internal_energy + hourglass_energy;
   }
-  /// Returns the ratio of the unresolved energy to the kinetic energy of resolved motion; 0 where nothing moves.
+  /// Returns the ratio of the unresolved energy to the kinetic energy of resolved motion; 0 where nothing
+  /// moves.
   [[nodiscard]] double unresolved_share() const {
     const double resolved = kinetic_energy + affine_kinetic_energy;
     return resolved > 0.0 ? unresolved_energy / resolved : 0.0;
@@ -81,8 +82,8 @@ void for_each_number(T& totals, Function&& f) {
   f("hourglass_energy", totals.hourglass_energy);
 }
 
-/// Returns twice the axial vector of a velocity gradient (1/s): times mass and affine inertia the angular momentum of an
-/// affine field.
+/// Returns twice the axial vector of a velocity gradient (1/s): times mass and affine inertia the angular
+/// momentum of an affine field.
 inline Vector3 rotation_of(const Matrix3& gradient) {
   return {gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0), gradient(1, 0) - gradient(0, 1)};
 }
@@ -104,8 +105,8 @@ Totals totals_of(const Particles& particles, double affine_inertia, std::vector<
 struct Ledger {
   Totals initial;
   Totals outflow;
-  BodyOutflow retired;                         ///< part of it: products of explosives, removed below a pressure
-  Vector3 wall_impulse = Vector3::Zero();      ///< N s, by mirror planes and walls, along y by hoop stresses
+  BodyOutflow retired;                     ///< part of it: products of explosives, removed below a pressure
+  Vector3 wall_impulse = Vector3::Zero();  ///< N s, by mirror planes and walls, along y by hoop stresses
   Vector3 external_impulse = Vector3::Zero();  ///< N s, by an external acceleration
   double external_work = 0.0;                  ///< J, of the same, and of nodes with prescribed velocities
   double work = 0.0;                           ///< J, stress on strain, into internal energy
@@ -116,21 +117,23 @@ struct Ledger {
   double unresolved_kept = 0.0;      ///< J, the rest of it, into unresolved energy
   double unresolved_returned = 0.0;  ///< J, unresolved energy that became internal
   double conducted_heat = 0.0;       ///< J, internal energy that shocks moved between particles
-  double contact_heat = 0.0;      ///< J, lost by the normal impulses of contact, into internal energy
-  double friction_heat = 0.0;     ///< J, lost by its tangential impulses, into internal energy
-  double contact_impulse = 0.0;   ///< N s, sum of the normal impulses (equal and opposite on two bodies)
-  double friction_impulse = 0.0;  ///< N s, sum of the tangential impulses
-  double converted_mass = 0.0;    ///< kg, of elements that became particles
-  double conversion_heat = 0.0;   ///< J, kinetic energy that this took, into internal energy
+  double contact_heat = 0.0;         ///< J, lost by the normal impulses of contact, into internal energy
+  double friction_heat = 0.0;        ///< J, lost by its tangential impulses, into internal energy
+  double contact_impulse = 0.0;      ///< N s, sum of the normal impulses (equal and opposite on two bodies)
+  double friction_impulse = 0.0;     ///< N s, sum of the tangential impulses
+  double converted_mass = 0.0;       ///< kg, of elements that became particles
+  double conversion_heat = 0.0;      ///< J, kinetic energy that this took, into internal energy
   double clamped_to_cold_curve =
       0.0;  ///< evaluations below the cold curve (temperature clamped, energy kept)
   double held_at_pressure_floor = 0.0;  ///< evaluations at the least pressure of a modifier `floor`
   double limited_volume_changes = 0.0;  ///< steps of particles whose volume change was limited
   double limited_domains = 0.0;  ///< steps of particles whose domain was larger than its shape function takes
-  double limited_densities = 0.0;   ///< steps of particles at their least density
+  double limited_densities = 0.0;  ///< steps of particles at their least density
+  double limited_compressions =
+      0.0;                          ///< steps of particles at the greatest density of their equation of state
   double limited_void_steps = 0.0;  ///< steps of particles that changed beside their void by the most allowed
-  double limited_bulking = 0.0;     ///< steps of particles of crushed brittle material at its greatest bulking
-  double held_time_steps = 0.0;     ///< steps longer than `time.compression_limit` asked for
+  double limited_bulking = 0.0;  ///< steps of particles of crushed brittle material at its greatest bulking
+  double held_time_steps = 0.0;  ///< steps longer than `time.compression_limit` asked for
 
   double largest_kinetic_energy =
       0.0;                        ///< J, with affine and hourglass energies, at the ends of the steps so far
@@ -185,6 +188,7 @@ void for_each_number(L& ledger, Function&& f) {
   f("limited_volume_changes", ledger.limited_volume_changes);
   f("limited_domains", ledger.limited_domains);
   f("limited_densities", ledger.limited_densities);
+  f("limited_compressions", ledger.limited_compressions);
   f("limited_void_steps", ledger.limited_void_steps);
   f("limited_bulking", ledger.limited_bulking);
   f("held_time_steps", ledger.held_time_steps);
@@ -205,10 +209,13 @@ inline constexpr auto limiters = std::to_array<Limiter>({
     {"at_pressure_floor", &Ledger::held_at_pressure_floor, "pressure held at its floor"},
     {"limited_volume_changes", &Ledger::limited_volume_changes, "volume change of a step limited"},
     {"limited_densities", &Ledger::limited_densities, "density limited to its minimum"},
+    {"limited_compressions", &Ledger::limited_compressions,
+     "density limited to the end of the equation of state"},
     {"limited_void_steps", &Ledger::limited_void_steps, "change of material with a void limited"},
     {"limited_bulking", &Ledger::limited_bulking, "bulking of crushed brittle material limited"},
     {"limited_domains", &Ledger::limited_domains, "domain of a particle limited"},
-    {"held_time_steps", &Ledger::held_time_steps, "time step kept longer than the volumetric strain-rate limit"},
+    {"held_time_steps", &Ledger::held_time_steps,
+     "time step kept longer than the volumetric strain-rate limit"},
 });
 
 /// Replaces every number by its sum over all ranks. Collective.
@@ -228,8 +235,8 @@ struct PhaseMasses {
   double failed = 0.0;           ///< kg
   PhaseMasses& operator+=(const PhaseMasses& other);
 };
-/// Sums the masses (kg) by phase over the material points [first, first + count); bitwise independent of the number of
-/// threads.
+/// Sums the masses (kg) by phase over the material points [first, first + count); bitwise independent of the
+/// number of threads.
 PhaseMasses phase_masses(const MaterialPoints& points, std::size_t first, std::size_t count);
 /// Collective.
 void sum_over_ranks(MPI_Comm communicator, std::vector<PhaseMasses>& by_body);

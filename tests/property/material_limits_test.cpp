@@ -27,9 +27,31 @@ TEST(Report, NamesTheFirstUndefinedPointAndCountsLimitedVolumeChanges) {
   EXPECT_EQ(report.first_undefined, 400U);
   EXPECT_EQ(report.limited_volume_changes, 1U);
   EXPECT_EQ(report.limited_densities, 0U);
-  EXPECT_EQ(report.equation_of_state.first, 17U);  // compressed to twice the density, the limit of this model
+  EXPECT_EQ(report.first_squeezed, 17U);  // compressed to twice the density, the limit of this model
+  EXPECT_EQ(report.squeezed, 1U);
+  EXPECT_TRUE(report.is_too_dense());
   EXPECT_FALSE(report.valid());
-  EXPECT_NEAR(points.volume[17], 0.5e-9, 1e-20);
+  EXPECT_NEAR(points.volume[17], 0.5e-9 / 0.999, 1e-20);
+}
+
+/// One point in a thousand may be squeezed beyond the end of its equation of state: it is held there, with a
+/// pressure that is finite, and counted. More than that is the material, which ends the run.
+TEST(Report, HoldsSinglePointsAtTheEndOfTheEquationOfState) {
+  const Material material = with(taylor_copper());
+  const double volume = 1e-9 * material.reference.density / (0.999 * material.eos->maximum_density());
+  for (const std::size_t squeezed : {2U, 3U}) {
+    MaterialPoints points = points_of(material, 2000);
+    std::vector<Matrix3> gradients(2000, Matrix3::Zero());
+    for (std::size_t k = 0; k < squeezed; ++k) gradients[700 + k](0, 0) = -0.9e8;
+    const MaterialReport report =
+        update_material(material, points, 0, 2000, gradients, {.time_step = 1e-8, .cell_size = 1e-3});
+    EXPECT_EQ(report.points, 2000U);
+    EXPECT_EQ(report.squeezed, squeezed);
+    EXPECT_EQ(report.first_squeezed, 700U);
+    EXPECT_EQ(report.valid(), squeezed == 2U);
+    EXPECT_NEAR(points.volume[700], volume, 1e-12 * volume);
+    EXPECT_TRUE(std::isfinite(points.pressure[700]) && points.pressure[700] > 0.0);
+  }
 }
 
 /// A lone particle of vapour, whose pressure nothing resists, fills more of the grid in every step.

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "src/solver/carriers/domains.hpp"
 #include "src/core/parallel/mpi.hpp"
 #include "src/core/parallel/threads.hpp"
+#include "src/solver/carriers/domains.hpp"
 
 namespace whipple::solver {
 
@@ -50,11 +50,20 @@ std::string book(State& state, const MaterialReport& report, const Material& mat
   state.booked.dissipation += report.dissipation;
   state.booked.limited_volume_changes += static_cast<double>(report.limited_volume_changes);
   state.booked.limited_densities += static_cast<double>(report.limited_densities);
+  state.booked.limited_compressions += static_cast<double>(report.squeezed);
   state.booked.limited_void_steps += static_cast<double>(report.limited_void_steps);
   state.booked.limited_bulking += static_cast<double>(report.limited_bulking);
   if (report.undefined != 0) {
     return describe(report.first_undefined,
                     "the state is not defined (NaN, or a volume that is not positive)");
+  }
+  if (report.is_too_dense()) {
+    return describe(
+        report.first_squeezed,
+        fmt::format(
+            "the equation of state of {} is out of range: {} of {} points would be denser than the {:.6g} "
+            "kg/m^3 at which it ends",
+            material.name, report.squeezed, report.points, material.eos->maximum_density()));
   }
   if (report.equation_of_state.out_of_range == 0) return {};
   return describe(report.equation_of_state.first,
@@ -88,9 +97,10 @@ void MaterialStage::update(std::string_view stage, Energy energy,
       const Material& material = *state_.setup.materials[body];
       UpdateSettings of_body = settings[body];
       if (has_affine_field) of_body.affine_divergence = affine_divergence(state_.particles, list);
-      MaterialReport report = energy == Energy::by_work_identity
-                                  ? whipple::update_material(material, state_.particles, list, of_list, of_body)
-                                  : update_material_and_energy(material, state_.particles, list, of_list, of_body);
+      MaterialReport report =
+          energy == Energy::by_work_identity
+              ? whipple::update_material(material, state_.particles, list, of_list, of_body)
+              : update_material_and_energy(material, state_.particles, list, of_list, of_body);
       plastic_work += std::exchange(report.plastic_work, 0.0);
       const double dissipated = std::exchange(report.dissipation, 0.0);
       const std::lock_guard lock(mutex);
