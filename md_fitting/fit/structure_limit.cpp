@@ -41,7 +41,7 @@ void add_validity_remark(Fit& fit, std::span<const md::PointRecord> points, cons
   const auto first = std::ranges::find_if(points, [](const md::PointRecord& point) {
     return point.done() && point.provenance.contains("validity_pressure");
   });
-  if (first == points.end() || first->origin("validity_pressure") == "none") return;
+  if (first == points.end()) return;
   const std::string limit = first->origin("validity_pressure");
   const double pressure = units::parse_quantity(limit, "Pa");
   const auto beyond = [&](const auto& state) { return state.pressure.value > pressure; };

@@ -15,22 +15,24 @@ namespace {
 
 /// Provenance that all points of a plan share.
 std::map<std::string, std::string> common_settings(const Plan& plan, const Potential& potential) {
-  return {{"element", potential.element()},
-          {"molar_mass", fmt::format("{}", 1e-3 * potential.mass())},
-          {"potential", potential.name()},
-          {"potential_file", potential.file().filename().string()},
-          {"potential_sha256", potential.hash()},
-          {"potential_source", potential.source()},
-          {"structure", std::string(word_of(potential.structure()))},
-          {"static_specific_volume", fmt::format("{}", potential.static_volume())},
-          {"density_table_end", fmt::format("{}", potential.table_end())},
-          {"validity_pressure", std::isfinite(potential.validity().pressure)
-                                    ? fmt::format("{:.4g} GPa", 1e-9 * potential.validity().pressure)
-                                    : "none"},
-          {"validity_reason", potential.validity().reason},
-          {"lammps_version", std::to_string(lammps_release())},
-          {"ranks", std::to_string(plan.ranks_per_point)},
-          {"plan_seed", std::to_string(plan.seed)}};
+  std::map<std::string, std::string> settings = {
+      {"element", potential.element()},
+      {"molar_mass", fmt::format("{}", 1e-3 * potential.mass())},
+      {"potential", potential.name()},
+      {"potential_file", potential.file().filename().string()},
+      {"potential_sha256", potential.hash()},
+      {"potential_source", potential.source()},
+      {"structure", std::string(word_of(potential.structure()))},
+      {"static_specific_volume", fmt::format("{}", potential.static_volume())},
+      {"density_table_end", fmt::format("{}", potential.table_end())},
+      {"lammps_version", std::to_string(lammps_release())},
+      {"ranks", std::to_string(plan.ranks_per_point)},
+      {"plan_seed", std::to_string(plan.seed)}};
+  if (std::isfinite(potential.validity().pressure)) {
+    settings["validity_pressure"] = fmt::format("{:.4g} GPa", 1e-9 * potential.validity().pressure);
+    settings["validity_reason"] = potential.validity().reason;
+  }
+  return settings;
 }
 
 /// Everything that the numbers of a point depend on, as text.
@@ -135,7 +137,7 @@ Precision precision_of(const std::string& quantity, bool relative, const Target&
 
 std::string with_validity(std::string message, const PointRecord& point) {
   const auto limit = point.provenance.find("validity_pressure");
-  if (limit == point.provenance.end() || limit->second == "none") return message;
+  if (limit == point.provenance.end()) return message;
   const auto result = point.results.find("pressure");
   const auto condition = point.conditions.find("pressure");
   if (result == point.results.end() && condition == point.conditions.end()) return message;
