@@ -204,6 +204,10 @@ md::Plan Ranges::plan_of(std::span<const PlannedPoint> points) const {
   plan.title = plan_.title;
   plan.element = plan_.element;
   plan.potential = plan_.potential;
+  plan.structure = plan_.structure;
+  plan.pair_style = plan_.pair_style;
+  plan.pair_coeff = plan_.pair_coeff;
+  plan.validity_pressure = plan_.validity_pressure;
   plan.seed = plan_.seed;
   plan.ranks_per_point = plan_.ranks_per_point;
   plan.folder = plan_.folder;

@@ -49,6 +49,15 @@ ParameterTable<Plan> Plan::parameters() {
           .optional()};
 }
 
+void Plan::check(const Plan&, const input::Faults& faults) const {
+  if (pair_style.empty() && !pair_coeff.empty()) {
+    faults.add("pair_coeff", "'pair_coeff' belongs to a pair_style, which the plan does not give");
+  }
+  if (!pair_style.empty() && pair_coeff.empty()) {
+    faults.add("pair_style", "'pair_style' needs its coefficients: pair_coeff = [\"* * FILE ELEMENT\"]");
+  }
+}
+
 /// One line per section.
 std::span<const input::Section<Plan, Plan>> Plan::sections() {
   static const std::vector<input::Section<Plan, Plan>> all = {

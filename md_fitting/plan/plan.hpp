@@ -59,6 +59,7 @@ struct Plan {
   std::optional<AdaptivePlan> adaptive;  ///< no points of its own
 
   static ParameterTable<Plan> parameters();
+  void check(const Plan& plan, const input::Faults& faults) const;
   static std::span<const input::Section<Plan, Plan>> sections();
 };
 

@@ -62,6 +62,15 @@ first_guess = ["1300 K"]
   }
 }
 
+TEST(Plan, PairStyleAndCoefficientsBelongTogether) {
+  const std::string head = "element = \"Ni\"\npotential = \"own\"\n";
+  EXPECT_NE(errors_of(head + "pair_style = \"adp\"\n").find("plan.toml:3:"), std::string::npos)
+      << errors_of(head + "pair_style = \"adp\"\n");
+  EXPECT_NE(errors_of(head + "pair_coeff = [\"* * Ni.adp Ni\"]\n").find("belongs to a pair_style"),
+            std::string::npos);
+  EXPECT_EQ(errors_of(head + "pair_style = \"adp\"\npair_coeff = [\"* * Ni.adp Ni\"]\n"), "no InputError");
+}
+
 TEST(Plan, DescriptionNamesEveryKey) {
   const std::string text = describe_plan();
   for (const char* key :
