@@ -4,10 +4,15 @@
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "md_fitting/plan/plan.hpp"
+#include "md_fitting/protocols/budget.hpp"
 #include "md_fitting/protocols/campaign.hpp"
 #include "md_fitting/protocols/critical_point.hpp"
 #include "src/core/base/error.hpp"
@@ -41,6 +46,37 @@ void require_writable_on_all(const std::filesystem::path& store, int rank) {
   fault.resize(static_cast<std::size_t>(length));
   MPI_Bcast(fault.data(), length, MPI_CHAR, 0, MPI_COMM_WORLD);
   if (length > 0) throw InputError(fault);
+}
+
+/// Tells what the missing points are expected to cost, and whether that is more than the plan allows.
+void report_estimate(const Plan& plan, const std::vector<Task>& tasks, const Potential& potential,
+                     const std::filesystem::path& store) {
+  std::set<std::string> present;
+  if (std::filesystem::exists(store)) {
+    for (const PointRecord& point : read_store(store)) {
+      if (point.done()) present.insert(point.key);
+    }
+  }
+  std::map<std::string, double> time = planned_atom_steps(tasks, present, potential);
+  const double work = total(time);
+  if (work == 0.0) return;
+  const double speed = atom_steps_per_second(potential);
+  for (auto& [protocol, share] : time) share /= speed;
+  log::info("estimate: {:.2g} atom-steps at {:.2g} per second of one processor, {}", work, speed,
+            time_split(time));
+  if (plan.processor_time > 0.0 && total(time) > plan.processor_time) {
+    log::warning("that is more than the processor_time of the plan, {:.1f} min", plan.processor_time / 60.0);
+  }
+}
+
+/// Tells what the points have cost.
+void report_time(const CampaignSummary& summary, const Plan& plan) {
+  const double used = total(summary.processor_time);
+  if (used == 0.0) return;
+  log::info("processor time in points: {}{}", time_split(summary.processor_time),
+            plan.processor_time > 0.0
+                ? fmt::format("; the plan allows {:.1f} min", plan.processor_time / 60.0)
+                : "");
 }
 
 void report(const CampaignSummary& summary, const std::string& store) {
@@ -97,11 +133,12 @@ int run_plan(const Options& options) {
       throw InputError(fmt::format("{}: error: {}", options.plan, error.what()));
     }
   };
-  const Potential potential =
-      of_plan([&] {
-        // The remaining word, least_energy, states none.
-        return Potential::load(plan.potential, plan.element, plan.folder, value_of<CrystalStructure>(plan.structure));
-      });
+  Potential potential = of_plan([&] {
+    // The remaining word, least_energy, states none.
+    return Potential::load(plan.potential, plan.element, plan.folder,
+                           value_of<CrystalStructure>(plan.structure), {plan.pair_style, plan.pair_coeff});
+  });
+  if (plan.validity_pressure > 0.0) potential.state_validity({plan.validity_pressure, "stated in the plan"});
   const std::vector<Task> tasks = of_plan([&] { return make_tasks(plan, potential); });
   require_writable_on_all(options.store, rank);
   if (rank == 0) {
@@ -115,18 +152,23 @@ int run_plan(const Options& options) {
         potential.least_volume_ratio(), word_of(potential.structure()), potential.lattice_constant(),
         potential.cutoff());
     if (!potential.remark().empty()) log::warning("{}", potential.remark());
+    if (std::isfinite(potential.validity().pressure)) {
+      log::info("states of {} beyond {:.0f} GPa are flagged: {}", potential.name(),
+                1e-9 * potential.validity().pressure, potential.validity().reason);
+    }
     if (!potential.has_tables() && potential.table_end() == 0.0) {
       log::warning(
-          "{}: the functions of a KIM model are not open, so that nothing is known of where their fit ends; "
-          "its "
-          "static crystal resists compression down to V/V0 = {:.2f}",
+          "{}: its functions are not open, so that nothing is known of where their fit ends; its static "
+          "crystal resists compression down to V/V0 = {:.2f}",
           potential.name(), potential.least_volume_ratio());
     }
   }
+  if (rank == 0) report_estimate(plan, tasks, potential, options.store);
   const CampaignSummary summary = run_campaign(tasks, options.store, MPI_COMM_WORLD, options.retry_failed,
                                                static_cast<int>(plan.ranks_per_point));
   if (rank == 0) {
     report(summary, options.store);
+    report_time(summary, plan);
     if (plan.liquid_vapour) report_critical_point(options.store);
   }
   if (summary.code != 0) {

@@ -63,9 +63,16 @@ std::vector<double> curve(const EquationOfState& eos, const State& initial, cons
     });
     return values;
   }
+  if (experiment.kind == ExperimentKind::isentrope) {
+    guarded([&](double ratio, double) {
+      return isentrope(eos, initial, {initial.density / ratio}).back().state.pressure;
+    });
+    return values;
+  }
   const Hugoniot principal(eos, initial.density, initial.specific_internal_energy);
   guarded([&](double x, double density) {
     const Hugoniot hugoniot = density < initial.density ? Hugoniot::porous(eos, density) : principal;
+    if (experiment.kind == ExperimentKind::sound_speed) return hugoniot.at_pressure(x).state.sound_speed;
     return experiment.kind == ExperimentKind::shock_velocity
                ? hugoniot.at_particle_velocity(x).shock_velocity
                : hugoniot.at_density(density / x).state.pressure;
@@ -80,8 +87,9 @@ Comparison compare(const EquationOfState& eos, const State& initial, const Exper
   for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
     const double measured = experiment.ordinate[i];
     const double difference = result.model[i] - measured;
-    const bool relative =
-        experiment.kind == ExperimentKind::shock_velocity || experiment.kind == ExperimentKind::melting;
+    const bool relative = experiment.kind == ExperimentKind::shock_velocity ||
+                          experiment.kind == ExperimentKind::melting ||
+                          experiment.kind == ExperimentKind::sound_speed;
     const double deviation = relative ? 100.0 * difference / measured : difference;
     result.deviation.push_back(deviation);
     if (densities[i] < initial.density) result.porous.push_back(experiment.lines[i]);

@@ -12,7 +12,7 @@ namespace whipple::eos::experiments {
 /// An equation of state on the points of an experiment.
 struct Comparison {
   std::vector<double> model;  ///< ordinate of the material; NaN outside its range
-  /// In percent of the measured Us or T, or in Pa; model less experiment.
+  /// In percent of the measured Us, T or c, or in Pa; model less experiment.
   std::vector<double> deviation;
   int points = 0;                 ///< inside the range of the material
   std::vector<int> out_of_range;  ///< lines of the points outside of it
@@ -31,14 +31,14 @@ constexpr double same_density = 0.01;
 /// `porosity`, where it is below that of the solid by more than `same_density`, else that of the solid.
 std::vector<double> initial_densities(double solid, const Experiment& experiment);
 
-/// Compares an equation of state with every point of an experiment. Of a melting line counts the middle of solidus and
-/// liquidus. The reference volume of an isotherm is the model's own at zero pressure and the temperature of the
-/// isotherm; a Hugoniot from less than the initial density is the porous one.
+/// Compares an equation of state with every point of an experiment. Of a melting line counts the middle of
+/// solidus and liquidus. The reference volume of an isotherm is the model's own at zero pressure and the
+/// temperature of the isotherm; a Hugoniot from less than the initial density is the porous one.
 /// @param initial  state ahead of the shock: zero pressure at the reference temperature
 Comparison compare(const EquationOfState& eos, const State& initial, const Experiment& experiment);
 
-/// Computes the curve of the experiment's kind at the given points (SI) from their initial densities (kg/m^3); NaN
-/// where the model has none.
+/// Computes the curve of the experiment's kind at the given points (SI) from their initial densities
+/// (kg/m^3); NaN where the model has none.
 std::vector<double> curve(const EquationOfState& eos, const State& initial, const Experiment& experiment,
                           const std::vector<double>& abscissa, const std::vector<double>& initial_density);
 

@@ -24,11 +24,12 @@ namespace {
 constexpr double room_temperature = 298.0;  // K
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-bool says_hugoniot(const MeasuredTable& table) {
-  static const std::regex word("hugoniot", std::regex::icase);
+/// Whether the file name or a comment holds a word.
+bool says(const MeasuredTable& table, const char* pattern) {
+  const std::regex word(pattern, std::regex::icase);
   if (std::regex_search(table.file().stem().string(), word)) return true;
   return std::ranges::any_of(table.comments(),
-                             [](const std::string& comment) { return std::regex_search(comment, word); });
+                             [&](const std::string& comment) { return std::regex_search(comment, word); });
 }
 
 bool has_volumes(const MeasuredTable& table) {
@@ -85,7 +86,8 @@ std::vector<double> volume_ratios(const MeasuredTable& table, const std::vector<
                     "columns are {}",
                     table.file().string(), table.headings()));
   }
-  if (const std::vector<double> initial = table.numbers(Quantity::initial_density); !initial.empty() && !of_atoms) {
+  if (const std::vector<double> initial = table.numbers(Quantity::initial_density);
+      !initial.empty() && !of_atoms) {
     for (std::size_t i = 0; i < volume.size(); ++i) volume[i] *= initial[i];
     return volume;
   }
@@ -112,12 +114,17 @@ std::string_view fault(ExperimentKind kind, double x, double y) {
       break;
     case ExperimentKind::shock_pressure:
     case ExperimentKind::isotherm:
+    case ExperimentKind::isentrope:
       if (y == 0.0) return "at zero pressure, the reference itself";
       if (y < 0.0) return "P is negative";
       if (x <= 0.0) return "V/V0 is not positive";
       break;
     case ExperimentKind::melting:
       if (y <= 0.0) return "T is not positive";
+      break;
+    case ExperimentKind::sound_speed:
+      if (x < 0.0) return "P is negative";
+      if (y <= 0.0) return "the sound speed is not positive";
       break;
   }
   return "";
@@ -145,7 +152,8 @@ void set_points(Experiment& experiment, const MeasuredTable& table, const std::v
       isotherm && experiment.ambient_volume > 0.0 ? table.numbers(Quantity::volume_error) : none;
   for (const std::size_t i : order) {
     if (!pressure_error.empty()) experiment.ordinate_error.push_back(pressure_error[i]);
-    if (!volume_error.empty()) experiment.abscissa_error.push_back(volume_error[i] / experiment.ambient_volume);
+    if (!volume_error.empty())
+      experiment.abscissa_error.push_back(volume_error[i] / experiment.ambient_volume);
     experiment.abscissa.push_back(abscissa[i]);
     experiment.ordinate.push_back(ordinate[i]);
     experiment.lines.push_back(table.line(i));
@@ -274,20 +282,28 @@ std::vector<Experiment> read_experiments(const std::filesystem::path& file,
   }
   const auto p = table.find(Quantity::pressure);
   if (!p) {
-    throw InputError(
-        fmt::format("{}: neither a Hugoniot (columns us_km_s, up_km_s) nor pressures (P_GPa) with volumes or "
-                    "melting temperatures (T_K), nor fits of shock velocities (C_km_s, S); "
-                    "the columns are {}",
-                    file.string(), table.headings()));
+    throw InputError(fmt::format(
+        "{}: neither a Hugoniot (columns us_km_s, up_km_s) nor pressures (P_GPa) with volumes, "
+        "melting temperatures (T_K) or bulk sound speeds (c_bulk_km_s), nor fits of shock velocities "
+        "(C_km_s, S); the columns are {}",
+        file.string(), table.headings()));
   }
   const std::vector<double> pressure = table.numbers(*p);
+  if (const auto sound = table.find(Quantity::bulk_sound_speed)) {
+    experiment.kind = ExperimentKind::sound_speed;
+    set_points(experiment, table, pressure, table.numbers(*sound));
+    return {experiment};
+  }
   if (const auto melting = table.find(Quantity::temperature); melting && !has_volumes(table)) {
     experiment.kind = ExperimentKind::melting;
     set_points(experiment, table, pressure, table.numbers(*melting));
     return {experiment};
   }
   const std::vector<double> ratios = volume_ratios(table, pressure, experiment.ambient_volume);
-  if (says_hugoniot(table)) {
+  // An isentrope's comments may well speak of the Hugoniot.
+  if (says(table, "isentrop")) {
+    experiment.kind = ExperimentKind::isentrope;
+  } else if (says(table, "hugoniot")) {
     experiment.kind = ExperimentKind::shock_pressure;
   } else {
     experiment.kind = ExperimentKind::isotherm;

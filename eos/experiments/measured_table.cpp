@@ -18,8 +18,9 @@
 namespace whipple::eos::experiments {
 namespace {
 
-/// A quantity with the words that name it, the best first, without the signs that `plain` takes off. Spellings of one
-/// letter count only with a unit that fits: D is a shock velocity in km/s and a diameter in mm.
+/// A quantity with the words that name it, the best first, without the signs that `plain` takes off.
+/// Spellings of one letter count only with a unit that fits: D is a shock velocity in km/s and a diameter in
+/// mm.
 struct Spelling {
   Quantity quantity;
   std::string_view si_unit;
@@ -34,12 +35,17 @@ constexpr std::array spellings = {
     Spelling{Quantity::density, "kg/m^3", {"rho", "density", "r", "\u03c1"}},
     Spelling{Quantity::volume_ratio, "", {"voverv0", "v/v0"}},
     Spelling{Quantity::temperature, "K", {"tm", "t", "temperature", "meltingtemperature"}},
-    Spelling{Quantity::initial_density, "kg/m^3", {"rho00", "r00", "rho0", "initialdensity", "density0", "\u03c10"}},
+    Spelling{Quantity::initial_density,
+             "kg/m^3",
+             {"rho00", "r00", "rho0", "initialdensity", "density0", "\u03c10"}},
     Spelling{Quantity::porosity, "", {"m", "porosity", "distension"}},
     Spelling{Quantity::hugoniot_intercept, "m/s", {"c", "c0"}},
     Spelling{Quantity::hugoniot_slope, "", {"s", "s1"}},
     Spelling{Quantity::hugoniot_quadratic, "", {"s2"}},
     Spelling{Quantity::hugoniot_cubic, "", {"s3"}},
+    Spelling{Quantity::bulk_sound_speed,
+             "m/s",
+             {"cb", "cbulk", "bulksoundspeed", "bulksoundvelocity", "soundspeed"}},
     Spelling{Quantity::pressure_error, "Pa", {"perr", "perror"}},
     Spelling{Quantity::volume_error, "m^3", {"atomicvolumeerr", "atomicvolumeerror"}},
 };
@@ -187,7 +193,8 @@ MeasuredTable::Column MeasuredTable::understand(const std::string& heading, int 
     if (!bare.empty() && found != known.words.end()) {
       return static_cast<std::size_t>(found - known.words.begin());
     }
-    const bool scale = known.quantity == Quantity::pressure && (text.starts_with("P_") || text.starts_with("p_"));
+    const bool scale =
+        known.quantity == Quantity::pressure && (text.starts_with("P_") || text.starts_with("p_"));
     if (scale && plain(text).find("err") == std::string::npos) return other_scale;
     return std::nullopt;
   };
@@ -214,8 +221,7 @@ MeasuredTable::Column MeasuredTable::understand(const std::string& heading, int 
   }
   for (const Spelling& known : spellings) {
     if (const auto spelling = spelt(heading, known); spelling && *spelling != other_scale) {
-      return take(known, *spelling,
-                  known.si_unit.empty() ? std::optional<std::string>("") : std::nullopt);
+      return take(known, *spelling, known.si_unit.empty() ? std::optional<std::string>("") : std::nullopt);
     }
   }
   // "up_km_s": the shortest ending that is a unit, so that P_revised_ruby_GPa is a P_revised_ruby.

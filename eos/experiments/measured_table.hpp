@@ -13,22 +13,23 @@ namespace whipple::eos::experiments {
 
 /// Names the quantity in a column of measurements; SI in memory.
 enum class Quantity {
-  shock_velocity,       ///< Us, m/s
-  particle_velocity,    ///< up, m/s
-  pressure,             ///< P, Pa
-  specific_volume,      ///< V, m^3/kg
-  atomic_volume,        ///< m^3 per atom
-  density,              ///< rho, kg/m^3
-  volume_ratio,         ///< V/V0
-  temperature,          ///< T, K
-  initial_density,      ///< rho0, kg/m^3
-  porosity,             ///< density of the solid over the initial one
-  hugoniot_intercept,   ///< C of a fit Us = C + S up + S2 up^2/Us + S3 up^3/Us^2, m/s
-  hugoniot_slope,       ///< S
-  hugoniot_quadratic,   ///< S2
-  hugoniot_cubic,       ///< S3
-  pressure_error,       ///< of P, one standard deviation, Pa
-  volume_error,         ///< of the atomic volume, m^3 per atom
+  shock_velocity,      ///< Us, m/s
+  particle_velocity,   ///< up, m/s
+  pressure,            ///< P, Pa
+  specific_volume,     ///< V, m^3/kg
+  atomic_volume,       ///< m^3 per atom
+  density,             ///< rho, kg/m^3
+  volume_ratio,        ///< V/V0
+  temperature,         ///< T, K
+  initial_density,     ///< rho0, kg/m^3
+  porosity,            ///< density of the solid over the initial one
+  hugoniot_intercept,  ///< C of a fit Us = C + S up + S2 up^2/Us + S3 up^3/Us^2, m/s
+  hugoniot_slope,      ///< S
+  hugoniot_quadratic,  ///< S2
+  hugoniot_cubic,      ///< S3
+  bulk_sound_speed,    ///< [(dP/drho)_S]^(1/2), m/s
+  pressure_error,      ///< of P, one standard deviation, Pa
+  volume_error,        ///< of the atomic volume, m^3 per atom
 };
 
 /// A text table of measurements, as people and programs write them (docs/manual/equations_of_state.md,

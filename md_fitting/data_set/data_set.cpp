@@ -217,6 +217,13 @@ std::string_view unit_of(std::string_view quantity) {
       {"vapour_pressure", "Pa"},
       {"surface_energy", "J/m^2"},
       {"interface_width", "m"},
+      {"quantum_free_energy", "J/kg"},
+      {"quantum_energy", "J/kg"},
+      {"quantum_heat_capacity", "J/(kg K)"},
+      {"quantum_pressure", "Pa"},
+      {"zero_point_energy", "J/kg"},
+      {"zero_point_pressure", "Pa"},
+      {"debye_temperature", "K"},
       {"c11", "Pa"},
       {"c12", "Pa"},
       {"c44", "Pa"},
@@ -268,8 +275,8 @@ std::vector<PointRecord> select(std::span<const PointRecord> points, std::string
 
 namespace {
 
-/// Returns what keeps a file of a size (bytes) from being written into a folder, as the system says it; empty if
-/// nothing does.
+/// Returns what keeps a file of a size (bytes) from being written into a folder, as the system says it; empty
+/// if nothing does.
 std::string obstacle(const std::filesystem::path& probe, std::uintmax_t size) {
   ::unlink(probe.c_str());  // what a killed writer left, or a link that somebody planted
   const int descriptor = ::open(probe.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0644);

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "md_fitting/data_set/crystal_structure.hpp"
+#include "md_fitting/data_set/run_cost.hpp"
 
 namespace whipple::fit {
 namespace {
@@ -40,44 +41,6 @@ double interpolated(const std::map<double, double>& table, double x) {
 
 bool same(double a, double b) { return std::abs(a - b) <= 1e-6 * std::abs(b) + 1e-9; }
 
-/// Unit cells times averaged steps of all runs of a point.
-double sampling_of(const RunShape& shape) {
-  const auto cells = static_cast<double>(shape.size.cells);
-  return cells * cells * shape.length * static_cast<double>(shape.size.steps) * shape.replicas;
-}
-
-/// Atoms times steps of a point of a protocol.
-double cost_of(std::optional<md::PointKind> protocol, double atoms_per_cell, const RunShape& shape) {
-  const auto cube = [&](double cells) { return atoms_per_cell * cells * cells * cells; };
-  const auto cells = static_cast<double>(shape.size.cells);
-  const auto equilibration = static_cast<double>(shape.size.equilibration_steps);
-  const auto steps = static_cast<double>(shape.size.steps);
-  if (protocol == md::PointKind::hugoniot) {
-    constexpr double searches = 3.0;  // runs of half the equilibration and a quarter of the steps
-    return cube(cells) * ((equilibration + steps) + searches * (0.5 * equilibration + 0.25 * steps));
-  }
-  if (protocol == md::PointKind::coexistence) {
-    constexpr double preparation = 1500.0 + 0.5 * (5000.0 + 1000.0) + 1000.0;  // half of the cell melts
-    const double phase = std::fmax(4.0, 0.75 * cells);  // crystal and melt are averaged apart as well
-    const double runs = shape.replicas + 1.0;           // the first one finds where the others start
-    return atoms_per_cell * cells * cells * shape.length * (preparation + equilibration + steps) * runs +
-           2.0 * cube(phase) * 0.5 * (equilibration + steps) * shape.replicas;
-  }
-  return cube(cells) * (equilibration + steps);
-}
-
-RunShape shape_of(const PointRecord& point) {
-  const auto number = [&](const char* name, double otherwise) {
-    return point.provenance.contains(name) ? point.origin_number(name) : otherwise;
-  };
-  const double cells = number("cells", 0.0);
-  return {{.cells = static_cast<std::int64_t>(cells),
-           .equilibration_steps = static_cast<std::int64_t>(number("equilibration_steps", 0.0)),
-           .steps = static_cast<std::int64_t>(number("steps", 0.0))},
-          number("length", cells),
-          number("replicas", 1.0)};
-}
-
 }  // namespace
 
 Ranges::Ranges(const md::Plan& plan, std::span<const PointRecord> points) : plan_(plan), points_(points) {
@@ -93,15 +56,20 @@ const md::IsochorePlan& Ranges::nearest_isochore(double volume_ratio) const {
   });
 }
 
-RunShape Ranges::shape_of(const PlannedPoint& point) const {
-  const auto cube = [](const md::RunSize& size) {
-    return RunShape{size, static_cast<double>(size.cells), 1.0};
+md::RunShape Ranges::shape_of(const PlannedPoint& point) const {
+  const auto shape = [](const md::RunSize& size, std::int64_t length, std::int64_t replicas) {
+    return md::RunShape{.cells = static_cast<double>(size.cells),
+                        .length = static_cast<double>(length),
+                        .equilibration_steps = static_cast<double>(size.equilibration_steps),
+                        .steps = static_cast<double>(size.steps),
+                        .replicas = static_cast<double>(replicas)};
   };
+  const auto cube = [&](const md::RunSize& size) { return shape(size, size.cells, 1); };
   if (point.protocol == md::PointKind::hugoniot) return cube(plan_.hugoniot->size);
   if (point.protocol == md::PointKind::isochore) return cube(nearest_isochore(point.volume_ratio).size);
   if (point.protocol != md::PointKind::coexistence) return cube(plan_.zero_pressure->size);
-  const md::CoexistencePlan& melting = *plan_.coexistence;
-  return {melting.size, static_cast<double>(melting.length), static_cast<double>(melting.replicas)};
+  const md::CoexistencePlan& melting = plan_.coexistences.front();
+  return shape(melting.size, melting.length, melting.replicas);
 }
 
 std::vector<double> Ranges::isochore_ratios() const {
@@ -137,10 +105,11 @@ std::vector<PlannedPoint> Ranges::hugoniot() const {
 }
 
 std::vector<PlannedPoint> Ranges::coexistence() const {
-  if (!plan_.coexistence || plan_.coexistence->pressure.empty()) return {};
+  if (plan_.coexistences.empty() || plan_.coexistences.front().pressure.empty()) return {};
+  const md::CoexistencePlan& melting = plan_.coexistences.front();
   std::map<double, double> guesses;
-  for (std::size_t i = 0; i < plan_.coexistence->pressure.size(); ++i) {
-    guesses[plan_.coexistence->pressure[i]] = plan_.coexistence->first_guess[i];
+  for (std::size_t i = 0; i < melting.pressure.size(); ++i) {
+    guesses[melting.pressure[i]] = melting.first_guess[i];
   }
   std::vector<PlannedPoint> points;
   for (const double pressure :
@@ -153,12 +122,14 @@ std::vector<PlannedPoint> Ranges::coexistence() const {
 bool Ranges::present(const PlannedPoint& point) const {
   return std::any_of(points_.begin(), points_.end(), [&](const PointRecord& record) {
     if (record.kind() != point.protocol) return false;
-    if (point.protocol == md::PointKind::coexistence) return same(record.condition("pressure"), point.pressure);
+    if (point.protocol == md::PointKind::coexistence)
+      return same(record.condition("pressure"), point.pressure);
     if (point.protocol == md::PointKind::zero_pressure_volume) {
       return same(record.condition("temperature"), point.temperature);
     }
     return same(record.condition("specific_volume"), point.volume_ratio * static_volume_) &&
-           (point.protocol == md::PointKind::hugoniot || same(record.condition("temperature"), point.temperature));
+           (point.protocol == md::PointKind::hugoniot ||
+            same(record.condition("temperature"), point.temperature));
   });
 }
 
@@ -211,21 +182,21 @@ std::vector<Candidate> Ranges::candidates(std::span<const double> isochore_volum
 }
 
 double Ranges::cost(const PlannedPoint& point) const {
-  return cost_of(point.protocol, atoms_per_cell_, shape_of(point));
+  return md::atom_steps(point.protocol, atoms_per_cell_, shape_of(point));
 }
 
 double Ranges::spent() const {
   double sum = 0.0;
   for (const PointRecord& point : points_) {
-    sum += cost_of(point.kind(), atoms_per_cell_, fit::shape_of(point)) * point.segments();
+    sum += md::atom_steps(point.kind(), atoms_per_cell_, md::run_shape(point.provenance)) * point.segments();
   }
   return sum;
 }
 
-double Ranges::sampling(const PlannedPoint& point) const { return sampling_of(shape_of(point)); }
+double Ranges::sampling(const PlannedPoint& point) const { return md::sampling(shape_of(point)); }
 
 double Ranges::sampling(const PointRecord& point) {
-  return sampling_of(fit::shape_of(point)) * point.segments();
+  return md::sampling(md::run_shape(point.provenance)) * point.segments();
 }
 
 md::Plan Ranges::plan_of(std::span<const PlannedPoint> points) const {
@@ -233,6 +204,10 @@ md::Plan Ranges::plan_of(std::span<const PlannedPoint> points) const {
   plan.title = plan_.title;
   plan.element = plan_.element;
   plan.potential = plan_.potential;
+  plan.structure = plan_.structure;
+  plan.pair_style = plan_.pair_style;
+  plan.pair_coeff = plan_.pair_coeff;
+  plan.validity_pressure = plan_.validity_pressure;
   plan.seed = plan_.seed;
   plan.ranks_per_point = plan_.ranks_per_point;
   plan.folder = plan_.folder;
@@ -245,13 +220,13 @@ md::Plan Ranges::plan_of(std::span<const PlannedPoint> points) const {
       plan.isochores.push_back(
           {point.volume_ratio, {point.temperature}, nearest_isochore(point.volume_ratio).size, {}});
     } else if (point.protocol == md::PointKind::coexistence) {
-      if (!plan.coexistence) {
-        plan.coexistence = *plan_.coexistence;
-        plan.coexistence->pressure.clear();
-        plan.coexistence->first_guess.clear();
+      if (plan.coexistences.empty()) {
+        plan.coexistences.push_back(plan_.coexistences.front());
+        plan.coexistences.front().pressure.clear();
+        plan.coexistences.front().first_guess.clear();
       }
-      plan.coexistence->pressure.push_back(point.pressure);
-      plan.coexistence->first_guess.push_back(point.temperature);
+      plan.coexistences.front().pressure.push_back(point.pressure);
+      plan.coexistences.front().first_guess.push_back(point.temperature);
     }
   }
   return plan;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "md_fitting/data_set/data_set.hpp"
-#include "md_fitting/data_set/data_set.hpp"
+#include "md_fitting/data_set/run_cost.hpp"
 #include "md_fitting/plan/plan.hpp"
 
 namespace whipple::fit {
@@ -22,13 +22,6 @@ struct PlannedPoint {
 struct Candidate {
   std::vector<PlannedPoint> points;
   double cost = 0.0;  ///< atom-steps
-};
-
-/// Size and number of the runs of a point.
-struct RunShape {
-  md::RunSize size;
-  double length = 0.0;  ///< unit cells along the third edge
-  double replicas = 1.0;
 };
 
 /// The sections of a plan as ranges, each with equidistant values; and what a store holds of them.
@@ -60,7 +53,7 @@ class Ranges {
   [[nodiscard]] md::Plan plan_of(std::span<const PlannedPoint> points) const;
 
  private:
-  [[nodiscard]] RunShape shape_of(const PlannedPoint& point) const;
+  [[nodiscard]] md::RunShape shape_of(const PlannedPoint& point) const;
   [[nodiscard]] const md::IsochorePlan& nearest_isochore(double volume_ratio) const;
   [[nodiscard]] std::vector<PlannedPoint> isochore(double volume_ratio) const;
   [[nodiscard]] std::vector<PlannedPoint> hugoniot() const;

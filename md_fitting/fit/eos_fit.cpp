@@ -43,6 +43,7 @@ struct Options {
   std::string melting{word_of(FitSettings{}.melting)};
   std::string reference_temperature = "293 K";
   std::vector<std::string> up_range = {"0.3 km/s", "2.5 km/s"};
+  std::string nuclei{word_of(FitSettings{}.nuclei)};
   std::string windows;  ///< empty: averaged, or single with --up-range
   bool own_range = false;
   std::string discrepancy{word_of(FitSettings{}.structure)};
@@ -79,9 +80,11 @@ FitSettings settings(const Options& options) {
   settings.melting = value_of<eos::MeltingTransition>(options.melting).value();
   settings.electrons = options.electrons;
   settings.bootstrap = options.bootstrap;
+  settings.nuclei = value_of<Nuclei>(options.nuclei).value();
   settings.structure = value_of<ErrorStructure>(options.discrepancy).value();
   settings.inflation = !options.stated_errors && !options.statistical_only;
-  settings.windows = options.own_range || options.statistical_only ? WindowChoice::single : WindowChoice::averaged;
+  settings.windows =
+      options.own_range || options.statistical_only ? WindowChoice::single : WindowChoice::averaged;
   if (!options.windows.empty()) settings.windows = value_of<WindowChoice>(options.windows).value();
   if (options.statistical_only) settings.model_errors = ModelErrors::none();
   if (!options.density.empty()) {
@@ -190,9 +193,9 @@ void propose_round(const Options& options) {
   if (options.stores.size() > 1) throw InputError("--propose works on one store");
   const md::Plan plan = md::read_plan(options.propose);
   if (!plan.adaptive) {
-    throw InputError(
-        fmt::format("{}: error: the section [adaptive] is missing: it selects the result that the points shall improve",
-                    options.propose));
+    throw InputError(fmt::format(
+        "{}: error: the section [adaptive] is missing: it selects the result that the points shall improve",
+        options.propose));
   }
   const std::filesystem::path& store = options.stores.front();
   std::vector<md::PointRecord> points;
@@ -248,7 +251,8 @@ void run(const Options& options) {
   if (!options.plot.empty()) process::draw_json("scripts/plot_fit.py", plot_data(fits.front()), options.plot);
 
   if (!options.quiet) {
-    for (const NamedFit& fit : fits) fmt::print("{}: constants and their sources\n{}\n", fit.name, sources_table(fit.fit));
+    for (const NamedFit& fit : fits)
+      fmt::print("{}: constants and their sources\n{}\n", fit.name, sources_table(fit.fit));
   }
   fmt::print("{}", constants_table(fits));
   for (const auto& [element, spread] : spreads) fmt::print("{}", spread_text(spread));
@@ -295,7 +299,8 @@ int main_program(int argc, char** argv) {
       ->check(CLI::Range(1, 100000));
   app.add_option("--seed", options.seed, "Of the samples")->capture_default_str();
   app.add_option("--tier", options.tier,
-                 "Errors that samples are drawn from: noise alone, of the fit and its defaults, over the potentials of the given stores, or all")
+                 "Errors that samples are drawn from: noise alone, of the fit and its defaults, over the "
+                 "potentials of the given stores, or all")
       ->check(CLI::IsMember(word_list<ErrorTier>()))
       ->capture_default_str();
   app.add_option("--melting", options.melting, "Melting transition of the material, and of the fit of T_m0")
@@ -313,10 +318,17 @@ int main_program(int argc, char** argv) {
                  "Mean over several windows of particle velocities, whose scatter adds to the errors, or one "
                  "(default: averaged, with --up-range single)")
       ->check(CLI::IsMember(word_list<WindowChoice>()));
-  app.add_option("--model-errors", options.discrepancy, "Model errors along a curve of states, or state by state")
+  app.add_option("--model-errors", options.discrepancy,
+                 "Model errors along a curve of states, or state by state")
       ->check(CLI::IsMember(word_list<ErrorStructure>()))
       ->capture_default_str();
-  app.add_flag("--stated-errors", options.stated_errors, "Leave the model errors as stated, whatever chi^2 is");
+  app.add_option(
+         "--nuclei", options.nuclei,
+         "Isotherm of --model debye_gruneisen: with what the points of [quantum] add, or as simulated")
+      ->check(CLI::IsMember(word_list<Nuclei>()))
+      ->capture_default_str();
+  app.add_flag("--stated-errors", options.stated_errors,
+               "Leave the model errors as stated, whatever chi^2 is");
   app.add_option("--template", options.template_file,
                  "Material whose strength and failure are copied (default: the element's in the library)");
   app.add_option("--plot", options.plot, "Figure of data, fit and residuals, FILE.png");

@@ -48,11 +48,24 @@ struct CorrelationLengths {
 
 /// Which windows of particle velocities the constants are taken from.
 enum class WindowChoice {
-  averaged,  ///< mean over the windows, their scatter is part of the covariance
-  single     ///< the window of the settings alone
+  averaged,    ///< mean over the windows, their scatter is part of the covariance
+  predictive,  ///< the same, weighted by how well each window predicts all shocks
+  single       ///< the window of the settings alone
 };
-constexpr std::array<Word<WindowChoice>, 2> words(WindowChoice) {
-  return {{{WindowChoice::averaged, "averaged"}, {WindowChoice::single, "single"}}};
+constexpr std::array<Word<WindowChoice>, 3> words(WindowChoice) {
+  return {{{WindowChoice::averaged, "averaged"},
+           {WindowChoice::predictive, "predictive"},
+           {WindowChoice::single, "single"}}};
+}
+
+/// Whose thermodynamics the isotherm of a fit is.
+enum class Nuclei {
+  quantum,   ///< with what the points of the protocol "quantum" add, if there are any at the reference
+             ///< temperature
+  classical  ///< as simulated
+};
+constexpr std::array<Word<Nuclei>, 2> words(Nuclei) {
+  return {{{Nuclei::quantum, "quantum"}, {Nuclei::classical, "classical"}}};
 }
 
 struct FitSettings {
@@ -67,6 +80,7 @@ struct FitSettings {
   CorrelationLengths lengths;
   bool inflation = true;  ///< model errors grow until chi^2 of each kind of data is what it should be
   WindowChoice windows = WindowChoice::averaged;
+  Nuclei nuclei = Nuclei::quantum;
   std::string electrons;  ///< name of a choice of the element's table, or a quantity; empty: the first choice
   int bootstrap = 0;      ///< replicates; 0: none
   std::optional<double> density;  ///< kg/m^3: replaces the fitted reference volume by a measured one

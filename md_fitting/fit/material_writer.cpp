@@ -60,11 +60,11 @@ std::string constant_line(const Constant& constant) {
       line += fmt::format("  # given: {}", constant.source);
       break;
     case Origin::by_default:
-      line += fmt::format("  # default, {}: {}",
-                          constant.error > 0.0
-                              ? fmt::format("+- {}", practical_quantity(constant.error, unit, 2))
-                              : std::string("no error known"),
-                          constant.source);
+      line +=
+          fmt::format("  # default, {}: {}",
+                      constant.error > 0.0 ? fmt::format("+- {}", practical_quantity(constant.error, unit, 2))
+                                           : std::string("no error known"),
+                      constant.source);
       break;
   }
   return line + "\n";
@@ -113,7 +113,8 @@ std::string covariance_table(const Fit& fit) {
     si_units.push_back(toml_string(fit.constant(name).unit));
   }
   std::string text = fmt::format(
-      "[covariance]\n# Of the fitted constants, from the noise of the data, the model error and the scatter over the "
+      "[covariance]\n# Of the fitted constants, from the noise of the data, the model error and the scatter "
+      "over the "
       "windows: entry k of row i in units[i] * units[k].\nnames = [{}]\nunits = [{}]\n",
       fmt::join(names, ", "), fmt::join(si_units, ", "));
   std::vector<std::string> noise;
@@ -128,9 +129,11 @@ std::string covariance_table(const Fit& fit) {
   text +=
       fmt::format("chi_squared = {:.6g}\ndegrees_of_freedom = {}\n", fit.chi_squared, fit.degrees_of_freedom);
   std::vector<std::string> information;
-  for (const double value : identifiability(fit).eigenvalues) information.push_back(fmt::format("{:.4g}", value));
-  text += fmt::format("fisher_eigenvalues = [{}]  # constants in units of themselves, or of their larger errors\n",
-                      fmt::join(information, ", "));
+  for (const double value : identifiability(fit).eigenvalues)
+    information.push_back(fmt::format("{:.4g}", value));
+  text += fmt::format(
+      "fisher_eigenvalues = [{}]  # constants in units of themselves, or of their larger errors\n",
+      fmt::join(information, ", "));
   text += matrix_table("covariance.matrix", fit.fitted_names, fit.covariance,
                        [](double value) { return fmt::format("{:.6e}", value); });
   text += matrix_table("covariance.statistical", fit.fitted_names, fit.statistical_covariance,
@@ -148,10 +151,13 @@ std::string settings_table(const Fit& fit) {
   text += fmt::format("particle_velocities = [\"{} km/s\", \"{} km/s\"]\n",
                       settings.least_particle_velocity / 1000.0, settings.most_particle_velocity / 1000.0);
   text += fmt::format("melting = {}\n", toml_string(word_of(settings.melting)));
-  text += fmt::format("windows = {}\nwindows_averaged = {}\n", toml_string(word_of(settings.windows)),
-                      std::ranges::count_if(fit.windows, [](const auto& window) { return window.weight > 0.0; }));
+  text +=
+      fmt::format("windows = {}\nwindows_averaged = {}\n", toml_string(word_of(settings.windows)),
+                  std::ranges::count_if(fit.windows, [](const auto& window) { return window.weight > 0.0; }));
+  text += fmt::format("nuclei = {}\n", toml_string(word_of(settings.nuclei)));
   text += fmt::format("model_errors = {}\n", toml_string(word_of(settings.structure)));
-  text += fmt::format("correlation_particle_velocity = \"{} km/s\"\n", settings.lengths.particle_velocity / 1000.0);
+  text += fmt::format("correlation_particle_velocity = \"{} km/s\"\n",
+                      settings.lengths.particle_velocity / 1000.0);
   text += fmt::format("correlation_volume_ratio = {}\ncorrelation_temperature = \"{} K\"\n",
                       settings.lengths.volume_ratio, settings.lengths.temperature);
   if (!fit.remarks.empty()) {
@@ -218,12 +224,14 @@ std::string defaults_table(const Fit& fit) {
     errors.push_back(fmt::format("{:.4e}", constant.error));
     sources.push_back(toml_string(constant.error_source));
   }
-  return text + fmt::format(
-                    "\n[default_errors]\n# One standard deviation of the defaults whose sources give one, errors[i] in "
-                    "units[i]: samples draw these, too. No error is known of the others.\nnames = [{}]\nunits = "
-                    "[{}]\nerrors = [{}]\nsources = [{}]\nunknown = [{}]\n",
-                    fmt::join(names, ", "), fmt::join(units, ", "), fmt::join(errors, ", "),
-                    fmt::join(sources, ", "), fmt::join(unknown, ", "));
+  return text +
+         fmt::format(
+             "\n[default_errors]\n# One standard deviation of the defaults whose sources give one, errors[i] "
+             "in "
+             "units[i]: samples draw these, too. No error is known of the others.\nnames = [{}]\nunits = "
+             "[{}]\nerrors = [{}]\nsources = [{}]\nunknown = [{}]\n",
+             fmt::join(names, ", "), fmt::join(units, ", "), fmt::join(errors, ", "),
+             fmt::join(sources, ", "), fmt::join(unknown, ", "));
 }
 
 /// Second tier of the errors: of the constants that the material has from its fit.
@@ -240,9 +248,11 @@ std::string spread_table(const Fit& fit, const PotentialSpread& spread) {
   }
   for (const std::string& potential : spread.potentials) potentials.push_back(toml_string(potential));
   std::string text = fmt::format(
-      "\n[potential_spread]\n# Second tier: scatter of the constants over potentials of the element, not contained in "
+      "\n[potential_spread]\n# Second tier: scatter of the constants over potentials of the element, not "
+      "contained in "
       "[covariance].\npotentials = [{}]\nnames = [{}]\nunits = [{}]\nstandard_deviation = [{}]\n",
-      fmt::join(potentials, ", "), fmt::join(quoted, ", "), fmt::join(units, ", "), fmt::join(deviations, ", "));
+      fmt::join(potentials, ", "), fmt::join(quoted, ", "), fmt::join(units, ", "),
+      fmt::join(deviations, ", "));
   return text + matrix_table("potential_spread.matrix", names, spread.covariance(kept, kept),
                              [](double value) { return fmt::format("{:.6e}", value); });
 }
@@ -310,13 +320,14 @@ std::filesystem::path default_template(const std::string& element) {
                   file, fmt::join(names, ", ")));
 }
 
-std::string material_text(const Fit& fit, const StoreOrigin& origin, const std::filesystem::path& template_file,
+std::string material_text(const Fit& fit, const StoreOrigin& origin,
+                          const std::filesystem::path& template_file,
                           const std::optional<PotentialSpread>& spread) {
   const std::string_view metal = element_defaults(fit.element).metal;
   const bool gray = fit.model == FitModel::gray;
   std::string text = comment_lines(sources_table(fit));
   text += fmt::format("\nname = \"{} ({} fitted to molecular dynamics, {})\"\n", metal,
-                                 gray ? "GRAY" : name_of(fit.model), origin.name);
+                      gray ? "GRAY" : name_of(fit.model), origin.name);
   text += fmt::format("source = {}\n", toml_string(fmt::format("whipple fit of {}; interatomic potential {}",
                                                                origin.name, fit.potential)));
   text +=

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
+#include "md_fitting/data_set/run_cost.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::fit {
@@ -103,11 +105,23 @@ std::vector<Isochore> isochores(std::span<const PointRecord> points) {
   return found;
 }
 
+/// Of the points of one pressure only those of the largest cells count: a plan may hold smaller ones to show
+/// the effect.
 std::vector<MeltingPoint> melting_points(const std::vector<PointRecord>& points) {
+  const auto cells = [](const PointRecord& point) {
+    const md::RunShape shape = md::run_shape(point.provenance);
+    return shape.cells * shape.cells * shape.length;
+  };
+  std::map<double, double> largest;  // by pressure
+  for (const PointRecord& point : points) {
+    double& most = largest[point.condition("pressure")];
+    most = std::max(most, cells(point));
+  }
   std::vector<MeltingPoint> found;
   for (const PointRecord& point : points) {
     if (!point.results.contains("solid_specific_volume"))
       continue;  // without it the point says nothing on V0
+    if (cells(point) < largest[point.condition("pressure")]) continue;
     const auto optional = [&](const char* name) {
       const auto result = point.results.find(name);
       return result == point.results.end() ? std::nullopt : std::optional(result->second);
@@ -132,6 +146,63 @@ std::vector<IsothermState> isotherm_states(std::span<const PointRecord> points, 
   }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.volume > b.volume; });
   return found;
+}
+
+/// -V dP/dV where an isotherm crosses zero pressure: P/(1 - V/V0) of the two nearest states, extrapolated to
+/// V0.
+double modulus_at_rest(std::vector<IsothermState> isotherm, double v0) {
+  constexpr double too_near = 2e-3;  // there P/(1 - V/V0) is the noise of P
+  const auto strain = [&](const IsothermState& state) { return 1.0 - state.volume / v0; };
+  std::erase_if(isotherm, [&](const IsothermState& state) { return std::abs(strain(state)) < too_near; });
+  std::ranges::sort(isotherm, {}, [&](const IsothermState& state) { return std::abs(strain(state)); });
+  const double x0 = strain(isotherm[0]);
+  const double x1 = strain(isotherm[1]);
+  const double secant0 = isotherm[0].pressure.value / x0;
+  const double secant1 = isotherm[1].pressure.value / x1;
+  return secant0 - (secant1 - secant0) / (x1 - x0) * x0;
+}
+
+/// Turns the isotherm of classical nuclei, and the volume at zero pressure, into those of quantum ones.
+/// Between the volumes of the quantum points their pressure is linear.
+/// @throws InputError if these do not cover the isotherm
+void add_quantum_nuclei(std::span<const PointRecord> points, Observations& data,
+                        const std::string& store_name) {
+  for (const PointRecord& point : md::select(points, "quantum")) {
+    if (std::abs(point.condition("temperature") - data.reference_temperature) > same_temperature) continue;
+    data.quantum.push_back({point.condition("specific_volume"), point.result("quantum_pressure"),
+                            point.result("debye_temperature").value});
+  }
+  std::ranges::sort(data.quantum, [](const auto& a, const auto& b) { return a.volume > b.volume; });
+  if (data.quantum.empty()) return;
+  const auto quantum_pressure = [&](double volume) {
+    const auto below =
+        std::ranges::find_if(data.quantum, [&](const auto& s) { return s.volume <= volume * (1 + 1e-9); });
+    const double least = data.quantum.back().volume;
+    const double most = data.quantum.front().volume;
+    if (below == data.quantum.end() || volume > most * (1 + 1e-9)) {
+      throw InputError(fmt::format(
+          "{}: the points of the protocol \"quantum\" at {} K reach from V = {:.5g} to {:.5g} cm^3/g, the "
+          "isotherm has {:.5g}; add volumes, or fit with --nuclei classical",
+          store_name, data.reference_temperature, 1e3 * least, 1e3 * most, 1e3 * volume));
+    }
+    if (below == data.quantum.begin()) return below->pressure;
+    const QuantumState& above = *std::prev(below);
+    const double weight = (volume - below->volume) / (above.volume - below->volume);
+    return Estimate{weight * above.pressure.value + (1 - weight) * below->pressure.value,
+                    std::hypot(weight * above.pressure.error, (1 - weight) * below->pressure.error)};
+  };
+  const double v0 = data.reference_volume.value;
+  const double bulk_modulus = modulus_at_rest(data.isotherm, v0);
+  const Estimate at_reference = quantum_pressure(v0);
+  data.quantum_expansion = at_reference.value / bulk_modulus;
+  data.reference_volume.value *= 1.0 + data.quantum_expansion;
+  data.reference_volume.error =
+      std::hypot(data.reference_volume.error, v0 * at_reference.error / bulk_modulus);
+  for (IsothermState& state : data.isotherm) {
+    const Estimate pressure = quantum_pressure(state.volume);
+    state.pressure.value += pressure.value;
+    state.pressure.error = std::hypot(state.pressure.error, pressure.error);
+  }
 }
 
 /// Adds the observations of liquid, vapour and Debye temperature.
@@ -241,6 +312,9 @@ Observations observe(std::span<const PointRecord> points, const FitSettings& set
     lacking += missing(points, "isotherm",
                        fmt::format("{} solid states at {} K", data.isotherm.size(), reference_temperature),
                        fmt::format("{}", least_isotherm));
+  }
+  if (lacking.empty() && needs.isotherm && settings.nuclei == Nuclei::quantum) {
+    add_quantum_nuclei(points, data, store_name);
   }
   data.melting = melting_points(md::select(points, "coexistence"));
   add_other_phases(points, data);

@@ -64,6 +64,13 @@ struct ElasticState {
   double bulk_modulus = 0.0, shear_modulus = 0.0;  ///< Hill's
 };
 
+/// What quantum nuclei add to classical ones at the reference temperature.
+struct QuantumState {
+  double volume = 0.0;
+  md::Estimate pressure;
+  double debye_temperature = 0.0;  ///< K, of the second moment of the frequencies
+};
+
 struct Observations {
   std::string element;
   std::string potential;
@@ -77,6 +84,8 @@ struct Observations {
   std::vector<LiquidState> liquid;
   std::vector<SaturationState> saturation;  ///< by rising temperature
   std::vector<ElasticState> elastic;
+  std::vector<QuantumState> quantum;  ///< by falling volume; empty unless the isotherm contains them
+  double quantum_expansion = 0.0;     ///< relative growth of the reference volume by them
 };
 
 /// Which data must be there.
@@ -85,8 +94,8 @@ struct Needs {
   bool isotherm = false;
 };
 
-/// Returns whether the crystal of a point has not melted; true for protocols without that flag, which simulate solids
-/// only.
+/// Returns whether the crystal of a point has not melted; true for protocols without that flag, which
+/// simulate solids only.
 bool is_solid(const md::PointRecord& point);
 
 /// Sorts the finished points of a store into data.

@@ -43,7 +43,8 @@ MatrixXd jacobian_of(const LeastSquaresProblem& problem, Index rows) {
 }
 
 std::string point_text(const PlannedPoint& point) {
-  if (point.protocol == md::PointKind::hugoniot) return fmt::format("hugoniot at V/Vs = {:.4g}", point.volume_ratio);
+  if (point.protocol == md::PointKind::hugoniot)
+    return fmt::format("hugoniot at V/Vs = {:.4g}", point.volume_ratio);
   if (point.protocol == md::PointKind::isochore) {
     return fmt::format("isochore V/Vs = {:.4g} at {:.0f} K", point.volume_ratio, point.temperature);
   }
@@ -63,9 +64,10 @@ void propose_points(Proposal& proposal, const Ranges& ranges, const std::vector<
 /// Returns whether the store bears a fit, and one with melting if the plan has any.
 bool bears_fit(const md::Plan& plan, std::span<const md::PointRecord> points, const FitSettings& settings,
                const std::string& store_name) {
-  const bool melting = std::any_of(points.begin(), points.end(),
-                                   [](const auto& point) { return point.kind() == md::PointKind::coexistence; });
-  if (plan.coexistence && !melting) return false;
+  const bool melting = std::any_of(points.begin(), points.end(), [](const auto& point) {
+    return point.kind() == md::PointKind::coexistence;
+  });
+  if (!plan.coexistences.empty() && !melting) return false;
   try {
     observe(points, settings, {}, store_name);
     return true;

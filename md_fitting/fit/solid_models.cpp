@@ -41,7 +41,8 @@ struct Renamed {
   MatrixXd jacobian;  ///< d(constant of the model)/d(constant of the solid)
 };
 
-Fit renamed(const SolidFit& solid, FitModel model, const Renamed& map, std::span<const md::PointRecord> points) {
+Fit renamed(const SolidFit& solid, FitModel model, const Renamed& map,
+            std::span<const md::PointRecord> points) {
   Fit fit = solid.report;
   add_structure_remark(fit, points, solid.data);
   fit.model = model;
@@ -70,7 +71,7 @@ void replace_density(Fit& fit, double& density, Sources& sources) {
   const Index row = place - fit.fitted_names.begin();
   const Index count = fit.covariance.rows();
   sources.measured("reference_density", fmt::format("measured density; the simulations give {}",
-                                                 practical_quantity(density, "kg/m^3")));
+                                                    practical_quantity(density, "kg/m^3")));
   density = *fit.settings.density;
   std::vector<Index> kept;
   for (Index k = 0; k < count; ++k) {
@@ -187,7 +188,15 @@ Fit fit_debye_gruneisen(std::span<const md::PointRecord> points, const FitSettin
   constants.melting_temperature = solid.constants.gray.melting_temperature;
   if (!melts) sources.by_default(table.melting_temperature);
   const std::vector<ElasticState>& elastic = solid.data.elastic;
-  if (elastic.empty()) {
+  const std::vector<QuantumState>& quantum = solid.data.quantum;
+  if (!quantum.empty()) {
+    const QuantumState& near = *std::ranges::min_element(
+        quantum, {}, [&](const QuantumState& state) { return std::abs(state.volume - v0); });
+    constants.debye_temperature = near.debye_temperature;
+    sources.given(
+        "debye_temperature",
+        fmt::format("second moment of the vibrations of the crystal at V/V0 = {:.3f}", near.volume / v0));
+  } else if (elastic.empty()) {
     constants.debye_temperature = table.debye_temperature.value;
     sources.by_default(table.debye_temperature);
   } else {
@@ -209,10 +218,15 @@ Fit fit_debye_gruneisen(std::span<const md::PointRecord> points, const FitSettin
   if (settings.bootstrap > 0) fit.bootstrap = replicates(points, solid, needs, map, settings, store_name);
   if (settings.density) replace_density(fit, constants.reference_density, sources);
   list_constants(fit, whipple::bind(eos::DebyeGruneisen::parameters(), constants), sources);
-  fit.remarks.emplace_back(
-      "the isotherm is that of classical nuclei: zero-point motion and quantum heat capacity enter through "
-      "the Debye "
-      "temperature alone");
+  fit.remarks.emplace_back(quantum.empty() ? "the isotherm is that of classical nuclei: zero-point motion "
+                                             "and quantum heat capacity enter through the "
+                                             "Debye temperature alone"
+                                           : fmt::format("the isotherm contains the pressure of quantum "
+                                                         "nuclei ({:.3f} GPa at V/V0 = {:.3f}), by which "
+                                                         "the volume at zero pressure grows by {:.3f} %",
+                                                         1e-9 * quantum.front().pressure.value,
+                                                         quantum.front().volume / v0,
+                                                         100.0 * solid.data.quantum_expansion));
   return fit;
 }
 

@@ -7,6 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "src/core/base/units.hpp"
+
 namespace whipple::fit {
 namespace {
 
@@ -34,6 +36,24 @@ std::map<std::string, std::vector<ColdDifference>> cold_differences(std::span<co
   return found;
 }
 
+/// Data at pressures beyond the validity of the potential; older stores state none.
+void add_validity_remark(Fit& fit, std::span<const md::PointRecord> points, const Observations& data) {
+  const auto first = std::ranges::find_if(points, [](const md::PointRecord& point) {
+    return point.done() && point.provenance.contains("validity_pressure");
+  });
+  if (first == points.end()) return;
+  const std::string limit = first->origin("validity_pressure");
+  const double pressure = units::parse_quantity(limit, "Pa");
+  const auto beyond = [&](const auto& state) { return state.pressure.value > pressure; };
+  const auto shocks = std::ranges::count_if(data.hugoniot, beyond);
+  std::ptrdiff_t states = 0;
+  for (const Isochore& isochore : data.isochores) states += std::ranges::count_if(isochore.states, beyond);
+  if (shocks + states == 0) return;
+  fit.remarks.push_back(fmt::format(
+      "{} Hugoniot states and {} states of isochores are beyond the validity of the potential, {} ({})",
+      shocks, states, limit, first->origin("validity_reason")));
+}
+
 }  // namespace
 
 std::optional<StructureLimit> structure_limit(std::span<const md::PointRecord> points) {
@@ -55,6 +75,7 @@ std::optional<StructureLimit> structure_limit(std::span<const md::PointRecord> p
 }
 
 void add_structure_remark(Fit& fit, std::span<const md::PointRecord> points, const Observations& data) {
+  add_validity_remark(fit, points, data);
   const std::optional<StructureLimit> limit = structure_limit(points);
   if (!limit) return;
   const auto shocks = std::ranges::count_if(
@@ -64,7 +85,8 @@ void add_structure_remark(Fit& fit, std::span<const md::PointRecord> points, con
     if (isochore.volume < limit->volume) states += static_cast<std::ptrdiff_t>(isochore.states.size());
   }
   fit.remarks.push_back(fmt::format(
-      "beyond {:.0f} GPa (V/V0 = {:.3f}) the {} crystal of this potential has less energy than the simulated one: {} "
+      "beyond {:.0f} GPa (V/V0 = {:.3f}) the {} crystal of this potential has less energy than the simulated "
+      "one: {} "
       "Hugoniot states and {} states of isochores there are of a crystal that is not stable",
       1e-9 * limit->pressure, limit->volume / data.reference_volume.value, limit->structure, shocks, states));
 }

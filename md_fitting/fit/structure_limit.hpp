@@ -18,12 +18,13 @@ struct StructureLimit {
   double pressure = 0.0;  ///< Pa, of the simulated crystal at 0 K
 };
 
-/// Returns the least pressure at which another structure of the points `cold_curve` has less energy than the simulated
-/// one at the same volume (to first order the difference of enthalpies at the same pressure), linear between the
-/// volumes; none without such points, or if the crystal is the stable one at all of them.
+/// Returns the least pressure at which another structure of the points `cold_curve` has less energy than the
+/// simulated one at the same volume (to first order the difference of enthalpies at the same pressure),
+/// linear between the volumes; none without such points, or if the crystal is the stable one at all of them.
 std::optional<StructureLimit> structure_limit(std::span<const md::PointRecord> points);
 
-/// Adds a remark with the limit and the numbers of data beyond it, if there is one.
+/// Adds remarks with that limit, with the validity of the potential that the store states, and with the
+/// numbers of data beyond each.
 void add_structure_remark(Fit& fit, std::span<const md::PointRecord> points, const Observations& data);
 
 }  // namespace whipple::fit

@@ -14,9 +14,9 @@ namespace whipple::md {
 /// the tables.
 struct EamTables {
   std::string element;
-  double mass = 0.0;                     ///< g/mol
-  double header_lattice_constant = 0.0;  ///< A, as the file says; some files leave it 0
-  std::string header_structure;          ///< word of the file, which need not be the structure
+  double mass = 0.0;                                   ///< g/mol
+  double header_lattice_constant = 0.0;                ///< A, as the file says; some files leave it 0
+  std::string header_structure;                        ///< word of the file, which need not be the structure
   CrystalStructure structure = CrystalStructure::fcc;  ///< fcc or bcc
   double density_step = 0.0;
   std::vector<double> embedding;          ///< F at i * density_step, eV
@@ -24,6 +24,7 @@ struct EamTables {
   std::vector<double> density;            ///< f at i * radius_step
   std::vector<double> radius_times_pair;  ///< r phi(r) at i * radius_step, eV A
   double cutoff = 0.0;                    ///< A
+  double fitted_density = 0.0;            ///< largest density that F was fitted to; 0: not known
 
   /// Largest tabulated density. Beyond it LAMMPS continues F by a straight line without a word.
   [[nodiscard]] double density_end() const;

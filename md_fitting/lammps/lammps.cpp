@@ -121,6 +121,18 @@ bool Lammps::has_style(const std::string& category, const std::string& name) con
   return lammps_has_style(handle_, category.c_str(), name.c_str()) == 1;
 }
 
+std::vector<std::string> Lammps::styles(const std::string& category) const {
+  constexpr int longest = 128;
+  std::vector<std::string> names;
+  for (int i = 0; i < lammps_style_count(handle_, category.c_str()); ++i) {
+    std::array<char, longest> name{};
+    if (lammps_style_name(handle_, category.c_str(), i, name.data(), longest) == 1)
+      names.emplace_back(name.data());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
 double Lammps::atoms() const { return lammps_get_natoms(handle_); }
 
 int Lammps::version() const { return lammps_version(handle_); }

@@ -26,8 +26,8 @@ class Lammps {
 
   /// Runs one input line. Collective.
   void command(const std::string& line) { command_shown_as(line, line); }
-  /// Runs a command, and records another text in the transcript, which must not show a path that lives as long as this
-  /// process only. Collective.
+  /// Runs a command, and records another text in the transcript, which must not show a path that lives as
+  /// long as this process only. Collective.
   void command_shown_as(const std::string& line, const std::string& shown);
   template <class... Args>
   void command(fmt::format_string<Args...> format, Args&&... args) {
@@ -46,6 +46,8 @@ class Lammps {
 
   /// Returns whether LAMMPS was built with a style, e.g. has_style("pair", "eam/alloy").
   [[nodiscard]] bool has_style(const std::string& category, const std::string& name) const;
+  /// Names of all styles of a category, sorted.
+  [[nodiscard]] std::vector<std::string> styles(const std::string& category) const;
   [[nodiscard]] double atoms() const;
   /// Release as a date, e.g. 20210929.
   [[nodiscard]] int version() const;

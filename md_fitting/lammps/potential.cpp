@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "md_fitting/lammps/eam_files.hpp"
+#include "md_fitting/lammps/kim_model.hpp"
 #include "md_fitting/lammps/units.hpp"
 #include "md_fitting/lammps/zhou_2004.hpp"
 #include "src/core/base/error.hpp"
@@ -127,7 +128,8 @@ bool is_ascii(const std::string& text) {
 /// Takes the cubic structure of least energy, unless the plan states one: headers of potential files are
 /// written by hand, and some programs that fit alloys know fcc only.
 /// @return what differs from the header; empty: nothing
-std::string choose_structure(EamTables& tables, std::optional<CrystalStructure> stated, const std::string& name) {
+std::string choose_structure(EamTables& tables, std::optional<CrystalStructure> stated,
+                             const std::string& name) {
   constexpr double clearly = 5e-3;  // eV per atom: what fcc and hcp differ by in potentials of fcc metals
   const std::optional<CrystalStructure> header = value_of<CrystalStructure>(tables.header_structure);
   const bool cubic = header == CrystalStructure::fcc || header == CrystalStructure::bcc;
@@ -174,7 +176,8 @@ std::string choose_structure(EamTables& tables, std::optional<CrystalStructure> 
   if (tables.structure == header) return "";
   std::string energies;
   for (const Candidate& c : candidates) {
-    energies += fmt::format("{}{} {:.4f}", energies.empty() ? "" : ", ", word_of(c.tables.structure), c.energy);
+    energies +=
+        fmt::format("{}{} {:.4f}", energies.empty() ? "" : ", ", word_of(c.tables.structure), c.energy);
   }
   return fmt::format(
       "potential {}: the header gives {} the structure '{}', but {} has the lowest energy ({} eV "
@@ -212,12 +215,28 @@ std::filesystem::path potential_folder() {
 }
 
 Potential Potential::load(const std::string& name, const std::string& element,
-                          const std::filesystem::path& folder, std::optional<CrystalStructure> structure) {
+                          const std::filesystem::path& folder, std::optional<CrystalStructure> structure,
+                          const PairStyle& pair) {
   Potential potential;
   potential.name_ = name;
   potential.element_ = element;
-  if (KimModel::is_identifier(name)) {
-    potential.read_kim(structure);
+  if (!pair.style.empty()) {
+    PairInteractions own = pair_interactions(pair, name, folder);
+    potential.style_ = pair.style;
+    potential.source_ = own.interactions.name;
+    potential.hash_ = own.hash;
+    potential.take_model(
+        std::make_shared<const MeasuredModel>(std::move(own.interactions), element, structure));
+    return potential;
+  }
+  if (is_kim_identifier(name)) {
+    potential.style_ = "kim";
+    potential.source_ = "OpenKIM, https://openkim.org/id/" + name;
+    // The identifier with its version stands for the model's content: KIM never changes one without the
+    // other.
+    potential.hash_ = sha256("KIM model " + name);
+    potential.take_model(
+        std::make_shared<const MeasuredModel>(kim_interactions(name, element), element, structure));
     return potential;
   }
   if (name == zhou_2004_name) {
@@ -236,23 +255,21 @@ Potential Potential::load(const std::string& name, const std::string& element,
   const double end = potential.tables_.density_end();
   potential.table_end_ = potential.tables_.volume_ratio_at(end);
   potential.least_volume_ratio_ = potential.tables_.volume_ratio_at(end / (1.0 + density_margin));
+  potential.validity_ = validity_of(potential.tables_, potential.least_volume_ratio_);
   return potential;
 }
 
-void Potential::read_kim(std::optional<CrystalStructure> stated) {
-  kim_ = std::make_shared<const KimModel>(name_, element_, stated);
-  style_ = "kim";
+void Potential::take_model(std::shared_ptr<const MeasuredModel> model) {
+  model_ = std::move(model);
   file_ = name_;
-  source_ = "OpenKIM, https://openkim.org/id/" + name_;
-  // The identifier with its version stands for the model's content: KIM never changes one without the other.
-  hash_ = sha256("KIM model " + name_);
-  structure_ = kim_->structure();
-  mass_ = kim_->mass();
-  cutoff_ = kim_->cutoff();
-  lattice_constant_ = kim_->lattice_constant();
-  table_end_ = kim_->end();
+  structure_ = model_->structure();
+  mass_ = model_->mass();
+  cutoff_ = model_->cutoff();
+  lattice_constant_ = model_->lattice_constant();
+  table_end_ = model_->end();
   least_volume_ratio_ =
-      table_end_ > 0.0 ? (1.0 + volume_margin) * table_end_ : KimModel::least_scanned_ratio + 0.01;
+      table_end_ > 0.0 ? (1.0 + volume_margin) * table_end_ : MeasuredModel::least_scanned_ratio + 0.01;
+  if (table_end_ > 0.0) validity_ = {model_->pressure(least_volume_ratio_), model_->reason_of_end()};
 }
 
 void Potential::read_file(const std::string& element, const std::filesystem::path& folder,
@@ -290,8 +307,8 @@ void Potential::write_tables(const std::string& comment) {
 }
 
 void Potential::begin(Lammps& lammps) const {
-  if (kim_) {
-    kim_->begin(lammps);
+  if (model_) {
+    model_->begin(lammps);
     return;
   }
   lammps.command("units metal");
@@ -299,8 +316,8 @@ void Potential::begin(Lammps& lammps) const {
 }
 
 void Potential::apply(Lammps& lammps) const {
-  if (kim_) {
-    kim_->apply(lammps);
+  if (model_) {
+    model_->apply(lammps);
     return;
   }
   if (!lammps.has_style("pair", style_)) {
@@ -318,14 +335,14 @@ void Potential::apply(Lammps& lammps) const {
 
 void Potential::require_range(double volume_ratio) const {
   if (volume_ratio >= least_volume_ratio_) return;
-  if (kim_ && table_end_ > 0.0) {
+  if (model_ && table_end_ > 0.0) {
     throw InputError(fmt::format(
         "potential {}: at V/V0 = {:.3f} {} ({}); V/V0 = {:.3f} is refused, the least that leaves {:.0f} % of "
         "volume for thermal motion is {:.3f}",
-        name_, table_end_, kim_->reason_of_end(), word_of(structure_), volume_ratio, 100 * volume_margin,
+        name_, table_end_, model_->reason_of_end(), word_of(structure_), volume_ratio, 100 * volume_margin,
         least_volume_ratio_));
   }
-  if (kim_) {
+  if (model_) {
     throw InputError(
         fmt::format("potential {}: the static crystal was tried down to V/V0 = {:.2f}; {:.3f} is "
                     "refused",
@@ -345,16 +362,16 @@ double Potential::static_volume() const {
 }
 
 const EamTables& Potential::tables() const {
-  if (kim_) throw InternalError("a KIM model has no tables");
+  if (model_) throw InternalError("a measured model has no tables");
   return tables_;
 }
 
 double Potential::crystal_energy(double a) const {
-  return kim_ ? kim_->crystal_energy(a * a * a / atoms_per_cell()) : tables_.crystal_energy(a);
+  return model_ ? model_->crystal_energy(a * a * a / atoms_per_cell()) : tables_.crystal_energy(a);
 }
 
 double Potential::least_known_volume() const {
-  return kim_ ? metal::specific_volume(kim_->least_volume(), mass()) : 0.0;
+  return model_ ? metal::specific_volume(model_->least_volume(), mass()) : 0.0;
 }
 
 }  // namespace whipple::md

@@ -28,3 +28,9 @@ inline double volume_per_atom(double volume, double mass) {
 }
 
 }  // namespace whipple::md::metal
+
+/// Constants in SI (exact since 2019; hbar to ten digits).
+namespace whipple::md::si {
+inline constexpr double hbar = 1.054571817e-34;    ///< J s
+inline constexpr double boltzmann = 1.380649e-23;  ///< J/K
+}  // namespace whipple::md::si

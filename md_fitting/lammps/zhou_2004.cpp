@@ -308,6 +308,7 @@ EamTables zhou_2004(const std::string& element) {
   const bool fcc = m.structure == CrystalStructure::fcc;
   tables.header_lattice_constant = m.re * (fcc ? std::sqrt(2.0) : 2.0 / std::sqrt(3.0));
   tables.cutoff = std::sqrt(5.0) * m.re;
+  tables.fitted_density = middle_end * m.density;  // the last branch continues a fit about rho_e
   tables.density_step = density_end * m.density / static_cast<double>(densities - 1);
   for (std::size_t i = 0; i < densities; ++i) {
     tables.embedding.push_back(embedding(m, tables.density_step * static_cast<double>(i)));

@@ -19,13 +19,14 @@
 #include "md_fitting/plan/liquid.hpp"
 #include "md_fitting/plan/liquid_vapour.hpp"
 #include "md_fitting/plan/piston.hpp"
+#include "md_fitting/plan/quantum.hpp"
 #include "md_fitting/plan/spall.hpp"
 #include "md_fitting/plan/zero_pressure.hpp"
 #include "src/core/input/section.hpp"
 
 /// The plan of a campaign of molecular-dynamics points: a TOML file that names what is to be measured. This
-/// library depends neither on LAMMPS nor on potentials; `whipple describe md` prints its tables. Each protocol has
-/// its section in a file of its own (src/core/input/section.hpp).
+/// library depends neither on LAMMPS nor on potentials; `whipple describe md` prints its tables. Each
+/// protocol has its section in a file of its own (src/core/input/section.hpp).
 namespace whipple::md {
 
 struct Plan {
@@ -33,8 +34,12 @@ struct Plan {
   std::string element;
   std::string potential;
   std::string structure = "least_energy";  ///< or "fcc", "bcc"
+  std::string pair_style;  ///< of LAMMPS, with its arguments; empty: `potential` names the potential
+  std::vector<std::string> pair_coeff;  ///< its coefficients
+  double validity_pressure = 0.0;       ///< Pa; 0: that of the potential itself
   std::int64_t seed = 1;
   std::int64_t ranks_per_point = 1;
+  double processor_time = 0.0;   ///< s, of all ranks together; 0: no limit stated
   std::filesystem::path folder;  ///< of the plan file: a potential file may lie there
 
   // One member per section: optional for [section], a vector for [[section]].
@@ -42,17 +47,19 @@ struct Plan {
   std::vector<IsothermPlan> isotherms;
   std::vector<IsochorePlan> isochores;
   std::optional<HugoniotPlan> hugoniot;
-  std::optional<CoexistencePlan> coexistence;
+  std::vector<CoexistencePlan> coexistences;
   std::optional<ColdCurvePlan> cold_curve;
   std::optional<ElasticPlan> elastic;
   std::optional<HugoniostatPlan> hugoniostat;
   std::optional<LiquidPlan> liquid;
   std::optional<PistonPlan> piston;
   std::optional<SpallPlan> spall;
+  std::optional<QuantumPlan> quantum;
   std::optional<LiquidVapourPlan> liquid_vapour;
   std::optional<AdaptivePlan> adaptive;  ///< no points of its own
 
   static ParameterTable<Plan> parameters();
+  void check(const Plan& plan, const input::Faults& faults) const;
   static std::span<const input::Section<Plan, Plan>> sections();
 };
 

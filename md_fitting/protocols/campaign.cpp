@@ -16,7 +16,9 @@
 #include <vector>
 
 #include "md_fitting/data_set/store_order.hpp"
+#include "md_fitting/protocols/budget.hpp"
 #include "md_fitting/protocols/point_team.hpp"
+#include "md_fitting/protocols/task_list.hpp"
 #include "src/core/base/error.hpp"
 #include "src/core/base/log.hpp"
 #include "src/core/base/progress.hpp"
@@ -78,8 +80,8 @@ std::optional<PointRecord> find_point(const std::filesystem::path& store, const 
   return std::nullopt;
 }
 
-/// Reads the state of the tasks on rank 0 and tells it to all: 'd' done, 'c' done but to be continued, 'f' failed, ' '
-/// missing, one letter per task.
+/// Reads the state of the tasks on rank 0 and tells it to all: 'd' done, 'c' done but to be continued, 'f'
+/// failed, ' ' missing, one letter per task.
 std::string read_status(std::span<const Task> tasks, const std::filesystem::path& store,
                         MPI_Comm communicator, int rank) {
   std::string status(tasks.size(), ' ');
@@ -133,8 +135,8 @@ PointRecord compute_point(const Task& task, const PointRecord* dependency, int s
       }
     }
     point.status = PointStatus::done;
-    point.message = std::move(result.message);
     point.results = std::move(result.results);
+    point.message = with_validity(std::move(result.message), point);
     point.blocks = std::move(result.blocks);
     point.provenance["lammps_commands"] = std::move(result.transcript);
   } catch (const LammpsError& error) {
@@ -297,6 +299,8 @@ class Leader {
   }
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] double busy() const { return busy_; }  ///< s, in points
+  /// s of processor time of this rank in points, by protocol.
+  [[nodiscard]] const std::map<std::string, double>& processor_time() const { return processor_time_; }
   /// s, waiting for other teams until now: this one has no more points.
   [[nodiscard]] double waiting() const { return waiting_ + seconds_since(finished_); }
 
@@ -344,7 +348,9 @@ class Leader {
     }
     const auto compute = [&](int segment) {
       team_.announce({static_cast<long>(index), segment});
+      const double begin = processor_seconds();
       PointRecord part = compute_point(task, dependency ? &*dependency : nullptr, segment);
+      processor_time_[task.protocol] += processor_seconds() - begin;
       busy_ += part.wall_seconds;
       return part;
     };
@@ -375,6 +381,7 @@ class Leader {
   std::optional<Progress> progress_;
   Counts counts_;
   double busy_ = 0.0, waiting_ = 0.0;
+  std::map<std::string, double> processor_time_;
   Clock::time_point finished_ = Clock::now();
   int rank_ = 0;
 };
@@ -392,8 +399,8 @@ void put_in_order(const std::filesystem::path& store, MPI_Comm communicator) {
   }
 }
 
-/// Counts the points on isotherms and isochores of a plan that have melted, on all ranks. A shock may melt, so points
-/// of the Hugoniot do not count.
+/// Counts the points on isotherms and isochores of a plan that have melted, on all ranks. A shock may melt,
+/// so points of the Hugoniot do not count.
 int count_molten(std::span<const Task> tasks, const std::filesystem::path& store, MPI_Comm communicator) {
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
@@ -445,6 +452,7 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
 
   Counts own;
   std::array<double, 3> times{};
+  std::map<std::string, double> processor_time;
   int code = 0;
   if (team.leads()) {
     Leader leader(tasks, status, std::move(queue), store, team);
@@ -460,6 +468,7 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
     team.dismiss();
     MPI_Barrier(communicator);
     times = {leader.busy(), leader.waiting(), 0.0};
+    processor_time = leader.processor_time();
   } else {
     follow(tasks, store, team);
     MPI_Barrier(communicator);
@@ -476,6 +485,13 @@ CampaignSummary run_campaign(std::span<const Task> tasks, const std::filesystem:
   std::array<double, 3> all{};
   MPI_Allreduce(times.data(), all.data(), 3, MPI_DOUBLE, MPI_SUM, communicator);
   summary.busy = all[0], summary.waiting = all[1], summary.elapsed = all[2];
+  for (const Task& task : tasks) summary.processor_time[task.protocol] = 0.0;
+  for (auto& [protocol, seconds] : summary.processor_time) {
+    // The ranks of a team work, or wait busily, as long as their leader.
+    const double own_seconds = ranks_per_point * processor_time[protocol];
+    MPI_Allreduce(&own_seconds, &seconds, 1, MPI_DOUBLE, MPI_SUM, communicator);
+  }
+  std::erase_if(summary.processor_time, [](const auto& share) { return share.second == 0.0; });
   summary.molten = count_molten(tasks, store, communicator);
   return summary;
 }

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 
@@ -22,6 +23,8 @@ struct CampaignSummary {
   /// s, all teams together: in points; waiting for points of other teams; the whole call. What is missing is
   /// the cost of queue and store.
   double busy = 0.0, waiting = 0.0, elapsed = 0.0;
+  /// s of processor time in points, by protocol, all ranks together.
+  std::map<std::string, double> processor_time{};
 };
 
 /// Computes what is missing of the tasks, one task per rank (or team of ranks) at a time from a common queue,

@@ -15,6 +15,7 @@ std::span<const Protocol> protocols() {
       Protocol{"hugoniot", 4, add_hugoniot},
       Protocol{"cold_curve", 1, add_cold_curve},
       Protocol{"elastic", 1, add_elastic},
+      Protocol{"quantum", 1, add_quantum},
       Protocol{"hugoniostat", 3, add_hugoniostat},
       Protocol{"liquid", 2, add_liquid},
       Protocol{"piston", 1, add_piston},

@@ -31,6 +31,7 @@ void add_hugoniostat(const Plan& plan, TaskList& list);
 void add_liquid(const Plan& plan, TaskList& list);
 void add_piston(const Plan& plan, TaskList& list);
 void add_spall(const Plan& plan, TaskList& list);
+void add_quantum(const Plan& plan, TaskList& list);
 void add_liquid_vapour(const Plan& plan, TaskList& list);
 
 }  // namespace whipple::md

@@ -44,8 +44,8 @@ class TwoPhaseCell {
   TwoPhaseCell(const Potential& potential, double pressure, double guess, const CoexistencePlan& section,
                double dt, std::int64_t seed)
       : layers_(section.length),
-        crystal_(potential, 1.015 * compressed_start(potential, pressure).lattice_constant, section.size.cells,
-                 section.size.cells, section.length) {
+        crystal_(potential, 1.015 * compressed_start(potential, pressure).lattice_constant,
+                 section.size.cells, section.size.cells, section.length) {
     Lammps& lammps = crystal_.lammps();
     const double bars = pressure / metal::bar;
     const auto npt = [&](double temperature, const char* coupling) {
@@ -166,8 +166,8 @@ bool melted(const CoexistenceRun& run) {
   return run.least_share < least_accepted_share || run.largest_order < least_order_of_crystal;
 }
 
-/// The temperature of crystal and melt in contact, and the fraction of crystal, from one cell, or from the next
-/// one where that lost a phase.
+/// The temperature of crystal and melt in contact, and the fraction of crystal, from one cell, or from the
+/// next one where that lost a phase.
 std::pair<double, double> find_coexistence(const Potential& potential, double pressure, double first_guess,
                                            const CoexistencePlan& section, double dt, std::int64_t seed,
                                            std::string& transcript) {
@@ -181,7 +181,8 @@ std::pair<double, double> find_coexistence(const Potential& potential, double pr
       const CoexistenceRun run = cell.run(section.size.steps);
       const std::string reason = refusal(run);
       log::detail(
-          "coexistence at {} GPa, attempt {}.{}: {:.1f} K, then {:.1f} K, mean {:.1f} +- {:.1f} K, fraction of "
+          "coexistence at {} GPa, attempt {}.{}: {:.1f} K, then {:.1f} K, mean {:.1f} +- {:.1f} K, fraction "
+          "of "
           "crystal {:.2f} ... {:.2f}, by layers {:.2f} ... {:.2f}: {}",
           1e-9 * pressure, attempt, part, run.first_half.value, run.second_half.value, run.whole.value,
           run.whole.error, run.least_share, run.largest_share, run.least_order, run.largest_order,
@@ -302,22 +303,22 @@ ReplicaSet measure_coexistence(const Potential& potential, double pressure, doub
 }
 
 void add_coexistence(const Plan& plan, TaskList& list) {
-  if (!plan.coexistence) return;
-  const CoexistencePlan section = *plan.coexistence;
-  for (std::size_t i = 0; i < section.pressure.size(); ++i) {
-    PointRequest request{
-        {{"pressure", section.pressure[i]}},
-        size_settings(section.size),
-        {},
-        precision_of("melting_temperature", false, section.target, section.size, section.replicas)};
-    request.settings["first_guess"] = fmt::format("{}", section.first_guess[i]);
-    request.settings["attempts"] = std::to_string(section.attempts);
-    request.settings["replicas"] = std::to_string(section.replicas);
-    request.settings["length"] = std::to_string(section.length);
-    list.add(request, [&potential = list.potential(), section, i](std::int64_t seed, const PointRecord*) {
-      return to_result(
-          measure_coexistence(potential, section.pressure[i], section.first_guess[i], section, seed));
-    });
+  for (const CoexistencePlan& section : plan.coexistences) {
+    for (std::size_t i = 0; i < section.pressure.size(); ++i) {
+      PointRequest request{
+          {{"pressure", section.pressure[i]}},
+          size_settings(section.size),
+          {},
+          precision_of("melting_temperature", false, section.target, section.size, section.replicas)};
+      request.settings["first_guess"] = fmt::format("{}", section.first_guess[i]);
+      request.settings["attempts"] = std::to_string(section.attempts);
+      request.settings["replicas"] = std::to_string(section.replicas);
+      request.settings["length"] = std::to_string(section.length);
+      list.add(request, [&potential = list.potential(), section, i](std::int64_t seed, const PointRecord*) {
+        return to_result(
+            measure_coexistence(potential, section.pressure[i], section.first_guess[i], section, seed));
+      });
+    }
   }
 }
 

@@ -8,31 +8,39 @@
 
 #include "src/core/base/error.hpp"
 #include "src/core/base/hash.hpp"
+#include "src/core/base/units.hpp"
 
 namespace whipple::md {
 namespace {
 
 /// Provenance that all points of a plan share.
 std::map<std::string, std::string> common_settings(const Plan& plan, const Potential& potential) {
-  return {{"element", potential.element()},
-          {"molar_mass", fmt::format("{}", 1e-3 * potential.mass())},
-          {"potential", potential.name()},
-          {"potential_file", potential.file().filename().string()},
-          {"potential_sha256", potential.hash()},
-          {"potential_source", potential.source()},
-          {"structure", std::string(word_of(potential.structure()))},
-          {"static_specific_volume", fmt::format("{}", potential.static_volume())},
-          {"density_table_end", fmt::format("{}", potential.table_end())},
-          {"lammps_version", std::to_string(lammps_release())},
-          {"ranks", std::to_string(plan.ranks_per_point)},
-          {"plan_seed", std::to_string(plan.seed)}};
+  std::map<std::string, std::string> settings = {
+      {"element", potential.element()},
+      {"molar_mass", fmt::format("{}", 1e-3 * potential.mass())},
+      {"potential", potential.name()},
+      {"potential_file", potential.file().filename().string()},
+      {"potential_sha256", potential.hash()},
+      {"potential_source", potential.source()},
+      {"structure", std::string(word_of(potential.structure()))},
+      {"static_specific_volume", fmt::format("{}", potential.static_volume())},
+      {"density_table_end", fmt::format("{}", potential.table_end())},
+      {"lammps_version", std::to_string(lammps_release())},
+      {"ranks", std::to_string(plan.ranks_per_point)},
+      {"plan_seed", std::to_string(plan.seed)}};
+  if (std::isfinite(potential.validity().pressure)) {
+    settings["validity_pressure"] = fmt::format("{:.4g} GPa", 1e-9 * potential.validity().pressure);
+    settings["validity_reason"] = potential.validity().reason;
+  }
+  return settings;
 }
 
 /// Everything that the numbers of a point depend on, as text.
 std::string identity(const Task& task) {
   // Names and places change no number; everything else does.
-  static const std::set<std::string> without_effect = {"potential", "potential_file", "potential_source",
-                                                       "static_specific_volume", "density_table_end"};
+  static const std::set<std::string> without_effect = {
+      "potential",         "potential_file",    "potential_source", "static_specific_volume",
+      "density_table_end", "validity_pressure", "validity_reason"};
   std::string text = "protocol=" + task.protocol + "\ndependency=" + task.dependency + "\n";
   for (const auto& [name, value] : task.conditions) text += fmt::format("condition {}={}\n", name, value);
   for (const auto& [name, value] : task.provenance) {
@@ -125,6 +133,18 @@ Precision precision_of(const std::string& quantity, bool relative, const Target&
   return {quantity, target.error, relative,
           target.most_steps > 0 ? std::max<std::int64_t>(1, target.most_steps / (replicas * size.steps))
                                 : usual_segments};
+}
+
+std::string with_validity(std::string message, const PointRecord& point) {
+  const auto limit = point.provenance.find("validity_pressure");
+  if (limit == point.provenance.end()) return message;
+  const auto result = point.results.find("pressure");
+  const auto condition = point.conditions.find("pressure");
+  if (result == point.results.end() && condition == point.conditions.end()) return message;
+  const double pressure = result != point.results.end() ? result->second.value : condition->second;
+  if (pressure <= units::parse_quantity(limit->second, "Pa")) return message;
+  return fmt::format("{}{}beyond the validity of the potential, {} ({})", message,
+                     message.empty() ? "" : "; ", limit->second, point.origin("validity_reason"));
 }
 
 std::string structure_remark(double crystal_share, bool solid, double displacement) {

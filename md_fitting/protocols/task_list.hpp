@@ -71,4 +71,8 @@ Precision precision_of(const std::string& quantity, bool relative, const Target&
 /// @param displacement  root mean square, over the distance of nearest neighbours
 std::string structure_remark(double crystal_share, bool solid, double displacement = 0.0);
 
+/// Adds to the remark of a finished point that its pressure is beyond the validity of its potential, if it
+/// is.
+std::string with_validity(std::string message, const PointRecord& point);
+
 }  // namespace whipple::md

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "eos/loci.hpp"
+
+#include <algorithm>
+#include <numeric>
+
 #include "eos/closure.hpp"
 #include "eos/curves/queries.hpp"
 #include "eos/experiments/comparison.hpp"
 #include "eos/inversions.hpp"
-#include "eos/loci.hpp"
 #include "python/eos/bindings.hpp"
 #include "python/eos/states.hpp"
-
-#include <algorithm>
-#include <numeric>
 
 namespace whipple::python {
 namespace {
@@ -26,7 +27,8 @@ auto refusal(Kind& result) {
 /// @throws InputError if states are those of another material
 void require_same(const Material& material, const States& states) {
   if (states.eos != material.eos) {
-    throw InputError(fmt::format("the start is a state of another equation of state than that of '{}'", material.name));
+    throw InputError(
+        fmt::format("the start is a state of another equation of state than that of '{}'", material.name));
   }
 }
 
@@ -36,9 +38,10 @@ void store(Shocks& shocks, std::size_t i, const eos::ShockState& shock) {
   shocks.further[1][i] = shock.particle_velocity;
 }
 
-Shocks hugoniot(const Material& material, const OptionalNumbers& particle_velocity, const OptionalNumbers& pressure,
-                const OptionalNumbers& density, std::optional<double> initial_density,
-                std::optional<double> reflected_pressure, bool skip_invalid) {
+Shocks hugoniot(const Material& material, const OptionalNumbers& particle_velocity,
+                const OptionalNumbers& pressure, const OptionalNumbers& density,
+                std::optional<double> initial_density, std::optional<double> reflected_pressure,
+                bool skip_invalid) {
   using eos::curves::ShockQuery;
   if (particle_velocity.has_value() + pressure.has_value() + density.has_value() != 1) {
     throw InputError("a shock is named by one of pressure, particle velocity and density");
@@ -50,19 +53,21 @@ Shocks hugoniot(const Material& material, const OptionalNumbers& particle_veloci
   const eos::Hugoniot from = eos::curves::hugoniot_of(*material.eos, {initial_density, reflected_pressure});
   Shocks shocks = make<Shocks>(material.eos, points, 2);
   const auto refuse = refusal(shocks);
-  for_each_point(points,
-                 [&](std::size_t i, const std::vector<double>& inputs) {
-                   ShockQuery query;
-                   query.*member = inputs[0];
-                   store(shocks, i, *eos::curves::shock_of(from, query));
-                 },
-                 skip_invalid ? &refuse : nullptr);
+  for_each_point(
+      points,
+      [&](std::size_t i, const std::vector<double>& inputs) {
+        ShockQuery query;
+        query.*member = inputs[0];
+        store(shocks, i, *eos::curves::shock_of(from, query));
+      },
+      skip_invalid ? &refuse : nullptr);
   return shocks;
 }
 
-Isentropes isentrope(const Material& material, const OptionalNumbers& density, const OptionalNumbers& pressure,
-                     const States* start) {
-  if (density.has_value() == pressure.has_value()) throw InputError("an isentrope runs over densities or pressures");
+Isentropes isentrope(const Material& material, const OptionalNumbers& density,
+                     const OptionalNumbers& pressure, const States* start) {
+  if (density.has_value() == pressure.has_value())
+    throw InputError("an isentrope runs over densities or pressures");
   if (start != nullptr) require_same(material, *start);
   const eos::State from = start != nullptr ? start->single() : material.reference;
   const Points points = broadcast({density, pressure});
@@ -72,11 +77,12 @@ Isentropes isentrope(const Material& material, const OptionalNumbers& density, c
     result.further[0][i] = s.riemann_velocity;
   };
   if (pressure) {
-    for_each_point(points,
-                   [&](std::size_t i, const std::vector<double>& inputs) {
-                     keep(i, eos::isentrope_at_pressure(*material.eos, from, inputs[0]));
-                   },
-                   static_cast<const std::function<void(std::size_t)>*>(nullptr));
+    for_each_point(
+        points,
+        [&](std::size_t i, const std::vector<double>& inputs) {
+          keep(i, eos::isentrope_at_pressure(*material.eos, from, inputs[0]));
+        },
+        static_cast<const std::function<void(std::size_t)>*>(nullptr));
     return result;
   }
   // The library integrates from the start to each density in its order, to one side at a time.
@@ -87,7 +93,8 @@ Isentropes isentrope(const Material& material, const OptionalNumbers& density, c
   std::vector<std::size_t> order(points.size);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return densities[i]; });
-  const auto middle = std::ranges::partition_point(order, [&](std::size_t i) { return densities[i] < from.density; });
+  const auto middle =
+      std::ranges::partition_point(order, [&](std::size_t i) { return densities[i] < from.density; });
   std::reverse(order.begin(), middle);
   py::gil_scoped_release unlocked;
   for (const auto& [first, last] : {std::pair(order.begin(), middle), std::pair(middle, order.end())}) {
@@ -106,15 +113,16 @@ Releases release(const Material& material, const States& start, const Numbers& p
   const Points points = broadcast({Numbers(start.shape, places.data()), pressure});
   Releases result = make<Releases>(material.eos, points, 2);
   const auto refuse = refusal(result);
-  for_each_point(points,
-                 [&](std::size_t i, const std::vector<double>& inputs) {
-                   const eos::State& from = start.states[static_cast<std::size_t>(inputs[0])];
-                   const eos::Release release = eos::release(*material.eos, from, inputs[1]);
-                   result.states[i] = release.end.state;
-                   result.further[0][i] = release.end.riemann_velocity;
-                   result.further[1][i] = release.in_equilibrium ? 1.0 : 0.0;
-                 },
-                 skip_invalid ? &refuse : nullptr);
+  for_each_point(
+      points,
+      [&](std::size_t i, const std::vector<double>& inputs) {
+        const eos::State& from = start.states[static_cast<std::size_t>(inputs[0])];
+        const eos::Release release = eos::release(*material.eos, from, inputs[1]);
+        result.states[i] = release.end.state;
+        result.further[0][i] = release.end.riemann_velocity;
+        result.further[1][i] = release.in_equilibrium ? 1.0 : 0.0;
+      },
+      skip_invalid ? &refuse : nullptr);
   return result;
 }
 
@@ -133,38 +141,41 @@ Pair melting(const Material& material, const Numbers& pressure, bool skip_invali
   const Points points = broadcast({pressure});
   Pair result{make<States>(material.eos, points, 0), make<States>(material.eos, points, 0)};
   const auto refuse = refusal(result);
-  for_each_point(points,
-                 [&](std::size_t i, const std::vector<double>& inputs) {
-                   const auto point = eos::melting_point(*material.eos, inputs[0]);
-                   if (!point) throw StateError(fmt::format("{}: nothing melts at {:.6g} Pa", material.eos->model(),
-                                                            inputs[0]));
-                   result.first.states[i] = point->solidus;
-                   result.second.states[i] = point->liquidus;
-                 },
-                 skip_invalid ? &refuse : nullptr);
+  for_each_point(
+      points,
+      [&](std::size_t i, const std::vector<double>& inputs) {
+        const auto point = eos::melting_point(*material.eos, inputs[0]);
+        if (!point)
+          throw StateError(fmt::format("{}: nothing melts at {:.6g} Pa", material.eos->model(), inputs[0]));
+        result.first.states[i] = point->solidus;
+        result.second.states[i] = point->liquidus;
+      },
+      skip_invalid ? &refuse : nullptr);
   return result;
 }
 
-Pair vaporisation(const Material& material, const OptionalNumbers& temperature, const OptionalNumbers& pressure,
-                  bool skip_invalid) {
+Pair vaporisation(const Material& material, const OptionalNumbers& temperature,
+                  const OptionalNumbers& pressure, bool skip_invalid) {
   const eos::VapourDome* dome = material.eos->vapour_dome();
-  if (dome == nullptr) throw InputError(fmt::format("model {} has no liquid and vapour in equilibrium",
-                                                    material.eos->model()));
+  if (dome == nullptr)
+    throw InputError(fmt::format("model {} has no liquid and vapour in equilibrium", material.eos->model()));
   if (temperature.has_value() == pressure.has_value()) {
     throw InputError("equilibrium of liquid and vapour is named by temperature or pressure");
   }
   const Points points = broadcast({temperature, pressure});
   Pair result{make<States>(material.eos, points, 0), make<States>(material.eos, points, 0)};
   const auto refuse = refusal(result);
-  for_each_point(points,
-                 [&](std::size_t i, const std::vector<double>& inputs) {
-                   const auto s = temperature ? dome->at_temperature(inputs[0]) : dome->at_pressure(inputs[0]);
-                   if (!s) throw StateError(fmt::format("no liquid and vapour in equilibrium at {:.6g} {}",
-                                                        inputs[0], temperature ? "K" : "Pa"));
-                   result.first.states[i] = material.eos->state(1 / s->liquid_volume, s->liquid_energy);
-                   result.second.states[i] = material.eos->state(1 / s->vapour_volume, s->vapour_energy);
-                 },
-                 skip_invalid ? &refuse : nullptr);
+  for_each_point(
+      points,
+      [&](std::size_t i, const std::vector<double>& inputs) {
+        const auto s = temperature ? dome->at_temperature(inputs[0]) : dome->at_pressure(inputs[0]);
+        if (!s)
+          throw StateError(fmt::format("no liquid and vapour in equilibrium at {:.6g} {}", inputs[0],
+                                       temperature ? "K" : "Pa"));
+        result.first.states[i] = material.eos->state(1 / s->liquid_volume, s->liquid_energy);
+        result.second.states[i] = material.eos->state(1 / s->vapour_volume, s->vapour_energy);
+      },
+      skip_invalid ? &refuse : nullptr);
   return result;
 }
 
@@ -196,26 +207,29 @@ py::dict thresholds(const Material& material, double pressure) {
   return result;
 }
 
-Impact impact(const Material& projectile, const Material& target, const Numbers& velocity, bool skip_invalid) {
+Impact impact(const Material& projectile, const Material& target, const Numbers& velocity,
+              bool skip_invalid) {
   const Points points = broadcast({velocity});
   const std::vector<double> none(points.size, unknown);
-  Impact result{points.shape, none, none, make<States>(projectile.eos, points, 0), make<States>(target.eos, points,
-      0), none};
+  Impact result{
+      points.shape, none, none, make<States>(projectile.eos, points, 0), make<States>(target.eos, points, 0),
+      none};
   const eos::Hugoniot left(*projectile.eos), right(*target.eos);
   const auto refuse = [&](std::size_t i) {
     refusal(result.left)(i);
     refusal(result.right)(i);
   };
-  for_each_point(points,
-                 [&](std::size_t i, const std::vector<double>& inputs) {
-                   const eos::ImpedanceMatch match = eos::match_impact(left, right, inputs[0]);
-                   result.pressure[i] = match.pressure;
-                   result.velocity[i] = match.velocity;
-                   result.left.states[i] = match.left;
-                   result.right.states[i] = match.right;
-                   result.right_shock_velocity[i] = match.right_shock_velocity;
-                 },
-                 skip_invalid ? &refuse : nullptr);
+  for_each_point(
+      points,
+      [&](std::size_t i, const std::vector<double>& inputs) {
+        const eos::ImpedanceMatch match = eos::match_impact(left, right, inputs[0]);
+        result.pressure[i] = match.pressure;
+        result.velocity[i] = match.velocity;
+        result.left.states[i] = match.left;
+        result.right.states[i] = match.right;
+        result.right_shock_velocity[i] = match.right_shock_velocity;
+      },
+      skip_invalid ? &refuse : nullptr);
   return result;
 }
 
@@ -227,8 +241,8 @@ struct Mixtures {
 };
 
 Mixtures mixture(const std::vector<std::pair<Material, double>>& parts, const OptionalNumbers& density,
-                 const OptionalNumbers& energy,
-                 const OptionalNumbers& pressure, const OptionalNumbers& temperature, bool skip_invalid) {
+                 const OptionalNumbers& energy, const OptionalNumbers& pressure,
+                 const OptionalNumbers& temperature, bool skip_invalid) {
   const bool at_energy = density && energy && !pressure && !temperature;
   if (!at_energy && !(pressure && temperature && !density && !energy)) {
     throw InputError("a mixture is named by density and energy, or by pressure and temperature");
@@ -247,18 +261,19 @@ Mixtures mixture(const std::vector<std::pair<Material, double>>& parts, const Op
     refusal(result.state)(i);
     for (States& component : result.components) refusal(component)(i);
   };
-  for_each_point(points,
-                 [&](std::size_t i, const std::vector<double>& inputs) {
-                   const auto equilibrium =
-                       at_energy ? &eos::mixture_at_energy : &eos::mixture_at_pressure_and_temperature;
-                   const eos::Mixture mixture = equilibrium(components, inputs[0], inputs[1]);
-                   result.state.states[i] = mixture.state;
-                   for (std::size_t k = 0; k < components.size(); ++k) {
-                     result.components[k].states[i] = mixture.components[k];
-                     result.volume_fractions[k][i] = mixture.volume_fractions[k];
-                   }
-                 },
-                 skip_invalid ? &refuse : nullptr);
+  for_each_point(
+      points,
+      [&](std::size_t i, const std::vector<double>& inputs) {
+        const auto equilibrium =
+            at_energy ? &eos::mixture_at_energy : &eos::mixture_at_pressure_and_temperature;
+        const eos::Mixture mixture = equilibrium(components, inputs[0], inputs[1]);
+        result.state.states[i] = mixture.state;
+        for (std::size_t k = 0; k < components.size(); ++k) {
+          result.components[k].states[i] = mixture.components[k];
+          result.volume_fractions[k][i] = mixture.volume_fractions[k];
+        }
+      },
+      skip_invalid ? &refuse : nullptr);
   return result;
 }
 
@@ -286,57 +301,73 @@ Numbers list_of(const std::vector<double>& values) {
 
 void add_results(py::module_& module) {
   py::class_<Impact>(module, "Impact", "Planar impacts: pressure and velocity common to both materials.")
-      .def_property_readonly("pressure", [](const Impact& m) { return array_of(m.shape, m.pressure); },
-                             "Pressure at the interface, Pa.")
-      .def_property_readonly("velocity", [](const Impact& m) { return array_of(m.shape, m.velocity); },
-                             "Velocity of the interface, m/s.")
+      .def_property_readonly(
+          "pressure", [](const Impact& m) { return array_of(m.shape, m.pressure); },
+          "Pressure at the interface, Pa.")
+      .def_property_readonly(
+          "velocity", [](const Impact& m) { return array_of(m.shape, m.velocity); },
+          "Velocity of the interface, m/s.")
       .def_readonly("projectile", &Impact::left, "Shocked states of the projectile.")
       .def_readonly("target", &Impact::right, "Shocked states of the target.")
-      .def_property_readonly("target_shock_velocity", [](const Impact& m) { return array_of(m.shape,
-          m.right_shock_velocity); },
-                             "Velocity of the shock in the target, m/s.");
-  py::class_<Mixtures>(module, "Mixtures", "Mixtures of materials in equilibrium of pressure and temperature.")
+      .def_property_readonly(
+          "target_shock_velocity", [](const Impact& m) { return array_of(m.shape, m.right_shock_velocity); },
+          "Velocity of the shock in the target, m/s.");
+  py::class_<Mixtures>(module, "Mixtures",
+                       "Mixtures of materials in equilibrium of pressure and temperature.")
       .def_readonly("state", &Mixtures::state, "States of the whole.")
       .def_readonly("components", &Mixtures::components, "States of the components, in their order.")
-      .def_property_readonly("volume_fractions",
-                             [](const Mixtures& m) {
-                               py::list list;
-                               for (const auto& fractions : m.volume_fractions) {
-                                 list.append(array_of(m.state.shape, fractions));
-                               }
-                               return list;
-                             },
-                             "Volume fraction of each component, in their order.");
+      .def_property_readonly(
+          "volume_fractions",
+          [](const Mixtures& m) {
+            py::list list;
+            for (const auto& fractions : m.volume_fractions) {
+              list.append(array_of(m.state.shape, fractions));
+            }
+            return list;
+          },
+          "Volume fraction of each component, in their order.");
   using eos::experiments::ExperimentKind;
   py::enum_<ExperimentKind>(module, "ExperimentKind", "The two measured quantities of an experiment.")
       .value("shock_velocity", ExperimentKind::shock_velocity, "Us (m/s) over up (m/s).")
       .value("shock_pressure", ExperimentKind::shock_pressure, "Shock pressure (Pa) over V/V0.")
       .value("isotherm", ExperimentKind::isotherm, "Pressure (Pa) over V/V0 at constant temperature.")
-      .value("melting", ExperimentKind::melting, "Melting temperature (K) over pressure (Pa).");
+      .value("melting", ExperimentKind::melting, "Melting temperature (K) over pressure (Pa).")
+      .value("isentrope", ExperimentKind::isentrope, "Pressure (Pa) over V/V0 along the principal isentrope.")
+      .value("sound_speed", ExperimentKind::sound_speed,
+             "Bulk sound speed (m/s) over pressure (Pa) behind shocks.");
   py::class_<Experiment>(module, "Measurements", "Measured points of a text table, in SI units.")
       .def_readonly("name", &Experiment::name, "Name of the data set.")
       .def_readonly("source", &Experiment::source, "Source of the data set.")
       .def_readonly("kind", &Experiment::kind, "Which quantities were measured.")
       .def_readonly("temperature", &Experiment::temperature, "Temperature of an isotherm, K.")
-      .def_property_readonly("abscissa", [](const Experiment& e) { return list_of(e.abscissa); },
-                             "Measured up (m/s), V/V0 or pressure (Pa).")
-      .def_property_readonly("measured", [](const Experiment& e) { return list_of(e.ordinate); },
-                             "Measured Us (m/s), pressure (Pa) or temperature (K).")
-      .def_property_readonly("initial_density", [](const Experiment& e) { return list_of(e.initial_density); },
-                             "Density of the sample, kg/m^3; NaN where it is not stated.");
-  py::class_<ComparedExperiment, Experiment>(module, "Comparison", "Measured points and the curve of a material.")
-      .def_property_readonly("model", [](const ComparedExperiment& c) { return list_of(c.comparison.model); },
-                             "The measured quantity of the material; NaN outside its range.")
-      .def_property_readonly("deviation", [](const ComparedExperiment& c) { return list_of(c.comparison.deviation); },
-                             "Model less measurement, in percent of the measured Us or temperature, or in Pa.")
-      .def_property_readonly("rms", [](const ComparedExperiment& c) { return c.comparison.rms; },
-                             "Root mean square of the deviations, in their unit.")
-      .def_property_readonly("points", [](const ComparedExperiment& c) { return c.comparison.points; },
-                             "Number of points inside the range of the material.");
+      .def_property_readonly(
+          "abscissa", [](const Experiment& e) { return list_of(e.abscissa); },
+          "Measured up (m/s), V/V0 or pressure (Pa).")
+      .def_property_readonly(
+          "measured", [](const Experiment& e) { return list_of(e.ordinate); },
+          "Measured Us (m/s), pressure (Pa) or temperature (K).")
+      .def_property_readonly(
+          "initial_density", [](const Experiment& e) { return list_of(e.initial_density); },
+          "Density of the sample, kg/m^3; NaN where it is not stated.");
+  py::class_<ComparedExperiment, Experiment>(module, "Comparison",
+                                             "Measured points and the curve of a material.")
+      .def_property_readonly(
+          "model", [](const ComparedExperiment& c) { return list_of(c.comparison.model); },
+          "The measured quantity of the material; NaN outside its range.")
+      .def_property_readonly(
+          "deviation", [](const ComparedExperiment& c) { return list_of(c.comparison.deviation); },
+          "Model less measurement, in percent of the measured Us or temperature, or in Pa.")
+      .def_property_readonly(
+          "rms", [](const ComparedExperiment& c) { return c.comparison.rms; },
+          "Root mean square of the deviations, in their unit.")
+      .def_property_readonly(
+          "points", [](const ComparedExperiment& c) { return c.comparison.points; },
+          "Number of points inside the range of the material.");
   module.def("measurements", &eos::experiments::read_experiments, py::arg("file"), py::kw_only(),
              py::arg("temperature") = py::none(),
              "Read the Hugoniots, isotherms and melting lines of a text table.\n\n"
-             "Columns with units in their headings, as for `whipple compare`. temperature: of an isotherm (K), where\n"
+             "Columns with units in their headings, as for `whipple compare`. temperature: of an isotherm "
+             "(K), where\n"
              "the file does not state it. Raises InputError with file and line.");
 }
 
@@ -346,74 +377,89 @@ void add_loci(py::module_& module, py::class_<Material>& material) {
   add_results(module);
   material
       .def("hugoniot", &hugoniot, py::kw_only(), py::arg("particle_velocity") = py::none(),
-           py::arg("pressure") = py::none(),
-           py::arg("density") = py::none(), py::arg("initial_density") = py::none(),
-               py::arg("reflected_pressure") = py::none(),
+           py::arg("pressure") = py::none(), py::arg("density") = py::none(),
+           py::arg("initial_density") = py::none(), py::arg("reflected_pressure") = py::none(),
            py::arg("skip_invalid") = false,
            "Compute states behind shocks by the jump conditions of mass, momentum and energy.\n\n"
            "One of particle_velocity (m/s), pressure (Pa) and density (kg/m^3) names the shock.\n"
-           "initial_density: of porous material ahead, kg/m^3. reflected_pressure: the shock passes through material\n"
-           "shocked to this pressure (Pa) before. skip_invalid: shocks that the model does not reach become NaN; else\n"
+           "initial_density: of porous material ahead, kg/m^3. reflected_pressure: the shock passes through "
+           "material\n"
+           "shocked to this pressure (Pa) before. skip_invalid: shocks that the model does not reach become "
+           "NaN; else\n"
            "they raise StateError.")
-      .def("isentrope", &isentrope, py::kw_only(), py::arg("density") = py::none(), py::arg("pressure") = py::none(),
-           py::arg("start") = nullptr,
+      .def("isentrope", &isentrope, py::kw_only(), py::arg("density") = py::none(),
+           py::arg("pressure") = py::none(), py::arg("start") = nullptr,
            "Compute states on the isentrope through one state, at densities (kg/m^3) or pressures (Pa).\n\n"
-           "start: a single state; default: the reference state. On the surface of the model itself: a liquid may\n"
+           "start: a single state; default: the reference state. On the surface of the model itself: a "
+           "liquid may\n"
            "carry tension. Raises StateError if the isentrope does not reach a density or pressure.")
-      .def("isotherm",
-           [](const Material& m, const Numbers& pressure, std::optional<double> temperature, bool skip_invalid) {
-             const double T = temperature.value_or(m.eos->reference_temperature());
-             return states_of(m.eos, broadcast({pressure}), skip_invalid, [&](const std::vector<double>& inputs) {
-               return eos::state_at_pressure_and_temperature(*m.eos, inputs[0], T);
-             });
-           },
-           py::arg("pressure"), py::arg("temperature") = py::none(), py::kw_only(), py::arg("skip_invalid") = false,
-           "Compute states on an isotherm at pressures (Pa).\n\n"
-           "temperature: K; default: the reference temperature of the model.")
-      .def("cold_curve",
-           [](const Material& m, const Numbers& density, bool skip_invalid) {
-             return states_of(m.eos, broadcast({density}), skip_invalid,
-                              [&](const std::vector<double>& inputs) { return eos::cold_state(*m.eos, inputs[0]); });
-           },
-           py::arg("density"), py::kw_only(), py::arg("skip_invalid") = false,
-           "Compute the coldest states that the model describes, at densities (kg/m^3).")
-      .def("release", &release, py::arg("start"), py::arg("pressure") = 0.0, py::kw_only(),
-           py::arg("skip_invalid") = false,
-           "Release states to a pressure (Pa) along their isentropes.\n\n"
-           "Where the model knows liquid and vapour in equilibrium at the pressure, the end is their mixture.")
+      .def(
+          "isotherm",
+          [](const Material& m, const Numbers& pressure, std::optional<double> temperature,
+             bool skip_invalid) {
+            const double T = temperature.value_or(m.eos->reference_temperature());
+            return states_of(m.eos, broadcast({pressure}), skip_invalid,
+                             [&](const std::vector<double>& inputs) {
+                               return eos::state_at_pressure_and_temperature(*m.eos, inputs[0], T);
+                             });
+          },
+          py::arg("pressure"), py::arg("temperature") = py::none(), py::kw_only(),
+          py::arg("skip_invalid") = false,
+          "Compute states on an isotherm at pressures (Pa).\n\n"
+          "temperature: K; default: the reference temperature of the model.")
+      .def(
+          "cold_curve",
+          [](const Material& m, const Numbers& density, bool skip_invalid) {
+            return states_of(
+                m.eos, broadcast({density}), skip_invalid,
+                [&](const std::vector<double>& inputs) { return eos::cold_state(*m.eos, inputs[0]); });
+          },
+          py::arg("density"), py::kw_only(), py::arg("skip_invalid") = false,
+          "Compute the coldest states that the model describes, at densities (kg/m^3).")
+      .def(
+          "release", &release, py::arg("start"), py::arg("pressure") = 0.0, py::kw_only(),
+          py::arg("skip_invalid") = false,
+          "Release states to a pressure (Pa) along their isentropes.\n\n"
+          "Where the model knows liquid and vapour in equilibrium at the pressure, the end is their mixture.")
       .def("melting", &melting, py::arg("pressure") = 0.0, py::kw_only(), py::arg("skip_invalid") = false,
            "Compute solidus and liquidus at pressures (Pa), as a pair of states.")
       .def("vaporisation", &vaporisation, py::kw_only(), py::arg("temperature") = py::none(),
-           py::arg("pressure") = py::none(),
-           py::arg("skip_invalid") = false,
-           "Compute liquid and vapour in equilibrium at temperatures (K) or pressures (Pa), as a pair of states.\n\n"
+           py::arg("pressure") = py::none(), py::arg("skip_invalid") = false,
+           "Compute liquid and vapour in equilibrium at temperatures (K) or pressures (Pa), as a pair of "
+           "states.\n\n"
            "Raises InputError if the model has no such equilibrium.")
-      .def_property_readonly("critical_point",
-                             [](const Material& m) -> std::optional<std::tuple<double, double, double>> {
-                               if (m.eos->vapour_dome() == nullptr) return std::nullopt;
-                               const eos::CriticalPoint& c = m.eos->vapour_dome()->critical_point();
-                               return std::tuple(c.temperature, c.pressure, 1 / c.specific_volume);
-                             },
-                             "Temperature (K), pressure (Pa) and density (kg/m^3) of the critical point, or None.")
+      .def_property_readonly(
+          "critical_point",
+          [](const Material& m) -> std::optional<std::tuple<double, double, double>> {
+            if (m.eos->vapour_dome() == nullptr) return std::nullopt;
+            const eos::CriticalPoint& c = m.eos->vapour_dome()->critical_point();
+            return std::tuple(c.temperature, c.pressure, 1 / c.specific_volume);
+          },
+          "Temperature (K), pressure (Pa) and density (kg/m^3) of the critical point, or None.")
       .def("thresholds", &thresholds, py::arg("pressure") = 0.0,
-           "Compute the weakest shocks that melt, and that melt or vaporise after release to a pressure (Pa).\n\n"
-           "A dictionary with shock_melting_onset, shock_melting_completion (behind the shock), incipient_melting,\n"
-           "complete_melting, incipient_vaporisation, complete_vaporisation (after release); None where the model\n"
+           "Compute the weakest shocks that melt, and that melt or vaporise after release to a pressure "
+           "(Pa).\n\n"
+           "A dictionary with shock_melting_onset, shock_melting_completion (behind the shock), "
+           "incipient_melting,\n"
+           "complete_melting, incipient_vaporisation, complete_vaporisation (after release); None where the "
+           "model\n"
            "does not go so far.")
       .def("compare", &compare, py::arg("file"), py::kw_only(), py::arg("temperature") = py::none(),
            "Compare with the measurements of a text table: Hugoniots, isotherms, melting lines.\n\n"
-           "Columns with units in their headings, as for `whipple compare`. temperature: of an isotherm (K), where\n"
+           "Columns with units in their headings, as for `whipple compare`. temperature: of an isotherm (K), "
+           "where\n"
            "the file does not state it. Raises InputError with file and line.");
   module.def("impact", &impact, py::arg("projectile"), py::arg("target"), py::arg("velocity"), py::kw_only(),
              py::arg("skip_invalid") = false,
              "Compute planar impacts of a projectile with velocities (m/s) on a target at rest.\n\n"
              "Both from their reference states.");
-  module.def("mixture", &mixture, py::arg("components"), py::kw_only(), py::arg("density") = py::none(),
-             py::arg("energy") = py::none(),
-             py::arg("pressure") = py::none(), py::arg("temperature") = py::none(), py::arg("skip_invalid") = false,
-             "Compute mixtures in equilibrium of pressure and temperature.\n\n"
-             "components: pairs of a material and its mass fraction, which add up to 1. The mixture is named by\n"
-             "density (kg/m^3) and specific internal energy (J/kg), or by pressure (Pa) and temperature (K).");
+  module.def(
+      "mixture", &mixture, py::arg("components"), py::kw_only(), py::arg("density") = py::none(),
+      py::arg("energy") = py::none(), py::arg("pressure") = py::none(), py::arg("temperature") = py::none(),
+      py::arg("skip_invalid") = false,
+      "Compute mixtures in equilibrium of pressure and temperature.\n\n"
+      "components: pairs of a material and its mass fraction, which add up to 1. The mixture is named by\n"
+      "density (kg/m^3) and specific internal energy (J/kg), or by pressure (Pa) and temperature (K).");
 }
 
 }  // namespace whipple::python

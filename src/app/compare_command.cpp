@@ -23,8 +23,8 @@
 #include "src/core/base/error.hpp"
 #include "src/core/base/files.hpp"
 #include "src/core/base/text_table.hpp"
-#include "src/material/material_file.hpp"
 #include "src/core/process/scripts.hpp"
+#include "src/material/material_file.hpp"
 
 namespace whipple::app {
 namespace {
@@ -67,6 +67,11 @@ Style style(ExperimentKind kind) {
       return {"isotherm", "GPa", pressure.size, volume, pressure};
     case ExperimentKind::melting:
       return {"melting line", "% of T", 1.0, pressure, quantity_column("T", "K", "K", "temperature")};
+    case ExperimentKind::isentrope:
+      return {"isentrope", "GPa", pressure.size, volume, pressure};
+    case ExperimentKind::sound_speed:
+      return {"sound speed", "% of c", 1.0, pressure,
+              quantity_column("c", "km/s", "m/s", "bulk sound speed")};
   }
   throw InternalError("unknown kind of experiment");
 }
@@ -104,13 +109,13 @@ void print_table(const std::vector<Row>& rows) {
     const auto figure = [&](double value) { return fmt::format("{:.2f}", value / s.deviation_size); };
     const auto signed_figure = [&](double value) { return fmt::format("{:+.2f}", value / s.deviation_size); };
     const bool any = row.comparison.points > 0;
-    cells.push_back(
-        {experiment.name, kind, row.label, fmt::format("{}", row.comparison.points),
-         fmt::format("{} {:.3g} ... {:.3g}{}{}", s.abscissa.name, experiment.abscissa.front() / s.abscissa.size,
-                     experiment.abscissa.back() / s.abscissa.size, s.abscissa.unit.empty() ? "" : " ",
-                     s.abscissa.unit),
-         any ? figure(row.comparison.rms) : "-", any ? signed_figure(row.comparison.mean) : "-",
-         any ? signed_figure(row.comparison.maximum) : "-", s.deviation});
+    cells.push_back({experiment.name, kind, row.label, fmt::format("{}", row.comparison.points),
+                     fmt::format("{} {:.3g} ... {:.3g}{}{}", s.abscissa.name,
+                                 experiment.abscissa.front() / s.abscissa.size,
+                                 experiment.abscissa.back() / s.abscissa.size,
+                                 s.abscissa.unit.empty() ? "" : " ", s.abscissa.unit),
+                     any ? figure(row.comparison.rms) : "-", any ? signed_figure(row.comparison.mean) : "-",
+                     any ? signed_figure(row.comparison.maximum) : "-", s.deviation});
   }
   fmt::print("{}", text_table(cells, "lllrlrrrl"));
   fmt::print("deviations: material less experiment\n");
@@ -145,9 +150,10 @@ std::string csv_text(const std::vector<Row>& rows) {
     const std::string name = csv_cell(experiment.name);
     for (std::size_t i = 0; i < experiment.abscissa.size(); ++i) {
       file << fmt::format("{},\"{}\",{},{:.8g},{},{},{:.8g},{:.8g},{},{:.6g},{}\n", name, row.label,
-                          s.abscissa.name, experiment.abscissa[i] / s.abscissa.size, s.abscissa.unit, s.ordinate.name,
-                          experiment.ordinate[i] / s.ordinate.size, row.comparison.model[i] / s.ordinate.size,
-                          s.ordinate.unit, row.comparison.deviation[i] / s.deviation_size, s.deviation);
+                          s.abscissa.name, experiment.abscissa[i] / s.abscissa.size, s.abscissa.unit,
+                          s.ordinate.name, experiment.ordinate[i] / s.ordinate.size,
+                          row.comparison.model[i] / s.ordinate.size, s.ordinate.unit,
+                          row.comparison.deviation[i] / s.deviation_size, s.deviation);
     }
   }
   return file.str();
@@ -272,8 +278,9 @@ void run(const CompareOptions& options) {
 
 void add_compare_command(CLI::App& app) {
   auto options = std::make_shared<CompareOptions>();
-  CLI::App* command = app.add_subcommand(
-      "compare", "Compare equations of state with measured Hugoniots, isotherms and melting lines");
+  CLI::App* command = app.add_subcommand("compare",
+                                         "Compare equations of state with measured Hugoniots, isotherms, "
+                                         "isentropes, sound speeds and melting lines");
   command->add_option("materials", options->materials, "Material files, or names of the library")->required();
   command
       ->add_option("--with", options->experiments,
@@ -283,18 +290,21 @@ void add_compare_command(CLI::App& app) {
       ->required();
   command->add_option("--temperature", options->temperature,
                       "Temperature of the isotherms (default: that of the file)");
-  command->add_option("--csv", options->csv, "Write every point with its deviation; -: to standard output, and nothing else");
+  command->add_option("--csv", options->csv,
+                      "Write every point with its deviation; -: to standard output, and nothing else");
   command->add_option("--plot", options->plot, "Figure of curves, points and deviations, FILE.png");
   command
       ->add_option("--samples", options->calibration.samples,
-                   "Draw so many sets of constants of each material, which must be a fitted one: width of its 95 % band, "
+                   "Draw so many sets of constants of each material, which must be a fitted one: width of "
+                   "its 95 % band, "
                    "and the fraction of the points inside")
       ->check(CLI::Range(2, 100000));
   command->add_option("--seed", options->calibration.seed, "Of the draws")->capture_default_str();
   command->add_option("--tier", options->calibration.tier, tier_help)
       ->check(CLI::IsMember(word_list<ErrorTier>()))
       ->capture_default_str();
-  command->add_option("--calibration", options->calibration.csv, "With --samples: write every point with its errors, FILE.csv");
+  command->add_option("--calibration", options->calibration.csv,
+                      "With --samples: write every point with its errors, FILE.csv");
   command->add_flag("--force", options->force, "Overwrite existing files");
   command->footer(
       "Example:\n  whipple compare copper copper_md_liu2013 --with cu_hugoniot_marsh1980 "

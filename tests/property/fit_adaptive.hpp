@@ -49,7 +49,7 @@ cells = 4
 volume_ratio = 0.8
 temperature = ["150 K", "1150 K", "2200 K", "3200 K"]
 cells = 4
-[coexistence]
+[[coexistence]]
 pressure = ["0 GPa", "20 GPa"]
 first_guess = ["1320 K", "1900 K"]
 [adaptive]
@@ -82,8 +82,8 @@ class SyntheticDynamics {
     for (const md::IsochorePlan& isochore : plan.isochores) {
       for (const double t : isochore.temperature) add_state(points, isochore.volume_ratio, t, isochore.size);
     }
-    if (plan.coexistence) {
-      for (const double p : plan.coexistence->pressure) add_melting(points, p, *plan.coexistence);
+    for (const md::CoexistencePlan& section : plan.coexistences) {
+      for (const double p : section.pressure) add_melting(points, p, section);
     }
   }
 

@@ -100,7 +100,8 @@ TEST(FitModels, WeightsAreTheErrorsOfTheDataCarriedThroughTheResiduals) {
     for (IsothermState& state : data.isotherm) add(carried(state.pressure, false));
     for (Isochore& isochore : data.isochores) {
       for (ThermalState& state : isochore.states) {
-        const Eigen::VectorXd pressure = carried(state.pressure, false), energy = carried(state.energy, false);
+        const Eigen::VectorXd pressure = carried(state.pressure, false),
+                              energy = carried(state.energy, false);
         add(pressure);
         add(energy);
         expected += state.correlation * (pressure * energy.transpose() + energy * pressure.transpose());
@@ -200,9 +201,10 @@ SyntheticStore isotherm_store(const SolidConstants& solid, bool silent, unsigned
   for (const double ratio : {1.02, 0.99, 0.96, 0.93, 0.89, 0.86, 0.82, 0.78}) {
     const double v = ratio * solid.gray.reference_specific_volume;
     const double error = 2e7;
-    store.add("isotherm", {{"specific_volume", v}, {"temperature", 293.0}},
-              {{"pressure", {isotherm_pressure(solid, v) + (silent ? 0.0 : error * normal(generator)), error}},
-               {"specific_internal_energy", {0.0, 400.0}}});
+    store.add(
+        "isotherm", {{"specific_volume", v}, {"temperature", 293.0}},
+        {{"pressure", {isotherm_pressure(solid, v) + (silent ? 0.0 : error * normal(generator)), error}},
+         {"specific_internal_energy", {0.0, 400.0}}});
   }
   return store;
 }
@@ -211,6 +213,47 @@ SolidConstants debye_gruneisen_truth() {
   SolidConstants solid{harmonic(), 0.0, 135e9, 5.3};
   solid.gray.melting = eos::MeltingTransition::isochoric;  // the model melts by Lindemann's law alone
   return solid;
+}
+
+// Classical data of a solid whose quantum isotherm is known: what the points of the protocol "quantum" add
+// leads back to it; without them, or with --nuclei classical, volume and modulus are those of the classical
+// crystal.
+TEST(FitModels, QuantumNucleiShiftTheIsotherm) {
+  const SolidConstants solid = debye_gruneisen_truth();
+  const double v0 = solid.gray.reference_specific_volume;
+  const auto quantum_pressure = [&](double v) { return 0.4e9 + 2.0e9 * (1.0 - v / v0); };
+  double classical = 0.99 * v0;  // there the classical pressure is zero
+  for (double above = v0; above - classical > 1e-9 * v0;) {
+    const double middle = 0.5 * (classical + above);
+    (isotherm_pressure(solid, middle) > quantum_pressure(middle) ? classical : above) = middle;
+  }
+  SyntheticStore store = isotherm_store(solid, true, 1);
+  for (md::PointRecord& point : store.points) {
+    if (point.protocol == "isotherm") {
+      point.results["pressure"].value -= quantum_pressure(point.conditions["specific_volume"]);
+    }
+    if (point.protocol == "zero_pressure_volume") point.results["specific_volume"].value *= classical / v0;
+  }
+  const Fit without = fit_debye_gruneisen(store.points, noise_only(), "s");
+  EXPECT_NEAR(without.value("reference_density") * classical, 1.0, 1e-3);
+  for (const double ratio : {1.05, 0.7}) {
+    store.add(
+        "quantum", {{"specific_volume", ratio * v0}, {"temperature", 293.0}},
+        {{"quantum_pressure", {quantum_pressure(ratio * v0), 0.0}}, {"debye_temperature", {321.0, 0.0}}});
+  }
+  const Fit with = fit_debye_gruneisen(store.points, noise_only(), "s");
+  EXPECT_NEAR(with.value("reference_density") * v0, 1.0, 1e-4);
+  EXPECT_NEAR(with.value("bulk_modulus") / solid.bulk_modulus, 1.0, 5e-3);
+  EXPECT_NEAR(with.value("debye_temperature"), 321.0, 1e-9);
+  FitSettings settings = noise_only();
+  settings.nuclei = Nuclei::classical;
+  const Fit ignored = fit_debye_gruneisen(store.points, settings, "s");
+  EXPECT_EQ(ignored.value("reference_density"), without.value("reference_density"));
+  // Points that do not reach the whole isotherm are no ground to extrapolate from.
+  std::erase_if(store.points, [&](const md::PointRecord& point) {
+    return point.protocol == "quantum" && point.condition("specific_volume") < v0;
+  });
+  EXPECT_THROW(static_cast<void>(fit_debye_gruneisen(store.points, noise_only(), "s")), InputError);
 }
 
 TEST(FitModels, DebyeGruneisenIsRecovered) {
@@ -237,8 +280,8 @@ TEST(FitModels, DebyeGruneisenIsRecovered) {
                 value, 8);
 }
 
-// Copper at 4 K: C11, C12, C44 of 176.2, 124.9, 81.8 GPa (Overton & Gaffney 1955) have the moduli 142 and 51.5 GPa after
-// Hill; calorimetry gives 343 K (Kittel, Introduction to Solid State Physics).
+// Copper at 4 K: C11, C12, C44 of 176.2, 124.9, 81.8 GPa (Overton & Gaffney 1955) have the moduli 142
+// and 51.5 GPa after Hill; calorimetry gives 343 K (Kittel, Introduction to Solid State Physics).
 TEST(FitModels, DebyeTemperatureIsThatOfTheElasticStateNextToTheReference) {
   EXPECT_NEAR(debye_temperature(142e9, 51.5e9, 1.107e-4, 0.06355), 343.0, 0.04 * 343.0);
 
@@ -251,7 +294,8 @@ TEST(FitModels, DebyeTemperatureIsThatOfTheElasticStateNextToTheReference) {
   }
   const Fit fit = fit_debye_gruneisen(store.points, noise_only(), "s");
   EXPECT_EQ(fit.constant("debye_temperature").origin, Origin::given);
-  EXPECT_NEAR(fit.value("debye_temperature"), debye_temperature(140e9, 50e9, 1.001 * v0, solid.gray.molar_mass), 1e-4);
+  EXPECT_NEAR(fit.value("debye_temperature"),
+              debye_temperature(140e9, 50e9, 1.001 * v0, solid.gray.molar_mass), 1e-4);
 }
 
 TEST(FitModels, DebyeGruneisenAsksForAnIsotherm) {

@@ -125,7 +125,7 @@ TEST(Plan, SectionsThatCannotBeMeasuredAreRefused) {
   EXPECT_NE(errors_of("[liquid_vapour]\ntemperature = [\"-5 K\"]\n").find("temperature"), std::string::npos);
   EXPECT_NE(errors_of("[liquid_vapour]\ntemperature = [\"5000 K\"]\nreplicas = 1\n").find("replicas"),
             std::string::npos);
-  const std::string melting = "[coexistence]\npressure = [\"0 GPa\"]\nfirst_guess = [\"1300 K\"]\n";
+  const std::string melting = "[[coexistence]]\npressure = [\"0 GPa\"]\nfirst_guess = [\"1300 K\"]\n";
   EXPECT_EQ(errors_of(melting), "no InputError");
   EXPECT_NE(errors_of(melting + "replicas = 1\n").find("replicas"), std::string::npos);
   EXPECT_NE(errors_of(melting + "length = 4\n").find("length"), std::string::npos);

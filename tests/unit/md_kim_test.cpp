@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 
+#include "md_fitting/lammps/kim_model.hpp"
 #include "md_fitting/lammps/potential.hpp"
 #include "md_fitting/protocols/nvt_state.hpp"
 #include "src/core/base/error.hpp"
@@ -35,11 +36,11 @@ bool models_installed() {
 }
 
 TEST(KimModel, IdentifiersAreTold) {
-  EXPECT_TRUE(KimModel::is_identifier(mishin_model));
-  EXPECT_TRUE(KimModel::is_identifier("Sim_LAMMPS_ADP_ApostolMishin_2011_AlCu__SM_667696763561_000"));
+  EXPECT_TRUE(is_kim_identifier(mishin_model));
+  EXPECT_TRUE(is_kim_identifier("Sim_LAMMPS_ADP_ApostolMishin_2011_AlCu__SM_667696763561_000"));
   for (const char* other :
        {"copper_mishin_2001", "Cu_u3.eam", "EAM_Dynamo__MO_346334655118", "EAM; quit__MO_346334655118_005"}) {
-    EXPECT_FALSE(KimModel::is_identifier(other)) << other;
+    EXPECT_FALSE(is_kim_identifier(other)) << other;
   }
 }
 

@@ -30,7 +30,7 @@ temperature = ["20 degC"]
 temperature = 300
 volume_ratio = [1, 0.9]
 time_step = "1 fs"
-[coexistence]
+[[coexistence]]
 pressure = ["10 GPa"]
 first_guess = ["1700 K"]
 )",
@@ -40,7 +40,7 @@ first_guess = ["1700 K"]
   EXPECT_EQ(plan.isotherms.at(0).temperature, 300.0);
   EXPECT_EQ(plan.isotherms.at(0).volume_ratio, (std::vector<double>{1.0, 0.9}));
   EXPECT_NEAR(plan.isotherms.at(0).size.time_step, 1e-15, 1e-24);
-  EXPECT_NEAR(plan.coexistence->pressure.at(0), 1e10, 1.0);
+  EXPECT_NEAR(plan.coexistences.at(0).pressure.at(0), 1e10, 1.0);
   EXPECT_FALSE(plan.hugoniot.has_value());
 }
 
@@ -52,7 +52,7 @@ volume_ratio = [1.0, -0.5]
 cels = 4
 [hugoniot]
 volume_ratio = [0.8]
-[coexistence]
+[[coexistence]]
 pressure = ["0 GPa", "10 K"]
 first_guess = ["1300 K"]
 )");
@@ -62,11 +62,20 @@ first_guess = ["1300 K"]
   }
 }
 
+TEST(Plan, PairStyleAndCoefficientsBelongTogether) {
+  const std::string head = "element = \"Ni\"\npotential = \"own\"\n";
+  EXPECT_NE(errors_of(head + "pair_style = \"adp\"\n").find("plan.toml:3:"), std::string::npos)
+      << errors_of(head + "pair_style = \"adp\"\n");
+  EXPECT_NE(errors_of(head + "pair_coeff = [\"* * Ni.adp Ni\"]\n").find("belongs to a pair_style"),
+            std::string::npos);
+  EXPECT_EQ(errors_of(head + "pair_style = \"adp\"\npair_coeff = [\"* * Ni.adp Ni\"]\n"), "no InputError");
+}
+
 TEST(Plan, DescriptionNamesEveryKey) {
   const std::string text = describe_plan();
   for (const char* key :
        {"element", "potential", "seed", "[zero_pressure_volume]", "[[isotherm]]", "[[isochore]]",
-        "[hugoniot]", "[coexistence]", "[cold_curve]", "[hugoniostat]", "[piston]", "[liquid]", "[spall]",
+        "[hugoniot]", "[[coexistence]]", "[cold_curve]", "[hugoniostat]", "[piston]", "[liquid]", "[spall]",
         "[liquid_vapour]", "[elastic]", "volume_ratio", "first_guess", "equilibration_steps"}) {
     EXPECT_NE(text.find(key), std::string::npos) << key << "\n" << text;
   }
@@ -79,7 +88,7 @@ TEST(Plan, ShippedPlansAreValid) {
     ++plans;
     Plan plan;
     EXPECT_NO_THROW(plan = read_plan(entry.path())) << entry.path();
-    EXPECT_TRUE(plan.hugoniot.has_value() || plan.coexistence.has_value()) << entry.path();
+    EXPECT_TRUE(plan.hugoniot.has_value() || !plan.coexistences.empty()) << entry.path();
   }
   EXPECT_GE(plans, 4);
 }

@@ -72,7 +72,7 @@ TEST_F(Keys, OfTheShippedPlansAreThoseOfTheFirstStores) {
   const Plan melting =
       read_plan(std::filesystem::path(WHIPPLE_SOURCE_DIR "/cases/md/copper_u3_melting.toml"));
   const std::vector<Task> melting_tasks = make_tasks(melting, potential);
-  const CoexistencePlan& section = *melting.coexistence;
+  const CoexistencePlan& section = melting.coexistences.front();
   const std::string wanted = key(
       "coexistence", fmt::format("condition pressure={}\n", section.pressure[0]),
       fmt::format(

@@ -167,6 +167,40 @@ TEST(Compare, OwnCurvesLeaveNoDeviation) {
             1e6);
 }
 
+// The same of isentropes and of sound speeds behind shocks; those of another material deviate.
+TEST(Compare, OwnIsentropeAndSoundSpeedsLeaveNoDeviation) {
+  const TemporaryFolder folder;
+  const Material material = copper(true);
+  const eos::State& rest = material.reference;
+  const eos::Hugoniot hugoniot(*material.eos, rest.density, rest.specific_internal_energy);
+  {
+    std::ofstream ramp(folder.path() / "own_isentrope.csv");
+    std::ofstream sound(folder.path() / "own_sound.csv");
+    ramp << "# test, not a Hugoniot\nP_GPa,V_over_V0\n";
+    sound << "# test\nP [GPa],c bulk [km/s]\n";
+    for (const double ratio : {0.95, 0.8, 0.7}) {
+      const eos::State state = eos::isentrope(*material.eos, rest, {rest.density / ratio}).back().state;
+      ramp << fmt::format("{:.12g},{}\n", state.pressure * 1e-9, ratio);
+    }
+    for (const double pressure : {10.0, 50.0, 150.0}) {
+      const eos::State state = hugoniot.at_pressure(pressure * 1e9).state;
+      sound << fmt::format("{},{:.12g}\n", pressure, state.sound_speed * 1e-3);
+    }
+  }
+  const Experiment ramp = read_experiment(folder.path() / "own_isentrope.csv");
+  EXPECT_EQ(ramp.kind, ExperimentKind::isentrope);
+  const Comparison own = compare(material, ramp);
+  EXPECT_EQ(own.points, 3);
+  EXPECT_LT(std::abs(own.maximum), 1e4);  // Pa of up to 110 GPa
+  EXPECT_GT(compare(copper(false), ramp).rms, 1e9);
+  const Experiment sound = read_experiment(folder.path() / "own_sound.csv");
+  EXPECT_EQ(sound.kind, ExperimentKind::sound_speed);
+  const Comparison speeds = compare(material, sound);
+  EXPECT_EQ(speeds.points, 3);
+  EXPECT_LT(std::abs(speeds.maximum), 1e-6);  // %
+  EXPECT_GT(compare(copper(false), sound).rms, 1.0);
+}
+
 Experiment experiment_of(const std::string& text, const std::string& name = "measurement.csv") {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / name, std::ios::binary) << text;

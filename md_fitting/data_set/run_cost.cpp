@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/data_set/run_cost.hpp"
+
+#include <cmath>
+
+namespace whipple::md {
+
+RunShape run_shape(const std::map<std::string, std::string>& provenance) {
+  const auto number = [&](const char* name, double otherwise) {
+    const auto entry = provenance.find(name);
+    return entry == provenance.end() ? otherwise : std::stod(entry->second);
+  };
+  const double cells = number("cells", 0.0);
+  return {.cells = cells,
+          .length = number("length", cells),
+          .equilibration_steps = number("equilibration_steps", 0.0),
+          .steps = number("steps", 0.0),
+          .replicas = number("replicas", 1.0)};
+}
+
+double atom_steps(std::optional<PointKind> protocol, double atoms_per_cell, const RunShape& shape) {
+  const double atoms = atoms_per_cell * shape.cells * shape.cells * shape.length;
+  const double run = shape.equilibration_steps + shape.steps;
+  if (protocol == PointKind::hugoniot) {
+    constexpr double searches = 3.0;  // runs of half the equilibration and a quarter of the steps
+    return atoms * (run + searches * (0.5 * shape.equilibration_steps + 0.25 * shape.steps));
+  }
+  if (protocol == PointKind::coexistence) {
+    constexpr double preparation = 1500.0 + 0.5 * (5000.0 + 1000.0) + 1000.0;  // half of the cell melts
+    const double phase = std::fmax(4.0, 0.75 * shape.cells);  // crystal and melt are averaged apart as well
+    const double runs = shape.replicas + 1.0;                 // the first one finds where the others start
+    return atoms * (preparation + run) * runs + atoms_per_cell * std::pow(phase, 3) * run * shape.replicas;
+  }
+  return atoms * run * shape.replicas;
+}
+
+double sampling(const RunShape& shape) {
+  return shape.cells * shape.cells * shape.length * shape.steps * shape.replicas;
+}
+
+}  // namespace whipple::md

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "md_fitting/lammps/pair_style.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string_view>
+
+#include "md_fitting/lammps/lammps.hpp"
+#include "md_fitting/lammps/potential.hpp"
+#include "src/core/base/error.hpp"
+#include "src/core/base/hash.hpp"
+#include "src/core/base/text.hpp"
+
+namespace whipple::md {
+namespace {
+
+/// Styles whose tables the program reads and checks itself.
+constexpr std::array<std::string_view, 3> read_styles = {"eam", "eam/alloy", "eam/fs"};
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream stream(line);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+/// LAMMPS would take such characters for variables, comments or the end of a command.
+void require_plain(const std::string& text) {
+  const bool plain = std::ranges::all_of(text, [](unsigned char c) {
+    return c >= 0x20 && c < 0x7f &&
+           std::string_view("{}$&#\"';").find(static_cast<char>(c)) == std::string_view::npos;
+  });
+  if (!plain) {
+    throw InputError(fmt::format(
+        "'{}' of a pair style holds characters other than letters, digits and - + . _ / * :", text));
+  }
+}
+
+/// A name with an ending of letters, which no number has.
+bool looks_like_file(const std::string& word) {
+  const std::size_t dot = word.rfind('.');
+  return dot != std::string::npos && dot + 1 < word.size() &&
+         std::isalpha(static_cast<unsigned char>(word[dot + 1])) != 0;
+}
+
+void require_style(const std::string& style) {
+  if (std::ranges::find(read_styles, style) != read_styles.end()) {
+    throw InputError(
+        fmt::format("pair_style \"{}\": the program reads tables of this style itself, with more checks; "
+                    "give the file as "
+                    "`potential` and no pair_style",
+                    style));
+  }
+  const Lammps lammps;
+  if (lammps.has_style("pair", style)) return;
+  const std::vector<std::string> all = lammps.styles("pair");
+  throw InputError(fmt::format("LAMMPS was built without the pair style '{}'{}; its {} pair styles are: {}",
+                               style, did_you_mean(style, all), all.size(), fmt::join(all, ", ")));
+}
+
+}  // namespace
+
+PairInteractions pair_interactions(const PairStyle& pair, const std::string& name,
+                                   const std::filesystem::path& folder) {
+  require_plain(pair.style);
+  const std::vector<std::string> style = words_of(pair.style);
+  if (style.empty()) throw InputError("pair_style has no word");
+  require_style(style.front());
+  PairInteractions result;
+  result.interactions.name = fmt::format("the pair style {} ({})", style.front(), name);
+  result.interactions.before_box = {{"units metal", "units metal"}};
+  const std::string command = "pair_style " + pair.style;
+  result.interactions.in_box.push_back({command, command});
+  std::string content = command + "\n";
+  for (const std::string& line : pair.coefficients) {
+    require_plain(line);
+    std::string full = "pair_coeff";
+    for (const std::string& word : words_of(line)) {
+      std::filesystem::path path;
+      for (const std::filesystem::path& place : {folder / word, potential_folder() / word}) {
+        if (path.empty() && std::filesystem::is_regular_file(place)) path = place;
+      }
+      if (path.empty() && looks_like_file(word)) {
+        throw InputError(
+            fmt::format("pair_coeff \"{}\": there is no file '{}' in the folder of the plan or in {}", line,
+                        word, potential_folder().string()));
+      }
+      if (!path.empty()) {
+        std::ifstream file(path, std::ios::binary);
+        content += sha256(std::string(std::istreambuf_iterator<char>(file), {})) + "\n";
+      }
+      full += " " + (path.empty() ? word : path.string());
+    }
+    const std::string shown = "pair_coeff " + line;
+    result.interactions.in_box.push_back({full, shown});
+    content += shown + "\n";
+  }
+  result.hash = sha256(content);
+  return result;
+}
+
+}  // namespace whipple::md

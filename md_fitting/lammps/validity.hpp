@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "md_fitting/lammps/eam_tables.hpp"
+
+namespace whipple::md {
+
+/// Pressure up to which states of a potential are not flagged, and what speaks against it beyond. The hard
+/// limit, where states are refused, is that of `Potential::require_range`.
+struct Validity {
+  double pressure =
+      std::numeric_limits<double>::infinity();  ///< Pa, of the static crystal; infinite: none known
+  std::string reason;                           ///< "hcp has less energy than fcc"
+};
+
+/// Returns the least pressure of the static crystal at which one of these holds: another structure (fcc, bcc,
+/// or hcp of the ideal axial ratio) has less energy at the same volume by more than 1 meV per atom; the
+/// density exceeds that to which the embedding function was fitted, where this is known; the end of the
+/// admissible volumes.
+/// @param least_volume_ratio  V/V0 at which states are refused
+Validity validity_of(const EamTables& tables, double least_volume_ratio);
+
+}  // namespace whipple::md
