@@ -29,7 +29,10 @@ std::string content_of(const fs::path& deck) {
   if (!stream) throw InputError(fmt::format("{}: cannot be read", deck.string()));
   std::ostringstream text;
   text << stream.rdbuf();
-  return std::move(text).str();
+  std::string all = std::move(text).str();
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (all.starts_with(byte_order_mark)) all.erase(0, byte_order_mark.size());
+  return all;
 }
 
 [[noreturn]] void refuse(const fs::path& deck, std::string why) {

@@ -62,7 +62,9 @@ class AbaqusReader {
     bool more = next();
     while (more) {
       if (!line_text_.starts_with('*')) fail("expected a keyword (*...)");
-      const std::vector<std::string_view> words = cells_of(line_text_);
+      std::string head(line_text_);
+      while (head.ends_with(',') && next()) head += line_text_;  // it goes on in the next line
+      const std::vector<std::string_view> words = cells_of(head);
       const std::string keyword = upper(words.front());
       parameters_.clear();
       for (std::size_t i = 1; i < words.size(); ++i) {
@@ -127,7 +129,9 @@ class AbaqusReader {
     return value;
   }
   double coordinate(std::string_view cell) const {
-    const std::string text(cell);
+    std::string text(cell);
+    std::ranges::replace(text, 'D', 'E');  // of Fortran
+    std::ranges::replace(text, 'd', 'e');
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (text.empty() || *end != '\0' || !std::isfinite(value)) fail(fmt::format("\"{}\" is not a coordinate", cell));

@@ -328,6 +328,7 @@ TEST(DynaDeck, FaultsAreNamedWithTheirPlace) {
   };
   EXPECT_THAT(fault("      1.09    1356.0", "      1.09    13x6.0"), HasSubstr("'13x6.0' in field 6 is no number"));
   EXPECT_THAT(fault("&speed", "&spead"), HasSubstr("is no parameter"));
+  EXPECT_THAT(fault("         1    3940.0", "         1\t3940.0"), HasSubstr("a tab in a card")) << "columns are lost";
   EXPECT_THAT(fault("         2         2         2\n", "         2         2         5\n"), HasSubstr("there is no *MAT 5"));
   EXPECT_THAT(fault("         7         1       0.0", "         8         1       0.0"), HasSubstr("there is no set 8"));
   EXPECT_THAT(fault("      12            -0.5", "      13            -0.5"), HasSubstr("there is no node 12"));
@@ -342,6 +343,28 @@ TEST_F(ImportFolder, AKeywordDeckReadsAsACase) {
   const CaseFolder written(import, folder_ / "case");
   EXPECT_EQ(cases::read_case(written.case_file(), {}).bodies.size(), 2U);
   EXPECT_THAT(refusal("*HEADING\nx\n*NODE, NSET=all\n"), HasSubstr("Abaqus"));
+}
+
+/// Line breaks of Windows, a mark of UTF-8 at the beginning, tabs between the words of MPM3D-F90 and behind
+/// cards.
+TEST_F(ImportFolder, HabitsOfOtherEditorsChangeNothing) {
+  const auto imported = [&](std::string text, const ImportOptions& options, bool tabs) {
+    const auto replace = [&](const std::string& from, const std::string& to) {
+      for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+        text.replace(at, from.size(), to);
+      }
+    };
+    if (tabs) replace(" ", "\t");
+    replace("\n", tabs ? "\t\r\n" : " \t\r\n");
+    std::ofstream(folder_ / "deck", std::ios::binary) << "\xEF\xBB\xBF" << text;
+    return import_deck(folder_ / "deck", options).case_text;
+  };
+  const auto below_title = [](const std::string& text) { return text.substr(text.find("[domain]")); };
+  const std::string columns = deck_text("columns_of_water.mpm"), bar = deck_text("bar_on_plate.k");
+  EXPECT_EQ(below_title(imported(columns, in_si, true)),
+            below_title(import_deck(folder_of_decks / "columns_of_water.mpm", in_si).case_text));
+  EXPECT_EQ(below_title(imported(bar, in_gpa, false)),
+            below_title(import_deck(folder_of_decks / "bar_on_plate.k", in_gpa).case_text));
 }
 
 /// Decks with bytes changed, words exchanged and parts cut out: read or refused, nothing else.

@@ -267,6 +267,9 @@ TEST_F(Gmsh, AbaqusHasElementSets) {
   EXPECT_EQ(file.hexahedra("both").elements.size(), 2U);
   EXPECT_EQ(file.hexahedra("both").nodes.size(), 12U);
   EXPECT_EQ(file.lines("bar").elements.size(), 1U);
+  EXPECT_NEAR(fem::volume(read("2, 1., 0., 0.", "2, 1.D0, 0.d0, 0.").hexahedra("Lower Box")), 1e-9, 1e-22)
+      << "of Fortran";
+  EXPECT_EQ(read(", elset=", ",\n elset=").group_names(3).size(), 3U) << "a keyword in two lines";
   const auto fault = [&](const std::string& from, const std::string& to) {
     return message_of<InputError>([&] { static_cast<void>(read(from, to).hexahedra("both")); });
   };
