@@ -46,6 +46,8 @@ Format format_of(const fs::path& deck, std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   const std::string_view start = text.substr(std::min(begin, text.size()));
   if (start.empty()) refuse(deck, "the deck is empty");
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) refuse(deck, "a text in UTF-16: save it as UTF-8");
+  if (start.starts_with("#RADIOSS")) refuse(deck, "a deck of OpenRadioss: not read");
   if (start.front() == '<') refuse(deck, "an XML file: decks of the C++ version of MPM3D are not read");
   if (start.front() == '*' || start.front() == '$') {
     refuse(deck, "a keyword deck, but not of LS-DYNA: those of Abaqus are not read");

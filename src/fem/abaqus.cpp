@@ -125,7 +125,10 @@ class AbaqusReader {
   std::uint64_t number(std::string_view cell, const char* what) const {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc() || end != cell.data() + cell.size()) fail(fmt::format("\"{}\" is not {}", cell, what));
+    if (error != std::errc() || end != cell.data() + cell.size()) {
+      const bool columns = cell.find(' ') != std::string_view::npos;
+      fail(fmt::format("\"{}\" is not {}{}", cell, what, columns ? ": numbers stand between commas" : ""));
+    }
     return value;
   }
   double coordinate(std::string_view cell) const {
@@ -245,8 +248,12 @@ class AbaqusReader {
     return found->second;
   }
 
-  /// A set of elements of several dimensions is a group of the largest.
+  /// A set of elements of several dimensions is a group of the largest; without sets all elements are the group "all".
   void groups() {
+    if (sets_.empty()) {  // as a file of VTK without arrays
+      std::vector<std::uint32_t>& all = set_of("all");
+      for (std::uint32_t e = 0; e < data_.elements.size(); ++e) all.push_back(e);
+    }
     int tag = 0;
     for (auto& [name, members] : sets_) {
       std::ranges::sort(members);

@@ -224,6 +224,8 @@ TEST_F(ImportFolder, DecksOfOtherCodesAreRecognised) {
   EXPECT_THAT(refusal("<OpenMPM3D>\n</OpenMPM3D>\n"), HasSubstr("XML"));
   EXPECT_THAT(refusal("*HEADING\nx\n*NODE, NSET=all\n"), HasSubstr("keyword deck"));
   EXPECT_THAT(refusal(""), HasSubstr("empty"));
+  EXPECT_THAT(refusal("#RADIOSS STARTER\n/BEGIN\n"), HasSubstr("OpenRadioss"));
+  EXPECT_THAT(refusal(std::string("\xFF\xFE*\0K\0", 6)), HasSubstr("UTF-16"));
   EXPECT_THAT(refusal("hello world"), HasSubstr("of no code that is known"));
 }
 

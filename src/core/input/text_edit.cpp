@@ -107,9 +107,9 @@ void add_table(std::vector<std::string>& texts, const std::string& text, std::sp
                const std::string& value) {
   if (path.size() < 2) return;
   const std::string end = line_break_of(text);
-  texts.push_back(fmt::format("{}{}{}[{}]{}{} = {}{}", text, text.ends_with('\n') ? "" : end, end,
-                              dotted(path.first(path.size() - 1)), end, as_bare_key(path.back()), value,
-                              end));
+  const std::string before = text.empty() ? "" : text + (text.ends_with('\n') ? "" : end) + end;
+  texts.push_back(fmt::format("{}[{}]{}{} = {}{}", before, dotted(path.first(path.size() - 1)), end,
+                              as_bare_key(path.back()), value, end));
 }
 
 /// Returns texts that may set a missing key, the more usual ones first: not all of them are right.
@@ -160,7 +160,9 @@ TextEdit set_in_text(const std::string& text, const std::filesystem::path& file,
       continue;
     }
     const auto [changed, unused] = std::ranges::mismatch(text, candidate);
-    edit.line = 1 + static_cast<std::size_t>(std::count(text.begin(), changed, '\n'));
+    const auto end = static_cast<std::size_t>(changed - text.begin());
+    const std::size_t place = std::min(candidate.find_first_not_of("\r\n", end), candidate.size());
+    edit.line = 1 + static_cast<std::size_t>(std::ranges::count(candidate.substr(0, place), '\n'));
     edit.text = std::move(candidate);
     return edit;
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -17,6 +18,21 @@ namespace {
 
 InputError fault_of(std::string_view key, std::string_view value, const std::string& why) {
   return InputError(fmt::format("{}={}: {}", key, value, why));
+}
+
+/// Parses a value by itself: it is then the only one of the table, without a position, so that errors name
+/// the assignment and not line 1 of the file. Nothing if it is a text without quotes, as in --set
+/// body.0.material=copper.toml.
+std::optional<toml::table> parsed_value(std::string_view value) {
+  const std::string line = fmt::format("value = {}", value);
+  if (find_structure_fault(line)) return std::nullopt;
+  try {
+    toml::table parsed = toml::parse(line);
+    if (parsed.size() == 1) return parsed;
+  } catch (const toml::parse_error&) {
+    return std::nullopt;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -66,14 +82,7 @@ toml::node* child_of(toml::node& node, std::string_view part) {
 }
 
 std::string value_as_toml_text(std::string_view value) {
-  const std::string line = fmt::format("value = {}", value);
-  try {
-    const toml::table parsed = find_structure_fault(line) ? toml::table() : toml::parse(line);
-    if (parsed.size() == 1) return std::string(value);
-  } catch (const toml::parse_error&) {
-    // A text without quotes, as in --set body.0.material=copper.toml.
-  }
-  return toml_string(value);
+  return parsed_value(value) ? std::string(value) : toml_string(value);
 }
 
 void set_value(toml::table& root, std::string_view key, std::string_view value) {
@@ -93,9 +102,9 @@ void set_value(toml::table& root, std::string_view key, std::string_view value) 
     }
     node = next;
   }
-  // Values parsed by themselves carry no position: errors then name the assignment, not line 1 of the file.
-  const toml::table parsed = toml::parse(fmt::format("value = {}", value_as_toml_text(value)));
-  const toml::node& content = *parsed.get("value");
+  const std::optional<toml::table> parsed = parsed_value(value);
+  const toml::value<std::string> plain{std::string(value)};
+  const toml::node& content = parsed ? *parsed->get("value") : plain;
   if (toml::table* table = node->as_table()) {
     table->insert_or_assign(path.back(), content);
   } else if (toml::array* list = node->as_array()) {
