@@ -197,8 +197,9 @@ def cloud_figures(run: Run, views: Views) -> Iterator[tuple[str, str, Figure]]:
                panels(views.geo, limits, [image for image, _ in painted], times, f"Section, by {name}",
                       bar=(*painted[0][1], extend)))
     for field, (name, words) in WORDED.items():
-        if all(field in section.fields for section in sections) and (
-                field == "phase" or any(section.fields[field].any() for section in sections)):
+        # A picture of a single word tells nothing.
+        if all(field in section.fields for section in sections) and len(
+                {code for section in sections for code in np.unique(section.fields[field])}) > 1:
             yield (f"cloud_{field}.png", f"{cut_text} Coloured by {name}.",
                    worded(sections, field, words, f"Section, by {name}"))
 
