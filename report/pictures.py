@@ -17,7 +17,7 @@ from report.files import write_whole
 from report.run import Run
 from report.views import PHASES, Picture, Views
 
-BACKGROUND = np.array([0.985, 0.985, 0.99])
+BACKGROUND = np.ones(3)  # as the paper of a journal
 # Of the light, what colours of a scale take: they must be read, not admired.
 SHADING_OF_SCALES = 0.55
 SMALL_END = 0.05  # of the other end of a scale: a sign that is no part of the picture
