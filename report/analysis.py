@@ -96,6 +96,11 @@ class Analysis:
         """Tells whether any snapshot has material that flies on: debris."""
         return bool(np.isfinite(self.series["mean_velocity"]).any())
 
+    @property
+    def is_impact(self) -> bool:
+        """Tells whether a body flies at the start and debris flies on."""
+        return self.has_debris and self.geometry.impact_speed > 0
+
     def quantity(self, name: str) -> float:
         """Returns a final value, NaN if there is none."""
         return self.final.get(name, float("nan"))

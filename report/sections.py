@@ -164,7 +164,7 @@ class Report:
         if analysis.views and not any(view.items for view in analysis.views.times):
             self.page.note("The snapshots hold no particles and no elements: no pictures and no measures of the cloud.")
             return
-        self.page.heading("Debris cloud" if analysis.has_debris else "Pictures")
+        self.page.heading("Debris cloud" if analysis.is_impact else "Pictures")
         if analysis.views is None:
             self.page.note("The analysis has no views: pictures are made by `whipple report`.")
         else:
@@ -215,11 +215,11 @@ class Report:
 
     def _final_table(self, time, analysis):
         run, geo, final = self.run, analysis.geometry, analysis.quantity
-        self.page.heading(f"{'Cloud' if analysis.has_debris else 'State'} at {units.time(time)}")
+        self.page.heading(f"{'Cloud' if analysis.is_impact else 'State'} at {units.time(time)}")
         residual = final(f"mean_velocity.{geo.projectile}")
-        tiles = [
-            ("impact speed", f"{number(units.KM_PER_SECOND * geo.impact_speed)} km/s"),
-            (f"residual velocity of {geo.projectile}", f"{number(units.KM_PER_SECOND * residual)} km/s"),
+        tiles = [("impact speed", f"{number(units.KM_PER_SECOND * geo.impact_speed)} km/s")] if geo.impact_speed > 0 else []
+        tiles += [
+            (f"{'residual' if geo.impact_speed > 0 else 'mean axial'} velocity of {geo.projectile}", f"{number(units.KM_PER_SECOND * residual)} km/s"),
             ("front speed", f"{number(units.KM_PER_SECOND * final('front_speed'))} km/s"),
             ("rear speed", f"{number(units.KM_PER_SECOND * final('rear_speed'))} km/s"),
             ("radial speed", f"{number(units.KM_PER_SECOND * final('radial_speed'))} km/s"),
