@@ -170,7 +170,8 @@ class CellCounts {
   std::unordered_map<std::uint64_t, std::size_t> counts_;
 };
 
-/// Diameters (m) of the points of a scene; those of thin debris have at most some pixels, as they would hide what is behind.
+/// Diameters (m) of the points of a scene; those of thin debris and gas have at most some pixels, or the median of all
+/// edges, as they would hide what is behind.
 std::vector<double> diameters_of(const Scene& scene, const Frame& frame, double pixel) {
   constexpr double widest = 24.0;  // pixels
   const Snapshot& snapshot = scene.snapshot;
@@ -183,7 +184,10 @@ std::vector<double> diameters_of(const Scene& scene, const Frame& frame, double 
     edges.push_back(frame.edge(snapshot.mass[i] / std::max((*densities)[i], 1e-3), snapshot.position[i]));
   }
   std::vector<double> diameters = drawn_diameters(positions, edges, frame.is_planar());
-  for (std::size_t i = 0; i < edges.size(); ++i) diameters[i] = std::min(diameters[i], std::max(edges[i], widest * pixel));
+  if (edges.empty()) return diameters;
+  std::ranges::nth_element(edges, edges.begin() + std::ssize(edges) / 2);
+  const double most = std::max(edges[edges.size() / 2], widest * pixel);
+  for (double& diameter : diameters) diameter = std::min(diameter, most);
   return diameters;
 }
 

@@ -149,7 +149,7 @@ TEST(Mpm3dDeck, MissingPhysicsIsNamed) {
   for (const Remark& remark : import.remarks) {
     if (remark.outcome == Outcome::missing) missing += fmt::format("{}: {}\n", remark.keyword, remark.text);
   }
-  for (const char* law : {"Drucker-Prager", "neo-Hookean", "loads that grow"}) {
+  for (const char* law : {"Drucker-Prager", "loads that grow"}) {
     EXPECT_THAT(missing, HasSubstr(law));
   }
   EXPECT_THAT(import.case_text, HasSubstr("[[detonation]]"));
@@ -217,6 +217,23 @@ class ImportFolder : public FolderTest {
     return message_of<InputError>([&] { static_cast<void>(import_deck(write("deck.mpm", text), {})); });
   }
 };
+
+TEST_F(ImportFolder, ANeoHookeanSolidIsAConstitutiveModel) {
+  std::string text = deck_text("missing.mpm");
+  text.erase(text.find(" 2 dpm"), text.find(" 3 neoh") - text.find(" 2 dpm"));  // what has no law here
+  text.replace(text.find("nmat 3"), 6, "nmat 2");
+  text.replace(text.find(" 3 neoh"), 7, " 2 neoh");
+  text.replace(text.find("block 1 3 1000"), 14, "block 1 2 1000");
+  text.erase(text.find("particle block 1 2 1700"), text.find("particle block 1 2 1000") - text.find("particle block 1 2 1700"));
+  text.erase(text.find("qulo"), 9);
+  text.erase(text.find("nbmp 100\n"), 9);
+  const Import import = import_text(text);
+  EXPECT_EQ(import.count(Outcome::missing), 0U) << import.report();
+  const CaseFolder written(import, folder_ / "case");
+  const cases::Case setup = cases::read_case(written.case_file(), {});
+  EXPECT_EQ(setup.materials.back()->constitutive->model(), "neo_hookean");
+  EXPECT_THAT(import.files.back().text, HasSubstr("shear_modulus = \"38461.5384615"));
+}
 
 TEST_F(ImportFolder, DecksOfOtherCodesAreRecognised) {
   EXPECT_THAT(refusal("# two disks\nE=1e3\nregion(box, block, 0, 1)\n"), HasSubstr("Karamelo"));

@@ -3,7 +3,7 @@
 """`whipple check --preview` of every case in Chromium: a page of less than 20 MB that opens from its file, asks for no other,
 and picks the particle that is seen at ten places. Skipped without Chromium.
 
-Usage: preview_cases.py WHIPPLE CASES_FOLDER FOLDER
+Usage: preview_cases.py WHIPPLE CASES_FOLDER FOLDER [CASE...]
 """
 import pathlib
 import shutil
@@ -36,13 +36,13 @@ const disc = (i) => {
 };
 const results = [];
 let random = seed;
-for (let k = 0; k < count; ++k) {
+for (let tries = 0; results.length < count && tries < 20 * count; ++tries) {
   random = (random * 1103515245 + 12345) % 2147483648;
   const aim = disc(random % cloud.n), x = Math.floor(aim.x), y = Math.floor(aim.y);
   viewer.pickAt((x + 0.5) / canvas.width, (y + 0.5) / canvas.height);
   const ids = cloud.fields.get('id').plane, picked = state.picked === null ? -1 : ids.indexOf(state.picked.id);
-  if (picked < 0) {
-    results.push('nothing');
+  if (picked < 0) {  // a disc smaller than a pixel may cover no middle of one
+    if (aim.radius > 1) results.push('nothing');
     continue;
   }
   const seen = disc(picked), way = (d) => Math.hypot(d.x - x - 0.5, d.y - y - 0.5);
@@ -52,7 +52,7 @@ for (let k = 0; k < count; ++k) {
     const other = disc(i);
     if (way(other) < other.radius - 1 && other.depth < seen.depth * (1 - 1e-4)) hiding = i;
   }
-  const told = viewer.pickedRows()[0].join(' ');
+  const told = viewer.pickedRows().flat().join(' ');
   results.push(way(seen) > seen.radius + 1 ? `a particle ${way(seen)} pixels away` : hiding >= 0 ? `behind particle ${hiding}`
     : told.includes(head.bodies[bodies[picked]].name) ? 'right' : `the table tells ${told}`);
 }
@@ -90,6 +90,8 @@ def main():
     FOLDER.mkdir(parents=True)
     cases = sorted(path.parent for path in CASES.glob("*/case.toml"))
     require(len(cases) > 30, f"{len(cases)} cases")
+    if sys.argv[4:]:
+        cases = [case for case in cases if case.name in sys.argv[4:]]
     with Browser(*found, FOLDER / "profile") as browser:
         for case in cases:
             check(browser, case)
