@@ -29,6 +29,14 @@ DEFINITIONS = [
 ]
 
 
+OF_ALL_RUNS = ("axis", "impact speed", "residual velocity", "perforated")
+
+
+def definitions(with_debris: bool) -> list[tuple[str, str]]:
+    """Returns the definitions of the measures that a page shows."""
+    return [entry for entry in DEFINITIONS if with_debris or entry[0] in OF_ALL_RUNS]
+
+
 @dataclass
 class Picture:
     """Synthetic radiograph: areal density of all bodies (kg/m^2) and transmission, rows from below."""
@@ -82,6 +90,16 @@ class Analysis:
         return Picture(float(group.attrs["time"]),
                        (left, left + pixel * total.shape[1], below, below + pixel * total.shape[0]),
                        total, group["transmission"][:])
+
+    @property
+    def has_debris(self) -> bool:
+        """Tells whether any snapshot has material that flies on: debris."""
+        return bool(np.isfinite(self.series["mean_velocity"]).any())
+
+    @property
+    def is_impact(self) -> bool:
+        """Tells whether a body flies at the start and debris flies on."""
+        return self.has_debris and self.geometry.impact_speed > 0
 
     def quantity(self, name: str) -> float:
         """Returns a final value, NaN if there is none."""

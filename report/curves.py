@@ -40,9 +40,20 @@ def lines(ax: Axes, history: History, names: list[tuple[str, str]], scale: float
     return drawn
 
 
+def only_phase(run: Run) -> str | None:
+    """Returns the phase of all material at all times; None if there are several, or no masses of phases."""
+    columns = {phase: f"mass_{phase}" for phase in PHASES}
+    if not all(column in run.history for column in columns.values()):
+        return None
+    found = [phase for phase, column in columns.items() if (run.history[column] > 0).any()]
+    return found[0] if len(found) == 1 else None
+
+
 def phase_figure(run: Run) -> Figure | None:
-    """Draws the mass of every phase over time as fractions of the mass, one panel per body."""
+    """Draws the mass of every phase over time as fractions of the mass, one panel per body; None of a single phase."""
     history = run.history
+    if only_phase(run):
+        return None
     first = f"mass_{PHASES[0]}."
     bodies = [column.removeprefix(first) for column in history.columns if column.startswith(first)]
     groups = [(name, [f"mass_{p}.{name}" for p in PHASES]) for name in bodies]

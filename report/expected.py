@@ -92,6 +92,12 @@ def verdict(e: Expectation, value: float, band: float | None) -> str:
     return "departs"
 
 
+def source_of(e: Expectation) -> str:
+    """Writes what the expected value comes from, its kind first."""
+    source = e.source if e.source.startswith(f"{e.origin}: ") else f"{e.origin}: {e.source}"
+    return source + (f". Known: {e.known}" if e.known else "")
+
+
 def figure_of(rows: list[tuple[Expectation, float, float | None]]) -> Figure | None:
     """Draws values over their expectations with tolerances and bands; None if none of them has a size."""
     rows = [(e, value, band) for e, value, band in rows
@@ -137,7 +143,7 @@ def add_to(page: Page, run: Run, add_figure) -> list[dict]:
         result = verdict(e, value, band)
         drawn.append((e, value, band))
         rows.append([e.name, shown(value, e.unit), expectation_text(e), shown(band, e.unit, 2),
-                     shown(study.get("value"), e.unit), result, f"{e.origin}: {e.source}" + (f". Known: {e.known}" if e.known else "")])
+                     shown(study.get("value"), e.unit), result, source_of(e)])
         data.append({"name": e.name, "value": value, "expected": e.value, "kind": e.kind, "tolerance": e.tolerance,
                      "band": band, "verdict": result})
     page.heading("Expected, and found in this run")

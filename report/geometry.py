@@ -44,8 +44,9 @@ class Geometry:
     def labels(self) -> tuple[str, str]:
         """Labels of the axes of pictures."""
         across, up = self.axis_name(), AXES[self.up]
-        return ((f"{across} (mm)", f"{up} (mm)") if self.oblique else
-                (f"along the flight, {across} (mm)", f"across, {up} (mm)"))
+        if self.oblique:
+            return f"{across} (mm)", f"{up} (mm)"
+        return f"along the {'flight' if self.impact_speed > 0 else 'axis'}, {across} (mm)", f"across, {up} (mm)"
 
     def extent(self, limits: tuple) -> list[float]:
         """Converts the limits of a picture from the axis (m) into coordinates of the model, mm."""

@@ -17,7 +17,7 @@ from report.files import write_whole
 from report.run import Run
 from report.views import PHASES, Picture, Views
 
-BACKGROUND = np.array([0.985, 0.985, 0.99])
+BACKGROUND = np.ones(3)  # as the paper of a journal
 # Of the light, what colours of a scale take: they must be read, not admired.
 SHADING_OF_SCALES = 0.55
 SMALL_END = 0.05  # of the other end of a scale: a sign that is no part of the picture
@@ -197,8 +197,9 @@ def cloud_figures(run: Run, views: Views) -> Iterator[tuple[str, str, Figure]]:
                panels(views.geo, limits, [image for image, _ in painted], times, f"Section, by {name}",
                       bar=(*painted[0][1], extend)))
     for field, (name, words) in WORDED.items():
-        if all(field in section.fields for section in sections) and (
-                field == "phase" or any(section.fields[field].any() for section in sections)):
+        # A picture of a single word tells nothing.
+        if all(field in section.fields for section in sections) and len(
+                {code for section in sections for code in np.unique(section.fields[field])}) > 1:
             yield (f"cloud_{field}.png", f"{cut_text} Coloured by {name}.",
                    worded(sections, field, words, f"Section, by {name}"))
 

@@ -50,6 +50,7 @@ DIMENSIONS = {
                     "everything that breaks the symmetry need three dimensions.",
     "plane_strain": "Plane strain: the same for all z. Masses, momenta and energies are those of 1 m along z."}
 FINER_CELLS_ADVISED = 0.05  # of the kinetic energy, unresolved
+NEARLY_AT_REST = 0.05  # of the largest kinetic energy
 # Columns of the table of bodies: heading and factor.
 BODY_COLUMNS = {"mass": ("mass (g)", units.GRAMS), "axial_momentum": ("axial momentum (kg m/s)", 1),
                 "mean_axial_velocity": ("mean axial velocity (m/s)", 1), "kinetic_energy": ("kinetic energy (J)", 1),
@@ -110,9 +111,9 @@ class Report:
             tiles.append(("left through the border",
                           units.mass(run.multiplicity * history.last("outflow_mass"))))
         if "energy_error" in history:
-            tiles.append(("largest energy error", number(float(abs(history["energy_error"]).max()), 2)))
+            tiles.append(("largest energy error", units.error(float(abs(history["energy_error"]).max()))))
         if "momentum_error" in history:
-            tiles.append(("largest momentum error", number(float(abs(history["momentum_error"]).max()), 2)))
+            tiles.append(("largest momentum error", units.error(float(abs(history["momentum_error"]).max()))))
         for name, meaning in COUNTED:
             if history.last(name):
                 tiles.append((meaning, f"{history.last(name):.0f}"))
@@ -164,7 +165,7 @@ class Report:
         if analysis.views and not any(view.items for view in analysis.views.times):
             self.page.note("The snapshots hold no particles and no elements: no pictures and no measures of the cloud.")
             return
-        self.page.heading("Debris cloud")
+        self.page.heading("Debris cloud" if analysis.is_impact else "Pictures")
         if analysis.views is None:
             self.page.note("The analysis has no views: pictures are made by `whipple report`.")
         else:
@@ -200,7 +201,7 @@ class Report:
 
     def _extent(self, analysis):
         columns = analysis.series
-        if not np.isfinite(columns["mean_velocity"]).any():
+        if not analysis.has_debris:
             return
         self.page.heading("Front, rear and radius of the cloud")
         for name, what in (("front", "front"), ("radius", "side")):
@@ -215,36 +216,39 @@ class Report:
 
     def _final_table(self, time, analysis):
         run, geo, final = self.run, analysis.geometry, analysis.quantity
-        self.page.heading(f"Cloud at {units.time(time)}")
+        self.page.heading(f"{'Cloud' if analysis.is_impact else 'State'} at {units.time(time)}")
         residual = final(f"mean_velocity.{geo.projectile}")
-        tiles = [
-            ("impact speed", f"{number(units.KM_PER_SECOND * geo.impact_speed)} km/s"),
-            (f"residual velocity of {geo.projectile}", f"{number(units.KM_PER_SECOND * residual)} km/s"),
+        tiles = [("impact speed", f"{number(units.KM_PER_SECOND * geo.impact_speed)} km/s")] if geo.impact_speed > 0 else []
+        tiles += [
+            (f"{'residual' if geo.impact_speed > 0 else 'mean axial'} velocity of {geo.projectile}", f"{number(units.KM_PER_SECOND * residual)} km/s"),
             ("front speed", f"{number(units.KM_PER_SECOND * final('front_speed'))} km/s"),
             ("rear speed", f"{number(units.KM_PER_SECOND * final('rear_speed'))} km/s"),
             ("radial speed", f"{number(units.KM_PER_SECOND * final('radial_speed'))} km/s"),
             ("half angle", f"{number(math.degrees(final('half_angle')))}°"),
             ("length", f"{number(units.MILLIMETRES * (final('front') - final('rear')))} mm"),
             ("diameter", f"{number(2 * units.MILLIMETRES * final('radius'))} mm"),
-            ("fragments of at least 8 particles", number(final("debris_fragments_resolved"), 6)),
         ]
+        if analysis.has_debris:
+            tiles.append(("fragments of at least 8 particles", number(final("debris_fragments_resolved"), 6)))
         tiles += [(f"hole of {name.split('.')[1]}", f"{number(units.MILLIMETRES * value)} mm")
                   for name, value in analysis.final.items() if name.startswith("hole_diameter.") and value > 0]
         tiles += [(f"{name.split('.', 1)[1]} perforated", "yes" if value else "no")
                   for name, value in analysis.final.items() if name.startswith("perforated.") and np.isfinite(value)]
-        self.page.tiles(tiles)
+        self.page.tiles((name, value) for name, value in tiles if not value.startswith(units.MISSING))
         carried = [column for column in analysis.tables["bodies"] if column in BODY_COLUMNS]
         head = ["body", "part"] + (["mass of model (g)"] if run.multiplicity > 1 else []) + [
             BODY_COLUMNS[column][0] for column in carried]
         lines, strong = [], []
         for body, part, m in analysis.bodies:
+            if part != "whole" and m["mass"] == 0:
+                continue
             if part == "whole":
                 strong.append(len(lines))
             model = [number(units.GRAMS * m["mass"] / run.multiplicity)] if run.multiplicity > 1 else []
             lines.append([body if part == "whole" else "", part, *model,
                           *(number(BODY_COLUMNS[column][1] * m[column]) for column in carried)])
         self.page.table(head, lines, strong=strong, text_columns=(0, 1))
-        self.page.definitions(measures.DEFINITIONS)
+        self.page.definitions(measures.definitions(analysis.has_debris))
         self.metrics |= {
             "time": time, "axis": geo.axis_name(), "impact_speed": geo.impact_speed, "projectile": geo.projectile,
             "residual_velocity": residual, "cloud": analysis.final,
@@ -258,7 +262,8 @@ class Report:
         self.page.heading("Phases")
         phases = curves.phase_figure(run)
         if phases is None:
-            self.page.note("The run wrote no masses of phases.")
+            only = curves.only_phase(run)
+            self.page.paragraph(f"All material is {only} at all times." if only else "The run wrote no masses of phases.")
         self._add_figure("phases.png", "Mass of each phase over time, as fractions of the mass of the body.", phases)
         self.page.heading("Energy and momentum")
         self._add_figure("energy.png", "Energies, and the errors of their balance relative to the beginning.",
@@ -277,9 +282,12 @@ class Report:
         self.page.table(["cause", "energy (J)", "into"], rows, text_columns=(0, 2))
         share = history.last("unresolved_share")
         if share:
-            text = (f"Unresolved motion: {number(scale * history.last('unresolved_energy'), 4)} J, "
-                    f"{100 * share:.2g} % of the kinetic energy.")
-            if share > FINER_CELLS_ADVISED:
+            unresolved, most = history.last("unresolved_energy"), float(history["kinetic_energy"].max())
+            at_rest = history.last("kinetic_energy") < NEARLY_AT_REST * most
+            text = (f"Unresolved motion: {number(scale * unresolved, 4)} J, "
+                    + (f"{units.percent(unresolved / most)} of the largest kinetic energy; the bodies have come to rest."
+                       if at_rest else f"{units.percent(share)} of the kinetic energy."))
+            if share > FINER_CELLS_ADVISED and not at_rest:
                 text += (" Above 5 % the cells are too coarse for the motion of the fragments: finer ones would change "
                          "the result.")
             self.page.note(text)

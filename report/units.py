@@ -16,6 +16,7 @@ MISSING = "–"
 
 # Units in which quantities of the input, which are written in SI, are shown: the largest first.
 SHOWN_IN = {"m": (("mm", 1e-3), ("µm", 1e-6)), "s": (("µs", 1e-6), ("ns", 1e-9)), "m/s": (("km/s", 1e3),)}
+ROUND_OFF = 1e-11  # of a balance over many steps, relative
 LEAST = 0.01  # of a unit, in which a value is given
 
 
@@ -27,8 +28,13 @@ def number(value: float | None, digits: int = 4) -> str:
 
 
 def percent(fraction: float) -> str:
-    """Formats a fraction in percent with two significant digits."""
-    return f"{PERCENT * fraction:.2g} %"
+    """Formats a fraction in percent with two significant digits: "4.1 %", "120 %"."""
+    return f"{float(f'{PERCENT * fraction:.2g}'):.6g} %"
+
+
+def error(relative: float) -> str:
+    """Formats a relative error of a balance; one of round-off is named so."""
+    return "round-off" if abs(relative) < ROUND_OFF else f"{relative:.2g}"
 
 
 def mass(kilograms: float) -> str:

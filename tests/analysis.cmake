@@ -25,6 +25,9 @@ if(WHIPPLE_PYTHON)
            ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${PROJECT_SOURCE_DIR})
   add_test(NAME viewer_million COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/view_million.py $<TARGET_FILE:whipple>
            $<TARGET_FILE:io_synthetic_cloud> ${CMAKE_CURRENT_BINARY_DIR}/viewer_million)
+  add_test(NAME preview_cases COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/preview_cases.py $<TARGET_FILE:whipple>
+           ${PROJECT_SOURCE_DIR}/cases ${CMAKE_CURRENT_BINARY_DIR}/preview_cases)
+  set_tests_properties(preview_cases PROPERTIES LABELS "long;browser" TIMEOUT 1800 SKIP_RETURN_CODE 77)
   set_tests_properties(viewer_million PROPERTIES LABELS "long;browser" TIMEOUT 900 SKIP_RETURN_CODE 77)
   set_tests_properties(viewer_page PROPERTIES LABELS "fast;browser" TIMEOUT 600 SKIP_REGULAR_EXPRESSION "SKIPPED")
 endif()

@@ -22,6 +22,10 @@ if(WHIPPLE_PYTHON)
   add_test(NAME app_surroundings COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_surroundings.py
            ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml)
   set_tests_properties(app_surroundings PROPERTIES LABELS fast TIMEOUT 300)
+  # Schemas of the inputs for editors, against every input of the repository.
+  add_test(NAME app_json_schema COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_json_schema.py $<TARGET_FILE:whipple>
+           ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml)
+  set_tests_properties(app_json_schema PROPERTIES LABELS fast TIMEOUT 300)
   add_test(NAME app_export COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/unit/app_export.py $<TARGET_FILE:whipple>
            ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml)
   set_tests_properties(app_export PROPERTIES LABELS fast TIMEOUT 300)

@@ -58,6 +58,9 @@ if(WHIPPLE_PYTHON)
            $<TARGET_FILE:whipple> ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml
            ${PROJECT_SOURCE_DIR}/cases/md/copper_mishin_short.toml ${CMAKE_CURRENT_BINARY_DIR}/run_processes)
   set_tests_properties(run_processes PROPERTIES LABELS fast TIMEOUT 300 COST 20)
+  add_test(NAME run_replay COMMAND ${WHIPPLE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/parallel/run_replay.py $<TARGET_FILE:whipple>
+           ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/run_replay)
+  set_tests_properties(run_replay PROPERTIES LABELS fast TIMEOUT 300 COST 15)
   foreach(ranks 1 2)
     add_test(NAME torture.${ranks} COMMAND ${WHIPPLE_PYTHON} ${PROJECT_SOURCE_DIR}/scripts/torture.py $<TARGET_FILE:whipple>
              ${CMAKE_CURRENT_SOURCE_DIR}/data/small_impact.toml ${CMAKE_CURRENT_BINARY_DIR}/torture_${ranks} --runs 10 --ranks ${ranks})

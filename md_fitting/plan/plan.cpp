@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <vector>
 
 namespace whipple::md {
@@ -119,6 +120,12 @@ std::string plan_text(const Plan& plan) {
 std::string describe_plan() {
   return "Top of the plan. The lattice constant and the cohesive energy are always measured.\n" +
          input::describe_content<Plan>("");
+}
+
+std::string plan_schema() {
+  input::Schema table;
+  input::add_content<Plan>(table);
+  return input::schema_text(table, "Plan of whipple md", "Plan of molecular dynamics for whipple md.");
 }
 
 }  // namespace whipple::md

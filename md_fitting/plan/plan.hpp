@@ -74,4 +74,7 @@ std::string plan_text(const Plan& plan);
 /// The sections of a plan with their keys: for `whipple describe md` and the manual.
 std::string describe_plan();
 
+/// Returns the JSON schema of plans, for editors (src/core/input/schema.hpp).
+std::string plan_schema();
+
 }  // namespace whipple::md

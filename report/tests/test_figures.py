@@ -129,6 +129,18 @@ class Expectations(unittest.TestCase):
         self.assertIsNone(expected.case_of(self.run_with()))
 
 
+class Phases(unittest.TestCase):
+    def test_a_single_phase_is_a_word_and_no_figure(self):
+        def run(melting):
+            history = {f"mass_{phase}": np.array(values) for phase, values in
+                       (("solid", [1.0, 0.9]), ("melting", [0.0, melting]), ("liquid", [0.0, 0.0]), ("vapour", [0.0, 0.0]))}
+            return types.SimpleNamespace(history=history)
+
+        self.assertEqual(curves.only_phase(run(0.0)), "solid")
+        self.assertIsNone(curves.phase_figure(run(0.0)))
+        self.assertIsNone(curves.only_phase(run(0.1)))
+
+
 class Differences(unittest.TestCase):
     def test_keys_by_body_and_what_only_one_has(self):
         one = {"title": "a", "domain": {"cell_size": "0.001 m"}, "body": [{"name": "ball", "velocity": ["0 m/s", "1 m/s"]}]}

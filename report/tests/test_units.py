@@ -13,7 +13,8 @@ class Numbers(unittest.TestCase):
 
     def test_units_of_the_field(self):
         self.assertEqual([units.mass(2e-3), units.mass(5e-5)], ["2 g", "50 mg"])
-        self.assertEqual([units.time(7.25e-6), units.percent(0.0123)], ["7.25 µs", "1.2 %"])
+        self.assertEqual([units.time(7.25e-6), units.percent(0.0123), units.percent(1.23)], ["7.25 µs", "1.2 %", "120 %"])
+        self.assertEqual([units.error(3e-15), units.error(-2.34e-3)], ["round-off", "-0.0023"])
 
 
 class Quantities(unittest.TestCase):

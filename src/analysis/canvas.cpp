@@ -62,7 +62,8 @@ void Canvas::put(double column, double row, double depth, std::uint32_t label, d
 }
 
 void Canvas::sphere(const Vector3& centre, double radius, std::uint32_t label) {
-  const double r = std::clamp(std::nearbyint(radius), 1.0, 12.0);
+  constexpr double largest = 40.0;  // pixels: particles of coarse models touch, and single ones do not hide the others
+  const double r = std::clamp(std::nearbyint(radius), 1.0, largest);
   const double reach = r + 0.45;  // rounds the outline; the smallest have no gaps between them
   const double column = std::floor(centre[0]), row = std::floor(centre[1]);
   for (double dy = -r; dy <= r; dy += 1.0) {

@@ -110,6 +110,8 @@ Frame find_frame(const Run& run, const Snapshot& first, std::optional<int> axis,
   Vector3 approach = run.bodies.size() > 1 ? Vector3(fastest - velocity[slowest]) : fastest;
   if (at_rest && approach[frame.axis] < 0.0) approach = -approach;
   (at_rest ? frame.parting_speed : frame.impact_speed) = approach.norm();
+  // Mean velocities of the sections of rings have a component away from the axis, along which nothing flies.
+  if (run.dimension == grid::Dimension::axisymmetric) approach = Vector3(approach[0], 0.0, 0.0);
   if (approach[frame.axis] != 0.0) {
     frame.direction = approach / std::abs(approach[frame.axis]);
     frame.impact_angle = std::acos(std::min(1.0, 1.0 / frame.direction.norm()));

@@ -170,8 +170,10 @@ class CellCounts {
   std::unordered_map<std::uint64_t, std::size_t> counts_;
 };
 
-/// Diameters (m) of the points of a scene.
-std::vector<double> diameters_of(const Scene& scene, const Frame& frame) {
+/// Diameters (m) of the points of a scene; those of thin debris and gas have at most some pixels, or the median of all
+/// edges, as they would hide what is behind.
+std::vector<double> diameters_of(const Scene& scene, const Frame& frame, double pixel) {
+  constexpr double widest = 24.0;  // pixels
   const Snapshot& snapshot = scene.snapshot;
   const std::vector<double>* densities = snapshot.scalar(density);
   if (densities == nullptr) return std::vector<double>(scene.points.size(), 0.0);
@@ -181,7 +183,12 @@ std::vector<double> diameters_of(const Scene& scene, const Frame& frame) {
     positions.push_back(snapshot.position[i]);
     edges.push_back(frame.edge(snapshot.mass[i] / std::max((*densities)[i], 1e-3), snapshot.position[i]));
   }
-  return drawn_diameters(positions, edges, frame.is_planar());
+  std::vector<double> diameters = drawn_diameters(positions, edges, frame.is_planar());
+  if (edges.empty()) return diameters;
+  std::ranges::nth_element(edges, edges.begin() + std::ssize(edges) / 2);
+  const double most = std::max(edges[edges.size() / 2], widest * pixel);
+  for (double& diameter : diameters) diameter = std::min(diameter, most);
+  return diameters;
 }
 
 /// Draws a scene; labels are the numbers of its items. @param outside  from outside; else cut along the plane of sight
@@ -347,7 +354,7 @@ void write_views(const Run& run, const Frame& frame, const ViewOptions& options,
     const hdf5::Group at = times.create_group(fmt::format("{:04}", k));
     at.set_attribute("time", snapshots[k].time);
     at.set_attribute("items", static_cast<std::int64_t>(scene.size()));
-    const std::vector<double> diameters = diameters_of(scene, frame);
+    const std::vector<double> diameters = diameters_of(scene, frame, projection.pixel);
     write_picture(draw(scene, diameters, projection, false), scene, fields, at.create_group("section"));
     if (frame.is_planar()) continue;
     write_picture(draw(scene, diameters, projection, true), scene, std::span(fields).first(1), at.create_group("outside"));

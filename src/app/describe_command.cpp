@@ -17,6 +17,7 @@
 #include "src/core/base/text.hpp"
 #include "src/material/constitutive_catalogue.hpp"
 #include "src/material/failure/catalogue.hpp"
+#include "src/material/material_schema.hpp"
 #include "src/material/reaction/catalogue.hpp"
 #include "src/material/strength/catalogue.hpp"
 #include "src/case/case.hpp"
@@ -31,13 +32,14 @@ struct Topic {
   std::string title;
   std::function<std::string(const std::string&)> text;
   std::function<std::vector<std::string>()> entries;  ///< names that `text` knows; none: one text only
+  std::string (*schema)() = nullptr;  ///< JSON schema of the files; null: the topic is a part of a file
 };
 
 template <class Entry>
 Topic topic_of(std::string name, std::string title, const Catalogue<Entry>& catalogue) {
   return {std::move(name), std::move(title),
           [catalogue](const std::string& entry) { return catalogue.describe(entry); },
-          [catalogue] { return catalogue.names(); }};
+          [catalogue] { return catalogue.names(); }, nullptr};
 }
 
 std::string single(const std::string& topic, const std::string& name, const std::string& text) {
@@ -50,8 +52,11 @@ const std::vector<Topic>& topics() {
   static const std::vector<Topic> all = {
       {"case", "Case files (`whipple run CASE.toml`)",
        [](const std::string& name) { return single("case", name, cases::describe_case()); },
-       [] { return std::vector<std::string>(); }},
+       [] { return std::vector<std::string>(); }, &cases::case_schema},
       topic_of("shape", "Shapes of bodies", cases::shape_catalogue()),
+      {"material", "Material files (`material` of a body)",
+       [](const std::string& name) { return single("material", name, describe_material()); },
+       [] { return std::vector<std::string>(); }, &material_schema},
       topic_of("eos", "Equations of state (`[eos]` of a material file)", eos::all_models()),
       topic_of("modifier", "Modifiers of equations of state (`[[eos.modifier]]` of a material file, in order)",
                eos::modifier_catalogue()),
@@ -62,7 +67,7 @@ const std::vector<Topic>& topics() {
       topic_of("reaction", "Rate laws of explosives (`[reaction]` of a material file)", reaction::catalogue()),
       {"md", "Plans of molecular dynamics (`whipple md PLAN.toml`)",
        [](const std::string& name) { return single("md", name, md::describe_plan()); },
-       [] { return std::vector<std::string>(); }},
+       [] { return std::vector<std::string>(); }, &md::plan_schema},
   };
   return all;
 }
@@ -108,10 +113,28 @@ struct DescribeOptions {
   std::string topic;
   std::string name;
   bool markdown = false;
+  bool json_schema = false;
 };
 
+/// Returns the schema of the files of a topic, or that of case files.
+std::string schema_of(const DescribeOptions& options) {
+  const Topic& topic = find_topic(options.topic.empty() ? "case" : options.topic);
+  if (topic.schema == nullptr || !options.name.empty()) {
+    std::vector<std::string> files;
+    for (const Topic& other : topics()) {
+      if (other.schema != nullptr) files.push_back(other.name);
+    }
+    throw InputError(
+        fmt::format("--json-schema describes a kind of file, one of: {}", fmt::join(files, ", ")));
+  }
+  return topic.schema();
+}
+
 void describe_inputs(const DescribeOptions& options) {
-  if (options.markdown) {
+  if (options.json_schema) {
+    if (options.markdown) throw InputError("--json-schema and --markdown are two outputs: choose one");
+    fmt::print("{}", schema_of(options));
+  } else if (options.markdown) {
     if (!options.topic.empty()) throw InputError("--markdown writes everything: leave the topic out");
     fmt::print("{}", manual());
   } else if (options.topic.empty()) {
@@ -128,10 +151,12 @@ void add_describe_command(CLI::App& app) {
   auto options = std::make_shared<DescribeOptions>();
   CLI::App* command =
       app.add_subcommand("describe", "Every key of the inputs: unit, range, default, meaning");
-  command->add_option("topic", options->topic, "One of case, shape, eos, modifier, strength, failure, md");
+  command->add_option("topic", options->topic, "What to describe; without it the topics are listed");
   command->add_option("name", options->name, "A model, criterion or shape");
   command->add_flag("--markdown", options->markdown, "Everything, as the page docs/manual/input_reference.md");
-  command->footer("Example:\n  whipple describe eos gray");
+  command->add_flag("--json-schema", options->json_schema,
+                    "JSON schema of case files, of material files (topic material) or of plans (topic md), for editors");
+  command->footer("Example:\n  whipple describe eos gray\n  whipple describe case --json-schema > case.schema.json");
   command->callback([options] { describe_inputs(*options); });
 }
 

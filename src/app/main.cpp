@@ -20,6 +20,7 @@
 #include "src/app/cite_command.hpp"
 #include "src/app/compare_command.hpp"
 #include "src/app/describe_command.hpp"
+#include "src/app/edit_command.hpp"
 #include "src/app/eos_command.hpp"
 #include "src/app/export_command.hpp"
 #include "src/app/fit_command.hpp"
@@ -67,6 +68,7 @@ int whipple_main(int argc, char** argv) {
 
   add_run_command(app);
   add_check_command(app);
+  add_edit_command(app);
   add_status_command(app);
   add_steer_command(app);
   add_export_command(app);

@@ -50,6 +50,7 @@ struct Body {
 
   static ParameterTable<Body> parameters();
   static std::span<const Section<Body>> sections();
+  static void add_rest(input::Schema& table);
   /// Reads the shape.
   void read_rest(input::Table& table);
   [[nodiscard]] std::string rest_to_toml() const;

@@ -55,6 +55,7 @@ struct Case {
 
   static ParameterTable<Case> parameters();
   static std::span<const Section<Case>> sections();
+  static void add_rest(input::Schema& table);
 
   [[nodiscard]] const ArtificialViscosity& viscosity_of(std::size_t body) const {
     return bodies[body].viscosity ? *bodies[body].viscosity : viscosity;
@@ -94,5 +95,8 @@ std::string to_toml(const Case& setup, const std::vector<std::string>& material_
 
 /// All keys of a case file for `whipple describe case`.
 std::string describe_case();
+
+/// Returns the JSON schema of case files, for editors (src/core/input/schema.hpp).
+std::string case_schema();
 
 }  // namespace whipple::cases

@@ -154,6 +154,11 @@ Fields::Fields(const Deck& deck, const Block& block, const Card& card, std::span
     }
     return;
   }
+  const std::size_t tab = text.substr(0, text.find_last_not_of(" \t\r") + 1).find('\t');
+  if (tab != std::string_view::npos) {
+    columns_.push_back(static_cast<unsigned>(tab + 1));
+    fail(0, "a tab in a card whose fields are columns: write blanks instead");
+  }
   for (const int width : widths) {
     const std::size_t length = block.wide ? 20 : static_cast<std::size_t>(width);
     texts_.push_back(at < text.size() ? trimmed(text.substr(at, length)) : "");

@@ -29,7 +29,10 @@ std::string content_of(const fs::path& deck) {
   if (!stream) throw InputError(fmt::format("{}: cannot be read", deck.string()));
   std::ostringstream text;
   text << stream.rdbuf();
-  return std::move(text).str();
+  std::string all = std::move(text).str();
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (all.starts_with(byte_order_mark)) all.erase(0, byte_order_mark.size());
+  return all;
 }
 
 [[noreturn]] void refuse(const fs::path& deck, std::string why) {
@@ -43,6 +46,8 @@ Format format_of(const fs::path& deck, std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   const std::string_view start = text.substr(std::min(begin, text.size()));
   if (start.empty()) refuse(deck, "the deck is empty");
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) refuse(deck, "a text in UTF-16: save it as UTF-8");
+  if (start.starts_with("#RADIOSS")) refuse(deck, "a deck of OpenRadioss: not read");
   if (start.front() == '<') refuse(deck, "an XML file: decks of the C++ version of MPM3D are not read");
   if (start.front() == '*' || start.front() == '$') {
     refuse(deck, "a keyword deck, but not of LS-DYNA: those of Abaqus are not read");

@@ -36,8 +36,12 @@ class MaterialBuilder {
     toml_.text_entry("source", source(material_));
     toml_.table("[eos]");
     equation_of_state(result);
-    toml_.table("[strength]");
-    strength();
+    if (material_.kind == "neoh") {
+      neo_hookean();
+    } else {
+      toml_.table("[strength]");
+      strength();
+    }
     if (material_.kind == "sjcf" || material_.kind == "jcf") failure();
     import_.files.push_back({result.file, toml_.text()});
     return result;
@@ -167,6 +171,14 @@ class MaterialBuilder {
     quantity("poisson_ratio", n_[3], dimension::none);
   }
 
+  void neo_hookean() {
+    toml_.table("[constitutive]");
+    begin("neo_hookean", material_);
+    quantity("shear_modulus", n_[2] / (2.0 * (1.0 + n_[3])), dimension::pressure, "E / (2 (1 + nu))");
+    remark(Outcome::converted, material_,
+           "neo_hookean: shear of the isochoric deformation, pressure of the equation of state; equal at small strains");
+  }
+
   void strength() {
     if (material_.kind == "elas") {
       begin("elastic", material_);
@@ -197,9 +209,7 @@ class MaterialBuilder {
         remark(Outcome::converted, material_,
                "programmed burn over two cells from an unreacted explosive; that code burns each particle at once");
       } else {
-        remark(Outcome::missing, material_,
-               material_.kind == "dpm" ? "Drucker-Prager plasticity: no strength in the case"
-                   : "neo-Hookean elasticity: no strength in the case");
+        remark(Outcome::missing, material_, "Drucker-Prager plasticity: no strength in the case");
       }
     }
   }

@@ -62,7 +62,9 @@ class AbaqusReader {
     bool more = next();
     while (more) {
       if (!line_text_.starts_with('*')) fail("expected a keyword (*...)");
-      const std::vector<std::string_view> words = cells_of(line_text_);
+      std::string head(line_text_);
+      while (head.ends_with(',') && next()) head += line_text_;  // it goes on in the next line
+      const std::vector<std::string_view> words = cells_of(head);
       const std::string keyword = upper(words.front());
       parameters_.clear();
       for (std::size_t i = 1; i < words.size(); ++i) {
@@ -123,11 +125,16 @@ class AbaqusReader {
   std::uint64_t number(std::string_view cell, const char* what) const {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc() || end != cell.data() + cell.size()) fail(fmt::format("\"{}\" is not {}", cell, what));
+    if (error != std::errc() || end != cell.data() + cell.size()) {
+      const bool columns = cell.find(' ') != std::string_view::npos;
+      fail(fmt::format("\"{}\" is not {}{}", cell, what, columns ? ": numbers stand between commas" : ""));
+    }
     return value;
   }
   double coordinate(std::string_view cell) const {
-    const std::string text(cell);
+    std::string text(cell);
+    std::ranges::replace(text, 'D', 'E');  // of Fortran
+    std::ranges::replace(text, 'd', 'e');
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (text.empty() || *end != '\0' || !std::isfinite(value)) fail(fmt::format("\"{}\" is not a coordinate", cell));
@@ -241,8 +248,12 @@ class AbaqusReader {
     return found->second;
   }
 
-  /// A set of elements of several dimensions is a group of the largest.
+  /// A set of elements of several dimensions is a group of the largest; without sets all elements are the group "all".
   void groups() {
+    if (sets_.empty()) {  // as a file of VTK without arrays
+      std::vector<std::uint32_t>& all = set_of("all");
+      for (std::uint32_t e = 0; e < data_.elements.size(); ++e) all.push_back(e);
+    }
     int tag = 0;
     for (auto& [name, members] : sets_) {
       std::ranges::sort(members);

@@ -116,7 +116,7 @@ class GmshReader {
     if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // byte order mark
     if (!any || text_ != "$MeshFormat") {
       throw InputError(
-          fmt::format("{}: not a mesh of Gmsh: the first line is not $MeshFormat", path_.string()));
+          fmt::format("{}: is no mesh of Gmsh (first line $MeshFormat), Abaqus (keywords *NODE, *ELEMENT) or VTK", path_.string()));
     }
     next("MeshFormat");
     version_ = number<double>("the version of the format");

@@ -21,6 +21,7 @@
 #include "src/material/constitutive_catalogue.hpp"
 #include "src/material/failure/catalogue.hpp"
 #include "src/material/material_samples.hpp"
+#include "src/material/material_tables.hpp"
 #include "src/material/reaction/catalogue.hpp"
 #include "src/material/strength/catalogue.hpp"
 
@@ -28,66 +29,7 @@ namespace whipple {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The free texts that every table of a material file may carry.
-struct Remarks {
-  std::string source;
-  std::string note;
-};
-
-ParameterTable<Remarks> remarks_of_table() {
-  return {text("source", &Remarks::source, "where the constants come from").optional(),
-          text("note", &Remarks::note, "remark").optional()};
-}
-
-struct Head : Remarks {
-  std::string name;
-  std::string group;
-};
-
-ParameterTable<Head> head_of_file() {
-  return {text("name", &Head::name, "name of the material"),
-          text<Head>("source", &Head::source, "where the constants come from"),
-          text<Head>("note", &Head::note, "one line about the purpose or the limits").optional(),
-          choice("group", &Head::group, {material_groups.begin(), material_groups.end()},
-                 "where the library lists the material")
-              .optional()};
-}
-
-struct MeasuredTable : Measured {
-  std::string source;
-};
-
-ParameterTable<MeasuredTable> measured_values() {
-  return {
-      text("source", &MeasuredTable::source, "where the values come from"),
-      real<MeasuredTable>("melting_point", &MeasuredTable::melting_point, "K", range::positive(),
-                          "at 1 atm; of an alloy: solidus")
-          .optional(),
-      real<MeasuredTable>("liquidus", &MeasuredTable::liquidus, "K", range::positive(),
-                          "of an alloy, at 1 atm")
-          .optional(),
-      real<MeasuredTable>("boiling_point", &MeasuredTable::boiling_point, "K", range::positive(), "at 1 atm")
-          .optional()};
-}
-
-struct ThermalTable {
-  double conductivity = 0.0;
-  double taylor_quinney = 1.0;
-  std::string source;
-};
-
-ParameterTable<ThermalTable> thermal_constants() {
-  return {text("source", &ThermalTable::source, "where the values come from"),
-          real("conductivity", &ThermalTable::conductivity, "W/(m K)", range::non_negative(),
-               "heat conductivity, for runs with heat conduction")
-              .optional(),
-          real("taylor_quinney", &ThermalTable::taylor_quinney, "",
-               Range{.lower = 0.0, .upper = 1.0, .lower_open = true},
-               "fraction of the plastic work that becomes heat; the rest is stored as cold work until the "
-               "material melts")
-              .optional()};
-}
+using namespace material_tables;
 
 /// Reads `model`, remarks and constants of one table; what builds the model, or nothing if `model` is at
 /// fault.
@@ -95,7 +37,7 @@ template <class Entry>
 typename Entry::Declared declare(const Catalogue<Entry>& catalogue, input::Table table) {
   const std::string model = table.choice("model", catalogue.names());
   Remarks remarks;
-  table.read(remarks_of_table(), remarks);
+  table.read(Remarks::parameters(), remarks);
   const Entry* entry = catalogue.find(model);
   if (entry == nullptr) return {};
   return entry->declare([&table](std::span<const BoundParameter> parameters) { table.read(parameters); });
@@ -155,8 +97,8 @@ Declared declare_file(const fs::path& file,
   for (const auto& [key, value] : changes) document.set(key, value);
   input::Table root = document.root();
   Declared declared;
-  root.read(head_of_file(), declared.head);
-  for (const char* free : {"provenance", "covariance", "defaults", "default_errors", "potential_spread"}) root.accept(free);
+  root.read(Head::parameters(), declared.head);
+  for (const char* free : free_keys) root.accept(free);
   if (auto table = root.required_table("eos")) {
     declared.eos = declare(eos::all_models(file.parent_path()), *table);
     declared.eos_line = table->where();
@@ -188,8 +130,9 @@ Declared declare_file(const fs::path& file,
       table->error("takes the place of [strength] and [[failure]]: leave them out");
     }
   }
-  if (auto table = root.optional_table("measured")) table->read(measured_values(), declared.measured);
-  if (auto table = root.optional_table("thermal")) table->read(thermal_constants(), declared.thermal);
+  if (auto table = root.optional_table("measured"))
+    table->read(MeasuredTable::parameters(), declared.measured);
+  if (auto table = root.optional_table("thermal")) table->read(ThermalTable::parameters(), declared.thermal);
   document.finish();
   return declared;
 }

@@ -27,6 +27,9 @@ class RunControl {
   /// Adds what is asked now. Called without communication between the ranks; only the first rank may fill in
   /// `steering`, and only where it is still empty.
   virtual void ask(const Moment& moment, Requests& requests) = 0;
+
+  /// Is told that the run has ended: nothing is asked for any more.
+  virtual void end(const Moment&) {}
 };
 
 }  // namespace whipple::run

@@ -77,7 +77,15 @@ void DirectoryControl::ask(const Moment& moment, Requests& requests) {
   requests.steering = take(file, moment);
 }
 
-Request DirectoryControl::take(const fs::path& file, const Moment& moment) {
+void DirectoryControl::end(const Moment& moment) {
+  waiting_.clear();
+  next_look_ = {};
+  look();
+  for (const fs::path& file : waiting_) take(file, moment, "the run has ended");
+  waiting_.clear();
+}
+
+Request DirectoryControl::take(const fs::path& file, const Moment& moment, const std::string& too_late) {
   const fs::path taken = file.string() + ".taken";  // a run that is killed now does not follow it twice
   std::error_code fault;
   fs::rename(file, taken, fault);
@@ -88,7 +96,7 @@ Request DirectoryControl::take(const fs::path& file, const Moment& moment) {
   try {
     words = read_request(taken);
     request = parse_request(words.request, words.value);
-    reason = obstacle(request, moment);
+    reason = too_late.empty() ? obstacle(request, moment) : too_late;
   } catch (const std::exception& error) {  // whatever is in the file, the run goes on
     reason = error.what();
   }
@@ -133,6 +141,10 @@ std::optional<Answer> steer(const fs::path& run, const std::string& word, const 
   constexpr auto pause = std::chrono::milliseconds(50);
   for (const auto begin = std::chrono::steady_clock::now(); is_waiting();) {
     if (std::chrono::steady_clock::now() - begin >= patience) return std::nullopt;
+    if (!io::is_running(run)) {  // it was killed, or its last look was before the file was there
+      if (!fs::remove(file, missing)) break;
+      throw InputError(fmt::format("{}: the run ended before it followed the request", run.string()));
+    }
     std::this_thread::sleep_for(pause);
   }
   return find_answer(table, file.filename().string());

@@ -37,6 +37,8 @@ class DirectoryControl : public RunControl {
                             std::chrono::duration<double> interval = std::chrono::seconds(1));
 
   void ask(const Moment& moment, Requests& requests) override;
+  /// Refuses the requests that came too late.
+  void end(const Moment& moment) override;
 
   /// The head of the table of answers, steering.csv.
   static constexpr const char* header = "time [s],step,file,request,value,answer,detail";
@@ -44,7 +46,8 @@ class DirectoryControl : public RunControl {
  private:
   void look();
   /// Removes a file of the folder, answers it, and returns what is to be done.
-  [[nodiscard]] Request take(const std::filesystem::path& file, const Moment& moment);
+  /// @param too_late  why nothing is followed any more; empty: what the run can follow is followed
+  Request take(const std::filesystem::path& file, const Moment& moment, const std::string& too_late = "");
   void write(const Moment& moment, const std::string& file, const RequestWords& words, const Answer& answer) const;
 
   using Clock = std::chrono::steady_clock;
@@ -57,7 +60,7 @@ class DirectoryControl : public RunControl {
 /// Puts a request into the folder control/ of a run and waits for its answer.
 /// @param patience  s to wait; a run answers at the end of the step under way
 /// @returns the answer; nothing if none came in that time
-/// @throws InputError if the request is wrong or the run does not go on
+/// @throws InputError if the request is wrong, or the run does not go on or ends before it has followed it
 std::optional<Answer> steer(const std::filesystem::path& run, const std::string& word, const std::string& value,
                   std::chrono::duration<double> patience = {});
 

@@ -59,6 +59,7 @@ int Runner::run(std::span<RunControl* const> controls) {
     steps();
     Outcome result = outcome();
     for (const auto& observer : observers_) observer->end(now(), result);
+    for (RunControl* control : controls_) control->end(now());
     return result.exit_code;
   } catch (const StateError& error) {
     throw StateError(failed({Outcome::Kind::left_range, static_cast<int>(ExitCode::state), error.what()}));
@@ -143,6 +144,7 @@ std::string Runner::failed(Outcome outcome) {
       outcome.message += fmt::format("\n  {}", fault.what());
     }
   }
+  for (RunControl* control : controls_) control->end(now());
   return outcome.message;
 }
 

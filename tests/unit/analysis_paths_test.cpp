@@ -211,6 +211,21 @@ TEST(Flight, WhereNothingMovesAtFirstTheAxisIsThatOfTheParting) {
   EXPECT_NEAR(frame.debris_speed(), 0.05 * 1400, 0.01);
 }
 
+TEST(Flight, RingsThatExpandFlyAlongTheirAxis) {
+  analysis::Run run = oblique();
+  run.dimension = grid::Dimension::axisymmetric;
+  run.bodies[0].velocity.setZero();
+  Snapshot first, last;
+  add(first, {0, 1e-3, 0}, Vector3::Zero(), 0);
+  add(first, {0, 2e-3, 0}, Vector3::Zero(), 1);
+  add(last, {0, 1e-3, 0}, {-200, 500, 0}, 0);
+  add(last, {0, 2e-3, 0}, {300, 1500, 0}, 1);
+  const Frame frame = find_frame(run, first, {}, &last);
+  EXPECT_EQ(frame.impact_angle, 0.0);
+  EXPECT_EQ(frame.at_face(50e-3).centre, Vector3(0, 0, 0)) << "rings stay about their axis";
+  EXPECT_NEAR(frame.parting_speed, std::hypot(500, 1000), 1e-9);
+}
+
 double size_of(const std::string& shape) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "run.toml")

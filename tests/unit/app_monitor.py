@@ -18,6 +18,8 @@ import subprocess
 import sys
 import time
 
+from processes import end_runs_in, runs_in
+
 WHIPPLE, CASE, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
 
 
@@ -187,17 +189,6 @@ def check_run(monitor, folder):
     require(monitor.post("/steer", {"run": "ball", "request": "pause", "value": ""})[0] == 400, "a run that has ended takes no request")
 
 
-def runs_in(folder):
-    """Processes that have the folder among their arguments, but for monitors."""
-    found = []
-    for pid in pathlib.Path("/proc").iterdir():
-        with contextlib.suppress(OSError):
-            arguments = (pid / "cmdline").read_bytes() if pid.name.isdigit() else b""
-            if str(folder).encode() in arguments and b"\0run\0" in arguments:
-                found.append(int(pid.name))
-    return found
-
-
 def main():
     shutil.rmtree(FOLDER, ignore_errors=True)
     cases, runs = FOLDER / "cases", FOLDER / "Läufe mit Leerzeichen"
@@ -223,5 +214,4 @@ def main():
 try:
     main()
 finally:
-    for left in runs_in(FOLDER):
-        os.kill(left, signal.SIGKILL)
+    end_runs_in(FOLDER)

@@ -14,8 +14,10 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 
 from chromium import ENTER, RIGHT, SKIPPED, TAB, Browser, programs, require
+from processes import end_runs_in
 
 WHIPPLE, CASE, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
 
@@ -24,8 +26,8 @@ FOREIGN = """<!doctype html><title>foreign</title><script>
 async function tries(base, key) {
   const results = [];
   for (const [path, options] of [['/runs', { headers: { 'X-Whipple-Token': key } }], ['/', {}], ['/runs', { mode: 'no-cors' }],
-    ['/steer', { method: 'POST', mode: 'no-cors', body: '{"run": "ball", "request": "pause", "value": ""}' }],
-    ['/steer', { method: 'POST', headers: { 'X-Whipple-Token': key, 'Content-Type': 'application/json' }, body: '{"run": "ball", "request": "pause", "value": ""}' }]]) {
+    ['/steer', { method: 'POST', mode: 'no-cors', body: '{"run": "steady", "request": "pause", "value": ""}' }],
+    ['/steer', { method: 'POST', headers: { 'X-Whipple-Token': key, 'Content-Type': 'application/json' }, body: '{"run": "steady", "request": "pause", "value": ""}' }]]) {
     try { const answer = await fetch(base + path, options); results.push(answer.type === 'opaque' ? 'opaque' : 'read ' + await answer.text()); }
     catch (error) { results.push('refused'); }
   }
@@ -45,7 +47,8 @@ class ForeignPage(http.server.BaseHTTPRequestHandler):
         pass
 
 
-def check_foreign_page(browser, address, key):
+def check_foreign_page(browser, address, key, run):
+    """@param run  a run that goes on, which would follow a request"""
     server = http.server.HTTPServer(("127.0.0.1", 0), ForeignPage)
     threading.Thread(target=server.serve_forever, daemon=True).start()
     browser.open(f"http://127.0.0.1:{server.server_port}/")
@@ -53,6 +56,9 @@ def check_foreign_page(browser, address, key):
     browser.wait("return window.tried !== undefined", "the foreign page")
     tried = browser.js("return window.tried")
     require(not any(result.startswith("read") for result in tried), f"a foreign page reads: {tried}")
+    time.sleep(1.5)  # a run looks once a second
+    require(not (run / "steering.csv").exists() and not list((run / "control").iterdir()), "a foreign page asks something of a run")
+    require(json.loads((run / "status.json").read_text())["state"] == "running", "a foreign page pauses a run")
     server.shutdown()
     browser.complaints()  # its own refusals are no fault
 
@@ -148,14 +154,20 @@ def main():
         address, key = re.search(r"(http://[0-9.:]+)/#([0-9a-f]+) ", monitor.stdout.readline()).groups()
         with Browser(*found, FOLDER / "profile") as browser:
             check_run(browser, address, key)
-            check_foreign_page(browser, address, key)
+            steady = subprocess.Popen([WHIPPLE, "run", CASE, "-o", runs / "steady", "--quiet", "--threads", "1", "--set", "time.end=1 s"])
+            while not (runs / "steady" / "history.csv").exists():
+                require(steady.poll() is None, "the steady run ends")
+                time.sleep(0.05)
+            check_foreign_page(browser, address, key, runs / "steady")
+            steady.terminate()
+            steady.wait(20)
             subprocess.run([WHIPPLE, "view", runs / "ball", "-o", FOLDER / "view.html", "--quiet"], check=True)
             browser.open((FOLDER / "view.html").as_uri())
             browser.wait("return document.querySelector('footer output') !== null", "the view")
             check_keyboard(browser, "the view")
             browser.picture(FOLDER / "view.png")
     finally:
-        subprocess.run(["pkill", "-KILL", "-f", f"run .*{runs}"], check=False)
+        end_runs_in(runs)
         monitor.send_signal(signal.SIGTERM)
         monitor.wait(10)
     return 0

@@ -149,7 +149,7 @@ TEST(Mpm3dDeck, MissingPhysicsIsNamed) {
   for (const Remark& remark : import.remarks) {
     if (remark.outcome == Outcome::missing) missing += fmt::format("{}: {}\n", remark.keyword, remark.text);
   }
-  for (const char* law : {"Drucker-Prager", "neo-Hookean", "loads that grow"}) {
+  for (const char* law : {"Drucker-Prager", "loads that grow"}) {
     EXPECT_THAT(missing, HasSubstr(law));
   }
   EXPECT_THAT(import.case_text, HasSubstr("[[detonation]]"));
@@ -218,12 +218,31 @@ class ImportFolder : public FolderTest {
   }
 };
 
+TEST_F(ImportFolder, ANeoHookeanSolidIsAConstitutiveModel) {
+  std::string text = deck_text("missing.mpm");
+  text.erase(text.find(" 2 dpm"), text.find(" 3 neoh") - text.find(" 2 dpm"));  // what has no law here
+  text.replace(text.find("nmat 3"), 6, "nmat 2");
+  text.replace(text.find(" 3 neoh"), 7, " 2 neoh");
+  text.replace(text.find("block 1 3 1000"), 14, "block 1 2 1000");
+  text.erase(text.find("particle block 1 2 1700"), text.find("particle block 1 2 1000") - text.find("particle block 1 2 1700"));
+  text.erase(text.find("qulo"), 9);
+  text.erase(text.find("nbmp 100\n"), 9);
+  const Import import = import_text(text);
+  EXPECT_EQ(import.count(Outcome::missing), 0U) << import.report();
+  const CaseFolder written(import, folder_ / "case");
+  const cases::Case setup = cases::read_case(written.case_file(), {});
+  EXPECT_EQ(setup.materials.back()->constitutive->model(), "neo_hookean");
+  EXPECT_THAT(import.files.back().text, HasSubstr("shear_modulus = \"38461.5384615"));
+}
+
 TEST_F(ImportFolder, DecksOfOtherCodesAreRecognised) {
   EXPECT_THAT(refusal("# two disks\nE=1e3\nregion(box, block, 0, 1)\n"), HasSubstr("Karamelo"));
   EXPECT_THAT(refusal("dimension(2, -1, 1)\nregion(box, block, 0, 1)\n"), HasSubstr("Karamelo"));
   EXPECT_THAT(refusal("<OpenMPM3D>\n</OpenMPM3D>\n"), HasSubstr("XML"));
   EXPECT_THAT(refusal("*HEADING\nx\n*NODE, NSET=all\n"), HasSubstr("keyword deck"));
   EXPECT_THAT(refusal(""), HasSubstr("empty"));
+  EXPECT_THAT(refusal("#RADIOSS STARTER\n/BEGIN\n"), HasSubstr("OpenRadioss"));
+  EXPECT_THAT(refusal(std::string("\xFF\xFE*\0K\0", 6)), HasSubstr("UTF-16"));
   EXPECT_THAT(refusal("hello world"), HasSubstr("of no code that is known"));
 }
 
@@ -328,6 +347,7 @@ TEST(DynaDeck, FaultsAreNamedWithTheirPlace) {
   };
   EXPECT_THAT(fault("      1.09    1356.0", "      1.09    13x6.0"), HasSubstr("'13x6.0' in field 6 is no number"));
   EXPECT_THAT(fault("&speed", "&spead"), HasSubstr("is no parameter"));
+  EXPECT_THAT(fault("         1    3940.0", "         1\t3940.0"), HasSubstr("a tab in a card")) << "columns are lost";
   EXPECT_THAT(fault("         2         2         2\n", "         2         2         5\n"), HasSubstr("there is no *MAT 5"));
   EXPECT_THAT(fault("         7         1       0.0", "         8         1       0.0"), HasSubstr("there is no set 8"));
   EXPECT_THAT(fault("      12            -0.5", "      13            -0.5"), HasSubstr("there is no node 12"));
@@ -342,6 +362,28 @@ TEST_F(ImportFolder, AKeywordDeckReadsAsACase) {
   const CaseFolder written(import, folder_ / "case");
   EXPECT_EQ(cases::read_case(written.case_file(), {}).bodies.size(), 2U);
   EXPECT_THAT(refusal("*HEADING\nx\n*NODE, NSET=all\n"), HasSubstr("Abaqus"));
+}
+
+/// Line breaks of Windows, a mark of UTF-8 at the beginning, tabs between the words of MPM3D-F90 and behind
+/// cards.
+TEST_F(ImportFolder, HabitsOfOtherEditorsChangeNothing) {
+  const auto imported = [&](std::string text, const ImportOptions& options, bool tabs) {
+    const auto replace = [&](const std::string& from, const std::string& to) {
+      for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+        text.replace(at, from.size(), to);
+      }
+    };
+    if (tabs) replace(" ", "\t");
+    replace("\n", tabs ? "\t\r\n" : " \t\r\n");
+    std::ofstream(folder_ / "deck", std::ios::binary) << "\xEF\xBB\xBF" << text;
+    return import_deck(folder_ / "deck", options).case_text;
+  };
+  const auto below_title = [](const std::string& text) { return text.substr(text.find("[domain]")); };
+  const std::string columns = deck_text("columns_of_water.mpm"), bar = deck_text("bar_on_plate.k");
+  EXPECT_EQ(below_title(imported(columns, in_si, true)),
+            below_title(import_deck(folder_of_decks / "columns_of_water.mpm", in_si).case_text));
+  EXPECT_EQ(below_title(imported(bar, in_gpa, false)),
+            below_title(import_deck(folder_of_decks / "bar_on_plate.k", in_gpa).case_text));
 }
 
 /// Decks with bytes changed, words exchanged and parts cut out: read or refused, nothing else.

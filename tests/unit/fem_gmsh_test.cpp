@@ -135,7 +135,7 @@ TEST_F(Gmsh, NamesFileLineAndElement) {
   EXPECT_THAT(message_of<InputError>([&] { std::ignore = fem::MeshFile::read(good).lines("plate"); }),
               HasSubstr("is one of volumes, not of curves"));
   EXPECT_THAT(read(folder_ / "none.msh"), HasSubstr("cannot be read"));
-  EXPECT_THAT(read(changed("two_boxes_22.msh", "$MeshFormat\n", "solid\n")), HasSubstr("not a mesh of Gmsh"));
+  EXPECT_THAT(read(changed("two_boxes_22.msh", "$MeshFormat\n", "solid\n")), HasSubstr("no mesh of Gmsh"));
   EXPECT_THAT(read(changed("two_boxes_22.msh", "2.2 0 8", "2.2 1 8")),
               HasSubstr("changed.msh:2: error: binary file"));
   EXPECT_THAT(read(changed("two_boxes_22.msh", "2.2 0 8", "4 0 8")),
@@ -253,6 +253,14 @@ lower box, 7
  7.85e-9,
 )";
 
+TEST_F(Gmsh, AbaqusWithoutElementSetsIsOneGroup) {
+  const std::string all = abaqus_text;
+  std::ofstream(folder_ / "mesh.inp") << all.substr(0, all.find("*Element")) << "*Element, type=C3D8\n1, 1,2,3,4,5,6,7,8\n";
+  const fem::MeshFile file = fem::MeshFile::read(folder_ / "mesh.inp", 1e-3);
+  EXPECT_NEAR(fem::volume(file.hexahedra("all")), 1e-9, 1e-22);
+  EXPECT_THAT(file.group_names(3), ::testing::ElementsAre("all"));
+}
+
 TEST_F(Gmsh, AbaqusHasElementSets) {
   const auto read = [&](const std::string& from = "", const std::string& to = "") {
     std::string text = abaqus_text;
@@ -267,9 +275,13 @@ TEST_F(Gmsh, AbaqusHasElementSets) {
   EXPECT_EQ(file.hexahedra("both").elements.size(), 2U);
   EXPECT_EQ(file.hexahedra("both").nodes.size(), 12U);
   EXPECT_EQ(file.lines("bar").elements.size(), 1U);
+  EXPECT_NEAR(fem::volume(read("2, 1., 0., 0.", "2, 1.D0, 0.d0, 0.").hexahedra("Lower Box")), 1e-9, 1e-22)
+      << "of Fortran";
+  EXPECT_EQ(read(", elset=", ",\n elset=").group_names(3).size(), 3U) << "a keyword in two lines";
   const auto fault = [&](const std::string& from, const std::string& to) {
     return message_of<InputError>([&] { static_cast<void>(read(from, to).hexahedra("both")); });
   };
+  EXPECT_THAT(fault("2, 1., 0., 0.", "2 1. 0. 0."), HasSubstr("numbers stand between commas")) << "as those of LS-DYNA";
   EXPECT_THAT(fault("2, 1., 0., 0.", "2, 1., x, 0."), HasSubstr("mesh.inp:6: error: \"x\" is not a coordinate"));
   EXPECT_THAT(fault("2, 1., 0., 0.", "1, 1., 0., 0."), HasSubstr("node 1 is defined twice"));
   EXPECT_THAT(fault("   7, 8\n", "   7, 13\n"), HasSubstr("mesh.inp:20: error: element 1: node 13 is not defined"));

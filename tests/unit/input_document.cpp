@@ -275,7 +275,7 @@ TEST(Set, FaultsNameTheOption) {
   EXPECT_EQ(set_and_read("domain..x", "1", &domain), "--set domain..x=1: expected table.key=value");
   EXPECT_EQ(set_and_read("", "1", &domain), "--set =1: expected table.key=value");
   EXPECT_EQ(set_and_read("domain.boundary.x", "1", &domain),
-            "--set domain.boundary.x=1: the last part but one is not a table");
+            "--set domain.boundary.x=1: the last part but one is neither a table nor a list");
   EXPECT_EQ(set_and_read("domain.boundary.x.y", "1", &domain),
             "--set domain.boundary.x.y=1: 'x' is neither a table nor a list");
 }

@@ -340,6 +340,34 @@ TEST_F(Steering, ABadRequestIsAnsweredAndChangesNothing) {
   EXPECT_TRUE(fs::is_empty(steered.folder / "control"));
 }
 
+/// Puts a request into the folder control/ when the run has made its last step.
+class LateRequest : public RunObserver {
+ public:
+  explicit LateRequest(fs::path folder) : folder_(std::move(folder)) {}
+  void end(const Moment&, Outcome&) override {
+    std::ofstream(folder_ / "late.toml") << "request = \"pause\"\n";
+  }
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(Steering, ARequestAfterTheLastStepIsRefused) {
+  const fs::path folder = temporary_.path() / "late";
+  const cases::Case setup = ball_on_plate();
+  const io::RunDirectory directory = io::RunDirectory::create(folder, "ball", false);
+  solver::Simulation simulation(setup, parallel::world());
+  Observers observers;
+  observers.push_back(std::make_unique<LateRequest>(directory.control_folder()));
+  Runner runner(simulation, std::move(observers));
+  runner.begin();
+  DirectoryControl requests(directory, std::chrono::seconds(3600));
+  const std::vector<RunControl*> controls = {&requests};
+  EXPECT_EQ(runner.run(controls), 0);
+  EXPECT_THAT(text_of(folder / "steering.csv"), HasSubstr("late.toml,pause,,refused,the run has ended"));
+  EXPECT_TRUE(fs::is_empty(folder / "control"));
+}
+
 TEST_F(Steering, TheStatusTellsHowFarARunIs) {
   const Result result = run({});
   const RunStatus status = read_status(result.folder);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
 namespace whipple::cases {
 
@@ -27,6 +28,21 @@ std::string list_as_toml(const Parts& parts) {
   std::string text;
   for (const auto& part : parts) text += (text.empty() ? "" : ", ") + part->toml();
   return "[" + text + "]";
+}
+
+void schema_of_list(input::Schema& value) {
+  value["type"] = "array";
+  value["items"] = input::reference_to("shape");
+  value["minItems"] = 1;
+}
+
+void add_member(input::Schema& table, const char* key, bool is_list) {
+  input::Schema value = input::reference_to("shape");
+  if (is_list) {
+    value.clear();
+    schema_of_list(value);
+  }
+  input::add_key(table, key, value, true);
 }
 
 Parts read_parts(input::Table& holder, const std::string& key) {

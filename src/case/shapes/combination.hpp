@@ -18,6 +18,12 @@ double counted_volume(const Shape& shape);
 /// Returns "[{ ... }, { ... }]" as it stands in a case file.
 std::string list_as_toml(const Parts& parts);
 
+/// Fills in the schema of a list of shapes.
+void schema_of_list(input::Schema& value);
+
+/// Adds a key whose value is a shape, or a list of some.
+void add_member(input::Schema& table, const char* key, bool is_list);
+
 /// Reads the shapes of a list; empty if one of them is wrong, or there is none.
 Parts read_parts(input::Table& holder, const std::string& key);
 

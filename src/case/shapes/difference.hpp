@@ -16,6 +16,10 @@ class Difference final : public Shape {
   static constexpr const char* summary =
       "a shape minus others: difference = { from = { ... }, minus = [{ ... }, ...] }";
   static std::string describe() { return {}; }
+  static void schema(input::Schema& value) {
+    add_member(value, "from", false);
+    add_member(value, "minus", true);
+  }
   static std::unique_ptr<Shape> read(input::Table& holder, const std::string& key) {
     auto table = holder.required_table(key);
     if (!table) return nullptr;

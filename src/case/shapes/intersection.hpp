@@ -13,6 +13,7 @@ class Intersection final : public Shape {
   static constexpr const char* name = "intersection";
   static constexpr const char* summary = "intersection of several shapes: intersection = [{ sphere = ... }, ...]";
   static std::string describe() { return {}; }
+  static void schema(input::Schema& value) { schema_of_list(value); }
   static std::unique_ptr<Shape> read(input::Table& holder, const std::string& key) {
     return read_list<Intersection>(holder, key);
   }

@@ -38,6 +38,10 @@ class Moved final : public Shape {
   static constexpr const char* summary =
       "a shape rotated and displaced: moved = { shape = { ... }, angle = \"30 degree\", ... }";
   static std::string describe() { return describe_table(Motion::parameters()); }
+  static void schema(input::Schema& value) {
+    input::add_keys(value, Motion::parameters());
+    add_member(value, "shape", false);
+  }
   static std::unique_ptr<Shape> read(input::Table& holder, const std::string& key) {
     auto table = holder.required_table(key);
     if (!table) return nullptr;

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <nlohmann/json.hpp>
+
 #include "src/case/shapes/box.hpp"
 #include "src/case/shapes/cone.hpp"
 #include "src/case/shapes/cylinder.hpp"
@@ -30,9 +32,10 @@ ShapeEntry entry() {
               auto shape = std::make_unique<Kind>();
               if (!table || !table->read(Kind::parameters(), *shape)) return nullptr;
               return shape;
-            }};
+            },
+            [](input::Schema& value) { input::add_keys(value, Kind::parameters()); }};
   } else {
-    return {Kind::name, Kind::summary, Kind::describe, Kind::read};
+    return {Kind::name, Kind::summary, Kind::describe, Kind::read, Kind::schema};
   }
 }
 
@@ -54,6 +57,17 @@ const Catalogue<ShapeEntry>& shape_catalogue() {
       entry<Moved>(),
   });
   return all;
+}
+
+void add_shapes(input::Schema& holder) {
+  for (const ShapeEntry& entry : shape_catalogue()) {
+    input::Schema value;
+    entry.schema(value);
+    value["description"] = entry.summary;
+    input::add_key(holder, entry.name, value);
+  }
+  holder["minProperties"] = 1;
+  holder["maxProperties"] = 1;
 }
 
 std::unique_ptr<Shape> read_only_shape(input::Table& holder) {

@@ -9,6 +9,7 @@
 #include "src/core/base/catalogue.hpp"
 #include "src/core/base/tensor.hpp"
 #include "src/core/input/document.hpp"
+#include "src/core/input/schema.hpp"
 #include "src/fem/mesh.hpp"
 
 namespace whipple::cases {
@@ -43,7 +44,7 @@ class Shape {
   }
 };
 
-/// A kind of shape. Its class has `name`, `summary` and either `parameters()`, or `describe()` and `read`: one
+/// A kind of shape. Its class has `name`, `summary` and either `parameters()`, or `describe()`, `schema` and `read`: one
 /// header, and one line in the catalogue.
 struct ShapeEntry {
   std::string name;
@@ -51,9 +52,14 @@ struct ShapeEntry {
   std::string (*describe)();
   /// Reads the key `name` of a table. Reports errors in the document and returns null then.
   std::unique_ptr<Shape> (*read)(input::Table& holder, const std::string& name);
+  /// Fills in the schema of the value of the key `name`.
+  void (*schema)(input::Schema& value);
 };
 /// All shapes that `shape = { NAME = ... }` may hold, one line each.
 const Catalogue<ShapeEntry>& shape_catalogue();
+
+/// Fills in the schema of `{ NAME = ... }`, which refers to itself as "#/$defs/shape".
+void add_shapes(input::Schema& holder);
 
 /// Reads the one shape that a table `{ NAME = ... }` holds. Reports errors in the document and returns null
 /// then.

@@ -13,6 +13,7 @@ class Union final : public Shape {
   static constexpr const char* name = "union";
   static constexpr const char* summary = "union of several shapes: union = [{ sphere = ... }, ...]";
   static std::string describe() { return {}; }
+  static void schema(input::Schema& value) { schema_of_list(value); }
   static std::unique_ptr<Shape> read(input::Table& holder, const std::string& key) {
     return read_list<Union>(holder, key);
   }

@@ -3,13 +3,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-// toml++ asserts that a key begins as keys do, which bad input need not ("[=]"). Without the assertion it
-// reports the fault like any other; with it a build for debugging would abort.
-#define TOML_ASSERT(condition) static_cast<void>(0)
-#include <toml++/toml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -20,7 +15,7 @@
 #include "src/core/base/files.hpp"
 #include "src/core/base/text.hpp"
 #include "src/core/base/units.hpp"
-#include "src/core/input/structure_check.hpp"
+#include "src/core/input/toml_text.hpp"
 
 namespace whipple::input {
 
@@ -196,13 +191,7 @@ const toml::node& nearest_node(const toml::table& root, std::string_view key) {
   while (!key.empty()) {
     const std::string part(key.substr(0, key.find('.')));
     key.remove_prefix(std::min(key.size(), part.size() + 1));
-    const toml::node* next = nullptr;
-    if (const toml::table* table = node->as_table()) {
-      next = table->get(part);
-    } else if (const toml::array* array = node->as_array()) {
-      const bool number = std::ranges::all_of(part, [](unsigned char c) { return std::isdigit(c) != 0; });
-      next = number && !part.empty() && part.size() < 9 ? array->get(std::stoul(part)) : nullptr;
-    }
+    const toml::node* next = child_of(*node, part);
     if (next == nullptr) break;
     node = next;
   }
@@ -242,23 +231,7 @@ void report_unknown(Document::State& state, const toml::table& table, const std:
 std::unique_ptr<Document::State> parse(const std::string& text, const std::filesystem::path& path) {
   auto state = std::make_unique<Document::State>();
   state->path = path;
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
-      text.substr(0, 4).find('\0') != std::string::npos) {
-    throw InputError(fmt::format(
-        "{}:1:1: error: not a text in UTF-8 but, as it seems, in UTF-16; save it as UTF-8", path.string()));
-  }
-  if (const auto fault = find_structure_fault(text)) {
-    throw InputError(
-        fmt::format("{}:{}:{}: error: {}", path.string(), fault->line, fault->column, fault->what));
-  }
-  try {
-    state->root = toml::parse(std::string_view(text), path.string());
-  } catch (const toml::parse_error& error) {
-    const bool encoding = error.description().find("invalid utf-8") != std::string_view::npos;
-    throw InputError(
-        fmt::format("{}: error: {}{}", state->position(error.source().begin), error.description(),
-                    encoding ? ": letters beyond ASCII in another encoding; save the file as UTF-8" : ""));
-  }
+  state->root = parse_toml(text, path);
   return state;
 }
 
@@ -290,44 +263,11 @@ Document Document::from_text(const std::string& text, const std::string& name) {
 }
 
 void Document::set(std::string_view key, std::string_view value) {
-  const auto fault = [&](const std::string& why) {
-    return InputError(fmt::format("--set {}={}: {}", key, value, why));
-  };
-  std::vector<std::string> path;
-  std::istringstream stream{std::string(key)};
-  for (std::string part; std::getline(stream, part, '.');) path.push_back(part);
-  if (path.empty() || std::ranges::any_of(path, &std::string::empty)) throw fault("expected table.key=value");
-
-  toml::node* node = &state_->root;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    toml::node* next = nullptr;
-    if (toml::table* table = node->as_table()) {
-      if (!table->contains(path[i])) table->insert(path[i], toml::table{});
-      next = table->get(path[i]);
-    } else if (toml::array* array = node->as_array()) {
-      const bool number = std::ranges::all_of(path[i], [](unsigned char c) { return std::isdigit(c) != 0; });
-      const std::size_t index = number && path[i].size() < 9 ? std::stoul(path[i]) : array->size();
-      if (index >= array->size())
-        throw fault(fmt::format("the list has {} entries, numbered from 0", array->size()));
-      next = array->get(index);
-    }
-    if (next == nullptr) throw fault(fmt::format("'{}' is neither a table nor a list", path[i]));
-    node = next;
-  }
-  toml::table* table = node->as_table();
-  if (table == nullptr) throw fault("the last part but one is not a table");
-  const std::string line = fmt::format("value = {}", value);
   try {
-    const toml::table parsed = find_structure_fault(line) ? toml::table() : toml::parse(line);
-    if (parsed.size() == 1) {
-      // Copies carry no position: errors then name --set, not line 1 of the file.
-      table->insert_or_assign(path.back(), *parsed.get("value"));
-      return;
-    }
-  } catch (const toml::parse_error&) {
-    // A text without quotes, as in --set body.0.material=copper.toml.
+    set_value(state_->root, key, value);
+  } catch (const InputError& fault) {
+    throw InputError(fmt::format("--set {}", fault.what()));
   }
-  table->insert_or_assign(path.back(), std::string(value));
 }
 
 Table Document::root() {

@@ -12,6 +12,7 @@
 #include "src/core/base/parameter_table.hpp"
 #include "src/core/input/document.hpp"
 #include "src/core/input/faults.hpp"
+#include "src/core/input/schema.hpp"
 
 /// Registry of the sections of an input: a case file, a plan. `Root` is the object of the whole input. The type of a
 /// section has
@@ -21,12 +22,13 @@
 ///   static std::span<const Section<T, Root>> sections();      sections within it
 ///   void read_rest(Table&);                                   what no parameter table can read
 ///   std::string rest_to_toml() const;                         the same written, lines below those of the keys
+///   static void add_rest(Schema&);                            the same for editors
 ///   void check(const Root&, const Faults&) const;             what its keys need of each other and of the root
 ///   static const T& inherited(const Root&);                   values of the keys not given, where it is optional
 /// A section is then one line `section<&Owner::member, Root>("name")` in the list of its owner.
 namespace whipple::input {
 
-/// How one section of an owner is read, checked, written and described, whatever its type.
+/// How one section of an owner is read, checked, written, described and put into a schema, whatever its type.
 template <class Owner, class Root>
 struct Section {
   const char* name;
@@ -36,6 +38,7 @@ struct Section {
   void (*check)(const Section&, const Owner&, const Root&, const Faults&);
   std::string (*write)(const Section&, const Owner&, const std::string& path);
   std::string (*describe)(const Section&, const std::string& path);
+  void (*add)(const Section&, Schema& owner);
 };
 
 namespace detail {
@@ -125,6 +128,16 @@ std::string describe_content(const std::string& path) {
   return text;
 }
 
+/// Adds the keys of a table and of its sections to its schema.
+template <class Content>
+void add_content(Schema& table) {
+  add_keys(table, Content::parameters());
+  if constexpr (detail::HasSections<Content>) {
+    for (const auto& section : Content::sections()) section.add(section, table);
+  }
+  if constexpr (requires { Content::add_rest(table); }) Content::add_rest(table);
+}
+
 /// Makes the entry of a member, which is a section, a list of them, or one that may be missing.
 template <auto Member, class Root, class Owner = decltype(detail::owner_of(Member))>
 Section<Owner, Root> section(const char* name, const char* remark = "",
@@ -171,6 +184,10 @@ Section<Owner, Root> section(const char* name, const char* remark = "",
           [](const Section<Owner, Root>& self, const std::string& path) {
             return detail::heading<Holding::is_list>(path + self.name) + self.remark + "\n" +
                    describe_content<Content>(path + self.name + ".");
+          },
+          [](const Section<Owner, Root>& self, Schema& owner) {
+            constexpr bool required = requires { Content::required; };
+            add_section(owner, {self.name, self.remark, Holding::is_list, required}, &add_content<Content>);
           }};
 }
 

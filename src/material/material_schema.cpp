@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "src/material/material_schema.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "eos/files/models.hpp"
+#include "src/core/input/schema.hpp"
+#include "src/material/constitutive_catalogue.hpp"
+#include "src/material/failure/catalogue.hpp"
+#include "src/material/material_tables.hpp"
+#include "src/material/reaction/catalogue.hpp"
+#include "src/material/strength/catalogue.hpp"
+
+namespace whipple {
+namespace {
+
+using input::Schema;
+
+Schema list_of(Schema items) {
+  Schema list;
+  list["type"] = "array";
+  list["items"] = std::move(items);
+  return list;
+}
+
+/// A table whose key `model` names an entry of a catalogue, with the constants of that entry.
+/// @param more  keys beside those of the model
+template <class Entry>
+Schema one_of(const Catalogue<Entry>& catalogue, const Schema& more = {}) {
+  Schema holder;
+  for (const Entry& entry : catalogue) {
+    Schema table;
+    table["title"] = entry.name;
+    table["description"] = entry.summary;
+    Schema model;
+    model["const"] = entry.name;
+    input::add_key(table, "model", model, true);
+    input::add_keys(table, material_tables::Remarks::parameters());
+    // The entry shows its constants to whoever reads them; nothing is built.
+    static_cast<void>(entry.declare(
+        [&](std::span<const BoundParameter> parameters) { input::add_keys(table, parameters); }));
+    for (const auto& [key, value] : more.items()) input::add_key(table, key, value);
+    holder["oneOf"].push_back(table);
+  }
+  return holder;
+}
+
+template <class Table>
+Schema keys_of() {
+  Schema table;
+  input::add_keys(table, Table::parameters());
+  return table;
+}
+
+}  // namespace
+
+std::string describe_material() {
+  using namespace material_tables;
+  return fmt::format(
+      "Material file (TOML). Quantities are texts with a unit, \"8.93 g/cm^3\".\n\n{}"
+      "\n[eos], with 'model', 'source', 'note' and the constants of the model: whipple describe eos\n"
+      "[[eos.modifier]], in order: whipple describe modifier\n"
+      "[eos.unreacted], of explosives: equation of state before the reaction\n"
+      "[reaction], with [eos.unreacted]: whipple describe reaction\n"
+      "[strength]: whipple describe strength\n"
+      "[[failure]]: whipple describe failure\n"
+      "[constitutive], in place of strength and failure: whipple describe constitutive\n"
+      "\n[thermal]\n{}\n[measured], compared with the equation of state\n{}",
+      describe_table(Head::parameters()), describe_table(ThermalTable::parameters()),
+      describe_table(MeasuredTable::parameters()));
+}
+
+std::string material_schema() {
+  using namespace material_tables;
+  const auto models = eos::all_models();
+  Schema more, table, free;
+  table["$defs"]["unreacted"] = one_of(models);
+  table["$defs"]["modifiers"] = list_of(one_of(eos::modifier_catalogue()));
+  more["unreacted"] = input::reference_to("unreacted");
+  more["modifier"] = input::reference_to("modifiers");
+  input::add_keys(table, Head::parameters());
+  input::add_key(table, "eos", one_of(models, more), true);
+  input::add_key(table, "reaction", one_of(reaction::catalogue()));
+  input::add_key(table, "strength", one_of(strength::catalogue()));
+  input::add_key(table, "failure", list_of(one_of(failure::catalogue())));
+  input::add_key(table, "constitutive", one_of(material::catalogue()));
+  input::add_key(table, "thermal", keys_of<ThermalTable>());
+  input::add_key(table, "measured", keys_of<MeasuredTable>());
+  free["description"] = "written by programs";
+  for (const char* key : free_keys) input::add_key(table, key, free);
+  return input::schema_text(table, "Material of whipple",
+                            "Material file of whipple. Quantities are texts with a unit, \"8.93 g/cm^3\".");
+}
+
+}  // namespace whipple

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace whipple {
+
+/// Returns the tables of a material file with their keys, for `whipple describe material`; constants of
+/// models are described with their models.
+std::string describe_material();
+
+/// Returns the JSON schema of material files, for editors (src/core/input/schema.hpp): the constants of every
+/// model of the catalogues.
+std::string material_schema();
+
+}  // namespace whipple
