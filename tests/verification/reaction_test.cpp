@@ -242,10 +242,11 @@ TEST(IgnitionAndGrowth, IsTheIntegralOfItsRateAtConstantPressure) {
 // The set of the library: a planar detonation at the velocity of Chapman and Jouguet of its products, whose
 // reaction zone of some tenths of a millimetre the cells resolve.
 TEST(IgnitionAndGrowth, APlanarDetonationRunsAtTheVelocityOfChapmanAndJouguet) {
+  const std::string booster = "[[detonation]]\nshape = \"sphere\"\nposition = [0, 0]\nradius = 0.003\n";
   const Material material = read_material("composition_b_ignition_and_growth");
   const double D = material.explosive->detonation_velocity;
   EXPECT_NEAR(D, 7980.0, 2.0);
-  const std::string text = column("composition_b_ignition_and_growth", 0.02, 5e-5, lit_at_wall);
+  const std::string text = column("composition_b_ignition_and_growth", 0.02, 5e-5, booster);
   EXPECT_NEAR(front_velocity(text, 0.0185 / D, 0.011, 0.016) / D, 1.0, 0.01);
 }
 
