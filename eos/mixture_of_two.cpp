@@ -16,7 +16,8 @@ constexpr double energy_step =
 constexpr double energy_raise = 1e6;     // J/kg, for a component that was tried below its cold curve
 constexpr double tolerance = 1e-9;       // of pressure and energy
 constexpr double least_pressure = 1e-1;  // Pa, that is resolved beside those that cancel in a solid
-constexpr double edge = 1e-9;            // from the compression limits
+constexpr double largest_shrinkage = 0.75, largest_growth = 1.5;  // of a volume in an iteration
+constexpr double edge = 1e-9;                                     // from the compression limits
 
 /// Change of specific volume and energy of a component with pressure and temperature, the inverse of (K1),
 /// and sums of it.
@@ -63,7 +64,7 @@ class Side {
   /// tried above.
   bool raise_if_cold(std::size_t i) {
     if (temperature[i] > least_temperature_ * (1.0 + edge)) return false;
-    energy[i] += energy_raise;
+    energy[i] += energy_raise + std::max(pressure[i], 0.0) * volume[i];
     return true;
   }
   [[nodiscard]] double least_temperature() const { return least_temperature_; }
@@ -180,12 +181,12 @@ class Solution {
         (sum.volume_by_pressure * of_energy - sum.energy_by_pressure * of_volume) / sum.determinant();
     const double newton =
         first_.volume[i] + r1.volume_by_pressure * (p - p1) + r1.volume_by_temperature * rise;
-    if (newton > bracket.lower && newton < bracket.upper) {
-      first_.volume[i] = newton;
+    double next = std::clamp(newton, largest_shrinkage * first_.volume[i], largest_growth * first_.volume[i]);
+    if (!(next > bracket.lower && next < bracket.upper)) next = std::sqrt(bracket.lower * bracket.upper);
+    first_.volume[i] = next;
+    if (next == newton) {
       first_.energy[i] += r1.energy_by_pressure * (p - p1) + r1.energy_by_temperature * rise;
       second_.energy[i] += r2.energy_by_pressure * (p - p2) + r2.energy_by_temperature * rise;
-    } else {
-      first_.volume[i] = std::sqrt(bracket.lower * bracket.upper);
     }
     second_.volume[i] = (V - (1.0 - x) * first_.volume[i]) / x;
     return false;

@@ -22,6 +22,7 @@ namespace whipple::reaction {
 struct IgnitionAndGrowth {
   static constexpr Closure closure = Closure::equilibrium;
   static constexpr double largest_step = 0.02;
+  static constexpr double nearness = 1e-9;  ///< relative, to a limit at which a term begins or ends
 
   double rate_pressure = 1e11;        ///< p_r, Pa
   double ignition_rate = 0.0;         ///< I, 1/s
@@ -110,9 +111,11 @@ struct IgnitionAndGrowth {
         const double at_start = rate_at(F);
         if (!(at_start > 0.0)) break;
         const double next = next_limit(F), room = std::min(next - F, largest_step);
-        const double trial = std::min(left, room / at_start), midway = rate_at(F + 0.5 * trial * at_start);
-        const double slope = midway > 0.0 ? midway : at_start, step = std::min(trial, room / slope);
-        F = step * slope < next - F ? F + step * slope : next;
+        const double trial = std::min(left, room / at_start), middle = F + 0.5 * trial * at_start;
+        // Next to a limit, closer than numbers resolve, nothing lies in the middle.
+        const double slope = middle > F && middle < next ? rate_at(middle) : at_start;
+        const double step = std::min(trial, room / slope), burns = step * slope;
+        F = burns < (1.0 - nearness) * (next - F) ? F + burns : next;
         left -= step;
       }
     }
