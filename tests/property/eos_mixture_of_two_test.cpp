@@ -44,14 +44,22 @@ class MixtureOfTwoMaterials : public testing::Test {
   struct Point {
     double density, energy, fraction;
   };
+  /// Of states that are warmer than 50 K.
   Point random_point() {
+    for (;;) {
+      const Point at = any_point();
+      if (mixture(at.density, at.energy, at.fraction).temperature > 50.0) return at;
+    }
+  }
+
+ private:
+  Point any_point() {
     const double fraction = std::pow(10.0, -6.0 + 6.0 * uniform_(random_)), x = std::min(fraction, 0.9999);
     const double v = x > 0.3 ? std::exp(std::log(0.65) + uniform_(random_) * std::log(5.0 / 0.65))
                              : 0.65 + 0.34 * uniform_(random_);
     return {comp_b().reference_density / v, store * (0.75 + 0.6 * uniform_(random_)), x};
   }
 
- private:
   std::mt19937 random_{11};
   std::uniform_real_distribution<double> uniform_{0.0, 1.0};
 };
