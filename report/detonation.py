@@ -9,30 +9,21 @@ import tomllib
 from report.wall_speed import interpolate
 
 
-def snapshots_of(folder):
-    """Times (s) and files of the snapshots of the particles of a run, in their order; none without any."""
-    series = sorted(folder.glob("*.particles.hdf.series"))
-    if not series or not (folder / "run.toml").is_file():
-        return []
-    entries = json.loads(series[0].read_text())["files"]
-    return sorted((float(entry["time"]), folder / entry["name"]) for entry in entries)
-
-
-def particles_of(folder, body, file=None):
-    """Fields of the particles of a body at a snapshot, by default the last, and as "position" and "x" their places (m); None
-    without any."""
+def particles_of(folder, body):
+    """Fields of the particles of a body at the last snapshot and, as "position" and "x", their places (m); None without any."""
     import h5py
 
-    snapshots = snapshots_of(folder)
-    if not snapshots:
+    series = sorted(folder.glob("*.particles.hdf.series"))
+    if not series or not (folder / "run.toml").is_file():
         return None
     bodies = [entry["name"] for entry in tomllib.loads((folder / "run.toml").read_text(encoding="utf-8"))["body"]]
     if body not in bodies:
         return None
-    with h5py.File(file or snapshots[-1][1]) as opened:
-        data = opened["VTKHDF"]["PointData"]
+    newest = max(json.loads(series[0].read_text())["files"], key=lambda entry: float(entry["time"]))
+    with h5py.File(folder / newest["name"]) as file:
+        data = file["VTKHDF"]["PointData"]
         own = data["body"][:] == bodies.index(body)
-        places = opened["VTKHDF"]["Points"][:][own]
+        places = file["VTKHDF"]["Points"][:][own]
         return {name: data[name][:][own] for name in data} | {"position": places, "x": places[:, 0]}
 
 

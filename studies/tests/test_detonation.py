@@ -9,7 +9,7 @@ import unittest
 import h5py
 import numpy as np
 
-from studies.shaped_charge import jet_penetration, shaped_charge
+from studies.shaped_charge import shaped_charge
 from report import detonation, pieces
 
 
@@ -108,14 +108,6 @@ class Theory(unittest.TestCase):
         for b in (0.8, 1.1, 2.0):
             masses = (-np.log((np.arange(4000) + 0.5) / 4000)) ** (1.0 / b)
             self.assertAlmostEqual(pieces.weibull_exponent(masses)[0], b, delta=0.01 * b)
-
-    def test_depth_of_a_jet_of_one_velocity(self):
-        places = -np.linspace(0.0, 0.05, 500)
-        ratio = (7830.0 / 8930.0) ** 0.5
-        # 50 mm of jet at 6 km/s are used up after L/(V - U) and leave a hole of L (rho_j/rho_t)^(1/2).
-        early, late = jet_penetration.law(places, np.full(500, 6000.0), 0.0, [5e-6, 40e-6], 0.0)
-        self.assertAlmostEqual(early, 5e-6 * 6000.0 / (1.0 + ratio), delta=3e-4)
-        self.assertAlmostEqual(late, 0.05 / ratio, delta=4e-3)
 
     def test_jet_of_a_cone(self):
         velocity, mass, share = shaped_charge.theory(21.0, "composition_b")
