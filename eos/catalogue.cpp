@@ -11,6 +11,7 @@
 #include "eos/models/holmquist_johnson_cook.hpp"
 #include "eos/models/ideal_gas.hpp"
 #include "eos/models/jwl.hpp"
+#include "eos/models/jwl_reactant.hpp"
 #include "eos/models/mie_gruneisen.hpp"
 #include "eos/models/murnaghan.hpp"
 #include "eos/models/polynomial.hpp"
@@ -63,6 +64,7 @@ const Catalogue<ModelEntry>& catalogue() {
       entry<MieGruneisen>(),
       entry<Polynomial>(),
       entry<Murnaghan>(),
+      entry<JwlReactant>(),
       // Porous material with a crush curve of its own.
       entry<HolmquistJohnsonCook>(),
       // Liquids, gases, detonation products.

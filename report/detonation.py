@@ -54,27 +54,59 @@ def profile_error(folder, body, field, table):
     return float((mass * np.abs(value - wanted)).sum() / scale) if scale > 0.0 else math.nan
 
 
-def arrival_speed(path, tracers):
-    """Speed (m/s) along x of a front that passes moving tracers, from gauges.csv: slope by least squares of the places where
-    they began over the times at which the pressure of each first exceeds a level, half of the median of what they reach.
+def arrivals(path, tracers, fraction):
+    """Times (s) and places (m) at which a front passes moving tracers along x, in the order of the places, from gauges.csv:
+    when the pressure of each first exceeds a fraction of the median of what they reach, and where they began.
     """
     if not path.is_file():
-        return math.nan
+        return []
     with path.open(newline="") as stream:
         rows = [{head.split(" [")[0]: float(cell or math.nan) for head, cell in row.items()} for row in csv.DictReader(stream)]
     names = sorted({head.split(".")[0] for head in rows[0] if head.startswith(f"{tracers}_")}) if rows else []
     of_tracer = {name: [row[f"{name}.pressure"] for row in rows] for name in names}
-    level = 0.5 * statistics.median(max(pressures) for pressures in of_tracer.values()) if names else 0.0
+    level = fraction * statistics.median(max(pressures) for pressures in of_tracer.values()) if names else 0.0
     passed = []
     for name, pressures in of_tracer.items():
         first = next((i for i, p in enumerate(pressures) if p > level), 0)
         if level > 0.0 and first > 0:
             time = interpolate(level, pressures[first - 1:first + 1], [row["time"] for row in rows[first - 1:first + 1]])
             passed.append((time, rows[0][f"{name}.x"]))
+    return sorted(passed, key=lambda arrival: arrival[1])
+
+
+def arrival_speed(path, tracers):
+    """Speed (m/s) along x of a front that passes moving tracers: slope by least squares of the places where they began over
+    the times at which the pressure of each first exceeds half of the median of what they reach.
+    """
+    passed = arrivals(path, tracers, 0.5)
     if len(passed) < 3:
         return math.nan
     middle, centre = (sum(values) / len(passed) for values in zip(*passed))
     return sum((t - middle) * (x - centre) for t, x in passed) / sum((t - middle) ** 2 for t, _ in passed)
+
+
+def run_distance(path, tracers, start):
+    """Distance (m) from the place `start`, where a shock enters an explosive, to where it has become a detonation: there the
+    front, which speeds up, passes from tracer to tracer faster than the mean of its least speed and of that over the last
+    quarter of the tracers. NaN if its last speed is not a quarter above the least, as it is where nothing detonates.
+    """
+    passed = arrivals(path, tracers, 0.05)
+    if len(passed) < 8:
+        return math.nan
+    speeds = [(b[1] - a[1]) / (b[0] - a[0]) if b[0] > a[0] else math.inf for a, b in zip(passed, passed[2:])]
+    places = [after[1] for after in passed[1:-1]]
+    quarter = passed[-(len(passed) // 4) - 1:]
+    last, least = (quarter[-1][1] - quarter[0][1]) / (quarter[-1][0] - quarter[0][0]), min(speeds)
+    if not last > 1.25 * least:
+        return math.nan
+    middle = 0.5 * (last + least)
+    after_least = speeds.index(least)
+    found = next((i for i in range(after_least, len(speeds)) if speeds[i] >= middle), None)
+    if found is None:
+        return math.nan
+    if found == after_least:
+        return places[found] - start
+    return interpolate(middle, speeds[found - 1:found + 1], places[found - 1:found + 1]) - start
 
 
 def peak_of_gauge(path, column):

@@ -57,7 +57,8 @@ class Expectation:
     """One quantity: what is measured, when, and what is expected of it."""
 
     # Keys that belong to the measures of one kind, and to these always.
-    OF_KIND = {"place": "wall_speed.", "travel": "wall_speed.", "exact": "profile_error.", "fraction": "jet_speed."}
+    OF_KIND = {"place": ("wall_speed.", "run_distance."), "travel": ("wall_speed.",), "exact": ("profile_error.",),
+               "fraction": ("jet_speed.",)}
     KEYS = {"name", "measure", "time", *OF_KIND, "value", "tolerance", "kind", "source", "known", "unit", "class"}
 
     def __init__(self, table, where):
@@ -78,9 +79,10 @@ class Expectation:
                                               for key in ("time", "place", "travel"))
         self.fraction = quantity(table["fraction"], where)[0] if "fraction" in table else None
         self.exact = table.get("exact")  # file beside expected.toml
-        for key, kind in self.OF_KIND.items():
-            if (key in table) != self.measure.startswith(kind):
-                raise BadExpectation(f"{where}: {self.name}: measures {kind}NAME, and no others, take {key!r}")
+        for key, kinds in self.OF_KIND.items():
+            if (key in table) != self.measure.startswith(kinds):
+                names = " and ".join(f"{kind}NAME" for kind in kinds)
+                raise BadExpectation(f"{where}: {self.name}: measures {names}, and no others, take {key!r}")
         if self.kind == "record":
             self.value, self.unit, self.tolerance = math.nan, table.get("unit", ""), 0.0
             if self.unit not in UNITS:

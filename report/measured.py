@@ -68,6 +68,8 @@ class Measures:
             return wall_speed(self.folder / "gauges.csv", of, expectation.place, expectation.travel)
         if kind == "arrival_speed":
             return detonation.arrival_speed(self.folder / "gauges.csv", of)
+        if kind == "run_distance":
+            return detonation.run_distance(self.folder / "gauges.csv", of, expectation.place)
         if kind in ("peak", "arrival"):
             return detonation.peak_of_gauge(self.folder / "gauges.csv", of)[kind == "arrival"]
         if kind == "profile_error":

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "eos/detonation.hpp"
+#include "eos/mixture_of_two.hpp"
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/mie_gruneisen.hpp"
 #include "eos/modifiers/modified.hpp"
@@ -17,9 +19,10 @@ namespace {
 
 constexpr double density_tolerance = 1e-3;
 
-/// What is known of every solid or liquid explosive; replacing the constants of TNT by it moves a detonation front by
-/// less than a hundredth of a cell.
-std::shared_ptr<const eos::EquationOfState> estimated_unreacted(const eos::EquationOfState& products, double velocity) {
+/// What is known of every solid or liquid explosive; replacing the constants of TNT by it moves a detonation
+/// front by less than a hundredth of a cell.
+std::shared_ptr<const eos::EquationOfState> estimated_unreacted(const eos::EquationOfState& products,
+                                                                double velocity) {
   return std::make_shared<const eos::ModelEquationOfState<eos::MieGruneisen>>(
       eos::MieGruneisenConstants{.reference_density = products.reference_density(),
                                  .hugoniot_intercept = 0.35 * velocity,
@@ -31,8 +34,8 @@ std::shared_ptr<const eos::EquationOfState> estimated_unreacted(const eos::Equat
 
 void require_simple(const eos::EquationOfState& eos, const char* what) {
   if (!eos.has_phases() && eos.initial_distension() == 1.0) return;
-  throw InputError(fmt::format("{}: model \"{}\" has phases or pores, which an explosive that burns cannot have", what,
-                               eos.model()));
+  throw InputError(fmt::format(
+      "{}: model \"{}\" has phases or pores, which an explosive that burns cannot have", what, eos.model()));
 }
 
 }  // namespace
@@ -41,8 +44,9 @@ std::shared_ptr<const Explosive> make_explosive(std::shared_ptr<const eos::Equat
                                                 std::shared_ptr<const eos::EquationOfState> unreacted,
                                                 std::shared_ptr<const reaction::Reaction> reaction) {
   if (reaction != nullptr && unreacted == nullptr) {
-    throw InputError(fmt::format("rate law \"{}\" takes the equation of state of the unreacted explosive, [eos.unreacted]",
-                                 reaction->model()));
+    throw InputError(
+        fmt::format("rate law \"{}\" takes the equation of state of the unreacted explosive, [eos.unreacted]",
+                    reaction->model()));
   }
   Explosive made;
   made.reaction = std::move(reaction);
@@ -57,23 +61,27 @@ std::shared_ptr<const Explosive> make_explosive(std::shared_ptr<const eos::Equat
   }
   made.estimated = unreacted == nullptr;
   made.density = products->reference_density();
-  made.unreacted = made.estimated ? estimated_unreacted(*products, made.detonation_velocity) : std::move(unreacted);
+  made.unreacted =
+      made.estimated ? estimated_unreacted(*products, made.detonation_velocity) : std::move(unreacted);
   require_simple(*made.unreacted, "the unreacted explosive");
   if (!made.unreacted->condensed()) {
     throw InputError(fmt::format("the unreacted explosive: model \"{}\" has no state of zero pressure",
                                  made.unreacted->model()));
   }
   if (std::abs(made.unreacted->reference_density() / made.density - 1.0) > density_tolerance) {
-    throw InputError(
-        fmt::format("the unreacted explosive has {:.6g} kg/m^3 at rest, its products start from {:.6g} kg/m^3",
-                    made.unreacted->reference_density(), made.density));
+    throw InputError(fmt::format(
+        "the unreacted explosive has {:.6g} kg/m^3 at rest, its products start from {:.6g} kg/m^3",
+        made.unreacted->reference_density(), made.density));
   }
   made.stored_energy = products->reference_energy() - made.unreacted->reference_energy();
   made.products = std::move(products);
   return std::make_shared<const Explosive>(std::move(made));
 }
 
-BurningExplosive::BurningExplosive(std::shared_ptr<const Explosive> explosive) : explosive_(std::move(explosive)) {}
+BurningExplosive::BurningExplosive(std::shared_ptr<const Explosive> explosive)
+    : explosive_(std::move(explosive)),
+      in_equilibrium_(explosive_->reaction != nullptr &&
+                      explosive_->reaction->closure() == reaction::Closure::equilibrium) {}
 
 eos::RangeReport BurningExplosive::evaluate(const eos::Batch& batch) const {
   return eos::in_chunks(batch, [&](const eos::Batch& part) {
@@ -96,24 +104,73 @@ eos::RangeReport BurningExplosive::evaluate(const eos::Batch& batch, std::span<c
   }
   std::copy_n(burnt.begin(), batch.melted_fraction.empty() ? 0 : all, batch.melted_fraction.begin());
   std::copy_n(burnt.begin(), batch.vaporised_fraction.empty() ? 0 : all, batch.vaporised_fraction.begin());
+  return in_equilibrium_ ? evaluate_in_equilibrium(batch, burnt) : evaluate_at_one_volume(batch, burnt);
+}
+
+eos::RangeReport BurningExplosive::evaluate_in_equilibrium(const eos::Batch& batch,
+                                                           std::span<const double> burnt) const {
   const Explosive& of = *explosive_;
-  const auto simple = [&](std::span<const double> density, std::span<const double> energy, std::span<double> pressure,
-                          std::span<double> temperature, std::span<double> sound_speed) {
+  const auto whole = [](double f) { return f < eos::MixtureOfTwo::least_fraction; };
+  const auto products = [](double f) { return f >= 1.0; };
+  const auto mixed = [&](double f) { return !whole(f) && !products(f); };
+  eos::RangeReport report;
+  // The points of one kind, one after the other.
+  const auto evaluate_those = [&](const auto& belongs, double store, const auto& evaluate_part) {
+    std::array<std::size_t, eos::modifier_chunk> point;
+    eos::ModifierScratch density, energy, fraction, pressure, temperature, sound_speed;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < burnt.size(); ++i) {
+      if (!belongs(burnt[i])) continue;
+      point[count] = i;
+      density[count] = batch.density[i];
+      energy[count] = batch.specific_internal_energy[i] - store;
+      fraction[count++] = burnt[i];
+    }
+    if (count == 0) return;
+    const auto part = [count](auto& values) { return std::span(values).first(count); };
+    eos::RangeReport of_part = evaluate_part(
+        eos::Batch{part(density), part(energy), part(pressure), part(temperature), part(sound_speed), {}, {}},
+        part(fraction));
+    for (std::size_t k = 0; k < count; ++k) {
+      batch.pressure[point[k]] = pressure[k];
+      batch.temperature[point[k]] = temperature[k];
+      batch.sound_speed[point[k]] = sound_speed[k];
+    }
+    if (of_part.first != eos::RangeReport::none) of_part.first = point[of_part.first];
+    report.merge(of_part);
+  };
+  evaluate_those(whole, of.stored_energy,
+                 [&](const eos::Batch& part, auto) { return of.unreacted->evaluate(part); });
+  evaluate_those(products, 0.0, [&](const eos::Batch& part, auto) { return of.products->evaluate(part); });
+  evaluate_those(mixed, 0.0, [&](const eos::Batch& part, std::span<const double> fraction) {
+    return eos::MixtureOfTwo{*of.unreacted, *of.products, of.stored_energy}.evaluate(part, fraction);
+  });
+  return report;
+}
+
+eos::RangeReport BurningExplosive::evaluate_at_one_volume(const eos::Batch& batch,
+                                                          std::span<const double> burnt) const {
+  const std::size_t all = batch.density.size();
+  const Explosive& of = *explosive_;
+  const auto simple = [&](std::span<const double> density, std::span<const double> energy,
+                          std::span<double> pressure, std::span<double> temperature,
+                          std::span<double> sound_speed) {
     return eos::Batch{density, energy, pressure, temperature, sound_speed, {}, {}};
   };
   if (std::ranges::all_of(burnt, [](double f) { return f >= 1.0; })) {
-    return of.products->evaluate(
-        simple(batch.density, batch.specific_internal_energy, batch.pressure, batch.temperature, batch.sound_speed));
+    return of.products->evaluate(simple(batch.density, batch.specific_internal_energy, batch.pressure,
+                                        batch.temperature, batch.sound_speed));
   }
   // Each model sees those points only that it counts for: of the others, what it knows well.
   eos::ModifierScratch density, energy, pressure, temperature, sound_speed;
   const auto first = [all](auto& values) { return std::span(values).first(all); };
   for (std::size_t i = 0; i < all; ++i) {
     density[i] = burnt[i] < 1.0 ? batch.density[i] : of.density;
-    energy[i] = burnt[i] < 1.0 ? batch.specific_internal_energy[i] - of.stored_energy : of.unreacted->reference_energy();
+    energy[i] = burnt[i] < 1.0 ? batch.specific_internal_energy[i] - of.stored_energy
+                               : of.unreacted->reference_energy();
   }
-  eos::RangeReport report =
-      of.unreacted->evaluate(simple(first(density), first(energy), batch.pressure, batch.temperature, batch.sound_speed));
+  eos::RangeReport report = of.unreacted->evaluate(
+      simple(first(density), first(energy), batch.pressure, batch.temperature, batch.sound_speed));
   if (std::ranges::none_of(burnt, [](double f) { return f > 0.0; })) return report;
   for (std::size_t i = 0; i < all; ++i) {
     density[i] = burnt[i] > 0.0 ? batch.density[i] : of.density;
@@ -126,7 +183,8 @@ eos::RangeReport BurningExplosive::evaluate(const eos::Batch& batch, std::span<c
     const auto mixed = [f](double of_unreacted, double of_products) {
       return f >= 1.0 ? of_products : f > 0.0 ? (1.0 - f) * of_unreacted + f * of_products : of_unreacted;
     };
-    // What burns by a rate law for long has parted by then: its reactant bears no tension between the products.
+    // What burns by a rate law for long has parted by then: its reactant bears no tension between the
+    // products.
     const double of_reactant = of.reaction != nullptr ? std::max(batch.pressure[i], 0.0) : batch.pressure[i];
     batch.pressure[i] = mixed(f > 0.0 ? of_reactant : batch.pressure[i], pressure[i]);
     batch.temperature[i] = mixed(batch.temperature[i], temperature[i]);
@@ -171,7 +229,8 @@ eos::State BurningExplosive::with_store(eos::State state) const {
 }
 
 eos::State BurningExplosive::state(double density, double specific_internal_energy) const {
-  return with_store(explosive_->unreacted->state(density, specific_internal_energy - explosive_->stored_energy));
+  return with_store(
+      explosive_->unreacted->state(density, specific_internal_energy - explosive_->stored_energy));
 }
 
 eos::State BurningExplosive::state_at_temperature(double density, double temperature) const {

@@ -63,6 +63,26 @@ class Measures(unittest.TestCase):
         self.assertAlmostEqual(detonation.arrival_speed(path, "front"), 5000.0, delta=1.0)
         self.assertTrue(math.isnan(detonation.arrival_speed(path, "wall")))
 
+    def write_front(self, arrival, places):
+        """gauges.csv of tracers that a front of 10 GPa passes at given times (us), with 1 ns between its rows."""
+        names = [f"front_{i:02d}" for i in range(len(places))]
+        rows = ["time [s]," + ",".join(f"{n}.x [m],{n}.pressure [Pa]" for n in names)]
+        for step in range(4000):
+            time = 1e-9 * step
+            cells = [(x, min(max((time - 1e-6 * t) / 2e-9, 0.0), 1.0) * 1e10) for x, t in zip(places, arrival)]
+            rows.append(f"{time}," + ",".join(f"{x},{p}" for x, p in cells))
+        path = self.folder / "gauges.csv"
+        path.write_text("\n".join(rows) + "\n")
+        return path
+
+    def test_run_distance_is_where_a_shock_becomes_a_detonation(self):
+        places = [0.01 + 0.0005 * i for i in range(40)]
+        # 4000 m/s over the first 8 mm behind the place 0.01 m, 8000 m/s from there on.
+        arrival = [min((x - 0.01) / 4e-3, 2.0) + max(x - 0.018, 0.0) / 8e-3 for x in places]
+        self.assertAlmostEqual(detonation.run_distance(self.write_front(arrival, places), "front", 0.01), 0.008, delta=0.0005)
+        steady = [(x - 0.01) / 4e-3 for x in places[:30]]
+        self.assertTrue(math.isnan(detonation.run_distance(self.write_front(steady, places[:30]), "front", 0.01)))
+
     def test_peak_and_arrival_of_a_gauge(self):
         path = self.folder / "gauges.csv"
         path.write_text("time [s],far.pressure [Pa]\n0,\n1,100\n2,110\n3,200\n4,300\n5,150\n")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Explosives on several ranks: lighting times, burn fractions and the products' drive are those of one rank, and a
-// checkpoint of several ranks goes on with the lighting that it holds.
+// Explosives on several ranks: lighting times, burn fractions, the products' drive and what of them is
+// removed are those of one rank, and a checkpoint of several ranks goes on with the lighting that it holds.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -21,8 +21,8 @@
 namespace whipple::solver {
 namespace {
 
-/// TNT that drives a copper plate, around an inert block; a second detonator fires in material at rest. Plane strain. The
-/// plate moves from the start, for a scale of momenta.
+/// TNT that drives a copper plate, around an inert block; a second detonator fires in material at rest. Plane
+/// strain. The plate moves from the start, for a scale of momenta.
 cases::Case charge_on_plate() {
   return cases::read_case_text(R"(
 [domain]
@@ -55,8 +55,8 @@ shape = { box = { lower = ["20 mm", "0 mm", "-1 mm"], upper = ["22 mm", "8 mm", 
                                "charge_on_plate.toml");
 }
 
-/// Sums over the explosive of all ranks in which each particle has a weight of its own: chemical energy (J), burn
-/// fraction, lighting time (s), and the sums of the last two without weights. Collective.
+/// Sums over the explosive of all ranks in which each particle has a weight of its own: chemical energy (J),
+/// burn fraction, lighting time (s), and the sums of the last two without weights. Collective.
 std::vector<double> sums_of(const Simulation& simulation, MPI_Comm communicator) {
   const Particles& q = simulation.particles();
   const auto &burnt = q.history.scalar("burn_fraction"), &lit = q.history.scalar("lighting_time");
@@ -82,23 +82,26 @@ void expect_same_burn(const std::vector<double>& all, const std::vector<double>&
 
 TEST(BurnRanks, AgreeWithOneRankAndGoOnWithTheirLighting) {
   const io::Ranks ranks(MPI_COMM_WORLD);
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("whipple_burn_ranks_" + ranks.broadcast(std::to_string(::getpid())));
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() /
+                                       ("whipple_burn_ranks_" + ranks.broadcast(std::to_string(::getpid())));
   const cases::Case setup = charge_on_plate();
   Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
   const double store = sums_of(together, MPI_COMM_WORLD)[0];
   expect_same_burn(sums_of(together, MPI_COMM_WORLD), sums_of(alone, MPI_COMM_SELF), store);
   advance_to(together, 1e-6);
-  const std::filesystem::path file = io::write_checkpoint(folder, together.state().step, together.particles(),
-                                                          run::to_checkpoint(together.state()), MPI_COMM_WORLD);
+  const std::filesystem::path file =
+      io::write_checkpoint(folder, together.state().step, together.particles(),
+                           run::to_checkpoint(together.state()), MPI_COMM_WORLD);
   advance_to(together, 1.7e-6);
   advance_on_root(alone, 1e-6);
   advance_on_root(alone, 1.7e-6);
   expect_agreement(together, alone, 1e-11);
   EXPECT_EQ(together.particles().size() < together.particle_count(), ranks.is_parallel());
-  const std::vector<double> of_all = sums_of(together, MPI_COMM_WORLD), of_one = sums_of(alone, MPI_COMM_SELF);
+  const std::vector<double> of_all = sums_of(together, MPI_COMM_WORLD),
+                            of_one = sums_of(alone, MPI_COMM_SELF);
   io::Checkpoint checkpoint = io::read_checkpoint(file, MPI_COMM_SELF);
-  Simulation resumed(setup, std::move(checkpoint.particles), run::from_checkpoint(checkpoint.values), MPI_COMM_SELF);
+  Simulation resumed(setup, std::move(checkpoint.particles), run::from_checkpoint(checkpoint.values),
+                     MPI_COMM_SELF);
   advance_on_root(resumed, 1.7e-6);
   MPI_Barrier(MPI_COMM_WORLD);
   ranks.on_root([&] { std::filesystem::remove_all(folder); });
@@ -109,6 +112,52 @@ TEST(BurnRanks, AgreeWithOneRankAndGoOnWithTheirLighting) {
   expect_same_burn(of_all, of_one, store);
   expect_equal(resumed, alone, 1e-11);
   expect_same_burn(sums_of(resumed, MPI_COMM_SELF), of_one, store);
+}
+
+/// A thin charge of TNT between vacuum and a plate, whose products leave the run below 50 MPa. Plane strain.
+cases::Case charge_that_spreads() {
+  return cases::read_case_text(R"(
+[domain]
+dimension = "plane_strain"
+lower = ["-16 mm", "0 mm"]
+upper = ["20 mm", "16 mm"]
+cell_size = "0.5 mm"
+boundary = { y_lower = "symmetry" }
+[time]
+end = "5 us"
+[burn]
+retire_below = "50 MPa"
+[[detonation]]
+position = ["0 mm", "0 mm"]
+[[body]]
+name = "charge"
+material = "tnt"
+shape = { box = { lower = ["0 mm", "0 mm", "-1 mm"], upper = ["6 mm", "4 mm", "1 mm"] } }
+[[body]]
+name = "plate"
+material = "copper_ofhc_mie_gruneisen"
+velocity = ["1 m/s", "0 m/s"]
+shape = { box = { lower = ["6 mm", "0 mm", "-1 mm"], upper = ["7 mm", "4 mm", "1 mm"] } }
+)",
+                               "charge_that_spreads.toml");
+}
+
+// Products that every rank removes are in the sums of all, and what they leave behind goes on as on one rank.
+TEST(BurnRanks, RemoveTheProductsThatOneRankRemoves) {
+  const cases::Case setup = charge_that_spreads();
+  Simulation together(setup, MPI_COMM_WORLD), alone(setup, MPI_COMM_SELF);
+  advance_to(together, 4e-6);
+  advance_on_root(alone, 4e-6);
+  expect_agreement(together, alone, 1e-11);
+  const Ledger& of_all = together.state().ledger;
+  EXPECT_NEAR(together.totals().mass + of_all.outflow.mass, of_all.initial.mass, 1e-14 * of_all.initial.mass);
+  EXPECT_GT(of_all.retired.mass, 0.05 * of_all.initial.mass);
+  if (!is_root()) return;
+  const Ledger& of_one = alone.state().ledger;
+  const double energy = of_one.initial.energy(), momentum = of_one.initial.momentum_scale;
+  EXPECT_NEAR(of_all.retired.mass, of_one.retired.mass, 1e-11 * of_one.initial.mass);
+  EXPECT_NEAR(of_all.retired.energy, of_one.retired.energy, 1e-11 * energy);
+  EXPECT_LE((of_all.retired.momentum - of_one.retired.momentum).norm(), 1e-11 * momentum);
 }
 
 }  // namespace

@@ -229,7 +229,8 @@ const auto cases_with_entropy = testing::Values(
     Case{"tait", with<Tait>(water_tait()), 0.1, 2.0, 1e4},
     Case{"stiffened_gas", with<StiffenedGas>(water_stiffened()), 0.1, 2.0, 1e4},
     Case{"ideal_gas", with<IdealGas>(air()), 1e-6, 900, 2e4},
-    Case{"jwl_tnt", with<Jwl>(tnt()), 1e-3, 2.5, 8e3}, Case{"jwl_petn", with<Jwl>(petn()), 1e-3, 2.5, 8e3});
+    Case{"jwl_tnt", with<Jwl>(tnt()), 1e-3, 2.5, 8e3}, Case{"jwl_petn", with<Jwl>(petn()), 1e-3, 2.5, 8e3},
+    Case{"jwl_reactant", with<JwlReactant>(comp_b_reactant()), 0.3, 2.5, 8e3});
 std::string name_of(const testing::TestParamInfo<Case>& each) { return each.param.name; }
 
 INSTANTIATE_TEST_SUITE_P(Eos, ConstantHeat, cases_with_entropy, name_of);

@@ -4,6 +4,7 @@
 #include "eos/model_equation_of_state.hpp"
 #include "eos/models/ideal_gas.hpp"
 #include "eos/models/jwl.hpp"
+#include "eos/models/jwl_reactant.hpp"
 #include "eos/models/murnaghan.hpp"
 #include "eos/models/polynomial.hpp"
 #include "eos/models/stiffened_gas.hpp"
@@ -48,6 +49,17 @@ inline JwlConstants jwl(double density, double A, double B, double R1, double R2
 }
 inline JwlConstants tnt() { return jwl(1630, 371.2, 3.231, 4.15, 0.95, 0.30, 7.0, 6930, 21.0); }
 inline JwlConstants comp_b() { return jwl(1717, 524.2, 7.678, 4.2, 1.1, 0.34, 8.5, 7980, 29.5); }
+/// Unreacted Composition B of an ignition-and-growth set: 780 Mbar, -0.05031 Mbar, c_v 2.49e-5 Mbar/K per
+/// volume.
+inline JwlReactantConstants comp_b_reactant() {
+  return {.reference_density = 1717,
+          .pressure_1 = 78000e9,
+          .pressure_2 = -5.031e9,
+          .exponent_1 = 11.3,
+          .exponent_2 = 1.13,
+          .gruneisen = 0.8938,
+          .heat_capacity = 2.49e6 / 1717};
+}
 inline JwlConstants petn() { return jwl(1770, 617.0, 16.926, 4.4, 1.2, 0.25, 10.1, 8300, 33.5); }
 
 /// The series of Mie-Grueneisen on Us = c0 + s up in mu up to the third power (Steinberg's aluminium

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "src/material/reaction/ignition_and_growth.hpp"
 #include "src/material/reaction/jwl_plus_plus.hpp"
 
 namespace whipple::reaction {
@@ -21,6 +22,7 @@ ReactionEntry entry() {
 const Catalogue<ReactionEntry>& catalogue() {
   static const Catalogue<ReactionEntry> all("rate law", {
       entry<JwlPlusPlus>(),
+      entry<IgnitionAndGrowth>(),
   });
   return all;
 }
