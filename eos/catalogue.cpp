@@ -47,32 +47,32 @@ ModifierEntry modifier_entry() {
 }  // namespace
 
 const Catalogue<ModifierEntry>& modifier_catalogue() {
-  static const Catalogue<ModifierEntry> all(
-      "modifier",
-      {modifier_entry<Shift>(), modifier_entry<Scale>(), modifier_entry<Floor>(), modifier_entry<PAlpha>()});
+  static const Catalogue<ModifierEntry> all("modifier", {modifier_entry<Shift>(), modifier_entry<Scale>(),
+                                                         modifier_entry<Floor>(), modifier_entry<PAlpha>()});
   return all;
 }
 
 const Catalogue<ModelEntry>& catalogue() {
-  static const Catalogue<ModelEntry> all("equation of state", {
-      // Condensed material with its phases.
-      entry<Gray>(),
-      entry<Gray71>(),
-      entry<DebyeGruneisen>(),
-      entry<Tillotson>(),
-      // Condensed material without phases.
-      entry<MieGruneisen>(),
-      entry<Polynomial>(),
-      entry<Murnaghan>(),
-      entry<JwlReactant>(),
-      // Porous material with a crush curve of its own.
-      entry<HolmquistJohnsonCook>(),
-      // Liquids, gases, detonation products.
-      entry<Tait>(),
-      entry<StiffenedGas>(),
-      entry<IdealGas>(),
-      entry<Jwl>(),
-  });
+  static const Catalogue<ModelEntry> all("equation of state",
+                                         {
+                                             // Condensed material with its phases.
+                                             entry<Gray>(),
+                                             entry<Gray71>(),
+                                             entry<DebyeGruneisen>(),
+                                             entry<Tillotson>(),
+                                             // Condensed material without phases.
+                                             entry<MieGruneisen>(),
+                                             entry<Polynomial>(),
+                                             entry<Murnaghan>(),
+                                             entry<JwlReactant>(),
+                                             // Porous material with a crush curve of its own.
+                                             entry<HolmquistJohnsonCook>(),
+                                             // Liquids, gases, detonation products.
+                                             entry<Tait>(),
+                                             entry<StiffenedGas>(),
+                                             entry<IdealGas>(),
+                                             entry<Jwl>(),
+                                         });
   return all;
 }
 

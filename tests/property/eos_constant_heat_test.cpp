@@ -218,8 +218,8 @@ TEST_P(ConstantHeatWithEntropy, AnIsentropeKeepsItsEntropy) {
 const Case tillotson_case{"tillotson", with<Tillotson>(aluminium_tillotson()), 0.02, 2.5, 3e4, false};
 const auto cases_with_entropy = testing::Values(
     Case{"mie_gruneisen", with<MieGruneisen>(aluminium_2024()), 0.3, 2.2, 2e4},
-    Case{"mie_gruneisen_constant_gamma",
-         with<MieGruneisen>(aluminium_2024(CompressedGruneisenLaw::constant)), 0.3, 1.6, 2e4},
+    Case{"mie_gruneisen_constant_gamma", with<MieGruneisen>(aluminium_2024(CompressedGruneisenLaw::constant)),
+         0.3, 1.6, 2e4},
     Case{"mie_gruneisen_steinberg_lead", with<MieGruneisen>(lead_steinberg()), 0.3, 1.9, 2e4},
     Case{"polynomial", with<Polynomial>(aluminium_polynomial()), 0.3, 2.0, 2e4},
     Case{"polynomial_all_terms", with<Polynomial>(polynomial_with_all_terms()), 0.3, 2.0, 2e4},

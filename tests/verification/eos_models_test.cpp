@@ -248,7 +248,8 @@ TEST(EosModels, JwlIsentropeIsItsClosedForm) {
 }
 
 TEST(EosModels, JwlReactantIsAtRestNearRoomTemperature) {
-  // Two terms of gigapascals and a thermal one cancel at the density of the explosive: a wrong digit would show.
+  // Two terms of gigapascals and a thermal one cancel at the density of the explosive: a wrong digit would
+  // show.
   const Eos<JwlReactant> eos(comp_b_reactant());
   const State rest = eos.state(1717, 0.0);
   EXPECT_NEAR(rest.temperature, 298.0, 2.0);
@@ -256,7 +257,8 @@ TEST(EosModels, JwlReactantIsAtRestNearRoomTemperature) {
   EXPECT_NEAR(rest.sound_speed, 2450.0, 10.0);  // by hand: 2.45 km/s
   // p = A exp(-R1 v) + B exp(-R2 v) + omega c_v rho T, as the sets are printed.
   const State hot = eos.state_at_temperature(1717 / 0.8, 1000.0);
-  const double printed = 78000e9 * std::exp(-11.3 * 0.8) - 5.031e9 * std::exp(-1.13 * 0.8) + 0.8938 * 2.49e6 * 1000.0 / 0.8;
+  const double printed =
+      78000e9 * std::exp(-11.3 * 0.8) - 5.031e9 * std::exp(-1.13 * 0.8) + 0.8938 * 2.49e6 * 1000.0 / 0.8;
   EXPECT_NEAR(hot.pressure, printed, 1e-9 * printed);
   JwlReactantConstants wrong = comp_b_reactant();
   wrong.pressure_1 *= 1.5;

@@ -12,18 +12,18 @@ namespace {
 /// `Law` has name, summary, theory and parameters(); the rate law is made from it.
 template <class Law>
 ReactionEntry entry() {
-  return catalogue_entry<ReactionEntry>(Law::name, Law::summary, Law::theory, &Law::parameters, [](const Law& law) {
-    return std::make_unique<const ReactionModel<Law>>(law);
-  });
+  return catalogue_entry<ReactionEntry>(
+      Law::name, Law::summary, Law::theory, &Law::parameters,
+      [](const Law& law) { return std::make_unique<const ReactionModel<Law>>(law); });
 }
 
 }  // namespace
 
 const Catalogue<ReactionEntry>& catalogue() {
   static const Catalogue<ReactionEntry> all("rate law", {
-      entry<JwlPlusPlus>(),
-      entry<IgnitionAndGrowth>(),
-  });
+                                                            entry<JwlPlusPlus>(),
+                                                            entry<IgnitionAndGrowth>(),
+                                                        });
   return all;
 }
 
