@@ -283,5 +283,21 @@ TEST_F(CommandLine, WhatADeckMakesMissingIsRefused) {
   EXPECT_THAT(whipple("import " + deck + " -o other --format mpm3d").err, HasSubstr("known: mpm3d_f90"));
 }
 
+// `whipple edit` writes what passes the checks, and nothing else into the file.
+TEST_F(CommandLine, EditChangesAValueAndKeepsTheRest) {
+  const std::string before = text_of(WHIPPLE_SOURCE_DIR "/tests/data/small_impact.toml");
+  const std::filesystem::path file = write("case.toml", before);
+  EXPECT_EQ(whipple("edit case.toml domain.cell_size='-1 mm'").code, 2);
+  EXPECT_EQ(whipple("edit --dry-run case.toml domain.cell_size='1 mm'").code, 0);
+  EXPECT_EQ(text_of(file), before);
+  const Result edited = whipple("edit case.toml domain.cell_size='1 mm' body.0.velocity.2='3 km/s'");
+  EXPECT_EQ(edited.code, 0) << edited.err;
+  EXPECT_THAT(edited.out, HasSubstr("case.toml:5: domain.cell_size: \"0.8 mm\" -> \"1 mm\"\n"));
+  std::string expected = before;
+  expected.replace(expected.find("\"0.8 mm\""), 8, "\"1 mm\"");
+  expected.replace(expected.find("\"2 km/s\""), 8, "\"3 km/s\"");
+  EXPECT_EQ(text_of(file), expected);
+}
+
 }  // namespace
 }  // namespace whipple
