@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "md_fitting/fit/cross_validation.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::fit {
@@ -16,7 +15,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using eos::GrayConstants;
 
 constexpr std::size_t least_states_of_window = 3;
 
@@ -42,67 +40,11 @@ ModelScale next_scale(const SolidProblem& problem, const LeastSquaresProblem& we
   return next;
 }
 
-/// Sum over all shocks of a store of ln p(Us | window), normal densities: a state outside of the window is
-/// predicted by its fit, one inside by the fit without that state.
-double prediction_score(const Observations& data, const SolidModel& model, const FitSettings& window,
-                        const ScaledFit& fit) {
-  const SolidProblem problem(data, window, model, fit.constants, fit.scale);
-  const std::vector<LeftOut> inside =
-      left_out(problem.data(), solve(problem.least_squares()), DataKind::shock);
-  const auto place = [&](Place wanted) {
-    return static_cast<Index>(std::ranges::find(model.free, wanted) - model.free.begin());
-  };
-  const Index intercept = place(Place::intercept);
-  const Index slope = place(Place::slope);
-  const GrayConstants& gray = fit.constants.gray;
-  double score = 0.0;
-  std::size_t next = 0;
-  for (const HugoniotState& state : data.hugoniot) {
-    LeftOut part;
-    if (problem.in_window(state)) {
-      part = inside[next++];
-    } else {
-      const auto [us, up] = SolidProblem::velocities(state, gray.reference_specific_volume);
-      const double model_error = fit.scale.of(DataKind::shock) * window.model_errors.shock_velocity * us;
-      const double noise =
-          (us - gray.hugoniot_slope * up) * 0.5 * state.pressure.error / state.pressure.value;
-      part = {us - gray.hugoniot_intercept - gray.hugoniot_slope * up,
-              fit.covariance(intercept, intercept) + 2.0 * up * fit.covariance(intercept, slope) +
-                  up * up * fit.covariance(slope, slope) + model_error * model_error + noise * noise};
-    }
-    if (!std::isfinite(part.variance)) continue;
-    score -= 0.5 * (part.difference * part.difference / part.variance + std::log(part.variance));
-  }
-  return score;
-}
-
 double largest_change(const ModelScale& a, const ModelScale& b) {
   double change = 0.0;
   for (std::size_t k = 0; k < data_kinds; ++k)
     change = std::max(change, std::abs(b.factor[k] / a.factor[k] - 1.0));
   return change;
-}
-
-/// Weights of the windows in the mean over them.
-void weigh(std::vector<WindowFit>& windows, const Observations& data, const SolidModel& model,
-           const FitSettings& settings) {
-  if (settings.windows == WindowChoice::single) {
-    windows.front().weight = 1.0;
-    return;
-  }
-  for (WindowFit& window : windows) window.weight = 1.0 / static_cast<double>(windows.size());
-  if (settings.windows == WindowChoice::averaged) return;
-  std::vector<double> scores;
-  for (const WindowFit& window : windows) {
-    FitSettings own = settings;
-    own.least_particle_velocity = window.least;
-    own.most_particle_velocity = window.most;
-    scores.push_back(prediction_score(data, model, own, window.fit));
-  }
-  const double best = std::ranges::max(scores);
-  double sum = 0.0;
-  for (double& score : scores) sum += score = std::exp(score - best);
-  for (std::size_t k = 0; k < windows.size(); ++k) windows[k].weight = scores[k] / sum;
 }
 
 }  // namespace
@@ -187,7 +129,9 @@ std::vector<WindowFit> fit_windows(const Observations& data, const SolidModel& m
     if (std::ranges::find(taken, ends) != taken.end()) continue;
     add(window, states, fit_scaled(data, model, window, own.constants));
   }
-  weigh(windows, data, model, settings);
+  const bool averaged = settings.windows == WindowChoice::averaged;
+  for (WindowFit& window : windows) window.weight = averaged ? 1.0 / static_cast<double>(windows.size()) : 0.0;
+  if (!averaged) windows.front().weight = 1.0;
   return windows;
 }
 
