@@ -1,46 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "md_fitting/fit/cross_validation.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace whipple::fit {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-std::vector<LeftOut> left_out(std::span<const Datum> data, const LeastSquaresSolution& solution,
-                              DataKind kind) {
-  const MatrixXd factor = solution.sigma_factor.triangularView<Eigen::Lower>();
-  const MatrixXd sigma = factor * factor.transpose();
-  const MatrixXd slopes = factor * solution.jacobian;
-  std::vector<LeftOut> parts;
-  for (const Datum& datum : data) {
-    if (datum.kind != kind) continue;
-    std::vector<Index> kept;
-    for (Index row = 0; row < sigma.rows(); ++row) {
-      if (row != datum.begin) kept.push_back(row);
-    }
-    const Eigen::LLT<MatrixXd> rest(sigma(kept, kept));
-    const MatrixXd jacobian = rest.matrixL().solve(MatrixXd(slopes(kept, Eigen::all)));
-    const VectorXd residuals = rest.matrixL().solve(VectorXd(solution.residuals(kept)));
-    const Eigen::ColPivHouseholderQR<MatrixXd> normal(jacobian.transpose() * jacobian);
-    if (normal.rank() < jacobian.cols()) {
-      parts.push_back({0.0, std::numeric_limits<double>::infinity()});
-      continue;
-    }
-    const VectorXd shift = -normal.solve(jacobian.transpose() * residuals);
-    const VectorXd row = slopes.row(datum.begin);
-    parts.push_back({solution.residuals[datum.begin] + row.dot(shift),
-                     sigma(datum.begin, datum.begin) + row.dot(normal.solve(row))});
-  }
-  return parts;
-}
 
 std::vector<LeaveOneOut> leave_one_out(std::span<const Datum> data, const LeastSquaresSolution& solution,
                                        Index constants) {

@@ -22,18 +22,6 @@ struct LeaveOneOut {
   std::string mover{};       ///< the datum whose absence moves it
 };
 
-/// How a datum of one row differs from the law fitted to all others, in the unit of the row.
-struct LeftOut {
-  double difference = 0.0;
-  double variance = 0.0;  ///< of the law and of the datum; infinite: the rest says nothing about it
-};
-
-/// Returns that of each datum of the kind, which has one row, in their order: by a linear refit without it.
-/// Unlike `leave_one_out` the model errors of its neighbours do not help to predict it, as they do not in the
-/// fitted material.
-std::vector<LeftOut> left_out(std::span<const Datum> data, const LeastSquaresSolution& solution,
-                              DataKind kind);
-
 /// Leave-one-out residuals and shifts, exact for a linear problem, here about the solution: with the inverse
 /// covariance Q = Sigma^-1 - Sigma^-1 X (X^T Sigma^-1 X)^-1 X^T Sigma^-1 of the residuals, a datum R that is
 /// predicted from the others differs by Q_RR^-1 (Q r)_R, with covariance Q_RR^-1 (Dubrule, Math. Geol. 15

@@ -48,14 +48,11 @@ struct CorrelationLengths {
 
 /// Which windows of particle velocities the constants are taken from.
 enum class WindowChoice {
-  averaged,    ///< mean over the windows, their scatter is part of the covariance
-  predictive,  ///< the same, weighted by how well each window predicts all shocks
-  single       ///< the window of the settings alone
+  averaged,  ///< mean over the windows, their scatter is part of the covariance
+  single     ///< the window of the settings alone
 };
-constexpr std::array<Word<WindowChoice>, 3> words(WindowChoice) {
-  return {{{WindowChoice::averaged, "averaged"},
-           {WindowChoice::predictive, "predictive"},
-           {WindowChoice::single, "single"}}};
+constexpr std::array<Word<WindowChoice>, 2> words(WindowChoice) {
+  return {{{WindowChoice::averaged, "averaged"}, {WindowChoice::single, "single"}}};
 }
 
 /// Whose thermodynamics the isotherm of a fit is.

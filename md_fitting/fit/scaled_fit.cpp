@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "md_fitting/fit/cross_validation.hpp"
 #include "src/core/base/error.hpp"
 
 namespace whipple::fit {
@@ -16,12 +15,10 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using eos::GrayConstants;
 
 constexpr std::size_t least_states_of_window = 3;
 
-/// One step of the variance components: f^2 chi^2/r, at least 1. A kind without a model error has nothing to
-/// scale.
+/// One step of the variance components: f^2 chi^2/r, at least 1. A kind without a model error has nothing to scale.
 ModelScale next_scale(const SolidProblem& problem, const LeastSquaresProblem& weights,
                       const LeastSquaresSolution& solution, const ModelScale& scale) {
   constexpr double least_redundancy = 0.5;
@@ -31,8 +28,7 @@ ModelScale next_scale(const SolidProblem& problem, const LeastSquaresProblem& we
     const MatrixXd rows = solution.jacobian.middleRows(datum.begin, datum.rows);
     chi_squared[kind] += solution.whitened.segment(datum.begin, datum.rows).squaredNorm();
     model[kind] += weights.model.diagonal().segment(datum.begin, datum.rows).sum();
-    redundancy[kind] +=
-        static_cast<double>(datum.rows) - (rows * solution.covariance * rows.transpose()).trace();
+    redundancy[kind] += static_cast<double>(datum.rows) - (rows * solution.covariance * rows.transpose()).trace();
   }
   ModelScale next = scale;
   for (std::size_t k = 0; k < data_kinds; ++k) {
@@ -42,67 +38,10 @@ ModelScale next_scale(const SolidProblem& problem, const LeastSquaresProblem& we
   return next;
 }
 
-/// Sum over all shocks of a store of ln p(Us | window), normal densities: a state outside of the window is
-/// predicted by its fit, one inside by the fit without that state.
-double prediction_score(const Observations& data, const SolidModel& model, const FitSettings& window,
-                        const ScaledFit& fit) {
-  const SolidProblem problem(data, window, model, fit.constants, fit.scale);
-  const std::vector<LeftOut> inside =
-      left_out(problem.data(), solve(problem.least_squares()), DataKind::shock);
-  const auto place = [&](Place wanted) {
-    return static_cast<Index>(std::ranges::find(model.free, wanted) - model.free.begin());
-  };
-  const Index intercept = place(Place::intercept);
-  const Index slope = place(Place::slope);
-  const GrayConstants& gray = fit.constants.gray;
-  double score = 0.0;
-  std::size_t next = 0;
-  for (const HugoniotState& state : data.hugoniot) {
-    LeftOut part;
-    if (problem.in_window(state)) {
-      part = inside[next++];
-    } else {
-      const auto [us, up] = SolidProblem::velocities(state, gray.reference_specific_volume);
-      const double model_error = fit.scale.of(DataKind::shock) * window.model_errors.shock_velocity * us;
-      const double noise =
-          (us - gray.hugoniot_slope * up) * 0.5 * state.pressure.error / state.pressure.value;
-      part = {us - gray.hugoniot_intercept - gray.hugoniot_slope * up,
-              fit.covariance(intercept, intercept) + 2.0 * up * fit.covariance(intercept, slope) +
-                  up * up * fit.covariance(slope, slope) + model_error * model_error + noise * noise};
-    }
-    if (!std::isfinite(part.variance)) continue;
-    score -= 0.5 * (part.difference * part.difference / part.variance + std::log(part.variance));
-  }
-  return score;
-}
-
 double largest_change(const ModelScale& a, const ModelScale& b) {
   double change = 0.0;
-  for (std::size_t k = 0; k < data_kinds; ++k)
-    change = std::max(change, std::abs(b.factor[k] / a.factor[k] - 1.0));
+  for (std::size_t k = 0; k < data_kinds; ++k) change = std::max(change, std::abs(b.factor[k] / a.factor[k] - 1.0));
   return change;
-}
-
-/// Weights of the windows in the mean over them.
-void weigh(std::vector<WindowFit>& windows, const Observations& data, const SolidModel& model,
-           const FitSettings& settings) {
-  if (settings.windows == WindowChoice::single) {
-    windows.front().weight = 1.0;
-    return;
-  }
-  for (WindowFit& window : windows) window.weight = 1.0 / static_cast<double>(windows.size());
-  if (settings.windows == WindowChoice::averaged) return;
-  std::vector<double> scores;
-  for (const WindowFit& window : windows) {
-    FitSettings own = settings;
-    own.least_particle_velocity = window.least;
-    own.most_particle_velocity = window.most;
-    scores.push_back(prediction_score(data, model, own, window.fit));
-  }
-  const double best = std::ranges::max(scores);
-  double sum = 0.0;
-  for (double& score : scores) sum += score = std::exp(score - best);
-  for (std::size_t k = 0; k < windows.size(); ++k) windows[k].weight = scores[k] / sum;
 }
 
 }  // namespace
@@ -148,8 +87,7 @@ ScaledFit fit_scaled(const Observations& data, const SolidModel& model, const Fi
     const SolidProblem problem(data, settings, model, fit.constants, fit.scale);
     const LeastSquaresProblem weights = problem.least_squares();
     const LeastSquaresSolution solution = solve(weights);
-    const ModelScale next =
-        settings.inflation ? next_scale(problem, weights, solution, fit.scale) : fit.scale;
+    const ModelScale next = settings.inflation ? next_scale(problem, weights, solution, fit.scale) : fit.scale;
     if (largest_change(fit.scale, next) < settled) {
       fit.constants = problem.constants_at(solution.parameters);
       fit.covariance = constants_covariance(problem, solution, solution.covariance);
@@ -161,8 +99,8 @@ ScaledFit fit_scaled(const Observations& data, const SolidModel& model, const Fi
   throw StateError("the amplitudes of the model errors do not settle");
 }
 
-std::vector<WindowFit> fit_windows(const Observations& data, const SolidModel& model,
-                                   const FitSettings& settings, const ScaledFit& own) {
+std::vector<WindowFit> fit_windows(const Observations& data, const SolidModel& model, const FitSettings& settings,
+                                   const ScaledFit& own) {
   constexpr std::array<std::pair<double, double>, 6> others = {
       {{0.0, 1000.0}, {0.0, 1500.0}, {0.0, 2000.0}, {0.0, 3000.0}, {300.0, 1500.0}, {1000.0, 3000.0}}};
   std::vector<WindowFit> windows;
@@ -170,8 +108,7 @@ std::vector<WindowFit> fit_windows(const Observations& data, const SolidModel& m
   const auto states_of = [&](const FitSettings& window) {
     return SolidProblem(data, window, model, own.constants).window();
   };
-  const auto add = [&](const FitSettings& window, const std::vector<HugoniotState>& states,
-                       const ScaledFit& fit) {
+  const auto add = [&](const FitSettings& window, const std::vector<HugoniotState>& states, const ScaledFit& fit) {
     taken.emplace_back(states.front().particle_velocity, states.back().particle_velocity);
     windows.push_back({window.least_particle_velocity, window.most_particle_velocity,
                        static_cast<int>(states.size()), 0.0, fit});
@@ -187,7 +124,9 @@ std::vector<WindowFit> fit_windows(const Observations& data, const SolidModel& m
     if (std::ranges::find(taken, ends) != taken.end()) continue;
     add(window, states, fit_scaled(data, model, window, own.constants));
   }
-  weigh(windows, data, model, settings);
+  const bool averaged = settings.windows == WindowChoice::averaged;
+  for (WindowFit& window : windows) window.weight = averaged ? 1.0 / static_cast<double>(windows.size()) : 0.0;
+  if (!averaged) windows.front().weight = 1.0;
   return windows;
 }
 
@@ -196,8 +135,7 @@ ScaledFit mean_of(const std::vector<WindowFit>& windows, const SolidModel& model
   const auto count = static_cast<Index>(model.free.size());
   const auto values = [&](const WindowFit& window) {
     VectorXd p(count);
-    for (Index k = 0; k < count; ++k)
-      p[k] = at(window.fit.constants, model.free[static_cast<std::size_t>(k)]);
+    for (Index k = 0; k < count; ++k) p[k] = at(window.fit.constants, model.free[static_cast<std::size_t>(k)]);
     return p;
   };
   VectorXd centre = VectorXd::Zero(count);

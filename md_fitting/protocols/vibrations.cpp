@@ -15,7 +15,6 @@
 namespace whipple::md {
 namespace {
 
-
 /// ln[sinh(x/2)/(x/2)]: quantum less classical free energy of an oscillator over k T.
 double excess_free_energy(double x) {
   if (x < 0.02) return x * x / 24.0 * (1.0 - x * x / 120.0);
